@@ -194,13 +194,11 @@ fn without_planner_options(command: clap::Command) -> clap::Command {
 
 /// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. With `--json`, an
 /// error is also printed on stdout, as a JSON object. `meter` counts the process's memory, if that is possible.
-#[must_use]
 pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
     run_with(std::env::args_os().collect(), meter).into()
 }
 
 /// Runs the program with these arguments, of which the first is the program's name. Returns the exit code.
-#[must_use]
 pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     let in_json = arguments.iter().any(|argument| argument == "--json");
     let first = arguments.get(1).cloned();

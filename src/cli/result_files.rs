@@ -4,8 +4,7 @@ use super::failure::Failure;
 use super::sinks::{self, Sink};
 use crate::engine::Plan;
 use crate::motion::{Format, check_writable, write_whole_set};
-use crate::output::FileFormat;
-use crate::output::PlanOutput as _;
+use crate::output::{FileFormat, PlanOutput as _};
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 

@@ -80,7 +80,6 @@ pub fn outputs<T: Copy>(paths: &[PathBuf], ends: &[(&str, T)], expected: &str) -
 }
 
 /// Returns true if the file is also a JSON result. The result then contains the certificate.
-#[must_use]
 pub fn is_json_among(path: &Path, results: &[PathBuf]) -> bool {
     let is_json = CSpaceFormat::from_path(path).is_none() && matches!(Format::from_path(path), Ok(Format::Json));
     is_json && results.iter().any(|result| result == path)

@@ -1,9 +1,9 @@
-"""Pages in a real browser: Debian's Chromium, headless, driven by Playwright. `.ci/run` installs both and runs
+"""Pages in a real browser: Debian's Chromium, without a window, driven by Playwright. `.ci/browser` installs both and runs
 
     pytest tests/browser
 
 CPLAN names the program (default target/debug/cplan), CPLAN_PAGE the page with the program inside (target/page/index.html),
-CPLAN_BROWSER the browser (chromium), CPLAN_SCREENSHOTS a folder for screenshots (target/browser).
+CPLAN_BROWSER the browser (chromium-headless-shell, or chromium), CPLAN_SCREENSHOTS a folder for screenshots (target/browser).
 """
 
 import functools
@@ -53,9 +53,10 @@ def program(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def browser():
-    name = os.environ.get("CPLAN_BROWSER", "chromium")
-    path = shutil.which(name)
-    assert path, f"there is no {name}: install Debian's chromium, or set CPLAN_BROWSER"
+    asked = os.environ.get("CPLAN_BROWSER")
+    names = [asked] if asked else ["chromium-headless-shell", "chromium"]
+    path = next(filter(None, map(shutil.which, names)), None)
+    assert path, f"there is no {' or '.join(names)}: install Debian's package, or set CPLAN_BROWSER"
     with sync_playwright() as playwright:
         # Containers run as root, and Chromium's sandbox does not work there.
         launched = playwright.chromium.launch(executable_path=path, args=["--no-sandbox"])

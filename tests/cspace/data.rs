@@ -4,6 +4,7 @@
 use cplan::PlanOutput as _;
 use cplan::cli::read_words;
 use cplan::cspace::Proves;
+use cplan::engine::Method;
 use cplan::model::{Carrier, Part, Scene};
 use cplan::output::{CSpaces, Polygons, Values};
 use cplan::{Configuration, Problem, plan};
@@ -107,9 +108,7 @@ fn c_obstacles_contain_collisions_tightly() {
 
 #[test]
 fn cells_of_planners_are_free() {
-    for planner in
-        ["shortest", "visibility", "trapezoid", "triangles", "voronoi", "prm", "wavefront", "harmonic", "subdivision"]
-    {
+    for planner in Method::ALL.map(Method::name).into_iter().filter(|name| *name != "first") {
         let (problem, spaces) = plan_shipped("planar_2r", "shelf", planner);
         let (scene, space) = (problem.scene(), &spaces.spaces[0]);
         let mut random = dice(8);

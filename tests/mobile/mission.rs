@@ -1,9 +1,8 @@
 //! The mission: no robot ever hits anything, and each leg ends as it is reported.
 
 use crate::plain::{gap, least_gap};
-use cplan::Point;
-use cplan::explore;
 use cplan::field::Stopping;
+use cplan::{Point, explore};
 use cplan_testkit::mobile::floor::Floor;
 use cplan_testkit::mobile::forces::Ending;
 use cplan_testkit::mobile::mission::{Leg, by_fields, by_forces, explored, followed, planners, way};

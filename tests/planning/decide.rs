@@ -1,13 +1,12 @@
 //! Decisions whether there is a path at all: among thousands of pieces, and in cases that boxes cannot decide.
 
-use cplan::Options;
-use cplan::Outcome;
 use cplan::check::certify;
 use cplan::engine::{Method, decide, solve};
 use cplan::geometry::{Point, shapes_meet};
 use cplan::input::{self, Overrides};
 use cplan::model::{Heights, MotionProblem, Obstacle, Shape, Workspace};
 use cplan::space::JointRange;
+use cplan::{Options, Outcome};
 use cplan_testkit::arms::rr;
 use cplan_testkit::problems::{motion_problem, recheck};
 use cplan_testkit::scenes::{placed, q};

@@ -2,14 +2,13 @@
 //! others.
 
 use crate::random_tasks::replay;
-use cplan::Options;
-use cplan::Outcome;
 use cplan::engine::Method;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::geometry::{Point, Pose};
 use cplan::input::{Overrides, Rules, load_scene};
 use cplan::model::{Action, Heights, Item, Object, Step, Task};
 use cplan::motion::Drive;
+use cplan::{Options, Outcome};
 use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, uses_default_cases};
 use cplan_testkit::judged::{self, Question};

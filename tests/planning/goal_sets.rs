@@ -1,12 +1,11 @@
 //! Goals of the tip that leave a joint free, compared with goals at many values of that joint.
 
-use cplan::Options;
-use cplan::Outcome;
 use cplan::engine::{Method, solve};
 use cplan::geometry::{Point, Vector};
 use cplan::model::{Arm, JointType, MotionProblem, Scene, inverse};
 use cplan::proofs::{Connectivity, MotionQuery, connectivity, least_length, slab_connectivity};
 use cplan::space::{Configuration, GoalSet, JointRange, Metric, Segment};
+use cplan::{Options, Outcome};
 use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, uses_default_cases};
 use cplan_testkit::arms::{arm, joint, link};

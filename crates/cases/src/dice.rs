@@ -8,7 +8,6 @@ pub struct Dice(u64);
 
 impl Dice {
     /// Returns the generator with this seed.
-    #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }

@@ -21,7 +21,6 @@ const SEED_STRIDE: u64 = 1 << 32;
 ///
 /// # Panics
 /// If `CPLAN_TIMES` or `CPLAN_SEED` is not a number.
-#[must_use]
 pub fn cases(usual: u32) -> Config {
     let cases = u32::try_from(times(u64::from(usual))).expect("CPLAN_TIMES is too large");
     Config {
@@ -39,7 +38,6 @@ pub fn cases(usual: u32) -> Config {
 ///
 /// # Panics
 /// Same as [`cases`].
-#[must_use]
 pub fn seeds(usual: u64) -> Range<u64> {
     let first = seed().wrapping_mul(SEED_STRIDE);
     first..first + times(usual)
@@ -49,7 +47,6 @@ pub fn seeds(usual: u64) -> Range<u64> {
 ///
 /// # Panics
 /// Same as [`cases`].
-#[must_use]
 pub fn dice(stream: u64) -> Dice {
     Dice::new(stream ^ seed().wrapping_mul(0xd134_2543_de82_ef95))
 }
@@ -58,7 +55,6 @@ pub fn dice(stream: u64) -> Dice {
 ///
 /// # Panics
 /// Same as [`cases`].
-#[must_use]
 pub fn times(usual: u64) -> u64 {
     let factor = from_environment("CPLAN_TIMES", 1.0);
     assert!(factor > 0.0 && factor < 1e9, "CPLAN_TIMES is a positive factor, not {factor}");
@@ -69,7 +65,6 @@ pub fn times(usual: u64) -> u64 {
 ///
 /// # Panics
 /// Same as [`cases`].
-#[must_use]
 pub fn seed() -> u64 {
     from_environment("CPLAN_SEED", 0)
 }
@@ -78,7 +73,6 @@ pub fn seed() -> u64 {
 ///
 /// # Panics
 /// Same as [`cases`].
-#[must_use]
 pub fn uses_default_cases() -> bool {
     seed() == 0 && times(1 << 20) == 1 << 20
 }

@@ -11,7 +11,6 @@ fn random(state: &mut u64) -> u64 {
 
 /// Returns a maze without loops, made by depth-first search over the cells with even coordinates. Afterwards,
 /// `openings` of every thousand walls between two corridors are opened.
-#[must_use]
 pub fn maze(n: usize, openings: u64) -> Vec<bool> {
     let rooms = n.div_ceil(2);
     let mut state = 88_172_645_463_325_252;
@@ -40,7 +39,6 @@ pub fn maze(n: usize, openings: u64) -> Vec<bool> {
 }
 
 /// Returns the blocked cells of a corridor that winds inwards, and the cell at its inner end. The outer end is cell 0.
-#[must_use]
 pub fn spiral(n: usize) -> (Vec<bool>, usize) {
     let n = n as i64;
     let mut blocked = vec![true; (n * n) as usize];

@@ -43,7 +43,6 @@ pub mod world_reference;
 use cplan_cases::dice;
 
 /// Returns the root folder of the repository.
-#[must_use]
 pub fn root() -> &'static std::path::Path {
     let own = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
     own.ancestors().nth(2).expect("this crate is in crates/testkit")

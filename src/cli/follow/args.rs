@@ -10,8 +10,7 @@ use crate::options::positive;
 use clap::{Args, ValueHint};
 use cplan_follow::{MIN_TOLERANCE, Settings, metres};
 use cplan_handling::ToolAngle;
-use cplan_toolpath::Placement;
-use cplan_toolpath::Unit;
+use cplan_toolpath::{Placement, Unit};
 use std::path::PathBuf;
 
 /// Move the tip along a line: G-code, SVG or TOML.

@@ -1,14 +1,16 @@
 //! The three commands and their options.
 
 use super::{FREE, Place, help, shelf, shipped};
+use cplan::engine::Method;
 use serde_json::Value;
 
 #[test]
 fn wrong_command_lines_end_with_2() {
     let place = Place::new();
+    let planners = Method::ALL.map(Method::name).join(", ");
     let cases = [
         ("", "not provided"),
-        ("--planner magic", "visibility, trapezoid, triangles, voronoi, prm, wavefront, harmonic, subdivision"),
+        ("--planner magic", planners.as_str()),
         ("--start 1", "two values"),
         ("--start nan,0", "finite"),
         ("--start 1e300,0", "too large"),

@@ -17,7 +17,6 @@ pub enum FillRule {
 
 /// Returns the region that rings enclose under a fill rule, as polygons that do not cross themselves or each other.
 /// Each polygon has an outer ring and holes. Corners are rounded to a grid of about 1e-17 of the rings' extent.
-#[must_use]
 pub fn filled(rings: &[Ring], rule: FillRule) -> Vec<(Ring, Vec<Ring>)> {
     let rule = match rule {
         FillRule::NonZero => Rule::NonZero,

@@ -73,7 +73,6 @@ pub enum Format {
 
 impl Format {
     /// Returns the format for a file extension: `.dxf`, `.svg`, `.geojson` or `.json`.
-    #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "dxf" => Some(Self::Dxf),

@@ -56,7 +56,6 @@ fn missing_distance(hits: &[Obstruction], clearance: f64) -> f64 {
 
 /// Finds the bottleneck of an infeasible question. `None` if something other than obstacles and clearance blocks the
 /// motion.
-#[must_use]
 pub fn bottleneck(question: &MotionQuestion, boxes: usize) -> Option<Bottleneck> {
     let scene = question.scene();
     let clearance = scene.workspace().clearance;

@@ -1,8 +1,7 @@
 //! The smallest change of a single blocker that opens a path.
 
 use super::threshold::{Threshold, threshold};
-use cplan_blockers::Element;
-use cplan_blockers::{MotionQuestion, farthest};
+use cplan_blockers::{Element, MotionQuestion, farthest};
 use cplan_geometry::{Convex, Point, Pose, Vector};
 use cplan_model::{Obstacle, Outcome};
 use serde::Serialize;
@@ -71,7 +70,6 @@ pub struct Change {
 /// Returns the smallest changes of a blocker for an infeasible `question`, one for each kind of change that applies to
 /// it. The amount of a move is an upper bound on the least amount, because only 16 directions and some between them are
 /// tried.
-#[must_use]
 pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext, boxes: usize) -> Vec<Change> {
     let scene = question.scene();
     let fine = fineness(question);

@@ -1,9 +1,7 @@
 //! The world after a change.
 
 use super::change::{Change, ChangeContext, ChangeKind, middle, shrunk_pieces};
-use cplan_blockers::BlockingSet;
-use cplan_blockers::Element;
-use cplan_blockers::MotionQuestion;
+use cplan_blockers::{BlockingSet, Element, MotionQuestion};
 use cplan_geometry::{Convex, Point, Pose, Vector};
 use cplan_model::{Obstacle, Scene, Shape};
 

@@ -32,7 +32,6 @@ pub struct BlockedEnd {
 
 impl BlockedEnd {
     /// Returns the scene of the hits. `scene` is that of the motion.
-    #[must_use]
     pub fn scene<'a>(&'a self, scene: &'a Scene) -> &'a Scene {
         self.standing.as_ref().map_or(scene, |standing| &standing.scene)
     }
@@ -58,7 +57,6 @@ pub struct OutOfReach {
 
 /// Finds the problems with start and goals of a question. Goals are reported only if all of them are blocked; then the
 /// goal nearest to a free configuration comes first.
-#[must_use]
 pub fn blocked_ends(question: &MotionQuestion) -> (Vec<BlockedEnd>, Option<OutOfReach>) {
     let mut blocked: Vec<BlockedEnd> = Vec::new();
     if !question.is_start_free() {

@@ -4,8 +4,7 @@ use super::bottleneck::{Bottleneck, bottleneck};
 use super::change::{Change, ChangeContext, changes};
 use super::ends::{BlockedEnd, OutOfReach, blocked_ends};
 use super::shaping::{Saving, savings};
-use cplan_blockers::MotionQuestion;
-use cplan_blockers::{BlockingSet, blocking_sets};
+use cplan_blockers::{BlockingSet, MotionQuestion, blocking_sets};
 use cplan_handling::Action;
 use cplan_judge::CheckedProof;
 use cplan_legs::FailedStep;
@@ -82,7 +81,6 @@ impl Explanation {
 /// blocking elements, the smallest change of each that opens a path, and where the motion gets stuck.
 ///
 /// It usually takes tenths of a second. The question's time limit starts when it is known whether there is a motion.
-#[must_use]
 pub fn explain(question: &MotionQuestion, options: &Options) -> Explanation {
     let answer = question.problem().map(|problem| solve(&problem, options, &mut |_| ()));
     let started = question.started();
@@ -102,7 +100,6 @@ pub fn explain(question: &MotionQuestion, options: &Options) -> Explanation {
 
 /// Explains why a step of a task fails. `failure` is the planner's answer, which the explanation never contradicts: if it
 /// finds no obstacle that blocks the step, it states only the planner's reasons.
-#[must_use]
 pub fn explain_step(failed: &FailedStep, failure: StepFailure, limit: Duration, options: &Options) -> Explanation {
     let question = MotionQuestion::of_failed_step(failed).with_time_limit(limit);
     let is_motion = !matches!(failed.step.action, Action::Follow(_)) && !failed.ik_solutions.is_empty();

@@ -23,7 +23,6 @@ pub struct MotionTree {
 
 impl MotionTree {
     /// Creates a tree without motions to `count` solutions.
-    #[must_use]
     pub fn without_motions(count: usize) -> Self {
         Self { routes: Vec::new(), origins: vec![None; count] }
     }

@@ -14,7 +14,6 @@ use cplan_view::{Picture, Section, View};
 const TIME_LIMIT_FACTOR: f64 = 12.0;
 
 /// Returns the verdict, and then the reasons.
-#[must_use]
 pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
     let scene = explanation.question.scene();
     let mut lines = vec![("result", verdict(explanation))];
@@ -33,7 +32,6 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
 }
 
 /// Returns the content of the explanation's pictures and pages.
-#[must_use]
 pub fn view(explanation: &Explanation) -> View {
     let view = view_of_question(explanation);
     let section = explanation_view(explanation, view.frame()).section();
@@ -45,7 +43,6 @@ pub fn view(explanation: &Explanation) -> View {
 }
 
 /// Returns the section of a page that shows the explanation.
-#[must_use]
 pub fn section(explanation: &Explanation) -> Section {
     explanation_view(explanation, view_of_question(explanation).frame()).section()
 }

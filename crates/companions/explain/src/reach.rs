@@ -39,7 +39,6 @@ impl Access {
     pub const ALL: [Self; 4] = [Self::Reachable, Self::Unknown, Self::Unreachable, Self::Blocked];
 
     /// Returns the word for this value in output.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Reachable => "reachable",
@@ -128,7 +127,6 @@ impl Reach {
 /// `None` if there are more than [`MAX_PLACES`] cells.
 ///
 /// Takes `O(n)` certificates for `n` solutions, and one decision per set.
-#[must_use]
 pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     let arm = scene.arm();
     let [lower, upper] = tip_bounds(arm)?;

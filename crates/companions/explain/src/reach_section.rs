@@ -30,7 +30,6 @@ fn style_index(access: Access, count: usize) -> usize {
 }
 
 /// Returns the section that shows where the tip of this arm can go.
-#[must_use]
 pub fn reach_section(reach: &Reach, arm: &Arm) -> Section {
     let color = |index: usize| CELL_KINDS[index].0;
     let is_there = |kind: &usize| reach.best().any(|(_, access, count)| style_index(access, count) == *kind);

@@ -1,7 +1,6 @@
 //! The elements that make the shortest path longer.
 
-use cplan_blockers::Element;
-use cplan_blockers::MotionQuestion;
+use cplan_blockers::{Element, MotionQuestion};
 use cplan_interrupt::checkpoint;
 use cplan_model::space::Path;
 use cplan_solver::{Answer, Bound, Options, solve};
@@ -23,7 +22,6 @@ pub struct Saving {
 
 /// Returns the elements whose removal is proven to make the shortest path shorter than that of `answer`, the greatest
 /// saving first. Plans a shortest path without each element in turn, until the question's time is up.
-#[must_use]
 pub fn savings(question: &MotionQuestion, answer: &Answer, options: &Options) -> Vec<Saving> {
     let Some(whole) = answer.bound() else { return Vec::new() };
     let mut savings = Vec::new();

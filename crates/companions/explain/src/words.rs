@@ -18,7 +18,6 @@ const DIRECTIONS: [&str; 8] =
     ["right", "up and right", "up", "up and left", "left", "down and left", "down", "down and right"];
 
 /// Returns the reason in a sentence that a person would say: `The front wall is in the way.`
-#[must_use]
 pub fn headline(explanation: &Explanation) -> String {
     let scene = explanation.question.scene();
     match &explanation.outcome {
@@ -97,7 +96,6 @@ fn describe_end(scene: &Scene, blocked: &BlockedEnd) -> String {
 }
 
 /// Returns a sentence about the proof behind the headline. Empty if there is nothing to add.
-#[must_use]
 pub fn evidence(explanation: &Explanation) -> String {
     match &explanation.outcome {
         Outcome::Unknown(reason) => sentence(&format!("{reason}.")),
@@ -129,7 +127,6 @@ pub fn evidence(explanation: &Explanation) -> String {
 
 /// Returns a change as an instruction: `Move it 614 mm right`. `is_only` is true if "it" can mean nothing else than the
 /// changed obstacle. The number is rounded so that the instruction does enough.
-#[must_use]
 pub fn instruction(scene: &Scene, change: &Change, is_only: bool) -> String {
     let opens = change.by.opens;
     let what = || match change.element {
@@ -165,7 +162,6 @@ pub fn instruction(scene: &Scene, change: &Change, is_only: bool) -> String {
 
 /// Returns the amount with which there is a path, and that without one: `613.6 mm opens a path, certified`
 /// and `613.0 mm does not, proven`. For a move or an erosion this is the distance, otherwise the value after the change.
-#[must_use]
 pub fn bounds(scene: &Scene, set: &BlockingSet, change: &Change) -> [String; 2] {
     let (opens, closed) = (change.by.opens, change.by.closed);
     let [open, shut] = match (change.cure, change.element) {
@@ -230,7 +226,6 @@ fn context(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
 }
 
 /// Returns the instruction to remove an element that makes the path longer, and the effect.
-#[must_use]
 pub fn removal(scene: &Scene, saving: &Saving, length: f64) -> [String; 2] {
     let name = subject(scene, saving.element);
     let instruction = match saving.element {

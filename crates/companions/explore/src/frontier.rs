@@ -47,7 +47,6 @@ struct ExpectedReading {
 impl Frontier {
     /// Creates the frontier over the configurations of a grid. Nothing has been examined yet, so only the range of the
     /// sensor bounds the number of visible cells.
-    #[must_use]
     pub fn new(survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid) -> Self {
         let cells = survey.map().cells.len();
         // A cell that meets the disc of the sensor's range lies within a disc that is larger by the diagonal of a cell.

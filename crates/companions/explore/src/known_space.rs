@@ -26,7 +26,6 @@ pub struct KnownSpace {
 
 impl KnownSpace {
     /// Creates the grid for the current map, with `cells` configurations along the two axes.
-    #[must_use]
     pub fn new(survey: &Survey, arm: &Arm, cells: [usize; 2], clearance: f64) -> Self {
         let count = cells[0] * cells[1];
         let grid = Grid { topology: arm.topology(), proves: Proves::Sampled, cells, blocked: vec![true; count] };

@@ -8,7 +8,6 @@ use cplan_world::Occupancy;
 const CELL_SHADES: [u8; 3] = [254, 205, 0];
 
 /// Returns the YAML description of a picture. `picture` is the file name of the picture in the same folder.
-#[must_use]
 pub fn map_description(survey: &Survey, picture: &str) -> String {
     let map = survey.map();
     let origin = map.pose.translation;
@@ -23,7 +22,6 @@ pub fn map_description(survey: &Survey, picture: &str) -> String {
 }
 
 /// Returns the picture as PGM (P5), with one pixel per cell, from the top row down.
-#[must_use]
 pub fn map_picture(survey: &Survey) -> Vec<u8> {
     let map = survey.map();
     let mut bytes = format!("P5\n{} {}\n255\n", map.size[0], map.size[1]).into_bytes();

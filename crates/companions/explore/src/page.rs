@@ -14,7 +14,6 @@ const SCRIPTS: [&str; 2] = [include_str!("coverage.js"), include_str!("explorati
 
 /// Returns an exploration as one self-contained HTML file. `view` has the arm, the real world and the facts. If `timed`,
 /// the file includes the time that each decision took.
-#[must_use]
 pub fn exploration_page(view: &View, scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> String {
     let title = view.title.first().map_or("cplan", String::as_str);
     let data = data(scene, sensor, done, timed).to_string();

@@ -3,8 +3,7 @@
 use super::settings::Strategy;
 use super::survey::Survey;
 use cplan_model::space::Configuration;
-use cplan_motion::CertifiedCurve;
-use cplan_motion::Trajectory;
+use cplan_motion::{CertifiedCurve, Trajectory};
 use std::time::Duration;
 
 /// Reason for which an exploration ended.

@@ -22,7 +22,6 @@ impl Edges {
     /// A ray moves from cell to cell across their sides, always across the same two of the four sides, and through free
     /// cells. If no path that crosses only two of the sides leads from a cell to an unknown one, then no ray does.
     /// Linear in the number of cells.
-    #[must_use]
     pub fn new(survey: &Survey, range: f64) -> Self {
         let rows = survey.edges();
         let known = &survey.map().cells;

@@ -31,7 +31,6 @@ pub struct Survey {
 impl Survey {
     /// Creates a map of a scene in which nothing is known. Returns `None` if it would have more than [`MAX_CELLS`]
     /// cells.
-    #[must_use]
     pub fn new(scene: &Scene, cell: f64) -> Option<Self> {
         let obstacles = &scene.workspace().obstacles;
         let heights = obstacles.iter().map(|obstacle| obstacle.heights).reduce(Heights::and);

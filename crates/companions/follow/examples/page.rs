@@ -1,4 +1,4 @@
-//! Measures the motion along a page of text in a stroke font: `cargo run --profile quick -p cplan-follow --example page`.
+//! Measures the motion along a page of text in a stroke font: `cargo run --profile dist -p cplan-follow --example page`.
 //! An argument sets the number of pieces.
 
 use cplan_follow::{Settings, follow};

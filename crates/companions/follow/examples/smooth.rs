@@ -1,4 +1,4 @@
-//! Measures motions with limits on jerks along splines through many points: `cargo run --profile quick -p cplan-follow
+//! Measures motions with limits on jerks along splines through many points: `cargo run --profile dist -p cplan-follow
 //! --example smooth`.
 
 use cplan_follow::{Settings, follow};

@@ -3,8 +3,7 @@
 use super::options::Options;
 use cplan_engine::{Problem, plan};
 use cplan_tasks::SEARCHES;
-use cplan_view::output::FileFormat;
-use cplan_view::output::PlanOutput as _;
+use cplan_view::output::{FileFormat, PlanOutput as _};
 use cplan_world::{LoadedScene, Overrides};
 use std::path::Path;
 

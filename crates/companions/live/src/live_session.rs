@@ -5,15 +5,13 @@ use super::answer::{Answering, Deadlines, TimeSpent, refused, time_up};
 use super::blocked;
 use super::contours::Contours;
 use super::document::Document;
-use super::explain;
-use super::files;
-use super::menus;
 use super::options::Options;
 use super::pace::Pace;
 use super::protocol::{
     AnswerReply, Begin, ErrorSubject, Files, JointReply, Message, Pair, PieceReply, PlanRequest, Reply, Request,
     WorldReply,
 };
+use super::{explain, files, menus};
 use cplan_geometry::Point;
 use cplan_interrupt::{Instant, Interrupt, Interrupted};
 use cplan_model::space::{Configuration, JointRange};
@@ -42,7 +40,6 @@ pub struct LiveSession {
 
 impl LiveSession {
     /// Creates the session of a new page with the host's initial world.
-    #[must_use]
     pub fn new(host: Arc<Host>) -> Self {
         let (document, scene) = (host.document.clone(), host.scene.clone());
         Self {

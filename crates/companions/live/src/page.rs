@@ -30,14 +30,12 @@ const CONTENT_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wa
                       img-src blob: data:; font-src data:; base-uri 'none'; form-action 'none'";
 
 /// Returns the page with its scripts and styles as one document. In the browser, it connects to a server.
-#[must_use]
 pub fn page() -> String {
     live("", &data(&Gallery::new(None)))
 }
 
 /// Returns the page with the program inside, as WebAssembly packed by gzip. The page is one file that needs no server
 /// and loads nothing. `time` limits a plan.
-#[must_use]
 pub fn standalone_page(files: Files, time: Duration, program: &[u8]) -> String {
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{CONTENT_POLICY}\">\n");
     let worker = element("worker", "text/plain", include_str!("assets/worker.js"));

@@ -231,7 +231,6 @@ impl Stretch {
 
 impl<'a> MovingObstacles<'a> {
     /// Prepares the moving obstacles of a scene. `clearance` is the distance to keep from them, in metres.
-    #[must_use]
     pub fn new(timed: TimedScene<'a>, clearance: f64) -> Self {
         let TimedScene { scene, trajectories } = timed;
         let mut stretches = Vec::new();

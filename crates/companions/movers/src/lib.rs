@@ -43,26 +43,30 @@ const PATH_GAP: f64 = 0.03;
 const TIME_ROUNDING: f64 = 1e-8;
 
 /// The search for motions among moving obstacles, for plans.
-pub const SEARCH: MoverSearch = MoverSearch { plan, blocked_times };
+#[derive(Debug)]
+pub struct Search;
 
-fn plan(
-    problem: &MotionProblem,
-    trajectories: &[ObstacleTrajectory],
-    certified: &CertifiedPath,
-    first: TimedMotion,
-    options: &Options,
-) -> Result<MotionAmongMovers, TimingError> {
-    let demand = TimingRequirements::UNCONSTRAINED;
-    time_among_moving_obstacles(problem, trajectories, certified, first, options, &demand)
-}
+impl MoverSearch for Search {
+    fn plan(
+        &self,
+        problem: &MotionProblem,
+        trajectories: &[ObstacleTrajectory],
+        certified: &CertifiedPath,
+        first: TimedMotion,
+        options: &Options,
+    ) -> Result<MotionAmongMovers, TimingError> {
+        let demand = TimingRequirements::UNCONSTRAINED;
+        time_among_moving_obstacles(problem, trajectories, certified, first, options, &demand)
+    }
 
-fn blocked_times(timed: TimedScene, configurations: &[Configuration]) -> Vec<Vec<Vec<Interval>>> {
-    let movers = MovingObstacles::new(timed, timed.scene.workspace().clearance);
-    let times = |&q: &Configuration| {
-        checkpoint();
-        movers.blocked_times(q)
-    };
-    configurations.iter().map(times).collect()
+    fn blocked_times(&self, timed: TimedScene, configurations: &[Configuration]) -> Vec<Vec<Vec<Interval>>> {
+        let movers = MovingObstacles::new(timed, timed.scene.workspace().clearance);
+        let times = |&q: &Configuration| {
+            checkpoint();
+            movers.blocked_times(q)
+        };
+        configurations.iter().map(times).collect()
+    }
 }
 
 /// Returns the earliest motion along the paths that are tried: the certified path, and then others. The loose obstacles

@@ -6,8 +6,7 @@ use cplan_geometry::{Interval, OrderedF64};
 use cplan_interrupt::checkpoint;
 use cplan_judge::{CertifiedPath, Posture};
 use cplan_model::space::{Metric, Path};
-use cplan_motion::CertifiedCurve;
-use cplan_motion::{Drive, Limits, TimedMotion, TimingError, Trajectory, Wait, least_duration};
+use cplan_motion::{CertifiedCurve, Drive, Limits, TimedMotion, TimingError, Trajectory, Wait, least_duration};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 

@@ -47,7 +47,6 @@ pub enum EndpointError {
 /// Returns the differences from the start and from the goals that exceed [`END_TOLERANCE`], up to whole turns of joints
 /// on circles. It suffices if the motion ends at one of the goals. If it ends at none, the difference from the first
 /// one is reported.
-#[must_use]
 pub fn endpoint_errors(arm: &Arm, recording: &Recording, start: Option<Goal>, goals: &[Goal]) -> Vec<EndpointError> {
     let positions = recording.positions();
     let (first, last) = (positions[0], positions[positions.len() - 1]);

@@ -45,7 +45,6 @@ pub struct FarthestPlace {
 /// Returns the place of a recorded motion whose configuration is farthest from the planned motion, by Euclidean distance in
 /// joint space, and that whose tip is farthest from the path of the planned tip. Whole turns of continuous joints between
 /// both motions do not count.
-#[must_use]
 pub fn farthest_from_plan(arm: &Arm, recording: &Recording, plan: &Recording) -> [FarthestPlace; 2] {
     let shift = turns_between(arm, recording.positions()[0], plan.positions()[0]);
     let pieces = recording.pieces();

@@ -24,7 +24,6 @@ impl Measure {
     pub const ALL: [Self; 5] = [Self::Length, Self::OverBound, Self::LowerBound, Self::Clearance, Self::Duration];
 
     /// Returns the name of the measure, which is also that of its column.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Length => "length",
@@ -36,7 +35,6 @@ impl Measure {
     }
 
     /// Returns the unit, if it is the same for all arms.
-    #[must_use]
     pub fn unit(self) -> Option<&'static str> {
         match self {
             Self::Clearance => Some("m"),

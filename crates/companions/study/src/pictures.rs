@@ -8,7 +8,6 @@ use cplan_compare::Picture;
 use cplan_view::output::PlanOutput as _;
 
 /// Draws the workspace of the best layout, and then whole pictures of the best and the worst layout, the first infeasible one and the first unknown one, if they exist.
-#[must_use]
 pub fn pictures(study: &Study, rows: &[Row]) -> Vec<Picture> {
     let summary = Summary::new(study, rows);
     let first = |ending: Ending| rows.iter().find(|row| row.ending == ending);

@@ -39,7 +39,6 @@ impl Ending {
     pub const ALL: [Self; 4] = [Self::Found, Self::Infeasible, Self::Unknown, Self::Refused];
 
     /// Returns the word for the ending in tables.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Found => Status::Found.name(),

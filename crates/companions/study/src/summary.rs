@@ -36,7 +36,6 @@ pub struct Summary<'a> {
 
 impl<'a> Summary<'a> {
     /// Summarises these rows. The rows of the search must follow those of the study's own layouts.
-    #[must_use]
     pub fn new(study: &'a Study, rows: &'a [Row]) -> Self {
         let mut ranked: Vec<usize> = (0..rows.len()).filter(|&i| study.cost(&rows[i]).is_finite()).collect();
         ranked.sort_by(|&a, &b| study.cost(&rows[a]).total_cmp(&study.cost(&rows[b])).then(a.cmp(&b)));

@@ -7,7 +7,6 @@ use cplan_model::space::Configuration;
 
 /// Returns the time that a joint takes for a distance from rest to rest, in seconds. It accelerates constantly until it
 /// reaches its top speed.
-#[must_use]
 pub fn rest_to_rest(distance: f64, velocity: f64, acceleration: f64) -> f64 {
     if distance * acceleration <= velocity * velocity {
         2.0 * (distance / acceleration).sqrt()
@@ -50,7 +49,6 @@ const ROUNDING: f64 = 1e-9;
 /// Returns a lower bound, in seconds, on the duration of every motion between two configurations from rest to rest. The
 /// joints move at most at the fraction `speed` of their top speeds. Each joint takes at least its own time. On a
 /// circle, it takes the shorter direction. A displacement that is due to rounding takes no time.
-#[must_use]
 pub(super) fn least_time(arm: &Arm, from: Configuration, to: Configuration, speed: f64) -> f64 {
     let displacement = arm.topology().displacement(from, to);
     let of = |k: usize| {
@@ -63,7 +61,6 @@ pub(super) fn least_time(arm: &Arm, from: Configuration, to: Configuration, spee
 
 /// Returns a lower bound, in seconds, on the duration of a step's motion that follows from the speed of the tip along a
 /// line. 0 for other steps.
-#[must_use]
 pub(super) fn least_line_time(step: &Step) -> f64 {
     if let Action::Follow(line) = &step.action { line.least_seconds() * (1.0 - ROUNDING) } else { 0.0 }
 }

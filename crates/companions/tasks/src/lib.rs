@@ -70,12 +70,28 @@ mod stroke;
 mod tool_turn;
 
 use cplan_engine::{Searches, TaskSearch};
+use cplan_handling::Task;
+use cplan_legs::{TaskAnswer, TaskReplay};
+use cplan_solver::Options;
 
 pub use least_time::rest_to_rest;
 pub use plan::plan;
 pub use replay::replay;
 pub use standstill::raising_at_start;
 
+/// The search for the motions of tasks, for plans.
+#[derive(Debug)]
+pub struct Search;
+
+impl TaskSearch for Search {
+    fn plan(&self, task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
+        plan(task, options, progress)
+    }
+
+    fn replay(&self, task: &Task, options: &Options, answer: &TaskAnswer) -> TaskReplay {
+        replay(task, options, answer)
+    }
+}
+
 /// The searches for tasks and among moving obstacles, for plans.
-pub const SEARCHES: Searches =
-    Searches { tasks: Some(TaskSearch { plan, replay }), movers: Some(cplan_movers::SEARCH) };
+pub const SEARCHES: Searches = Searches { tasks: Some(&Search), movers: Some(&cplan_movers::Search) };

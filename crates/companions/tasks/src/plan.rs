@@ -1,7 +1,5 @@
 //! Planning of tasks: chooses the search and its limits.
 
-use super::alone;
-use super::among_movers;
 use super::heuristic::Heuristic;
 use super::least_time::least_turn;
 use super::motion_cache::MotionCache;
@@ -10,6 +8,7 @@ use super::part;
 use super::search::{Ending, Limits, Search};
 use super::state::State;
 use super::stroke::{least_raising_at_start, least_stroke};
+use super::{alone, among_movers};
 use cplan_handling::{Item, Task};
 use cplan_legs::{FailedStep, Leg, Sequence, TaskAnswer, TaskMotion};
 use cplan_model::Outcome;
@@ -48,7 +47,6 @@ const MAX_FULLY_ORDERED_PAIRS: usize = 10;
 /// If there are too many orders, one is chosen that is good without obstacles. It satisfies conditions that were
 /// learned from orders that fail. If the file's own order is faster, it is used instead. With the real durations of
 /// planned motions, a still better order may be found.
-#[must_use]
 pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer {
     if task.has_moving_obstacles() {
         return among_movers::plan(task, options, progress);

@@ -7,7 +7,6 @@ use cplan_solver::{Options, Phase, Replay, Shows};
 use std::sync::Arc;
 
 /// Returns the replay of the answer to a task. Plans its motions again, with the same options.
-#[must_use]
 pub fn replay(task: &Task, options: &Options, answer: &TaskAnswer) -> TaskReplay {
     let options = of_legs(options);
     let mut reported: Vec<&Leg> = Vec::new();

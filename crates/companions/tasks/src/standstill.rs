@@ -6,7 +6,6 @@ use cplan_handling::Task;
 use cplan_legs::Standstill;
 
 /// Returns the standstill at the start of a task while the tool is raised there. `None` if the tool is already raised.
-#[must_use]
 pub fn raising_at_start(task: &Task) -> Option<Standstill> {
     raising_of(task, &State::at_start(task))
 }

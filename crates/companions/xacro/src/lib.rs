@@ -117,7 +117,6 @@ pub fn expand(path: &Path, settings: &Settings) -> Result<Expansion, Error> {
 
 /// Returns true if a text uses xacro: an element or attribute in its namespace, or an expression in an attribute. A
 /// declaration of the namespace alone does not count.
-#[must_use]
 pub fn is_xacro(text: &str) -> bool {
     document::uses_xacro(text)
 }

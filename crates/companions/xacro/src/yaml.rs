@@ -5,9 +5,8 @@ use crate::error::Fault;
 use crate::expression::insert;
 use crate::value::Value;
 use serde::de::{Deserialize, Deserializer, Error as _, MapAccess, SeqAccess, Visitor};
-use std::fmt;
-use std::io;
 use std::path::Path;
+use std::{fmt, io};
 
 /// Reads a YAML file as a value.
 pub(crate) fn load(path: &Path, read: fn(&Path) -> io::Result<Vec<u8>>) -> Result<Value, Fault> {

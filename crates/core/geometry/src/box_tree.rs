@@ -23,7 +23,6 @@ pub struct BoxTree {
 
 impl BoxTree {
     /// Builds the tree. A box's number is its index in the list.
-    #[must_use]
     pub fn new(boxes: Vec<Bounds>) -> Self {
         let mut order: Vec<u32> = (0..boxes.len() as u32).collect();
         let mut nodes = Vec::new();

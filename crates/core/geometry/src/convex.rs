@@ -165,7 +165,6 @@ impl Convex {
 
     /// Creates a shape from computed corners without checking them. Rounding may have bent them slightly, which
     /// [`Convex::new`] would refuse.
-    #[must_use]
     #[doc(hidden)]
     pub fn trusted(core: Vec<Point>, radius: f64) -> Self {
         debug_assert!(!core.is_empty() && radius >= 0.0 && radius.is_finite());
@@ -181,13 +180,11 @@ impl Convex {
     }
 
     /// Does the same as [`Convex::segment`], for points that are known to be finite, so it cannot fail.
-    #[must_use]
     pub fn between(a: Point, b: Point) -> Self {
         Self::trusted(if a == b { vec![a] } else { vec![a, b] }, 0.0)
     }
 
     /// Creates a point, which must be finite.
-    #[must_use]
     pub fn point(p: Point) -> Self {
         Self::trusted(vec![p], 0.0)
     }

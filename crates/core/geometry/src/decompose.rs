@@ -18,7 +18,6 @@ pub const MAX_CORNERS: usize = 64;
 ///
 /// All corners are corners of the polygon and the predicates are exact, so the union has no rounding. Straight corners
 /// of the polygon and of the pieces are removed.
-#[must_use]
 pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
     // Straight corners must not become ends of diagonals.
     let corners = without_straight_corners(polygon.corners());

@@ -7,7 +7,6 @@ use super::{Orientation, Point, orientation};
 ///
 /// Points that coincide give one corner, collinear points give two, and no points give none. Andrew's monotone chain
 /// with the exact predicate, so the result is exactly strictly convex. `O(n log n)`. The coordinates must be finite.
-#[must_use]
 pub fn hull(points: &[Point]) -> Vec<Point> {
     let mut sorted = points.to_vec();
     // Adding 0.0 turns -0.0 into 0.0, which `total_cmp` would distinguish.

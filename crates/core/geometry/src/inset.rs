@@ -6,7 +6,6 @@ use super::{Point, Vector, hull, perpendicular};
 /// `None` if they have no area. `O(n^2)`.
 ///
 /// The result stays within the polygon if it is moved by up to `by` in any direction.
-#[must_use]
 pub fn inset(polygon: &[Point], by: f64) -> Option<Vec<Point>> {
     let mut left = polygon.to_vec();
     for (i, &a) in polygon.iter().enumerate() {
@@ -19,7 +18,6 @@ pub fn inset(polygon: &[Point], by: f64) -> Option<Vec<Point>> {
 }
 
 /// Returns the part of a convex polygon (or segment, or point) where `normal . p >= offset`. `O(n)`.
-#[must_use]
 fn clip(polygon: &[Point], normal: Vector, offset: f64) -> Vec<Point> {
     let n = polygon.len();
     let height = |p: Point| normal.dot(&p) - offset;
@@ -39,7 +37,6 @@ fn clip(polygon: &[Point], normal: Vector, offset: f64) -> Vec<Point> {
 
 /// Returns the intersection of a convex polygon (or segment, or point) with a convex polygon that has area. The result
 /// may repeat corners, and is empty if the two do not meet. `O(n m)`.
-#[must_use]
 pub fn common(polygon: &[Point], with: &[Point]) -> Vec<Point> {
     let mut left = polygon.to_vec();
     for (i, &a) in with.iter().enumerate() {

@@ -20,7 +20,6 @@ const MIN_BEND: f64 = 1e-7;
 /// its ends. A corner that would leave the union stays where it is. A part so thin that it would turn over is replaced
 /// by the hull of its corners. In both cases, all points deeper than `distance` remain. Rounded outlines first lose
 /// radius.
-#[must_use]
 pub fn inset_union(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
     let (all, together) = cut_and_move(pieces, distance);
     let left = |piece: &Convex| match piece.radius() {
@@ -36,7 +35,6 @@ pub fn inset_union(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
 
 /// Returns true if [`inset_union`] can move every corner: each stays inside the union, and none belongs to two rings or
 /// twice to one ring.
-#[must_use]
 pub fn can_inset_union(pieces: &[Convex], distance: f64) -> bool {
     let (_, together) = cut_and_move(pieces, distance);
     !together.touches && !together.would_leave

@@ -43,8 +43,7 @@ mod sliding;
 mod turning;
 
 pub use box_tree::{Bounds, BoxTree};
-pub use convex::reach;
-pub use convex::{Convex, ConvexError};
+pub use convex::{Convex, ConvexError, reach};
 pub use decompose::{MAX_CORNERS, decompose};
 pub use galloping::farthest;
 pub use hull::hull;
@@ -52,8 +51,7 @@ pub use inset::{common, inset};
 pub use inset_union::{can_inset_union, inset_union};
 pub use intervals::{Interval, merge_in_place};
 pub use meet::shapes_meet;
-pub use minkowski::minkowski_difference;
-pub use minkowski::penetration_depth;
+pub use minkowski::{minkowski_difference, penetration_depth};
 pub use open_list::OpenList;
 pub use ordered::OrderedF64;
 pub use penetration::{
@@ -64,13 +62,10 @@ pub use polygon::{PolygonError, SimplePolygon};
 pub use pose::Pose;
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};
 pub use rings::{Polygon, RingError, RingSide};
-pub use separation::{Separation, separation};
-pub use separation::{gap_along, separation_at};
+pub use separation::{Separation, gap_along, separation, separation_at};
 pub use simple_test::{SimpleDifference, simple_difference, simple_polygon_test};
-pub use sliding::sliding;
-pub use sliding::{along_and_across, sliding_tracks};
-pub use turning::{Features, Hits, ROUNDING, turning, turning_from};
-pub use turning::{normalized, product};
+pub use sliding::{along_and_across, sliding, sliding_tracks};
+pub use turning::{Features, Hits, ROUNDING, normalized, product, turning, turning_from};
 
 /// A displacement in the plane, metres.
 pub type Vector = nalgebra::Vector2<f64>;
@@ -79,13 +74,11 @@ pub type Vector = nalgebra::Vector2<f64>;
 pub type Point = Vector;
 
 /// Returns `v` rotated by a quarter turn counter-clockwise.
-#[must_use]
 pub fn perpendicular(v: Vector) -> Vector {
     Vector::new(-v.y, v.x)
 }
 
 /// Returns the z component of the cross product. It is positive if `b` lies counter-clockwise of `a`.
-#[must_use]
 pub fn cross(a: Vector, b: Vector) -> f64 {
     a.x * b.y - a.y * b.x
 }

@@ -8,7 +8,6 @@ use super::{Convex, Point, separation};
 /// Without radii the test is exact for points, segments and polygons: it uses exact predicates on the stored corners.
 /// With radii the answer is the sign of [`separation`]'s distance, which has a rounding error of a few units in the
 /// last place of the largest coordinate. Only pairs that close to touching can be misjudged.
-#[must_use]
 pub fn shapes_meet(a: &Convex, b: &Convex) -> bool {
     if a.radius() == 0.0 && b.radius() == 0.0 {
         cores_meet(a.core(), b.core())

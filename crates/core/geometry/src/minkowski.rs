@@ -14,7 +14,6 @@ use super::{Convex, Orientation, Point, Vector};
 /// Configuration Space Approach*, 1983): `O(n + m)`, at most `n + m` corners. Sides of equal direction are joined; this
 /// is decided exactly. Each coordinate is one difference of input coordinates, rounded once. Segments count as polygons
 /// of two corners, points as polygons of one. The result is empty if either input is.
-#[must_use]
 pub fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
     let (Some(mut plus), Some(mut minus)) = (Sweep::new(b, false), Sweep::new(a, true)) else { return Vec::new() };
     let mut corners = Vec::with_capacity(b.len() + a.len());
@@ -46,7 +45,6 @@ pub fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
 ///
 /// This is the depth of the origin in the Minkowski difference of the cores, plus both radii. `O(n + m)`. It equals the
 /// negated distance of [`super::separation`], by another method.
-#[must_use]
 pub fn penetration_depth(a: &Convex, b: &Convex) -> f64 {
     origin_depth(&minkowski_difference(b.core(), a.core())) + a.radius() + b.radius()
 }

@@ -12,7 +12,6 @@ use super::{Convex, Point, Vector};
 /// if `a == b`.
 ///
 /// The sign is exact (0 only on the line); the value is rounded.
-#[must_use]
 pub fn signed_distance(p: Point, a: Point, b: Point) -> f64 {
     determinant(a, b, p) / (b - a).norm()
 }
@@ -47,7 +46,6 @@ pub struct PointPenetration {
 
 /// Computes the penetration of `point` in the core of a shape: a convex polygon, a segment or a point. The radius is
 /// ignored. `O(n)`.
-#[must_use]
 pub fn point_penetration(point: Point, shape: &Convex) -> PointPenetration {
     core_penetration(point, shape.core())
 }
@@ -106,7 +104,6 @@ pub struct PolygonTest {
 ///
 /// The cores may be segments or points. The test is complete: if two convex polygons meet and no corner of either lies
 /// in the other, then their boundaries cross at points that are not corners.
-#[must_use]
 pub fn polygon_test(a: &Convex, b: &Convex) -> PolygonTest {
     let (a, b) = (a.core(), b.core());
     let a_inside = corners_inside(a, b);

@@ -14,7 +14,6 @@ const MAX_CELLS: usize = 4096;
 ///
 /// The outline may touch itself. The inside is where its winding number is odd. Squares that may contain a better point
 /// are divided into four, the most promising first, as polylabel does (Agafonkin 2016).
-#[must_use]
 pub fn pole_of_inaccessibility(corners: &[Point], precision: f64) -> Option<(Point, f64)> {
     let (mut low, mut high) = (*corners.first()?, *corners.first()?);
     for corner in corners {

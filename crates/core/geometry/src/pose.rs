@@ -27,25 +27,21 @@ pub struct Pose {
 
 impl Pose {
     /// Creates a pose from its translation, metres, and its rotation, radians.
-    #[must_use]
     pub fn new(translation: Vector, angle: f64) -> Self {
         Self { rotation: UnitComplex::new(angle), translation }
     }
 
     /// Creates the motion that keeps everything in place.
-    #[must_use]
     pub fn identity() -> Self {
         Self::translation(Vector::zeros())
     }
 
     /// Creates a rotation about the origin, radians.
-    #[must_use]
     pub fn rotation(angle: f64) -> Self {
         Self::new(Vector::zeros(), angle)
     }
 
     /// Creates a translation, metres.
-    #[must_use]
     pub fn translation(by: Vector) -> Self {
         Self { rotation: UnitComplex::identity(), translation: by }
     }

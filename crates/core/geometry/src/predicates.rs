@@ -23,7 +23,6 @@ pub enum Orientation {
 }
 
 /// Returns the side of the directed line from `a` to `b` on which the point `c` lies; exact.
-#[must_use]
 #[inline]
 pub fn orientation(a: Point, b: Point, c: Point) -> Orientation {
     Orientation::of(determinant(a, b, c))
@@ -50,7 +49,6 @@ pub(super) fn determinant(a: Point, b: Point, c: Point) -> f64 {
 }
 
 /// Returns true if `p` lies strictly inside the circle through the corners of a counter-clockwise triangle; exact.
-#[must_use]
 pub fn in_circle([a, b, c]: [Point; 3], p: Point) -> bool {
     let coord = |p: Point| robust::Coord { x: p.x, y: p.y };
     robust::incircle(coord(a), coord(b), coord(c), coord(p)) > 0.0
@@ -73,7 +71,6 @@ pub(super) fn turn_of_directions(s: [Point; 2], t: [Point; 2]) -> Orientation {
 }
 
 /// Returns true if `p` lies on the closed segment `ab`, which may be a point; exact.
-#[must_use]
 pub fn point_on_segment(p: Point, a: Point, b: Point) -> bool {
     boxes_meet(p, p, a, b) && orientation(a, b, p) == Orientation::Collinear
 }
@@ -81,7 +78,6 @@ pub fn point_on_segment(p: Point, a: Point, b: Point) -> bool {
 /// Returns true if the closed segments `ab` and `cd` have a point in common; exact.
 ///
 /// Touching and overlapping count, and a segment may be a point.
-#[must_use]
 pub fn segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool {
     // For collinear segments the boxes decide. Otherwise the segments meet if and only if no line has the other segment
     // strictly on one side. In that case the boxes meet too, so testing them first only saves time.
@@ -91,7 +87,6 @@ pub fn segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool {
 }
 
 /// Returns true if the segments `ab` and `cd` cross *properly*, in one point interior to both; exact.
-#[must_use]
 pub fn segments_cross(a: Point, b: Point, c: Point, d: Point) -> bool {
     strictly_apart(orientation(a, b, c), orientation(a, b, d))
         && strictly_apart(orientation(c, d, a), orientation(c, d, b))

@@ -21,7 +21,6 @@ pub struct Separation {
 ///
 /// This is a measure, not a predicate: rounding can turn the 0 of a touching pair into a few 1e-16.
 /// [`super::shapes_meet`] decides exactly.
-#[must_use]
 pub fn separation(a: &Convex, b: &Convex) -> Separation {
     let core = core_separation(a.core(), b.core());
     Separation { distance: core.distance - a.radius() - b.radius(), direction: core.direction }

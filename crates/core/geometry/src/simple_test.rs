@@ -9,7 +9,6 @@ use super::{Convex, Point, SimplePolygon, minkowski_difference, penetration_dept
 ///
 /// Signs are exact. The depth of a corner is its distance from the nearest side. The test is complete: if two polygons
 /// meet and no corner of either lies in the other, then their boundaries cross at points that are not corners.
-#[must_use]
 pub fn simple_polygon_test(a: &SimplePolygon, b: &SimplePolygon) -> PolygonTest {
     let (a_inside, b_inside) = (corners_inside(a, b), corners_inside(b, a));
     let mut crossings = Vec::new();
@@ -46,7 +45,6 @@ pub struct SimpleDifference {
 /// Computes the Minkowski difference `b - a` of two simple polygons: the translations that make `a` meet `b`.
 ///
 /// The polygons are cut into convex pieces. Each pair of pieces has a difference, found by [`minkowski_difference`].
-#[must_use]
 pub fn simple_difference(b: &SimplePolygon, a: &SimplePolygon) -> SimpleDifference {
     let (b, a) = (b.convex_pieces(), a.convex_pieces());
     let pairs = || b.iter().flat_map(|q| a.iter().map(move |p| (q, p)));

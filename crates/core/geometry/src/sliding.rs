@@ -8,7 +8,6 @@ use super::{Convex, Point, Vector, cross};
 ///
 /// If `grow` is negative, the shapes must overlap by that depth, which may be up to the sum of the radii. Exact up
 /// to [`ROUNDING`]; touching counts.
-#[must_use]
 pub fn sliding(part: &Convex, direction: Vector, piece: &Convex, grow: f64) -> Option<[f64; 2]> {
     let part_track = along_and_across(part.core().iter(), Vector::zeros(), direction);
     let piece_track = along_and_across(piece.core().iter(), Vector::zeros(), direction);

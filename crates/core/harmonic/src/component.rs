@@ -30,7 +30,6 @@ const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl Component {
     /// Numbers the cells that a wave over this lattice reached. Takes linear time.
-    #[must_use]
     pub fn new(lattice: &Lattice, wave: Wave) -> Self {
         let Wave { order: places, sources: goals, levels, labels: mut positions } = wave;
         positions.fill(places.len() as u32);

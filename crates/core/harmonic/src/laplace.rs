@@ -31,7 +31,6 @@ pub(super) const WALK_LOSS: f64 = f64::EPSILON * 512.0;
 /// ([`Potential::navigates`]).
 /// Takes about 300 ns per cell in mazes and corridors. Wide rooms cost a few solves by
 /// [`Multigrid`](cplan_multigrid::Multigrid).
-#[must_use]
 pub fn harmonic(component: &Component) -> Field {
     let Peeling { potential, windows, .. } = Peeling::new(component, WALK_LOSS).run();
     Field { potential, windows }
@@ -39,14 +38,12 @@ pub fn harmonic(component: &Component) -> Field {
 
 /// Returns the positions from `from` to a goal by steepest ascent of [`harmonic`]. Solves only the part of the
 /// potential that the ascent needs, so it takes less time near the goal.
-#[must_use]
 pub fn harmonic_path(component: &Component, from: usize) -> Option<Vec<usize>> {
     Peeling::new(component, WALK_LOSS).run_to(from).potential.ascend(component, from)
 }
 
 /// Estimates [`harmonic`] in a fraction of the time. The result is positive. It falls with the number of steps from the
 /// goal, and it falls faster in narrow places. It is for pictures that show from which cells the goal is reachable.
-#[must_use]
 pub fn estimated_harmonic(component: &Component) -> Potential {
     let clearance = component.room().clearance;
     let mut log2 = vec![0.0; component.len()];
@@ -66,7 +63,6 @@ pub(super) fn decay(clearance: u32) -> f64 {
 }
 
 /// Returns the greatest relative difference between a value and the value that its neighbours imply.
-#[must_use]
 pub fn residual(component: &Component, potential: &Potential) -> f64 {
     let mut worst = 0.0_f64;
     for i in component.goals..component.len() {

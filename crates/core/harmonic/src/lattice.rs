@@ -51,7 +51,6 @@ impl Lattice {
     ///
     /// # Panics
     /// If the length of `blocked` is not the product of `cells`, or the frame has `2^32 - 3` cells or more.
-    #[must_use]
     pub fn new(cells: [usize; 2], circles: [bool; 2], blocked: &[bool]) -> Self {
         let [rows, columns] = cells;
         assert_eq!(blocked.len(), rows * columns, "one flag a cell");

@@ -74,7 +74,6 @@ pub struct Potential {
 
 impl Potential {
     /// Creates the potential with `2^log2` at every position.
-    #[must_use]
     pub fn from_log2(log2: &[f64]) -> Self {
         let mut potential = Self::zero(log2.len());
         log2.iter().enumerate().for_each(|(position, &log2)| potential.set(position, ScaledNumber::exp2(log2)));

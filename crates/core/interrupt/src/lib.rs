@@ -99,7 +99,6 @@ thread_local! {
 
 impl Interrupt {
     /// Creates an interrupt that is not set and has no deadline.
-    #[must_use]
     pub fn new() -> Self {
         Self::default()
     }

@@ -140,7 +140,6 @@ impl Curvature {
 
 impl<'a> Posture<'a> {
     /// Prepares the arm of `scene` at `q`.
-    #[must_use]
     pub fn new(scene: &'a Scene, q: Configuration) -> Self {
         let poses = scene.arm().pair_poses(q);
         let offset = scene.arm().offset;

@@ -179,7 +179,6 @@ pub struct StraightMotions<'a> {
 impl<'a> StraightMotions<'a> {
     /// Creates a check for a distance of more than zero and at least `clearance` metres. `O(n log n)` in the pairs
     /// that can meet.
-    #[must_use]
     pub fn new(scene: &'a Scene, clearance: f64) -> Self {
         Self { scene, vicinity: Vicinity::new(scene), clearance }
     }
@@ -227,14 +226,12 @@ impl<'a> CurveSearch<'a> {
 
     /// Creates a search that decides only whether the motion keeps the distance `required`, not by how much. It makes
     /// at most `budget` distance evaluations.
-    #[must_use]
     pub fn deciding(scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { tightness: 0.0, ..Self::new(scene, required, budget) }
     }
 
     /// Creates a search that continues from a certified path, and finds the clearance of the path together with the
     /// curves.
-    #[must_use]
     pub fn continued_from(known: &CertifiedPath, scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { proven: known.clearance, nearest: known.nearest, ..Self::new(scene, required, budget) }
     }

@@ -61,7 +61,6 @@ pub struct Arm {
 impl Arm {
     /// Creates an arm whose joint 2 and tip lie on the x axis of the links at zero, with joint 1 at the origin. Joint 2
     /// is at `reaches[0]` from joint 1, and the tip at `reaches[1]` from joint 2, metres.
-    #[must_use]
     pub fn new(joints: [Joint; 2], links: [Link; 2], reaches: [f64; 2]) -> Self {
         let plane = Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() };
         let [offset, tip] = reaches;

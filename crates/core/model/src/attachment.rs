@@ -60,7 +60,6 @@ pub(super) type MeetablePieces = Vec<Range<usize>>;
 
 impl Grip {
     /// Returns the rigid grip that puts an attachment at `pose` with the arm at `q`.
-    #[must_use]
     pub fn rigid(arm: &Arm, q: Configuration, pose: &Pose) -> Self {
         Self::Rigid(arm.pose(1, q).inverse_pose(pose))
     }

@@ -17,7 +17,6 @@ pub struct CarriedPart {
 
 impl CarriedPart {
     /// Prepares a part, given in the frame that `joint_type` moves. `O(n)`.
-    #[must_use]
     pub fn new(joint_type: JointType, shape: &Convex) -> Self {
         let track = match joint_type {
             JointType::Revolute { .. } => Vec::new(),
@@ -90,7 +89,6 @@ pub fn on_axis(joint: &Joint, hits: Hits, intervals: &[[f64; 2]], mut f: impl Fn
 
 /// Returns a shape, in link 1's frame, that contains a part of link 2 at all values of joint 2. `shape` is the part
 /// in link 2's frame, `offset` the position of joint 2 in link 1's frame.
-#[must_use]
 pub fn swept(shape: &Convex, joint: &Joint, offset: Vector) -> Convex {
     match joint.joint_type {
         JointType::Revolute { .. } => Convex::trusted(vec![offset], shape.reach_from(Point::zeros())),

@@ -92,7 +92,6 @@ impl PreparedPart {
 
 impl<'a> Contacts<'a> {
     /// Prepares a scene. `O(n log n)` in its size.
-    #[must_use]
     pub fn new(scene: &'a Scene) -> Self {
         let (mut parts, mut pieces, mut pairs) = (Vec::new(), Vec::new(), Vec::with_capacity(scene.pairs().len()));
         let mut piece_of = HashMap::new();

@@ -43,7 +43,6 @@ pub enum Freedom {
 /// RR: two elbow angles from the law of cosines. RP and PR: a quadratic equation. PP: a linear system. If infinitely
 /// many configurations solve it (the tip is on an axis of rotation), returns those with the `preferred` value of the
 /// free joint. Forward kinematics of each solution is within a few 1e-9 m of `target`. `O(1)`.
-#[must_use]
 pub fn inverse(arm: &Arm, target: Point, preferred: Configuration) -> Inverse {
     let from_base = target - arm.base;
     let (o, t) = (arm.offset, arm.tip);
@@ -217,7 +216,6 @@ fn shares(arm: &Arm, q: Configuration) -> Vec<Segment> {
 
 /// Returns all values within the limits that are equivalent to `value`. For a revolute joint these are its copies by
 /// whole turns; on a circle, the copy in `[-pi, pi)`. Values that rounding put beyond a limit are set to the limit.
-#[must_use]
 pub fn equivalent_values(range: JointRange, revolute: bool, value: f64) -> Vec<f64> {
     let JointRange::Interval { lower, upper } = range else { return vec![range.wrap(value)] };
     if !revolute {

@@ -17,7 +17,6 @@ pub const DEFAULT_TIME_TO_TOP_SPEED: f64 = 0.25;
 
 /// Returns the acceleration assumed for a joint without a limit on it. It reaches `velocity`, the joint's top speed,
 /// in [`DEFAULT_TIME_TO_TOP_SPEED`].
-#[must_use]
 pub fn assumed_acceleration(velocity: f64) -> f64 {
     (velocity / DEFAULT_TIME_TO_TOP_SPEED).min(f64::MAX)
 }
@@ -40,13 +39,11 @@ pub enum JointType {
 
 impl JointType {
     /// Returns true if the joint is revolute.
-    #[must_use]
     pub fn is_revolute(self) -> bool {
         matches!(self, JointType::Revolute { .. })
     }
 
     /// Returns the angle by which the link turns in the plane per unit of the joint: 1, -1, or 0 for a prismatic joint.
-    #[must_use]
     pub fn turn(self) -> f64 {
         match self {
             JointType::Revolute { sign } => sign,
@@ -56,7 +53,6 @@ impl JointType {
 
     /// Returns an upper bound on the motion, per unit of the joint, of a shape that is within `reach` of its axis: metres
     /// per radian or metre.
-    #[must_use]
     pub fn lever(self, reach: f64) -> f64 {
         if self.is_revolute() { reach } else { 1.0 }
     }
@@ -83,7 +79,6 @@ pub struct Joint {
 impl Joint {
     /// Creates a revolute joint that turns counter-clockwise from `lower` to `upper`, radians, at 1 rad/s.
     /// [`Joint::at_most`] changes the speed.
-    #[must_use]
     pub fn turning(name: &str, lower: f64, upper: f64) -> Self {
         Self::moving(
             name,
@@ -94,13 +89,11 @@ impl Joint {
     }
 
     /// Creates a revolute joint without limits, which turns counter-clockwise at 1 rad/s.
-    #[must_use]
     pub fn continuous(name: &str) -> Self {
         Self::moving(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle, DEFAULT_TURNING_SPEED)
     }
 
     /// Creates a prismatic joint from `lower` to `upper`, metres, along a direction of length 1, at 0.25 m/s.
-    #[must_use]
     pub fn sliding(name: &str, direction: Vector, lower: f64, upper: f64) -> Self {
         Self::moving(
             name,

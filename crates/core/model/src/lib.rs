@@ -44,9 +44,8 @@ pub use additions::{Additions, LooseObstacle};
 pub use arm::{Arm, Plane};
 pub use attachment::{AttachedPart, Attachment, Grip};
 pub use blocked_along::BlockedStretch;
-pub use carried::CarriedPart;
-pub use carried::on_axis;
 use carried::swept;
+pub use carried::{CarriedPart, on_axis};
 pub use contacts::Contacts;
 /// Loops over configurations or pairs of shapes that may take long call this, so that they can be stopped.
 pub use cplan_interrupt::checkpoint;

@@ -61,7 +61,6 @@ pub struct Link {
 
 impl Link {
     /// Creates a link of these shapes, at all heights. A link without shapes cannot collide.
-    #[must_use]
     pub fn of(name: &str, shapes: impl IntoIterator<Item = Convex>) -> Self {
         let part =
             |shape| Part { shape, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: name.into() };

@@ -36,7 +36,6 @@ impl<F, I, U> Outcome<F, I, U> {
     }
 
     /// Returns the same answer with the found value converted by `with`.
-    #[must_use]
     pub fn map<G>(self, with: impl FnOnce(F) -> G) -> Outcome<G, I, U> {
         match self {
             Outcome::Found(found) => Outcome::Found(with(found)),
@@ -79,7 +78,6 @@ impl Status {
     pub const ALL: [Status; 3] = [Status::Found, Status::Infeasible, Status::Unknown];
 
     /// Returns the answer's name in results, tables and files.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Status::Found => "found",

@@ -126,7 +126,6 @@ impl MotionProblem {
     }
 
     /// Creates a problem without checks. The start and the goals must be known to be valid, or never be used.
-    #[must_use]
     #[doc(hidden)]
     pub fn trusted(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Self {
         Self { scene, start, goals: goals.into() }
@@ -138,7 +137,6 @@ impl MotionProblem {
     }
 
     /// Returns the scene without start and goals.
-    #[must_use]
     pub fn into_scene(self) -> Scene {
         self.scene
     }

@@ -85,14 +85,12 @@ impl Scene {
     }
 
     /// Does the same as [`Scene::new`], without checks.
-    #[must_use]
     #[doc(hidden)]
     pub fn trusted(arm: Arm, workspace: Workspace) -> Self {
         Self::with_trusted(arm, workspace, Additions::default())
     }
 
     /// Does the same as [`Scene::with`], without checks.
-    #[must_use]
     #[doc(hidden)]
     pub fn with_trusted(arm: Arm, workspace: Workspace, additions: Additions) -> Self {
         Self::unchecked(arm, workspace, additions, PairPolicy::ALL)
@@ -279,7 +277,6 @@ impl Scene {
     }
 
     /// Returns the arm without its attachment, and the workspace. They can be used for another scene.
-    #[must_use]
     pub fn into_parts(mut self) -> (Arm, Workspace) {
         self.arm.links[1].parts.truncate(self.own_parts);
         (self.arm, self.workspace)

@@ -285,20 +285,17 @@ pub const MAX_COORDINATE: f64 = 1e15;
 pub const MAX_TURN_RANGE: f64 = 1e3;
 
 /// Returns true if all values are finite, and at most [`MAX_COORDINATE`] in magnitude.
-#[must_use]
 pub fn are_small(values: impl IntoIterator<Item = f64>) -> bool {
     values.into_iter().all(|value| value.abs() <= MAX_COORDINATE)
 }
 
 /// Returns true if all coordinates of a shape, and its radius, are finite and at most [`MAX_COORDINATE`] in
 /// magnitude.
-#[must_use]
 pub fn is_small(shape: &Convex) -> bool {
     are_small(shape.core().iter().flat_map(|p| [p.x, p.y]).chain([shape.radius()]))
 }
 
 /// Returns true if a pose is a rigid motion with a translation of at most [`MAX_COORDINATE`].
-#[must_use]
 pub fn is_pose(pose: &Pose) -> bool {
     are_small(pose.translation.iter().copied()) && (pose.rotation.as_ref().norm() - 1.0).abs() <= UNIT_ROUNDING
 }

@@ -1,7 +1,6 @@
 //! Tip goals that are rectangles.
 
-use super::inverse;
-use super::{Arm, Goal, JointType};
+use super::{Arm, Goal, JointType, inverse};
 use crate::space::{Configuration, GoalSet, Segment};
 use cplan_geometry::Point;
 
@@ -29,7 +28,6 @@ fn slides(arm: &Arm) -> bool {
 /// Returns the goals for a tip rectangle, for an arm that slides along both axes. These are the parts of the
 /// rectangle's rim within the limits, since every path from outside crosses the rim. If the tip is inside at the
 /// start, the start is a goal, too.
-#[must_use]
 pub fn area_goals(arm: &Arm, [low, high]: [Point; 2], start: Configuration) -> GoalSet {
     let corners = [low, Point::new(high.x, low.y), high, Point::new(low.x, high.y)];
     let places: Vec<Configuration> =

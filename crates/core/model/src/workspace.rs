@@ -31,27 +31,23 @@ impl Heights {
     pub const ALL: Heights = Heights { lower: f64::NEG_INFINITY, upper: f64::INFINITY };
 
     /// Returns the smallest extent that contains both.
-    #[must_use]
     pub fn and(self, other: Heights) -> Heights {
         Heights { lower: self.lower.min(other.lower), upper: self.upper.max(other.upper) }
     }
 
     /// Returns true if the two extents may overlap. Touching counts, and so does a gap within rounding.
-    #[must_use]
     pub fn meet(self, other: Heights) -> bool {
         self.meet_within(other, ROUNDING)
     }
 
     /// Returns true if the two extents overlap or touch even if rounding has brought them up to half a nanometre closer
     /// together.
-    #[must_use]
     pub fn definitely_meet(self, other: Heights) -> bool {
         self.meet_within(other, ROUNDING / 2.0)
     }
 
     /// Returns true if the two extents overlap by more than rounding. Touching does not count: links of a robot rest on
     /// each other.
-    #[must_use]
     pub fn overlap(self, other: Heights) -> bool {
         self.meet_within(other, -ROUNDING)
     }
@@ -59,14 +55,12 @@ impl Heights {
     /// Returns true if an object at these heights may be in contact with something at the `other` heights. Same as
     /// [`Heights::meet`], except that an object may rest on a surface: its bottom may be up to [`RESTING_TOLERANCE`]
     /// below the surface.
-    #[must_use]
     pub fn object_may_meet(self, other: Heights) -> bool {
         self.meet(other) && !self.is_above(other, RESTING_TOLERANCE - ROUNDING)
     }
 
     /// Returns true if an object at these heights certainly overlaps with something at the `other` heights, or touches it,
     /// and does not rest on it.
-    #[must_use]
     pub fn object_definitely_meets(self, other: Heights) -> bool {
         self.definitely_meet(other) && !self.is_above(other, RESTING_TOLERANCE + ROUNDING)
     }
@@ -228,7 +222,6 @@ fn points(coordinates: impl IntoIterator<Item = [f64; 2]>) -> Vec<Point> {
 
 impl Workspace {
     /// Creates a workspace of these obstacles, with clearance 0.
-    #[must_use]
     pub fn new(obstacles: impl IntoIterator<Item = Obstacle>) -> Self {
         let obstacles = obstacles.into_iter().collect();
         Self { name: String::new(), obstacles, clearance: 0.0, preferences: Vec::new() }

@@ -66,7 +66,6 @@ impl Multigrid {
     ///
     /// # Panics
     /// If the length of `free` is not the product of `cells`, or `shift` is negative or not finite.
-    #[must_use]
     pub fn new(cells: [usize; 2], ends: [Ends; 2], free: &[bool], shift: f64) -> Self {
         assert_eq!(free.len(), cells[0] * cells[1], "one flag a cell");
         assert!(shift >= 0.0 && shift.is_finite(), "a shift is not negative");

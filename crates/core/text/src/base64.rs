@@ -3,7 +3,6 @@
 const ALPHABET: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 
 /// Encodes bytes in Base64 (RFC 4648), with padding.
-#[must_use]
 pub fn base64(bytes: &[u8]) -> String {
     let group = |three: &[u8]| {
         let at = |k: usize| u32::from(three.get(k).copied().unwrap_or_default());

@@ -23,7 +23,6 @@ impl Columns {
     }
 
     /// Returns all lines.
-    #[must_use]
     pub fn into_text(self) -> String {
         self.text
     }

@@ -14,16 +14,16 @@ mod wrapped;
 pub use base64::base64;
 pub use columns::{Columns, SECOND_COLUMN};
 pub use markup::markup;
-pub use plain::plain_json;
-pub use plain::{plain, plain_line};
-pub use rounded::{chosen_length, headline_length, headline_number, length_down, length_unlike, length_up};
-pub use rounded::{fixed, format_distinct, length, nonzero, percent, round_down, round_up, short};
+pub use plain::{plain, plain_json, plain_line};
+pub use rounded::{
+    chosen_length, fixed, format_distinct, headline_length, headline_number, length, length_down, length_unlike,
+    length_up, nonzero, percent, round_down, round_up, short,
+};
 pub use shell::for_a_shell;
 pub use unit::{Unit, UnknownUnit};
 pub use wrapped::wrapped;
 
 /// Formats a count with its noun: `1 obstacle`, `3 obstacles`, `2 boxes`.
-#[must_use]
 pub fn counted(count: usize, thing: &str) -> String {
     let ending = match count {
         1 => "",
@@ -37,7 +37,6 @@ pub fn counted(count: usize, thing: &str) -> String {
 const MAX_LISTED_REASONS: usize = 6;
 
 /// Joins reasons by semicolons. If there are many, lists the first ones: `a; b; and 12 more`.
-#[must_use]
 pub fn listed(reasons: &[String]) -> String {
     let [first, more] =
         [&reasons[..reasons.len().min(MAX_LISTED_REASONS)], &reasons[reasons.len().min(MAX_LISTED_REASONS)..]];
@@ -46,7 +45,6 @@ pub fn listed(reasons: &[String]) -> String {
 }
 
 /// Joins names: `a, b and c`.
-#[must_use]
 pub fn joined(names: &[String]) -> String {
     match names {
         [all @ .., before, last] => {
@@ -59,7 +57,6 @@ pub fn joined(names: &[String]) -> String {
 
 /// Returns the lines. If there are many, returns the first ones, and then the line that `more` returns for the number
 /// of the others.
-#[must_use]
 pub fn first_lines(lines: Vec<String>, more: impl Fn(usize) -> String) -> Vec<String> {
     let rest = lines.len().saturating_sub(MAX_LISTED_REASONS);
     lines.into_iter().take(MAX_LISTED_REASONS).chain((rest > 0).then(|| more(rest))).collect()

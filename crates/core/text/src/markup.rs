@@ -1,7 +1,6 @@
 //! Escaped text for XML and HTML.
 
 /// Escapes markup, and replaces characters that XML forbids. The result can be placed between tags or within quotes.
-#[must_use]
 pub fn markup(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());
     for c in text.chars() {

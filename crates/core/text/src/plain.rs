@@ -23,19 +23,16 @@ fn escape_characters(text: &str, spared: impl Fn(char) -> bool, escape: impl Fn(
 }
 
 /// Escapes characters that would have an effect on a terminal, as in `\u{1b}`. Line breaks remain.
-#[must_use]
 pub fn plain(text: &str) -> Cow<'_, str> {
     escape_characters(text, |c| matches!(c, '\n' | '\t'), |shown, c| shown.extend(c.escape_default()))
 }
 
 /// Escapes the same characters as [`plain`], and line breaks.
-#[must_use]
 pub fn plain_line(text: &str) -> Cow<'_, str> {
     escape_characters(text, |_| false, |shown, c| shown.extend(c.escape_default()))
 }
 
 /// Escapes within JSON the same characters as [`plain`]. Parsing the result gives the same value.
-#[must_use]
 pub fn plain_json(json: &str) -> Cow<'_, str> {
     use std::fmt::Write;
     let escape = |shown: &mut String, c: char| {

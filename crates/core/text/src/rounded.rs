@@ -4,7 +4,6 @@
 const MAX_DECIMALS: usize = 12;
 
 /// Formats a number with fixed decimals. Zero never has a minus sign.
-#[must_use]
 pub fn fixed(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
     match text.strip_prefix('-') {
@@ -15,14 +14,12 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 
 /// Formats a number with fixed decimals. If another number than zero would look like zero, it gets two significant
 /// digits: `5.6e-7`.
-#[must_use]
 pub fn nonzero(value: f64, decimals: usize) -> String {
     let text = fixed(value, decimals);
     if value != 0.0 && text.parse() == Ok(0.0) { format!("{value:.1e}") } else { text }
 }
 
 /// Formats numbers with these decimals, or with as many more as needed to make different numbers look different.
-#[must_use]
 pub fn format_distinct<const N: usize>(values: [f64; N], decimals: usize) -> [String; N] {
     let are_distinct =
         |texts: &[String; N]| (0..N).all(|i| (0..i).all(|j| values[i] == values[j] || texts[i] != texts[j]));
@@ -34,14 +31,12 @@ pub fn format_distinct<const N: usize>(values: [f64; N], decimals: usize) -> [St
 }
 
 /// Rounds a number to six significant digits.
-#[must_use]
 pub fn short(value: f64) -> f64 {
     format!("{value:.5e}").parse().unwrap_or(value)
 }
 
 /// Formats a number with fixed decimals, rounded down, so that a proven lower bound is still true as printed. If a
 /// positive number would look like zero, it gets two significant digits: `5.6e-7`.
-#[must_use]
 pub fn round_down(value: f64, decimals: usize) -> String {
     let text = round_until(value, decimals, |shown| shown <= value, -1.0);
     if value > 0.0 && text.parse() == Ok(0.0) { two_digits_below(value) } else { text }
@@ -50,7 +45,6 @@ pub fn round_down(value: f64, decimals: usize) -> String {
 /// Formats a length in metres with its unit: millimetres below one metre, with up to four significant digits and at most
 /// three decimals: `0.004 mm`, `20.43 mm`, `345.6 mm`, `1.234 m`. If another length than zero would look like zero, it
 /// gets two significant digits.
-#[must_use]
 pub fn length(metres: f64) -> String {
     let (value, decimals, unit) = in_unit(metres);
     format!("{} {unit}", nonzero(value, decimals))
@@ -58,7 +52,6 @@ pub fn length(metres: f64) -> String {
 
 /// Formats a positive length in metres as [`length`] does, but rounded down, so that a proven lower bound is still true
 /// as printed.
-#[must_use]
 pub fn length_down(metres: f64) -> String {
     let (value, decimals, unit) = in_unit(metres);
     let metres_per_unit = if unit == "mm" { 1e3 } else { 1.0 };
@@ -69,7 +62,6 @@ pub fn length_down(metres: f64) -> String {
 
 /// Formats a positive length in metres as [`length`] does, but rounded up, so that an upper bound is still true as
 /// printed.
-#[must_use]
 pub fn length_up(metres: f64) -> String {
     let (value, decimals, unit) = in_unit(metres);
     let metres_per_unit = if unit == "mm" { 1e3 } else { 1.0 };
@@ -78,7 +70,6 @@ pub fn length_up(metres: f64) -> String {
 
 /// Formats a length in metres as [`length`] does, with as many more decimals as needed to look different from another
 /// length that is not equal.
-#[must_use]
 pub fn length_unlike(metres: f64, other: f64) -> String {
     let (value, decimals, unit) = in_unit(metres);
     let units_per_metre = if unit == "mm" { 1e3 } else { 1.0 };
@@ -87,7 +78,6 @@ pub fn length_unlike(metres: f64, other: f64) -> String {
 }
 
 /// Formats a length in metres that somebody chose, such as a clearance, without zeros at its end: `200 mm`, `1.5 m`.
-#[must_use]
 pub fn chosen_length(metres: f64) -> String {
     let (value, _, unit) = in_unit(metres);
     format!("{} {unit}", short(value))
@@ -95,7 +85,6 @@ pub fn chosen_length(metres: f64) -> String {
 
 /// Formats a number with three significant digits and without zeros at its end, for a headline: rounded up if `up`,
 /// otherwise down.
-#[must_use]
 pub fn headline_number(value: f64, up: bool) -> String {
     /// Number of significant digits.
     const DIGITS: i32 = 3;
@@ -111,7 +100,6 @@ pub fn headline_number(value: f64, up: bool) -> String {
 }
 
 /// Formats a length in metres for a headline, see [`headline_number`]: `614 mm`, `1.24 m`.
-#[must_use]
 pub fn headline_length(metres: f64, up: bool) -> String {
     let (value, _, unit) = in_unit(metres);
     format!("{} {unit}", headline_number(value, up))
@@ -129,7 +117,6 @@ fn in_unit(metres: f64) -> (f64, usize, &'static str) {
 }
 
 /// Formats a number with fixed decimals, rounded up.
-#[must_use]
 pub fn round_up(value: f64, decimals: usize) -> String {
     round_until(value, decimals, |shown| shown >= value, 1.0)
 }
@@ -151,7 +138,6 @@ fn two_digits_below(value: f64) -> String {
 
 /// Formats a fraction as a percentage, rounded up: `0.04 %`, and `0.009 %` with three decimals below a hundredth. It does
 /// not take the rounding error of the quotient into account.
-#[must_use]
 pub fn percent(share: f64) -> String {
     let percent = 100.0 * (share - 2.0 * f64::EPSILON).max(0.0);
     let decimals = if percent == 0.0 || percent >= 0.01 { 2 } else { 3 };

@@ -1,7 +1,6 @@
 //! Words for a shell.
 
 /// Returns a word for a shell, in quotes if it needs them.
-#[must_use]
 pub fn for_a_shell(word: &str) -> String {
     let is_plain = |c: char| c.is_alphanumeric() || "-_=,./:+%@".contains(c);
     if !word.is_empty() && word.chars().all(is_plain) {

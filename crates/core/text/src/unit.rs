@@ -42,7 +42,6 @@ const INCH: f64 = 0.0254;
 
 impl Unit {
     /// Creates a unit with a name and a length in metres. It cannot be parsed, unless it is one of the units that users can name.
-    #[must_use]
     pub const fn new(name: &'static str, metres: f64) -> Self {
         Self { name, metres }
     }
@@ -55,7 +54,6 @@ impl Unit {
     pub const PIXEL: Unit = Unit::new("px", INCH / 96.0);
 
     /// Returns the length of the unit in metres.
-    #[must_use]
     pub fn metres(self) -> f64 {
         self.metres
     }

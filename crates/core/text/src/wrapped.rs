@@ -2,7 +2,6 @@
 
 /// Wraps a line to at most `width` characters, or more if a single word is longer. Continuation lines begin with
 /// `indent` spaces. Spaces before the first word and between the words of a line remain.
-#[must_use]
 pub fn wrapped(line: &str, width: usize, indent: usize) -> String {
     let mut text = String::with_capacity(line.len());
     let (mut column, mut gap) = (0, 0);

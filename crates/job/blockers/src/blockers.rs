@@ -72,7 +72,6 @@ impl BlockingSet {
 /// Decisions are made by slabs and boxes, without computing an optimum. `boxes` limits the number of boxes per
 /// decision. The first number applies to each element. The second applies to the few elements that stay and for which
 /// the first gave no result. Makes `O(n)` decisions for the `n` elements that the proof names.
-#[must_use]
 pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxes: [usize; 2]) -> BlockingSet {
     let mut filter = Filter { question, boxes: boxes[0], all: question.elements(), set: Vec::new(), proof: None };
     filter.set.clone_from(&filter.all);
@@ -111,7 +110,6 @@ pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxe
 
 /// Returns blocking sets that have no obstacle in common. After each set is found, its obstacles are removed from the
 /// world. This continues until the remaining world has a motion.
-#[must_use]
 pub fn blocking_sets(question: &MotionQuestion, proof: Option<CheckedProof>, boxes: [usize; 2]) -> Vec<BlockingSet> {
     let mut sets = vec![blocking_set(question, proof, boxes)];
     let mut gone: Vec<Element> = Vec::new();

@@ -45,7 +45,6 @@ pub enum Element {
 impl Element {
     /// Returns all elements of a scene: finite limits, a clearance above 0, and those obstacles and links that the arm
     /// can hit. Obstacles and links are in the order of the files.
-    #[must_use]
     pub fn all(scene: &Scene) -> Vec<Self> {
         let limits = (0..2).filter(|&joint| !scene.arm().joints[joint].range.is_circle());
         let mut all: Vec<Self> =
@@ -59,7 +58,6 @@ impl Element {
     }
 
     /// Returns the index of the obstacle or link. `None` for a limit and for the clearance.
-    #[must_use]
     pub fn obstacle(self) -> Option<usize> {
         match self {
             Self::Obstacle { number } | Self::Link { number } => Some(number),
@@ -68,7 +66,6 @@ impl Element {
     }
 
     /// Describes the element, for example as `obstacle "shelf"`.
-    #[must_use]
     pub fn describe(self, scene: &Scene) -> String {
         match self {
             Self::Obstacle { number } | Self::Link { number } => scene.describe_obstacle(number),
@@ -81,7 +78,6 @@ impl Element {
     }
 
     /// Returns the unit in which changes of the element are measured.
-    #[must_use]
     pub fn unit(self, arm: &Arm) -> &'static str {
         if let Self::Limit { joint, .. } = self { arm.joints[joint].unit() } else { "m" }
     }

@@ -94,7 +94,6 @@ impl From<GoalSet> for Target {
 
 impl MotionQuestion {
     /// Creates a query for a motion from a start to a target. Both may be blocked.
-    #[must_use]
     pub fn new(scene: Scene, start: Configuration, target: impl Into<Target>) -> Self {
         let target = target.into();
         let beyond = margins_beyond_limits(&scene, start, &target);
@@ -106,7 +105,6 @@ impl MotionQuestion {
 
     /// Returns the question of a step of a task that fails. Its motion leads from the arm's configuration to the IK
     /// solutions that were tried. At both ends, the arm must also be free while the tool is lowered.
-    #[must_use]
     pub fn of_failed_step(failed: &FailedStep) -> Self {
         let goals: GoalSet = failed.ik_solutions.iter().map(|refused| Segment::point(refused.ik_solution)).collect();
         Self::new((*failed.scene).clone(), failed.from, goals).with_standstills(failed.standstills.clone())
@@ -127,7 +125,6 @@ impl MotionQuestion {
     }
 
     /// Creates a query for a motion from a start to any of some goals. The goals may be blocked.
-    #[must_use]
     pub fn of_goals(scene: Scene, start: Configuration, goals: &[Goal]) -> Self {
         let target = Target::of_goals(goals, scene.arm(), start);
         Self::new(scene, start, target)

@@ -11,7 +11,6 @@ pub enum Better {
 
 impl Better {
     /// Returns the index of the best value, which is the first one of equal ones. `None` if there is no value.
-    #[must_use]
     pub fn first_best(self, values: impl IntoIterator<Item = Option<f64>>) -> Option<usize> {
         let known = values.into_iter().enumerate().filter_map(|(index, value)| Some((index, value?)));
         let known = known.filter(|(_, value)| !value.is_nan());
@@ -21,7 +20,6 @@ impl Better {
 
     /// Returns the indices of the values that look like the best one. It is empty if fewer than two values are known, or
     /// if all of them look alike, because then none stands out. `shown` has the texts of the values.
-    #[must_use]
     pub fn that_stand_out(self, values: &[Option<f64>], shown: &[Option<String>]) -> Vec<usize> {
         let known: Vec<usize> =
             (0..values.len().min(shown.len())).filter(|&i| values[i].is_some() && shown[i].is_some()).collect();

@@ -3,7 +3,6 @@
 /// Shortens the names of rows, which are planners with their options, and keeps them distinct. Omits an option that
 /// occurs in all rows of a planner, if the rows have other options. A name stays as it is if its short form equals that
 /// of another row.
-#[must_use]
 pub fn labels(names: &[&str]) -> Vec<String> {
     let parts: Vec<(&str, Vec<String>)> = names.iter().map(|name| options(name)).collect();
     let short = |(planner, options): &(&str, Vec<String>)| {

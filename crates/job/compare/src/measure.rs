@@ -39,7 +39,6 @@ impl Measure {
     ];
 
     /// Returns the measure's heading, with the unit of the tables.
-    #[must_use]
     pub fn heading(self) -> &'static str {
         match self {
             Measure::OverOptimum => "length over the proven optimum",
@@ -54,13 +53,11 @@ impl Measure {
     }
 
     /// Returns which value of the measure is the better one.
-    #[must_use]
     pub fn better(self) -> Better {
         if self == Measure::Clearance { Better::More } else { Better::Less }
     }
 
     /// Returns the measure's key in JSON. Values in JSON are in SI units and bytes.
-    #[must_use]
     pub fn key(self) -> &'static str {
         match self {
             Measure::OverOptimum => "over_optimum",
@@ -75,7 +72,6 @@ impl Measure {
     }
 
     /// Formats a value in the unit of the heading.
-    #[must_use]
     pub fn format(self, value: f64) -> String {
         let decimals = match self {
             Measure::OverOptimum => 4,
@@ -86,7 +82,6 @@ impl Measure {
     }
 
     /// Returns the factor from SI units to the unit of the heading.
-    #[must_use]
     pub fn scale(self) -> f64 {
         match self {
             Measure::OverOptimum | Measure::Duration => 1.0,
@@ -96,7 +91,6 @@ impl Measure {
     }
 
     /// Returns the value of this measure for a run, in SI units and bytes. `None` if the run has none.
-    #[must_use]
     pub fn of(self, comparison: &Comparison, row: &Row) -> Option<f64> {
         match self {
             Measure::OverOptimum => comparison.over_optimum(row),

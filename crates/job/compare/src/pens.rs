@@ -19,7 +19,6 @@ impl Comparison {
 }
 
 /// Returns the family of colours of a family of planners.
-#[must_use]
 pub fn hue(family: Family) -> PlannerFamily {
     match family {
         Family::Roadmap => PlannerFamily::Roadmap,

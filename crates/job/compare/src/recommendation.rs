@@ -24,7 +24,6 @@ impl Purpose {
 
     /// Returns the value by which rows compete for this purpose, in SI units. `None` if no path was found, or if the
     /// value is unknown. The clearance is infinite if no obstacle is within reach.
-    #[must_use]
     pub fn value(self, row: &Row) -> Option<f64> {
         if row.outcome != Status::Found {
             return None;
@@ -38,7 +37,6 @@ impl Purpose {
     }
 
     /// Returns which value is the better one.
-    #[must_use]
     pub fn better(self) -> Better {
         if self == Purpose::Safest { Better::More } else { Better::Less }
     }

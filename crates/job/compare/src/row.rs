@@ -58,7 +58,6 @@ pub struct Row {
 
 impl Row {
     /// Creates a row with only the planner's identity and status.
-    #[must_use]
     pub fn new(planner: impl Into<String>, family: Family, outcome: Status) -> Self {
         Self {
             planner: planner.into(),

@@ -2,7 +2,6 @@
 
 /// Returns the two-sided p-value of the sign test. It is the probability that as many throws of a fair coin fall at
 /// least as unevenly as `wins` to `losses`. Returns 1 without throws. `O(n)` for `n` throws.
-#[must_use]
 pub fn sign_test(wins: usize, losses: usize) -> f64 {
     let n = wins + losses;
     let fewer = wins.min(losses);

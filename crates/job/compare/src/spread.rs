@@ -21,7 +21,6 @@ pub struct Spread {
 
 impl Spread {
     /// Computes the distribution of the finite values; `None` if all are infinite or missing. `O(n log n)`.
-    #[must_use]
     pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
         let mut sorted: Vec<f64> = values.into_iter().filter(|v| v.is_finite()).collect();
         sorted.sort_by(f64::total_cmp);

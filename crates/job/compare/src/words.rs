@@ -51,7 +51,6 @@ struct Side {
 /// Each planner represents its family by its usual path. The effect of pulling paths taut is reported separately. With
 /// a single family, planners are compared instead. A side is called better only if the sign test supports it at 5 %.
 /// The test counts the problems in which all sides have values.
-#[must_use]
 pub fn words(study: &Study) -> Vec<String> {
     let mut words = vec![outcomes(study)];
     words.extend(optimum(study));

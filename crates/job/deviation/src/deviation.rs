@@ -319,7 +319,6 @@ fn gap(line: &Line, piece: usize, u: f64, tip: Point) -> f64 {
 /// Returns the place of a line that is near the next position of the tip, which is `step` metres away. It is between the
 /// places `from` and `last`, so that it never returns. The tip deviates from the line by at most `tolerance`, metres. It
 /// takes `O(1)` if no piece is passed.
-#[must_use]
 pub fn advance(line: &Line, tolerance: f64, [from, last]: [Foot; 2], tip: Point, step: f64) -> Foot {
     let near = |piece: usize, least: f64| line.curve(piece).nearest([tip.x, tip.y], least);
     let mut foot = Foot { u: near(from.piece, from.u), ..from };
@@ -346,7 +345,6 @@ pub fn advance(line: &Line, tolerance: f64, [from, last]: [Foot; 2], tip: Point,
 }
 
 /// Returns a bound on the distance of a part of a curve from its chord, at equal shares of the parameter, metres.
-#[must_use]
 pub fn sag(curve: &Curve, [from, to]: [f64; 2]) -> f64 {
     curve.bend_between([from, to]) * (to - from) * (to - from) / 8.0
 }

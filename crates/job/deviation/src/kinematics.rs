@@ -32,7 +32,6 @@ fn angle(v: Vector) -> f64 {
 
 impl<'a> Kinematics<'a> {
     /// Measures an arm.
-    #[must_use]
     pub fn new(arm: &'a Arm) -> Self {
         Self { arm, lengths: [arm.offset.norm(), arm.tip.norm()] }
     }

@@ -36,13 +36,11 @@ pub struct Line<'a> {
 
 impl<'a> Line<'a> {
     /// Measures the pieces of a line. It takes `O(n)` for `n` pieces.
-    #[must_use]
     pub fn new(path: &'a Toolpath) -> Self {
         Self::of(path.pieces())
     }
 
     /// Does the same as [`Line::new`] for pieces in order, at least one.
-    #[must_use]
     pub fn of(pieces: &'a [Piece]) -> Self {
         let mut at = 0.0;
         let begin = |piece: &Piece| {

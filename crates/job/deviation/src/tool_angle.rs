@@ -175,7 +175,6 @@ fn bounds(piece: &Piece, shares: [f64; 2]) -> [f64; 2] {
 
 /// Returns true if the line's heading jumps at a corner by more than the tolerance of the tool's angle, or if it is unknown
 /// on one side, as next to a travel. The arm rests there while the tool turns.
-#[must_use]
 pub fn is_sharp(before: Option<f64>, after: Option<f64>, tolerance: f64) -> bool {
     !before.zip(after).is_some_and(|(before, after)| wrapped(after - before).abs() <= tolerance)
 }

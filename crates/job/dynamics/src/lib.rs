@@ -39,7 +39,6 @@ pub struct Curvature {
 }
 
 /// Returns the body that two bodies form if they are joined rigidly. All three have the same frame.
-#[must_use]
 pub fn joined(a: &Body, b: &Body) -> Body {
     let mass = a.mass + b.mass;
     if mass == 0.0 {
@@ -52,7 +51,6 @@ pub fn joined(a: &Body, b: &Body) -> Body {
 
 /// Returns a body whose mass, in kg, is spread evenly over pieces that do not overlap. A rounded piece counts as its
 /// core, without the radius, unless it is a disc.
-#[must_use]
 pub fn spread(mass: f64, pieces: &[Convex]) -> Body {
     let sheets = pieces.iter().map(sheet).fold(Body::NONE, |sum, piece| joined(&sum, &piece));
     // For pieces of density 1, the mass is the area.
@@ -105,7 +103,6 @@ pub struct Torques<'a> {
 
 impl<'a> Torques<'a> {
     /// Returns the torques of a scene's arm. Returns `None` if motions need not respect its efforts.
-    #[must_use]
     pub fn limited(scene: &'a Scene) -> Option<Self> {
         let arm = scene.arm();
         let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits)?;

@@ -14,7 +14,6 @@ pub struct Clock {
 
 impl Clock {
     /// Starts the clock. `stages` are stages that have already ended.
-    #[must_use]
     pub fn starting_after(stages: Vec<(&'static str, Duration)>) -> Self {
         Self { last: Instant::now(), stages }
     }

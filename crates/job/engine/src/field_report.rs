@@ -1,7 +1,8 @@
 //! The settings of a field, as in the result.
 
-use cplan_fields::{Difference, Factor, Khatib, Limits, Measure, Relaxation, Scheme};
-use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
+use cplan_fields::{
+    Difference, EquationChoice, Factor, FieldChoice, FieldPlanner, Khatib, Limits, Measure, Relaxation, Scheme,
+};
 use cplan_motion::FieldReport;
 use cplan_planners::planner::{Note, Size};
 use cplan_solver::{Answer, Space};

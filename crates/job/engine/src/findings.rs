@@ -89,7 +89,6 @@ pub struct CornerFinding {
 }
 
 /// Checks a configuration.
-#[must_use]
 pub fn check(scene: &Scene, q: Configuration) -> ConfigurationFindings {
     let topology = scene.arm().topology();
     let within_limits = [0, 1].map(|k| topology.ranges[k].contains(q[k]));

@@ -31,7 +31,7 @@ impl Motion {
     /// Times the motion along a path. If no timing avoids moving obstacles, returns the reason in words.
     fn along(
         problem: &MotionProblem,
-        (trajectories, movers): (&[ObstacleTrajectory], Option<MoverSearch>),
+        (trajectories, movers): (&[ObstacleTrajectory], Option<&dyn MoverSearch>),
         path: BoundedPath,
         options: &Options,
     ) -> Result<Result<Self, String>, TimingError> {
@@ -43,7 +43,7 @@ impl Motion {
         if let Some(movers) = movers.filter(|_| !trajectories.is_empty()) {
             // The fastest motion may follow another path than the shortest one, to another goal.
             let taken = timed.curve.straight().clone();
-            match (movers.plan)(problem, trajectories, &taken, timed, options)? {
+            match movers.plan(problem, trajectories, &taken, timed, options)? {
                 Ok((waiting, figures)) => {
                     // The bound is the same as before, but the duration now includes waits.
                     let duration = waiting.trajectory.duration();
@@ -65,7 +65,7 @@ impl Motion {
 /// A motion that lasts too long, or has too many samples.
 pub(super) fn driven(
     problem: &MotionProblem,
-    movers: (&[ObstacleTrajectory], Option<MoverSearch>),
+    movers: (&[ObstacleTrajectory], Option<&dyn MoverSearch>),
     answer: Answer,
     options: &Options,
 ) -> Result<Answer<Motion>, TimingError> {

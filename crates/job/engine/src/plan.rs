@@ -161,7 +161,7 @@ fn curved_because(curved: NotPolygons, scene: &Scene) -> String {
 fn plan_motion(
     problem: &Problem,
     options: &Options,
-    movers: Option<MoverSearch>,
+    movers: Option<&dyn MoverSearch>,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Detail, PlanError> {
@@ -193,13 +193,13 @@ fn plan_motion(
 
 /// Plans the steps of a task. Checks that ROS messages can name the robot's joints.
 fn plan_task(
-    (task, search): (&Arc<Task>, TaskSearch),
+    (task, search): (&Arc<Task>, &dyn TaskSearch),
     robot: &RobotJoints,
     options: &Options,
     clock: &mut Clock,
     progress: &mut dyn FnMut(&str),
 ) -> Result<Detail, PlanError> {
-    let answer = (search.plan)(task, options, progress);
+    let answer = search.plan(task, options, progress);
     clock.stage("plan");
     if let Some(TaskMotion { sequence, .. }) = answer.outcome.found() {
         let messages = Messages::new(robot, task, &answer.legs, sequence)?;
@@ -307,13 +307,14 @@ impl Plan {
     /// motions and with moving obstacles.
     pub fn task_replay(&self) -> Option<TaskReplay> {
         let (task, answer) = self.task().filter(|(task, _)| !task.has_moving_obstacles())?;
-        self.searches.tasks.map(|search| (search.replay)(task, &self.options, answer))
+        self.searches.tasks.map(|search| search.replay(task, &self.options, answer))
     }
 
     /// Returns the times at which moving obstacles block places on the motion, or on that of the steps before the one that
     /// fails. `None` if nothing moves beside the arm, or if there is no motion. Computed at each call.
     pub fn place_time(&self) -> Option<PlaceTime> {
-        let blocked_times = self.searches.movers?.blocked_times;
+        let movers = self.searches.movers?;
+        let blocked_times: &BlockedTimes = &|timed, configurations| movers.blocked_times(timed, configurations);
         match &*self.detail {
             Detail::Motion { .. } => {
                 let (timed, trajectory) = (self.problem.timed(), self.trajectory()?);
@@ -329,7 +330,7 @@ impl Plan {
     }
 }
 
-fn place_time_of_task(task: &Task, legs: &[Leg], blocked_times: BlockedTimes) -> Option<PlaceTime> {
+fn place_time_of_task(task: &Task, legs: &[Leg], blocked_times: &BlockedTimes) -> Option<PlaceTime> {
     let trajectories: Vec<Vec<ObstacleTrajectory>> = legs.iter().map(|leg| task.trajectories(&leg.moving)).collect();
     let parts = legs.iter().zip(&trajectories).map(|(leg, trajectories)| MotionPart {
         timed: TimedScene { scene: &leg.scene, trajectories },

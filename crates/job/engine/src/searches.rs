@@ -1,20 +1,23 @@
 //! The searches that companions bring: for tasks, and among moving obstacles. Plans have the data of their answers, and
 //! the program states which searches it has.
 
-use cplan_handling::{ObstacleTrajectory, Task};
+use cplan_geometry::Interval;
+use cplan_handling::{ObstacleTrajectory, Task, TimedScene};
 use cplan_judge::CertifiedPath;
 use cplan_legs::{TaskAnswer, TaskReplay};
 use cplan_model::MotionProblem;
-use cplan_motion::{BlockedTimes, TimedMotion, Timing, TimingError};
+use cplan_model::space::Configuration;
+use cplan_motion::{TimedMotion, Timing, TimingError};
 use cplan_solver::Options;
+use std::fmt::Debug;
 
 /// The searches beyond those for a single motion among obstacles that stand still.
 #[derive(Debug, Clone, Copy)]
 pub struct Searches {
     /// The search for tasks. Without it, tasks are refused.
-    pub tasks: Option<TaskSearch>,
+    pub tasks: Option<&'static dyn TaskSearch>,
     /// The search among moving obstacles. Without it, single motions among them are refused.
-    pub movers: Option<MoverSearch>,
+    pub movers: Option<&'static dyn MoverSearch>,
 }
 
 impl Searches {
@@ -23,29 +26,34 @@ impl Searches {
 }
 
 /// A search for the motions of a task.
-#[derive(Debug, Clone, Copy)]
-pub struct TaskSearch {
+pub trait TaskSearch: Debug + Sync {
     /// Plans a task. Passes lines of text about long computations.
-    pub plan: fn(&Task, &Options, &mut dyn FnMut(&str)) -> TaskAnswer,
+    fn plan(&self, task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer;
+
     /// Returns how the motions of an answer were found, with the same options. For tasks without moving obstacles.
-    pub replay: fn(&Task, &Options, &TaskAnswer) -> TaskReplay,
+    fn replay(&self, task: &Task, options: &Options, answer: &TaskAnswer) -> TaskReplay;
 }
 
 /// A motion among moving obstacles with its figures, or the reason in words why there is none.
 pub type MotionAmongMovers = Result<(TimedMotion, Timing), String>;
 
 /// A search for motions among moving obstacles.
-#[derive(Debug, Clone, Copy)]
-pub struct MoverSearch {
+pub trait MoverSearch: Debug + Sync {
     /// Returns the earliest motion along a certified path, or along others. The loose obstacles of the problem's scene
-    /// follow the trajectories. The given motion is the one along the path without moving obstacles.
-    pub plan: fn(
-        &MotionProblem,
-        &[ObstacleTrajectory],
-        &CertifiedPath,
-        TimedMotion,
-        &Options,
-    ) -> Result<MotionAmongMovers, TimingError>,
-    /// Returns the times at which moving obstacles block places.
-    pub blocked_times: BlockedTimes,
+    /// follow the trajectories. `first` is the motion along the path without moving obstacles.
+    ///
+    /// # Errors
+    /// A path that cannot be timed.
+    fn plan(
+        &self,
+        problem: &MotionProblem,
+        trajectories: &[ObstacleTrajectory],
+        certified: &CertifiedPath,
+        first: TimedMotion,
+        options: &Options,
+    ) -> Result<MotionAmongMovers, TimingError>;
+
+    /// Returns the times at which moving obstacles block the arm: for each configuration, for each loose obstacle of the
+    /// scene, in order and disjoint, in seconds. The clearance of the world counts as blocked.
+    fn blocked_times(&self, timed: TimedScene, configurations: &[Configuration]) -> Vec<Vec<Vec<Interval>>>;
 }

@@ -30,7 +30,6 @@ impl Payload {
     /// Returns the greatest *penetration depth* of a payload in its supports, metres. Each corner of the payload is
     /// moved inwards by this distance, along the bisector of its sides, and the smaller shape must stay off the
     /// supports. So a side may press in by at most this distance times the sine of half the angle at its ends.
-    #[must_use]
     pub fn penetration_allowance(arm: &Arm) -> f64 {
         PENETRATION_ALLOWANCE * arm.reach()
     }

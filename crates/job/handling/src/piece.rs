@@ -38,13 +38,11 @@ impl Piece {
     }
 
     /// Creates the straight piece from `a` to `b` at constant velocity.
-    #[must_use]
     pub fn line(from: f64, to: f64, a: Configuration, b: Configuration) -> Self {
         Self::new(from, to, [a, a + (b - a) / 3.0, b - (b - a) / 3.0, b])
     }
 
     /// Creates the cubic with these values and velocities at its ends (Hermite).
-    #[must_use]
     pub fn hermite(from: f64, to: f64, [a, va]: [Configuration; 2], [b, vb]: [Configuration; 2]) -> Self {
         let third = (to - from) / 3.0;
         Self::new(from, to, [a, a + va * third, b - vb * third, b])
@@ -52,14 +50,12 @@ impl Piece {
 
     /// Creates the polynomial of degree four with this position, velocity and acceleration at its start, and position
     /// and velocity at its end.
-    #[must_use]
     pub fn quartic(from: f64, to: f64, [a, va, aa]: State, [b, vb]: [Configuration; 2]) -> Self {
         let h = to - from;
         Self::new(from, to, [a, a + va * (h / 4.0), a + va * (h / 2.0) + aa * (h * h / 12.0), b - vb * (h / 4.0), b])
     }
 
     /// Creates the polynomial of degree five with these positions, velocities and accelerations at its ends.
-    #[must_use]
     pub fn quintic(from: f64, to: f64, [a, va, aa]: State, [b, vb, ab]: State) -> Self {
         let h = to - from;
         let (one, two, bend) = (h / 5.0, h * 2.0 / 5.0, h * h / 20.0);
@@ -67,7 +63,6 @@ impl Piece {
     }
 
     /// Creates the quadratic curve with these three control points, written as a cubic.
-    #[must_use]
     pub fn quadratic(from: f64, to: f64, [a, b, c]: [Configuration; 3]) -> Self {
         Self::new(from, to, [a, (a + b * 2.0) / 3.0, (b * 2.0 + c) / 3.0, c])
     }

@@ -57,7 +57,6 @@ pub struct Drives {
 
 impl RobotJoints {
     /// Returns the joints of a robot that has only the two planned joints, with these names.
-    #[must_use]
     pub fn only_planned(names: &[String; 2]) -> Self {
         let joint =
             |k: usize| RobotJoint { name: names[k].clone(), driver: Driver::Planned(k), factor: 1.0, offset: 0.0 };

@@ -26,7 +26,6 @@ impl From<Workspace> for TimedWorkspace {
 
 impl TimedWorkspace {
     /// Splits the workspace into its static part, and its moving obstacles as additions to a scene.
-    #[must_use]
     pub fn into_parts(self) -> (Workspace, Additions) {
         let loose = self.movers.iter().map(MovingObstacle::to_loose_obstacle).collect();
         (self.fixed, Additions { loose, ..Additions::default() })
@@ -42,7 +41,6 @@ impl TimedWorkspace {
     }
 
     /// Does the same as [`TimedWorkspace::scene`], without checks.
-    #[must_use]
     #[doc(hidden)]
     pub fn scene_trusted(self, arm: Arm) -> Scene {
         let (workspace, additions) = self.into_parts();
@@ -85,19 +83,16 @@ impl<'a> From<&'a Scene> for TimedScene<'a> {
 
 impl<'a> TimedScene<'a> {
     /// Returns the pairs of a part and a moving obstacle that can meet.
-    #[must_use]
     pub fn moving_pairs(self) -> &'a [Pair] {
         if self.trajectories.is_empty() { &[] } else { self.scene.loose_pairs() }
     }
 
     /// Returns the trajectory of a pair's obstacle. `None` for a static obstacle.
-    #[must_use]
     pub fn trajectory(self, pair: Pair) -> Option<&'a ObstacleTrajectory> {
         self.trajectories.get(self.scene.loose_index(pair)?)
     }
 
     /// Returns the obstacle of a pair at its place at a time. `None` for a static obstacle.
-    #[must_use]
     pub fn obstacle(self, pair: Pair, time: f64) -> Option<Obstacle> {
         self.trajectory(pair).map(|trajectory| self.scene.obstacle(pair.obstacle).at(&trajectory.pose(time)))
     }
@@ -109,13 +104,11 @@ impl<'a> TimedScene<'a> {
 
     /// Returns the scene at a time. Each moving obstacle becomes static at its place at that time. These obstacles come
     /// after all others.
-    #[must_use]
     pub fn frozen(self, time: f64) -> Scene {
         self.scene.with_loose_at(self.poses(time))
     }
 
     /// Returns the reasons why `q` is not free of static and moving obstacles at a time.
-    #[must_use]
     pub fn obstructions(self, q: Configuration, time: f64) -> Vec<Obstruction> {
         self.scene.obstructions_among(q, &self.poses(time).collect::<Vec<_>>())
     }

@@ -62,13 +62,11 @@ pub struct WristJoint {
 
 impl WristJoint {
     /// Returns the factors of the two joints in the rotation of link 2: 1, -1, or 0 for a joint that slides.
-    #[must_use]
     pub fn weights(arm: &Arm) -> [f64; 2] {
         arm.joints.each_ref().map(|joint| joint.joint_type.turn())
     }
 
     /// Returns the rotation of link 2, radians, or its rate if `planned` has velocities.
-    #[must_use]
     pub fn link_2_angle(arm: &Arm, planned: [f64; 2]) -> f64 {
         let [first, second] = Self::weights(arm);
         first * planned[0] + second * planned[1]

@@ -17,7 +17,6 @@ pub struct Sequence {
 
 impl Sequence {
     /// Joins the motions of these steps.
-    #[must_use]
     pub fn of(legs: &[Leg]) -> Self {
         let mut sequence = Self::default();
         let mut rest = 0.0;

@@ -22,7 +22,6 @@ pub struct TimedTurn {
 
 impl TimedTurn {
     /// Returns the turns of all steps, in chronological order.
-    #[must_use]
     pub fn all(task: &Task, legs: &[Leg]) -> Vec<Self> {
         let turn = |leg: &Leg| {
             let ((turn, seconds), begin, wrist) = (leg.turn?, leg.turn_begins()?, task.wrist?);
@@ -40,7 +39,6 @@ impl TimedTurn {
     }
 
     /// Returns the orientation that an object has at a time because of one of these turns. `None` outside their spans.
-    #[must_use]
     pub fn angle_of(turns: &[Self], object: usize, time: f64) -> Option<f64> {
         let turn = turns.iter().find(|turn| turn.object == object && turn.span[0] <= time && time <= turn.span[1])?;
         Some(turn.angle(time))

@@ -11,7 +11,6 @@ use cplan_motion::Trajectory;
 /// Returns value and velocity of the wrist's joint at sample `k` of a motion at whose beginning it is at `from`, radians.
 /// `rest` is its default value, and `sign` the direction in which greater values turn the tool. Turns of the payload are
 /// not included.
-#[must_use]
 pub fn wrist_state(
     arm: &Arm,
     limits: Wrist,

@@ -27,7 +27,6 @@ impl Blend {
     /// Makes the blend of the corner between the legs `before`-`corner` and `corner`-`after`. Its ends are at the
     /// distance
     /// `radius` from the corner. The radius is positive and not longer than either leg.
-    #[must_use]
     pub fn new([before, corner, after]: [Configuration; 3], radius: f64) -> Self {
         let toward = |end: Configuration| corner + (end - corner) * (radius / (end - corner).norm());
         Self { from: toward(before), corner, to: toward(after) }

@@ -125,7 +125,6 @@ impl CertifiedCurve {
 ///
 /// A blend lies in the triangle of its control points, so joint limits need no check. Each blend is judged by the same
 /// bisection as a straight piece, with a tube around the blend's chord.
-#[must_use]
 pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64) -> CertifiedCurve {
     blend_up_to(scene, path, &vec![greatest; path.path().waypoints().len()], clearance)
 }
@@ -134,7 +133,6 @@ pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64)
 ///
 /// # Panics
 /// If there are fewer radii than waypoints.
-#[must_use]
 pub fn blend_up_to(scene: &Scene, path: &CertifiedPath, greatest: &[f64], clearance: f64) -> CertifiedCurve {
     let q = path.path().waypoints();
     let required = required_distance(path, clearance);
@@ -192,7 +190,6 @@ pub struct Rounding<'a> {
 impl<'a> Rounding<'a> {
     /// Creates the check. As on blends, motions must keep more than half of the path's clearance in excess of
     /// `clearance`.
-    #[must_use]
     pub fn new(scene: &'a Scene, path: &'a CertifiedPath, clearance: f64) -> Self {
         Self { scene, vicinity: Vicinity::new(scene), path, required: required_distance(path, clearance) }
     }

@@ -54,7 +54,6 @@ pub fn nearest_within(time: f64, [from, to]: Interval) -> Option<f64> {
 }
 
 /// Rounds a duration up to whole nanoseconds. An excess within rounding over a whole nanosecond is ignored.
-#[must_use]
 pub fn whole_nanoseconds(duration: f64) -> f64 {
     (duration * NANOSECONDS_PER_SECOND as f64 * (1.0 - TIME_SLACK)).ceil() / NANOSECONDS_PER_SECOND as f64
 }

@@ -12,7 +12,6 @@ use std::fmt::Write;
 /// Numbers have as many digits as needed to read back the same `f64`.
 ///
 /// With `steps`, one number per sample, there is an additional column `step` with the step of each sample.
-#[must_use]
 pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, steps: Option<&[usize]>) -> String {
     let mut text = String::from("time");
     let torques = !trajectory.torque.is_empty();
@@ -47,7 +46,6 @@ pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, s
 /// Returns a motion of all joints as CSV, in the format of [`csv`]: a value and a velocity of each joint, with their
 /// accelerations if the motion has them, and the step of each sample if it
 /// is given.
-#[must_use]
 pub fn csv_of_joints(motion: &JointMotion, steps: Option<&[usize]>) -> String {
     let columns = [("", Some(&motion.position)), ("_velocity", Some(&motion.velocity))];
     let columns = columns.into_iter().chain([("_acceleration", motion.acceleration.as_ref())]);

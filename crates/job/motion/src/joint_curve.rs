@@ -54,7 +54,6 @@ impl JointCurve {
     ///
     /// # Panics
     /// If there are fewer than two points.
-    #[must_use]
     pub fn new(points: &[Configuration]) -> Self {
         assert!(points.len() > 1, "a curve needs two points");
         Self { spline: Spline::of_curve(points) }
@@ -74,7 +73,6 @@ impl JointCurve {
 ///
 /// Returns `None` if no motion is found that is certified to be free and has no piece that is too far. It takes time
 /// linear in the number of points of the curve and of samples.
-#[must_use]
 pub fn along_joint_curve(
     scene: &Scene,
     path: &CertifiedPath,

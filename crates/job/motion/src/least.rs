@@ -14,7 +14,6 @@ const ROUNDING: f64 = 1e-9;
 /// Let `f(t)` be the greatest fraction of its top speed that a joint can reach `t` seconds after rest, by its
 /// acceleration and jerk. At the time `t` of a motion of `T` seconds, no joint exceeds the fraction `min(1, f(t), f(T -
 /// t))`. So the length of the path is at most the integral of this, which increases with `T`.
-#[must_use]
 pub fn least_duration(length: f64, limits: &Limits) -> f64 {
     let rate = |of: &dyn Fn(usize) -> f64| of(0).max(of(1));
     let acceleration = rate(&|k| limits.acceleration[k] / limits.velocity[k]);

@@ -41,7 +41,6 @@ const ULPS: f64 = 256.0;
 
 impl JointMotion {
     /// Creates a motion of the planned joints, and of the wrist if it turns in the trajectory, with the others at rest.
-    #[must_use]
     pub fn new(robot: &RobotJoints, trajectory: &Trajectory, accelerations: bool) -> Self {
         let turned = |k: usize, of: usize| trajectory.wrist.get(k).map(|row| row[of]);
         let position = |(k, &planned): (usize, &[f64; 2])| {

@@ -32,7 +32,7 @@ pub struct MotionPart<'a> {
 
 /// Computes the times at which moving obstacles block the arm: for each configuration, for each loose obstacle of the
 /// scene, in order and disjoint, in seconds. The clearance of the world counts as blocked.
-pub type BlockedTimes = fn(TimedScene, &[Configuration]) -> Vec<Vec<Vec<Interval>>>;
+pub type BlockedTimes<'a> = dyn Fn(TimedScene, &[Configuration]) -> Vec<Vec<Vec<Interval>>> + 'a;
 
 /// A place on a motion.
 #[derive(Debug, Clone, PartialEq)]
@@ -81,8 +81,7 @@ pub struct PlaceTime {
 impl PlaceTime {
     /// Computes the plane for the parts of a motion, in their order. `None` if nothing moves beside the arm, or the arm
     /// stands still.
-    #[must_use]
-    pub fn of(parts: &[MotionPart], blocked_times: BlockedTimes) -> Option<Self> {
+    pub fn of(parts: &[MotionPart], blocked_times: &BlockedTimes) -> Option<Self> {
         let mut names: Vec<String> = Vec::new();
         for part in parts {
             let loose = part.timed.scene.loose_obstacles().iter().take(part.timed.trajectories.len());
@@ -110,7 +109,6 @@ impl PlaceTime {
     }
 
     /// Creates a plane of known places, for tests of pictures.
-    #[must_use]
     pub fn trusted(names: Vec<String>, places: Vec<TimedPlace>, motion: Vec<[f64; 2]>) -> Self {
         Self { names, places, motion, ends: Vec::new() }
     }
@@ -182,7 +180,7 @@ fn places_of(
     gone: &[f64],
     [before, whole]: [f64; 2],
     names: &[String],
-    blocked_times: BlockedTimes,
+    blocked_times: &BlockedTimes,
 ) -> Vec<TimedPlace> {
     let length = gone.last().copied().unwrap_or(0.0);
     let count = (PLACES as f64 * length / whole).ceil() as usize;

@@ -39,7 +39,6 @@ pub struct DurationOptimality {
 
 impl DurationOptimality {
     /// Creates the record with its gap.
-    #[must_use]
     pub fn new(duration: f64, lower_bound: f64) -> Self {
         Self { duration, lower_bound, gap: (lower_bound > 0.0).then_some(duration / lower_bound - 1.0) }
     }
@@ -57,7 +56,6 @@ pub struct BlendReport {
 
 impl BlendReport {
     /// Summarises the blends of a curve.
-    #[must_use]
     pub fn of(curve: &CertifiedCurve) -> Self {
         let radii: Vec<f64> = curve.radii().iter().copied().filter(|radius| *radius > 0.0).collect();
         Self { count: radii.len(), largest_radius: radii.into_iter().fold(0.0, f64::max) }

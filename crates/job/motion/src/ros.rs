@@ -8,7 +8,6 @@ use std::fmt::Write;
 ///
 /// The header's stamp is 0, which means "begin now", and its frame is empty. Times are whole nanoseconds. Numbers have
 /// as many digits as needed to read back the same `f64`. The [module](super) describes how controllers join the points.
-#[must_use]
 pub fn ros_yaml(motion: &JointMotion) -> String {
     let mut text = String::from("header:\n  stamp: {sec: 0, nanosec: 0}\n  frame_id: \"\"\njoint_names:\n");
     let mut line = |line: std::fmt::Arguments| {

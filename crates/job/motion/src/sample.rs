@@ -6,8 +6,7 @@ use super::profile::Phase;
 use super::schedule::{TimedTrack, Track, schedule};
 use super::single::single;
 use super::torque::TorqueLimit;
-use crate::BlendedPath;
-use crate::CertifiedCurve;
+use crate::{BlendedPath, CertifiedCurve};
 use cplan_handling::{Piece, ToolLimits};
 use cplan_model::Scene;
 use cplan_model::space::Configuration;
@@ -129,7 +128,6 @@ impl Trajectory {
     }
 
     /// Returns a single sample at time 0, at which the arm of a scene rests at `q`.
-    #[must_use]
     pub fn at_rest(scene: &Scene, q: Configuration) -> Self {
         let mut trajectory = Self::with_capacity(1);
         trajectory.push(0, [q, Configuration::zeros(), Configuration::zeros()]);

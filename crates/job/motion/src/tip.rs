@@ -39,7 +39,6 @@ pub(super) struct Part {
 
 impl<'a> TipSpeed<'a> {
     /// Returns the limit to one speed, metres per second, on the whole path.
-    #[must_use]
     pub fn new(arm: &'a Arm, speed: f64) -> Self {
         Self { arm, speed, legs: &[] }
     }

@@ -62,7 +62,6 @@ struct TorqueFactors {
 
 impl<'a> TorqueLimit<'a> {
     /// Returns the limit for the scene's arm with its load. `None` if motions need not respect efforts.
-    #[must_use]
     pub fn of(scene: &'a Scene) -> Option<Self> {
         Some(Self { torques: Torques::limited(scene)?, share: 1.0 })
     }

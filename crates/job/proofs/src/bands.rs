@@ -2,9 +2,7 @@
 
 use super::slab::{CLOSED_FORM_ERROR, is_collision};
 use cplan_geometry::{Vector, merge_in_place};
-use cplan_judge::Cell;
-use cplan_judge::CollisionBox;
-use cplan_judge::{Deviation, Posture};
+use cplan_judge::{Cell, CollisionBox, Deviation, Posture};
 use cplan_model::{Contacts, on_axis};
 
 /// Places where a wall of configurations is sought, as shares of the interval of `q1` in which a pair collides. Shapes

@@ -4,8 +4,7 @@ use super::boxes::{State, Subdivision};
 use super::chain::{Mosaic, all_of_fewest_undecided, ends, fewest_undecided, shortest};
 use super::channel::Channel;
 use super::separating::separating;
-use cplan_judge::Cell;
-use cplan_judge::Disconnection;
+use cplan_judge::{Cell, Disconnection};
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, GoalSet};
 use std::borrow::Cow;
@@ -58,7 +57,6 @@ pub struct Exploration {
 ///
 /// The search is complete up to the resolution that `max_boxes` allows. It finds a path if there is free space around
 /// it. It proves that a passage is closed if shapes overlap there by some depth.
-#[must_use]
 pub fn connectivity(
     scene: &Scene,
     start: Configuration,
@@ -84,7 +82,6 @@ pub(super) fn proven(scene: &Scene, decide: impl Fn(&Scene) -> Connectivity) -> 
 }
 
 /// Answers the same question as [`connectivity`], and also returns the boxes.
-#[must_use]
 pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: f64, max_boxes: usize) -> Exploration {
     let mut boxes = Subdivision::new(scene, clearance);
     let answer = decide(&mut boxes, start, goals, max_boxes);

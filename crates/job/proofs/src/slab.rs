@@ -7,8 +7,7 @@
 
 use cplan_geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
 use cplan_interrupt::checkpoint;
-use cplan_judge::Cell;
-use cplan_judge::{Deviation, Posture};
+use cplan_judge::{Cell, Deviation, Posture};
 use cplan_model::{CarriedPart, Contacts, Pair, Scene, on_axis};
 
 /// Assumed error of closed forms, metres: twice the error that they state. The second half covers the rounding of a few
@@ -223,8 +222,7 @@ mod tests {
     use super::super::tiles::tile;
     use super::*;
     use cplan_geometry::hull;
-    use cplan_model::space::Configuration;
-    use cplan_model::space::JointRange;
+    use cplan_model::space::{Configuration, JointRange};
     use cplan_model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
     use nalgebra::Vector3;
     use proptest::prelude::*;

@@ -13,8 +13,7 @@ use super::channel::Channel;
 use super::connectivity::{Connectivity, Occupancy, proven};
 use super::slab::{SecondLink, Verdicts};
 use cplan_geometry::merge_in_place;
-use cplan_judge::Cell;
-use cplan_judge::CollisionBox;
+use cplan_judge::{Cell, CollisionBox};
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, GoalSet, Segment, Topology};
 
@@ -77,7 +76,6 @@ struct Slabs<'a> {
 /// This answers the same question as [`super::connectivity`], usually in a small part of the time: a slab decides all
 /// values of `q2` at once, in `O(m log m)` for `m` contacts. Proofs consist of the same kind of boxes. The answer is
 /// undecided if shapes without area touch each other, or if only some nanometres of free space remain.
-#[must_use]
 pub fn slab_connectivity(
     scene: &Scene,
     start: Configuration,
@@ -90,7 +88,6 @@ pub fn slab_connectivity(
 }
 
 /// Returns the final boxes of [`slab_connectivity`]. They lie side by side and cover the domain.
-#[must_use]
 pub fn slab_boxes(
     scene: &Scene,
     start: Configuration,

@@ -36,7 +36,6 @@ pub struct Diagnostic {
 
 impl Diagnostic {
     /// Creates a diagnostic about a whole file or option.
-    #[must_use]
     pub fn new(origin: impl Into<String>, message: impl Into<String>) -> Self {
         Self {
             origin: origin.into(),
@@ -110,7 +109,6 @@ impl InputError {
     }
 
     /// Creates an error from these diagnostics. There must be at least one, and each needs a hint.
-    #[must_use]
     pub fn of(diagnostics: Vec<Diagnostic>) -> Self {
         debug_assert!(!diagnostics.is_empty(), "an error without a diagnostic");
         debug_assert!(

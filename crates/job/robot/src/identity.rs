@@ -15,7 +15,6 @@ pub struct FileIdentity {
 impl FileIdentity {
     /// Returns the identity of a file. The file need not exist, but its folder must. Returns `None` if the path cannot
     /// be a file.
-    #[must_use]
     pub fn of(path: &Path) -> Option<Self> {
         if let Ok(path) = fs::canonicalize(path) {
             let number = fs::metadata(&path).ok().and_then(|found| number(&found));

@@ -38,7 +38,6 @@ pub const MAX_LENGTH: f64 = 1e6;
 
 impl Quantity {
     /// Returns the angle that a text states in degrees, such as "30deg".
-    #[must_use]
     pub fn degrees(text: &str) -> Option<Self> {
         let degrees: f64 = text.trim().strip_suffix("deg")?.trim_end().parse().ok()?;
         Some(Self { value: degrees.to_radians(), in_degrees: true })

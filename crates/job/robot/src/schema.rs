@@ -10,7 +10,6 @@ use std::fs;
 use std::path::Path;
 
 /// Returns a generator of JSON schemas of files in TOML, in draft 7, which editors of TOML support.
-#[must_use]
 pub fn toml_schemas() -> SchemaGenerator {
     let mut settings = SchemaSettings::draft07();
     // First, because the draft's own transforms may apply to its result.

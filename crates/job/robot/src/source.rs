@@ -137,7 +137,6 @@ const EXCERPT_REACH: usize = 60;
 impl Source {
     /// Creates a source from a text in memory. Messages show `name`, and a world without a name of its own has this
     /// name. The text cannot refer to other files such as meshes and maps.
-    #[must_use]
     pub fn in_memory(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         Self { path: name.into(), text: text.into(), is_file: false, expansion: None, milestones: OnceLock::new() }
     }

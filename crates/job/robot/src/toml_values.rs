@@ -26,7 +26,6 @@ pub trait FromToml: Sized {
 
     /// Returns the value of a missing key, or of a missing element if the table is written as a list. `None` if there
     /// must be one.
-    #[must_use]
     fn missing(_in_list: bool) -> Option<Self> {
         None
     }
@@ -195,7 +194,6 @@ pub struct Fields<'a> {
 
 impl<'a> Fields<'a> {
     /// Creates the fields of a table with these keys.
-    #[must_use]
     pub fn new(value: &'a TomlValue<'a>, name: &'static str, keys: &'static [&'static str]) -> Self {
         Self { value, name, keys }
     }
@@ -241,7 +239,6 @@ impl<'a> Fields<'a> {
 }
 
 /// Returns the key of a field: its name without the `r#` of a word that Rust reserves.
-#[must_use]
 pub const fn key_of(field: &'static str) -> &'static str {
     match field.as_bytes() {
         [b'r', b'#', ..] => field.split_at(2).1,

@@ -35,7 +35,6 @@ impl Bound {
 
 /// Returns bounds for `path`; see [`least_length`], and [`inner_regions`] for gantries. Refines the lower bound until
 /// the gap is below `gap` (0.001 for a thousandth), or until the bound cannot be improved. Usually takes milliseconds.
-#[must_use]
 pub fn bound(problem: &MotionProblem, path: &Path, metric: Metric, gap: f64) -> Bound {
     let upper = metric.length(path);
     Bound { metric, lower: lower_bound(&motions(problem, metric), upper, gap, &[]), upper }

@@ -22,13 +22,11 @@ enum CellCountsForm {
 
 impl CellCounts {
     /// Returns the same count for both axes.
-    #[must_use]
     pub fn square(n: usize) -> Self {
         Self([n; 2])
     }
 
     /// Describes the first count that is out of range, in words. `None` if both are valid.
-    #[must_use]
     pub fn error(self) -> Option<String> {
         self.0.into_iter().find_map(|n| wrong_number("cells", n, &ALLOWED_CELLS))
     }

@@ -53,7 +53,6 @@ const MAX_WORK_PER_SEARCH: [usize; 2] = [4_000_000, 40_000_000];
 ///
 /// An unknown answer is not final: [`super::solve`] has other methods, and more boxes may decide it. In scenes of more
 /// than 4096 pairs, more boxes do not help, because slabs and boxes get about a second of work each.
-#[must_use]
 pub fn decide(problem: &MotionProblem, boxes: usize) -> Outcome<CertifiedPath, CheckedProof> {
     let pairs = |problem: &MotionProblem| problem.scene().pairs().len();
     if pairs(problem) <= MANY_PAIRS {

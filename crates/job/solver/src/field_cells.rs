@@ -3,8 +3,7 @@
 use super::admission::Ends;
 use super::rungs::zoned_cells;
 use super::{CellCounts, GridSpace};
-use cplan_fields::field_domain;
-use cplan_fields::{Cell, Domain, Limits};
+use cplan_fields::{Cell, Domain, Limits, field_domain};
 use cplan_model::MotionProblem;
 use cplan_planners::cspace::ZonedGrid;
 

@@ -26,7 +26,6 @@ impl GridSpace {
     pub const ALL: [Self; 4] = [Self::Rows, Self::Whole, Self::Centers, Self::Sampled];
 
     /// Returns the name on the command line.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Rows => "rows",
@@ -37,7 +36,6 @@ impl GridSpace {
     }
 
     /// Returns the number of attempts with cells of one size.
-    #[must_use]
     pub fn levels_per_size(self) -> usize {
         match self {
             Self::Rows => 2,
@@ -46,7 +44,6 @@ impl GridSpace {
     }
 
     /// Returns the name that results report. `None` for the default.
-    #[must_use]
     pub fn reported_name(self) -> Option<&'static str> {
         (self != Self::Rows).then(|| self.name())
     }

@@ -32,7 +32,6 @@ const LAST_LEVEL_FOR_GAP: usize = 2;
 /// Answers `problem` with the options' planner. Failed attempts are reported to `progress`.
 ///
 /// The search omits obstacles out of the arm's reach. Paths are certified among all obstacles.
-#[must_use]
 pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
     let scene = problem.scene();
     let Some(near) = scene.within_reach() else { return answered(problem, options, progress) };

@@ -21,7 +21,6 @@ pub struct Planner {
 
 impl Planner {
     /// Returns the planner of that name with its defaults.
-    #[must_use]
     pub fn named(method: Method) -> Self {
         Self { method, settings: (method.descriptor().defaults)() }
     }

@@ -52,7 +52,6 @@ impl Family {
     pub const ALL: [Family; 3] = [Family::Roadmap, Family::Field, Family::Exact];
 
     /// Returns the name of the family's planners, in the plural.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Family::Roadmap => "roadmaps",
@@ -64,32 +63,27 @@ impl Family {
 
 impl Method {
     /// Returns the planner's name on the command line.
-    #[must_use]
     pub fn name(self) -> &'static str {
         self.descriptor().name
     }
 
     /// Returns true if the planner reads a setting.
-    #[must_use]
     pub fn reads(self, setting: Setting) -> bool {
         self.descriptor().settings.contains(&setting)
     }
 
     /// Returns the kind of path that the planner gives by default.
-    #[must_use]
     pub fn path_kind(self) -> PathKind {
         (self.descriptor().defaults)().path
     }
 
     /// Returns true if the planner has a path of its own in addition to the taut one.
-    #[must_use]
     pub fn has_own_path(self) -> bool {
         self.descriptor().paths.contains(&PathKind::Own)
     }
 
     /// Returns true if the planner minimises the length in some metric, and bounds its path's distance from the
     /// optimum.
-    #[must_use]
     pub fn optimizes(self) -> bool {
         self.reads(Gap)
     }
@@ -126,7 +120,6 @@ macro_rules! planners {
             pub const ALL: [Method; [$(Method::$method),+].len()] = [$(Method::$method),+];
 
             /// Returns the planner's description.
-            #[must_use]
             pub fn descriptor(self) -> &'static Descriptor {
                 match self {
                     $(Method::$method => const { &Descriptor { summary: $summary, $($field: $value),+ } }),+

@@ -7,8 +7,7 @@
 use super::admission::Ends;
 use super::ladder::FIRST_BOXES;
 use super::{Answer, BoundedPath, Options, Space, solve};
-use cplan_fields::{Device, Measure, RELATIVE_TOLERANCE, Stopping, relax_watched};
-use cplan_fields::{FieldChoice, field_domain};
+use cplan_fields::{Device, FieldChoice, Measure, RELATIVE_TOLERANCE, Stopping, field_domain, relax_watched};
 use cplan_model::space::{Configuration, Path};
 use cplan_model::{MotionProblem, Outcome};
 use cplan_planners::cspace::ZonedGrid;
@@ -107,7 +106,6 @@ const FRAME_CELLS: usize = 48;
 
 impl Replay {
     /// Computes the replay of an answer to a problem with these options.
-    #[must_use]
     pub fn new<F: AsRef<BoundedPath>>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Self {
         let mut phases = Phases(Vec::new());
         phases.of_trace(problem, options, answer);

@@ -42,7 +42,6 @@ pub enum Criterion {
 
 impl Criterion {
     /// Returns the metric for an arm.
-    #[must_use]
     pub fn metric(self, arm: &Arm) -> Metric {
         match self {
             Criterion::Euclidean => Metric::Euclidean,
@@ -76,7 +75,6 @@ macro_rules! settings {
 
         impl Setting {
             /// Returns the setting's key in JSON.
-            #[must_use]
             pub fn key(self) -> &'static str {
                 match self {
                     $(Self::$setting => $key),+

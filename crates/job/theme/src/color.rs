@@ -9,26 +9,22 @@ pub struct Rgb(pub u8, pub u8, pub u8);
 
 impl Rgb {
     /// Returns this colour with `part` (0 to 1) of it replaced by another colour.
-    #[must_use]
     pub fn mixed(self, other: Rgb, part: f64) -> Rgb {
         let mix = |a: u8, b: u8| (f64::from(a) + (f64::from(b) - f64::from(a)) * part).round() as u8;
         Rgb(mix(self.0, other.0), mix(self.1, other.1), mix(self.2, other.2))
     }
 
     /// Returns this colour mixed with `part` (0 to 1) of white.
-    #[must_use]
     pub fn lighter(self, part: f64) -> Rgb {
         self.mixed(WHITE, part)
     }
 
     /// Returns this colour mixed with `part` (0 to 1) of black.
-    #[must_use]
     pub fn darker(self, part: f64) -> Rgb {
         self.mixed(Rgb(0, 0, 0), part)
     }
 
     /// Returns the colour of the same hue and saturation (HSL) whose lightness is one minus that of this colour.
-    #[must_use]
     pub fn with_reversed_lightness(self) -> Rgb {
         let Rgb(r, g, b) = self;
         // The lightness is half the sum of the least and the greatest channel; adding a constant to all channels keeps
@@ -85,7 +81,6 @@ const OBSTACLE_COLORS: [Rgb; 9] = [
 
 /// Returns the colour of the obstacle with this index. There are nine hues. After nine obstacles the hues repeat,
 /// alternately paler and deeper, so that the first 63 obstacles have different colours.
-#[must_use]
 pub fn obstacle(index: usize) -> Rgb {
     let hue = OBSTACLE_COLORS[index % OBSTACLE_COLORS.len()];
     match index / OBSTACLE_COLORS.len() % 7 {
@@ -112,7 +107,6 @@ pub const PATH_COLORS: [(Rgb, Rgb); 6] = [
 /// Returns the colour and the dashes of path `index` of a comparison: the strong half of Okabe and Ito's scheme (2008).
 /// Dashes distinguish paths that lie on top of each other. When the colours repeat, the dashes change, so that the
 /// first 36 paths differ.
-#[must_use]
 pub fn path(index: usize) -> (Rgb, &'static [f64]) {
     const PATH_DASHES: [&[f64]; 6] = [&[], &[9.0, 4.0], &[3.0, 3.0], &[10.0, 3.0, 2.0, 3.0], &[5.0, 5.0], &[14.0, 4.0]];
     (PATH_COLORS[index % PATH_COLORS.len()].0, PATH_DASHES[(index + index / PATH_COLORS.len()) % PATH_DASHES.len()])
@@ -132,7 +126,6 @@ pub const SCALE_STOPS: [Rgb; 8] = [
 ];
 
 /// Returns the colour for `value` from 0 (light) to 1 (dark) on a perceptually uniform scale.
-#[must_use]
 pub fn scale(value: f64) -> Rgb {
     let at = value.clamp(0.0, 1.0) * (SCALE_STOPS.len() - 1) as f64;
     let below = (at as usize).min(SCALE_STOPS.len() - 2);

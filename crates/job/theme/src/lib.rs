@@ -34,7 +34,6 @@ const SIZES: &str = include_str!("tokens.css");
 
 /// Returns the style sheet that all pages begin with: the variables of `tokens.css`, and one variable `--NAME` for each
 /// role, `--path-0` to `--path-5`, and one for each colour of planners, light or dark as the reader's system asks.
-#[must_use]
 pub fn css() -> String {
     let variables = |is_dark: bool| -> String {
         let roles = ROLES.iter().map(|role| (role.name.to_owned(), role.light, role.dark));

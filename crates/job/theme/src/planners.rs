@@ -18,7 +18,6 @@ impl PlannerFamily {
     pub const ALL: [PlannerFamily; 3] = [PlannerFamily::Roadmap, PlannerFamily::Field, PlannerFamily::Exact];
 
     /// Returns the word with which the names of this family's variables in style sheets begin.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             PlannerFamily::Roadmap => "roadmap",
@@ -76,25 +75,21 @@ pub struct PlannerPen {
 impl PlannerPen {
     /// Returns the pen of the planner with this index within its family. When the shades repeat, the dashes change, so
     /// that the first 25 planners of a family differ.
-    #[must_use]
     pub fn new(family: PlannerFamily, index: usize) -> Self {
         Self { family, shade: index % SHADE_COUNT, dash: DASHES[(index + index / SHADE_COUNT) % DASHES.len()] }
     }
 
     /// Returns the colour on a light background.
-    #[must_use]
     pub fn light(self) -> Rgb {
         self.family.shades()[self.shade].0
     }
 
     /// Returns the colour on a dark background.
-    #[must_use]
     pub fn dark(self) -> Rgb {
         self.family.shades()[self.shade].1
     }
 
     /// Returns the name of the colour in style sheets: `roadmap-0`.
-    #[must_use]
     pub fn name(self) -> String {
         format!("{}-{}", self.family.name(), self.shade)
     }

@@ -89,21 +89,18 @@ pub const ROLES: [Role; 23] = [
 
 /// Returns the name of the role or planner that has this colour on a light background, which is also the name of a
 /// variable in style sheets. `None` for other colours.
-#[must_use]
 pub fn variable(color: Rgb) -> Option<String> {
     let role = ROLES.iter().find(|role| role.light == color).map(|role| role.name.to_owned());
     role.or_else(|| PlannerPen::all().find(|pen| pen.light() == color).map(PlannerPen::name))
 }
 
 /// Returns the name of the role or planner that has this colour on a light background, and `#rrggbb` for any other colour.
-#[must_use]
 pub fn role_or_hex(color: Rgb) -> String {
     variable(color).unwrap_or_else(|| color.to_string())
 }
 
 /// Returns the colour for a dark background that corresponds to a colour for a light one: the other colour of its
 /// role, planner or path, or a colour of the same hue with the lightness reversed.
-#[must_use]
 pub fn on_dark(color: Rgb) -> Rgb {
     let role = ROLES.iter().find(|role| role.light == color).map(|role| role.dark);
     let planner = || PlannerPen::all().find(|pen| pen.light() == color).map(PlannerPen::dark);

@@ -16,7 +16,6 @@ pub struct Error {
 
 impl Error {
     /// Creates an error about a place of the file, or about the whole file.
-    #[must_use]
     pub fn new(
         line: impl Into<Option<usize>>,
         column: impl Into<Option<usize>>,

@@ -13,7 +13,6 @@ pub struct Headings {
 }
 
 /// Returns an angle plus the whole turns that bring it nearest to zero, radians.
-#[must_use]
 pub fn wrapped(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }

@@ -67,7 +67,6 @@ pub enum Format {
 
 impl Format {
     /// Returns the format for a file extension: `.gcode`, `.nc`, `.ngc` or `.tap`; `.svg`.
-    #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "gcode" | "nc" | "ngc" | "tap" => Some(Self::GCode),

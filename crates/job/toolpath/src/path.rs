@@ -1,8 +1,7 @@
 //! A line in pieces.
 
 use crate::curve::{minus, norm};
-use crate::cusps;
-use crate::{Curve, Error, Placement, Point};
+use crate::{Curve, Error, Placement, Point, cusps};
 use serde::{Deserialize, Serialize};
 
 /// Greatest number of pieces of a line. A line with more is refused.
@@ -25,7 +24,6 @@ pub struct Source {
 
 impl Source {
     /// Returns the place of a whole line.
-    #[must_use]
     pub fn of_line(line: usize) -> Self {
         Self { line, column: None }
     }

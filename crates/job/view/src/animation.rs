@@ -1,9 +1,8 @@
 //! The animation of a view: first how the planner found its answer, then the motion of the arm.
 
 use super::figure::Figure;
-use super::legend;
-use super::page;
 use super::view::View;
+use super::{legend, page};
 
 /// Time between two pictures, in hundredths of a second: nearly 17 pictures per second.
 pub const FRAME_DELAY: u16 = 6;
@@ -35,7 +34,6 @@ enum MomentKind {
 }
 
 /// Returns the moments of a view, in order. The last one shows the complete view.
-#[must_use]
 pub fn moments(view: &View) -> Vec<Moment> {
     let mut moments = Vec::new();
     let frames = |seconds: f64| (seconds * 100.0 / f64::from(FRAME_DELAY)).round().max(1.0) as usize;
@@ -55,7 +53,6 @@ pub fn moments(view: &View) -> Vec<Moment> {
 }
 
 /// Draws the picture of a moment.
-#[must_use]
 pub fn figure(view: &View, moment: Moment) -> Figure {
     let shown = match moment.kind {
         MomentKind::Thinking(phase, part) => &view.at_replay_moment(phase, part),

@@ -63,7 +63,6 @@ pub fn placed_shapes(arm: &Arm, payload: Option<&PayloadView>, q: Configuration)
 }
 
 /// Draws the arm at `q`: first its outline, then the payload over it in the colour of the object.
-#[must_use]
 pub fn items(frame: &Frame, arm: &Arm, payload: Option<&PayloadView>, q: Configuration, look: &ArmStyle) -> Vec<Item> {
     let body = Style::line(look.line, 2.0 * look.width).filled(look.fill).faded(look.opacity);
     let links = arm.links.iter().zip(arm.poses(q));

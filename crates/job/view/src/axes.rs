@@ -44,7 +44,6 @@ fn sound((lower, upper): Range) -> Range {
 impl Frame {
     /// Returns the largest frame in `area` that shows exactly these ranges. With `equal_scale`, both axes have the same
     /// scale, and the frame is centred horizontally at the top of the area.
-    #[must_use]
     pub fn fitted(area: Rect, x: Range, y: Range, equal_scale: bool) -> Self {
         let (x, y) = (sound(x), sound(y));
         let mut rect = area;
@@ -58,7 +57,6 @@ impl Frame {
     }
 
     /// Returns the frame that fills `area` with the same scale along both axes, and shows at least these ranges.
-    #[must_use]
     pub fn filling(area: Rect, x: Range, y: Range) -> Self {
         let (x, y) = (sound(x), sound(y));
         let scale = (area.width / (x.1 - x.0)).min(area.height / (y.1 - y.0));

@@ -36,7 +36,6 @@ fn pair<S: Serializer>(at: &Option<(Configuration, Point)>, serializer: S) -> Re
 }
 
 /// Draws the outlines of the blocking obstacles, the arm where it gets stuck, and the place.
-#[must_use]
 pub fn in_workspace(stuck: &BlockingView, of: &Arm, world: &WorldView, frame: &Frame) -> Vec<Item> {
     let blockers = stuck.blockers.iter().filter_map(|&number| world.obstacles.get(number));
     let mut items: Vec<Item> = blockers.map(|obstacle| shapes::marked(frame, obstacle, pen())).collect();
@@ -48,13 +47,11 @@ pub fn in_workspace(stuck: &BlockingView, of: &Arm, world: &WorldView, frame: &F
 }
 
 /// Draws the configuration where the arm gets stuck.
-#[must_use]
 pub fn in_cspace(stuck: &BlockingView, chart: &Chart) -> Vec<Item> {
     stuck.at.iter().flat_map(|(at, _)| cross(chart.place(*at))).collect()
 }
 
 /// Returns the legend of the marks.
-#[must_use]
 pub fn keys(stuck: &BlockingView) -> Vec<Key> {
     let blocking = (!stuck.blockers.is_empty()).then(|| (Sign::Dashed(INFEASIBLE), "in the way".to_owned()));
     let place = stuck.at.map(|_| {

@@ -20,7 +20,6 @@ fn surface(boxes: &Chain, frame: &Frame, style: Style) -> Item {
 }
 
 /// Draws free and undecided boxes as surfaces.
-#[must_use]
 pub fn surfaces(free: &Chain, mixed: [&Chain; 2], frame: &Frame) -> Vec<Item> {
     let [mixed, rest] = mixed;
     let all = [(free, FREE), (mixed, UNDECIDED), (rest, UNDECIDED)];
@@ -28,7 +27,6 @@ pub fn surfaces(free: &Chain, mixed: [&Chain; 2], frame: &Frame) -> Vec<Item> {
 }
 
 /// Draws the sides of boxes.
-#[must_use]
 pub fn sides(boxes: &Chain, frame: &Frame) -> Item {
     let rects = boxes
         .pairs()
@@ -38,7 +36,6 @@ pub fn sides(boxes: &Chain, frame: &Frame) -> Item {
 }
 
 /// Returns the legend of a subdivision.
-#[must_use]
 pub fn keys() -> Vec<Key> {
     vec![(Sign::Swatch(FREE), "free boxes".to_owned()), (Sign::Swatch(UNDECIDED), "undecided boxes".to_owned())]
 }
@@ -47,7 +44,6 @@ pub fn keys() -> Vec<Key> {
 const HATCH_DISTANCE: f64 = 7.0;
 
 /// Draws the boxes of a proof over the C-obstacles. No other boxes are hatched.
-#[must_use]
 pub fn proof(boxes: &Chain, frame: &Frame) -> Vec<Item> {
     hatched(&boxes.pairs().map(|b| rect(b, frame)).collect::<Vec<_>>())
 }
@@ -79,7 +75,6 @@ fn hatch(rect: Rect) -> Vec<Step> {
 }
 
 /// Returns the legend of a proof.
-#[must_use]
 pub fn proof_key() -> Key {
     (Sign::Hatched, "proof: separating boxes".to_owned())
 }

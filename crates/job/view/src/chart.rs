@@ -29,7 +29,6 @@ pub struct Chart {
 
 impl Chart {
     /// Creates the chart in this part of the page.
-    #[must_use]
     pub fn new(arm: &Arm, area: Rect) -> Self {
         let topology = arm.topology();
         let ranges = topology.ranges.map(|axis| axis.domain());
@@ -92,7 +91,6 @@ fn units(arm: &Arm) -> [Unit; 2] {
 
 /// Returns the ratio of height to width of the chart of the whole joint space, if both axes have the same scale. `None`
 /// if they should not have the same scale.
-#[must_use]
 pub fn one_scale(arm: &Arm) -> Option<f64> {
     let [width, height] = arm.topology().ranges.map(|axis| axis.extent());
     let [first, second] = units(arm);
@@ -101,7 +99,6 @@ pub fn one_scale(arm: &Arm) -> Option<f64> {
 }
 
 /// Returns the titles of the axes.
-#[must_use]
 pub fn titles(arm: &Arm) -> [String; 2] {
     [0, 1].map(|k| title(&arm.joints[k]))
 }

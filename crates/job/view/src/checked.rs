@@ -76,7 +76,6 @@ impl From<&ConfigurationFindings> for CheckedView {
 
 impl CheckedView {
     /// Returns the view of these findings about a scene, with key figures and the shortest line to the obstacles.
-    #[must_use]
     pub fn new(scene: &Scene, findings: &ConfigurationFindings) -> Self {
         let q = findings.configuration.into();
         // Shapes of a level attachment are not its own, but derived ones.
@@ -139,7 +138,6 @@ fn crossing([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
 }
 
 /// Draws the arm in red if it is not free, the nearest free configuration as a ghost, and the contacts.
-#[must_use]
 pub fn in_workspace(checked: &CheckedView, of: &Arm, world: &WorldView, frame: &Frame) -> Vec<Item> {
     let payload = world.payload.as_ref();
     let mut items = Vec::new();
@@ -163,14 +161,12 @@ pub fn contact_marker(at: [f64; 2]) -> Item {
 }
 
 /// Draws the nearest free configuration.
-#[must_use]
 pub fn in_cspace(checked: &CheckedView, chart: &Chart) -> Option<Item> {
     let style = Style::line(GRAY, 2.0).filled(WHITE);
     checked.nearest_free.map(|q| Item::Disc(chart.place(q.into()), 5.0, style))
 }
 
 /// Returns the legend of the marks.
-#[must_use]
 pub fn keys(checked: &CheckedView) -> Vec<Key> {
     let line = |color, text: &str| (Sign::Line(Pen { color, width: 2.0, dash: &[] }), text.to_owned());
     let blocked = checked.is_blocked.then(|| line(INFEASIBLE, "the arm, not free"));

@@ -45,7 +45,6 @@ pub struct SmallPicture {
 /// Draws a comparison. `id` distinguishes the names within its drawings from those of other drawings in the page. The paths
 /// with the indices `top` lie above the others. `None`
 /// if the view has no configuration space.
-#[must_use]
 pub fn compared(view: &View, id: &str, top: &[usize]) -> Option<ComparedPaths> {
     let mut view = view.clone();
     view.still.lights_paths = true;

@@ -19,7 +19,6 @@ const SMALL_MARKER: f64 = 0.7;
 const MARKER_HALF_WIDTH: f64 = 10.0;
 
 /// Draws the panel in this part of the page, with room for a scale of colours to the right of it.
-#[must_use]
 pub fn panel(view: &View, panel: &PanelView, area: Rect) -> Vec<Item> {
     let chart = Chart::new(&view.arm, area);
     let mut items = self::items(view, panel, &chart);
@@ -29,7 +28,6 @@ pub fn panel(view: &View, panel: &PanelView, area: Rect) -> Vec<Item> {
 }
 
 /// Draws everything except values and titles of the axes.
-#[must_use]
 pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let frame = &chart.frame;
     let worlds: Vec<&WorldView> = panel.worlds.iter().map(|&index| &view.worlds[index]).collect();
@@ -77,7 +75,6 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
 
 /// Draws the C-obstacles. If link 2 may reach into an obstacle in one of the worlds, some part of its C-obstacle is
 /// free there. That part is dashed.
-#[must_use]
 pub fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     let (mut dashed, mut solid) = (Vec::new(), Vec::new());
     for (number, obstacle) in worlds[0].obstacles.iter().enumerate() {
@@ -180,7 +177,6 @@ fn marker_size(panel: &PanelView) -> f64 {
 }
 
 /// Draws the start of a motion: a ring, which leaves room for the arm's current configuration.
-#[must_use]
 pub fn start_marker(at: [f64; 2]) -> Vec<Item> {
     start_marker_of_size(at, 1.0)
 }
@@ -191,7 +187,6 @@ fn start_marker_of_size(at: [f64; 2], size: f64) -> Vec<Item> {
 }
 
 /// Draws the goal of a motion: a diamond, hollow if no path ended there.
-#[must_use]
 pub fn goal_marker(at: [f64; 2], reached: bool) -> Vec<Item> {
     goal_marker_of_size(at, reached, 1.0)
 }

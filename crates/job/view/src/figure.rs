@@ -67,13 +67,11 @@ pub struct Style {
 
 impl Style {
     /// Returns the style of an opaque line.
-    #[must_use]
     pub fn line(color: Rgb, width: f64) -> Self {
         Self { fill: None, pen: Some(Pen { color, width, dash: &[] }), pen_below: false, opacity: 1.0 }
     }
 
     /// Returns the style of an opaque surface without outline.
-    #[must_use]
     pub fn fill(color: Rgb) -> Self {
         Self { fill: Some(color), pen: None, pen_below: false, opacity: 1.0 }
     }
@@ -193,7 +191,6 @@ impl Figure {
 
 /// Returns the outline of an open (or closed) chain of places. Skips a place that is nearer than a quarter of a pixel
 /// to the one before. Nobody could see the difference, and files stay small.
-#[must_use]
 pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Step> {
     const MIN_VISIBLE_SIZE: f64 = 0.25;
     let mut steps = Vec::new();
@@ -222,7 +219,6 @@ pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Ste
 
 /// Draws lines that are visible on any ground, because each lies on a broader pale line. All pale lines are drawn
 /// first. So no pale line hides a line that shows in the gaps of another line's dashes.
-#[must_use]
 pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
     let (mut halos, mut lines) = (Vec::new(), Vec::new());
     for (steps, pen) in outlines {
@@ -235,7 +231,6 @@ pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> 
 
 /// Draws the same as [`lines`], in groups by path. The paths with the indices `top` lie above the
 /// others, the first of them topmost. Each path also has a broad invisible line, which is easy to point at.
-#[must_use]
 pub fn lines_by_path(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>, top: &[usize]) -> Vec<Item> {
     const POINTER_WIDTH: f64 = 14.0;
     let (mut halos, mut drawn) = (Vec::new(), Vec::new());
@@ -251,19 +246,16 @@ pub fn lines_by_path(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>, top: 
 }
 
 /// Returns a text that reads to the right.
-#[must_use]
 pub fn label(at: [f64; 2], text: impl Into<String>, size: f64, anchor: Anchor, color: Rgb) -> Item {
     Item::Text(Label { at, text: text.into(), size, anchor, upwards: false, color, has_halo: false, is_bold: false })
 }
 
 /// Returns a bold text that reads to the right.
-#[must_use]
 pub fn bold(at: [f64; 2], text: impl Into<String>, size: f64, anchor: Anchor, color: Rgb) -> Item {
     Item::Text(Label { at, text: text.into(), size, anchor, upwards: false, color, has_halo: false, is_bold: true })
 }
 
 /// Creates a text that reads upwards, centred at its place.
-#[must_use]
 pub fn upwards(at: [f64; 2], text: impl Into<String>, size: f64, color: Rgb) -> Item {
     Item::Text(Label {
         at,
@@ -278,7 +270,6 @@ pub fn upwards(at: [f64; 2], text: impl Into<String>, size: f64, color: Rgb) -> 
 }
 
 /// Returns the outline of a rectangle.
-#[must_use]
 pub fn rectangle(rect: Rect) -> Vec<Step> {
     vec![
         Step::Move([rect.x, rect.y]),
@@ -291,13 +282,11 @@ pub fn rectangle(rect: Rect) -> Vec<Step> {
 
 /// Returns the width of a text in pixels in the built-in font, for a height of the font in pixels. The width of letters
 /// that are not Latin is an estimate.
-#[must_use]
 pub fn text_width(text: &str, size: f64) -> f64 {
     width(text, size, false)
 }
 
 /// Does the same as [`text_width`] for bold letters.
-#[must_use]
 pub fn bold_text_width(text: &str, size: f64) -> f64 {
     width(text, size, true)
 }
@@ -313,7 +302,6 @@ fn width(text: &str, size: f64, is_bold: bool) -> f64 {
 }
 
 /// Returns the text, or its beginning and an ellipsis if it is wider than `width` pixels.
-#[must_use]
 pub fn shortened(text: &str, size: f64, width: f64) -> String {
     if text_width(text, size) <= width {
         return text.to_owned();

@@ -14,7 +14,6 @@ const PERPENDICULAR_SHARE: f64 = 0.1;
 const AXIS_LETTERS: [&str; 3] = ["x", "y", "z"];
 
 /// Draws the axes of the frames, with the letters of the axes and the names of the frames.
-#[must_use]
 pub fn items(panel: &Frame, frames: &[FrameView]) -> Vec<Item> {
     frames.iter().flat_map(|frame| frame_items(panel, frame)).collect()
 }

@@ -27,7 +27,6 @@ pub struct Grid {
 
 impl Grid {
     /// Creates the grid, with the number of columns with which the panels are best legible in this width.
-    #[must_use]
     pub fn new(count: usize, arm: &Arm, width: f64) -> Self {
         let proportion = chart::one_scale(arm).unwrap_or(PANEL_PROPORTION).clamp(0.5, 1.2);
         let room = |columns: usize| (width - PANEL_GAPS[0] * (columns - 1) as f64) / columns as f64;

@@ -64,7 +64,6 @@ pub type Layered = (Key, &'static [&'static str]);
 
 impl KeyView {
     /// Converts an entry of the legend to the form that pages read.
-    #[must_use]
     pub fn new(((sign, text), layers): Layered, think: bool) -> Self {
         let name = match sign {
             Sign::Start => "start",

@@ -68,7 +68,6 @@ pub struct Placer {
 
 impl Placer {
     /// Creates the placer of a panel that fills `page`.
-    #[must_use]
     pub fn new(page: Rect) -> Self {
         Self { page, boxes: Vec::new(), names: Vec::new(), shapes: Vec::new(), points: Vec::new(), items: Vec::new() }
     }
@@ -168,7 +167,6 @@ impl Placer {
     }
 
     /// Returns the names as items: first the lines to distant shapes, then the names.
-    #[must_use]
     pub fn into_items(self) -> Vec<Item> {
         let (lines, texts): (Vec<Item>, Vec<Item>) =
             self.items.into_iter().partition(|item| !matches!(item, Item::Text(_)));

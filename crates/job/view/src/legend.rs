@@ -15,13 +15,11 @@ const SIGN_WIDTH: f64 = 26.0;
 const KEY_GAP: f64 = 26.0;
 
 /// Returns all signs of a picture with their meaning.
-#[must_use]
 pub fn keys(view: &View) -> Vec<Key> {
     layered_keys(view, true).into_iter().map(|(key, _)| key).collect()
 }
 
 /// Returns the legend of a page. A page shows one world at a time, and fewer items than a picture does.
-#[must_use]
 pub fn on_pages(view: &View) -> Vec<KeyView> {
     let mut keys: Vec<KeyView> = layered_keys(view, false).into_iter().map(|key| KeyView::new(key, false)).collect();
     for key in
@@ -96,7 +94,6 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
 }
 
 /// Returns the legend of the obstacles by their colours. It is empty if there are too many obstacles.
-#[must_use]
 pub fn obstacles<'a>(shown: impl Iterator<Item = &'a ObstacleView> + Clone) -> Vec<Key> {
     let count = shown.clone().count();
     shown.filter(|_| count <= MAX_NAMED_OBSTACLES).map(|o| (Sign::Swatch(o.color), o.name.clone())).collect()
@@ -122,7 +119,6 @@ fn width(key: &Key) -> f64 {
 }
 
 /// Breaks the keys into rows of this width.
-#[must_use]
 pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
     let mut rows: Vec<Vec<Key>> = vec![Vec::new()];
     let mut used = 0.0;
@@ -144,7 +140,6 @@ pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
 }
 
 /// Draws the rows, centred about `middle`, from `top` downwards.
-#[must_use]
 pub fn items(rows: &[Vec<Key>], middle: f64, top: f64) -> Vec<Item> {
     let mut items = Vec::new();
     for (i, row) in rows.iter().enumerate() {

@@ -79,7 +79,6 @@ const BOLD_SIGNS: [u16; 7] = [
 ];
 
 /// Returns the width of a letter as a fraction of the font's height. `None` if the letter is not listed here.
-#[must_use]
 pub fn letter_width(letter: char, is_bold: bool) -> Option<f64> {
     let (ascii, latin, signs) = match is_bold {
         false => (&REGULAR_ASCII, &REGULAR_LATIN, &REGULAR_SIGNS),

@@ -90,13 +90,11 @@ pub enum DrawError {
 }
 
 /// Returns the view as an SVG document, 1400 pixels wide and 720 high; pictures of tasks can be higher.
-#[must_use]
 pub fn svg(view: &View) -> String {
     svg_writer::write(&page::compose(view))
 }
 
 /// Returns the workspace alone as a small SVG document, whose texts are legible on a phone.
-#[must_use]
 pub fn workspace_svg(view: &View) -> String {
     svg_writer::write(&page::workspace_figure(view))
 }

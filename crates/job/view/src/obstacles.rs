@@ -16,7 +16,6 @@ const MARGIN_SHARE: f64 = 0.04;
 /// Draws obstacles as an SVG document, the largest first. Each has its name if there is room. Obstacles of the same
 /// group have the same colour; `groups` has the group of each. The first line of `title` is the title. The background is
 /// dark if `is_dark`.
-#[must_use]
 pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str], is_dark: bool) -> String {
     let mut known: Vec<&str> = Vec::new();
     let mut colors = Vec::with_capacity(obstacles.len());
@@ -65,13 +64,11 @@ fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
 }
 
 /// Returns least and greatest coordinates of obstacles.
-#[must_use]
 pub fn extent(obstacles: &[Obstacle]) -> [Range; 2] {
     bounding_box(obstacles.iter().flat_map(|obstacle| &obstacle.pieces))
 }
 
 /// Returns a page that shows an SVG document.
-#[must_use]
 pub fn still_page(title: &str, svg: &str) -> String {
     let title = markup(title);
     format!(

@@ -42,14 +42,12 @@ const MAX_PAYLOAD_STATES: usize = 24;
 const BOLD_SHARE: f64 = 1.1;
 
 /// Composes the whole page of a view.
-#[must_use]
 pub fn compose(view: &View) -> Figure {
     explained(view, legend::keys(view))
 }
 
 /// Composes the page with the given legend. All pictures of an animation have the same legend, so that nothing moves
 /// when the content changes.
-#[must_use]
 pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     let mut items = titles(&view.title, verdict(view), PAGE_WIDTH);
     let lines = 18.0 * view.title.len().max(1) as f64;
@@ -113,7 +111,6 @@ fn strips(view: &View, [left, right]: [f64; 2], top: f64, items: &mut Vec<Item>)
 }
 
 /// Composes a picture of the workspace alone.
-#[must_use]
 pub fn workspace_figure(view: &View) -> Figure {
     let [width, height] = WORKSPACE_SIZE;
     let area = Rect { x: 56.0, y: 8.0, width: width - 66.0, height: height - 8.0 - 50.0 };
@@ -122,7 +119,6 @@ pub fn workspace_figure(view: &View) -> Figure {
 
 /// Composes a page with a single panel and a legend below it. The panel's height is `aspect` times its width, unless
 /// the page has too little room.
-#[must_use]
 pub fn single_panel_page(
     title: &[String],
     keys: Vec<Key>,

@@ -33,7 +33,6 @@ pub struct PolygonPair<'a> {
 
 /// Draws two polygons, and beside them their difference with the origin, as an SVG document. The background is dark if
 /// `is_dark`.
-#[must_use]
 pub fn polygon_pair(pair: &PolygonPair, is_dark: bool) -> String {
     let [a, b, difference] = [0, 1, 2].map(obstacle);
     let keys: Vec<Key> = [(a, "A"), (b, "B"), (difference, "B \u{2212} A")]

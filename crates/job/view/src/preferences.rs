@@ -10,20 +10,17 @@ use cplan_theme::{AVOIDED, PREFERRED};
 const OUTLINE_DASH: &[f64] = &[7.0, 4.0];
 
 /// Draws the regions of the workspace.
-#[must_use]
 pub fn in_workspace(regions: &[RegionView], frame: &Frame) -> Vec<Item> {
     let corners = |region: &RegionView| chain(region.corners.0.iter().map(|p| frame.at(p[0], p[1])), true);
     regions.iter().filter(|region| !region.joints).map(|region| item(region, corners(region))).collect()
 }
 
 /// Draws the regions of the configuration space, with copies on axes that are circles.
-#[must_use]
 pub fn in_cspace(regions: &[RegionView], chart: &Chart) -> Vec<Item> {
     regions.iter().filter(|region| region.joints).map(|r| item(r, chart.polygon(&r.corners))).collect()
 }
 
 /// Returns the legend of the regions.
-#[must_use]
 pub fn keys(regions: &[RegionView]) -> Vec<Key> {
     let line = |color| Sign::Line(Pen { color, width: 1.4, dash: OUTLINE_DASH });
     let any = |positive: bool| regions.iter().any(|region| (region.epsilon > 0.0) == positive);

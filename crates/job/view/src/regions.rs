@@ -26,7 +26,6 @@ pub struct RegionRaster {
 
 impl RegionRaster {
     /// Creates the raster of regions, each given by its outline of straight lines. Later regions cover earlier ones.
-    #[must_use]
     pub fn new<'a>(page: Rect, regions: impl IntoIterator<Item = &'a [Step]>) -> Self {
         let [columns, rows] = [page.width, page.height].map(|side| (side / CELL).ceil().max(1.0) as usize);
         let mut raster = Self { page, columns, rows, cells: vec![NOTHING; columns * rows], full: Vec::new() };

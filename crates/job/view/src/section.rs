@@ -56,7 +56,6 @@ impl Section {
     ///
     /// # Panics
     /// If the data have keys that are no strings.
-    #[must_use]
     pub fn of_data(name: &'static str, data: &impl Serialize) -> Self {
         Self { name, data: serde_json::to_string(data).expect("the keys are strings"), ..Self::default() }
     }

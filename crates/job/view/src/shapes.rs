@@ -10,7 +10,6 @@ use cplan_model::Shape;
 pub const ABSENT_DASH: &[f64] = &[5.0, 3.0];
 
 /// Draws an obstacle at its pose.
-#[must_use]
 pub fn solid(frame: &Frame, obstacle: &ObstacleView) -> Item {
     let color = obstacle.color;
     let style = Style::line(color.darker(0.25), 1.2).filled(color.lighter(0.25));
@@ -18,14 +17,12 @@ pub fn solid(frame: &Frame, obstacle: &ObstacleView) -> Item {
 }
 
 /// Draws an object at its future pose.
-#[must_use]
 pub fn dashed(frame: &Frame, object: &ObstacleView) -> Item {
     let line = Style::line(object.color.darker(0.25), 1.6).dashed(ABSENT_DASH);
     item(frame, object, line.filled(object.color.lighter(0.85)).faded(0.9), line)
 }
 
 /// Draws the outline of an obstacle with this pen.
-#[must_use]
 pub fn marked(frame: &Frame, obstacle: &ObstacleView, pen: Style) -> Item {
     item(frame, obstacle, pen, pen)
 }
@@ -42,14 +39,12 @@ fn item(frame: &Frame, obstacle: &ObstacleView, surface: Style, wall: Style) -> 
 }
 
 /// Draws pieces as one surface.
-#[must_use]
 pub fn union(frame: &Frame, pieces: impl IntoIterator<Item = Convex>, style: Style) -> Item {
     let steps = pieces.into_iter().flat_map(|piece| outline(frame, &piece)).collect();
     Item::Outline(steps, Style { pen_below: true, ..style })
 }
 
 /// Returns the outline of a rounded convex polygon: its sides moved outwards, joined by arcs.
-#[must_use]
 pub fn outline(frame: &Frame, shape: &Convex) -> Vec<Step> {
     let (core, r) = (shape.core(), shape.radius());
     let pixels = r * frame.scale();

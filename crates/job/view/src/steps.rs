@@ -18,7 +18,6 @@ const NUMBER_WIDTH: f64 = 26.0;
 
 /// Draws a list of steps in the upper part of `area`: first the names of the columns, then a row for each step, with a
 /// line below each.
-#[must_use]
 pub fn items(head: &Row, rows: &[Row], area: Rect) -> Vec<Item> {
     let mut items = Vec::new();
     let has_file_numbers = rows.iter().any(|row| row.file_number.is_some());

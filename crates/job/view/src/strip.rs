@@ -42,7 +42,6 @@ fn visible(strip: &StripView, frame: &Frame, corners: &[Configuration]) -> Vec<S
 }
 
 /// Draws the strip into a part of the page, [`HEIGHT`] pixels high.
-#[must_use]
 pub fn items(strip: &StripView, view: &View, area: Rect) -> Vec<Item> {
     let rect = Rect { y: area.y + HEADING_HEIGHT, height: HEIGHT - HEADING_HEIGHT - AXIS_HEIGHT, ..area };
     let frame = Frame { rect, x: (0.0, strip.duration), y: (0.0, 1.0) };

@@ -19,7 +19,6 @@ const HALO_WIDTH: f64 = 3.5;
 
 /// Writes the figure as an SVG document without a size of its own: it fills the width that its reader gives it. Texts have
 /// the widths of the built-in font in any other font, too. The result is deterministic to the byte; coordinates have two decimals.
-#[must_use]
 pub fn write(figure: &Figure) -> String {
     let ground = Rectangle::new().set("width", number(figure.width)).set("height", number(figure.height));
     document(figure, Group::new().add(ground.set("fill", figure.shown(WHITE).to_string())))
@@ -36,7 +35,6 @@ pub struct PageDrawing {
 
 /// Writes the figure without a background, as an element of a page. Its colours are variables of the page's style sheet,
 /// so that it is light or dark as the page is. `id` distinguishes its names from those of other drawings in the page.
-#[must_use]
 pub fn write_for_page(figure: &Figure, id: &str) -> PageDrawing {
     let svg = document(figure, Group::new());
     let svg = svg.replace("<clipPath id=\"", &format!("<clipPath id=\"{id}-"));
@@ -45,7 +43,6 @@ pub fn write_for_page(figure: &Figure, id: &str) -> PageDrawing {
 }
 
 /// Writes items without a document around them. They must not be clipped.
-#[must_use]
 pub fn elements(items: &[Item]) -> String {
     let figure = Figure { width: 0.0, height: 0.0, items: Vec::new(), is_dark: false };
     let group = items.iter().fold(Group::new(), |group, item| add(group, item, &figure, &mut Vec::new()));
@@ -53,7 +50,6 @@ pub fn elements(items: &[Item]) -> String {
 }
 
 /// Replaces the colours in attributes by variables of the page's style sheet.
-#[must_use]
 pub fn with_variables(svg: &str) -> PageDrawing {
     let mut colors = Vec::new();
     let svg = cplan_theme::recolored(svg, |color| {
@@ -70,7 +66,6 @@ pub fn with_variables(svg: &str) -> PageDrawing {
 
 /// Writes the figure without a background.
 #[cfg(feature = "png")]
-#[must_use]
 pub fn layer(figure: &Figure) -> String {
     document(figure, Group::new())
 }
@@ -140,7 +135,6 @@ fn number(value: f64) -> String {
 }
 
 /// Returns the data of a path.
-#[must_use]
 pub fn commands(steps: &[Step]) -> String {
     let mut d = String::new();
     for step in steps {

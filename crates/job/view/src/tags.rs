@@ -25,7 +25,6 @@ pub fn add(tags: &mut Vec<Tag>, at: [f64; 2], number: usize) {
 }
 
 /// Returns the numbers as names for the placer. `half` is half the width of the markers at the places, in pixels.
-#[must_use]
 pub fn names(tags: &[Tag], half: f64) -> Vec<Named> {
     tags.iter().map(|tag| (ranges(&tag.numbers), centered_rect(tag.at, [2.0 * half; 2]))).collect()
 }

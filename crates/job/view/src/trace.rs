@@ -15,7 +15,6 @@ const WAVE_SHADES: usize = 32;
 const WHITE_SHARE: f64 = 0.22;
 
 /// Draws the surfaces, which lie under the C-obstacles.
-#[must_use]
 pub fn items_below_obstacles(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {
         TraceView::Channel { cells, channel, .. } => vec![channel::surface(cells, channel, chart)],
@@ -28,7 +27,6 @@ pub fn items_below_obstacles(trace: &TraceView, chart: &Chart) -> Vec<Item> {
 }
 
 /// Draws lines and numbers, which lie over the C-obstacles. For a field, `field_lines` selects the lines.
-#[must_use]
 pub fn items_above_obstacles(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<Item> {
     match trace {
         TraceView::Roadmap { edges: lines, .. } => vec![edges(lines, chart)],
@@ -53,7 +51,6 @@ pub fn items_above_obstacles(trace: &TraceView, field_lines: FieldLines, chart: 
 }
 
 /// Draws the centres of a channel's cells and the middles of its portals, which lie over the path.
-#[must_use]
 pub fn items_above_path(trace: &TraceView, chart: &Chart) -> Vec<Item> {
     match trace {
         TraceView::Channel { centers, middles, .. } => channel::points([centers, middles], chart),
@@ -79,7 +76,6 @@ fn places(expanded: &Chain, chart: &Chart) -> impl Iterator<Item = Item> {
 }
 
 /// Returns the legend of the trace. For a field, it explains the selected lines.
-#[must_use]
 pub fn keys(trace: &TraceView, field_lines: FieldLines) -> Vec<Key> {
     let line = |color| Sign::Line(Pen { color, width: 1.0, dash: &[] });
     match trace {
@@ -111,7 +107,6 @@ fn order(expanded: &Chain) -> Vec<Key> {
 }
 
 /// Draws the scale of colours, to the right of the frame.
-#[must_use]
 pub fn color_bar(scale: &ScaleView, frame: &Rect) -> Vec<Item> {
     let ScaleView { title, ends: [top, bottom], soft } = scale;
     let white = if *soft { WHITE_SHARE } else { 0.0 };

@@ -17,7 +17,6 @@ const STEP_END_RADIUS: f64 = 3.6;
 const MARKER_HALF_WIDTH: f64 = 8.0;
 
 /// Draws the panel, which fills this part of the page.
-#[must_use]
 pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     let View { arm, still, .. } = view;
     let focus = still.line.as_ref().and_then(|line| line.focus);
@@ -208,7 +207,6 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
 }
 
 /// Returns the path of the tip. Straight motions in joint space are curves here, so they are drawn in small steps.
-#[must_use]
 pub fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
     /// Step in radians. With it, a chord deviates from its arc by at most 2e-5 of the reach, which is a hundredth of a
     /// pixel.

@@ -276,7 +276,6 @@ fn placed_arm(arm: &Arm, world: &World) -> Arm {
 /// Examines a robot and collects all defects. Without a world file, no joints are chosen, held or overridden. Decisions
 /// that a world file would have to make are then among the diagnostics, and [`Inspection::help`] has entries that make
 /// them.
-#[must_use]
 pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection {
     let mut unread = None;
     let file = match world.map(|path| Source::read(path).and_then(world::read)) {

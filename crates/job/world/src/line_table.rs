@@ -177,7 +177,6 @@ fn read_file(reader: &Reader, file: &Spanned<String>, placement: &Placement) -> 
 }
 
 /// Returns the diagnostic for a defect of a line's file, with its name and the place in it.
-#[must_use]
 pub fn line_diagnostic(file: String, error: Error) -> Diagnostic {
     let position = error.line.map(|line| Position { line, column: error.column.unwrap_or(1) });
     Diagnostic { position, ..Diagnostic::new(file, error.message).help(error.hint) }

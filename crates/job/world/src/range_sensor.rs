@@ -48,7 +48,6 @@ impl Sensor {
     /// Returns the default sensor of an arm. It is at the tip, without errors, with a range of half the arm's reach,
     /// and with a reading every tenth of a radian or metre. Its 360 rays point in all directions, because the arm
     /// mostly moves towards places beside the tip, not ahead of it.
-    #[must_use]
     pub fn default_for(arm: &Arm) -> Self {
         let cell = arm.reach() / Self::DEFAULT_CELLS;
         let range = arm.reach() / 2.0;

@@ -204,7 +204,6 @@ fn nearer(
 /// - that bounds and gaps agree with lengths.
 ///
 /// It does not check that lower bounds are valid.
-#[must_use]
 pub fn false_claims<'a>(
     scene: impl Into<TimedScene<'a>>,
     recording: &Recording,

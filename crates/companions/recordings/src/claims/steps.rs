@@ -9,7 +9,6 @@ use cplan_motion::recorded::turn_resolution;
 use cplan_text::length_unlike;
 
 /// Returns the false claims of a result about the step with this `index`, given its replay.
-#[must_use]
 pub fn false_step_claims(
     task: &Task,
     recording: &Recording,
@@ -56,7 +55,6 @@ pub fn false_step_claims(
 
 /// Returns the false claims of a result about the whole task: times and places of gripper events, the steps of the
 /// samples, and general claims. `happened` lists the actual events.
-#[must_use]
 pub fn false_task_claims(
     task: &Task,
     recording: &Recording,

@@ -29,7 +29,6 @@ pub enum Judgement {
 
 impl Judgement {
     /// Returns the word for the verdict in JSON.
-    #[must_use]
     pub fn word(self) -> &'static str {
         match self {
             Judgement::Free => "free",

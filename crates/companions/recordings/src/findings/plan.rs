@@ -28,7 +28,6 @@ pub struct FarthestFinding {
 
 impl PlanFinding {
     /// Compares a recorded motion with a plan.
-    #[must_use]
     pub fn new(arm: &Arm, recording: &Recording, plan: &Recording) -> Self {
         let is_timed = recording.times().is_some();
         let finding = |place: FarthestPlace| FarthestFinding {

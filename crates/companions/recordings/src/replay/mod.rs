@@ -133,7 +133,6 @@ pub struct Replay<'a> {
 ///   lowered there, except in overlaps, and the wrist turns from one value to the other within its limits.
 ///
 /// Takes `O(n)` for `n` samples, plus the checks of motions.
-#[must_use]
 pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
     let (matched, departure) = match_steps(task, recording, recorded);
     Replay { task, recording, recorded, matched, departure, next: 0, state: State::initial(task), before: (None, None) }

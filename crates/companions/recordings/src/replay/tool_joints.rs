@@ -61,7 +61,6 @@ fn range([least, greatest]: [f64; 2]) -> String {
 
 /// Returns the joints whose recorded values differ from those of the steps, each with the first such time. `recording` is the
 /// motion of the arm, and `tools` describes the recorded steps.
-#[must_use]
 pub fn misplaced_joints(
     task: &Task,
     robot: &RobotJoints,

@@ -73,7 +73,6 @@ pub struct Boundary {
 
 impl Boundary {
     /// Builds the boundary of contours that have the inside to their left. `O(n log n)` for `n` corners.
-    #[must_use]
     pub fn new(contours: &[&[Point]]) -> Self {
         noding::planar(Self::unordered(contours))
     }

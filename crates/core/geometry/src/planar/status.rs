@@ -30,7 +30,6 @@ const SINGLE_NODE: Node = Node { parent: NO_ENTRY, children: [NO_ENTRY; 2], prev
 
 impl Status {
     /// Creates an empty sequence for up to `count` sides.
-    #[must_use]
     pub fn new(count: usize) -> Self {
         Self { root: NO_ENTRY, first: NO_ENTRY, nodes: vec![SINGLE_NODE; count] }
     }

@@ -19,7 +19,6 @@ pub struct HalfEdges {
 /// sides is triangulated up to a chain of vertices. The chain runs from the left end of the floor to that of the
 /// ceiling, and no triangle can be cut off it. Each vertex is joined to as much of the chain as it sees. This takes
 /// `O(n)` after the sweep that made the boundary.
-#[must_use]
 pub fn triangulate(boundary: &Boundary) -> HalfEdges {
     let mut sweep = Sweep {
         vertices: &boundary.vertices,

@@ -97,8 +97,7 @@ fn critical_angles(placement: &Placement<'_>) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Features;
-    use crate::{Convex, Point};
+    use crate::{Convex, Features, Point};
 
     fn regular(corners: u8, size: f64, radius: f64) -> Convex {
         let corner = |k: u8| {

@@ -74,7 +74,6 @@ pub struct Features {
 
 impl Features {
     /// Prepares a shape. `O(n)`.
-    #[must_use]
     pub fn new(shape: &Convex) -> Self {
         let core = shape.core();
         let n = core.len();

@@ -19,8 +19,7 @@ mod touching;
 
 use super::{Convex, Point, Pose, Vector, separation};
 use critical::critical_arcs;
-pub use features::Features;
-pub use features::product;
+pub use features::{Features, product};
 use std::f64::consts::{PI, TAU};
 use touching::Placement;
 

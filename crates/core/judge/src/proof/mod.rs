@@ -102,7 +102,6 @@ pub enum ProofError {
 
 impl Disconnection {
     /// Creates the claim that these boxes separate the start from all goals.
-    #[must_use]
     pub fn new(stuck: Vec<CollisionBox>) -> Self {
         Self { stuck }
     }

@@ -18,7 +18,6 @@ pub struct Portal {
 /// Consecutive portals must lie on the border of a common convex cell; `start` lies in the first cell and `goal` in
 /// the last. This is the *funnel* algorithm (Lee, Preparata 1984), with linear cost. Turns are decided exactly, so
 /// in exact arithmetic the path crosses every portal.
-#[must_use]
 pub fn funnel_path(start: Point, goal: Point, portals: &[Portal]) -> Vec<Point> {
     let turns = turns(start, goal, portals).into_iter().map(|turn| turn.at);
     let mut path: Vec<Point> = std::iter::once(start).chain(turns).chain([goal]).collect();
@@ -31,7 +30,6 @@ pub fn funnel_path(start: Point, goal: Point, portals: &[Portal]) -> Vec<Point> 
 /// The length is a convex function of the goal's position, so golden-section search finds the minimum approximately.
 /// After its last turn the path is straight. So the function also tries the goal nearest to that turn, and returns
 /// it if its path is not longer. Computes some dozens of funnel paths.
-#[must_use]
 pub fn nearest_end(start: Point, goals: &Segment, portals: &[Portal]) -> Point {
     let euclid = Measure::from(Metric::Euclidean);
     let length = |share: f64| {

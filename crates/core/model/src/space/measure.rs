@@ -30,7 +30,6 @@ impl From<Metric> for Measure {
 
 impl Measure {
     /// Returns the norm of a displacement.
-    #[must_use]
     pub fn norm(self, d: Vector) -> f64 {
         match self {
             Self::Ellipse([u, v]) => ((u * d.x) * (u * d.x) + (v * d.y) * (v * d.y)).sqrt(),
@@ -41,14 +40,12 @@ impl Measure {
     }
 
     /// Returns the weight of each coordinate.
-    #[must_use]
     pub fn weights(self) -> [f64; 2] {
         let (Self::Ellipse(weights) | Self::Rectangle(weights)) = self;
         weights
     }
 
     /// Returns true for [`Measure::Ellipse`], whose balls are ellipses.
-    #[must_use]
     pub fn is_ellipse(self) -> bool {
         matches!(self, Self::Ellipse(_))
     }
@@ -59,7 +56,6 @@ impl Measure {
     /// The bound is the length of the shortest such path, with one exception: [`Measure::Rectangle`] with goals on the
     /// root's side. The segment may be a point. Therefore `line` has two points farther apart on the segment's line, in
     /// the same direction.
-    #[must_use]
     pub fn bound_through(self, root: Point, ends: [Point; 2], line: [Point; 2], goals: &Segment) -> f64 {
         let along = line[1] - line[0];
         let [from, to] = goals.ends().map(|goal| cross(along, goal - line[0]));

@@ -25,7 +25,6 @@ pub enum Metric {
 
 impl Metric {
     /// Returns the norm of a displacement.
-    #[must_use]
     pub fn norm(self, d: Configuration) -> f64 {
         match self {
             Metric::Euclidean => d.norm(),
@@ -35,7 +34,6 @@ impl Metric {
     }
 
     /// Returns the length of a path.
-    #[must_use]
     pub fn length(self, path: &Path) -> f64 {
         // Not `sum`, which is -0 for an empty path.
         path.segments().map(|(a, b)| self.norm(b - a)).fold(0.0, |length, piece| length + piece)

@@ -14,7 +14,6 @@ impl Path {
     ///
     /// # Panics
     /// If there are no waypoints.
-    #[must_use]
     pub fn new(mut waypoints: Vec<Configuration>) -> Self {
         assert!(!waypoints.is_empty(), "a path has at least one waypoint");
         waypoints.dedup();

@@ -14,13 +14,11 @@ pub struct Segment {
 
 impl Segment {
     /// Creates the segment between two configurations, both included.
-    #[must_use]
     pub fn new(from: Configuration, to: Configuration) -> Self {
         Self { from, to }
     }
 
     /// Creates a segment of a single configuration.
-    #[must_use]
     pub fn point(q: Configuration) -> Self {
         Self { from: q, to: q }
     }

@@ -11,13 +11,11 @@ pub struct SplitMix64(u64);
 
 impl SplitMix64 {
     /// Creates the sequence of a seed.
-    #[must_use]
     pub fn new(seed: u64) -> Self {
         Self(seed)
     }
 
     /// Creates the sequence with this number among the sequences of a seed.
-    #[must_use]
     pub fn nth(seed: u64, number: u64) -> Self {
         // Numbers of a sequence are random enough to be seeds themselves.
         let mut seeds = Self(seed ^ number.rotate_left(32));

@@ -52,14 +52,12 @@ pub enum JointRange {
 
 impl JointRange {
     /// Returns true for a circle.
-    #[must_use]
     pub fn is_circle(self) -> bool {
         matches!(self, JointRange::Circle)
     }
 
     /// Returns the interval that represents every configuration: the limits, or `[-pi, pi]`, whose ends are the
     /// same.
-    #[must_use]
     pub fn domain(self) -> (f64, f64) {
         match self {
             JointRange::Interval { lower, upper } => (lower, upper),
@@ -68,14 +66,12 @@ impl JointRange {
     }
 
     /// Returns the length of [`JointRange::domain`].
-    #[must_use]
     pub fn extent(self) -> f64 {
         let (lower, upper) = self.domain();
         upper - lower
     }
 
     /// Returns true if `value` is allowed. Circles allow all values.
-    #[must_use]
     pub fn contains(self, value: f64) -> bool {
         match self {
             JointRange::Interval { lower, upper } => lower <= value && value <= upper,
@@ -86,7 +82,6 @@ impl JointRange {
     /// Returns the representative of `value` in the domain: the value itself on an interval, and its copy in
     /// `[-pi, pi)` on a circle. Turns are subtracted with more digits of pi than a double has, so the error is at most
     /// 1e-15 for magnitudes up to 1e15. Beyond that, a double does not distinguish neighbouring angles.
-    #[must_use]
     pub fn wrap(self, value: f64) -> f64 {
         if self != JointRange::Circle || (-PI..PI).contains(&value) {
             return value;
@@ -102,7 +97,6 @@ impl JointRange {
 
     /// Returns the shortest signed displacement from `from` to `to`. On a circle it is in `[-pi, pi)`, and as exact
     /// as [`JointRange::wrap`].
-    #[must_use]
     pub fn displacement(self, from: f64, to: f64) -> f64 {
         match self {
             JointRange::Interval { .. } => to - from,
@@ -116,7 +110,6 @@ impl JointRange {
     /// Returns the copy of `value` nearest to `near`. On an interval, or if no turn is added, this is exactly
     /// `value`. Otherwise the error is at most two roundings of the result. (Half a million radians from zero,
     /// doubles are 6e-11 rad apart.)
-    #[must_use]
     pub fn lift(self, value: f64, near: f64) -> f64 {
         match self {
             JointRange::Interval { .. } => value,
@@ -125,7 +118,6 @@ impl JointRange {
     }
 
     /// Returns `value` plus an integer number of whole turns. The error is at most two roundings of the result.
-    #[must_use]
     pub fn turned(self, value: f64, turns: f64) -> f64 {
         turned(value, turns)
     }

@@ -53,7 +53,6 @@ impl Bitmap {
 /// Computes the bitmap of a scene. It has the same cells as [`super::grid_from_slices`], in an eighth of the memory.
 /// Each pair is examined only in the rows where link 2 can reach its piece.
 /// `O(reached slices * contacts + cells / 64)`.
-#[must_use]
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
     let slices = Contacts::new(scene);
     let axes: [JointRange; 2] = scene.arm().topology().ranges;

@@ -38,7 +38,6 @@ const SLICES_PER_SIDE: i32 = 8;
 ///
 /// The result is free by the scene's own distances. No free configuration on an examined slice is nearer. If any is
 /// nearer, it lies between two slices, less than a spacing from each.
-#[must_use]
 pub fn nearest_free(scene: &Scene, q: Configuration) -> Option<NearestFree> {
     Search::new(scene, q).run()
 }

@@ -112,7 +112,6 @@ impl Regions {
 ///
 /// # Panics
 /// If `margin` is not positive.
-#[must_use]
 pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize) -> Regions {
     assert!(margin > 0.0, "a margin for the flattening of curves");
     let obstacles = c_obstacles(scene, PROVEN_MARGIN_SHARE * margin, (1.0 - PROVEN_MARGIN_SHARE) * margin);
@@ -134,7 +133,6 @@ pub enum NotPolygons {
 
 /// Returns the reason why the C-obstacles of a scene are not polygons; `None` if they are. They are if both joints are
 /// prismatic, and all shapes have straight sides.
-#[must_use]
 pub fn not_polygons(scene: &Scene) -> Option<NotPolygons> {
     if translation::joint_map(scene.arm()).is_none() {
         return Some(NotPolygons::Arm);
@@ -155,7 +153,6 @@ pub fn not_polygons(scene: &Scene) -> Option<NotPolygons> {
 ///
 /// Each is a Minkowski difference of two polygons, found by a sweep over their normals. Nothing is grown and no
 /// corner is added. Corners are differences of given corners, rounded once, in joint values.
-#[must_use]
 pub fn exact_c_obstacles(scene: &Scene) -> Option<Vec<CObstacle>> {
     not_polygons(scene).is_none().then(|| trace_contours(scene, scene.workspace().clearance, 0.0))
 }
@@ -164,7 +161,6 @@ pub fn exact_c_obstacles(scene: &Scene) -> Option<Vec<CObstacle>> {
 /// without exact C-obstacles.
 ///
 /// At configurations on the boundary of free space the arm touches an obstacle.
-#[must_use]
 pub fn exact_regions(scene: &Scene) -> Option<Regions> {
     let obstacles = exact_c_obstacles(scene)?;
     Some(within_window(scene, Proves::Exact, window(scene, Configuration::zeros(), 0), obstacles))
@@ -176,7 +172,6 @@ pub fn exact_regions(scene: &Scene) -> Option<Regions> {
 ///
 /// Returns `None` for other arms, if link 1 can touch an obstacle, and for shapes too thin to be shrunk: walls
 /// without thickness together with a link that is a point. The number of vertices grows like `1 / sqrt(margin)`.
-#[must_use]
 pub fn inner_regions(scene: &Scene, margin: f64) -> Option<Regions> {
     let map = translation::joint_map(scene.arm())?;
     let level = scene.workspace().clearance;
@@ -217,7 +212,6 @@ fn periods(scene: &Scene) -> [Option<f64>; 2] {
 /// ([`Scene::listed_self_obstacles`]).
 /// `contours` are the scene's [`c_obstacles`]. The regions are disjoint polygons per obstacle within the limits, on
 /// circles within `[-pi, pi]`, and are cut at the seams.
-#[must_use]
 pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<PolygonWithHoles>> {
     let window = scene.arm().topology().ranges.map(JointRange::domain);
     let of = |number: usize| contours.iter().filter(move |c| c.obstacle == number).map(|c| c.contour.as_slice());
@@ -244,7 +238,6 @@ pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<PolygonWithHoles
 ///
 /// # Panics
 /// If `tolerance` is not positive.
-#[must_use]
 pub fn c_obstacles(scene: &Scene, margin: f64, tolerance: f64) -> Vec<CObstacle> {
     assert!(tolerance > 0.0, "a tolerance for the flattening of curves");
     trace_contours(&coarsened(scene, margin, tolerance), scene.workspace().clearance + margin, tolerance)
@@ -278,7 +271,6 @@ fn coarsened(scene: &Scene, margin: f64, tolerance: f64) -> Cow<'_, Scene> {
 
 /// Returns the number of pairs of shapes that [`regions`] traces with this `margin`. A greater margin makes shapes
 /// with many corners coarser.
-#[must_use]
 pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
     coarsened(scene, PROVEN_MARGIN_SHARE * margin, (1.0 - PROVEN_MARGIN_SHARE) * margin).pairs().len()
 }

@@ -15,7 +15,6 @@ use parry2d_f64::shape::{Ball, Capsule, ConvexPolygon, RoundShape, Segment, Shap
 ///
 /// Each pair is tested once per cell, after a test of the discs around the two shapes. The first contact decides the
 /// cell.
-#[must_use]
 pub fn sampled_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let pairs: Vec<(usize, Solid, Solid)> = scene
         .pairs()

@@ -20,7 +20,6 @@ const MAX_COARSENING: f64 = 1.0 / 16.0;
 /// Computes the grid whose cells are blocked if the arm is within `clearance` of an obstacle at the cell's *centre*.
 /// The result equals that of [`super::sampled_grid`], except for centres within [`ROUNDING`] of contact.
 /// `O(slices * contacts + cells)`.
-#[must_use]
 pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let slices = Contacts::new(scene);
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
@@ -56,7 +55,6 @@ pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Gri
 ///
 /// The cells of a gantry are exact: a cell is blocked only if a C-obstacle reaches into it. One that touches its side
 /// leaves it free, see `gantry_cells`.
-#[must_use]
 pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
     if let Some(map) = translation::joint_map(scene.arm()) {

@@ -49,7 +49,6 @@ impl Slice {
     }
 
     /// Returns all values of joint 1, within the axis's domain, at which link 1 is within `grow` of an obstacle.
-    #[must_use]
     pub fn bands(contacts: &Contacts, grow: f64) -> Self {
         let mut slice = Self::default();
         let joint = &contacts.scene().arm().joints[0];

@@ -11,7 +11,6 @@ use cplan_model::{CarriedPart, Contacts, Scene, on_axis};
 ///
 /// If joint 2 moves, the result is the free part of a slice. If joint 1 moves, link 2 is treated as a part of link
 /// 1, and the contact angles of joint 1 decide. `O(m log m)` in the contacts.
-#[must_use]
 pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segment> {
     let [from, to] = segment.ends();
     let moved = match (from[0] == to[0], from[1] == to[1]) {

@@ -27,7 +27,6 @@ pub struct ZonedGrid {
 impl ZonedGrid {
     /// Finds the preference that applies at each cell's centre. If several apply, the last one counts.
     /// `O(cells * corners of all regions)`.
-    #[must_use]
     pub fn new(grid: Grid, scene: &Scene) -> Self {
         let preferences = &scene.workspace().preferences;
         let zones =

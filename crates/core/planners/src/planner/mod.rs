@@ -127,7 +127,6 @@ pub enum Size {
 
 impl Size {
     /// Returns the sizes, with the names that they have in results.
-    #[must_use]
     pub fn figures(self) -> Vec<(&'static str, usize)> {
         match self {
             Size::Graph { nodes, edges } => vec![("nodes", nodes), ("edges", edges)],
@@ -191,7 +190,6 @@ pub enum GraphKind {
 
 impl GraphKind {
     /// Returns the kind of visibility graph; `None` for other graphs.
-    #[must_use]
     pub fn visibility(self) -> Option<VisibilityGraph> {
         if let Self::Visibility(graph) = self { Some(graph) } else { None }
     }

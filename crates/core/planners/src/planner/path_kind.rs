@@ -26,7 +26,6 @@ impl PathKind {
     pub const CHOICES: [Self; 3] = [Self::Own, Self::Taut, Self::Middles];
 
     /// Returns the name on the command line and in results.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Own => "own",

@@ -40,7 +40,6 @@ impl VisibilityGraph {
     pub const ALL: [Self; 2] = [Self::Reduced, Self::Full];
 
     /// Returns the name on the command line and in results.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Reduced => "reduced",

@@ -49,7 +49,6 @@ impl GridSearch {
     ];
 
     /// Returns the name on the command line.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Wave => "wave",
@@ -63,7 +62,6 @@ impl GridSearch {
     }
 
     /// Returns the order in which cells are expanded; `None` for the wave, which labels whole levels at once.
-    #[must_use]
     pub fn order(self, ties: Ties) -> Option<Order> {
         match self {
             Self::Wave => None,

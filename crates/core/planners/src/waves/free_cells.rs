@@ -17,7 +17,6 @@ pub enum Neighborhood {
 
 impl Neighborhood {
     /// Returns the number of neighbours.
-    #[must_use]
     pub fn count(self) -> u8 {
         match self {
             Self::Four => 4,
@@ -52,7 +51,6 @@ impl FreeCells {
     ///
     /// # Panics
     /// If there are `2^32 - 1` cells or more.
-    #[must_use]
     pub fn new(grid: &Grid) -> Self {
         let [rows, columns] = grid.cells;
         assert!(rows.saturating_mul(columns) < u32::MAX as usize, "the grid has too many cells for 32-bit labels");

@@ -33,7 +33,6 @@ pub enum Order {
 
 impl Order {
     /// Returns true if the order depends on estimates of the remaining cost.
-    #[must_use]
     pub fn estimates(self) -> bool {
         matches!(self, Self::AStar(_) | Self::Greedy)
     }
@@ -57,7 +56,6 @@ impl Ties {
     }
 
     /// Returns the name on the command line.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::Farthest => "farthest",
@@ -79,13 +77,11 @@ pub struct Cost {
 impl Cost {
     /// Returns the cost as a number. Below about 10^7 moves, different costs give different numbers, in the right
     /// order.
-    #[must_use]
     pub fn value(self) -> f64 {
         f64::from(self.straight) + SQRT_2 * f64::from(self.diagonal)
     }
 
     /// Returns the number of moves.
-    #[must_use]
     pub fn moves(self) -> u32 {
         self.straight + self.diagonal
     }
@@ -141,14 +137,12 @@ impl Search {
     /// Breadth-first, depth-first and greedy search label a cell once, when they first reach it. The others lower
     /// the cost of a cell until it is expanded. Linear in the number of labelled cells, for Dijkstra and A\* times
     /// the logarithm of that number. In addition, tables are filled in time linear in the size of the grid.
-    #[must_use]
     pub fn new(free: &FreeCells, neighborhood: Neighborhood, order: Order, sources: &[usize], target: usize) -> Self {
         Self::to_any(free, neighborhood, order, sources, &[target])
     }
 
     /// Does the same as [`Search::new`] until one of several targets is expanded. The estimate is that of the
     /// nearest target, and takes time proportional to the number of targets.
-    #[must_use]
     pub fn to_any(
         free: &FreeCells,
         neighborhood: Neighborhood,

@@ -24,7 +24,6 @@ impl StepLabels {
     ///
     /// Linear in the number of cells. With four neighbours it takes about 2 to 6 ns per cell if free cells form long
     /// runs, mostly to allocate the memory. Otherwise it takes about as long as a plain queue.
-    #[must_use]
     pub fn new(free: &FreeCells, sources: &[usize], neighborhood: Neighborhood) -> Self {
         let sources: Vec<usize> = sources.iter().copied().filter(|&source| free.is_free(source)).collect();
         let labels = match neighborhood {
@@ -41,7 +40,6 @@ impl StepLabels {
     }
 
     /// Converts the labels to a vector.
-    #[must_use]
     pub fn into_labels(self) -> Vec<u32> {
         self.labels
     }

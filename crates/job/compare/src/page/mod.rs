@@ -186,7 +186,6 @@ pub fn head(title: &str, subtitle: &str) -> String {
 }
 
 /// Returns the head of a page with further styles, and with a script if it is allowed.
-#[must_use]
 pub fn head_with(title: &str, subtitle: &str, additions: &Additions) -> String {
     let scripts = if additions.has_script { "; script-src 'unsafe-inline'" } else { "" };
     format!(
@@ -237,13 +236,11 @@ fn paragraph(text: &str) -> String {
 }
 
 /// Formats a section of a page, with its heading.
-#[must_use]
 pub fn section(heading: &str, content: &str) -> String {
     format!("<section>\n<h2>{}</h2>\n{content}</section>\n", markup(heading))
 }
 
 /// Formats a part of a page that is hidden until its heading is clicked.
-#[must_use]
 pub fn collapsible_section(heading: &str, content: &str) -> String {
     format!("<details><summary>{}</summary>\n{content}</details>\n", markup(heading))
 }

@@ -44,7 +44,6 @@ pub fn certificate_of_boxes(
 
 /// Returns the certificate of a bound. `None` if the goals form a curve, or if a checker could not separate them from
 /// neighbouring configurations.
-#[must_use]
 pub fn certificate_of_bound(problem: &MotionProblem, stated: &Bound, asked: &Overrides) -> Option<BoundCertificate> {
     let bound = LowerBound::of(problem, stated, asked, MAX_STATED_BOUND_LOSS)?;
     let mut contacts = Contacts::new(problem.scene());

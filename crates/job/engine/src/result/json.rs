@@ -253,7 +253,6 @@ impl Plan {
     ];
 
     /// Returns the result with these fields only, in their usual order. If the list is empty, returns all fields.
-    #[must_use]
     pub fn result<'a>(&'a self, fields: &'a [String]) -> impl Serialize + 'a {
         PlanResult { plan: self, fields, certificate: None }
     }

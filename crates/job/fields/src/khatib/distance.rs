@@ -9,7 +9,6 @@ use cplan_planners::cspace::Grid;
 ///
 /// The result is exact up to rounding. It is computed first along rows, then by the lower envelope of parabolas along
 /// columns (Felzenszwalb, Huttenlocher 2012). Takes linear time in the number of cells.
-#[must_use]
 pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
     let [rows, columns] = grid.cells;
     let step = grid.step();

@@ -28,7 +28,6 @@ pub enum Escape {
 
 impl Escape {
     /// Returns a description of the method, in words.
-    #[must_use]
     pub fn description(self) -> &'static str {
         match self {
             Self::Walk { .. } => "by random walks",

@@ -51,7 +51,6 @@ pub struct Khatib {
 
 impl Attraction {
     /// Returns the potential at a distance.
-    #[must_use]
     pub fn potential(self, d: f64) -> f64 {
         match self {
             Self::Constant(c) => c * d,
@@ -60,7 +59,6 @@ impl Attraction {
     }
 
     /// Returns the force towards the goal at a distance; zero at the goal.
-    #[must_use]
     pub fn force(self, d: f64) -> f64 {
         match self {
             Self::Constant(_) if d == 0.0 => 0.0,
@@ -72,7 +70,6 @@ impl Attraction {
 
 impl Repulsion {
     /// Returns the potential at a distance, which may be infinite.
-    #[must_use]
     pub fn potential(self, p: f64) -> f64 {
         match self {
             Self::Ranged { range, .. } if p >= range => 0.0,
@@ -82,7 +79,6 @@ impl Repulsion {
     }
 
     /// Returns the force away from the obstacle at a distance.
-    #[must_use]
     pub fn force(self, p: f64) -> f64 {
         match self {
             Self::Ranged { range, .. } if p >= range => 0.0,
@@ -144,7 +140,6 @@ pub struct Trap {
 
 impl<'a> ForceField<'a> {
     /// Builds the field. There must be a goal. Takes `O(n)` for `n` cells, or `O(n log n)` with [`Repulsion::Sum`].
-    #[must_use]
     pub fn new(grid: &'a Grid, laws: Khatib, goals: &[Configuration], limits: Limits) -> Self {
         let obstacles = match laws.repulsion {
             Repulsion::Sum(_) => Obstacles::Sum(Charges::new(grid, limits)),

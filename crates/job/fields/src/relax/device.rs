@@ -36,7 +36,6 @@ impl Device {
     }
 
     /// Returns the name of the device's precision.
-    #[must_use]
     pub fn precision(self) -> &'static str {
         if self.is_cpu() { "doubles" } else { "single precision" }
     }

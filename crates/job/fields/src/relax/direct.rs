@@ -19,7 +19,6 @@ const MAX_BAND_NUMBERS: usize = 1 << 25;
 ///
 /// The method shares only the weights of neighbours with the sweeps. Rows are numbered alternately from both ends, so
 /// that a circle needs at most twice the bandwidth. Takes `O(cells * columns^2)` time and `O(cells * columns)` memory.
-#[must_use]
 pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     if equation.refusal(domain).is_some() {
         return None;

@@ -115,7 +115,6 @@ impl Stencil {
     }
 
     /// Returns `beta` for the cells of a grid.
-    #[must_use]
     pub fn beta(self, grid: &Grid) -> f64 {
         let [dx, dy] = grid.step();
         if self.is_square() { 1.0 } else { dx / dy }
@@ -140,7 +139,6 @@ impl Domain {
     ///
     /// # Panics
     /// If there is not one kind per cell, or there are `2^32` cells or more.
-    #[must_use]
     pub fn new(cells: [usize; 2], kinds: Vec<Cell>, boundaries: [Boundary; 2], levels: Levels) -> Self {
         assert_eq!(cells[0].checked_mul(cells[1]), Some(kinds.len()), "one kind a cell");
         assert!(u32::try_from(kinds.len()).is_ok_and(|n| n < u32::MAX), "positions are counted in 32 bits");
@@ -174,7 +172,6 @@ impl Domain {
     ///
     /// # Panics
     /// If a goal is not a cell, or there are `2^32` cells or more.
-    #[must_use]
     pub fn of_grid(grid: &Grid, goals: &[usize], limits: Limits, levels: Levels) -> Self {
         let mut kinds = vec![Cell::Obstacle; grid.blocked.len()];
         let mut queue = Vec::new();

@@ -60,7 +60,6 @@ impl From<Direction> for [f64; 2] {
 
 impl Direction {
     /// Returns the direction of a vector, or `None` if its length is zero or NaN.
-    #[must_use]
     pub fn of(vector: [f64; 2]) -> Option<Self> {
         let greatest = vector[0].abs().max(vector[1].abs());
         // Scale the vector first, so that its length neither overflows nor vanishes.
@@ -70,13 +69,11 @@ impl Direction {
     }
 
     /// Returns the components along the first and the second joint.
-    #[must_use]
     pub fn components(self) -> [f64; 2] {
         self.0
     }
 
     /// Returns the drift `epsilon v`.
-    #[must_use]
     pub fn drift(self, epsilon: f64) -> [f64; 2] {
         self.0.map(|v| epsilon * v)
     }
@@ -138,7 +135,6 @@ pub struct Influence {
 
 /// Returns the drift of [`Equation::LocallyOriented`] around robots. Each cell has the drift of the nearest robot, if
 /// it is within that robot's radius. `O(cells * influences)`.
-#[must_use]
 pub fn drift_around_robots(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
     let columns = domain.cells()[1];
     let nearest = |cell: usize| {

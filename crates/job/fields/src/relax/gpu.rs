@@ -3,8 +3,10 @@
 use super::stages::{Stages, relax_in_stages};
 use super::stencil::WeightedMean;
 use super::sweeps::{hint, refusal, unknowns};
-use super::{Boundary, Cell, Convergence, Difference, Domain, Equation, Measure, Order, RelaxError, Relaxation};
-use super::{RelaxedField, Scheme, Stopping};
+use super::{
+    Boundary, Cell, Convergence, Difference, Domain, Equation, Measure, Order, RelaxError, Relaxation, RelaxedField,
+    Scheme, Stopping,
+};
 use cplan_gpu::{Edge, Ending, Gpu, GpuError, GridEquations, Settings, Stencil, Sweep};
 use std::sync::OnceLock;
 

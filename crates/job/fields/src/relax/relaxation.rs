@@ -69,7 +69,6 @@ pub enum Factor {
 
 impl Factor {
     /// Returns the factor for a domain of this many cells.
-    #[must_use]
     pub fn value(self, cells: [usize; 2]) -> f64 {
         match self {
             Self::Given(factor) => factor,
@@ -130,19 +129,16 @@ impl Relaxation {
     pub const JACOBI: Self = Self::weighted_jacobi(1.0);
 
     /// Returns weighted Jacobi relaxation.
-    #[must_use]
     pub const fn weighted_jacobi(factor: f64) -> Self {
         Self::of(Scheme::Simultaneous { factor })
     }
 
     /// Returns Gauss-Seidel relaxation with this order.
-    #[must_use]
     pub const fn gauss_seidel(order: Order) -> Self {
         Self::sor(Factor::Given(1.0), order)
     }
 
     /// Returns successive over-relaxation with this factor and order.
-    #[must_use]
     pub const fn sor(factor: Factor, order: Order) -> Self {
         Self::of(Scheme::Successive { factor, order })
     }

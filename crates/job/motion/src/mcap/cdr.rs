@@ -13,13 +13,11 @@ const HEADER: [u8; 4] = [0, 1, 0, 0];
 
 impl Cdr {
     /// Starts an empty message.
-    #[must_use]
     pub fn new() -> Self {
         Self { bytes: HEADER.to_vec() }
     }
 
     /// Returns the message's bytes with the header.
-    #[must_use]
     pub fn into_bytes(self) -> Vec<u8> {
         self.bytes
     }

@@ -96,7 +96,6 @@ impl Type {
 }
 
 /// Returns the bytes of a [`JOINT_STATE`] at a time of the recording, nanoseconds. Efforts are unknown and omitted.
-#[must_use]
 pub fn joint_state(joints: &[String], time: u64, position: &[f64], velocity: &[f64]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     header(&mut cdr, time);
@@ -109,7 +108,6 @@ pub fn joint_state(joints: &[String], time: u64, position: &[f64], velocity: &[f
 
 /// Returns the bytes of a [`JOINT_TRAJECTORY`]. As in [`super::super::ros_yaml`], its time stamp is 0, which means
 /// "begin now".
-#[must_use]
 pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
     let mut cdr = Cdr::new();
     header(&mut cdr, 0);
@@ -129,7 +127,6 @@ pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
 const WORLD_FRAME: &str = "world";
 
 /// Returns the bytes of [`TRANSFORMS`]: names of frames, with the poses that they have from `time` on.
-#[must_use]
 pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     cdr.length(frames.len());
@@ -143,7 +140,6 @@ pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
 }
 
 /// Returns the bytes of [`MARKERS`]. Each solid of a body is a list of triangles, which moves with the body's frame.
-#[must_use]
 pub fn markers(stage: &Stage) -> Vec<u8> {
     /// Value of `TRIANGLE_LIST` in the definition of markers.
     const TRIANGLE_LIST: i32 = 11;
@@ -184,7 +180,6 @@ pub fn markers(stage: &Stage) -> Vec<u8> {
 }
 
 /// Returns the bytes of [`POINTS`]: points on the rims of a body.
-#[must_use]
 pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
     /// Value of `FLOAT32` in the definition of points, and the size of such a number in bytes.
     const FLOAT32_FIELD: (u8, u32) = (7, 4);

@@ -32,7 +32,6 @@ use std::io::Cursor;
 ///
 /// Time and size are linear in the number of samples: some 250 bytes for each sample, and as many for the poses of an
 /// arm.
-#[must_use]
 pub fn mcap(motions: &[(&JointMotion, f64)], stage: Option<&Stage>) -> Vec<u8> {
     write(motions, stage).expect("channels with a schema each, and a buffer that takes all")
 }

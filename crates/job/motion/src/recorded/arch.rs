@@ -93,7 +93,6 @@ pub(super) fn times_between<'a>(times: impl Iterator<Item = &'a f64>, [from, to]
 /// Returns the time, in seconds, in which a stroke of length `depth` rises by `height` from its lowest position, both in
 /// metres. It descends the last `height` metres in the same time. Returns the duration of the whole stroke if it is no
 /// longer than `height`.
-#[must_use]
 pub fn seconds_to_rise(stroke: &Stroke, depth: f64, height: f64) -> f64 {
     let samples = single(depth.abs(), &stroke.limits());
     let end = samples.last().map_or(0.0, |[seconds, ..]| *seconds);

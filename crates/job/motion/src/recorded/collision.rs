@@ -44,7 +44,6 @@ pub struct Moment {
 
 impl Moment {
     /// Creates the moment at the share `u` of a piece, which leads from the sample `index` to the next one.
-    #[must_use]
     pub fn new(index: usize, piece: &Piece, u: f64) -> Self {
         // The end of a piece that lasts is the next sample.
         let sample = index + usize::from(u == 1.0 && piece.to > piece.from);
@@ -111,7 +110,6 @@ pub enum CollisionCheck {
 ///
 /// Moving obstacles follow the recording's clock, from its first sample on. If the recording has no times, they are not
 /// checked.
-#[must_use]
 pub fn check_collision<'a>(scene: impl Into<TimedScene<'a>>, recording: &Recording, clearance: f64) -> CollisionCheck {
     let scene = scene.into();
     let (pairs, pieces) = (all_pairs(scene, recording), recording.pieces());
@@ -120,7 +118,6 @@ pub fn check_collision<'a>(scene: impl Into<TimedScene<'a>>, recording: &Recordi
 
 /// Does the same as [`check_collision`], while other joints move that the scene holds still, such as a tool's. Parts
 /// have the heights and angles that these joints give them at each moment. Carried objects follow only joints that lift them ([`HeldMotion::lifts_payload`]).
-#[must_use]
 pub fn check_collision_with(
     scene: TimedScene,
     recording: &Recording,
@@ -210,7 +207,6 @@ fn all_pairs<'a>(scene: TimedScene<'a>, recording: &Recording) -> Cow<'a, [Pair]
 /// Checks a motion against moving obstacles only, on the recording's clock from its first sample on. A
 /// [`crate::CertifiedCurve`] is free of static obstacles. If it also passes this check, the motion is certified in
 /// time.
-#[must_use]
 pub fn certify_in_time(scene: TimedScene, recording: &Recording, clearance: f64) -> CollisionCheck {
     let pieces = recording.pieces();
     Search::new(scene, scene.moving_pairs(), &pieces, clearance).of_whole_motion()

@@ -84,7 +84,6 @@ pub struct LimitViolation {
 /// The acceleration must then be continuous between pieces and at the ends of the motion. This is exact for motions
 /// with constant jerk between samples. The accelerations of cubics through other motions jump at the samples, so a
 /// motion must have samples where its jerk changes.
-#[must_use]
 pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<LimitViolation> {
     let precision = Precision::of(recording);
     let pieces = recording.pieces();
@@ -124,7 +123,6 @@ const TORQUE_TOLERANCE: f64 = 1e-4;
 /// Torques are checked if there are velocities, with the interpolation of the file's consumer, and with the same
 /// allowance for rounding as accelerations. Between the examined moments, a torque may be greater by a ten-thousandth
 /// of the effort. For a recording of a single sample, the torque that holds the arm there is checked.
-#[must_use]
 pub fn torque_violations(scene: &Scene, recording: &Recording) -> Vec<LimitViolation> {
     let Some(torques) = Torques::limited(scene).filter(|_| recording.velocities().is_some()) else {
         return Vec::new();

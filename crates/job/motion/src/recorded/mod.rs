@@ -14,8 +14,10 @@ mod turning;
 mod wrist;
 
 pub use arch::{StrokeDuringMotion, seconds_to_rise};
-pub use collision::first_moving_contact;
-pub use collision::{CollisionCheck, Encounter, Moment, Touch, certify_in_time, check_collision, check_collision_with};
+pub use collision::{
+    CollisionCheck, Encounter, Moment, Touch, certify_in_time, check_collision, check_collision_with,
+    first_moving_contact,
+};
 pub use limits::{Limit, LimitViolation, limit_violations, torque_violations};
 pub use torque::torque_samples;
 pub use turning::{TurnCover, TurnDuringMotion, turn_angle, turn_profile};

@@ -51,7 +51,6 @@ pub struct TurnCover {
 
 impl TurnCover {
     /// Creates the covers of a scene's payload. `None` if it has no level payload.
-    #[must_use]
     pub fn new(scene: &Scene) -> Option<Self> {
         let attachment = scene.attachment()?;
         let Grip::Level { point, .. } = attachment.grip else { return None };
@@ -80,7 +79,6 @@ impl TurnCover {
 
 /// Returns the motion of a wrist that turns by `distance` radians in `seconds`: its fastest motion, stretched evenly in
 /// time. Each entry is an end of a phase of constant jerk: seconds since the beginning, angle so far, and speed.
-#[must_use]
 pub fn turn_profile(wrist: &Wrist, distance: f64, seconds: f64) -> Vec<[f64; 3]> {
     let fastest = single(distance, &wrist.limits());
     let least = fastest.last().map_or(0.0, |[end, ..]| *end);
@@ -269,7 +267,6 @@ impl TurnDuringMotion<'_> {
 }
 
 /// Returns the angle of a turn with this profile at a time after its beginning, in radians and seconds.
-#[must_use]
 pub fn turn_angle(profile: &[[f64; 3]], [from, to]: [f64; 2], since: f64) -> f64 {
     if since <= 0.0 {
         return from;

@@ -32,14 +32,12 @@ pub struct TurnContact {
 const CLEARANCE_HALVINGS: usize = 16;
 
 /// Returns the resolution, metres, of the clearance of a free turn, if the clearance is below the arm's reach.
-#[must_use]
 pub fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
     (clearance + arm.reach()) / f64::from(1u32 << (CLEARANCE_HALVINGS - 1))
 }
 
 /// Returns a free turn about the tip from one orientation to another while the arm rests at `q`: the shorter direction
 /// if it is free, otherwise the longer; `None` if neither is. See [`judge_given_turn`].
-#[must_use]
 pub fn wrist_turn(
     task: &Task,
     workspace: &Workspace,

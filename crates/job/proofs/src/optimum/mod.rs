@@ -100,14 +100,12 @@ pub struct MotionQuery<'a> {
 /// The search for the path is complete up to the rounding of coordinates, for which a share of 1e-9 is subtracted.
 /// Walls are made of slightly eroded shapes, so every passage is some nanometres wider than in reality. Pairs of two
 /// shapes without area make no walls, which lowers the bound.
-#[must_use]
 pub fn least_length(motions: &MotionQuery, limit: f64, gap: f64, slices: &[f64]) -> f64 {
     bounded(&MotionQuery { scene: &motions.scene.inner(), ..*motions }, limit, gap, slices).0
 }
 
 /// Returns evidence for a checker: the walls and barriers that close all paths shorter than the bound that
 /// [`least_length`] finds without given slices.
-#[must_use]
 pub fn bound_evidence(motions: &MotionQuery, limit: f64, gap: f64) -> BoundEvidence {
     let scene = &*motions.scene.inner();
     let (_, search) = bounded(&MotionQuery { scene, ..*motions }, limit, gap, &[]);
@@ -144,7 +142,6 @@ fn bounded<'a>(motions: &MotionQuery<'a>, limit: f64, gap: f64, slices: &[f64]) 
 /// where the judge refuses it. Among the finer strips, the path is pulled taut through its portals, which is much
 /// faster than a search. If the judge finds such a path too long, or refuses the same path twice, all later paths are
 /// found by a search.
-#[must_use]
 pub fn short_motion(
     motions: &MotionQuery,
     kept: f64,

@@ -3,8 +3,7 @@
 use super::chain::{Chooser, is_movable, unit};
 use super::limits::{Limits, Range};
 use crate::error::{Diagnostic, InputError};
-use crate::quantity::Quantity;
-use crate::quantity::find;
+use crate::quantity::{Quantity, find};
 use cplan_model::space::JointRange;
 use urdf_rs::{JointType, Mimic};
 

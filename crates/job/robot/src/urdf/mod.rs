@@ -47,7 +47,6 @@ use std::path::Path;
 use tree::Tree;
 
 /// Returns the meshes that can be found from a robot's file, but not from the file `other` with the same text.
-#[must_use]
 pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
     let (Ok(here), Ok(xml)) = (robot.anchor(), roxmltree::Document::parse(robot.text())) else { return Vec::new() };
     let named =

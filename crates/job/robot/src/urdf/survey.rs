@@ -4,12 +4,11 @@ use super::advice;
 use super::bodies::Outlines;
 use super::chain::{self, Chain, is_movable};
 use super::document::Document;
-use super::help;
-use super::ignored;
 use super::limits::{Limits, MissingRates, Range, Rates};
 use super::plane;
 use super::reduction::{Bounds, Reduction};
 use super::tree::{self, Tree};
+use super::{help, ignored};
 use crate::error::InputError;
 use crate::inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
@@ -26,7 +25,6 @@ use urdf_rs::JointType;
 
 /// Examines a robot. Does not stop at the first defect. The report's scene contains only the arm, where the URDF places
 /// it.
-#[must_use]
 pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
     let mut report = Inspection { urdf: robot.path.display().to_string(), ..Inspection::default() };
     report.files.push(robot.path.clone());

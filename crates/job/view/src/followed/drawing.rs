@@ -37,7 +37,6 @@ const OVERVIEW_SHARE: f64 = 0.3;
 const OVERVIEW_GAP: f64 = 10.0;
 
 /// Draws the line in the workspace.
-#[must_use]
 pub fn in_workspace(line: &LineView, frame: &Frame) -> Vec<Item> {
     let color = if line.motion.is_some() { GHOST } else { GRAY };
     let steps = |stroke: &Vec<Point>| chain(stroke.iter().map(|p| frame.at(p.x, p.y)), false);
@@ -53,7 +52,6 @@ fn by_limit(line: &LineView, place: impl Fn(&[Configuration]) -> Vec<Step>) -> V
 }
 
 /// Draws the path of the tip, coloured by the limits that the motion reaches, its stops, and the place of the lens.
-#[must_use]
 pub fn tip_path(line: &LineView, view: &View, frame: &Frame) -> Vec<Item> {
     let spot = |q: &Configuration| {
         let tip = view.arm.tip_at(*q);
@@ -93,14 +91,12 @@ fn thinned(points: &[Configuration], unit: f64) -> Vec<Configuration> {
 }
 
 /// Draws the place where no motion is possible. It is above everything else.
-#[must_use]
 pub fn place(line: &LineView, frame: &Frame) -> Vec<Item> {
     line.place.map_or_else(Vec::new, |at| cross(frame.at(at.x, at.y)))
 }
 
 /// Returns the arms to draw: at the place that is farthest from the line, and the other IK solution there; or those that
 /// are excluded.
-#[must_use]
 pub fn arms(line: &LineView, view: &View, frame: &Frame) -> Vec<Item> {
     let payload = view.first_world().payload.as_ref();
     let excluded = line.excluded.iter().flat_map(|&q| arm::items(frame, &view.arm, payload, q, &UNREACHED_LOOK));
@@ -116,7 +112,6 @@ pub fn arms(line: &LineView, view: &View, frame: &Frame) -> Vec<Item> {
 }
 
 /// Draws the whole workspace in a corner of a magnified one: the arm, and the magnified part. Returns its place, too.
-#[must_use]
 pub fn overview(line: &LineView, view: &View, panel: &Frame) -> Option<(Rect, Vec<Item>)> {
     let focus = line.focus?;
     let size = OVERVIEW_SHARE * panel.rect.width.min(panel.rect.height);
@@ -151,7 +146,6 @@ pub fn overview(line: &LineView, view: &View, panel: &Frame) -> Option<(Rect, Ve
 
 /// Draws the images of the line under both IK solutions, the motion coloured by the limits that it reaches, and the
 /// excluded configurations.
-#[must_use]
 pub fn in_cspace(line: &LineView, chart: &Chart) -> Vec<Item> {
     let images = line
         .solutions
@@ -165,7 +159,6 @@ pub fn in_cspace(line: &LineView, chart: &Chart) -> Vec<Item> {
 }
 
 /// Returns the names of the IK solutions, with the places of their images in the configuration space.
-#[must_use]
 pub fn solution_names(line: &LineView, chart: &Chart) -> Vec<Named> {
     (0..2)
         .filter_map(|solution| {
@@ -184,7 +177,6 @@ fn bounding_rect(spots: &[[f64; 2]]) -> Option<Rect> {
 }
 
 /// Returns the legend of the line.
-#[must_use]
 pub fn keys(line: &LineView) -> Vec<Key> {
     let pen = |color, width| Sign::Line(Pen { color, width, dash: &[] });
     let color = if line.motion.is_some() { GHOST } else { GRAY };
@@ -197,7 +189,6 @@ pub fn keys(line: &LineView) -> Vec<Key> {
 }
 
 /// Returns the legend of the images of the line in the configuration space.
-#[must_use]
 pub fn solution_keys(line: &LineView) -> Vec<Key> {
     let kinds = [(false, FREE_PEN, "IK solution of the line"), (true, EXCLUDED_PEN, "IK solution that is excluded")];
     let exists = |excluded: bool| line.solutions.iter().any(|part| part.is_excluded == excluded);

@@ -25,7 +25,6 @@ pub struct Tracker<'a> {
 
 impl<'a> Tracker<'a> {
     /// Begins at the start of a line. `tolerance` is the greatest distance of the tip from it, metres.
-    #[must_use]
     pub fn new(line: &'a Toolpath, tolerance: f64) -> Self {
         let end = cplan_deviation::Foot { piece: line.pieces().len() - 1, u: 1.0 };
         let feet = [cplan_deviation::Foot { piece: 0, u: 0.0 }, end];

@@ -45,14 +45,12 @@ pub struct Stretch {
 ///
 /// A piece that reaches several limits counts for the first of them in this order: speeds, accelerations, jerks; of
 /// equal kind, the one with the greatest share. (A joint at top speed cannot be faster with any acceleration.)
-#[must_use]
 pub fn active_limits(arm: &Arm, pieces: &[Piece], tip_limits: &[Option<f64>]) -> Vec<ActiveLimit> {
     pieces.iter().zip(tip_limits).map(|(piece, tip)| active_limit(arm, piece, *tip)).collect()
 }
 
 /// Returns the limits of a motion with those of a wrist, whose values are the first components of its pieces. `most` has its
 /// top speed and its greatest acceleration. The order is that of [`active_limits`], with the wrist after the joints.
-#[must_use]
 pub fn with_wrist(limits: Vec<ActiveLimit>, wrist: &[Piece], most: [f64; 2]) -> Vec<ActiveLimit> {
     let reaches = |piece: &Piece, of: Derivative, most: f64| {
         piece.critical(of, 0).any(|u| piece.derivative(of, u)[0].abs() >= REACHED_SHARE * most)
@@ -93,7 +91,6 @@ fn active_limit(arm: &Arm, piece: &Piece, tip_limit: Option<f64>) -> ActiveLimit
 }
 
 /// Returns the speed of the tip at a share `u` of a piece, metres per second.
-#[must_use]
 pub fn tip_speed(arm: &Arm, piece: &Piece, u: f64) -> f64 {
     let velocity = piece.derivative(Derivative::Velocity, u);
     let [first, second] = arm.jacobian(1, arm.tip, piece.at(u));
@@ -102,7 +99,6 @@ pub fn tip_speed(arm: &Arm, piece: &Piece, u: f64) -> f64 {
 
 /// Joins neighbouring pieces with the same limit. A stretch shorter than `shortest` seconds gets the limit of the stretch
 /// before it, or of the one after it at the beginning.
-#[must_use]
 pub fn stretches(pieces: &[Piece], limits: &[ActiveLimit], shortest: f64) -> Vec<Stretch> {
     let mut joined: Vec<Stretch> = Vec::new();
     for (piece, &limit) in pieces.iter().zip(limits) {
@@ -124,7 +120,6 @@ pub fn stretches(pieces: &[Piece], limits: &[ActiveLimit], shortest: f64) -> Vec
 }
 
 /// Returns the times at which both joints rest, seconds: the ends of the motion, and stops on the way.
-#[must_use]
 pub fn stops(trajectory: &Trajectory) -> Vec<f64> {
     let rests = |velocity: &[f64; 2]| velocity.iter().all(|speed| speed.abs() <= REST_SHARE);
     let at_rest = trajectory.time.iter().zip(&trajectory.velocity).filter(|(_, velocity)| rests(velocity));

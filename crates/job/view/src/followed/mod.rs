@@ -78,7 +78,6 @@ pub struct FollowedMotion {
 
 impl FollowedMotion {
     /// Measures a motion along a line. It takes `O(n)` for `n` samples.
-    #[must_use]
     pub fn new(arm: &Arm, line: &Toolpath, trajectory: &Trajectory, settings: LineSettings) -> Self {
         let played = Played::new(arm, trajectory);
         let pieces = &played.pieces;

@@ -16,7 +16,6 @@ pub struct Played {
 }
 
 /// Returns true if the jerk of a joint is limited.
-#[must_use]
 pub fn is_smooth(arm: &Arm) -> bool {
     arm.joints.iter().any(|joint| joint.jerk.is_some())
 }
@@ -24,7 +23,6 @@ pub fn is_smooth(arm: &Arm) -> bool {
 impl Played {
     /// Interpolates samples: by cubics through positions and velocities, or by polynomials of degree five through the
     /// accelerations too if the jerk of a joint is limited.
-    #[must_use]
     pub fn new(arm: &Arm, trajectory: &Trajectory) -> Self {
         let state = |i: usize| {
             [trajectory.position[i].into(), trajectory.velocity[i].into(), trajectory.acceleration[i].into()]

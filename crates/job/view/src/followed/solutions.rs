@@ -27,7 +27,6 @@ pub struct SolutionPart {
 
 /// Returns the image of a line under each IK solution, divided where a solution becomes free or excluded, and where the
 /// line is out of reach. The places are samples and prove nothing.
-#[must_use]
 pub fn solutions(scene: &Scene, line: &Toolpath) -> Vec<SolutionPart> {
     let (places, arm) = (places(line), scene.arm());
     let mut parts: Vec<SolutionPart> = Vec::new();
@@ -60,7 +59,6 @@ pub fn solutions(scene: &Scene, line: &Toolpath) -> Vec<SolutionPart> {
 
 /// Returns the other IK solution for the tip's place in a configuration, and true if it is excluded. `None` if there is no
 /// other.
-#[must_use]
 pub fn other_solution(scene: &Scene, q: Configuration) -> Option<(Configuration, bool)> {
     let arm = scene.arm();
     let apart = |other: &Configuration| {

@@ -31,7 +31,6 @@ const LENS_POINTS: u32 = 12;
 const MAX_LENS_POINTS: usize = 20_000;
 
 /// Draws the strip from the top of an area downwards. Empty without a motion.
-#[must_use]
 pub fn items(line: &LineView, view: &View, area: Rect) -> Vec<Item> {
     let Some((motion, _)) = &line.motion else { return Vec::new() };
     let top = area.y + HEADING;

@@ -81,7 +81,6 @@ pub struct Focus {
 
 impl LineView {
     /// Creates the view of a line without a motion.
-    #[must_use]
     pub fn new(scene: &Scene, line: &Toolpath, tolerance: f64) -> Self {
         let strokes = line.outlines(DRAWN_TOLERANCE * scene.arm().reach());
         Self {
@@ -212,7 +211,6 @@ impl LineView {
 }
 
 /// Returns the colour of a limit: speeds of joints are blue, accelerations orange, jerks purple.
-#[must_use]
 pub fn color(limit: ActiveLimit) -> Rgb {
     let path = |index: usize| PATH_COLORS[index].0;
     match limit {

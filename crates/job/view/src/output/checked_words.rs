@@ -20,7 +20,6 @@ fn three_digits(metres: f64) -> String {
 }
 
 /// Returns the answer in a sentence, without its full stop: `Free: 72.0 mm from the shelf`.
-#[must_use]
 pub fn title(scene: &Scene, findings: &ConfigurationFindings) -> String {
     let answer = if findings.free { "Free" } else { "Not free" };
     let beyond = (0..2).find(|&k| !findings.within_limits[k]);
@@ -47,7 +46,6 @@ pub fn title(scene: &Scene, findings: &ConfigurationFindings) -> String {
 }
 
 /// Returns the key figures: name, value and meaning of each.
-#[must_use]
 pub fn cards(scene: &Scene, findings: &ConfigurationFindings) -> Vec<[String; 3]> {
     let q = Configuration::from(findings.configuration);
     let mut cards = Vec::new();

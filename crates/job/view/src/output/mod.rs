@@ -20,9 +20,7 @@ pub use cspace::{
     Roadmap, Values,
 };
 pub use file::{FileFormat, SaveError};
-pub use picture::{PictureFormat, PictureFormatError};
-pub use picture::{contours, title_of};
-pub use picture::{replayed, status, view_with};
+pub use picture::{PictureFormat, PictureFormatError, contours, replayed, status, title_of, view_with};
 pub use step_lines::{StepLine, step_lines};
 pub use summary::{Line, configuration, format_columns, goal_lines, range, summary_with};
 

@@ -81,7 +81,6 @@ impl PictureFormat {
 
     /// Returns true if the format can show how the planner found its answer. A view for it should have a replay
     /// (`PlanOutput::view_with_replay`).
-    #[must_use]
     pub fn is_animated(self) -> bool {
         match self {
             Self::Svg => false,
@@ -133,7 +132,6 @@ impl PictureFormat {
 }
 
 /// Returns the content of its pictures and pages.
-#[must_use]
 pub fn view(plan: &Plan) -> View {
     let mut view = view_with(plan, contours_of(plan.options()));
     if let Some((problem, answer)) = plan.motion()
@@ -145,7 +143,6 @@ pub fn view(plan: &Plan) -> View {
 }
 
 /// Returns the view with a replay of the planner, for pictures and pages that play.
-#[must_use]
 pub fn view_with_replay(plan: &Plan) -> View {
     replayed(plan, view(plan))
 }
@@ -157,7 +154,6 @@ pub fn replayed(plan: &Plan, view: View) -> View {
 }
 
 /// Returns the view. If the plan is a single motion, `contours` computes its C-obstacles.
-#[must_use]
 pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -> View {
     let view = match plan.detail() {
         Detail::Motion { problem, answer } => motion_view(plan, problem, answer, &contours(problem.scene())),
@@ -244,7 +240,6 @@ fn task_picture<'a>(
 }
 
 /// Returns a verdict in a word or two.
-#[must_use]
 pub fn status(status: Status) -> &'static str {
     match status {
         Status::Found => "found, certified",
@@ -259,7 +254,6 @@ fn describe_clearance(clearance: Option<f64>) -> String {
 }
 
 /// Returns the title of a scene: the names of the workspace and of the robot.
-#[must_use]
 pub fn title_of(scene: &Scene) -> String {
     match scene.workspace().name.as_str() {
         "" => scene.arm().name.clone(),
@@ -302,7 +296,6 @@ fn exact_contours(scene: &Scene) -> Vec<CObstacle> {
 }
 
 /// Returns C-obstacles for pictures.
-#[must_use]
 pub fn contours(scene: &Scene) -> Vec<CObstacle> {
     let tolerance = PICTURE_TOLERANCE * scene.arm().reach();
     c_obstacles(scene, tolerance, tolerance)

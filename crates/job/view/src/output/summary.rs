@@ -32,7 +32,6 @@ pub fn segment(arm: &Arm, segment: &Segment) -> String {
 }
 
 /// Returns a line for each of the first few goals, and a line with the number of the others.
-#[must_use]
 pub fn goal_lines(arm: &Arm, goals: &GoalSet) -> Vec<Line> {
     let lines = goals.pieces().iter().map(|goal| segment(arm, goal)).collect();
     first_lines(lines, |more| format!("and {more} more")).into_iter().map(|line| ("goal", line)).collect()
@@ -57,7 +56,6 @@ const MAX_WAITS: usize = 3;
 /// Returns the result in a few lines for people, the verdict first. It includes the written files, and notes about
 /// assumed values. If `is_verbose`, it also describes the planner's work, the times of all stages (those `after` planning
 /// included) in milliseconds, the problem, the arm, and how the robot was read.
-#[must_use]
 pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Duration)], is_verbose: bool) -> String {
     let SummaryLines { found: mut lines, asked } = summary_lines(plan);
     if let Some(blocked) = plan.motion().and_then(|(problem, answer)| motion_summary::blocked_by(problem, answer)) {

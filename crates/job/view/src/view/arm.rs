@@ -62,7 +62,6 @@ struct ArmView<'a> {
 }
 
 /// Returns a scene's arm without its payload.
-#[must_use]
 pub fn empty_handed(scene: &Scene, grain: RoundingSteps) -> Arm {
     let mut arm = scene.arm().clone();
     for (k, link) in arm.links.iter_mut().enumerate() {

@@ -10,7 +10,6 @@ const SAMPLES_PER_AXIS: usize = 17;
 
 /// Returns the least and greatest coordinates of all that the arm can sweep, and of obstacles that are not much farther
 /// away.
-#[must_use]
 pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     /// Fraction of the swept extent by which the panel may grow to include obstacles.
     const MAX_GROWTH: f64 = 0.25;
@@ -60,7 +59,6 @@ fn reach_box(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
 }
 
 /// Returns the box around shapes. For an empty list, its lower ends are above its upper ends.
-#[must_use]
 pub fn bounding_box<'a>(shapes: impl IntoIterator<Item = &'a Convex>) -> [Range; 2] {
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
     for shape in shapes {

@@ -17,7 +17,6 @@ const POINTS_PER_KEPT_POINT: usize = 4;
 
 /// Returns lines of steepest ascent, as polylines. A line ends at the goal, at a local maximum, or where the field has
 /// no value. On a circle, a line ends when it leaves the domain, at most a cell beyond the seam.
-#[must_use]
 pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     let size = [samples.x.len(), samples.y.len()];
     if size.iter().any(|&n| n < 2) {

@@ -24,7 +24,6 @@ pub struct HeightView {
 
 impl HeightView {
     /// Creates the strip of a task. `None` if the tool is never lowered.
-    #[must_use]
     pub fn of_task(task: &Task, legs: &[Leg]) -> Option<Self> {
         let tool = task.stroke.as_ref()?;
         let duration = legs.last()?.end();
@@ -69,7 +68,6 @@ pub struct TurnsView {
 
 impl TurnsView {
     /// Creates the strip of a task. `None` if the wrist never turns.
-    #[must_use]
     pub fn of_task(task: &Task, legs: &[Leg]) -> Option<Self> {
         let duration = legs.last()?.end();
         if let Some(strip) = Self::of_empty_gripper(task, legs, duration) {

@@ -53,7 +53,6 @@ const LINE_SCRIPTS: [&str; 2] = [include_str!("assets/lens.js"), include_str!("a
 const PLAN_SCRIPT: &str = include_str!("assets/plan.js");
 
 /// Returns the view as one self-contained HTML file.
-#[must_use]
 pub fn page(view: &View) -> String {
     let title = view.title.first().map_or("cplan", String::as_str);
     let sections: String = view.still.sections.iter().map(|section| section.script).collect();
@@ -66,7 +65,6 @@ const INSPECTION_SCRIPT: &str = include_str!("assets/inspection.js");
 
 /// Returns the page of a robot's inspection. `report` is a JSON object. `view` shows the arm; `None` if the robot has
 /// none.
-#[must_use]
 pub fn inspection_page(title: &str, view: Option<&View>, report: &str) -> String {
     let view = view.map_or_else(|| "null".into(), View::json);
     let data = format!("{{\"view\":{view},\"report\":{report}}}");
@@ -74,7 +72,6 @@ pub fn inspection_page(title: &str, view: Option<&View>, report: &str) -> String
 }
 
 /// Returns the scripts that draw a view, for pages that add their own code after them.
-#[must_use]
 pub fn drawing() -> String {
     let roles: Vec<String> = cplan_theme::names().collect();
     let stops = cplan_theme::SCALE_STOPS.map(|color| color.to_string());
@@ -87,7 +84,6 @@ pub fn drawing() -> String {
 
 /// Returns a self-contained page. It loads nothing, and the browser does not allow it to load anything. The element
 /// `id` contains `json`, which `code` reads.
-#[must_use]
 pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> String {
     let policy =
         "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; font-src data:";
@@ -99,7 +95,6 @@ pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> Str
 
 /// Returns a page on which code draws within the element `main`. `head` has further elements for the page's head,
 /// `style` its own styles, and `before` the elements that precede the code.
-#[must_use]
 pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> String {
     let title = markup(title);
     let tokens = cplan_theme::css();

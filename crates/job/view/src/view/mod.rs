@@ -51,6 +51,5 @@ pub(super) use steps::Row;
 pub(super) use strip::StripView;
 pub(super) use trace::{LevelView, ScaleView, TraceView};
 pub(super) use waves::{LEVELS, Waves};
-pub use world::contours as contour_views;
-pub use world::{ContourView, ObstacleView, listed_number};
+pub use world::{ContourView, ObstacleView, contours as contour_views, listed_number};
 pub(super) use world::{MAX_NAMED_OBSTACLES, PayloadView, RegionView, WorldView};

@@ -30,7 +30,6 @@ fn grains(size: f64) -> f64 {
 }
 
 /// Rounds an angle, or another number near 1.
-#[must_use]
 pub fn number(value: f64) -> f64 {
     rounded(value, grains(1.0))
 }
@@ -38,7 +37,6 @@ pub fn number(value: f64) -> f64 {
 impl RoundingSteps {
     /// Returns the rounding steps of an arm. Those of lengths follow from its reach. Those of joint values follow from
     /// a radian if the joint is revolute, and from its stroke if it is prismatic.
-    #[must_use]
     pub fn of(arm: &Arm) -> Self {
         let stroke = |k: usize| arm.joints[k].range.extent().max(f64::MIN_POSITIVE);
         let joints = [0, 1].map(|k| grains(if arm.joints[k].joint_type.is_revolute() { 1.0 } else { stroke(k) }));
@@ -46,7 +44,6 @@ impl RoundingSteps {
     }
 
     /// Returns the rounding steps for content within a box of this size. It is for pictures without an arm.
-    #[must_use]
     pub fn within(size: f64) -> Self {
         Self { lengths: grains(size), joints: [grains(1.0); 2] }
     }
@@ -59,31 +56,26 @@ impl RoundingSteps {
     }
 
     /// Rounds a length or coordinate.
-    #[must_use]
     pub fn length(self, value: f64) -> f64 {
         rounded(value, self.lengths)
     }
 
     /// Rounds a point of the plane.
-    #[must_use]
     pub fn point(self, p: Point) -> Point {
         p.map(|x| self.length(x))
     }
 
     /// Rounds points of the plane.
-    #[must_use]
     pub fn points(self, points: &[Point]) -> Vec<Point> {
         points.iter().map(|&p| self.point(p)).collect()
     }
 
     /// Rounds a rounded convex polygon.
-    #[must_use]
     pub fn shape(self, shape: &Convex) -> ShapeView {
         ShapeView(shape.mapped(|corner| self.point(corner), self.length(shape.radius())))
     }
 
     /// Rounds the coordinates of a shape of the world file.
-    #[must_use]
     pub fn outline(self, shape: &Shape) -> Shape {
         match shape {
             Shape::Polygon(corners) => Shape::Polygon(self.points(corners)),
@@ -96,13 +88,11 @@ impl RoundingSteps {
     }
 
     /// Rounds a configuration, or speeds or accelerations of both joints.
-    #[must_use]
     pub fn configuration(self, q: Configuration) -> [f64; 2] {
         [rounded(q[0], self.joints[0]), rounded(q[1], self.joints[1])]
     }
 
     /// Rounds several configurations.
-    #[must_use]
     pub fn configurations<'a>(self, all: impl IntoIterator<Item = &'a Configuration>) -> Chain {
         Chain(all.into_iter().map(|&q| self.configuration(q).into()).collect())
     }

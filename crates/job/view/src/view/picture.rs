@@ -72,7 +72,6 @@ pub struct AxesFrame {
 
 impl<'a> Picture<'a> {
     /// Creates a picture with the arm at `start`, and nothing else.
-    #[must_use]
     pub fn new(scene: impl Into<TimedScene<'a>>, start: Configuration) -> Self {
         Self {
             title: Vec::new(),
@@ -109,7 +108,6 @@ impl<'a> Picture<'a> {
 
 impl View {
     /// Returns the view of a picture.
-    #[must_use]
     pub fn of_picture(picture: &Picture) -> Self {
         let Picture { scene: timed, start, .. } = *picture;
         let scene = timed.scene;
@@ -169,7 +167,6 @@ impl View {
     }
 
     /// Returns the view of an arm in one configuration with frames, without its configuration space.
-    #[must_use]
     pub fn of_arm(picture: &Picture, frames: &[AxesFrame]) -> Self {
         let grain = RoundingSteps::of(picture.scene.scene.arm());
         let frame = |frame: &AxesFrame| FrameView {

@@ -20,7 +20,6 @@ pub struct PayloadState<'a> {
 
 /// Returns the payload states in the order of their first occurrence. Repetitions that look the same are merged. Takes
 /// `O(n^2)` for `n` motions in the worst case, and `O(n)` if the repetitions of a step look the same.
-#[must_use]
 pub fn payload_states<'a>(legs: &'a [Leg], topology: &Topology) -> Vec<PayloadState<'a>> {
     let mut states: Vec<PayloadState> = Vec::new();
     let numbered: Vec<(usize, &Leg)> = legs.iter().enumerate().collect();
@@ -68,7 +67,6 @@ pub struct PayloadGroup<'a> {
 }
 
 /// Groups the states for which `is_alike` holds, in the order of their first occurrence.
-#[must_use]
 pub fn grouped<'a>(
     states: Vec<PayloadState<'a>>,
     is_alike: impl Fn(&PayloadState, &PayloadState) -> bool,
@@ -114,7 +112,6 @@ impl PayloadGroup<'_> {
 }
 
 /// Returns the state of the hand in words, as a title. `payloads` are the names of the objects that it carries in turn.
-#[must_use]
 pub fn hand(payloads: &[&str]) -> String {
     match payloads {
         [] => "Empty hand".to_owned(),
@@ -125,13 +122,11 @@ pub fn hand(payloads: &[&str]) -> String {
 }
 
 /// Returns the payload in words.
-#[must_use]
 pub fn describe(object: Option<&str>) -> String {
     object.map_or("empty-handed".to_owned(), |object| format!("carrying \"{object}\""))
 }
 
 /// Formats numbers. Consecutive ones become a range: `1–3, 5`.
-#[must_use]
 pub fn ranges(numbers: &[usize]) -> String {
     let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
         [one] => one.to_string(),

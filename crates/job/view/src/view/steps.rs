@@ -67,13 +67,11 @@ impl Order {
 }
 
 /// Returns the number of repetitions.
-#[must_use]
 pub fn rounds(legs: &[Leg]) -> usize {
     legs.iter().map(|leg| leg.step.cycle).max().unwrap_or(1)
 }
 
 /// Returns the rows of the list: the names of the columns, each step at its first execution, and the failed step.
-#[must_use]
 pub fn rows(picture: &TaskPicture) -> Vec<Row> {
     let objects = &picture.task.objects;
     let (order, rounds) = (Order::of(picture.answer), rounds(&picture.answer.legs));
@@ -100,7 +98,6 @@ pub fn rows(picture: &TaskPicture) -> Vec<Row> {
 }
 
 /// Returns the lines of the title, and the status.
-#[must_use]
 pub fn words(picture: &TaskPicture) -> (Vec<String>, String) {
     let mut lines = picture.title.clone();
     let Some(failed) = picture.answer.failed() else { return (lines, picture.status.clone()) };

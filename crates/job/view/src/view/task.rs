@@ -27,7 +27,6 @@ const MAX_MOMENTS: usize = 120;
 
 impl View {
     /// Returns the view of a task. It has one world for each set of motions that have the same scene.
-    #[must_use]
     pub fn of_task(picture: &TaskPicture) -> Self {
         let (task, legs) = (picture.task, &picture.answer.legs);
         let (grain, order) = (RoundingSteps::of(&task.arm), Order::of(picture.answer));

@@ -24,13 +24,11 @@ pub struct ToolAngleView {
 
 impl ToolAngleView {
     /// Creates the strip of a motion along a line. `None` if no wrist turns the tool.
-    #[must_use]
     pub fn of_line(arm: &Arm, joint: &WristJoint, trajectory: &Trajectory) -> Option<Self> {
         Self::of_lines(arm, joint, trajectory.duration(), [(0.0, trajectory)].into_iter())
     }
 
     /// Creates the strip of a task. `None` if no wrist turns the tool along a line.
-    #[must_use]
     pub fn of_task(task: &Task, legs: &[Leg]) -> Option<Self> {
         let joint = task.wrist?.joint?;
         let duration = legs.last()?.end();

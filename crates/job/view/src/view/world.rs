@@ -286,7 +286,6 @@ pub fn contours<'a>(all: impl IntoIterator<Item = &'a CObstacle>, grain: Roundin
 }
 
 /// Returns the index of an obstacle or a link in the list of a view.
-#[must_use]
 pub fn listed_number(scene: &Scene, number: usize) -> usize {
     shown_number(scene, &scene.listed_self_obstacles(), number)
 }

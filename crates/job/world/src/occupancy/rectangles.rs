@@ -19,7 +19,6 @@ pub struct PixelRectangle {
 /// cut for every two concave corners. So the result has at most twice the minimal number of rectangles for an outline
 /// without holes, and at most three times with holes. Computing the minimal number would require a matching of the
 /// lines that join two concave corners (Lipski et al. 1979, Ohtsuki 1982).
-#[must_use]
 pub fn rectangles(size: [usize; 2], solid: impl Fn(usize, usize) -> bool, most: usize) -> Option<Vec<PixelRectangle>> {
     let [width, height] = size;
     let by_rows = merged_runs([height, width], |y, x| solid(x, y), most)

@@ -7,8 +7,7 @@ mod nearby;
 mod search;
 
 pub use nearby::Nearby;
-pub use search::{RoadmapSearch, SearchOrder};
-pub use search::{SearchProblem, SearchResult, search};
+pub use search::{RoadmapSearch, SearchOrder, SearchProblem, SearchResult, search};
 
 use super::terminals::Terminals;
 use super::{GraphKind, Proposal, Run, Size, Trace};

@@ -34,7 +34,6 @@ impl SearchOrder {
     pub const ALL: [Self; 5] = [Self::BreadthFirst, Self::DepthFirst, Self::Dijkstra, Self::AStar, Self::Greedy];
 
     /// Returns the name on the command line.
-    #[must_use]
     pub fn name(self) -> &'static str {
         match self {
             Self::BreadthFirst => "bfs",
@@ -46,7 +45,6 @@ impl SearchOrder {
     }
 
     /// Returns true if the search finds a shortest path on the roadmap.
-    #[must_use]
     pub fn is_optimal(self) -> bool {
         matches!(self, Self::Dijkstra | Self::AStar)
     }

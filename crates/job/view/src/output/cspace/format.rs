@@ -22,7 +22,6 @@ impl CSpaceFormat {
     /// Returns the format for a file name, in upper or lower case. `cspace.json`, and names that end in `.cspace.json`,
     /// mean JSON. In the same way, `cspace.csv`, `potential.csv` and `heuristic.csv` mean matrices. Names that end in
     /// `.geojson` mean GeoJSON. Returns `None` for other names.
-    #[must_use]
     pub fn from_path(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
         let is = |end: &str| name.strip_suffix(end).is_some_and(|before| before.is_empty() || before.ends_with('.'));
@@ -40,7 +39,6 @@ impl CSpaceFormat {
     }
 
     /// Returns the text of the file. `None` for a matrix if there is no grid with such values.
-    #[must_use]
     pub fn text(self, spaces: &CSpaces) -> Option<String> {
         match self {
             Self::Json => Some(spaces.json()),

@@ -16,8 +16,7 @@ use cplan_judge::CheckedProof;
 use cplan_legs::TaskAnswer;
 use cplan_model::space::{Configuration, Path};
 use cplan_model::{Joint, MotionProblem, Scene, Status};
-use cplan_motion::CertifiedCurve;
-use cplan_motion::field_per_line;
+use cplan_motion::{CertifiedCurve, field_per_line};
 use cplan_planners::cspace::{self, PolygonWithHoles, Proves};
 use cplan_planners::planner::{Trace, VisibilityGraph};
 use cplan_planners::waves::FreeCells;
@@ -151,7 +150,6 @@ pub struct FreeRegion {
 
 /// Returns the planner's configuration space as data. Computes the C-obstacles again, which takes as long as for a
 /// picture.
-#[must_use]
 pub fn cspaces(plan: &Plan) -> CSpaces {
     let is_exact = plan.options().planner.is_exact();
     let axes = plan.arm().joints.each_ref().map(Axis::of);
