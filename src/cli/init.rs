@@ -1,10 +1,15 @@
-//! `cplan init`: writes a robot and a world to begin with, in which every key is explained.
+//! `cplan init`: writes a robot and a world to begin with, in which every key is explained; the robot, if asked for, by the
+//! numbers of its data sheet.
 
+use super::data_sheet::{ArmNumbers, DataSheet, scaled};
 use super::demo::{self, in_folder};
 use super::exit::DONE;
 use super::failure::Failure;
 use super::fresh::{folder, refuse_existing_files, word};
 use super::{schema, sinks};
+use crate::engine::{Options, Problem, plan};
+use crate::input::{Overrides, Source, scene_from};
+use crate::model::Status;
 use crate::motion::write_whole_set;
 use crate::output::format_columns;
 use clap::{Args, ValueEnum, ValueHint};
@@ -25,6 +30,7 @@ Examples:
   cplan init
   cplan init cell --kind pr
   cplan init scara --kind scara
+  cplan init mine --kind scara --links 0.225,0.225 --stroke 0.2 --limits 130,145
 
 Exit codes: 0 the files are written, 1 they exist already or cannot be written,
 2 wrong command line.")]
@@ -35,6 +41,8 @@ pub struct InitArgs {
     /// Kind of arm.
     #[arg(long, value_enum, value_name = "KIND", default_value_t = Kind::Rr)]
     pub kind: Kind,
+    #[command(flatten)]
+    pub sheet: DataSheet,
     /// Replace existing files.
     #[arg(long)]
     pub force: bool,
@@ -44,14 +52,17 @@ pub struct InitArgs {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Kind {
     /// Two turning joints.
+    #[value(alias = "2r")]
     Rr,
     /// A turret with a ram that slides out of it: turning, then sliding.
+    #[value(alias = "polar")]
     Rp,
     /// An arm on a rail: sliding, then turning.
     Pr,
     /// A gantry: two sliding joints.
+    #[value(alias = "gantry")]
     Pp,
-    /// The cell of `cplan demo`, a SCARA among six obstacles.
+    /// The cell of `cplan demo`, a SCARA among six obstacles; with the numbers of a data sheet, that SCARA among two.
     Scara,
     /// The pick-and-place cycle of `cplan demo --kind arch`.
     Arch,
@@ -137,9 +148,21 @@ const PP_MARKS: TemplateMarks = TemplateMarks {
     is_above: true,
 };
 
+const SCARA_MARKS: TemplateMarks = TemplateMarks { joints: ["axis_1", "axis_2"], ..RR_MARKS };
+
 impl TemplateMarks {
-    /// Returns the text of the world.
-    fn world(&self) -> String {
+    /// Returns the text of the world of an arm with these numbers. Obstacles are `distance` times as far as in the template.
+    fn world(&self, kind: Kind, numbers: &ArmNumbers, distance: f64) -> String {
+        let scale = numbers.scale(kind).map(|scale| scale * distance);
+        let usual = ArmNumbers::of(kind);
+        let ratio = [0, 1].map(|k| numbers.limits[k] / usual.limits[k]);
+        let points = |text: &str| scaled(text, &scale);
+        let disc = |text: &str| scaled(text, &[scale[0], scale[1], scale[0].min(scale[1])]);
+        let joints = |text: &str| {
+            // Turns stay as they are if the ranges are at least as wide as usual.
+            let turns = kind.turns();
+            scaled(text, &[0, 1].map(|k| if turns[k] { ratio[k].min(1.0) } else { ratio[k] }))
+        };
         let [joint1, joint2] = self.joints;
         let [unit1, unit2] = self.units;
         let height = "height = [0.0, 0.3]";
@@ -152,19 +175,19 @@ impl TemplateMarks {
             ("joint2", joint2),
             ("unit1", unit1),
             ("unit2", unit2),
-            ("limits2", self.limits),
-            ("start", self.start),
-            ("goal", self.goal),
-            ("tip", self.tip),
+            ("limits2", &scaled(self.limits, &[ratio[1]])),
+            ("start", &joints(self.start)),
+            ("goal", &joints(self.goal)),
+            ("tip", &points(self.tip)),
             ("polygon_name", self.polygon[0]),
-            ("polygon", self.polygon[1]),
+            ("polygon", &points(self.polygon[1])),
             ("height", &if self.is_above { height.to_owned() } else { format!("#{height}") }),
             ("disc_name", self.disc[0]),
-            ("disc", self.disc[1]),
+            ("disc", &disc(self.disc[1])),
             ("more_height", &above(&format!("\n{height}"))),
-            ("wall", self.wall),
+            ("wall", &points(self.wall)),
             ("wall_height", &above(&format!("\n#{height}"))),
-            ("region", self.region),
+            ("region", &points(self.region)),
         ];
         marks
             .iter()
@@ -173,28 +196,85 @@ impl TemplateMarks {
 }
 
 impl Kind {
-    /// Returns the text of the robot's file.
-    fn robot(self) -> &'static str {
+    /// Returns the name in messages, with its article.
+    pub fn name(self) -> &'static str {
         match self {
-            Kind::Rr => include_str!("starter/rr.urdf"),
-            Kind::Rp => include_str!("starter/rp.urdf"),
-            Kind::Pr => include_str!("starter/pr.urdf"),
-            Kind::Pp => include_str!("starter/pp.urdf"),
-            Kind::Scara | Kind::Arch => demo::DEMO_ROBOT,
+            Kind::Rr => "an arm of two turning joints",
+            Kind::Rp => "a turret with a ram",
+            Kind::Pr => "an arm on a rail",
+            Kind::Pp => "a gantry",
+            Kind::Scara | Kind::Arch => "a SCARA",
         }
     }
 
-    /// Returns the text of the world file.
-    fn world(self) -> String {
+    /// Returns, for each joint, true if it turns and false if it slides.
+    pub fn turns(self) -> [bool; 2] {
         match self {
-            Kind::Rr => RR_MARKS.world(),
-            Kind::Rp => RP_MARKS.world(),
-            Kind::Pr => PR_MARKS.world(),
-            Kind::Pp => PP_MARKS.world(),
-            Kind::Scara => shipped(demo::DEMO_WORLD),
-            Kind::Arch => shipped(demo::ARCH_WORLD),
+            Kind::Rr | Kind::Scara | Kind::Arch => [true, true],
+            Kind::Rp => [true, false],
+            Kind::Pr => [false, true],
+            Kind::Pp => [false, false],
         }
     }
+
+    /// Returns the texts of the robot's file and of the world file.
+    fn files(self) -> [String; 2] {
+        let numbers = ArmNumbers::of(self);
+        match self {
+            Kind::Rr | Kind::Rp | Kind::Pr | Kind::Pp => self.files_by(&numbers, 1.0),
+            Kind::Scara => [demo::DEMO_ROBOT.to_owned(), shipped(demo::DEMO_WORLD)],
+            Kind::Arch => [demo::DEMO_ROBOT.to_owned(), shipped(demo::ARCH_WORLD)],
+        }
+    }
+
+    /// Returns the texts of the robot's file and of the world file for an arm with these numbers, with obstacles at this
+    /// multiple of their usual distances.
+    fn files_by(self, numbers: &ArmNumbers, distance: f64) -> [String; 2] {
+        let (template, marks) = match self {
+            Kind::Rr => (include_str!("starter/rr.urdf"), RR_MARKS),
+            Kind::Rp => (include_str!("starter/rp.urdf"), RP_MARKS),
+            Kind::Pr => (include_str!("starter/pr.urdf"), PR_MARKS),
+            Kind::Pp => (include_str!("starter/pp.urdf"), PP_MARKS),
+            Kind::Scara | Kind::Arch => (include_str!("starter/scara.urdf"), SCARA_MARKS),
+        };
+        let mut world = marks.world(self, numbers, distance);
+        if numbers.stroke > 0.0 {
+            let joints = "joints = [\"axis_1\", \"axis_2\"]\n";
+            let tool = "tip = \"flange\"\n# The quill and the wrist, for tasks: `stroke` and `wrist` in [start], [goal] and [[step]].\n\
+                        stroke = { joint = \"axis_3\" }\nwrist = { joint = \"axis_4\", velocity = 20.0 }\n";
+            world = world.replace(&format!("#{joints}"), joints).replace("#tip = \"tool0\"\n", tool);
+        }
+        [numbers.urdf(self, template), world]
+    }
+
+    /// Returns the files for an arm with these numbers, whose motion can be planned at once: its obstacles are at the first of
+    /// [`DISTANCES`] that leaves the arm a way. If none does, they are commented out.
+    fn files_of_sheet(self, numbers: &ArmNumbers) -> [String; 2] {
+        let mut candidates = DISTANCES.into_iter().map(|distance| self.files_by(numbers, distance));
+        if let Some(files) = candidates.find(|[robot, world]| is_found(robot, world)) {
+            return files;
+        }
+        let [robot, world] = self.files_by(numbers, 1.0);
+        let first = world.find("\n[[obstacle]]").map_or(world.len(), |at| at + 1);
+        let commented = |line: &str| match line {
+            "" => String::new(),
+            line if line.starts_with('#') => line.to_owned(),
+            line => format!("#{line}"),
+        };
+        let obstacles: Vec<String> = world[first..].lines().map(commented).collect();
+        [robot, world[..first].to_owned() + &obstacles.join("\n") + "\n"]
+    }
+}
+
+/// Distances of obstacles that are tried, as multiples of those in the template.
+const DISTANCES: [f64; 8] = [1.0, 1.1, 0.9, 1.2, 0.8, 1.35, 0.7, 1.5];
+
+/// Returns true if the motion of this world is found.
+fn is_found(robot: &str, world: &str) -> bool {
+    let [robot, world] = [(ROBOT_FILE, robot), (WORLD_FILE, world)].map(|(name, text)| Source::in_memory(name, text));
+    let problem = scene_from(robot, world).and_then(|scene| Problem::of_scene(scene, &Overrides::default()));
+    let plan = problem.ok().and_then(|problem| plan(&problem, &Options::default()).ok());
+    plan.is_some_and(|plan| plan.status() == Status::Found)
 }
 
 /// Returns a shipped world without the lines that only the tests of shipped worlds need.
@@ -214,22 +294,41 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
         args.force,
         "`cplan init DIR` writes elsewhere",
     )?;
+    let numbers = (!args.sheet.is_empty()).then(|| args.sheet_numbers()).transpose()?;
     folder(&args.dir)?;
+    let [robot_text, world_text] =
+        numbers.as_ref().map_or_else(|| args.kind.files(), |numbers| args.kind.files_of_sheet(numbers));
     let files = [
-        (robot.clone(), args.kind.robot().to_owned()),
-        (world.clone(), args.kind.world()),
+        (robot.clone(), robot_text),
+        (world.clone(), world_text),
         (schema_file.clone(), schema::WORLD_SCHEMA.to_owned()),
     ];
     write_whole_set(&files)?;
-    sinks::report(&description(&robot, &world, &schema_file))?;
+    let words = numbers.map(|numbers| numbers.words(args.kind));
+    sinks::report(&description([&robot, &world, &schema_file], words.as_deref()))?;
     Ok(DONE)
 }
 
+impl InitArgs {
+    /// Returns the numbers of the arm by its data sheet.
+    fn sheet_numbers(&self) -> Result<ArmNumbers, Failure> {
+        match self.kind {
+            Kind::Pr | Kind::Arch => {
+                let message = "the numbers of a data sheet are for --kind rr, rp, pp and scara";
+                Err(Failure::Usage(message.to_owned()))
+            }
+            kind => self.sheet.numbers(kind),
+        }
+    }
+}
+
 /// Describes the written files and the next commands.
-fn description(robot: &Path, world: &Path, schema: &Path) -> String {
+/// `numbers` are those of a data sheet.
+fn description([robot, world, schema]: [&Path; 3], numbers: Option<&str>) -> String {
     let both = format!("{} {}", word(robot), word(world));
+    let bodies = numbers.map(|numbers| format!("; {numbers}; its bodies are simple envelopes")).unwrap_or_default();
     format_columns(&[
-        ("file", format!("{}: the robot", robot.display())),
+        ("file", format!("{}: the robot{bodies}", robot.display())),
         ("file", format!("{}: start, goal and obstacles, every key explained", world.display())),
         ("file", format!("{}: lets editors complete and explain the keys of the world", schema.display())),
         ("next", format!("cplan {both} --picture plan.html")),

@@ -6,6 +6,7 @@ mod compare;
 mod commands;
 mod completions;
 mod converge;
+mod data_sheet;
 mod demo;
 mod error_json;
 mod exit;

@@ -148,6 +148,69 @@ fn the_files_of_init_can_be_planned_at_once() {
     }
 }
 
+/// Arms of data sheets, from toys to large ones: the words of the command line, and the reach that `inspect` states, in metres.
+const SHEETS: [(&str, Option<f64>); 9] = [
+    ("--kind scara --links 0.225,0.225 --stroke 0.2 --limits 130,145", Some(0.45)),
+    ("--kind scara --links 0.4,0.2 --stroke 0.1", Some(0.6)),
+    ("--kind scara --links 0.3,0.3 --limits 20,25 --speeds 400,600", Some(0.6)),
+    ("--kind 2r --links 0.2,0.1 --limits 360,170", Some(0.3)),
+    ("--kind rr --links 3,2", Some(5.0)),
+    ("--kind gantry --limits 0.3,0.2 --speeds 0.5,0.4", None),
+    ("--kind pp --limits 3,2", None),
+    ("--kind polar --links 0.3 --limits 90,0.4", None),
+    ("--kind rp --links 2 --limits 170,1", None),
+];
+
+#[test]
+fn robots_of_data_sheets_can_be_planned_at_once() {
+    let place = Place::new();
+    for (number, (sheet, reach)) in SHEETS.into_iter().enumerate() {
+        let folder = format!("sheet{number}");
+        let done = place.run(&["init", &folder], sheet);
+        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{sheet}");
+        let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| format!("{folder}/{file}"));
+        assert!(!place.read(&urdf).contains("{{") && !place.read(&world).contains("{{"), "{sheet}: a mark is left");
+        let ran = place.run(&[&urdf, &world], "--verbose");
+        assert_eq!((ran.code, ran.stderr.as_str()), (0, ""), "{sheet}");
+        assert!(ran.stdout.contains("found and certified"), "{sheet}: {}", ran.stdout);
+        // The reach that the robot has is that of the data sheet.
+        let inspected = place.run(&["inspect", &urdf, &world], "--json").json();
+        if let Some(reach) = reach {
+            let farthest = inspected["reach"]["distances"][1].as_f64().unwrap();
+            assert!((farthest - reach).abs() < 1e-9, "{sheet}: {farthest}");
+        }
+    }
+}
+
+/// The data sheet's numbers are those of the arm, in radians.
+#[test]
+fn limits_and_speeds_of_data_sheets_are_those_of_the_joints() {
+    let place = Place::new();
+    let words = "--kind scara --links 0.225,0.225 --stroke 0.2 --limits 130,145 --speeds 375,600";
+    let done = place.run(&["init", "cell"], words);
+    let numbers = "links 0.225 and 0.225 m, ranges -130 to 130 deg and -145 to 145 deg, top speeds 375 deg/s and 600 deg/s, \
+                   stroke 0.2 m; its bodies are simple envelopes";
+    assert!(done.stdout.contains(numbers), "{}", done.stdout);
+    let problem = cplan::Problem::load(place.path("cell/arm.urdf"), place.path("cell/world.toml")).unwrap();
+    for (joint, [degrees, speed]) in problem.scene().arm().joints.iter().zip([[130.0, 375.0], [145.0, 600.0_f64]]) {
+        let range = joint.range.domain();
+        assert!((range.1.to_degrees() - degrees).abs() < 1e-3 && (range.0.to_degrees() + degrees).abs() < 1e-3);
+        assert!((joint.velocity.to_degrees() - speed).abs() < 1e-3, "{}", joint.velocity);
+    }
+    for (words, message) in [
+        ("--kind rr --links 0.2", "--links: an arm of two turning joints needs 2, not 1"),
+        ("--kind gantry --links 0.2,0.1", "--links: a gantry has none; --limits are its travels"),
+        ("--kind rr --stroke 0.2", "--stroke needs --kind scara"),
+        ("--kind scara --limits 130", "--limits needs two numbers separated by a comma"),
+        ("--kind scara --links 225,225", "--links and --stroke are in metres, and at most 100"),
+        ("--kind scara --links 0,0.2", "greater than 0"),
+        ("--kind scara --limits 5000,10", "--limits: number 1 is in degrees, and at most 3600"),
+        ("--kind pr --links 1,1", "the numbers of a data sheet are for --kind rr, rp, pp and scara"),
+    ] {
+        place.run(&["init", "other"], words).refused(2, &[message]);
+    }
+}
+
 /// Returns true for lines of a starter world that are commented keys. A `#` is directly before a key, but followed by a
 /// blank before words.
 fn is_key(line: &str) -> bool {
