@@ -2,6 +2,7 @@
 
 use super::obstacles::{ImportedObstacle, coordinates, placed};
 use crate::cli::fresh::word;
+use crate::text::counted;
 use cplan_drawing::{Geometry, Notes, Shape};
 use std::path::Path;
 
@@ -11,8 +12,8 @@ const USUAL_WIDTHS: [f64; 2] = [0.01, 100.0];
 /// Least and greatest value of both coordinates.
 type Bounds = [(f64, f64); 2];
 
-/// Adds notes about what looks unusual: an obstacle at the arm's base, an obstacle around all others, and the extent of
-/// the drawing.
+/// Adds notes about what looks unusual: an obstacle at the arm's base, an obstacle around all or some others, and the extent
+/// of the drawing.
 pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
     let bounds: Vec<Bounds> = taken.iter().map(|taken| bounds(coordinates(&taken.shape))).collect();
     let border = border(taken, &bounds);
@@ -23,7 +24,20 @@ pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
                 "\"{name}\" is solid and encloses everything else: --walls {option} makes it a wall, --without {option} leaves it out"
             );
             notes.add(message, shape.line);
-        } else if solid_contains(shape, [0.0, 0.0]) {
+            continue;
+        }
+        let inner: Vec<&str> = inside(taken, &bounds, i).map(|j| taken[j].name.as_str()).collect();
+        if let Some(first) = inner.first() {
+            let others = match inner.len() {
+                1 => format!("\"{first}\""),
+                count => format!("\"{first}\" and {}", counted(count - 1, "other")),
+            };
+            let message = format!(
+                "\"{name}\" is solid, and so is what lies inside it, {others}: --walls {option} makes \"{name}\" a wall"
+            );
+            notes.add(message, shape.line);
+        }
+        if solid_contains(shape, [0.0, 0.0]) {
             let message = format!(
                 "\"{name}\" covers (0, 0), the arm's base: --without {option} leaves it out, --move shifts the drawing"
             );
@@ -49,19 +63,44 @@ fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Bounds {
 /// Returns the index of the solid that surrounds all others. Returns `None` if there is none. Drawings often contain
 /// the walls of a room, or the reach of an arm, as such a solid.
 fn border(taken: &[ImportedObstacle], bounds: &[Bounds]) -> Option<usize> {
-    let surrounds =
-        |i: usize, j: usize| (0..2).all(|k| bounds[i][k].0 < bounds[j][k].0 && bounds[j][k].1 < bounds[i][k].1);
-    let is_solid = |shape: &Shape| match &shape.geometry {
-        Geometry::Polygon { holes, .. } => holes.is_empty(),
-        Geometry::Circle { .. } => true,
-        Geometry::Polyline(_) => false,
-    };
     // Only the widest obstacle can surround the others.
     let width = |i: usize| bounds[i][0].1 - bounds[i][0].0;
     let widest = (0..taken.len()).max_by(|&i, &j| width(i).total_cmp(&width(j)))?;
-    let others = (0..taken.len()).filter(|&j| j != widest);
-    (taken.len() > 1 && is_solid(&taken[widest].shape) && others.clone().all(|j| surrounds(widest, j)))
-        .then_some(widest)
+    let is_around =
+        |mut others: std::ops::Range<usize>| others.all(|j| j == widest || surrounds(&bounds[widest], &bounds[j]));
+    (taken.len() > 1 && is_solid(&taken[widest].shape) && is_around(0..taken.len())).then_some(widest)
+}
+
+/// Returns the indices of the solids that lie inside solid `i`.
+fn inside<'a>(taken: &'a [ImportedObstacle], bounds: &'a [Bounds], i: usize) -> impl Iterator<Item = usize> + 'a {
+    let outer = &taken[i].shape;
+    let is_inside = move |j: usize| {
+        surrounds(&bounds[i], &bounds[j])
+            && is_solid(&taken[j].shape)
+            && point_of(&taken[j].shape).is_some_and(|point| solid_contains(outer, point))
+    };
+    (0..taken.len()).filter(move |&j| j != i && is_solid(outer) && is_inside(j))
+}
+
+/// Returns a point of a solid, in world coordinates.
+fn point_of(shape: &Shape) -> Option<[f64; 2]> {
+    match &shape.geometry {
+        Geometry::Circle { center, .. } => Some(placed(shape, *center)),
+        Geometry::Polygon { .. } | Geometry::Polyline(_) => coordinates(shape).next(),
+    }
+}
+
+fn surrounds(outer: &Bounds, inner: &Bounds) -> bool {
+    (0..2).all(|k| outer[k].0 < inner[k].0 && inner[k].1 < outer[k].1)
+}
+
+/// Returns true for a solid without holes.
+fn is_solid(shape: &Shape) -> bool {
+    match &shape.geometry {
+        Geometry::Polygon { holes, .. } => holes.is_empty(),
+        Geometry::Circle { .. } => true,
+        Geometry::Polyline(_) => false,
+    }
 }
 
 /// Returns true if a point of the world lies in a solid.

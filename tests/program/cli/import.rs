@@ -276,6 +276,18 @@ fn probable_mistakes_are_noted_with_a_hint() {
     let around = "\"reach\" is solid and encloses everything else: --walls reach makes it a wall, --without reach leaves it out (line 16)";
     assert_eq!(message(&format!("{reach}{post}"), ""), [around]);
     assert_eq!(message(&format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 "), ""), [""; 0]);
+    // A tray with two pockets, beside a post: the pockets are solid, as the tray is.
+    let tray = "0 LWPOLYLINE 8 tray 70 1 10 200 20 200 10 400 20 200 10 400 20 300 10 200 20 300 ";
+    let pockets = "0 CIRCLE 8 pocket 10 250 20 250 40 20 0 CIRCLE 8 pocket 10 350 20 250 40 20 ";
+    let beside = "0 CIRCLE 8 post 10 900 20 0 40 20 ";
+    let solid = "\"tray\" is solid, and so is what lies inside it, \"pocket 1\" and 1 other: --walls tray makes \"tray\" a wall \
+                 (line 16)";
+    assert_eq!(message(&format!("{tray}{pockets}{beside}"), ""), [solid]);
+    assert_eq!(message(&format!("{tray}{pockets}{beside}"), "--walls tray"), [""; 0]);
+    // Beside an outline, within its bounds only.
+    let corner = "0 LWPOLYLINE 8 corner 70 1 10 200 20 200 10 400 20 200 10 400 20 220 10 220 20 220 10 220 20 400 10 200 20 400 ";
+    let near = "0 CIRCLE 8 near 10 300 20 300 40 20 ";
+    assert_eq!(message(&format!("{corner}{near}{beside}"), ""), [""; 0]);
     let wide = |width: &str| format!("the whole drawing is {width} wide; if that is wrong, give its --unit");
     let two = format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 ");
     assert_eq!(message(&two, "--unit m"), [wide("440 m")]);

@@ -253,7 +253,8 @@ impl<'a> StepReader<'a> {
     /// Returns the pairs of pick and place of a group in free order.
     fn pairs(&self, nodes: Vec<Node>) -> Result<Vec<[Leaf; 2]>, Diagnostic> {
         let source = self.reader.source;
-        let help = "steps in free order are pick, place, pick, place, and so on";
+        let help =
+            "steps in free order are pick, place, pick, place, and so on; put any other step before or after the group";
         let mut picked = BTreeSet::new();
         let mut pairs = Vec::new();
         let mut nodes = nodes.into_iter();
