@@ -1,5 +1,6 @@
 //! Robots from the numbers of a data sheet, for `cplan init`.
 
+use super::arm_numbers::ArmNumbers;
 use super::failure::Failure;
 use super::init::Kind;
 use crate::options::positive;
@@ -24,19 +25,6 @@ pub struct DataSheet {
     pub speeds: Vec<f64>,
 }
 
-/// The numbers of an arm. Lengths are in metres, angles in radians.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ArmNumbers {
-    /// Lengths of both links. The second one is 0 if the second joint slides; both are 0 for a gantry.
-    pub links: [f64; 2],
-    /// Travel of the quill. 0 without one.
-    pub stroke: f64,
-    /// Range of each joint: from the negative value if it turns, from 0 if it slides.
-    pub limits: [f64; 2],
-    /// Top speeds.
-    pub speeds: [f64; 2],
-}
-
 /// Largest length and largest range of a joint. Larger numbers are mistakes, such as millimetres for metres.
 const MAX_LENGTH: f64 = 100.0;
 const MAX_DEGREES: f64 = 3600.0;
@@ -53,183 +41,55 @@ impl DataSheet {
     /// Numbers that this kind of arm does not have, a wrong count of them, and numbers that cannot be metres or degrees.
     pub fn numbers(&self, kind: Kind) -> Result<ArmNumbers, Failure> {
         let usual = ArmNumbers::of(kind);
-        let mut numbers = usual.clone();
-        let links = usual.links.iter().filter(|length| **length > 0.0).count();
-        let refused = |message: String| Err(Failure::Usage(message));
-        if !self.links.is_empty() {
-            if self.links.len() != links {
-                return refused(match links {
-                    0 => format!("--links: {} has none; --limits are its travels", kind.name()),
-                    _ => format!("--links: {} needs {links}, not {}", kind.name(), self.links.len()),
-                });
-            }
-            numbers.links[..links].copy_from_slice(&self.links);
-        }
-        if let Some(stroke) = self.stroke {
-            if usual.stroke == 0.0 {
-                return refused(format!("--stroke needs --kind scara: {} has no quill", kind.name()));
-            }
-            numbers.stroke = stroke;
-        }
-        let turns = kind.turns();
-        for (name, given, values) in
-            [("limits", &self.limits, &mut numbers.limits), ("speeds", &self.speeds, &mut numbers.speeds)]
-        {
-            let [first, second] = given[..] else {
-                if given.is_empty() {
-                    continue;
-                }
-                return refused(format!("--{name} needs two numbers separated by a comma, such as 130,145"));
-            };
-            *values = [0, 1].map(|k| if turns[k] { [first, second][k].to_radians() } else { [first, second][k] });
-        }
-        for (k, turns) in turns.into_iter().enumerate() {
-            let most = if turns { MAX_DEGREES.to_radians() } else { MAX_LENGTH };
-            if numbers.limits[k] > most {
-                let unit = if turns { "degrees" } else { "metres" };
-                let most = if turns { MAX_DEGREES } else { MAX_LENGTH };
-                return refused(format!("--limits: number {} is in {unit}, and at most {most}", k + 1));
+        let numbers = ArmNumbers {
+            links: self.links(kind, usual.links)?,
+            stroke: self.stroke(kind, usual.stroke)?,
+            limits: both("limits", &self.limits, kind)?.unwrap_or(usual.limits),
+            speeds: both("speeds", &self.speeds, kind)?.unwrap_or(usual.speeds),
+        };
+        for (k, turns) in kind.turns().into_iter().enumerate() {
+            let (most, unit) = if turns { (MAX_DEGREES, "degrees") } else { (MAX_LENGTH, "metres") };
+            let limit = if turns { numbers.limits[k].to_degrees() } else { numbers.limits[k] };
+            if limit > most {
+                return Err(Failure::Usage(format!("--limits: number {} is in {unit}, and at most {most}", k + 1)));
             }
         }
         if numbers.links.iter().chain([&numbers.stroke]).any(|length| *length > MAX_LENGTH) {
-            return refused(format!("--links and --stroke are in metres, and at most {MAX_LENGTH}"));
+            return Err(Failure::Usage(format!("--links and --stroke are in metres, and at most {MAX_LENGTH}")));
         }
         Ok(numbers)
     }
-}
 
-impl ArmNumbers {
-    /// Returns the numbers of the arm to begin with.
-    pub fn of(kind: Kind) -> Self {
-        let [links, limits, speeds] = match kind {
-            Kind::Rr => [[0.5, 0.43], [2.9, 2.8], [2.0, 3.0]],
-            Kind::Rp => [[0.45, 0.0], [2.9, 0.6], [1.5, 0.8]],
-            Kind::Pr => [[0.0, 0.0], [0.8, 2.9], [1.0, 2.0]],
-            Kind::Pp => [[0.0, 0.0], [1.2, 0.9], [1.0, 1.0]],
-            Kind::Scara | Kind::Arch => [[0.3, 0.25], [2.4435, 2.618], [7.243, 11.502]],
-        };
-        let stroke = if matches!(kind, Kind::Scara | Kind::Arch) { 0.18 } else { 0.0 };
-        Self { links, stroke, limits, speeds }
-    }
-
-    /// Returns the sizes of the arm as multiples of those of the arm to begin with: along x and along y.
-    pub fn scale(&self, kind: Kind) -> [f64; 2] {
-        let usual = Self::of(kind);
-        match kind {
-            Kind::Pp | Kind::Pr => [0, 1].map(|k| self.limits[k] / usual.limits[k]),
-            Kind::Rp => [(self.links[0] + self.limits[1]) / (usual.links[0] + usual.limits[1]); 2],
-            Kind::Rr | Kind::Scara | Kind::Arch => [(self.links[0] + self.links[1]) / 0.93; 2],
+    fn links(&self, kind: Kind, usual: [f64; 2]) -> Result<[f64; 2], Failure> {
+        let count = usual.iter().filter(|length| **length > 0.0).count();
+        match (self.links.as_slice(), count) {
+            ([], _) => Ok(usual),
+            (&[first], 1) => Ok([first, 0.0]),
+            (&[first, second], 2) => Ok([first, second]),
+            (_, 0) => Err(Failure::Usage(format!("--links: {} has none; --limits are its travels", kind.name()))),
+            (given, _) => Err(Failure::Usage(format!("--links: {} needs {count}, not {}", kind.name(), given.len()))),
         }
     }
 
-    /// Returns the URDF: a template with these numbers. The widths of bodies follow from the lengths.
-    pub fn urdf(&self, kind: Kind, template: &str) -> String {
-        let Self { links: [a, b], stroke, limits, speeds } = *self;
-        let base = stroke + 0.015;
-        let (widths, spans, heights) = match kind {
-            Kind::Rr => {
-                let s = self.scale(kind)[0];
-                ([0.1 * s, 0.08 * s], [[-0.05 * s, a + 0.05 * s], [-0.03 * s, b]], [0.0; 2])
+    fn stroke(&self, kind: Kind, usual: f64) -> Result<f64, Failure> {
+        match self.stroke {
+            Some(_) if usual == 0.0 => {
+                Err(Failure::Usage(format!("--stroke needs --kind scara: {} has no quill", kind.name())))
             }
-            Kind::Rp => {
-                let s = a / 0.45;
-                ([0.14 * s, 0.06 * s], [[-0.1 * s, 0.3 * s], [-0.05 * s, a]], [0.1 * s, 0.08 * s])
-            }
-            Kind::Pp | Kind::Pr => {
-                let s = limits[1] / 0.9;
-                ([0.08 * s, 0.1 * s], [[-0.1 * s, limits[1] + 0.1 * s], [0.0; 2]], [0.0; 2])
-            }
-            Kind::Scara | Kind::Arch => {
-                let s = ((a + b) / 0.55).min(1.5);
-                let widest = 0.8 * a.min(b);
-                ([0.11 * s, 0.1 * s].map(|width| width.min(widest)), [[0.0, a], [0.0, b]], [0.0; 2])
-            }
-        };
-        let marks = [
-            ("link1", a),
-            ("link2", b),
-            ("limit1", limits[0]),
-            ("limit2", limits[1]),
-            ("speed1", speeds[0]),
-            ("speed2", speeds[1]),
-            ("middle1", f64::midpoint(spans[0][0], spans[0][1])),
-            ("middle2", f64::midpoint(spans[1][0], spans[1][1])),
-            ("size1", spans[0][1] - spans[0][0]),
-            ("size2", spans[1][1] - spans[1][0]),
-            ("width1", widths[0]),
-            ("width2", widths[1]),
-            ("radius1", widths[0] / 2.0),
-            ("radius2", widths[1] / 2.0),
-            ("height1", heights[0]),
-            ("above2", heights[1]),
-            ("stroke", stroke),
-            ("base_height", 0.95 * stroke),
-            ("base_middle", 0.475 * stroke),
-            ("axis_1_height", base),
-            ("quill_length", stroke + 0.04),
-            ("quill_middle", stroke / 2.0 + 0.02),
-        ];
-        marks.iter().fold(template.to_owned(), |text, (mark, value)| {
-            text.replace(&format!("{{{{{mark}}}}}"), &format!("{:?}", rounded(*value)))
-        })
-    }
-
-    /// Describes the arm in a line.
-    pub fn words(&self, kind: Kind) -> String {
-        let turns = kind.turns();
-        let links: Vec<String> =
-            self.links.iter().filter(|length| **length > 0.0).map(|length| rounded(*length).to_string()).collect();
-        let links = if links.is_empty() { String::new() } else { format!("links {} m, ", links.join(" and ")) };
-        let range = |k: usize| match turns[k] {
-            true => {
-                format!("{0} to {1} deg", -rounded(self.limits[k].to_degrees()), rounded(self.limits[k].to_degrees()))
-            }
-            false => format!("0 to {} m", rounded(self.limits[k])),
-        };
-        let speed = |k: usize| match turns[k] {
-            true => format!("{} deg/s", rounded(self.speeds[k].to_degrees())),
-            false => format!("{} m/s", rounded(self.speeds[k])),
-        };
-        let stroke = if self.stroke > 0.0 { format!(", stroke {} m", rounded(self.stroke)) } else { String::new() };
-        format!("{links}ranges {} and {}, top speeds {} and {}{stroke}", range(0), range(1), speed(0), speed(1))
-    }
-}
-
-/// Rounds to a micrometre or a microradian, as in files that people read.
-pub fn rounded(value: f64) -> f64 {
-    (value * 1e6).round() / 1e6
-}
-
-/// Returns a text in which the numbers are multiplied by the factors, in turn.
-pub fn scaled(text: &str, factors: &[f64]) -> String {
-    let is_number = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
-    let (mut out, mut rest, mut count) = (String::new(), text, 0);
-    while let Some(begin) = rest.find(is_number) {
-        let end = rest[begin..].find(|c| !is_number(c)).map_or(rest.len(), |length| begin + length);
-        out.push_str(&rest[..begin]);
-        match rest[begin..end].parse::<f64>() {
-            Ok(number) => {
-                out.push_str(&format!("{:?}", rounded(number * factors[count % factors.len()])));
-                count += 1;
-            }
-            Err(_) => out.push_str(&rest[begin..end]),
+            given => Ok(given.unwrap_or(usual)),
         }
-        rest = &rest[end..];
     }
-    out + rest
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_of_a_text_are_scaled_in_turn() {
-        assert_eq!(scaled("[[0.6, -0.1], [1, 2.0]]", &[2.0, 10.0]), "[[1.2, -1.0], [2.0, 20.0]]");
-        assert_eq!(
-            scaled("{ center = [0.1, -0.7], radius = 0.05 }", &[0.5]),
-            "{ center = [0.05, -0.35], radius = 0.025 }"
-        );
-        assert_eq!(scaled("none", &[2.0]), "none");
+/// Returns the numbers of an option for both joints, in radians if a joint turns. `None` without any.
+fn both(name: &str, given: &[f64], kind: Kind) -> Result<Option<[f64; 2]>, Failure> {
+    let turns = kind.turns();
+    match *given {
+        [] => Ok(None),
+        [first, second] => {
+            let given = [first, second];
+            Ok(Some([0, 1].map(|k| if turns[k] { given[k].to_radians() } else { given[k] })))
+        }
+        _ => Err(Failure::Usage(format!("--{name} needs two numbers separated by a comma, such as 130,145"))),
     }
 }

@@ -1,7 +1,8 @@
 //! `cplan init`: writes a robot and a world to begin with, in which every key is explained; the robot, if asked for, by the
 //! numbers of its data sheet.
 
-use super::data_sheet::{ArmNumbers, DataSheet, scaled};
+use super::arm_numbers::{ArmNumbers, scaled};
+use super::data_sheet::DataSheet;
 use super::demo::{self, in_folder};
 use super::exit::DONE;
 use super::failure::Failure;

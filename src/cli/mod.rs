@@ -1,5 +1,6 @@
 //! The command line: it converts arguments to library calls, and results to files, summaries and exit codes.
 
+mod arm_numbers;
 mod batch;
 mod check;
 mod compare;
