@@ -5,7 +5,7 @@ use cplan::input::{InputError, Overrides, RobotFile, Source, load_recording, sce
 use cplan_cases::slips::slipped;
 use cplan_cases::{dice, times};
 
-const ARM: &str = include_str!("../../src/cli/starter/rr.urdf");
+const ARM: &str = include_str!("../../robots/planar_2r.urdf");
 
 const WORLD: &str = r#"name = "cell"
 clearance = 0.0
@@ -16,7 +16,7 @@ velocity = { elbow = 1.0 }
 [start]
 joints = [-0.9, 0.5]
 [goal]
-tip = [0.3, 0.6]
+tip = [0.6, 1.2]
 [[obstacle]]
 name = "frame"
 polygon = [[1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0], [1.0, 1.0]]
