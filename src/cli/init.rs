@@ -160,7 +160,7 @@ impl TemplateMarks {
         let points = |text: &str| scaled(text, &scale);
         let disc = |text: &str| scaled(text, &[scale[0], scale[1], scale[0].min(scale[1])]);
         let joints = |text: &str| {
-            // Turns stay as they are if the ranges are at least as wide as usual.
+            // Angles change only if the ranges are narrower than usual.
             let turns = kind.turns();
             scaled(text, &[0, 1].map(|k| if turns[k] { ratio[k].min(1.0) } else { ratio[k] }))
         };

@@ -34,7 +34,7 @@ pub trait TaskSearch: Debug + Sync {
     fn replay(&self, task: &Task, options: &Options, answer: &TaskAnswer) -> TaskReplay;
 }
 
-/// A motion among moving obstacles with its figures, or the reason in words why there is none.
+/// A motion among moving obstacles with its figures. `Err` has the reason for its absence, in words.
 pub type MotionAmongMovers = Result<(TimedMotion, Timing), String>;
 
 /// A search for motions among moving obstacles.
