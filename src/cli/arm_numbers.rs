@@ -46,21 +46,22 @@ impl ArmNumbers {
     /// Returns the URDF: a template with these numbers. The widths of bodies follow from the lengths.
     pub fn urdf(&self, kind: Kind, template: &str) -> String {
         let Self { links: [a, b], stroke, limits, speeds } = *self;
+        let usual = Self::of(kind);
         let (widths, spans, heights) = match kind {
             Kind::Rr => {
                 let s = self.scale(kind)[0];
                 ([0.1 * s, 0.08 * s], [[-0.05 * s, a + 0.05 * s], [-0.03 * s, b]], [0.0; 2])
             }
             Kind::Rp => {
-                let s = a / 0.45;
+                let s = a / usual.links[0];
                 ([0.14 * s, 0.06 * s], [[-0.1 * s, 0.3 * s], [-0.05 * s, a]], [0.1 * s, 0.08 * s])
             }
             Kind::Pp | Kind::Pr => {
-                let s = limits[1] / 0.9;
+                let s = limits[1] / usual.limits[1];
                 ([0.08 * s, 0.1 * s], [[-0.1 * s, limits[1] + 0.1 * s], [0.0; 2]], [0.0; 2])
             }
             Kind::Scara | Kind::Arch => {
-                let s = ((a + b) / 0.55).min(1.5);
+                let s = ((a + b) / (usual.links[0] + usual.links[1])).min(1.5);
                 let widest = 0.8 * a.min(b);
                 ([0.11 * s, 0.1 * s].map(|width| width.min(widest)), [[0.0, a], [0.0, b]], [0.0; 2])
             }

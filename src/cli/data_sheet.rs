@@ -2,32 +2,34 @@
 
 use super::arm_numbers::ArmNumbers;
 use super::failure::Failure;
+use super::headings::DATA_SHEET;
 use super::init::Kind;
 use crate::options::positive;
 use clap::Args;
 
 /// Numbers that data sheets state.
 #[derive(Debug, Clone, Args)]
-#[command(next_help_heading = "Data sheet")]
 pub struct DataSheet {
     /// Lengths of both links, from axis to axis and from there to the tip, metres (rr, scara); distance of the tip from the
     /// axis with the ram drawn in, metres (rp).
-    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive)]
+    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive, help_heading = DATA_SHEET)]
     pub links: Vec<f64>,
     /// Travel of the quill, metres (scara).
-    #[arg(long, value_name = "METRES", value_parser = positive)]
+    #[arg(long, value_name = "METRES", value_parser = positive, help_heading = DATA_SHEET)]
     pub stroke: Option<f64>,
     /// Ranges of both joints: 130 is from -130 to 130 degrees; for a sliding joint, 0.8 is from 0 to 0.8 metres.
-    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive)]
+    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive, help_heading = DATA_SHEET)]
     pub limits: Vec<f64>,
     /// Top speeds of both joints, degrees or metres per second.
-    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive)]
+    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive, help_heading = DATA_SHEET)]
     pub speeds: Vec<f64>,
 }
 
-/// Largest length and largest range of a joint. Larger numbers are mistakes, such as millimetres for metres.
-const MAX_LENGTH: f64 = 100.0;
-const MAX_DEGREES: f64 = 3600.0;
+/// Least and largest lengths in metres, ranges in degrees, and speeds in metres or degrees per second. Other numbers are
+/// mistakes, such as millimetres for metres.
+const LENGTHS: [f64; 2] = [1e-3, 100.0];
+const DEGREES: [f64; 2] = [0.1, 3600.0];
+const SPEEDS: [f64; 2] = [1e-3, 1e5];
 
 impl DataSheet {
     /// Returns true if no number is given.
@@ -41,23 +43,22 @@ impl DataSheet {
     /// Numbers that this kind of arm does not have, a wrong count of them, and numbers that cannot be metres or degrees.
     pub fn numbers(&self, kind: Kind) -> Result<ArmNumbers, Failure> {
         let usual = ArmNumbers::of(kind);
-        let numbers = ArmNumbers {
+        let [limits, speeds] = [both("limits", &self.limits)?, both("speeds", &self.speeds)?];
+        for (k, turns) in kind.turns().into_iter().enumerate() {
+            let (range, unit) = if turns { (DEGREES, "degrees") } else { (LENGTHS, "metres") };
+            check("limits", limits.map(|limits| limits[k]), range, unit)?;
+            check("speeds", speeds.map(|speeds| speeds[k]), SPEEDS, &format!("{unit} per second"))?;
+        }
+        self.links.iter().try_for_each(|&length| check("links", Some(length), LENGTHS, "metres"))?;
+        check("stroke", self.stroke, LENGTHS, "metres")?;
+        let turns = kind.turns();
+        let in_radians = |given: [f64; 2]| [0, 1].map(|k| if turns[k] { given[k].to_radians() } else { given[k] });
+        Ok(ArmNumbers {
             links: self.links(kind, usual.links)?,
             stroke: self.stroke(kind, usual.stroke)?,
-            limits: both("limits", &self.limits, kind)?.unwrap_or(usual.limits),
-            speeds: both("speeds", &self.speeds, kind)?.unwrap_or(usual.speeds),
-        };
-        for (k, turns) in kind.turns().into_iter().enumerate() {
-            let (most, unit) = if turns { (MAX_DEGREES, "degrees") } else { (MAX_LENGTH, "metres") };
-            let limit = if turns { numbers.limits[k].to_degrees() } else { numbers.limits[k] };
-            if limit > most {
-                return Err(Failure::Usage(format!("--limits: number {} is in {unit}, and at most {most}", k + 1)));
-            }
-        }
-        if numbers.links.iter().chain([&numbers.stroke]).any(|length| *length > MAX_LENGTH) {
-            return Err(Failure::Usage(format!("--links and --stroke are in metres, and at most {MAX_LENGTH}")));
-        }
-        Ok(numbers)
+            limits: limits.map_or(usual.limits, in_radians),
+            speeds: speeds.map_or(usual.speeds, in_radians),
+        })
     }
 
     fn links(&self, kind: Kind, usual: [f64; 2]) -> Result<[f64; 2], Failure> {
@@ -81,15 +82,19 @@ impl DataSheet {
     }
 }
 
-/// Returns the numbers of an option for both joints, in radians if a joint turns. `None` without any.
-fn both(name: &str, given: &[f64], kind: Kind) -> Result<Option<[f64; 2]>, Failure> {
-    let turns = kind.turns();
+/// Returns the numbers of an option for both joints. `None` without any.
+fn both(name: &str, given: &[f64]) -> Result<Option<[f64; 2]>, Failure> {
     match *given {
         [] => Ok(None),
-        [first, second] => {
-            let given = [first, second];
-            Ok(Some([0, 1].map(|k| if turns[k] { given[k].to_radians() } else { given[k] })))
-        }
+        [first, second] => Ok(Some([first, second])),
         _ => Err(Failure::Usage(format!("--{name} needs two numbers separated by a comma, such as 130,145"))),
+    }
+}
+
+/// Refuses a number outside its range.
+fn check(name: &str, given: Option<f64>, [least, most]: [f64; 2], unit: &str) -> Result<(), Failure> {
+    match given.filter(|given| !(least..=most).contains(given)) {
+        None => Ok(()),
+        Some(given) => Err(Failure::Usage(format!("--{name} {given} is not from {least} to {most} {unit}"))),
     }
 }

@@ -6,6 +6,8 @@ pub const QUERY: &str = "Query";
 pub const OUTPUT: &str = "Output";
 /// Options for planners.
 pub const PLANNER: &str = "Planner";
+/// Options of `cplan init` alone.
+pub const DATA_SHEET: &str = "Data sheet";
 /// Options of `cplan explore` alone.
 pub const EXPLORATION: &str = "Exploration";
 /// Options of `cplan compare` alone.

@@ -1,7 +1,7 @@
 //! Stored problems and plans. They are the same after writing and reading, and the reader refuses problems that nobody
 //! could plan.
 
-use cplan::engine::{StoredPlan, restored};
+use cplan::engine::{Searches, StoredPlan, restored};
 use cplan::geometry::{Convex, Pose};
 use cplan::input::RobotReport;
 use cplan::model::{Heights, MotionProblem, Scene, Task};
@@ -79,6 +79,20 @@ fn every_shipped_plan_is_read_as_it_was_written() {
         assert_eq!(read.trajectory(), made.trajectory(), "{name}");
         assert_eq!(serde_json::to_string(&read).unwrap(), text, "{name}");
     }
+}
+
+#[test]
+fn a_program_without_a_search_refuses_its_problems_by_name() {
+    let again = |problem: &Problem| {
+        let made = plan(problem, &Options::default()).unwrap();
+        let stored: StoredPlan = serde_json::from_value(value(&made)).unwrap();
+        stored.planned_again(Searches::NONE).map(|plan| plan.status()).map_err(|error| error.to_string())
+    };
+    assert_eq!(again(&world("shelf")), Ok(Status::Found));
+    assert_eq!(again(&world("tray")), Err("this program was built without tasks".to_owned()));
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let gate = Problem::load(root.join("robots/planar_2r.urdf"), root.join("workspaces/moving/gate.toml")).unwrap();
+    assert_eq!(again(&gate), Err("this program was built without moving obstacles".to_owned()));
 }
 
 #[test]

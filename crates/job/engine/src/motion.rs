@@ -59,7 +59,8 @@ impl Motion {
     }
 }
 
-/// Times the motion along the path of an answer, among obstacles on these trajectories by this search. An answer without a path is returned unchanged.
+/// Times the motion along the path of an answer, by this search among obstacles on these trajectories. An answer without
+/// a path is returned unchanged.
 ///
 /// # Errors
 /// A motion that lasts too long, or has too many samples.

@@ -13,6 +13,7 @@
 //! or a step cannot be done even without moving obstacles.
 
 mod passing;
+mod proven;
 mod timed_candidates;
 
 use super::failed_step::{RefusedStep, farthest};
@@ -22,7 +23,7 @@ use super::motion_path::of_legs;
 use super::refusal::{Refusal, require_unobstructed};
 use super::state::State;
 use cplan_geometry::OrderedF64;
-use cplan_handling::{Action, Item, Step, Task, TimedScene};
+use cplan_handling::{Task, TimedScene};
 use cplan_interrupt::checkpoint;
 use cplan_judge::Posture;
 use cplan_legs::{Event, FailedStep, Leg, Overlap, Sequence, TaskAnswer, TaskMotion};
@@ -30,7 +31,7 @@ use cplan_model::{MotionProblem, Outcome};
 use cplan_motion::{Limits, TimedMotion, Timing, Wait, after_pause, nanoseconds, round_up, seconds};
 use cplan_movers::{MovingObstacles, TimingRequirements, clearance_at_rest, time_among_moving_obstacles};
 use cplan_solver::Options;
-use passing::passages;
+use proven::{failed_pick_out_of_reach, last_passage, static_failure};
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 use std::sync::Arc;
@@ -104,67 +105,6 @@ pub(super) fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str
         }
     };
     TaskAnswer { outcome, legs, lower_bound, motions: search.motions, expanded: search.nodes.len() }
-}
-
-/// Returns the failed step if a moving object is proven never to be within reach while it may be picked.
-fn failed_pick_out_of_reach(task: &Task, start: &State) -> Option<FailedStep> {
-    let mut moving: Vec<usize> = start.moving.to_vec();
-    let step = task.steps().find(|step| match &step.action {
-        Action::Pick { object, grasp, when, .. } => {
-            let is_first = moving.iter().position(|other| other == object).map(|place| moving.remove(place)).is_some();
-            is_first && passages(&task.arm, &task.objects[*object], *grasp, when, 0.0).is_empty()
-        }
-        Action::Place { .. } | Action::Move(_) | Action::Follow(_) => false,
-    })?;
-    let name = &task.objects[step.action.picked()?].name;
-    Some(FailedStep {
-        step: step.clone(),
-        reasons: vec![format!("\"{name}\" is never within the arm's reach in the window of its pick")],
-        scene: Arc::new(start.scene(task, step.action.picked())),
-        moving: start.moving.clone(),
-        from: start.q,
-        ik_solutions: Vec::new(),
-        standstills: [Vec::new(), Vec::new()],
-    })
-}
-
-/// Returns the failed step if the task is proven to be infeasible even without moving obstacles. Returns `None` if
-/// moving objects are picked, because then their places are unknown.
-fn static_failure(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> Option<FailedStep> {
-    if task.initially_moving().next().is_some() {
-        return None;
-    }
-    let mut standing = task.clone();
-    standing.workspace.movers.clear();
-    match super::plan::plan(&standing, options, progress).outcome {
-        Outcome::Infeasible(failed) => Some(failed),
-        Outcome::Found(_) | Outcome::Unknown(_) => None,
-    }
-}
-
-/// Returns a lower bound on the end of the task, in seconds. Each moving object that is picked must first come within
-/// reach, one after the other.
-fn last_passage(task: &Task) -> f64 {
-    let mut moving: Vec<usize> = task.initially_moving().collect();
-    let mut after = |step: &Step, time: f64| {
-        let place = moving.iter().position(|object| step.action.picked() == Some(*object));
-        let passage = match &step.action {
-            Action::Pick { object, grasp, when, .. } if place.is_some() => {
-                passages(&task.arm, &task.objects[*object], *grasp, when, time).first().copied()
-            }
-            _ => None,
-        };
-        place.map(|place| moving.remove(place));
-        passage.map_or(time, |passage| passage.times[0]) + step.dwell
-    };
-    task.items.iter().fold(0.0, |time, item| match item {
-        Item::Step(step) => after(step, time),
-        Item::AnyOrder(pairs) => {
-            let each = pairs.iter().map(|[pick, place]| after(pick, time) + place.dwell);
-            each.fold(time, f64::max)
-        }
-        Item::Renew(_) => time,
-    })
 }
 
 /// A node of the search: a sequence of steps that leads to a state.
