@@ -15,7 +15,7 @@ fn pictures_are_up_to_date() {
     }
     let files = fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path());
     assert_eq!(files.filter(|f| f.extension().is_some_and(|e| e == "svg")).count(), PICTURES.len());
-    assert!(PICTURES.iter().any(|(name, _)| *name == MOVING.1), "what moves has a still picture");
+    assert!(PICTURES.iter().any(|(name, _)| *name == MOVING.1), "a moving picture has a still one");
 }
 
 /// Checks that the animated picture ends with the still one. Drawing all frames takes seconds, so the other frames are

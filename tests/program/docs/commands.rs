@@ -31,7 +31,7 @@ fn commands(block: &Block) -> Vec<Shown<'_>> {
             ("sh", ..) => commands.push(Shown { line, command: text, says: None }),
             (_, Some(command), _) => commands.push(Shown { line, command, says: Some(String::new()) }),
             (_, None, Some(Shown { says: Some(says), .. })) => says.push_str(&format!("{text}\n")),
-            _ => panic!("line {line}: {text:?} is neither a command nor what one says"),
+            _ => panic!("line {line}: {text:?} is neither a command nor the text that one prints"),
         }
     }
     commands

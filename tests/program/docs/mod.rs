@@ -33,7 +33,7 @@ fn pages() -> Vec<Page> {
 #[test]
 fn the_readme_is_a_page() {
     let size = std::fs::read(root().join("README.md")).unwrap().len();
-    assert!(size <= 8 * 1024, "the README has {size} bytes: what is more belongs into docs");
+    assert!(size <= 8 * 1024, "the README has {size} bytes: move the rest into docs");
 }
 
 /// Checks that the summary lists every page once. mdBook builds a book from exactly the pages in the summary.

@@ -28,7 +28,7 @@ pub fn inspected(name: &str, view: &View) -> Value {
     }
     let data =
         text.split("<script id=\"view\" type=\"application/json\">").nth(1).and_then(|t| t.split("</script>").next());
-    let data = data.expect("a page holds what it shows");
+    let data = data.expect("a page holds its data");
     assert!(!data.contains('<'), "{name}: nothing in the data can end its script");
     let value: Value = serde_json::from_str(data).unwrap();
     assert_eq!(value, serde_json::from_str::<Value>(&view.json()).unwrap());

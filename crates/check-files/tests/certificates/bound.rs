@@ -63,7 +63,7 @@ fn paths_around_a_wall_are_bounded_by_its_corners() {
         "no motion of \"x\" and \"y\" from the start to (9, 1) with clearance 0 is shorter than 16.5"
     );
     assert_eq!(of(length, &walls), 0);
-    assert_eq!(of(length + 1e-8, &walls), 3, "the last leg is no longer than that");
+    assert_eq!(of(length + 1e-8, &walls), 3, "this is the length of the last leg");
     // Without walls only the straight path is known; with one wall, the path around that.
     assert_eq!((of(8.0, &vec![]), of(8.001, &vec![])), (0, 3));
     let past = 2.6_f64.hypot(6.4);

@@ -103,7 +103,7 @@ pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> 
             time = next_time(upper);
         }
     }
-    // A departure at an infinite time is none.
+    // An infinite time is not a departure.
     (time <= to && time < f64::INFINITY).then_some(time)
 }
 

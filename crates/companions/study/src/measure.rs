@@ -69,7 +69,7 @@ impl Measure {
         matches!(self, Self::Length | Self::OverBound | Self::LowerBound)
     }
 
-    /// Returns the value of this measure for a path with this length and bound. `None` if there is none.
+    /// Returns the value of this measure for a path with this length and bound, if it has one.
     pub(super) fn of_path(self, length: Option<f64>, bound: Option<Bound>) -> Option<f64> {
         match self {
             Self::Length => length,

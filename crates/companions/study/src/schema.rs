@@ -121,7 +121,7 @@ toml_table! {
 }
 
 impl ParameterTable {
-    /// Returns the position of the first value that is written in degrees. `None` if there is none.
+    /// Returns the position of the first value that is written in degrees, if any.
     pub fn degrees(&self) -> Option<Range<usize>> {
         let listed = self.values.iter().filter(|values| values.get_ref().iter().any(|value| value.in_degrees));
         let ends = [&self.from, &self.to].into_iter().flatten().filter(|end| end.get_ref().in_degrees);

@@ -11,7 +11,7 @@ use std::collections::BTreeSet;
 /// Fraction by which a path may be longer than the shortest one.
 const PATH_GAP: f64 = 0.01;
 
-/// What is known about a motion's path before it is planned.
+/// Knowledge about a motion's path before it is planned.
 pub(super) enum PathStatus {
     /// The certified straight path. No path is shorter in any metric.
     Straight(CertifiedPath),
@@ -154,7 +154,7 @@ pub(super) fn path(
     path_or_refusal(solve(&problem, options, &mut |_| {}).outcome)
 }
 
-/// Converts the planner's outcome to a path, or to the reason why there is none.
+/// Converts the planner's outcome to a path, or to the reason for the refusal.
 fn path_or_refusal(outcome: Outcome<BoundedPath, CheckedProof, Unknown>) -> Result<CertifiedPath, Refusal> {
     match outcome {
         Outcome::Found(path) => Ok(path.certified),

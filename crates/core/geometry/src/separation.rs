@@ -168,7 +168,7 @@ fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, be
         let inside = 16.0 * error * error * length2;
         for v in corners {
             let from = v - p;
-            // Positive if the corner is left of the side, that is, inside.
+            // Positive if the corner is to the left of the side, that is, inside.
             let left = along.x * from.y - along.y * from.x;
             let left2 = left * left;
             if left2 > best.distance * length2 * (1.0 + SIDE_MARGIN) || is_one_sided && left > 0.0 && left2 > inside {

@@ -124,7 +124,7 @@ impl Interrupt {
         self.flag.store(true, Ordering::Relaxed);
     }
 
-    /// Returns the reason to stop: the interrupt is set, or the deadline has passed. `None` to go on.
+    /// Returns the reason to stop: the interrupt is set, or the deadline has passed. `None` if neither is true.
     pub fn stop_reason(&self) -> Option<Interrupted> {
         if self.flag.load(Ordering::Relaxed) {
             return Some(Interrupted::Set);

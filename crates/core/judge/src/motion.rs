@@ -253,7 +253,7 @@ impl<'a> CurveSearch<'a> {
         Ok(())
     }
 
-    /// Returns the least distance found so far; infinite if there is none.
+    /// Returns the least distance found so far; infinite before the first.
     fn least_distance(&self) -> f64 {
         self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
     }

@@ -67,7 +67,7 @@ pub struct Boundary {
     /// at vertex `v` are `by_right_end[last[v]..last[v + 1]]`.
     by_right_end: Vec<u32>,
     last: Vec<u32>,
-    /// For each vertex, the side straight below it that does not end there; `NO_ENTRY` if there is none.
+    /// For each vertex, the side straight below it that does not end there, or `NO_ENTRY`.
     below: Vec<u32>,
 }
 
@@ -147,7 +147,7 @@ impl Boundary {
         self.by_right_end[self.last[v] as usize..self.last[v + 1] as usize].iter().map(|&side| side as usize)
     }
 
-    /// Returns the side straight below vertex `v` that does not end there; `None` if there is none.
+    /// Returns the side straight below vertex `v` that does not end there, if any.
     pub fn below(&self, v: usize) -> Option<usize> {
         (self.below[v] != NO_ENTRY).then_some(self.below[v] as usize)
     }

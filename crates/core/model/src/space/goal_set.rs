@@ -45,7 +45,7 @@ impl GoalSet {
         places.reduce(|best, next| if metric.norm(next - q) < metric.norm(best - q) { next } else { best })
     }
 
-    /// Returns the length of the shortest displacement from `q` to a goal; infinite if there is none.
+    /// Returns the length of the shortest displacement from `q` to a goal; infinite without goals.
     pub fn distance(&self, topology: &Topology, metric: Metric, q: Configuration) -> f64 {
         self.nearest(topology, metric, q).map_or(f64::INFINITY, |goal| metric.norm(goal - q))
     }

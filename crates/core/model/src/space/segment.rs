@@ -74,14 +74,14 @@ impl Segment {
         self.where_positive(from, to)
     }
 
-    /// Returns the part in a convex polygon with these corners, counter-clockwise; `None` if there is none.
+    /// Returns the part in a convex polygon with these corners, counter-clockwise; `None` if that part is empty.
     #[must_use]
     pub fn within_polygon(&self, corners: &[Point]) -> Option<Self> {
         let n = corners.len();
         (0..n).try_fold(*self, |part, k| part.left_of(corners[k], corners[(k + 1) % n]))
     }
 
-    /// Returns the part in a box, which may have infinite sides; `None` if there is none.
+    /// Returns the part in a box, which may have infinite sides; `None` if that part is empty.
     #[must_use]
     pub fn within(&self, lower: [f64; 2], upper: [f64; 2]) -> Option<Self> {
         (0..2).try_fold(*self, |part, k| {
