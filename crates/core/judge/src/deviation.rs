@@ -376,9 +376,14 @@ impl<'a> Posture<'a> {
     }
 
     fn farthest_motion_of(&self, link: usize, local: &Convex, deviation: Deviation) -> f64 {
+        self.farthest_motion_within(link, local.reach_from(Point::zeros()), deviation)
+    }
+
+    /// Returns an upper bound on the motion over `deviation` of all points within `reach` of the origin of a link's frame,
+    /// metres.
+    pub fn farthest_motion_within(&self, link: usize, reach: f64, deviation: Deviation) -> f64 {
         use JointType::{Prismatic, Revolute};
         let arm = self.scene.arm();
-        let reach = local.reach_from(Point::zeros());
         let [d1, d2] = deviation.greatest_components();
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (0, Revolute { .. }, _) => reach * d1,

@@ -30,6 +30,16 @@ pub struct RobotJoint {
     pub factor: f64,
     /// Offset, radians or metres. For a mimic joint, the sum over the chain of joints that it follows; otherwise 0.
     pub offset: f64,
+    /// True if the joint slides, so that its values are metres.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub slides: bool,
+}
+
+impl RobotJoint {
+    /// Returns a joint that turns and has the value of its driver.
+    pub fn driven(name: String, driver: Driver) -> Self {
+        Self { name, driver, factor: 1.0, offset: 0.0, slides: false }
+    }
 }
 
 /// The movable joints of a robot, in the order of the URDF.
@@ -58,8 +68,7 @@ pub struct Drives {
 impl RobotJoints {
     /// Returns the joints of a robot that has only the two planned joints, with these names.
     pub fn only_planned(names: &[String; 2]) -> Self {
-        let joint =
-            |k: usize| RobotJoint { name: names[k].clone(), driver: Driver::Planned(k), factor: 1.0, offset: 0.0 };
+        let joint = |k: usize| RobotJoint::driven(names[k].clone(), Driver::Planned(k));
         Self { joints: vec![joint(0), joint(1)], ..Self::default() }
     }
 

@@ -37,6 +37,14 @@ impl LoadedScene {
         Ok(self)
     }
 
+    /// Returns the scene with the arm at rest during strokes and turns of the wrist, as with `arch = false`.
+    #[must_use]
+    pub fn without_arches(mut self) -> Self {
+        self.robot.joints.stroke.iter_mut().for_each(|stroke| stroke.arch = None);
+        self.world.wrist.iter_mut().for_each(|(wrist, _)| wrist.turns_on_the_way = false);
+        self
+    }
+
     /// Requires that motions respect the efforts of the joints, even if the world file does not.
     ///
     /// # Errors

@@ -75,7 +75,8 @@ impl Reduction<'_> {
         let joints = chooser.all().iter().enumerate().filter(|(_, joint)| is_movable(joint));
         let joints = joints.map(|(index, joint)| {
             let (leader, factor, offset) = chooser.rule(index)?;
-            Ok(RobotJoint { name: joint.name.clone(), driver: driver(leader), factor, offset })
+            let slides = joint.joint_type == JointType::Prismatic;
+            Ok(RobotJoint { name: joint.name.clone(), driver: driver(leader), factor, offset, slides })
         });
         Ok(RobotJoints { joints: joints.collect::<Result<_, Diagnostic>>()?, stroke, wrist })
     }
