@@ -165,7 +165,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
                     files.push((path.clone(), text.into_bytes()));
                 }
             },
-            Sink::CSpace(..) | Sink::Certificate(_) => (),
+            Sink::CSpace(..) | Sink::Program(_) | Sink::Certificate(_) => (),
             Sink::Picture(format, path) => {
                 let svg = || view::svg(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
                 // The page plays the readings, and needs no times of the motion.

@@ -6,6 +6,7 @@ use crate::input::InputError;
 use crate::motion::{FormatError, TimingError, WriteError};
 use crate::output::PictureFormatError;
 use crate::view::DrawError;
+use cplan_programs::ProgramError;
 use thiserror::Error;
 
 /// A failure, described for the user.
@@ -56,6 +57,15 @@ impl Failure {
     /// Returns the exit code of the process.
     pub fn exit_code(&self) -> u8 {
         if matches!(self, Self::Usage(_) | Self::Plan(PlanError::Options(_))) { USAGE } else { BAD_INPUT }
+    }
+}
+
+impl From<ProgramError> for Failure {
+    fn from(error: ProgramError) -> Self {
+        match error {
+            ProgramError::Template(error) => Self::Input(error),
+            _ => Self::Refused(error.to_string()),
+        }
     }
 }
 

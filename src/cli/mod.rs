@@ -30,6 +30,7 @@ mod planners;
 mod polygons;
 mod print_args;
 mod program;
+mod program_args;
 mod progress;
 mod query_args;
 mod reach;

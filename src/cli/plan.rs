@@ -7,6 +7,7 @@ use super::files::Files;
 use super::headings::{OUTPUT, PLANNER};
 use super::message_args::MessageArgs;
 use super::print_args::PrintArgs;
+use super::program_args::{ProgramArgs, ProgramWriter};
 use super::progress;
 use super::query_args::QueryArgs;
 use super::result_files::ResultFiles;
@@ -41,6 +42,8 @@ Examples:
     --planner wavefront --search astar --neighbors 8
   cplan plan robots/scara.urdf workspaces/tasks/kitting_cell.toml \\
     --output kit.json
+  cplan plan robots/scara.urdf workspaces/tasks/kitting_cell.toml \\
+    --template epson --output kit.prg
   cplan plan robots/planar_2r.urdf workspaces/singular_closed.toml \\
     --certificate proof.json
 
@@ -69,6 +72,8 @@ pub struct PlanArgs {
     /// plan-001.yaml, plan-002.yaml and so on. Only for worlds with steps.
     #[arg(long, help_heading = OUTPUT)]
     pub per_step: bool,
+    #[command(flatten)]
+    pub program: ProgramArgs,
     #[command(flatten)]
     pub message: MessageArgs,
     /// Draw workspace and configuration space side by side: .svg, .png, .gif (plays the planner's work, then the motion)
@@ -146,27 +151,37 @@ pub fn answer(
 ) -> Result<u8, Failure> {
     let certificate = args.certificate.as_deref();
     let within = certificate.filter(|path| sinks::is_json_among(path, &args.output));
-    let sinks = sinks::sinks_with(&args.output, &args.picture, certificate.filter(|_| within.is_none()))?;
+    let own_file = certificate.filter(|_| within.is_none());
+    let sinks = sinks::sinks_with(&args.output, &args.picture, own_file, |error, path| args.program.sink(error, path))?;
+    let mut program = args.program.writer(&sinks, args.motion.blend)?;
     let options = options(args.planner, &args.options, &args.motion, &args.message)?;
-    let options = Options { timings: args.timings, ..options };
+    let mut options = Options { timings: args.timings, ..options };
+    if program.is_some() {
+        options.drive.blend = 0.0;
+    }
     require_grid(args, &sinks, &options.planner)?;
     let begun = Instant::now();
     let loaded = load()?;
     let inputs = loaded.files();
-    let certified = given.filter(|_| certificate.is_some());
+    let certified = given.filter(|_| certificate.is_some() || program.is_some());
     let about = certified.map(|files| Digests::of(&files.robot(), &files.world, &inputs)).transpose()?;
-    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &inputs)?;
+    let read: Vec<PathBuf> = inputs.iter().cloned().chain(program.iter().flat_map(ProgramWriter::files)).collect();
+    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &read)?;
     if args.per_step && !loaded.is_task() {
         return Err(Failure::Usage("--per-step needs a world with steps ([[step]])".into()));
     }
-    let asked = args.query.overrides();
+    let mut asked = args.query.overrides();
     let stated_ends = loaded.resolved_ends();
     // Warnings come first, because they may explain why start or goal is refused.
     let ignored = args.options.ignored(args.planner);
     loaded.robot.warnings.iter().chain(&ignored).for_each(|w| args.print.print_status(&format!("warning: {w}")));
-    let explanation = || given.and_then(|files| explain::hint(files, &args.query));
-    let problem =
-        Problem::of_scene(loaded, &asked).map_err(|error| with_hint_to_explain(error, explanation))?.read_since(begun);
+    let problem = match &mut program {
+        None => Problem::of_scene(loaded, &asked).map_err(Failure::Input),
+        Some(program) => program.problem(loaded, &mut asked),
+    };
+    let query = QueryArgs { clearance: asked.clearance, ..args.query };
+    let explanation = || given.and_then(|files| explain::hint(files, &query));
+    let problem = problem.map_err(|failure| with_hint_to_explain(failure, explanation))?.read_since(begun);
     if let Some(lack) = options.planner.missing_preference(&problem.scene().workspace().preferences) {
         return Err(Failure::Usage(lack));
     }
@@ -174,11 +189,13 @@ pub fn answer(
     let files = ResultFiles::new(&sinks, &inputs, args.per_step, steps)?;
     let plan = plan_with(&problem, &options, &mut |text| args.print.print_status(text))?;
     let begun = Instant::now();
+    let program = program.map(|program| program.write(&plan, given.zip(about.as_ref()))).transpose()?;
     // If start or goal was given by a place of the tip, or was moved to a limit, the certificate states its joint
     // values.
     let asked = with_ends(asked, stated_ends, problem.query());
     let hint = if plan.status() == Status::Infeasible { explanation() } else { None };
-    let written = written(&plan, &sinks, &files, (&asked, about.as_ref()), hint.as_deref(), args)?;
+    let text = program.as_ref().and_then(|program| program.text.as_deref());
+    let written = written(&plan, &sinks, &files, (&asked, about.as_ref()), (hint.as_deref(), text), args)?;
     let after = [("write", begun.elapsed())];
     let code = match plan.status() {
         Status::Found => DONE,
@@ -186,15 +203,17 @@ pub fn answer(
         Status::Unknown => UNKNOWN,
     };
     let summary = || {
-        let hint: Vec<Line> = hint.into_iter().map(|hint| ("hint", hint)).collect();
-        summary_with(&plan, &written, &after, args.verbose) + &format_columns(&hint)
+        let program = program.iter().map(|program| ("program", program.summary.clone()));
+        let last: Vec<Line> = program.chain(hint.into_iter().map(|hint| ("hint", hint))).collect();
+        summary_with(&plan, &written, &after, args.verbose) + &format_columns(&last)
     };
     args.print.report(code, || Ok(plan.to_json()), summary)?;
     Ok(code)
 }
 
 /// Adds a hint to an error about a blocked start or goal that `cplan explain` can explain.
-fn with_hint_to_explain(error: InputError, hint: impl FnOnce() -> Option<String>) -> Failure {
+fn with_hint_to_explain(failure: Failure, hint: impl FnOnce() -> Option<String>) -> Failure {
+    let Failure::Input(error) = failure else { return failure };
     let is_end = |kind| matches!(kind, DiagnosticKind::Start | DiagnosticKind::Goal);
     let hint = if error.diagnostics().iter().all(|found| is_end(found.kind)) { hint() } else { None };
     match hint {
@@ -240,7 +259,7 @@ fn require_grid(args: &PlanArgs, sinks: &[Sink], planner: &Planner) -> Result<()
     Ok(())
 }
 
-/// Writes results, configuration spaces, pictures and the certificate, in this order. Returns the names of the written
+/// Writes results, configuration spaces, programs, pictures and the certificate. Returns the names of the written
 /// files.
 ///
 /// # Errors
@@ -250,7 +269,7 @@ fn written(
     sinks: &[Sink],
     files: &ResultFiles,
     (asked, about): (&Overrides, Option<&Digests>),
-    hint: Option<&str>,
+    (hint, program): (Option<&str>, Option<&str>),
     args: &PlanArgs,
 ) -> Result<Vec<String>, Failure> {
     let certificate = args.certificate.as_deref().and_then(|path| match plan.certificate(asked, about) {
@@ -273,6 +292,13 @@ fn written(
     for sink in sinks {
         match sink {
             Sink::Result(..) => continue,
+            Sink::Program(path) => match program {
+                Some(text) => write_whole(path, text.as_bytes())?,
+                None => {
+                    sinks::warn_unwritten(path, "motion");
+                    continue;
+                }
+            },
             Sink::CSpace(format, path) => match format.text(spaces.get_or_insert_with(labeled)) {
                 Some(text) => write_whole(path, text.as_bytes())?,
                 None => {

@@ -29,7 +29,7 @@ impl ResultFiles {
     pub fn new(sinks: &[Sink], inputs: &[PathBuf], per_step: bool, steps: usize) -> Result<Self, Failure> {
         let results = sinks.iter().filter_map(|sink| match sink {
             Sink::Result(format, path) => Some((*format, path.clone())),
-            Sink::CSpace(..) | Sink::Picture(..) | Sink::Certificate(_) => None,
+            Sink::CSpace(..) | Sink::Program(_) | Sink::Picture(..) | Sink::Certificate(_) => None,
         });
         let files = Self { results: results.collect(), per_step, steps };
         let parted: Vec<&Path> =

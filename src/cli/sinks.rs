@@ -3,7 +3,7 @@
 use super::failure::Failure;
 use super::terminal;
 use crate::input::FileIdentity;
-use crate::motion::{Format, check_writable, write_whole};
+use crate::motion::{Format, FormatError, check_writable, write_whole};
 use crate::output::{CSpaceFormat, PictureFormat};
 use crate::text::{plain, plain_json};
 use crate::view::View;
@@ -18,6 +18,8 @@ pub enum Sink {
     Result(Format, PathBuf),
     /// The configuration space as data.
     CSpace(CSpaceFormat, PathBuf),
+    /// A program for a controller.
+    Program(PathBuf),
     /// A picture.
     Picture(PictureFormat, PathBuf),
     /// The evidence for the answer.
@@ -28,7 +30,8 @@ impl Sink {
     /// Returns the file.
     pub fn path(&self) -> &Path {
         match self {
-            Sink::Result(_, path) | Sink::CSpace(_, path) | Sink::Picture(_, path) | Sink::Certificate(path) => path,
+            Sink::Result(_, path) | Sink::CSpace(_, path) | Sink::Picture(_, path) => path,
+            Sink::Program(path) | Sink::Certificate(path) => path,
         }
     }
 }
@@ -38,19 +41,28 @@ impl Sink {
 /// # Errors
 /// Extensions that are unknown or that this program does not support, and files that cannot be written.
 pub fn sinks(results: &[PathBuf], pictures: &[PathBuf]) -> Result<Vec<Sink>, Failure> {
-    sinks_with(results, pictures, None)
+    sinks_with(results, pictures, None, |error, _| Err(error.into()))
 }
 
-/// Returns the outputs for these file names, and for a certificate.
+/// Returns the outputs for these file names, and for a certificate. `other` returns the output for a result whose extension
+/// is of no known format.
 ///
 /// # Errors
-/// The errors of [`sinks`].
-pub fn sinks_with(results: &[PathBuf], pictures: &[PathBuf], certificate: Option<&Path>) -> Result<Vec<Sink>, Failure> {
+/// The errors of [`sinks`] and of `other`.
+pub fn sinks_with(
+    results: &[PathBuf],
+    pictures: &[PathBuf],
+    certificate: Option<&Path>,
+    other: impl Fn(FormatError, &Path) -> Result<Sink, Failure>,
+) -> Result<Vec<Sink>, Failure> {
     let mut sinks: Vec<Sink> = certificate.map(|path| Sink::Certificate(path.to_owned())).into_iter().collect();
     for path in results {
         sinks.push(match CSpaceFormat::from_path(path) {
             Some(format) => Sink::CSpace(format, path.clone()),
-            None => Sink::Result(Format::from_path(path)?, path.clone()),
+            None => match Format::from_path(path) {
+                Ok(format) => Sink::Result(format, path.clone()),
+                Err(error) => other(error, path)?,
+            },
         });
     }
     for path in pictures {

@@ -75,7 +75,7 @@ impl FollowingWrist {
 
     /// Returns the motion of the two planned joints and the wrist.
     pub fn motion(&self, planned: &[String; 2], trajectory: &Trajectory) -> JointMotion {
-        let wrist = RobotJoint { name: self.joint.clone(), driver: Driver::Wrist, factor: 1.0, offset: 0.0 };
+        let wrist = RobotJoint::driven(self.joint.clone(), Driver::Wrist);
         let mut robot = RobotJoints::only_planned(planned);
         robot.joints.push(wrist);
         JointMotion::new(&robot, trajectory, false)

@@ -109,7 +109,7 @@ pub struct VerifyArgs {
 /// Bad input and I/O, and options that do not fit the recording. A collision is no error, because it is a result of the
 /// check.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
-    let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref())?;
+    let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref(), |error, _| Err(error.into()))?;
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
     let about = Digests::of(&args.files.robot(), &args.files.world, &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
@@ -168,7 +168,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
             Sink::Certificate(path) => {
                 sinks::print_status(&format!("warning: {} is not written: the motion is not accepted", path.display()));
             }
-            Sink::Result(..) | Sink::CSpace(..) => {}
+            Sink::Result(..) | Sink::Program(_) | Sink::CSpace(..) => {}
         }
     }
     let code = match findings.verdict {

@@ -40,6 +40,7 @@ mod own_body;
 mod path_kind;
 mod polygons;
 mod pressing_depth;
+mod programs;
 mod proof_sizes;
 mod reach;
 mod results;

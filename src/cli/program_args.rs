@@ -1,0 +1,131 @@
+//! Command-line options for programs of robot controllers.
+
+use super::failure::Failure;
+use super::files::Files;
+use super::headings::OUTPUT;
+use super::sinks::Sink;
+use crate::engine::{Plan, Problem};
+use crate::input::{Diagnostic, Digests, InputError, LoadedScene, Overrides};
+use crate::model::Status;
+use crate::motion::FormatError;
+use crate::text::length_up;
+use clap::{Args, ValueHint};
+use cplan_programs::{JointTolerance, Program, Template};
+use std::path::{Path, PathBuf};
+
+/// Options for programs.
+#[derive(Debug, PartialEq, Args)]
+#[command(next_help_heading = OUTPUT)]
+pub struct ProgramArgs {
+    /// With --output NAME.EXT: a program for a controller, written by the template. The program consists of joint moves that
+    /// stop at each target, and is certified as written. FILE can also be the name of a shipped template: epson (SPEL+), rapid
+    /// (ABB) or list (a table). EXT is any extension without another meaning, such as .prg.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub template: Option<String>,
+    /// Deviation from straight joint lines within which the program is certified: an angle, a length for sliding joints, or
+    /// both [default: 0.05deg,0.05mm].
+    #[arg(long, value_name = "TOLERANCE", requires = "template", allow_hyphen_values = true)]
+    pub joint_tolerance: Option<JointTolerance>,
+}
+
+/// A template that writes the program of a plan.
+pub struct ProgramWriter {
+    template: Template,
+    tolerance: JointTolerance,
+    /// The clearance of the program, metres.
+    clearance: f64,
+    /// The clearance that the plan has in addition, metres.
+    room: f64,
+}
+
+/// The text of a program, and its line in the summary.
+pub struct WrittenProgram {
+    /// The text. `None` if the plan has no motion.
+    pub text: Option<String>,
+    pub summary: String,
+}
+
+impl ProgramArgs {
+    /// Returns the output for a file whose extension is of no known format.
+    ///
+    /// # Errors
+    /// The error about the format, unless a template writes the file.
+    pub fn sink(&self, error: FormatError, path: &Path) -> Result<Sink, Failure> {
+        match (&error, &self.template) {
+            (FormatError::Unknown { .. }, Some(_)) => Ok(Sink::Program(path.to_owned())),
+            (FormatError::Unknown { .. }, None) => {
+                let hint = "with --template, files with other extensions are programs for a controller";
+                Err(Failure::Usage(format!("{error}\n  hint: {hint}")))
+            }
+            _ => Err(error.into()),
+        }
+    }
+
+    /// Reads the template. `None` if no program is requested. `blend` is the requested radius for corners.
+    ///
+    /// # Errors
+    /// A template without a file to write, corners that must be rounded, and a defect of the template.
+    pub fn writer(&self, sinks: &[Sink], blend: f64) -> Result<Option<ProgramWriter>, Failure> {
+        let Some(name) = &self.template else { return Ok(None) };
+        if !sinks.iter().any(|sink| matches!(sink, Sink::Program(_))) {
+            let message =
+                "--template needs an --output file with an extension of its own, such as --output program.prg";
+            return Err(Failure::Usage(message.into()));
+        }
+        if blend > 0.0 && blend.is_finite() {
+            let message = "--template writes joint moves that stop at each corner of the path: leave out --blend";
+            return Err(Failure::Usage(message.into()));
+        }
+        let tolerance = self.joint_tolerance.unwrap_or_default();
+        Ok(Some(ProgramWriter { template: Template::load(name)?, tolerance, clearance: 0.0, room: 0.0 }))
+    }
+}
+
+impl ProgramWriter {
+    /// Returns the files that were read for the template.
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.template.files()
+    }
+
+    /// Returns the problem whose plan has a program: the arm rests during strokes and turns, and the clearance includes the
+    /// tolerance. Sets the clearance of the overrides.
+    ///
+    /// # Errors
+    /// The errors of [`Problem::of_scene`], with a hint for those that only the larger clearance causes, and a problem that
+    /// cannot have a program.
+    pub fn problem(&mut self, loaded: LoadedScene, asked: &mut Overrides) -> Result<Problem, Failure> {
+        let loaded = loaded.without_arches();
+        let exact = Problem::of_scene(loaded.clone(), asked)?;
+        Program::check(&exact)?;
+        self.clearance = exact.scene().workspace().clearance;
+        self.room = self.tolerance.room(&exact);
+        asked.clearance = Some(self.clearance + self.room);
+        Problem::of_scene(loaded, asked).map_err(|error| {
+            let hint = format!("{}; a smaller --joint-tolerance adds less", self.describe_room());
+            let hinted = |found: &Diagnostic| found.clone().help(hint.clone());
+            let hinted = InputError::check(error.diagnostics().iter().map(hinted).collect());
+            Failure::Input(hinted.err().unwrap_or(error))
+        })
+    }
+
+    /// Describes the clearance that the tolerance adds.
+    fn describe_room(&self) -> String {
+        format!("the program's joint tolerance of {} adds {} to the clearance", self.tolerance, length_up(self.room))
+    }
+
+    /// Returns the program of a plan. `given` are the input files and their digests.
+    ///
+    /// # Errors
+    /// A plan without a program, a defect of the template, and a program that is not certified as written.
+    pub fn write(&self, plan: &Plan, given: Option<(&Files, &Digests)>) -> Result<WrittenProgram, Failure> {
+        if plan.status() != Status::Found {
+            return Ok(WrittenProgram { text: None, summary: format!("not written; {}", self.describe_room()) });
+        }
+        let name = |path: &Path| path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        let digests = given.map(|(files, digests)| {
+            vec![[name(&files.urdf), digests.urdf.clone()], [name(&files.world), digests.world.clone()]]
+        });
+        let program = Program::of(plan, self.tolerance, self.clearance)?.with_digests(digests.unwrap_or_default());
+        Ok(WrittenProgram { text: Some(self.template.write(&program)?), summary: program.summary() })
+    }
+}
