@@ -57,6 +57,8 @@ use cplan_options as options;
 #[cfg(feature = "program")]
 use cplan_parallel as parallel;
 pub use cplan_planners::cspace;
+#[cfg(feature = "program")]
+pub use cplan_programs as programs;
 pub use cplan_proofs as proofs;
 #[cfg(feature = "study")]
 pub use cplan_study as study;

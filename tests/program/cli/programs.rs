@@ -382,3 +382,48 @@ move = { joints = [-0.5, -0.4] }
     assert_eq!(run("--joint-tolerance 0.01mm").code, 0);
     assert_eq!(targets(&read_spel(&place.read("a.prg"))).len(), 2);
 }
+
+#[test]
+fn an_object_that_the_wrist_turns_keeps_the_tolerance_of_the_heights() {
+    let place = Place::new();
+    // The bar passes 0.02 mm above a pin wherever the wrist turns it.
+    let world = r#"[robot]
+joints = ["axis_1", "axis_2"]
+tip = "flange"
+payload = "level"
+wrist = { joint = "axis_4", velocity = 41.888 }
+stroke = { joint = "axis_3", acceleration = 10.0 }
+[start]
+joints = [0.0, 1.2]
+[[obstacle]]
+name = "pin at the feeder"
+circle = { center = [0.3712, -0.1788], radius = 0.004 }
+height = [0.0, 0.14998]
+[[obstacle]]
+name = "pin at the tray"
+circle = { center = [0.3712, 0.1212], radius = 0.004 }
+height = [0.0, 0.14998]
+[[object]]
+name = "bar"
+polygon = [[-0.04, -0.004], [0.04, -0.004], [0.04, 0.004], [-0.04, 0.004]]
+at = [0.35, -0.2]
+height = [0.0, 0.01]
+lift = 0.15
+[[step]]
+pick = "bar"
+[[step]]
+place = { at = [0.35, 0.1], angle = "90deg" }
+"#;
+    place.write("bar.toml", world);
+    let run =
+        |options: &str| program(&place, "scara", "bar.toml", &format!("--template rapid --output a.mod {options}"));
+    run("")
+        .refused(1, &["not certified: at the turn of the wrist for step 2, ", "within the tolerance of the heights"]);
+    let done = run("--joint-tolerance 0.01mm");
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    let targets = targets(&read_rapid(&place.read("a.mod")));
+    let sums: Vec<f64> = targets.iter().map(|to| to[0] + to[1] + to[3]).collect();
+    let turns = targets.windows(2).zip(sums.windows(2)).filter(|(to, _)| to[0][..3] == to[1][..3]);
+    let turns: Vec<f64> = turns.map(|(_, sums)| sums[1] - sums[0]).collect();
+    assert!(turns.len() == 1 && (turns[0] - 90.0).abs() < 1e-3, "{turns:?}");
+}

@@ -1,7 +1,8 @@
 //! The judgement of a program as written.
 
 use crate::error::ProgramError;
-use crate::moves::{Program, Travel};
+use crate::moves::Travel;
+use crate::program::Program;
 use crate::tolerance::JointTolerance;
 use cplan_handling::Driver;
 use cplan_judge::{Rejection, certify_at};

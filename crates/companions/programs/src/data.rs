@@ -1,7 +1,8 @@
 //! The data that templates get.
 
 use crate::joint_value::{JointValue, MARK};
-use crate::moves::{Move, MoveKind, Program, ProgramStep};
+use crate::moves::{Move, MoveKind, ProgramStep};
+use crate::program::Program;
 use cplan_text::{plain_line, round_down, short};
 use minijinja::context;
 use minijinja::value::Value;

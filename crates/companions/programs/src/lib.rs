@@ -16,16 +16,18 @@
 //! `c + D`, where `D` includes the rounding of the digits. The heights of the quill have the tolerance, too, except at the
 //! bottom of a stroke, where the tool meets the part.
 
+mod builder;
 mod certify;
 mod data;
 mod error;
 mod joint_value;
 mod moves;
+mod program;
 mod template;
 mod tolerance;
 mod written;
 
 pub use error::ProgramError;
-pub use moves::Program;
+pub use program::Program;
 pub use template::{SHIPPED, Template};
 pub use tolerance::JointTolerance;

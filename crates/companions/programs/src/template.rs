@@ -3,7 +3,7 @@
 use crate::data::identifier;
 use crate::error::ProgramError;
 use crate::joint_value::{digits, negated, plus};
-use crate::moves::Program;
+use crate::program::Program;
 use crate::written::Written;
 use cplan_robot::{Diagnostic, InputError, Source};
 use minijinja::syntax::SyntaxConfig;

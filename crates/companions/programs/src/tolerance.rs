@@ -136,6 +136,44 @@ fn payload_reach(problem: &Problem) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cplan_model::{Arm, Joint, Link, Workspace};
+
+    /// Position of a point of link 2, given in its frame, of an arm whose joints turn, or slide along x and y. Joint 2 is at
+    /// (0.5, 0) from joint 1.
+    fn position(turns: [bool; 2], q: [f64; 2], [x, y]: [f64; 2]) -> [f64; 2] {
+        let turned =
+            |angle: f64, [x, y]: [f64; 2]| [x * angle.cos() - y * angle.sin(), x * angle.sin() + y * angle.cos()];
+        let [x, y] = if turns[1] { turned(q[1], [x, y]) } else { [x, y + q[1]] };
+        if turns[0] { turned(q[0], [x + 0.5, y]) } else { [x + 0.5 + q[0], y] }
+    }
+
+    #[test]
+    fn no_point_moves_farther_than_the_bound() {
+        let tolerance = JointTolerance { turn: 0.01, slide: 0.003 };
+        for turns in [[true, true], [true, false], [false, true], [false, false]] {
+            let joint = |k: usize, direction: [f64; 2]| match turns[k] {
+                true => Joint::turning("turns", -3.0, 3.0),
+                false => Joint::sliding("slides", direction.into(), -0.7, 0.9),
+            };
+            let links = [Link::bar("one", 0.5, 0.1).unwrap(), Link::bar("two", 0.4, 0.1).unwrap()];
+            let arm = Arm::new([joint(0, [1.0, 0.0]), joint(1, [0.0, 1.0])], links, [0.5, 0.4]);
+            let problem = Problem::new(arm, Workspace::new([]), Configuration::zeros(), Configuration::new(0.1, 0.1));
+            let bound = tolerance.displacement(&problem.unwrap());
+            let by = turns.map(|turns| if turns { 0.01 } else { 0.003 });
+            let mut farthest = 0.0_f64;
+            for k in 0..400 {
+                let q = [-0.7 + 1.6 * f64::from(k % 20) / 19.0, -0.7 + 1.6 * f64::from(k / 20) / 19.0];
+                for (point, sign) in
+                    [[0.45, 0.0], [0.4, 0.05], [0.0, -0.05], [-0.05, 0.0]].into_iter().zip([1.0, -1.0].repeat(2))
+                {
+                    let [a, b] =
+                        [position(turns, q, point), position(turns, [q[0] + by[0], q[1] + sign * by[1]], point)];
+                    farthest = farthest.max((a[0] - b[0]).hypot(a[1] - b[1]));
+                }
+            }
+            assert!(farthest <= bound && bound <= 1.6 * farthest, "{turns:?}: {farthest}, at most {bound}");
+        }
+    }
 
     #[test]
     fn tolerances_have_units() {

@@ -1,7 +1,7 @@
 //! Reads the targets back from the text that a template has written.
 
 use crate::joint_value::{MARK, value_of};
-use crate::moves::Program;
+use crate::program::Program;
 
 /// The text of a program, and the targets that its digits state.
 pub(crate) struct Written {

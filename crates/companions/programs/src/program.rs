@@ -1,0 +1,142 @@
+//! The program of a plan.
+
+use crate::builder::{Builder, Moves};
+use crate::error::ProgramError;
+use crate::moves::{Move, ProgramJoint, ProgramStep, Travel};
+use crate::tolerance::JointTolerance;
+use cplan_engine::{Detail, Plan, Problem};
+use cplan_handling::{Action, Task};
+use cplan_model::space::JointRange;
+
+/// Displacement of a joint that is due to rounding, radians or metres.
+const ROUNDING: f64 = 1e-9;
+
+/// The joint moves of a plan.
+#[derive(Debug)]
+pub struct Program {
+    pub(crate) robot: String,
+    pub(crate) world: String,
+    pub(crate) joints: Vec<ProgramJoint>,
+    pub(crate) steps: Vec<ProgramStep>,
+    pub(crate) moves: Vec<Move>,
+    pub(crate) travels: Vec<Travel>,
+    /// Length of the path in joint space.
+    pub(crate) length: f64,
+    pub(crate) tolerance: JointTolerance,
+    /// Lower bound, metres, on the distance to obstacles within the tolerance. It is proven as soon as the written targets
+    /// are certified.
+    pub(crate) clearance: f64,
+    /// The distance that the lines between written targets must keep, metres.
+    pub(crate) required: f64,
+    /// Names of the input files, and their SHA-256 in hexadecimal.
+    pub(crate) digests: Vec<[String; 2]>,
+}
+
+impl Program {
+    /// Checks that a problem can have a program.
+    ///
+    /// # Errors
+    /// Moving obstacles, and lines that the tip follows.
+    pub fn check(problem: &Problem) -> Result<(), ProgramError> {
+        let unsuitable =
+            |why: String| Err(ProgramError::Unsuitable(format!("{why}\n  hint: write .yaml or .csv files")));
+        if !problem.timed().trajectories.is_empty() {
+            return unsuitable("obstacles move, and the times of a program are the controller's".into());
+        }
+        let mut steps = problem.task().into_iter().flat_map(Task::steps);
+        match steps.find(|step| matches!(step.action, Action::Follow(_))) {
+            Some(step) => unsuitable(format!("step {} follows a line, which joint moves do not", step.number)),
+            None => Ok(()),
+        }
+    }
+
+    /// Returns the program of a plan. The plan must stop at each corner of its path, at strokes and at turns
+    /// (`LoadedScene::without_arches`). It must have been made with the clearance `clearance` plus
+    /// [`JointTolerance::room`], metres.
+    ///
+    /// # Errors
+    /// The errors of [`Program::check`], a plan without a motion, and a wrist that leaves its range.
+    pub fn of(plan: &Plan, tolerance: JointTolerance, clearance: f64) -> Result<Self, ProgramError> {
+        let problem = plan.problem();
+        Self::check(problem)?;
+        let no_motion = || ProgramError::Unsuitable("the plan has no motion".into());
+        let (arm, scene) = (plan.arm(), problem.scene());
+        let mut builder = Builder::new(&problem.robot().joints, arm);
+        let (length, kept) = match plan.detail() {
+            Detail::Motion { answer, .. } => {
+                let motion = answer.outcome.found().ok_or_else(no_motion)?;
+                builder.motion(scene, motion.timed.curve.curve().path());
+                (motion.path.path().length(), motion.timed.curve.clearance())
+            }
+            Detail::Task { task, answer } => {
+                answer.outcome.found().ok_or_else(no_motion)?;
+                builder.task(task, &answer.legs, tolerance)?;
+                (answer.legs.iter().map(|leg| leg.path().length()).sum(), answer.clearance())
+            }
+        };
+        let Moves { joints, steps, moves, travels } = builder.into_moves();
+        let kept = if kept.is_finite() { (kept - tolerance.room(problem)).max(clearance) } else { clearance };
+        let program = Self {
+            robot: arm.name.clone(),
+            world: scene.workspace().name.clone(),
+            joints,
+            steps,
+            moves,
+            travels,
+            length,
+            tolerance,
+            clearance: kept,
+            required: kept + tolerance.room_as_written(problem),
+            digests: Vec::new(),
+        };
+        program.check_ranges()?;
+        Ok(program)
+    }
+
+    /// Adds the SHA-256 of input files to the program's head, each as a name and hexadecimal digits.
+    #[must_use]
+    pub fn with_digests(self, digests: Vec<[String; 2]>) -> Self {
+        Self { digests, ..self }
+    }
+
+    /// Describes the program and its guarantee in one line.
+    pub fn summary(&self) -> String {
+        format!("{} joint moves; {}; times are the controller's", self.moves.len() - 1, self.guarantee())
+    }
+
+    /// States the guarantee in one sentence.
+    pub(crate) fn guarantee(&self) -> String {
+        let kept = match self.clearance > 0.0 {
+            true => format!("keep {} from all obstacles", cplan_text::length_down(self.clearance)),
+            false => "are free of collision".to_owned(),
+        };
+        let tolerance = self.tolerance;
+        format!("certified: straight joint lines that end at rest {kept}, within a tolerance of {tolerance}")
+    }
+
+    /// Describes a target for messages.
+    pub(crate) fn describe(&self, target: usize) -> String {
+        let step = self.moves.get(target).map(|one| &self.steps[one.step]);
+        let step =
+            step.map_or_else(|| "after the last one".into(), |step| format!("step {}, {}", step.number, step.text));
+        format!("target {} ({step})", target + 1)
+    }
+
+    /// Checks that the joints of the tool stay within their limits.
+    fn check_ranges(&self) -> Result<(), ProgramError> {
+        for (target, one) in self.moves.iter().enumerate() {
+            for (joint, value) in self.joints.iter().zip(&one.values) {
+                if let Some(JointRange::Interval { lower, upper }) = joint.range
+                    && !(lower - ROUNDING..=upper + ROUNDING).contains(value)
+                {
+                    let (name, unit) = (&joint.name, if joint.slides { "m" } else { "rad" });
+                    return Err(ProgramError::Unsuitable(format!(
+                        "at {}, joint \"{name}\" would be at {value} {unit}, outside its limits [{lower}, {upper}] {unit}",
+                        self.describe(target)
+                    )));
+                }
+            }
+        }
+        Ok(())
+    }
+}
