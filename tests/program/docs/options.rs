@@ -6,7 +6,7 @@ use crate::cli::help::commands;
 use std::collections::BTreeSet;
 
 /// Options of other programs that the text names without a command.
-const OTHERS: [&str; 1] = ["--no-default-features"];
+const OTHERS: [&str; 2] = ["--check", "--no-default-features"];
 
 /// Returns the long options in a text.
 fn options(text: &str) -> Vec<&str> {

@@ -126,6 +126,9 @@ fn files_of_other_kinds_are_refused() {
     let scene = load_scene(at("arm.urdf"), &at("world.toml")).unwrap();
     let error = load_recording(&at("absent.csv"), &scene).unwrap_err().to_string();
     assert!(error.contains("absent.csv") && error.contains("cannot be read"), "{error}");
+    refused("m.db3", "SQLite format 3", &[".mcap files only", "ros2 bag convert"]);
+    let error = load_recording(folder.path(), &scene).unwrap_err().to_string();
+    assert!(error.contains(".mcap files only") && error.contains("ros2 bag convert"), "{error}");
 }
 
 #[test]

@@ -88,6 +88,11 @@ pub fn load_topic(path: &Path, topic: &str, scene: &LoadedScene) -> Result<Loade
 
 fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
+    if path.is_dir() || extension.as_deref() == Some("db3") {
+        return Err(Diagnostic::new(path.display().to_string(), "recordings of ROS 2 are read from .mcap files only")
+            .help("give the .mcap file of the recording; `ros2 bag convert` makes one of a recording in .db3")
+            .into());
+    }
     if !matches!(extension.as_deref(), Some("json" | "csv" | "yaml" | "yml" | "mcap")) {
         return Err(Diagnostic::new(path.display().to_string(), "the format of this file is unknown")
             .help("name it .json (cplan), .csv, .yaml (ROS 2 JointTrajectory), or .mcap (ROS 2 recording)")
