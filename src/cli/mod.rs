@@ -17,6 +17,7 @@ mod failure;
 mod files;
 mod follow;
 mod fresh;
+mod gcode;
 mod headings;
 mod import;
 mod init;
@@ -84,6 +85,7 @@ commands! { program:
         Study(study::StudyArgs),
         Explore(explore::ExploreArgs),
         Follow(follow::FollowArgs),
+        Gcode(gcode::GcodeArgs),
         Batch(batch::BatchArgs),
     }
     "Understand" {

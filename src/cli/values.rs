@@ -1,6 +1,7 @@
 //! Parsers for numbers on the command line.
 
 use crate::options::{finite, number_in};
+use cplan_follow::{MIN_TOLERANCE, metres};
 
 /// Longest time limit that a command accepts, in seconds: some thirty years.
 const MAX_JOB_SECONDS: f64 = 1e9;
@@ -8,6 +9,12 @@ const MAX_JOB_SECONDS: f64 = 1e9;
 /// Parses a least distance from obstacles, in metres.
 pub fn clearance(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= 0.0, "of metres, finite and not negative")
+}
+
+/// Parses the greatest distance of the tip from a line: metres, or a length with its unit.
+pub fn tolerance(text: &str) -> Result<f64, String> {
+    let range = || format!("must be a length such as 0.00005 or 0.05mm, finite and at least {MIN_TOLERANCE} m");
+    metres(text).ok().filter(|x| x.is_finite() && *x >= MIN_TOLERANCE).ok_or_else(range)
 }
 
 /// Parses a time limit, in seconds.

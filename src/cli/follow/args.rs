@@ -5,10 +5,10 @@ use crate::cli::files::Files;
 use crate::cli::headings::OUTPUT;
 use crate::cli::print_args::PrintArgs;
 use crate::cli::theme::ThemeArgs;
-use crate::cli::values::{clearance, displacement, turn};
+use crate::cli::values::{clearance, displacement, tolerance, turn};
 use crate::options::positive;
 use clap::{Args, ValueHint};
-use cplan_follow::{MIN_TOLERANCE, Settings, metres};
+use cplan_follow::Settings;
 use cplan_handling::ToolAngle;
 use cplan_toolpath::{Placement, Unit};
 use std::path::PathBuf;
@@ -94,9 +94,4 @@ impl FollowArgs {
     pub(super) fn placement(&self) -> Placement {
         Placement { unit: self.unit, scale: self.scale, turn: self.turn, shift: self.shift.unwrap_or_default() }
     }
-}
-
-fn tolerance(text: &str) -> Result<f64, String> {
-    let range = || format!("must be a length such as 0.00005 or 0.05mm, finite and at least {MIN_TOLERANCE} m");
-    metres(text).ok().filter(|x| x.is_finite() && *x >= MIN_TOLERANCE).ok_or_else(range)
 }

@@ -49,6 +49,7 @@ mod svg;
 pub use cplan_text::Unit;
 pub use curve::{Curve, Point};
 pub use error::Error;
+pub use gcode::{Modes, Program, ProgramMove};
 pub use heading::{Headings, wrapped};
 pub use path::{MAX_PIECES, Piece, Source, Toolpath};
 pub use placement::Placement;
@@ -88,6 +89,15 @@ pub fn read(bytes: &[u8], format: Format, placement: &Placement) -> Result<Toolp
         #[cfg(not(feature = "svg"))]
         Format::Svg => Err(Error::new(None, None, "this program reads no SVG", "use G-code, or list the points")),
     }
+}
+
+/// Reads a G-code program move by move, for a machine with its own kinematics. It may contain moves to places of the
+/// machine (G28), after which the place of the tip is unknown.
+///
+/// # Errors
+/// If the file is broken, has something that cannot be followed, or has no move.
+pub fn read_program(bytes: &[u8]) -> Result<Program, Error> {
+    gcode::program(text(bytes)?)
 }
 
 /// Returns bytes as UTF-8, without a byte order mark.

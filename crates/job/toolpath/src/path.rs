@@ -45,6 +45,18 @@ pub struct Piece {
     pub source: Source,
 }
 
+impl Piece {
+    /// Checks that no coordinate is too large.
+    pub(crate) fn check(&self) -> Result<(), Error> {
+        let Source { line, column } = self.source;
+        if self.curve.is_within(MAX_COORDINATE) {
+            return Ok(());
+        }
+        let message = format!("the line has a coordinate beyond {MAX_COORDINATE:.0e} m");
+        Err(Error::new(line, column, message, "check the unit of the file, and --scale and --move"))
+    }
+}
+
 /// A line in the plane, as pieces in order. Each piece begins where the one before it ends. There is at least one
 /// piece, and every piece has a length.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -62,14 +74,10 @@ impl Toolpath {
     /// If no piece has a length, if a piece does not begin where the one before it ends, if there are more than
     /// [`MAX_PIECES`] pieces, or if a number is too large or not finite.
     pub fn new(pieces: Vec<Piece>) -> Result<Self, Error> {
-        const SMALLER: &str = "check the unit of the file, and --scale and --move";
         let mut kept: Vec<Piece> = Vec::with_capacity(pieces.len());
         for piece in pieces {
             let Source { line, column } = piece.source;
-            if !piece.curve.is_within(MAX_COORDINATE) {
-                let message = format!("the line has a coordinate beyond {MAX_COORDINATE:.0e} m");
-                return Err(Error::new(line, column, message, SMALLER));
-            }
+            piece.check()?;
             let last = kept.last().map(|before| before.curve.end());
             let gap = last.map_or(0.0, |end| norm(minus(end, piece.curve.start())));
             if gap > MAX_GAP * (1.0 + norm(piece.curve.start())) {

@@ -12,7 +12,8 @@ pub(super) struct Block<'w> {
 }
 
 impl<'w> Block<'w> {
-    /// Sorts words, and adds those without an effect to the remarks. Returns `None` if a word is refused.
+    /// Sorts words, and adds those without an effect to the remarks. Returns `None` if a word is refused, or leads to a place
+    /// of the machine.
     ///
     /// # Errors
     /// If words contradict each other, or if a word has no number.
@@ -78,7 +79,7 @@ fn refuse(words: &[Word], meanings: &[Meaning], remarks: &mut Remarks) -> bool {
         .zip(meanings)
         .find(|(word, meaning)| **meaning == Meaning::Follow(Slot::Home) && leaves_place(word, words));
     if let Some((word, _)) = home {
-        remarks.refuse_home(word);
+        remarks.add_home(word);
     }
     home.is_some() || refused.count() > 0
 }

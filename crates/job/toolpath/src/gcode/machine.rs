@@ -7,14 +7,18 @@ mod finish;
 use super::block::Block;
 use super::meaning::{self, OTHER_SYSTEM, Slot, UNSTATED_ORIGIN};
 use super::origin::Origin;
+use super::program::Modes;
 use super::remarks::Remarks;
 use super::words::{Line, Word};
 use crate::path::Piece;
-use crate::{Curve, Error, Placement, Point};
+use crate::{Curve, Error, Placement, Point, Source};
 use cplan_text::Unit;
 
 const INCH: f64 = 0.0254;
 const SECONDS_PER_MINUTE: f64 = 60.0;
+
+/// The command of Grbl and its descendants that leads to a place of the machine.
+const HOMING: &str = "$H";
 
 /// The kinds of moves.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,14 +53,21 @@ pub(super) struct Machine<'p> {
     dwells: f64,
     has_begun: bool,
     pieces: Vec<Piece>,
+    /// For each piece, how its line states it.
+    modes: Vec<Modes>,
+    /// Height of the tool, metres; `None` if the program has not stated it.
+    height: Option<f64>,
+    /// Moves from places that the program does not state.
+    unstated: Vec<Source>,
     remarks: Remarks,
     /// Notes for the user about assumptions.
     notes: Vec<String>,
 }
 
 impl<'p> Machine<'p> {
-    /// Creates a machine. `is_firmware` is true for programs of printers and plotters.
-    pub fn new(placement: &'p Placement, is_firmware: bool) -> Self {
+    /// Creates a machine. `is_firmware` is true for programs of printers and plotters. With `allows_homes`, the program may
+    /// lead to places of the machine. After such a move, the place of the tip is unknown.
+    pub fn new(placement: &'p Placement, is_firmware: bool, allows_homes: bool) -> Self {
         Self {
             placement,
             unit: placement.unit.unwrap_or(Unit::MILLIMETER).metres(),
@@ -72,7 +83,10 @@ impl<'p> Machine<'p> {
             dwells: 0.0,
             has_begun: false,
             pieces: Vec::new(),
-            remarks: Remarks::default(),
+            modes: Vec::new(),
+            height: None,
+            unstated: Vec::new(),
+            remarks: Remarks::new(allows_homes),
             notes: Vec::new(),
         }
     }
@@ -89,7 +103,10 @@ impl<'p> Machine<'p> {
             Line::Optional(_) => self.remarks.list("/, left out".into()),
             Line::Command(name, source) => match meaning::of_command(name) {
                 Some(reason) => self.remarks.refuse(name.clone(), reason, *source),
-                None => self.remarks.list(name.clone()),
+                None => {
+                    self.remarks.is_home = name == HOMING;
+                    self.remarks.list(name.clone());
+                }
             },
             Line::Words(words) => {
                 if let Some(block) = Block::new(words, &mut self.remarks)? {
@@ -97,6 +114,9 @@ impl<'p> Machine<'p> {
                     return Ok(block.get(Slot::End).is_some());
                 }
             }
+        }
+        if self.remarks.takes_home() {
+            (self.origin.is_known, self.height) = ([false; 2], None);
         }
         Ok(false)
     }
@@ -109,8 +129,9 @@ impl<'p> Machine<'p> {
         if let Some(word) = block.get(Slot::Shift) {
             return self.shift(block, word);
         }
+        let rise = self.lift(block);
         match [Slot::X, Slot::Y, Slot::I, Slot::J, Slot::R].into_iter().find_map(|slot| block.get(slot)) {
-            Some(first) => self.draw(block, first),
+            Some(first) => self.draw(block, first, rise),
             None => Ok(()),
         }
     }
@@ -173,6 +194,9 @@ impl<'p> Machine<'p> {
                     let hint = "name the coordinates that become those of the tip, such as G92 X0 Y0";
                     return Err(word.error("has no coordinates", hint));
                 }
+                if let Some(stated) = block.with_letters("Z").next().and_then(|word| word.value) {
+                    self.height = Some(stated * self.unit);
+                }
                 self.origin.state([Slot::X, Slot::Y].map(|slot| block.value(slot).map(|value| value * self.unit)));
                 true
             }
@@ -183,8 +207,21 @@ impl<'p> Machine<'p> {
         Ok(())
     }
 
-    /// Adds the move of a block. `first` is its first coordinate.
-    fn draw(&mut self, block: &Block, first: &Word) -> Result<(), Error> {
+    /// Sets the height of the tool, and returns by how much it rises, if that is known.
+    fn lift(&mut self, block: &Block) -> Option<f64> {
+        if block.get(Slot::Home).is_some() {
+            self.height = None;
+            return None;
+        }
+        let stated = block.with_letters("Z").next()?.value? * self.unit;
+        let before = self.height;
+        let rise = if self.is_relative { Some(stated) } else { before.map(|before| stated - before) };
+        self.height = if self.is_relative { before.map(|before| before + stated) } else { Some(stated) };
+        rise
+    }
+
+    /// Adds the move of a block. `first` is its first coordinate, and the tool rises by `rise`.
+    fn draw(&mut self, block: &Block, first: &Word, rise: Option<f64>) -> Result<(), Error> {
         let Some(motion) = self.motion else {
             return Err(first.error("has no kind of move", "write G0, G1, G2 or G3 before it"));
         };
@@ -213,6 +250,9 @@ impl<'p> Machine<'p> {
         self.remarks.drawn += usize::from(!is_travel);
         let speed = self.speed.filter(|_| !is_travel);
         self.pieces.push(Piece { curve: curve?, speed, is_travel, dwell: None, source });
+        let words = [block.get(Slot::X), block.get(Slot::Y), block.with_letters("Z").next()];
+        let words = words.map(|word| word.and_then(|word| Some(word.source.column? - 1..word.end)));
+        self.modes.push(Modes { unit: self.unit, is_relative: self.is_relative, origin, words, rise });
         Ok(())
     }
 
@@ -235,6 +275,7 @@ impl<'p> Machine<'p> {
             let line = word.source.line;
             self.notes.push(format!("the first move (G1, line {line}) begins at an unstated place: left out"));
         }
+        self.unstated.push(word.source);
         self.origin.advance(to);
         Ok(())
     }

@@ -4,10 +4,13 @@ mod block;
 mod machine;
 mod meaning;
 mod origin;
+mod program;
 mod remarks;
 mod words;
 
 use crate::{Error, Placement, Toolpath};
+pub use program::{Modes, Program, ProgramMove};
+
 use machine::Machine;
 use words::{Line, Word};
 
@@ -20,9 +23,22 @@ const FIRMWARE: f64 = 80.0;
 /// If the program has words that cannot be followed: one error lists all of them. Otherwise the first defect, with its line
 /// and column; or if the program has no line.
 pub(crate) fn read(text: &str, placement: &Placement) -> Result<Toolpath, Error> {
+    run(text, placement, false)?.finish()
+}
+
+/// Reads a program as [`read`], move by move, for a machine that knows its own places.
+///
+/// # Errors
+/// Same as for [`read`].
+pub(crate) fn program(text: &str) -> Result<Program, Error> {
+    run(text, &Placement::default(), true)?.program()
+}
+
+/// Runs a program. With `allows_homes`, it may lead to places of the machine.
+fn run<'p>(text: &str, placement: &'p Placement, allows_homes: bool) -> Result<Machine<'p>, Error> {
     let lines: Vec<Result<Line, Error>> =
         text.lines().zip(1..).map(|(line, number)| words::line(line, number)).collect();
-    let mut machine = Machine::new(placement, lines.iter().flatten().any(is_firmware));
+    let mut machine = Machine::new(placement, lines.iter().flatten().any(is_firmware), allows_homes);
     let mut first_error = None;
     for line in &lines {
         match line.as_ref().map_err(Clone::clone).and_then(|line| machine.run(line)) {
@@ -33,7 +49,7 @@ pub(crate) fn read(text: &str, placement: &Placement) -> Result<Toolpath, Error>
     }
     match machine.refusal().or(first_error) {
         Some(error) => Err(error),
-        None => machine.finish(),
+        None => Ok(machine),
     }
 }
 

@@ -19,6 +19,10 @@ pub(super) struct Remarks {
     homes: Vec<(String, Source, usize)>,
     /// Number of drawn pieces so far.
     pub drawn: usize,
+    /// True if moves to places of the machine are allowed. Then they are listed.
+    allows_homes: bool,
+    /// True if the last line was such a move.
+    pub is_home: bool,
 }
 
 /// A word that cplan cannot follow.
@@ -38,6 +42,11 @@ pub(super) fn name(word: &Word) -> String {
 }
 
 impl Remarks {
+    /// Creates remarks about no word so far.
+    pub fn new(allows_homes: bool) -> Self {
+        Self { allows_homes, ..Self::default() }
+    }
+
     /// Counts a word without an effect on the line.
     pub fn list(&mut self, name: String) {
         *self.listed.entry(name).or_default() += 1;
@@ -52,8 +61,18 @@ impl Remarks {
     }
 
     /// Adds a move to a place of the machine.
-    pub fn refuse_home(&mut self, word: &Word) {
-        self.homes.push((name(word), word.source, self.drawn));
+    pub fn add_home(&mut self, word: &Word) {
+        if self.allows_homes {
+            self.is_home = true;
+            self.list(name(word));
+        } else {
+            self.homes.push((name(word), word.source, self.drawn));
+        }
+    }
+
+    /// Returns true if the line since the last call leads to a place of the machine, and that is allowed.
+    pub fn takes_home(&mut self) -> bool {
+        std::mem::take(&mut self.is_home) && self.allows_homes
     }
 
     /// Returns the note about words without an effect on the line.

@@ -15,6 +15,8 @@ pub(super) struct Word {
     pub text: String,
     /// Place of the word's first character.
     pub source: Source,
+    /// Number of characters of its line up to its end.
+    pub end: usize,
 }
 
 /// A line of a program.
@@ -86,7 +88,7 @@ fn is_keyword(text: &str) -> bool {
 }
 
 fn computed(letter: char, text: &str, source: Source) -> Word {
-    Word { letter, value: None, is_computed: true, text: text.to_owned(), source }
+    Word { letter, value: None, is_computed: true, text: text.to_owned(), source, end: 0 }
 }
 
 fn words(line: &str, number: usize) -> Result<Vec<Word>, Error> {
@@ -149,7 +151,7 @@ fn word(letters: &[char], at: usize, source: Source) -> Result<(Word, usize), Er
         let message = format!("{text} has no valid number");
         return Err(Error::new(source.line, source.column, message, "write a number such as 12.5"));
     }
-    Ok((Word { letter, value, is_computed: false, text, source }, end))
+    Ok((Word { letter, value, is_computed: false, text, source, end }, end))
 }
 
 /// Returns true if a text directly after a number is an exponent, as in 1e-05. A capital E is the word for an extruder,

@@ -1,0 +1,267 @@
+//! The answer about a program.
+
+use crate::fault::{Cause, Fault};
+use crate::player::Player;
+use crate::walk::{Replaced, Walk};
+use crate::{Dialect, written};
+use cplan_deviation::Kinematics;
+use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
+use cplan_model::{Scene, Status};
+use cplan_toolpath::{Program, ProgramMove, read_program};
+
+/// Greatest difference between the drawing moves of the program and those of the written one, metres. It is rounding.
+const MAX_DIFFERENCE: f64 = 1e-9;
+
+/// The side of the elbow.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Elbow {
+    /// The elbow is to the left of the straight line from joint 1 to the tip.
+    Left,
+    /// The elbow is to the right of that line.
+    Right,
+}
+
+impl Elbow {
+    /// Both sides.
+    pub const ALL: [Self; 2] = [Self::Left, Self::Right];
+
+    /// Returns the name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Elbow::Left => "left",
+            Elbow::Right => "right",
+        }
+    }
+
+    /// Returns the number of the IK solution.
+    fn solution(self) -> usize {
+        match self {
+            Elbow::Right => 0,
+            Elbow::Left => 1,
+        }
+    }
+}
+
+/// A program with its text.
+#[derive(Debug, Clone)]
+pub struct Job {
+    bytes: Vec<u8>,
+    /// The moves.
+    pub program: Program,
+}
+
+impl Job {
+    /// Reads a program.
+    ///
+    /// # Errors
+    /// Words that the machine would follow otherwise than cplan, with their lines; broken text; a program without moves.
+    pub fn read(bytes: &[u8]) -> Result<Self, cplan_toolpath::Error> {
+        Ok(Self { program: read_program(bytes)?, bytes: bytes.to_vec() })
+    }
+
+    /// Returns the number of drawing moves, and that of travels.
+    pub fn counts(&self) -> [usize; 2] {
+        let travels = self.program.moves.iter().filter(|own| own.piece.is_travel).count();
+        [self.program.moves.len() - travels, travels]
+    }
+}
+
+/// Settings for the judgement of a program.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Settings {
+    /// Greatest distance between the tip and the line that the machine may have, metres. At least [`MIN_TOLERANCE`].
+    pub tolerance: f64,
+    /// Greatest length of the segments of each line on which the joints move straight, metres. `None` if the tip stays within
+    /// the tolerance of the line.
+    pub segment: Option<f64>,
+    /// The side of the elbow. `None` if the machine can be set up with either side.
+    pub elbow: Option<Elbow>,
+    /// The dialect of the program.
+    pub dialect: Dialect,
+    /// True if unsafe travels are replaced.
+    pub repairs: bool,
+}
+
+impl Default for Settings {
+    /// Returns a tolerance of a hundredth of a millimetre, no segments, either side of the elbow, Marlin, and replaced
+    /// travels.
+    fn default() -> Self {
+        let dialect = Dialect::default();
+        Self { tolerance: DEFAULT_TOLERANCE, segment: None, elbow: None, dialect, repairs: true }
+    }
+}
+
+/// The reason why a program cannot be judged, or not be written.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+pub enum GcodeError {
+    /// The length of segments is not a positive number.
+    #[error("the length of segments is {0} m; it must be a finite number above 0")]
+    Segment(f64),
+    /// The tolerance is too small, or not a number.
+    #[error("the tolerance is {0} m; it must be a finite number of at least {MIN_TOLERANCE} m")]
+    Tolerance(f64),
+    /// A side of the elbow for an arm without one.
+    #[error("only arms with two revolute joints have an elbow; leave out its side")]
+    NoElbow,
+    /// A travel with a checksum would have to be replaced.
+    #[error("line {0} has a checksum, which cplan would have to change; write the program without checksums")]
+    Checksum(usize),
+}
+
+/// A move that the machine cannot play, or that is not proven.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Failed {
+    /// The move.
+    pub own: ProgramMove,
+    /// The reason.
+    pub fault: Fault,
+}
+
+/// A travel that was replaced.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Travel {
+    /// Number of its line.
+    pub line: usize,
+    /// Number of moves in its place.
+    pub moves: usize,
+}
+
+/// The answer about a program.
+#[derive(Debug, Clone)]
+pub struct Answer {
+    /// The side of the elbow; `None` for arms without one.
+    pub elbow: Option<Elbow>,
+    /// All moves that fail, in order.
+    pub failed: Vec<Failed>,
+    /// All travels that are replaced, in order.
+    pub replaced: Vec<Travel>,
+    /// The program with safe travels; `None` if a move fails, or if no travels are replaced by request.
+    pub text: Option<Vec<u8>>,
+    /// The answer with the other side of the elbow, if it was tried and fails too.
+    pub other: Option<Box<Answer>>,
+}
+
+impl Answer {
+    /// Returns the status: found if all moves are proven, infeasible if the machine cannot play the program with any side of
+    /// the elbow that may be used.
+    pub fn status(&self) -> Status {
+        let is_proven = |answer: &Self| answer.failed.iter().any(|failed| failed.fault.is_proven);
+        if self.failed.is_empty() {
+            Status::Found
+        } else if is_proven(self) && self.other.as_deref().is_none_or(is_proven) {
+            Status::Infeasible
+        } else {
+            Status::Unknown
+        }
+    }
+}
+
+/// Judges a program, and replaces unsafe travels if that is requested. It takes time linear in the number of moves, and a
+/// motion is planned for each unsafe travel that cannot go along an earlier one.
+///
+/// # Errors
+/// [`GcodeError`]: settings that cannot be used, and checksums.
+pub fn judge(scene: &Scene, job: &Job, settings: &Settings) -> Result<Answer, GcodeError> {
+    if !(settings.tolerance.is_finite() && settings.tolerance >= MIN_TOLERANCE) {
+        return Err(GcodeError::Tolerance(settings.tolerance));
+    }
+    if let Some(segment) = settings.segment.filter(|length| !(length.is_finite() && *length > 0.0)) {
+        return Err(GcodeError::Segment(segment));
+    }
+    let has_elbow = scene.arm().only_turns();
+    if settings.elbow.is_some() && !has_elbow {
+        return Err(GcodeError::NoElbow);
+    }
+    let kinematics = Kinematics::new(scene.arm());
+    let sides: Vec<(Option<Elbow>, usize)> = match settings.elbow {
+        Some(elbow) => vec![(Some(elbow), elbow.solution())],
+        None if has_elbow => Elbow::ALL.map(|elbow| (Some(elbow), elbow.solution())).to_vec(),
+        None => (0..if kinematics.has_two_solutions() { 2 } else { 1 }).map(|solution| (None, solution)).collect(),
+    };
+    let players: Vec<(Option<Elbow>, Player)> = sides
+        .into_iter()
+        .map(|(elbow, solution)| (elbow, Player::new(scene, &kinematics, solution, settings)))
+        .collect();
+    let mut walks: Vec<(Option<Elbow>, Walk)> =
+        players.iter().map(|(elbow, player)| (*elbow, Walk::new(player, &job.program.moves))).collect();
+    // The side with which fewer moves fail comes first.
+    walks.sort_by_key(|(_, walk)| (walk.failed.len(), walk.broken.len()));
+    let mut best: Option<Answer> = None;
+    for (elbow, walk) in walks {
+        let answer = finished(job, settings, elbow, walk)?;
+        if answer.failed.is_empty() {
+            return Ok(answer);
+        }
+        best = Some(match best {
+            None => answer,
+            Some(first) => Answer { other: Some(Box::new(answer)), ..first },
+        });
+    }
+    Ok(best.expect("at least one side"))
+}
+
+/// Replaces travels if that is requested, and proves the written program.
+fn finished(job: &Job, settings: &Settings, elbow: Option<Elbow>, mut walk: Walk) -> Result<Answer, GcodeError> {
+    let moves = &job.program.moves;
+    let replaced = if settings.repairs { walk.repair() } else { Vec::new() };
+    walk.keep_travels();
+    let travels = replaced
+        .iter()
+        .map(|own| Travel { line: moves[own.index].piece.source.line, moves: own.points.len() })
+        .collect();
+    let failed = walk.failed.iter().map(|(index, fault)| Failed { own: moves[*index].clone(), fault: fault.clone() });
+    let mut answer = Answer { elbow, failed: failed.collect(), replaced: travels, text: None, other: None };
+    if answer.failed.is_empty() && settings.repairs {
+        let text = text(job, &replaced, settings.dialect)?;
+        match first_unproven(job, &walk, &text) {
+            None => answer.text = Some(text),
+            Some(failed) => answer.failed.push(failed),
+        }
+    }
+    Ok(answer)
+}
+
+/// Returns the program with other travels.
+fn text(job: &Job, replaced: &[Replaced], dialect: Dialect) -> Result<Vec<u8>, GcodeError> {
+    if replaced.is_empty() {
+        return Ok(job.bytes.clone());
+    }
+    let text = String::from_utf8_lossy(&job.bytes);
+    // The reader counts characters after a byte order mark.
+    let (mark, rest) = text.split_at(text.len() - text.trim_start_matches('\u{feff}').len());
+    let program = written::program(rest, &job.program.moves, replaced, dialect).map_err(GcodeError::Checksum)?;
+    Ok(format!("{mark}{program}").into_bytes())
+}
+
+/// Reads a written program, and judges it again. Returns a move that differs from the program or is not proven.
+fn first_unproven(job: &Job, walk: &Walk, text: &[u8]) -> Option<Failed> {
+    let moves = &job.program.moves;
+    if text == job.bytes {
+        return None;
+    }
+    let differs = |own: &ProgramMove, why: &str| Failed {
+        own: own.clone(),
+        fault: Fault { cause: Cause::NoTravel, ..Fault::undecided(own.piece.curve.end().into(), why.to_owned()) },
+    };
+    let Ok(again) = read_program(text) else { return Some(differs(&moves[0], "the written program cannot be read")) };
+    let drawn = |moves: &[ProgramMove]| -> Vec<ProgramMove> {
+        moves.iter().filter(|own| !own.piece.is_travel).cloned().collect()
+    };
+    let (before, after) = (drawn(moves), drawn(&again.moves));
+    let is_same = |one: &ProgramMove, two: &ProgramMove| {
+        [0.0, 0.5, 1.0].iter().all(|u| {
+            let [a, b] = [one, two].map(|own| own.piece.curve.at(*u));
+            (a[0] - b[0]).hypot(a[1] - b[1]) <= MAX_DIFFERENCE
+        })
+    };
+    if let Some((own, _)) = before.iter().zip(&after).find(|(one, two)| !is_same(one, two)) {
+        return Some(differs(own, "the written program draws another line"));
+    }
+    if before.len() != after.len() {
+        return Some(differs(&moves[0], "the written program draws other lines"));
+    }
+    let mut proven = walk.again(&again.moves);
+    proven.keep_travels();
+    let (index, fault) = proven.failed.into_iter().next()?;
+    Some(Failed { own: again.moves[index].clone(), fault })
+}

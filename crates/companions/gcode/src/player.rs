@@ -1,0 +1,259 @@
+//! A move as a firmware plays it: with one IK solution, the tip within the tolerance of the line.
+//!
+//! The line is divided into parts. All configurations of the IK solution that put the tip within the tolerance of a part lie
+//! in one box ([`Kinematics::solution_box`]), and the boxes of consecutive parts overlap. So the joints follow the line
+//! without jumps, and the boxes bound their values. The judge bounds the distance between the arm and obstacles over each
+//! box, and halves parts that are too long for that ([`CurveSearch`]).
+
+use crate::Settings;
+use crate::fault::{Cause, Fault};
+use cplan_deviation::{Kinematics, SolutionBox, sag};
+use cplan_geometry::Point;
+use cplan_interrupt::checkpoint;
+use cplan_judge::{CurveSearch, Deviation, Rejection, Vicinity};
+use cplan_model::Scene;
+use cplan_model::space::{Configuration, JointRange};
+use cplan_toolpath::{Curve, Piece};
+use std::f64::consts::TAU;
+
+/// Distance beyond the reach that counts as rounding, metres.
+const REACH_ROUNDING: f64 = 1e-9;
+
+/// Excess over a joint limit that counts as rounding, radians or metres.
+pub(crate) const LIMIT_ROUNDING: f64 = 1e-9;
+
+/// Greatest half of a box of a revolute joint, radians. Boxes below half a turn continue each other without ambiguity.
+const MAX_HALF_TURN: f64 = 1.0;
+
+/// Greatest number of parts of a move.
+const MAX_PARTS: usize = 20_000;
+
+/// Greatest number of distance evaluations for a part of a move.
+const MAX_EVALUATIONS: usize = 200_000;
+
+/// The joint values along a move, up to whole turns.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Swept {
+    pub start: Configuration,
+    pub end: Configuration,
+    /// Bounds on the joint values.
+    pub low: Configuration,
+    pub high: Configuration,
+}
+
+impl Swept {
+    /// Returns the values of an arm that rests.
+    pub fn at_rest(q: Configuration) -> Self {
+        Self { start: q, end: q, low: q, high: q }
+    }
+
+    /// Returns the values with whole turns added.
+    pub fn turned(&self, by: Configuration) -> Self {
+        Self { start: self.start + by, end: self.end + by, low: self.low + by, high: self.high + by }
+    }
+
+    /// Returns the values of this move and the next one.
+    pub fn then(&self, next: &Self) -> Self {
+        Self { start: self.start, end: next.end, low: self.low.inf(&next.low), high: self.high.sup(&next.high) }
+    }
+}
+
+/// An arm that plays moves with one of its IK solutions.
+pub(crate) struct Player<'a> {
+    pub scene: &'a Scene,
+    pub kinematics: &'a Kinematics<'a>,
+    vicinity: Vicinity<'a>,
+    /// Number of the IK solution, 0 or 1.
+    pub solution: usize,
+    tolerance: f64,
+    /// Greatest length of the segments on which the joints move straight, metres. `None` if the tip is on the line.
+    segment: Option<f64>,
+    travels_by_joints: bool,
+}
+
+impl<'a> Player<'a> {
+    pub fn new(scene: &'a Scene, kinematics: &'a Kinematics<'a>, solution: usize, settings: &Settings) -> Self {
+        let (vicinity, travels_by_joints) = (Vicinity::new(scene), settings.dialect.travels_by_joints());
+        let Settings { tolerance, segment, .. } = *settings;
+        Self { scene, kinematics, vicinity, solution, tolerance, segment, travels_by_joints }
+    }
+
+    /// Plays a move. The whole turns of the result are any.
+    pub fn play(&self, piece: &Piece) -> Result<Swept, Fault> {
+        let swept = match self.segment {
+            Some(length) => self.segments(&piece.curve, length)?,
+            None => self.line(&piece.curve)?,
+        };
+        if piece.is_travel && self.travels_by_joints {
+            self.straight(swept.start, swept.end)?;
+        }
+        Ok(swept)
+    }
+
+    /// Returns the joint values that put the tip at a point.
+    pub fn at(&self, point: Point) -> Result<Configuration, Fault> {
+        let out = self.kinematics.distance_out_of_reach(point);
+        if out > REACH_ROUNDING {
+            return Err(Fault::out_of_reach(point, out));
+        }
+        let solutions = self.kinematics.reachable(point, REACH_ROUNDING).and_then(|p| self.kinematics.solutions(p));
+        solutions.map(|both| both[self.solution]).ok_or_else(|| Fault::singular(point, true))
+    }
+
+    /// Returns the nearest value of each joint that has the same pose.
+    pub fn near(&self, q: Configuration, near: Configuration) -> Configuration {
+        let joints = &self.kinematics.arm.joints;
+        Configuration::from_fn(|k, _| match joints[k].joint_type.is_revolute() {
+            true => q[k] + ((near[k] - q[k]) / TAU).round() * TAU,
+            false => q[k],
+        })
+    }
+
+    /// Returns the numbers of whole turns that bring all values of a joint within its limits: the first one and the last
+    /// one. There is none if the first one is greater.
+    pub fn turns(&self, joint: usize, [low, high]: [f64; 2]) -> [f64; 2] {
+        let own = &self.kinematics.arm.joints[joint];
+        match own.range {
+            JointRange::Circle => [0.0, 0.0],
+            JointRange::Interval { lower, upper } => {
+                let [first, last] = [lower - low - LIMIT_ROUNDING, upper - high + LIMIT_ROUNDING];
+                match own.joint_type.is_revolute() {
+                    true => [(first / TAU).ceil(), (last / TAU).floor()],
+                    false => [if first <= 0.0 { 0.0 } else { 1.0 }, if last >= 0.0 { 0.0 } else { -1.0 }],
+                }
+            }
+        }
+    }
+
+    /// Returns the first joint that no whole turn brings within its limits with all values of a box.
+    pub fn joint_outside(&self, low: Configuration, high: Configuration) -> Option<usize> {
+        (0..2).find(|&k| {
+            let [first, last] = self.turns(k, [low[k], high[k]]);
+            first > last
+        })
+    }
+
+    /// Plays a line in segments on which the joints move straight.
+    fn segments(&self, curve: &Curve, length: f64) -> Result<Swept, Fault> {
+        let count = (curve.length() / length).ceil().max(1.0);
+        if count > MAX_PARTS as f64 {
+            let why = format!("the move needs more than {MAX_PARTS} segments");
+            return Err(Fault::undecided(curve.start().into(), why));
+        }
+        let mut swept: Option<Swept> = None;
+        for k in 0..=count as u32 {
+            checkpoint();
+            let point = Point::from(curve.at(f64::from(k) / count));
+            let q = self.at(point)?;
+            let before = swept.map_or(q, |swept| swept.end);
+            let q = self.near(q, before);
+            if let Some(joint) = self.joint_outside(q, q) {
+                return Err(Fault::limit(self.scene, point, joint, q, true));
+            }
+            let joints = &self.kinematics.arm.joints;
+            if (0..2).any(|k| joints[k].joint_type.is_revolute() && (q[k] - before[k]).abs() > MAX_HALF_TURN) {
+                return Err(Fault::singular(point, false));
+            }
+            self.straight(before, q)?;
+            swept = Some(swept.map_or(Swept::at_rest(q), |swept| swept.then(&Swept::at_rest(q))));
+        }
+        Ok(swept.expect("a segment has ends"))
+    }
+
+    /// Plays a line with the tip in the plane.
+    fn line(&self, curve: &Curve) -> Result<Swept, Fault> {
+        let mut swept = Swept::at_rest(self.at(curve.start().into())?);
+        let mut parts: Vec<([f64; 2], SolutionBox)> = Vec::new();
+        let mut open = vec![[0.0, 1.0]];
+        while let Some([a, b]) = open.pop() {
+            checkpoint();
+            let (middle, half) = ((a + b) / 2.0, (b - a) / 2.0);
+            let point = Point::from(curve.at(middle));
+            let q = self.at(point)?;
+            if let Some(joint) = self.joint_outside(q, q) {
+                return Err(Fault::limit(self.scene, point, joint, q, true));
+            }
+            let near = distance_from_middle(curve, middle, half);
+            let is_short = near <= self.tolerance;
+            let ends = [a, b].map(|u| Point::from(curve.at(u)));
+            let is_apart = self.kinematics.distance_from_singular(ends, sag(curve, [a, b])) > 0.0;
+            let boxes = self.small_box(point, near).zip(self.small_box(point, near + self.tolerance));
+            let Some((exact, wide)) = boxes.filter(|_| is_apart || is_short) else {
+                if is_short {
+                    return Err(Fault::singular(point, false));
+                }
+                open.extend([[middle, b], [a, middle]]);
+                continue;
+            };
+            let q = self.near(exact.middle, swept.end);
+            let [low, high] = [-1.0, 1.0].map(|sign| q + Configuration::from(exact.half) * sign);
+            if let Some(joint) = self.joint_outside(low, high) {
+                if near <= LIMIT_ROUNDING {
+                    return Err(Fault::limit(self.scene, point, joint, q, false));
+                }
+                open.extend([[middle, b], [a, middle]]);
+                continue;
+            }
+            let end = self.near(self.at(ends[1])?, q);
+            swept = swept.then(&Swept { start: q, end, low, high });
+            parts.push(([a, b], wide));
+            if parts.len() + open.len() > MAX_PARTS {
+                return Err(Fault::undecided(point, format!("the move needs more than {MAX_PARTS} parts")));
+            }
+        }
+        parts.iter().try_for_each(|(ends, wide)| self.keeps_clear(curve, *ends, wide))?;
+        Ok(swept)
+    }
+
+    fn small_box(&self, point: Point, near: f64) -> Option<SolutionBox> {
+        let joints = &self.kinematics.arm.joints;
+        let is_small =
+            |known: &SolutionBox| (0..2).all(|k| !joints[k].joint_type.is_revolute() || known.half[k] <= MAX_HALF_TURN);
+        self.kinematics.solution_box(point, self.solution, near).filter(is_small)
+    }
+
+    /// Checks that the arm keeps the clearance on a part of a line, with the tip within the tolerance of it. A box of the
+    /// whole part is known.
+    fn keeps_clear(&self, curve: &Curve, [a, b]: [f64; 2], whole: &SolutionBox) -> Result<(), Fault> {
+        let mut search = CurveSearch::deciding(self.scene, self.scene.workspace().clearance, MAX_EVALUATIONS);
+        let on_part = |middle: f64, half: f64| {
+            let (u, half) = (a + (b - a) * middle, (b - a) * half);
+            let point = Point::from(curve.at(u));
+            let near = distance_from_middle(curve, u, half) + self.tolerance;
+            let known = self.kinematics.solution_box(point, self.solution, near).unwrap_or(*whole);
+            let q = self.at(point).unwrap_or(known.middle);
+            let off = (self.near(known.middle, q) - q).abs();
+            (q, Deviation::Box([0, 1].map(|k| known.half[k] + off[k])))
+        };
+        search.curve(&self.vicinity, on_part).map_err(|rejection| self.blocked(rejection))
+    }
+
+    /// Checks that the arm keeps the clearance while the joints move straight, each within the tolerance of the tip.
+    fn straight(&self, from: Configuration, to: Configuration) -> Result<(), Fault> {
+        let joints = &self.kinematics.arm.joints;
+        let reach = self.kinematics.arm.reach();
+        let beside =
+            joints.each_ref().map(|joint| self.tolerance / if joint.joint_type.is_revolute() { reach } else { 1.0 });
+        let mut search = CurveSearch::deciding(self.scene, self.scene.workspace().clearance, MAX_EVALUATIONS);
+        let on_part =
+            |middle: f64, half: f64| (from + (to - from) * middle, Deviation::Tube((to - from) * half, beside));
+        search
+            .curve(&self.vicinity, on_part)
+            .map_err(|rejection| Fault { cause: Cause::JointMotion, ..self.blocked(rejection) })
+    }
+
+    fn blocked(&self, rejection: Rejection) -> Fault {
+        let (nearest, is_proven) = match rejection {
+            Rejection::TooClose(nearest) => (nearest, true),
+            Rejection::Undecided(nearest) => (nearest, false),
+            Rejection::OutOfLimits { .. } => unreachable!("only paths have limits"),
+        };
+        Fault::collision(self.scene, nearest, is_proven)
+    }
+}
+
+/// Returns an upper bound on the distance between the middle of a part of a curve and its other points, metres.
+fn distance_from_middle(curve: &Curve, middle: f64, half: f64) -> f64 {
+    let [x, y] = curve.derivative(middle);
+    half * (x.hypot(y) + curve.bend() * half / 2.0) * (1.0 + 1e-12)
+}

@@ -1,0 +1,253 @@
+//! `cplan gcode`: judges G-code for a machine with its own kinematics, and replaces unsafe travels.
+
+use super::exit::{DONE, INFEASIBLE, UNKNOWN};
+use super::failure::Failure;
+use super::files::Files;
+use super::headings::OUTPUT;
+use super::print_args::PrintArgs;
+use super::sinks;
+use super::values::{clearance, tolerance};
+use crate::input::{self, LoadedScene, line_diagnostic};
+use crate::model::Status;
+use crate::motion::{check_writable, write_whole};
+use crate::output::{format_columns, title_of};
+use crate::text::{chosen_length, counted};
+use clap::{Args, ValueEnum, ValueHint, builder::PossibleValue};
+use cplan_gcode::{Answer, Dialect, Elbow, Failed, GcodeError, Job, Settings, judge};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Greatest number of failed moves in the summary.
+const MAX_SHOWN: usize = 8;
+
+/// Prove G-code for machines with their own kinematics.
+#[derive(Debug, Args)]
+#[command(after_help = "\
+The firmware moves the tip along each line, and keeps the side of its elbow.
+Drawing moves (G1, G2, G3) stay as they are, and are proven to be within reach and
+limits, and free of collisions. Travels (G0) that are not are replaced by others.
+The coordinates of the file are those of the world.
+
+Examples:
+  cplan gcode robots/scara.urdf workspaces/gcode/labels.toml \\
+    workspaces/gcode/labels.gcode --output safe.gcode
+  cplan gcode robots/scara.urdf workspaces/gcode/labels.toml safe.gcode --check
+  cplan gcode robots/scara.urdf workspaces/gcode/labels.toml \\
+    workspaces/gcode/labels.gcode --output safe.nc --dialect grbl --elbow right
+
+Exit codes: 0 all moves are proven, 1 bad input or I/O, 2 wrong command line, 3
+a move is proven to be impossible, 4 unknown.")]
+pub struct GcodeArgs {
+    #[command(flatten)]
+    files: Files,
+    /// G-code program.
+    #[arg(value_name = "JOB", value_hint = ValueHint::FilePath)]
+    job: PathBuf,
+    /// Judge the program as it is, travels included, and write nothing.
+    #[arg(long, conflicts_with = "output", required_unless_present = "output")]
+    check: bool,
+    /// Firmware of the machine.
+    #[arg(long, value_name = "NAME", value_enum, default_value_t = DialectName(Dialect::default()))]
+    dialect: DialectName,
+    /// Side of the elbow, seen from joint 1 towards the tip, if the machine's is fixed. By default both are tried.
+    #[arg(long, value_name = "SIDE", value_enum)]
+    elbow: Option<ElbowName>,
+    /// Greatest distance of the tip from the line, metres or with a unit such as 0.05mm.
+    #[arg(long, value_name = "LENGTH", value_parser = tolerance, default_value_t = Settings::default().tolerance)]
+    tolerance: f64,
+    /// Length of the firmware's segments, metres or with a unit such as 5mm: on each, the joints move straight. By default the
+    /// tip stays within the tolerance of the line.
+    #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
+    segment: Option<f64>,
+    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    #[arg(long, value_name = "METRES", value_parser = clearance)]
+    clearance: Option<f64>,
+    /// Write the program with safe travels.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
+    output: Option<PathBuf>,
+    #[command(flatten)]
+    print: PrintArgs,
+}
+
+/// The name of a dialect.
+#[derive(Debug, Clone, Copy)]
+struct DialectName(Dialect);
+
+impl ValueEnum for DialectName {
+    fn value_variants<'a>() -> &'a [Self] {
+        const ALL: [DialectName; 6] = {
+            let [a, b, c, d, e, f] = Dialect::ALL;
+            [DialectName(a), DialectName(b), DialectName(c), DialectName(d), DialectName(e), DialectName(f)]
+        };
+        &ALL
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0.name()))
+    }
+}
+
+/// The name of a side.
+#[derive(Debug, Clone, Copy)]
+struct ElbowName(Elbow);
+
+impl ValueEnum for ElbowName {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[ElbowName(Elbow::Left), ElbowName(Elbow::Right)]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0.name()))
+    }
+}
+
+/// Judges a program, and writes it with safe travels.
+///
+/// # Errors
+/// Bad input and I/O, and options that do not suit the robot.
+pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
+    args.output.iter().try_for_each(|path| check_writable(path))?;
+    let bytes = input::read_bytes(&args.job)?;
+    let file = args.job.display().to_string();
+    let job = Job::read(&bytes).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
+    let loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
+    loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
+    let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();
+    sinks::refuse_to_overwrite_inputs(args.output.iter().map(PathBuf::as_path), &read)?;
+    loaded.robot.warnings.iter().for_each(|warning| args.print.print_status(&format!("warning: {warning}")));
+    let settings = Settings {
+        tolerance: args.tolerance,
+        segment: args.segment,
+        elbow: args.elbow.map(|name| name.0),
+        dialect: args.dialect.0,
+        repairs: !args.check,
+    };
+    let answer = judge(&loaded.scene, &job, &settings).map_err(|error| match error {
+        GcodeError::NoElbow => Failure::Usage(format!("--elbow: {error}")),
+        error => Failure::Refused(format!("{}: {error}", args.job.display())),
+    })?;
+    match (&args.output, &answer.text) {
+        (Some(path), Some(text)) => write_whole(path, text)?,
+        (Some(path), None) => sinks::warn_unwritten(path, "safe program"),
+        (None, _) => {}
+    }
+    let code = match answer.status() {
+        Status::Found => DONE,
+        Status::Infeasible => INFEASIBLE,
+        Status::Unknown => UNKNOWN,
+    };
+    let answered = Answered { args, loaded: &loaded, job: &job, answer: &answer };
+    args.print.report(code, || sinks::pretty(&answered.json()), || answered.summary())?;
+    Ok(code)
+}
+
+/// A program with its answer.
+struct Answered<'a> {
+    args: &'a GcodeArgs,
+    loaded: &'a LoadedScene,
+    job: &'a Job,
+    answer: &'a Answer,
+}
+
+impl Answered<'_> {
+    fn json(&self) -> Value {
+        let Answer { elbow, failed, replaced, other, .. } = self.answer;
+        let [drawing, travels] = self.job.counts();
+        let failures = |failed: &[Failed]| failed.iter().map(failure).collect::<Vec<_>>();
+        let side = |elbow: &Option<Elbow>| elbow.map(Elbow::name);
+        json!({
+            "status": self.answer.status().name(),
+            "file": self.args.job.display().to_string(),
+            "dialect": self.args.dialect.0.name(),
+            "elbow": side(elbow),
+            "tolerance": self.args.tolerance,
+            "segment": self.args.segment,
+            "clearance": self.loaded.scene.workspace().clearance,
+            "lines": {
+                "drawing": drawing,
+                "travels": travels,
+                "replaced": replaced.iter().map(|own| json!({ "line": own.line, "moves": own.moves })).collect::<Vec<_>>(),
+                "failed": failures(failed),
+                "unstated": self.job.program.unstated.iter().map(|source| source.line).collect::<Vec<_>>(),
+            },
+            "other": other.as_ref().map(|other| json!({ "elbow": side(&other.elbow), "failed": failures(&other.failed) })),
+            "notes": self.job.program.notes,
+        })
+    }
+
+    fn summary(&self) -> String {
+        let Answer { elbow, failed, replaced, other, .. } = self.answer;
+        let mut lines = vec![("result", self.result())];
+        let shown = failed.iter().take(MAX_SHOWN).map(described).collect::<Vec<_>>();
+        lines.extend(shown.into_iter().enumerate().map(|(k, text)| (if k == 0 { "failed" } else { "" }, text)));
+        if failed.len() > MAX_SHOWN {
+            lines.push(("", format!("and {} more", counted(failed.len() - MAX_SHOWN, "move"))));
+        }
+        if let Some((other, first)) = other.as_ref().and_then(|other| Some((other, other.failed.first()?))) {
+            let side = other.elbow.map_or("other solution", Elbow::name);
+            let count = counted(other.failed.len(), "move");
+            lines.push((side, format!("{count} would fail; the first one: {}", described(first))));
+        }
+        let [drawing, travels] = self.job.counts();
+        let tolerance = chosen_length(self.args.tolerance);
+        let moves = format!("{}, {}", counted(drawing, "drawing move"), counted(travels, "travel"));
+        lines.push(("program", format!("{moves}; tolerance {tolerance}; dialect {}", self.args.dialect.0)));
+        lines.extend(
+            elbow.map(|elbow| ("elbow", format!("to the {} of the line from joint 1 to the tip", elbow.name()))),
+        );
+        if let Some(first) = replaced.first() {
+            let count: usize = replaced.iter().map(|own| own.moves).sum();
+            let text = format!(
+                "{} by {}; the first in line {}",
+                counted(replaced.len(), "travel"),
+                counted(count, "move"),
+                first.line
+            );
+            lines.push(("replaced", text));
+        }
+        let program = &self.job.program;
+        let unstated = program.unstated.iter().map(|source| {
+            (
+                "note",
+                format!("the move in line {} begins at a place that the file does not state: not judged", source.line),
+            )
+        });
+        lines.extend(unstated);
+        let notes = program.notes.iter().chain(&self.loaded.robot.notes);
+        lines.extend(notes.map(|note| ("note", note.clone())));
+        format!("{}\n{}", title_of(&self.loaded.scene), format_columns(&lines))
+    }
+
+    /// Returns the answer in one line.
+    fn result(&self) -> String {
+        let failed = &self.answer.failed;
+        let proven = failed.iter().filter(|failed| failed.fault.is_proven).count();
+        match self.answer.status() {
+            Status::Found if self.args.check => "found: the machine can play all moves; proven".to_owned(),
+            Status::Found => "found: the machine can play all moves of the written program; proven".to_owned(),
+            Status::Infeasible => format!("infeasible: the machine cannot play {}; proven", counted(proven, "move")),
+            Status::Unknown => format!("unknown: {} not proven to be safe", counted(failed.len(), "move")),
+        }
+    }
+}
+
+/// Returns a move that fails, in words.
+fn described(failed: &Failed) -> String {
+    let kind = if failed.own.piece.is_travel { "travel" } else { "drawing" };
+    let proven = if failed.fault.is_proven { "" } else { " (not proven)" };
+    format!("line {} ({kind}): {}{proven}", failed.own.piece.source.line, failed.fault.reason)
+}
+
+/// Returns a move that fails, for JSON.
+fn failure(failed: &Failed) -> Value {
+    let (piece, fault) = (&failed.own.piece, &failed.fault);
+    json!({
+        "line": piece.source.line,
+        "column": piece.source.column,
+        "kind": if piece.is_travel { "travel" } else { "drawing" },
+        "cause": fault.cause.name(),
+        "reason": fault.reason,
+        "place": [fault.place.x, fault.place.y],
+        "proven": fault.is_proven,
+    })
+}
