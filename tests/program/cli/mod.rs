@@ -23,6 +23,7 @@ mod follow;
 mod followed_pages;
 mod wrist_lines;
 mod free_joint;
+mod gcode;
 mod grids;
 pub mod help;
 mod implausible_robots;

@@ -140,13 +140,11 @@ impl<'a> Player<'a> {
             let why = format!("the move needs more than {MAX_PARTS} segments");
             return Err(Fault::undecided(curve.start().into(), why));
         }
-        let mut swept: Option<Swept> = None;
+        let mut places = vec![self.at(curve.start().into())?];
         for k in 0..=count as u32 {
-            checkpoint();
             let point = Point::from(curve.at(f64::from(k) / count));
-            let q = self.at(point)?;
-            let before = swept.map_or(q, |swept| swept.end);
-            let q = self.near(q, before);
+            let before = places[places.len() - 1];
+            let q = self.near(self.at(point)?, before);
             if let Some(joint) = self.joint_outside(q, q) {
                 return Err(Fault::limit(self.scene, point, joint, q, true));
             }
@@ -154,9 +152,10 @@ impl<'a> Player<'a> {
             if (0..2).any(|k| joints[k].joint_type.is_revolute() && (q[k] - before[k]).abs() > MAX_HALF_TURN) {
                 return Err(Fault::singular(point, false));
             }
-            self.straight(before, q)?;
-            swept = Some(swept.map_or(Swept::at_rest(q), |swept| swept.then(&Swept::at_rest(q))));
+            places.push(q);
         }
+        first_fault(places.windows(2).map(|pair| self.straight(pair[0], pair[1])))?;
+        let swept = places.iter().map(|q| Swept::at_rest(*q)).reduce(|all, next| all.then(&next));
         Ok(swept.expect("a segment has ends"))
     }
 
@@ -201,7 +200,7 @@ impl<'a> Player<'a> {
                 return Err(Fault::undecided(point, format!("the move needs more than {MAX_PARTS} parts")));
             }
         }
-        parts.iter().try_for_each(|(ends, wide)| self.keeps_clear(curve, *ends, wide))?;
+        first_fault(parts.iter().map(|(ends, wide)| self.keeps_clear(curve, *ends, wide)))?;
         Ok(swept)
     }
 
@@ -250,6 +249,20 @@ impl<'a> Player<'a> {
         };
         Fault::collision(self.scene, nearest, is_proven)
     }
+}
+
+/// Returns the first proven fault of the parts of a move, or else the first one.
+fn first_fault(parts: impl Iterator<Item = Result<(), Fault>>) -> Result<(), Fault> {
+    let mut doubtful = Ok(());
+    for part in parts {
+        checkpoint();
+        match part {
+            Err(fault) if fault.is_proven => return Err(fault),
+            Err(fault) => doubtful = doubtful.and(Err(fault)),
+            Ok(()) => {}
+        }
+    }
+    doubtful
 }
 
 /// Returns an upper bound on the distance between the middle of a part of a curve and its other points, metres.

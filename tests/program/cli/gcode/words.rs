@@ -1,0 +1,99 @@
+//! The words of lines in written programs, options and errors.
+
+use super::{Done, Place, shipped};
+
+/// Runs a program on both sides of the bar of `labels.toml`.
+fn run(place: &Place, text: &str, options: &str) -> Done {
+    place.write("job.gcode", text);
+    let files = ["robots/scara.urdf", "workspaces/gcode/labels.toml"].map(shipped);
+    place.run(&["gcode", &files[0], &files[1], "job.gcode"], options)
+}
+
+/// Returns the lines of the written program.
+fn written(text: &str, options: &str) -> Vec<String> {
+    let place = Place::new();
+    let done = run(&place, text, &format!("--output safe.gcode --quiet {options}"));
+    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.read("safe.gcode").lines().map(str::to_owned).collect()
+}
+
+#[test]
+fn a_travel_keeps_the_words_of_its_line() {
+    let text = "G21 G90\nG0 X240 Y265\nG1 Y275 F3000\nN7 G0 X-240 M106 S3 F9000 (over) ; there\nG1 Y265\n";
+    let lines = written(text, "--dialect klipper");
+    assert_eq!(lines[3], "; cplan: the travel of line 4 of the original, in 2 moves");
+    assert!(lines[4].starts_with("N7 G0 X") && lines[4].ends_with(" M106 S3 F9000 (over) ; there"), "{lines:?}");
+    // The original line states only X, so both coordinates are written.
+    assert_eq!((lines[4].matches(" Y").count(), lines[5].as_str()), (1, "G0 X-240 Y275"));
+    assert_eq!([&lines[..3], &lines[6..]].concat(), ["G21 G90", "G0 X240 Y265", "G1 Y275 F3000", "G1 Y265"]);
+}
+
+#[test]
+fn the_tool_comes_down_last_and_rises_first() {
+    let text = |z: &str| format!("G21 G90\nG0 Z2\nG0 X240 Y265\nG1 Y275\nG0 X-240 {z} Y275\nG1 Y265\n");
+    let lowered = written(&text("Z0.5"), "--dialect duet");
+    assert!(!lowered[5].contains('Z') && lowered.iter().any(|line| line == "G0 X-240 Y275 Z0.5"), "{lowered:?}");
+    let raised = written(&text("Z5"), "--dialect duet");
+    assert!(raised[5].contains(" Z5") && raised.iter().any(|line| line == "G0 X-240 Y275"), "{raised:?}");
+    // The original is kept if nothing is in the way.
+    let free = "G21 G90\nG0 X240 Y265\nG1 Y275\nG0 X200 Z1\nG1 Y265\n";
+    assert_eq!(written(free, "").join("\n") + "\n", free);
+}
+
+#[test]
+fn displacements_units_origins_and_line_endings_stay() {
+    let relative = "G21 G90\r\nG0 X240 Y265\r\nG91\r\nG0 X-480\r\nG1 Y10\r\n";
+    let place = Place::new();
+    assert_eq!(run(&place, relative, "--output safe.gcode --dialect grbl").code, 0);
+    let safe = place.read("safe.gcode");
+    assert!(safe.lines().count() == safe.matches("\r\n").count() && safe.contains("(cplan: "), "{safe:?}");
+    let moves: Vec<&str> = safe.lines().filter(|line| line.starts_with("G0")).skip(1).collect();
+    let sum = |letter: char| -> f64 {
+        let value = |line: &&str| line.split(' ').find_map(|word| word.strip_prefix(letter)?.parse::<f64>().ok());
+        moves.iter().filter_map(value).sum()
+    };
+    assert!((sum('X') + 480.0).abs() < 1e-9 && sum('Y').abs() < 1e-9, "{safe}");
+    // Inches, with a moved origin, and no line ending at the end.
+    let inches = "G20 G90\nG0 X10 Y10\nG92 X0 Y0\nG1 X-0.5 Y0.5\nG0 X-19.5";
+    let lines = written(inches, "--dialect linuxcnc");
+    assert!(lines.len() > 6 && lines[lines.len() - 1] == "G0 X-19.5 Y0.5", "{lines:?}");
+}
+
+#[test]
+fn homing_makes_the_place_unknown() {
+    let place = Place::new();
+    let text = "G28\nG21 G90\nG0 X240 Y265\nG1 Y275\nG28 X Y\nG0 X-240 Y265\nG1 Y275\n$H\nG0 X240 Y265\n";
+    let done = run(&place, text, "--check --json");
+    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    assert_eq!(done.json()["lines"]["unstated"], serde_json::json!([3, 6, 9]));
+}
+
+#[test]
+fn firmware_segments_can_be_judged_by_themselves() {
+    let place = Place::new();
+    // In one segment, the joints lead the pen along a curve below the bar.
+    let text = "G21 G90\nG0 X100 Y265\nG1 X-100 Y265\n";
+    let whole = run(&place, text, "--check --elbow right --dialect linuxcnc --segment 1");
+    let fine = run(&place, text, "--check --elbow right --dialect linuxcnc --segment 1mm --json");
+    assert_eq!(fine.code, 3, "{}", fine.stdout);
+    assert_eq!(fine.json()["lines"]["failed"][0]["cause"], "joint_motion");
+    assert!([0, 3].contains(&whole.code), "{}{}", whole.stdout, whole.stderr);
+}
+
+#[test]
+fn wrong_command_lines_and_files_are_refused() {
+    let place = Place::new();
+    let text = "G21 G90\nG0 X240 Y265\nG1 Y275\nG0 X-240 Y265\nG1 Y275\n";
+    run(&place, text, "").refused(2, &["--check"]);
+    run(&place, text, "--check --output safe.gcode").refused(2, &["--output"]);
+    run(&place, text, "--check --dialect fanuc").refused(2, &["marlin", "linuxcnc"]);
+    run(&place, text, "--check --elbow up").refused(2, &["left", "right"]);
+    run(&place, text, "--output job.gcode").refused(1, &["job.gcode"]);
+    run(&place, "G21 G18\nG0 X0 Y0\nG1 X1\n", "--check").refused(1, &["job.gcode", "line 1", "G18"]);
+    run(&place, "G21\n", "--check").refused(1, &["job.gcode", "no line"]);
+    let checked = text.replace("G0 X-240 Y265", "N4 G0 X-240 Y265*57");
+    run(&place, &checked, "--output safe.gcode").refused(1, &["line 4 has a checksum"]);
+    assert!(!place.path("safe.gcode").exists());
+    let gantry = ["robots/gantry.urdf", "workspaces/gantry_maze.toml"].map(shipped);
+    place.run(&["gcode", &gantry[0], &gantry[1], "job.gcode"], "--check --elbow left").refused(2, &["elbow"]);
+}
