@@ -13,7 +13,7 @@ use crate::motion::{check_writable, write_whole};
 use crate::output::{format_columns, title_of};
 use crate::text::{chosen_length, counted};
 use clap::{Args, ValueEnum, ValueHint, builder::PossibleValue};
-use cplan_gcode::{Answer, Dialect, Elbow, Failed, GcodeError, Job, Settings, judge};
+use cplan_gcode::{Answer, Dialect, Elbow, Failed, GcodeError, Job, Pen, PenWords, Settings, judge};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -52,6 +52,12 @@ pub struct GcodeArgs {
     /// Side of the elbow, seen from joint 1 towards the tip, if the machine's is fixed. By default both are tried.
     #[arg(long, value_name = "SIDE", value_enum)]
     elbow: Option<ElbowName>,
+    /// Words of the lines that lift the pen, such as "M300 S50" or Z5. Then G1 with a lifted pen is a travel, too.
+    #[arg(long, value_name = "WORDS", requires = "pen_down")]
+    pen_up: Option<PenWords>,
+    /// Words of the lines that lower the pen, such as "M300 S30".
+    #[arg(long, value_name = "WORDS", requires = "pen_up")]
+    pen_down: Option<PenWords>,
     /// Greatest distance of the tip from the line, metres or with a unit such as 0.05mm.
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, default_value_t = Settings::default().tolerance)]
     tolerance: f64,
@@ -109,7 +115,8 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     args.output.iter().try_for_each(|path| check_writable(path))?;
     let bytes = input::read_bytes(&args.job)?;
     let file = args.job.display().to_string();
-    let job = Job::read(&bytes).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
+    let pen = args.pen_up.clone().zip(args.pen_down.clone()).map(|(up, down)| Pen { up, down });
+    let job = Job::read(&bytes, pen.as_ref()).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
     loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();

@@ -3,11 +3,11 @@
 use crate::fault::{Cause, Fault};
 use crate::player::Player;
 use crate::walk::{Replaced, Walk};
-use crate::{Dialect, written};
+use crate::{Dialect, Job, written};
 use cplan_deviation::Kinematics;
 use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
 use cplan_model::{Scene, Status};
-use cplan_toolpath::{Program, ProgramMove, read_program};
+use cplan_toolpath::ProgramMove;
 
 /// Greatest difference between the drawing moves of the program and those of the written one, metres. It is rounding.
 const MAX_DIFFERENCE: f64 = 1e-9;
@@ -39,30 +39,6 @@ impl Elbow {
             Elbow::Right => 0,
             Elbow::Left => 1,
         }
-    }
-}
-
-/// A program with its text.
-#[derive(Debug, Clone)]
-pub struct Job {
-    bytes: Vec<u8>,
-    /// The moves.
-    pub program: Program,
-}
-
-impl Job {
-    /// Reads a program.
-    ///
-    /// # Errors
-    /// Words that the machine would follow otherwise than cplan, with their lines; broken text; a program without moves.
-    pub fn read(bytes: &[u8]) -> Result<Self, cplan_toolpath::Error> {
-        Ok(Self { program: read_program(bytes)?, bytes: bytes.to_vec() })
-    }
-
-    /// Returns the number of drawing moves, and that of travels.
-    pub fn counts(&self) -> [usize; 2] {
-        let travels = self.program.moves.iter().filter(|own| own.piece.is_travel).count();
-        [self.program.moves.len() - travels, travels]
     }
 }
 
@@ -243,7 +219,8 @@ fn first_unproven(job: &Job, walk: &Walk, text: &[u8]) -> Option<Failed> {
         own: own.clone(),
         fault: Fault { cause: Cause::NoTravel, ..Fault::undecided(own.piece.curve.end().into(), why.to_owned()) },
     };
-    let Ok(again) = read_program(text) else { return Some(differs(&moves[0], "the written program cannot be read")) };
+    let Ok(again) = job.again(text) else { return Some(differs(&moves[0], "the written program cannot be read")) };
+    let again = again.program;
     let drawn = |moves: &[ProgramMove]| -> Vec<ProgramMove> {
         moves.iter().filter(|own| !own.piece.is_travel).cloned().collect()
     };

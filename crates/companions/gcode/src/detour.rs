@@ -13,7 +13,7 @@ use cplan_interrupt::checkpoint;
 use cplan_model::space::{Configuration, GoalSet, JointRange, Path, Segment};
 use cplan_model::{JointType, MotionProblem, MotionProblemError, Outcome};
 use cplan_solver::{Options, solve};
-use cplan_toolpath::{Curve, Piece, ProgramMove};
+use cplan_toolpath::{Curve, ProgramMove};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Shares of the margins below to try, in this order. Only an answer without margins proves that there is no travel.
@@ -217,7 +217,7 @@ impl<'a> Detours<'a> {
     /// Plays a straight travel from given joint values. Returns the joint values at its end if the machine can play it.
     fn line(&self, own: &ProgramMove, [from, to]: [Point; 2], at: Configuration) -> Option<Configuration> {
         let curve = Curve::Line { from: from.into(), to: to.into() };
-        let swept = self.player.play(&Piece { curve, ..own.piece }).ok()?;
+        let swept = self.player.play(&curve, own.modes.is_rapid).ok()?;
         let turns = self.player.near(swept.start, at) - swept.start;
         let swept = swept.turned(turns);
         let is_within = (0..2).all(|k| match self.player.kinematics.arm.joints[k].range {

@@ -12,7 +12,7 @@
 //! // The arm's tower is in the way of the travel.
 //! let tower = Obstacle::circle("tower", [0.0, 0.15], 0.04)?;
 //! let scene = Scene::new(Arm::rr([0.2, 0.2], 0.02)?, Workspace::new([tower])?)?;
-//! let job = Job::read(b"G21 G90\nG0 X150 Y-50\nG1 X150 Y50\nG0 X-150 Y50\nG1 X-150 Y-50\n")?;
+//! let job = Job::read(b"G21 G90\nG0 X150 Y-50\nG1 X150 Y50\nG0 X-150 Y50\nG1 X-150 Y-50\n", None)?;
 //! let answer = judge(&scene, &job, &Settings::default())?;
 //! assert_eq!((answer.status(), answer.replaced.len()), (Status::Found, 1));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -29,10 +29,12 @@ mod answer;
 mod detour;
 mod dialect;
 mod fault;
+mod job;
 mod player;
 mod walk;
 mod written;
 
-pub use answer::{Answer, Elbow, Failed, GcodeError, Job, Settings, Travel, judge};
+pub use answer::{Answer, Elbow, Failed, GcodeError, Settings, Travel, judge};
 pub use dialect::Dialect;
 pub use fault::{Cause, Fault};
+pub use job::{Job, Pen, PenWords};

@@ -13,7 +13,7 @@ use cplan_interrupt::checkpoint;
 use cplan_judge::{CurveSearch, Deviation, Rejection, Vicinity};
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, JointRange};
-use cplan_toolpath::{Curve, Piece};
+use cplan_toolpath::Curve;
 use std::f64::consts::TAU;
 
 /// Distance beyond the reach that counts as rounding, metres.
@@ -78,13 +78,13 @@ impl<'a> Player<'a> {
         Self { scene, kinematics, vicinity, solution, tolerance, segment, travels_by_joints }
     }
 
-    /// Plays a move. The whole turns of the result are any.
-    pub fn play(&self, piece: &Piece) -> Result<Swept, Fault> {
+    /// Plays a move, which is a G0 if `is_rapid`. The whole turns of the result are any.
+    pub fn play(&self, curve: &Curve, is_rapid: bool) -> Result<Swept, Fault> {
         let swept = match self.segment {
-            Some(length) => self.segments(&piece.curve, length)?,
-            None => self.line(&piece.curve)?,
+            Some(length) => self.segments(curve, length)?,
+            None => self.line(curve)?,
         };
-        if piece.is_travel && self.travels_by_joints {
+        if is_rapid && self.travels_by_joints {
             self.straight(swept.start, swept.end)?;
         }
         Ok(swept)

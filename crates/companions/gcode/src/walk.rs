@@ -63,8 +63,8 @@ impl<'a> Walk<'a> {
 
     /// Adds a move after a chain, and returns the chain that it belongs to or begins.
     fn add(&mut self, index: usize, chain: Option<usize>) -> Option<usize> {
-        let piece = &self.moves[index].piece;
-        let played = self.player.play(piece).and_then(|swept| {
+        let ProgramMove { piece, modes } = &self.moves[index];
+        let played = self.player.play(&piece.curve, modes.is_rapid).and_then(|swept| {
             let Some(before) = chain.map(|chain| self.chains[chain]) else { return Ok(swept) };
             let turns = self.player.near(swept.start, before.end) - swept.start;
             let joined = before.then(&swept.turned(turns));

@@ -115,7 +115,8 @@ fn travel(line: &str, own: &ProgramMove, points: &[Point]) -> Vec<String> {
         from = range.end + spaces;
     }
     first.extend(&characters[from..]);
-    let further = points.windows(2).map(|pair| format!("G0 {}", coordinates(modes, pair[0], pair[1])));
+    let motion = if modes.is_rapid { "G0" } else { "G1" };
+    let further = points.windows(2).map(|pair| format!("{motion} {}", coordinates(modes, pair[0], pair[1])));
     let mut lines: Vec<String> = [first].into_iter().chain(further).collect();
     if let (Some(range), Some(last)) = (lowered, lines.last_mut()) {
         last.push(' ');

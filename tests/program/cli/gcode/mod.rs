@@ -174,7 +174,6 @@ fn written_programs_are_safe_and_proven_faults_hold() {
             code => panic!("exit code {code}: {}", done.stderr),
         }
     }
-    eprintln!("{counts:?}");
     if cplan_cases::uses_default_cases() {
         let [untouched, repaired, infeasible, ..] = counts;
         assert!(untouched > 3 && repaired > 8 && infeasible > 8 && counts[4] < 3, "{counts:?}");

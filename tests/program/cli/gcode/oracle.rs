@@ -182,9 +182,11 @@ impl Machine {
         (0..=200).map(|k| self.clearance(at(f64::from(k) / 200.0))).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns true if free samples of a grid join two configurations with the elbow on the same side.
+    /// Returns true if samples of a grid join two configurations with the elbow on the same side. The distances at the samples
+    /// exceed the motion between them, so they prove that there is a path.
     pub fn joins(&self, from: Point, to: Point) -> bool {
         const SIZE: [usize; 2] = [140, 70];
+        const ROOM: f64 = 0.005;
         let side = if from[1] < 0.0 { [self.limits[1][0], 0.0] } else { [0.0, self.limits[1][1]] };
         let ranges = [self.limits[0], side];
         let value = |k: usize, i: usize| ranges[k][0] + (ranges[k][1] - ranges[k][0]) * i as f64 / (SIZE[k] - 1) as f64;
@@ -194,7 +196,7 @@ impl Machine {
                 (share * (SIZE[k] - 1) as f64).round().clamp(0.0, (SIZE[k] - 1) as f64) as usize
             })
         };
-        let free = |q: Point| self.clearance(q) > 0.0;
+        let free = |q: Point| self.clearance(q) > ROOM;
         let goal = cell(to);
         let mut seen = vec![false; SIZE[0] * SIZE[1]];
         let mut open = vec![cell(from)];

@@ -59,6 +59,25 @@ fn displacements_units_origins_and_line_endings_stay() {
     assert!(lines.len() > 6 && lines[lines.len() - 1] == "G0 X-19.5 Y0.5", "{lines:?}");
 }
 
+/// Plotters often travel by G1, with words that lift the pen.
+#[test]
+fn words_that_lift_the_pen_make_travels() {
+    let text = "G21 G90\nG1 X240 Y265\nM300 S30.00 (pen down)\nG1 Y275\nm300 s50 ; up\nG1 X-240 Y265 F3500\nM300S30\nG1 Y275\n";
+    let place = Place::new();
+    assert_eq!(run(&place, text, "--check --json").json()["lines"]["travels"], 0);
+    place.write("job.gcode", text);
+    let files = ["robots/scara.urdf", "workspaces/gcode/labels.toml"].map(shipped);
+    let pen = ["--pen-up", "M300 S50", "--pen-down", "M300 S30"];
+    let arguments = [["gcode", &files[0], &files[1], "job.gcode"], pen].concat();
+    let done = place.run(&arguments, "--output safe.gcode --json");
+    assert_eq!((done.code, &done.json()["lines"]["travels"]), (0, &1.into()), "{}", done.stderr);
+    let safe = place.read("safe.gcode");
+    assert!(!safe.contains("G0") && safe.contains("\nG1 X-240 Y265\nM300S30\n"), "{safe}");
+    assert_eq!(place.run(&[["gcode", &files[0], &files[1], "safe.gcode"], pen].concat(), "--check").code, 0);
+    run(&place, text, "--check --pen-up M300").refused(2, &["--pen-down"]);
+    run(&place, text, "--check --pen-up up --pen-down M5").refused(2, &["a letter and a number"]);
+}
+
 #[test]
 fn homing_makes_the_place_unknown() {
     let place = Place::new();

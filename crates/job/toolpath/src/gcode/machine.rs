@@ -252,7 +252,8 @@ impl<'p> Machine<'p> {
         self.pieces.push(Piece { curve: curve?, speed, is_travel, dwell: None, source });
         let words = [block.get(Slot::X), block.get(Slot::Y), block.with_letters("Z").next()];
         let words = words.map(|word| word.and_then(|word| Some(word.source.column? - 1..word.end)));
-        self.modes.push(Modes { unit: self.unit, is_relative: self.is_relative, origin, words, rise });
+        let (is_rapid, unit, is_relative) = (is_travel, self.unit, self.is_relative);
+        self.modes.push(Modes { is_rapid, unit, is_relative, origin, words, rise });
         Ok(())
     }
 

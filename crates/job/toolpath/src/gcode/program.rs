@@ -26,6 +26,8 @@ pub struct ProgramMove {
 /// The modes in which a line states its move, and the places of its words.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Modes {
+    /// True for G0, false for G1 to G3.
+    pub is_rapid: bool,
     /// Metres per unit of length.
     pub unit: f64,
     /// True if coordinates are displacements (G91).

@@ -3,6 +3,7 @@
 mod arcs;
 mod moves;
 mod oracle;
+mod programs;
 mod words;
 
 use cplan_toolpath::{Error, Format, Placement, Toolpath, read};
