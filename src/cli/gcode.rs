@@ -24,7 +24,7 @@ const MAX_SHOWN: usize = 8;
 #[derive(Debug, Args)]
 #[command(after_help = "\
 The firmware moves the tip along each line, and keeps the side of its elbow.
-Drawing moves (G1, G2, G3) stay as they are, and are proven to be within reach and
+Drawing moves (G1, G2, G3) remain unchanged, and are proven to be within reach and
 limits, and free of collisions. Travels (G0) that are not are replaced by others.
 The coordinates of the file are those of the world.
 
@@ -43,7 +43,7 @@ pub struct GcodeArgs {
     /// G-code program.
     #[arg(value_name = "JOB", value_hint = ValueHint::FilePath)]
     job: PathBuf,
-    /// Judge the program as it is, travels included, and write nothing.
+    /// Judge the original program, travels included, and write nothing.
     #[arg(long, conflicts_with = "output", required_unless_present = "output")]
     check: bool,
     /// Firmware of the machine.

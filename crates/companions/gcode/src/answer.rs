@@ -133,7 +133,7 @@ impl Answer {
 }
 
 /// Judges a program, and replaces unsafe travels if that is requested. It takes time linear in the number of moves, and a
-/// motion is planned for each unsafe travel that cannot go along an earlier one.
+/// motion is planned for each unsafe travel for which no earlier path is suitable.
 ///
 /// # Errors
 /// [`GcodeError`]: settings that cannot be used, and checksums.

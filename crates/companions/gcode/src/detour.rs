@@ -38,13 +38,13 @@ const MIN_SHARE: f64 = 1e-4;
 /// one means another whole turn.
 const SAME_TURN: f64 = 0.1;
 
-/// Number of planned travels whose places are tried for the next ones.
+/// Number of planned travels that the next ones may use again.
 const MAX_KNOWN: usize = 16;
 
 /// A travel to replace.
 pub(crate) struct Travel<'a> {
     pub own: &'a ProgramMove,
-    /// The reason why it cannot be played as it is.
+    /// The reason why the machine cannot play it.
     pub fault: &'a Fault,
     pub start: Configuration,
     /// The joint values at its end. There are several if a joint has a range of more than a turn.
@@ -69,7 +69,7 @@ impl<'a> Detours<'a> {
     /// Plans a safe travel.
     ///
     /// # Errors
-    /// There is none, or none was found.
+    /// The search proves that there is no safe travel, or finds none.
     pub fn plan(&mut self, travel: &Travel) -> Result<Found, Fault> {
         if let Some(found) = self.along_known(travel) {
             return Ok(found);
@@ -258,7 +258,9 @@ impl<'a> Detours<'a> {
 fn no_travel(travel: &Travel, is_proven: bool) -> Fault {
     let reason = match is_proven {
         true => format!("{}, and no safe travel exists", travel.fault.reason),
-        false => format!("{}; no safe travel was found, and no proof that there is none", travel.fault.reason),
+        false => {
+            format!("{}; neither a safe travel was found, nor a proof that no such travel exists", travel.fault.reason)
+        }
     };
     Fault { cause: Cause::NoTravel, reason, place: travel.fault.place, is_proven }
 }

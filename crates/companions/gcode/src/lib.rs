@@ -3,16 +3,16 @@
 //! Such a machine moves the tip along each line of the program, and keeps the side of its elbow. [`judge`] proves for each
 //! line that the arm can follow it within its limits and free of collisions, or states the reason why not. Travels (G0) that
 //! the machine cannot play are planned again in joint space, and written as straight lines that it can play. All other lines
-//! stay as they are, byte for byte.
+//! remain unchanged, byte for byte.
 //!
 //! ```
 //! use cplan_gcode::{Job, Settings, judge};
 //! use cplan_model::{Arm, Obstacle, Scene, Status, Workspace};
 //!
-//! // The arm's tower is in the way of the travel.
-//! let tower = Obstacle::circle("tower", [0.0, 0.15], 0.04)?;
-//! let scene = Scene::new(Arm::rr([0.2, 0.2], 0.02)?, Workspace::new([tower])?)?;
-//! let job = Job::read(b"G21 G90\nG0 X150 Y-50\nG1 X150 Y50\nG0 X-150 Y50\nG1 X-150 Y-50\n", None)?;
+//! // The travel would hit the post.
+//! let post = Obstacle::circle("post", [0.2, 0.25], 0.03)?;
+//! let scene = Scene::new(Arm::rr([0.2, 0.2], 0.02)?, Workspace::new([post]))?;
+//! let job = Job::read(b"G21 G90\nG0 X300 Y0\nG1 X300 Y100\nG0 X50 Y350\nG1 X-50 Y350\n", None)?;
 //! let answer = judge(&scene, &job, &Settings::default())?;
 //! assert_eq!((answer.status(), answer.replaced.len()), (Status::Found, 1));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -22,7 +22,7 @@
 //!
 //! `player` proves a single move. `walk` joins the moves of the program to chains. `detour` plans a travel with the solver
 //! of the main job, and divides its path into lines. `written` writes the program, which is then read and judged again:
-//! the digits of the file are what is proven.
+//! the proof is about the digits of the file.
 #![forbid(unsafe_code)]
 
 mod answer;

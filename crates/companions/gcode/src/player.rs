@@ -110,7 +110,7 @@ impl<'a> Player<'a> {
     }
 
     /// Returns the numbers of whole turns that bring all values of a joint within its limits: the first one and the last
-    /// one. There is none if the first one is greater.
+    /// one. If the first one is greater, no whole turn does so.
     pub fn turns(&self, joint: usize, [low, high]: [f64; 2]) -> [f64; 2] {
         let own = &self.kinematics.arm.joints[joint];
         match own.range {

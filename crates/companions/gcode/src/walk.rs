@@ -23,11 +23,11 @@ pub(crate) struct Walk<'a> {
     chains: Vec<Swept>,
     /// Moves that cannot be played, by their index.
     pub failed: Vec<(usize, Fault)>,
-    /// Travels that cannot be played as they are, between two chains.
+    /// Unsafe travels, each between two chains.
     pub broken: Vec<Broken>,
 }
 
-/// A travel that cannot be played as it is.
+/// A travel that the machine cannot play safely.
 pub(crate) struct Broken {
     /// Index of the move.
     pub index: usize,
@@ -36,7 +36,7 @@ pub(crate) struct Broken {
     chains: [usize; 2],
 }
 
-/// A travel in place of another one.
+/// A travel that replaces an unsafe one.
 pub(crate) struct Replaced {
     /// Index of the move.
     pub index: usize,
@@ -156,7 +156,7 @@ impl<'a> Walk<'a> {
         replaced
     }
 
-    /// Counts travels that cannot be played as they are among the failed moves.
+    /// Counts unsafe travels among the failed moves.
     pub fn keep_travels(&mut self) {
         self.failed.extend(std::mem::take(&mut self.broken).into_iter().map(|broken| (broken.index, broken.fault)));
         self.failed.sort_by_key(|(index, _)| *index);

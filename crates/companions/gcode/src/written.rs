@@ -1,4 +1,4 @@
-//! Writes a program again with other travels. All other lines stay as they are.
+//! Writes a program again with other travels. All other lines remain unchanged.
 
 use crate::Dialect;
 use crate::walk::Replaced;

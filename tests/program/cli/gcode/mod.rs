@@ -113,7 +113,7 @@ fn is_safe(machine: &Machine, original: &str, written: &str, result: &Value, is_
     assert!(kept.map(|(line, _)| line).all(|line| is_kept(&line)), "{written}");
 }
 
-/// Checks a fault that is said to be proven.
+/// Checks a fault that the answer calls proven.
 fn holds(machine: &Machine, original: &str, failed: &Value, is_left: bool) {
     let place = [0, 1].map(|k| failed["place"][k].as_f64().unwrap());
     let q = machine.solve(place, is_left);

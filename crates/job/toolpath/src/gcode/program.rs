@@ -19,7 +19,7 @@ pub struct Program {
 pub struct ProgramMove {
     /// The move in the coordinates with which the program begins.
     pub piece: Piece,
-    /// How the line of the file states it.
+    /// The form in which the line of the file states it.
     pub modes: Modes,
 }
 
