@@ -21,7 +21,7 @@ fn boxes(n: usize) -> Grid {
             blocked[i * n + left..i * n + (left + width).min(n)].fill(true);
         }
     }
-    Grid { topology: Topology { ranges: [JointRange::Circle; 2] }, proves: Proves::Sampled, cells: [n, n], blocked }
+    Grid { topology: Topology::new([JointRange::Circle; 2]), proves: Proves::Sampled, cells: [n, n], blocked }
 }
 
 /// Returns the first and the middle free cell.

@@ -21,7 +21,7 @@ impl Numbers {
 }
 
 fn square(n: usize, blocked: Vec<bool>) -> Grid {
-    let topology = Topology { ranges: [JointRange::Interval { lower: 0.0, upper: 1.0 }; 2] };
+    let topology = Topology::new([JointRange::Interval { lower: 0.0, upper: 1.0 }; 2]);
     Grid { topology, proves: Proves::Sampled, cells: [n, n], blocked }
 }
 

@@ -1,5 +1,6 @@
 //! The numbers of an arm that `cplan init` writes: its URDF, and its size beside that of the arm to begin with.
 
+use super::data_sheet::DrivesName;
 use super::init::Kind;
 
 /// The numbers of an arm. Lengths are in metres, angles in radians.
@@ -13,6 +14,8 @@ pub struct ArmNumbers {
     pub limits: [f64; 2],
     /// Top speeds.
     pub speeds: [f64; 2],
+    /// Where the motors are mounted.
+    pub drives: Option<DrivesName>,
 }
 
 impl ArmNumbers {
@@ -26,7 +29,7 @@ impl ArmNumbers {
             Kind::Scara | Kind::Arch => [[0.3, 0.25], [2.4435, 2.618], [7.243, 11.502]],
         };
         let stroke = if matches!(kind, Kind::Scara | Kind::Arch) { 0.18 } else { 0.0 };
-        Self { links, stroke, limits, speeds }
+        Self { links, stroke, limits, speeds, drives: None }
     }
 
     /// Returns the sizes of the arm as multiples of those of the arm to begin with: along x and along y.
@@ -45,7 +48,7 @@ impl ArmNumbers {
 
     /// Returns the URDF: a template with these numbers. The widths of bodies follow from the lengths.
     pub fn urdf(&self, kind: Kind, template: &str) -> String {
-        let Self { links: [a, b], stroke, limits, speeds } = *self;
+        let Self { links: [a, b], stroke, limits, speeds, .. } = *self;
         let usual = Self::of(kind);
         let (widths, spans, heights) = match kind {
             Kind::Rr => {

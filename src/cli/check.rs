@@ -151,6 +151,11 @@ fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindin
             },
         );
     }
+    if let Some(motors) = &findings.motors {
+        let [first, second] = motors.angles.map(|angle| format!("{:.2} deg", angle.to_degrees()));
+        let beyond = if motors.within_limits { "" } else { "; the elbow's motor is OUTSIDE its limits" };
+        line("motors", format!("{first}, {second}{beyond}"));
+    }
     for contact in &findings.contacts {
         let PairFinding { link, body, obstacle, touching, depth, .. } = contact;
         let link = if body == link { format!("\"{link}\"") } else { format!("\"{link}\" (body \"{body}\")") };

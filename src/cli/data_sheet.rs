@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::headings::DATA_SHEET;
 use super::init::Kind;
 use crate::options::positive;
-use clap::Args;
+use clap::{Args, ValueEnum};
 
 /// Numbers that data sheets state.
 #[derive(Debug, Clone, Args)]
@@ -23,6 +23,29 @@ pub struct DataSheet {
     /// Top speeds of both joints, degrees or metres per second.
     #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive, help_heading = DATA_SHEET)]
     pub speeds: Vec<f64>,
+    /// Where the motors are mounted (rr, scara).
+    #[arg(long, value_enum, value_name = "NAME", help_heading = DATA_SHEET)]
+    pub drives: Option<DrivesName>,
+}
+
+/// Motors of two joints that turn, by the names of the key `drives` in world files.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum DrivesName {
+    /// The elbow's motor is mounted on the base, and a belt leads to the elbow.
+    #[value(name = "standard_scara")]
+    StandardScara,
+    /// The elbow's motor is mounted on the upper arm.
+    Direct,
+}
+
+impl DrivesName {
+    /// Returns the name in world files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::StandardScara => "standard_scara",
+            Self::Direct => "direct",
+        }
+    }
 }
 
 /// Least and largest lengths in metres, ranges in degrees, and speeds in metres or degrees per second. Other numbers are
@@ -34,7 +57,8 @@ const SPEEDS: [f64; 2] = [1e-3, 1e5];
 impl DataSheet {
     /// Returns true if no number is given.
     pub fn is_empty(&self) -> bool {
-        self.links.is_empty() && self.stroke.is_none() && self.limits.is_empty() && self.speeds.is_empty()
+        let is_plain = self.stroke.is_none() && self.drives.is_none();
+        is_plain && self.links.is_empty() && self.limits.is_empty() && self.speeds.is_empty()
     }
 
     /// Returns the numbers of an arm: those of the data sheet, and the usual ones of this kind for the others.
@@ -52,12 +76,16 @@ impl DataSheet {
         self.links.iter().try_for_each(|&length| check("links", Some(length), LENGTHS, "metres"))?;
         check("stroke", self.stroke, LENGTHS, "metres")?;
         let turns = kind.turns();
+        if self.drives.is_some() && turns != [true; 2] {
+            return Err(Failure::Usage(format!("--drives needs two joints that turn, not {}", kind.name())));
+        }
         let in_radians = |given: [f64; 2]| [0, 1].map(|k| if turns[k] { given[k].to_radians() } else { given[k] });
         Ok(ArmNumbers {
             links: self.links(kind, usual.links)?,
             stroke: self.stroke(kind, usual.stroke)?,
             limits: limits.map_or(usual.limits, in_radians),
             speeds: speeds.map_or(usual.speeds, in_radians),
+            drives: self.drives,
         })
     }
 

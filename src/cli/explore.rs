@@ -159,7 +159,10 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
                 None => sinks::warn_unwritten(path, "trajectory"),
                 Some(trajectory) => {
                     let text = match format {
-                        Format::Csv => csv(&joints, trajectory, false, None),
+                        Format::Csv => {
+                            let motors = world.problem.scene().arm().motor_angles(&trajectory.position);
+                            csv(&joints, trajectory, &motors, false, None)
+                        }
                         _ => ros_yaml(&JointMotion::new(&world.robot.joints, trajectory, false)),
                     };
                     files.push((path.clone(), text.into_bytes()));

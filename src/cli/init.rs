@@ -32,6 +32,7 @@ Examples:
   cplan init cell --kind pr
   cplan init scara --kind scara
   cplan init mine --kind scara --links 0.225,0.225 --stroke 0.2 --limits 130,145
+  cplan init plotter --kind 2r --links 0.2,0.2 --drives standard_scara
 
 Exit codes: 0 the files are written, 1 they exist already or cannot be written,
 2 wrong command line.")]
@@ -168,7 +169,14 @@ impl TemplateMarks {
         let [unit1, unit2] = self.units;
         let height = "height = [0.0, 0.3]";
         let above = |text: &str| if self.is_above { text.to_owned() } else { String::new() };
-        let marks: [(&str, &str); 20] = [
+        let motors =
+            "\n# Where the elbow's motor is mounted: \"standard_scara\" for the base, \"direct\" for the upper arm.\n";
+        let drives = match (kind.turns(), numbers.drives) {
+            ([true, true], Some(drives)) => format!("{motors}drives = \"{}\"", drives.name()),
+            ([true, true], None) => format!("{motors}#drives = \"standard_scara\""),
+            _ => String::new(),
+        };
+        let marks: [(&str, &str); 21] = [
             ("arm", ROBOT_FILE),
             ("world", WORLD_FILE),
             ("name", self.name),
@@ -189,6 +197,7 @@ impl TemplateMarks {
             ("wall", &points(self.wall)),
             ("wall_height", &above(&format!("\n#{height}"))),
             ("region", &points(self.region)),
+            ("drives", &drives),
         ];
         marks
             .iter()

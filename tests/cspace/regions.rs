@@ -34,6 +34,7 @@ fn scene(joints: [Joint; 2], offset: Vector, links: [Vec<Convex>; 2], pieces: Ve
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        motors: None,
         self_obstacles: Vec::new(),
     };
     let obstacles = pieces

@@ -13,7 +13,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
         true => JointRange::Circle,
         false => JointRange::Interval { lower: 0.0, upper: cells[k] as f64 },
     };
-    Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+    Grid { topology: Topology::new([axis(0), axis(1)]), proves: Proves::Sampled, cells, blocked }
 }
 
 /// Parses a grid without circles: `#` is a blocked cell, and rows of text are rows of the grid.

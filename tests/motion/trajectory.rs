@@ -52,6 +52,7 @@ fn scene(obstacle: bool) -> Scene {
         tip_name: "slider".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        motors: None,
         self_obstacles: Vec::new(),
     };
     let (center, radius) = (Point::new(9.0, 0.0), 0.5);
@@ -187,7 +188,7 @@ fn without_a_path_there_is_a_reason() {
 #[test]
 fn csv_reads_back() {
     let trajectory = driven(&WAYPOINTS).trajectory;
-    let text = csv(&NAMES.map(str::to_owned), &trajectory, false, None);
+    let text = csv(&NAMES.map(str::to_owned), &trajectory, &[], false, None);
     let (header, body) = text.split_once('\n').expect("a header");
     let first = "\"shoulder, \"\"left\"\"";
     assert_eq!(header, format!("time,{first}\",no: 1,{first}_velocity\",no: 1_velocity"));

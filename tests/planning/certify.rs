@@ -6,7 +6,7 @@ use cplan::check::{
 use cplan::geometry::{Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::proofs::{Connectivity, Occupancy, connectivity, explore};
-use cplan::space::{Configuration, JointRange, Path};
+use cplan::space::{Configuration, JointRange, LimitedValue, Path};
 use cplan_testkit::arms::{all_kinds, arm, joint, link, rr};
 use cplan_testkit::problems::{Benchmark, benchmark, recheck};
 use cplan_testkit::scenes::{clutter, q, scene};
@@ -139,7 +139,7 @@ fn a_path_outside_the_limits_is_refused() {
     let range = JointRange::Interval { lower: -1.0, upper: 1.0 };
     let scene = scene(rr([range, range]), vec![]);
     let verdict = certify(&scene, Path::new(vec![q(0.0, 0.0), q(0.5, 1.5)]));
-    assert_eq!(verdict.unwrap_err(), Rejection::OutOfLimits { waypoint: 1, joint: 1 });
+    assert_eq!(verdict.unwrap_err(), Rejection::OutOfLimits { waypoint: 1, limited: LimitedValue::Joint(1) });
     let free: CertifiedPath = certify(&scene, Path::new(vec![q(0.0, 0.0), q(1.0, 1.0)])).unwrap();
     assert_eq!(free.clearance(), f64::INFINITY);
     assert!(free.nearest().is_none());

@@ -42,7 +42,9 @@ fn unseen(problems: impl IntoIterator<Item = (String, MotionProblem, Criterion)>
 
 #[test]
 fn bounds_of_all_shipped_workspaces_are_confirmed() {
-    let problems = shipped_feasible().into_iter().map(|(name, problem)| (name, problem, Criterion::Euclidean));
+    // Certificates of bounds do not use the range of an elbow motor.
+    let problems = shipped_feasible().into_iter().filter(|(_, problem)| problem.scene().arm().motors.is_none());
+    let problems = problems.map(|(name, problem)| (name, problem, Criterion::Euclidean));
     let (count, unseen) = unseen(problems);
     assert!(count >= 15 && unseen.is_empty(), "{count}, but {unseen:#?}");
 }

@@ -34,7 +34,7 @@ fn regions(rectangles: &[[Place; 4]]) -> Regions {
     let hole = |corners: &[Place; 4]| ring(corners).into_iter().rev().collect();
     let window = [(0.0, 60.0), (0.0, 40.0)];
     Regions {
-        topology: Topology { ranges: window.map(|(lower, upper)| JointRange::Interval { lower, upper }) },
+        topology: Topology::new(window.map(|(lower, upper)| JointRange::Interval { lower, upper })),
         proves: Proves::Exact,
         window,
         obstacles: Vec::new(),

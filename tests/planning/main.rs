@@ -6,6 +6,7 @@ mod certify;
 mod checked_bounds;
 mod contract;
 mod decide;
+mod drives;
 mod explaining;
 mod fastest;
 mod followed_lines;

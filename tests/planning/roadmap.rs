@@ -382,7 +382,7 @@ mod contract {
         let free = vec![free(-TAU, bands[0][0].x), free(bands[0][1].x, bands[1][0].x), free(bands[1][1].x, TAU)];
         let axes = [JointRange::Circle, JointRange::Interval { lower: -1.0, upper: 1.0 }];
         let window = [(-TAU, TAU), (-1.0, 1.0)];
-        let regions = Regions { topology: Topology { ranges: axes }, window, ..regions(window, free) };
+        let regions = Regions { topology: Topology::new(axes), window, ..regions(window, free) };
         run_all_planners(|plan| {
             let Proposal::Found(path) = plan(&regions, &query((0.0, 0.0), (PI, 0.0))) else { panic!() };
             let [from, to] = path.waypoints() else { panic!("{:?}", path.waypoints()) };

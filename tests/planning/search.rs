@@ -16,7 +16,7 @@ const A_STAR: [Order; 2] = [Order::AStar(Ties::Farthest), Order::AStar(Ties::Fir
 
 fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
     let axes = circles.map(|c| if c { JointRange::Circle } else { JointRange::Interval { lower: 0.0, upper: 1.0 } });
-    Grid { topology: Topology { ranges: axes }, proves: Proves::Sampled, cells, blocked }
+    Grid { topology: Topology::new(axes), proves: Proves::Sampled, cells, blocked }
 }
 
 /// Returns the cell at the offset `by` from `cell`, computed from coordinates. Returns `None` if there is no such cell.

@@ -215,18 +215,18 @@ fn invalid_payloads_are_refused() {
 fn problems_without_a_true_answer_are_refused() {
     let scene = || placed(arm(|_| ()), workspace(|_| ()));
     let (free, blocked) = (q(-1.0, 0.5), q(PI / 4.0, 0.3));
-    let elbow = |value| ("elbow".to_owned(), value);
+    let elbow = |value| ("joint \"elbow\"".to_owned(), value);
     let refused = |start, goals: GoalSet| MotionProblem::new(scene(), start, goals).expect_err("it is refused");
-    let (joint, value) = elbow(2.5);
-    assert_eq!(refused(q(0.0, 2.5), free.into()), MotionProblemError::StartOutside { joint, value });
+    let (limit, value) = elbow(2.5);
+    assert_eq!(refused(q(0.0, 2.5), free.into()), MotionProblemError::StartOutside { limit, value });
     assert!(matches!(refused(q(NAN, 0.0), free.into()), MotionProblemError::StartOutside { .. }));
     assert!(matches!(refused(q(INFINITE, 0.0), free.into()), MotionProblemError::StartOutside { .. }));
     let hit = refused(blocked, free.into()).to_string();
     assert!(hit.starts_with("the start is not free: link \"fore\" hits obstacle \"post\""), "{hit}");
     assert_eq!(refused(free, GoalSet::default()), MotionProblemError::NoGoal);
-    let (joint, value) = elbow(-2.1);
+    let (limit, value) = elbow(-2.1);
     let two: GoalSet = [Segment::point(free), Segment::new(free, q(0.0, -2.1))].into_iter().collect();
-    assert_eq!(refused(free, two), MotionProblemError::GoalOutside { goal: 1, joint, value });
+    assert_eq!(refused(free, two), MotionProblemError::GoalOutside { goal: 1, limit, value });
     let hit = refused(free, blocked.into()).to_string();
     assert!(hit.starts_with("goal 1 is not free: link \"fore\" hits obstacle \"post\""), "{hit}");
     // Part of a segment of goals may be blocked.

@@ -162,7 +162,7 @@ fn repeated_crowd(crowd: &[Vec<Point>], side: usize, circles: [bool; 2]) -> Regi
         if circles[k] { JointRange::Circle } else { JointRange::Interval { lower: window[k].0, upper: window[k].1 } }
     };
     let free = vec![PolygonWithHoles { outer: rectangle(window[0], window[1]), holes }];
-    let topology = Topology { ranges: [axis(0), axis(1)] };
+    let topology = Topology::new([axis(0), axis(1)]);
     Regions { topology, proves: Proves::Exact, window, obstacles: Vec::new(), free }
 }
 

@@ -17,6 +17,7 @@ use tree::{ReadResult, Tree, child, moves};
 
 mod bar;
 mod collada;
+mod drives;
 mod layers;
 mod manifest;
 mod mesh;
@@ -141,14 +142,15 @@ impl<'a> Robot<'a> {
             };
             Ok(Joint { name: tree.text(nodes[k], "name")?.to_owned(), motion, axis, within })
         };
-        let joints = [joint(0)?, joint(1)?];
+        let mut joints = [joint(0)?, joint(1)?];
+        let sum = world.robot.drives.as_ref().and_then(|drives| drives::narrow(drives, &mut joints));
         let [base, second] = poses.each_ref().map(|pose| plane.flat(&pose.at));
         let offset = minus(&second, &base);
         let nowhere = Shape { points: Vec::new(), radius: Interval::whole(0) };
         let (tip_link, tip) = (String::new(), Body { link: 1, shape: nowhere, heights: None });
         let (shapes, bases, own, notes) = Default::default();
         let domain = Domain::new(joints.each_ref().map(|joint| &joint.axis));
-        let arm = Arm { joints, domain, base, offset, tip_link, tip, shapes, bases, own, notes };
+        let arm = Arm { joints, domain, sum, base, offset, tip_link, tip, shapes, bases, own, notes };
         let mut robot = Self { arm, tree, children, tip_link: children[1], plane };
         robot.tip_link = robot.find_tip(world.robot.tip.as_deref())?;
         robot.arm.tip_link = robot.tip_link.to_owned();

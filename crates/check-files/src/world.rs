@@ -9,6 +9,7 @@ use cplan_check::obstacle::{Obstacle, Outline, point};
 use cplan_check::polygon::Corner;
 use cplan_check::world::{Goal, World};
 use cplan_check::{CheckError, Input};
+use drives::Drives;
 use num_bigint::BigInt;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -19,6 +20,7 @@ use toml::de::{DeTable, DeValue};
 
 pub mod carried_shapes;
 mod cells;
+pub mod drives;
 pub mod lines;
 mod map;
 mod obstacle_trajectory;
@@ -50,6 +52,8 @@ pub struct RobotTable {
     pub fixed: BTreeMap<String, Range>,
     /// Enclosures of the lower and the upper limit of joints, by name.
     pub limits: BTreeMap<String, [Range; 2]>,
+    /// Limits of the shafts of motors, if given.
+    pub drives: Option<Drives>,
     /// Radius of bars that replace links without geometry, if given.
     pub bar: Option<Decimal>,
     /// The link whose origin is the tip, if given.
@@ -68,6 +72,7 @@ impl Default for RobotTable {
             joints: None,
             fixed: BTreeMap::new(),
             limits: BTreeMap::new(),
+            drives: None,
             bar: None,
             tip: None,
             own_body: true,
@@ -189,6 +194,7 @@ impl Reader<'_> {
                 "tip" => robot.tip = Some(self.text(value)?),
                 "at" => robot.at = self.pair(value, |n| self.number(n))?,
                 "angle" => robot.angle = Interval::enclosing(&self.quantity(value)?),
+                "drives" => robot.drives = self.drives(value)?,
                 // These keys do not affect the positions of shapes.
                 "velocity" | "acceleration" | "jerk" | "effort" | "dynamics" | "gravity" => {}
                 // These keys affect tasks only.

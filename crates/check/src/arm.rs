@@ -2,6 +2,7 @@
 
 use crate::domain::{Axis, Domain, Range};
 use crate::interval::Point;
+use crate::joint_sum::JointSum;
 use crate::obstacle::Obstacle;
 use crate::shapes::{Body, CollisionShape};
 
@@ -34,8 +35,10 @@ pub struct Arm {
     pub base: Point,
     /// Origin of the second joint, in the frame of the first.
     pub offset: Point,
-    /// The configuration space.
+    /// The configuration space, without the limits of [`Self::sum`].
     pub domain: Domain,
+    /// Limits of a sum of both joint values, if there are any.
+    pub sum: Option<JointSum>,
     /// Name of the link whose origin is the tip.
     pub tip_link: String,
     /// The tip as a body without extent.

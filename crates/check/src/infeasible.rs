@@ -3,6 +3,7 @@
 use crate::arm::Arm;
 use crate::certificate::{Certificate, rectangles};
 use crate::contacts::Contacts;
+use crate::domain::Rectangle;
 use crate::ends::{End, MAX_ENCLOSED_PARTS};
 use crate::error::CheckError;
 use crate::sweep::Reached;
@@ -14,7 +15,9 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     let clearance = certificate.clearance(world)?;
     let stuck = certificate.boxes.as_deref().unwrap_or_default();
     let boxes = rectangles(stuck)?;
-    let Some(reached) = Reached::new(&arm.domain, &boxes, &start.configuration(arm)?) else {
+    let beyond = arm.sum.iter().flat_map(|sum| sum.outside(&arm.domain, &boxes));
+    let closed: Vec<Rectangle> = boxes.iter().cloned().chain(beyond).collect();
+    let Some(reached) = Reached::new(&arm.domain, &closed, &start.configuration(arm)?) else {
         return CheckError::fails("the boxes leave more gaps than the checker examines");
     };
     if !goal.region(arm)?.places(arm, MAX_ENCLOSED_PARTS, |part| !reached.meets(part)).is_empty() {

@@ -32,6 +32,7 @@ mod error;
 pub mod free;
 mod infeasible;
 pub mod interval;
+pub mod joint_sum;
 pub mod motion;
 pub mod mover;
 pub mod obstacle;

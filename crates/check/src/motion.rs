@@ -16,6 +16,10 @@ use crate::world::World;
 /// Maximum number of times that a piece of a motion is halved to check the joints' limits.
 const MAX_PIECE_HALVINGS: u32 = 40;
 
+/// Number of decimals of the angle, in radians, by which the elbow's motor may exceed its limits. Motions along the limit
+/// exceed it by the rounding of their joint values.
+const SUM_DIGITS: u32 = 9;
+
 /// Factor by which control points are multiplied, so that they are exact decimals. It is a common multiple of the
 /// denominators in all interpolations.
 pub const CONTROL_POINT_FACTOR: i32 = 60;
@@ -144,6 +148,16 @@ pub fn piece(
             }
         }
         let [first, second] = &control;
+        if let Some(sum) = &arm.sum {
+            let sums: Vec<Decimal> = first.iter().zip(second).map(|(first, second)| sum.of(first, second)).collect();
+            let may = Decimal::power_of_ten(SUM_DIGITS);
+            let factor = Decimal::whole(CONTROL_POINT_FACTOR);
+            let [low, high] = [&(&sum.limits[0][1] - &may) * &factor, &(&sum.limits[1][0] + &may) * &factor];
+            if !is_curve_within(&sums, &low, &high, MAX_PIECE_HALVINGS) {
+                let method = method.name();
+                return CheckError::fails(format!("after knot {knot} ({method}) the elbow's motor leaves its limits"));
+            }
+        }
         let curve = first.iter().zip(second).map(|(a, b)| Some([fine(a)?, fine(b)?])).collect::<Option<Vec<Values>>>();
         let Some(curve) = curve else { return CheckError::fails(format!("after knot {knot} values are too large")) };
         curves.push(curve);

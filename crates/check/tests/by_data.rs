@@ -47,6 +47,7 @@ fn arm() -> Arm {
     let joints = [joint("j1", "3"), joint("j2", "1")];
     Arm {
         domain: Domain::new(joints.each_ref().map(|joint| &joint.axis)),
+        sum: None,
         joints,
         base: point(0, 0),
         offset: point(1, 0),

@@ -39,6 +39,7 @@ pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> 
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        motors: None,
         self_obstacles: Vec::new(),
     }
 }

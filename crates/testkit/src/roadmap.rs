@@ -8,7 +8,7 @@ use cplan::space::{Configuration, JointRange, Metric, Path, Topology};
 /// Returns free space over a window of two intervals.
 pub fn regions(window: [(f64, f64); 2], free: Vec<PolygonWithHoles>) -> Regions {
     let axes = window.map(|(lower, upper)| JointRange::Interval { lower, upper });
-    Regions { topology: Topology { ranges: axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
+    Regions { topology: Topology::new(axes), proves: Proves::Exact, window, obstacles: Vec::new(), free }
 }
 
 /// Returns points from pairs of coordinates.

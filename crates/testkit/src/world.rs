@@ -76,6 +76,7 @@ fn arm(dice: &mut Dice, kind: &str) -> Arm {
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        motors: None,
         self_obstacles: Vec::new(),
     }
 }

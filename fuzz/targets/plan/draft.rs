@@ -110,6 +110,7 @@ impl Draft {
             tip_name: "tip".into(),
             plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
             dynamics: None,
+            motors: None,
             self_obstacles: Vec::new(),
         };
         let obstacle = |s: &ShapeDraft| {

@@ -106,9 +106,12 @@ fn text(answered: &Answered, content: Content, certificate: Option<&str>) -> Res
         }
         Content::Csv => {
             let joints = loaded.scene.arm().joints.each_ref().map(|joint| joint.name.clone());
-            trajectory.map(|trajectory| match answered.wrist {
-                Some(wrist) => csv_of_joints(&wrist.motion(&joints, trajectory), None),
-                None => csv(&joints, trajectory, false, None),
+            trajectory.map(|trajectory| {
+                let motors = loaded.scene.arm().motor_angles(&trajectory.position);
+                match answered.wrist {
+                    Some(wrist) => csv_of_joints(&wrist.motion(&joints, trajectory), &motors, None),
+                    None => csv(&joints, trajectory, &motors, false, None),
+                }
             })
         }
         Content::Yaml => {

@@ -103,7 +103,8 @@ fn collisions(arm: &Arm, collisions: &CollisionFinding, verdict: Judgement) -> V
 /// Describes a violated limit.
 fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     let excess = &limit.excess;
-    let joint = &arm.joints[excess.joint];
+    // A motor turns as the joint does that it drives.
+    let joint = arm.joints.get(excess.joint).unwrap_or(&arm.joints[1]);
     let unit = joint.unit();
     // The allowed value has no sign.
     let [size, allowed] = format_distinct([excess.value.abs(), excess.allowed], 6);

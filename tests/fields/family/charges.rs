@@ -17,7 +17,7 @@ fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
         true => JointRange::Circle,
         false => JointRange::Interval { lower: 0.0, upper: cells[k] as f64 * [1.0, 2.5][k] },
     };
-    Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+    Grid { topology: Topology::new([axis(0), axis(1)]), proves: Proves::Sampled, cells, blocked }
 }
 
 proptest! {
@@ -91,7 +91,7 @@ fn room(gap: &str) -> (ZonedGrid, Query) {
     }
     let blocked = rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
     let axis = |upper: f64| JointRange::Interval { lower: 0.0, upper };
-    let topology = Topology { ranges: [axis(40.0), axis(44.0)] };
+    let topology = Topology::new([axis(40.0), axis(44.0)]);
     let grid = Grid { topology, proves: Proves::Sampled, cells: [40, 44], blocked };
     let workspace = Workspace { name: "w".into(), obstacles: Vec::new(), clearance: 0.0, preferences: Vec::new() };
     let scene = placed(arms::rr([axis(3.0), axis(3.0)]), workspace);

@@ -130,7 +130,7 @@ fn without_a_trap_the_goal_is_reached_downhill_all_the_way() {
 
 #[test]
 fn on_a_torus_the_goal_attracts_the_short_way_round() {
-    let topology = Topology { ranges: [JointRange::Circle; 2] };
+    let topology = Topology::new([JointRange::Circle; 2]);
     let grid = Grid { topology, proves: Proves::Sampled, cells: [16, 16], blocked: vec![false; 256] };
     let laws =
         Khatib { attraction: Attraction::Linear(1.0), repulsion: Repulsion::InverseSquare(1.0), saturated: false };

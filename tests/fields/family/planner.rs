@@ -34,7 +34,7 @@ pub fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
         true => JointRange::Circle,
         false => JointRange::Interval { lower: 0.0, upper: cells[k] as f64 },
     };
-    Grid { topology: Topology { ranges: [axis(0), axis(1)] }, proves: Proves::Sampled, cells, blocked }
+    Grid { topology: Topology::new([axis(0), axis(1)]), proves: Proves::Sampled, cells, blocked }
 }
 
 pub fn planner(equation: EquationChoice, relaxation: Relaxation) -> FieldPlanner {

@@ -13,6 +13,7 @@ mod converge;
 mod cspace;
 mod demo_and_init;
 mod diagnostics;
+mod drives;
 mod error_json;
 mod exact;
 mod explain;

@@ -59,6 +59,7 @@ pub fn arm(
         tip_name: "tool0".to_owned(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        motors: None,
         self_obstacles: Vec::new(),
     }
 }

@@ -82,7 +82,7 @@ fn written(format: Format, plan: &Plan, motion: &Trajectory) -> Vec<u8> {
             result["trajectory"] = serde_json::to_value(motion).unwrap();
             result.to_string().into_bytes()
         }
-        Format::Csv => csv(&names, motion, false, None).into_bytes(),
+        Format::Csv => csv(&names, motion, &[], false, None).into_bytes(),
         Format::Yaml => ros_yaml(&message).into_bytes(),
         #[cfg(feature = "mcap")]
         Format::Mcap => mcap(&[(&message, 0.0)], None),

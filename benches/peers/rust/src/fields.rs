@@ -42,7 +42,7 @@ pub fn of_arm(urdf: &str, world: &str, cells: usize) -> Result<Grid> {
 }
 
 fn rectangle(cells: usize, blocked: Vec<bool>) -> Grid {
-    let topology = Topology { ranges: [JointRange::Interval { lower: 0.0, upper: 1.0 }; 2] };
+    let topology = Topology::new([JointRange::Interval { lower: 0.0, upper: 1.0 }; 2]);
     Grid { topology, proves: Proves::Sampled, cells: [cells; 2], blocked }
 }
 

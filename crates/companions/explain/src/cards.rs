@@ -110,7 +110,7 @@ impl CardMaker<'_> {
                 }
                 EditedShape::new(&obstacle.shape).map(|shape| Edit::Obstacle { number, shape })
             }
-            Element::Link { .. } => None,
+            Element::Link { .. } | Element::Motor => None,
             Element::Limit { joint, side } => {
                 // The other end does not change.
                 let (lower, upper) = self.scene().arm().joints[joint].range.domain();

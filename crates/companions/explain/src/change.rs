@@ -81,8 +81,8 @@ pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext
             let moved = moving(question, obstacle, number, fine, boxes).map(|(cure, by)| made(cure, by));
             moved.into_iter().chain(shrunk).collect()
         }
-        // Nobody changes a robot's body to open a path.
-        Element::Link { .. } => Vec::new(),
+        // Nobody changes a robot's body or motors to open a path.
+        Element::Link { .. } | Element::Motor => Vec::new(),
         Element::Limit { joint, side } => {
             let turns = scene.arm().joints[joint].joint_type.is_revolute();
             let (most, fine) = (question.margin_beyond_limit(joint), if turns { CHANGE_TOLERANCE } else { fine });

@@ -18,7 +18,7 @@ impl Change {
                 Some(changed) => rest.rebuilt(|_, workspace| workspace.obstacles[number].clone_from(&changed)),
                 None => rest,
             },
-            Element::Link { .. } => rest,
+            Element::Link { .. } | Element::Motor => rest,
             Element::Limit { joint, side } => rest.with_wider(joint, side, self.by.opens),
             Element::Clearance => {
                 let clearance = (question.scene().workspace().clearance - self.by.opens).max(0.0);

@@ -53,6 +53,7 @@ fn of_element(scene: &Scene, element: Element) -> Map<String, Value> {
         Element::Limit { joint, side } => {
             json!({ "kind": "limit", "joint": scene.arm().joints[joint].name, "side": side })
         }
+        Element::Motor => json!({ "kind": "motor" }),
         Element::Clearance => json!({ "kind": "clearance" }),
     };
     if let Value::Object(object) = value { object } else { Map::new() }

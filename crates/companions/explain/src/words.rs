@@ -229,8 +229,9 @@ fn context(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
 pub fn removal(scene: &Scene, saving: &Saving, length: f64) -> [String; 2] {
     let name = subject(scene, saving.element);
     let instruction = match saving.element {
-        Element::Obstacle { .. } | Element::Link { .. } => format!("Remove {name}"),
-        Element::Limit { .. } => format!("Remove {name}"),
+        Element::Obstacle { .. } | Element::Link { .. } | Element::Limit { .. } | Element::Motor => {
+            format!("Remove {name}")
+        }
         Element::Clearance => "Require no clearance".into(),
     };
     let share = headline_number(100.0 * saving.at_least / length, false);

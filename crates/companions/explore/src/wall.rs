@@ -59,7 +59,7 @@ mod tests {
         let (wide, high) = (rows[0].len(), rows.len());
         let at = |i: usize, j: usize| rows[high - 1 - j].as_bytes()[i] == b'#';
         let blocked = (0..wide * high).map(|cell| at(cell / high, cell % high)).collect();
-        Grid { topology: Topology { ranges }, proves: Proves::Sampled, cells: [wide, high], blocked }
+        Grid { topology: Topology::new(ranges), proves: Proves::Sampled, cells: [wide, high], blocked }
     }
 
     fn limited() -> JointRange {

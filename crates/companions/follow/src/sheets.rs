@@ -8,6 +8,10 @@ use std::f64::consts::TAU;
 /// Values beyond a limit by at most this, radians or metres, are set to the limit: such an excess is rounding.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
+/// Distance, radians, that nodes keep from the ends of the range of the sum of joint values. It covers the motion between
+/// nodes.
+const SUM_INSET: f64 = 1e-4;
+
 /// Greatest distance beyond the limits, radians, of a sheet that is listed although it is outside them at all nodes. Other
 /// joint values near it may be inside, and proofs must exclude them too.
 pub(crate) const LISTED_BEYOND_LIMITS: f64 = 1.5;
@@ -80,6 +84,8 @@ impl<'a> Sheets<'a> {
                 inside.then(|| q[k].clamp(lower, upper))
             }
         };
-        Some(Configuration::new(limited(0)?, limited(1)?))
+        let q = Configuration::new(limited(0)?, limited(1)?);
+        let sum = self.kinematics.arm.topology().sum;
+        sum.is_none_or(|sum| sum.narrowed(SUM_INSET).contains(q)).then_some(q)
     }
 }

@@ -7,7 +7,9 @@ use super::replay::{misplaced_joints, replay};
 use cplan_dynamics::Torques;
 use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording, Task};
 use cplan_model::Scene;
-use cplan_motion::recorded::{check_collision, check_collision_with, limit_violations, torque_violations};
+use cplan_motion::recorded::{
+    check_collision, check_collision_with, limit_violations, motor_violations, torque_violations,
+};
 use cplan_robot::InputError;
 use cplan_world::{AllJoints, LoadedRecording, LoadedScene, Overrides, Rules};
 
@@ -92,6 +94,7 @@ fn judge_motion(
         held => check_collision_with(loaded.timed(), recording, held, clearance),
     };
     let mut broken = limit_violations(&scene.arm().joints, recording);
+    broken.extend(motor_violations(scene.arm(), recording));
     broken.extend(torque_violations(scene, recording));
     let broken = ExceededLimits::new(&scene.arm().joints, &broken, &loaded.robot.assumed);
     let findings = MotionFindings::new(scene, recording, &collision_check, broken, notes);

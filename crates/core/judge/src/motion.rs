@@ -3,7 +3,7 @@
 use super::deviation::{Deviation, Posture};
 use super::vicinity::Vicinity;
 use cplan_model::checkpoint;
-use cplan_model::space::{Configuration, Path};
+use cplan_model::space::{Configuration, LimitedValue, Path};
 use cplan_model::{Contact, Pair, Scene};
 
 /// A lower bound for a piece of the path is accepted if it is at least this fraction of the least distance seen.
@@ -108,12 +108,12 @@ impl CertifiedPath {
 /// The reason why a path is not certified.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Rejection {
-    /// A waypoint is outside a joint's limits.
+    /// A waypoint is outside the limits.
     OutOfLimits {
         /// Index of the waypoint.
         waypoint: usize,
-        /// Index of the joint, 0 or 1.
-        joint: usize,
+        /// The violated limit.
+        limited: LimitedValue,
     },
     /// At this configuration on the path, two shapes touch, overlap, or are nearer than the required clearance.
     TooClose(Nearest),
@@ -142,8 +142,8 @@ pub fn certify(scene: &Scene, path: Path) -> Result<CertifiedPath, Rejection> {
 pub fn certify_at(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPath, Rejection> {
     let topology = scene.arm().topology();
     for (waypoint, q) in path.waypoints().iter().enumerate() {
-        if let Some(joint) = (0..2).find(|&k| !topology.ranges[k].contains(q[k])) {
-            return Err(Rejection::OutOfLimits { waypoint, joint });
+        if let Some(limited) = topology.violated_limit(*q) {
+            return Err(Rejection::OutOfLimits { waypoint, limited });
         }
     }
     let vicinity = Vicinity::new(scene);
@@ -186,8 +186,8 @@ impl<'a> StraightMotions<'a> {
     /// Returns true if the straight motion is proven to be free and within the joint limits.
     pub fn is_free(&self, from: Configuration, to: Configuration) -> bool {
         let topology = self.scene.arm().topology();
-        let within = [from, to].iter().all(|q| (0..2).all(|k| topology.ranges[k].contains(q[k])));
-        within
+        topology.contains(from)
+            && topology.contains(to)
             && CurveSearch::deciding(self.scene, self.clearance, MAX_EVALUATIONS)
                 .segment(&self.vicinity, from, to)
                 .is_ok()

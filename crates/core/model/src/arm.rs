@@ -1,7 +1,7 @@
 //! The planar two-joint arm and its kinematics.
 
-use super::{Dynamics, Joint, JointType, Link, SelfObstacle};
-use crate::space::{Configuration, Topology};
+use super::{Dynamics, Joint, JointType, Link, Motors, SelfObstacle};
+use crate::space::{Configuration, LimitedValue, Topology};
 use cplan_geometry::{ConvexError, Point, Pose, Vector, perpendicular};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -53,6 +53,9 @@ pub struct Arm {
     /// Masses, gravity and efforts; `None` if unknown.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dynamics: Option<Dynamics>,
+    /// Motors of two joints that turn; `None` if unknown.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub motors: Option<Motors>,
     /// Links of the robot that can collide with its other links.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub self_obstacles: Vec<SelfObstacle>,
@@ -74,6 +77,7 @@ impl Arm {
             tip_name: "tip".into(),
             plane,
             dynamics: None,
+            motors: None,
             self_obstacles: Vec::new(),
         }
     }
@@ -120,7 +124,22 @@ impl Arm {
 
     /// Returns the space of configurations.
     pub fn topology(&self) -> Topology {
-        Topology { ranges: [self.joints[0].range, self.joints[1].range] }
+        let sum = self.motors.and_then(|motors| motors.sum_range());
+        Topology { ranges: [self.joints[0].range, self.joints[1].range], sum }
+    }
+
+    /// Returns the angles of both motors' shafts at joint values, radians. Empty if the motors are unknown.
+    pub fn motor_angles<'a>(&self, positions: impl IntoIterator<Item = &'a [f64; 2]>) -> Vec<[f64; 2]> {
+        let angles = |motors: Motors| positions.into_iter().map(|q| motors.angles((*q).into())).collect();
+        self.motors.map(angles).unwrap_or_default()
+    }
+
+    /// Names a limit in a message: `joint "elbow"`, `the elbow's motor`.
+    pub fn describe_limit(&self, limited: LimitedValue) -> String {
+        match limited {
+            LimitedValue::Joint(joint) => format!("joint \"{}\"", self.joints[joint].name),
+            LimitedValue::Sum => "the elbow's motor".into(),
+        }
     }
 
     /// Returns true if both joints are revolute.

@@ -192,7 +192,8 @@ impl Inverse {
             let pairs = first.iter().flat_map(|a| second.iter().map(move |b| (a, b)));
             pairs.map(|(a, b)| Segment::new(Configuration::new(a.0, b.0), Configuration::new(a.1, b.1))).collect()
         };
-        self.branches.iter().flat_map(of_branch).collect()
+        let topology = arm.topology();
+        self.branches.iter().flat_map(of_branch).filter_map(|solution| topology.within_sum(solution)).collect()
     }
 }
 

@@ -22,6 +22,7 @@ mod arm;
 mod attachment;
 mod carried;
 mod contacts;
+mod motors;
 mod inverse;
 mod joint;
 mod link;
@@ -55,6 +56,7 @@ pub use joint::{
 };
 pub use link::{Link, OutlineSource, Part};
 pub use masses::{Body, Dynamics};
+pub use motors::Motors;
 pub use obstruction::Obstruction;
 pub use outcome::{Outcome, Status};
 pub use preference::{Preference, Region};

@@ -42,11 +42,11 @@ impl Goal {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum MotionProblemError {
     /// The start lies outside a joint's limits, or is not a number.
-    #[error("the start is outside the limits of joint \"{joint}\": {value}")]
+    #[error("the start is outside the limits of {limit}: {value}")]
     StartOutside {
-        /// The joint's name in the URDF.
-        joint: String,
-        /// The joint's value, radians or metres.
+        /// The limit in words: `joint "elbow"`.
+        limit: String,
+        /// The limited value, radians or metres.
         value: f64,
     },
     /// The arm collides at the start, or is nearer to an obstacle than the clearance.
@@ -59,13 +59,13 @@ pub enum MotionProblemError {
     #[error("there is no goal")]
     NoGoal,
     /// A goal lies outside a joint's limits, or is not a number.
-    #[error("goal {} is outside the limits of joint \"{joint}\": {value}", goal + 1)]
+    #[error("goal {} is outside the limits of {limit}: {value}", goal + 1)]
     GoalOutside {
         /// Index of the goal, from 0.
         goal: usize,
-        /// The joint's name.
-        joint: String,
-        /// The joint's value, radians or metres.
+        /// The limit in words.
+        limit: String,
+        /// The limited value, radians or metres.
         value: f64,
     },
     /// A goal that is a single configuration is not free: the arm collides, or is nearer to an obstacle than the
@@ -99,13 +99,14 @@ impl MotionProblem {
     /// If the start or a goal is outside the limits or not free, or if there is no goal.
     pub fn new(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> Result<Self, MotionProblemError> {
         let goals = goals.into();
+        let topology = scene.arm().topology();
         let outside = |q: Configuration| {
-            let joints = scene.arm().joints.iter().zip(q.iter());
-            joints.filter(|(joint, value)| !joint.range.contains(**value)).map(|(j, v)| (j.name.clone(), *v)).next()
+            let limited = topology.violated_limit(q)?;
+            Some((scene.arm().describe_limit(limited), topology.value(limited, q)))
         };
         let blocked = |q: Configuration| scene.obstructions(q).first().map(|found| scene.explain(found));
-        if let Some((joint, value)) = outside(start) {
-            return Err(MotionProblemError::StartOutside { joint, value });
+        if let Some((limit, value)) = outside(start) {
+            return Err(MotionProblemError::StartOutside { limit, value });
         }
         if let Some(why) = blocked(start) {
             return Err(MotionProblemError::StartBlocked { why });
@@ -115,8 +116,8 @@ impl MotionProblem {
         }
         for (goal, piece) in goals.pieces().iter().enumerate() {
             let [from, to] = piece.ends();
-            if let Some((joint, value)) = outside(from).or_else(|| outside(to)) {
-                return Err(MotionProblemError::GoalOutside { goal, joint, value });
+            if let Some((limit, value)) = outside(from).or_else(|| outside(to)) {
+                return Err(MotionProblemError::GoalOutside { goal, limit, value });
             }
             if let Some(why) = blocked(from).filter(|_| piece.is_point()) {
                 return Err(MotionProblemError::GoalBlocked { goal, why });

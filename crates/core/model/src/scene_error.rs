@@ -1,8 +1,8 @@
 //! Checks of the arm, the obstacles and the additions of a scene.
 
 use super::{
-    Additions, Arm, Attachment, Body, Dynamics, Grip, Heights, Joint, JointType, LooseObstacle, Obstacle, Plane,
-    Workspace,
+    Additions, Arm, Attachment, Body, Dynamics, Grip, Heights, Joint, JointType, LooseObstacle, Motors, Obstacle,
+    Plane, Workspace,
 };
 use crate::space::JointRange;
 use cplan_geometry::{Convex, Point, Pose, separation};
@@ -51,6 +51,12 @@ pub enum SceneError {
         limit: &'static str,
         /// The limit as given.
         value: f64,
+    },
+    /// The motors are described by numbers that make no sense, or limit the sum of joint values without limits of the joints.
+    #[error("the motors: {what}")]
+    Motors {
+        /// The reason in words.
+        what: &'static str,
     },
     /// A coordinate of the arm is not a number, or too large.
     #[error("the arm's {what} must be finite and within 1e15 m")]
@@ -131,6 +137,7 @@ pub enum SceneError {
 /// by their type.
 pub(super) fn check(arm: &Arm, workspace: &Workspace, additions: &Additions) -> Result<(), SceneError> {
     check_arm(arm)?;
+    check_motors(arm)?;
     check_workspace(workspace)?;
     let Additions { loose, attachment, allowed_contacts } = additions;
     loose.iter().try_for_each(|loose| check_obstacle(&loose.obstacle))?;
@@ -209,6 +216,28 @@ fn check_dynamics(dynamics: &Dynamics) -> Result<(), SceneError> {
 
 fn is_mass(value: f64) -> bool {
     (0.0..=MAX_COORDINATE).contains(&value)
+}
+
+fn check_motors(arm: &Arm) -> Result<(), SceneError> {
+    let Some(Motors { ratio, gear, zero, range, velocity, acceleration }) = arm.motors else { return Ok(()) };
+    let error = |what| Err(SceneError::Motors { what });
+    let numbers = [ratio].into_iter().chain(gear).chain(zero).chain(range.into_iter().flatten());
+    if !are_small(numbers) || gear.contains(&0.0) {
+        return error("ratio, gears, zeros and limits must be finite, and no gear 0");
+    }
+    if [velocity, acceleration].into_iter().flatten().any(|limit| !(limit.is_finite() && limit > 0.0)) {
+        return error("speeds and accelerations must be positive and finite");
+    }
+    if !arm.only_turns() {
+        return error("both joints must turn");
+    }
+    match range {
+        Some([lower, upper]) if lower >= upper => error("the least sum of joint values must be below the greatest"),
+        Some(_) if arm.joints.iter().any(|joint| joint.range.is_circle()) => {
+            error("a range of the sum of joint values needs limits of both joints")
+        }
+        _ => Ok(()),
+    }
 }
 
 /// Returns true if `shape` covers `inner`, up to rounding: each corner of the inner core lies inside `shape`, at

@@ -16,7 +16,8 @@ pub enum Side {
     Upper,
 }
 
-/// Something that can block a motion: an obstacle, a link of the robot, a joint's limit, or the required clearance.
+/// Something that can block a motion: an obstacle, a link of the robot, a limit of a joint or a motor, or the required
+/// clearance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case", tag = "kind")]
 pub enum Element {
@@ -38,17 +39,20 @@ pub enum Element {
         /// The end of the range.
         side: Side,
     },
+    /// The range of the elbow's motor, where it limits the sum of both joint values.
+    Motor,
     /// The required clearance.
     Clearance,
 }
 
 impl Element {
-    /// Returns all elements of a scene: finite limits, a clearance above 0, and those obstacles and links that the arm
+    /// Returns all elements of a scene: finite limits, the range of a motor, a clearance above 0, and those obstacles and links that the arm
     /// can hit. Obstacles and links are in the order of the files.
     pub fn all(scene: &Scene) -> Vec<Self> {
         let limits = (0..2).filter(|&joint| !scene.arm().joints[joint].range.is_circle());
         let mut all: Vec<Self> =
             limits.flat_map(|joint| [Side::Lower, Side::Upper].map(|side| Self::Limit { joint, side })).collect();
+        all.extend(scene.arm().topology().sum.map(|_| Self::Motor));
         all.extend((scene.workspace().clearance > 0.0).then_some(Self::Clearance));
         let met: BTreeSet<usize> = scene.pairs().iter().map(|pair| scene.first_layer(pair.obstacle)).collect();
         let links = scene.self_obstacles();
@@ -57,11 +61,11 @@ impl Element {
         all
     }
 
-    /// Returns the index of the obstacle or link. `None` for a limit and for the clearance.
+    /// Returns the index of the obstacle or link; `None` for other elements.
     pub fn obstacle(self) -> Option<usize> {
         match self {
             Self::Obstacle { number } | Self::Link { number } => Some(number),
-            Self::Limit { .. } | Self::Clearance => None,
+            Self::Limit { .. } | Self::Motor | Self::Clearance => None,
         }
     }
 
@@ -73,13 +77,18 @@ impl Element {
                 let which = if side == Side::Lower { "lower" } else { "upper" };
                 format!("the {which} limit of joint \"{}\"", scene.arm().joints[joint].name)
             }
+            Self::Motor => "the range of the elbow's motor".into(),
             Self::Clearance => format!("the clearance of {}", chosen_length(scene.workspace().clearance)),
         }
     }
 
     /// Returns the unit in which changes of the element are measured.
     pub fn unit(self, arm: &Arm) -> &'static str {
-        if let Self::Limit { joint, .. } = self { arm.joints[joint].unit() } else { "m" }
+        match self {
+            Self::Limit { joint, .. } => arm.joints[joint].unit(),
+            Self::Motor => "rad",
+            Self::Obstacle { .. } | Self::Link { .. } | Self::Clearance => "m",
+        }
     }
 }
 

@@ -279,6 +279,7 @@ impl MotionQuestion {
                     Element::Limit { joint, side } => {
                         arm.joints[joint].range = widened(arm.joints[joint].range, side, self.beyond[joint]);
                     }
+                    Element::Motor => arm.motors.iter_mut().for_each(|motors| motors.range = None),
                     Element::Clearance => workspace.clearance = 0.0,
                 }
             }

@@ -16,6 +16,9 @@ pub struct ConfigurationFindings {
     pub configuration: [f64; 2],
     /// For each joint, true if it is within its limits.
     pub within_limits: [bool; 2],
+    /// The motors; `None` if they are unknown.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motors: Option<MotorFinding>,
     /// Position of the tip in plane coordinates, in metres.
     pub tip: [f64; 2],
     /// Least signed distance to an obstacle, in metres; negative if the arm penetrates it. `None` if no obstacle is
@@ -31,6 +34,15 @@ pub struct ConfigurationFindings {
     /// The nearest free configuration, if this one is not free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest_free: Option<NearestFinding>,
+}
+
+/// The shafts of both motors.
+#[derive(Debug, Clone, Serialize)]
+pub struct MotorFinding {
+    /// Angles, radians.
+    pub angles: [f64; 2],
+    /// False if the joint values are within the limits of both joints, but not of the elbow's motor on the base.
+    pub within_limits: bool,
 }
 
 /// The nearest free configuration, within the limits and with the required clearance.
@@ -94,7 +106,11 @@ pub fn check(scene: &Scene, q: Configuration) -> ConfigurationFindings {
     let within_limits = [0, 1].map(|k| topology.ranges[k].contains(q[k]));
     let required = scene.workspace().clearance;
     let contacts: Vec<PairFinding> = scene.separations(q).filter_map(|contact| finding(scene, q, contact)).collect();
-    let free = within_limits == [true, true] && contacts.is_empty();
+    let motors = scene.arm().motors.map(|motors| MotorFinding {
+        angles: motors.angles(q),
+        within_limits: topology.sum.is_none_or(|sum| sum.contains(q)),
+    });
+    let free = topology.contains(q) && contacts.is_empty();
     let nearest = if free { None } else { nearest_free(scene, q) };
     let plane = scene.arm().plane;
     let array = |v: Vector3<f64>| [v.x, v.y, v.z];
@@ -102,6 +118,7 @@ pub fn check(scene: &Scene, q: Configuration) -> ConfigurationFindings {
         free,
         configuration: [q[0], q[1]],
         within_limits,
+        motors,
         tip: pair(scene.arm().tip_at(q)),
         clearance: Some(scene.clearance(q)).filter(|c| c.is_finite()),
         required,

@@ -216,6 +216,18 @@ impl Recording {
         })
     }
 
+    /// Returns the motion with a linear map applied to its joint values, velocities and accelerations.
+    #[must_use]
+    pub fn mapped(&self, map: impl Fn(&Configuration) -> Configuration) -> Self {
+        let of = |rows: &Vec<Configuration>| rows.iter().map(&map).collect::<Vec<_>>();
+        Self {
+            position: of(&self.position),
+            velocity: self.velocity.as_ref().map(of),
+            acceleration: self.acceleration.as_ref().map(of),
+            ..self.clone()
+        }
+    }
+
     /// Returns the same motion with samples at these times, which must increase and lie within the recording. Between
     /// the new samples the motion is the same, up to rounding, if each sample of this recording is also among the
     /// `times`, or if the motion is one polynomial there.
@@ -337,7 +349,7 @@ mod tests {
 
     #[test]
     fn jumps_across_seams_are_found_and_removed() {
-        let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: -9.0, upper: 9.0 }] };
+        let topology = Topology::new([JointRange::Circle, JointRange::Interval { lower: -9.0, upper: 9.0 }]);
         let wrapped = Recording::new(vec![q(3.0, 0.0), q(-3.0, 5.0), q(-2.9, -5.0)], None, None).unwrap();
         assert_eq!(wrapped.turns(&topology), [(0, 0)]);
         let unwrapped = wrapped.unwrapped(&topology);

@@ -87,7 +87,7 @@ impl Corner {
         let (radius, fastest) = (blend.radius(), f64::INFINITY);
         let corner = Self { blend, radius, directions, spans: INITIAL_SPANS, fastest, share, tip_share: 1.0, wrist };
         let bend = corner.second_derivative();
-        let turning = (0..2).map(|k| limits.acceleration[k] / bend[k].abs()).fold(f64::INFINITY, f64::min);
+        let turning = limits.acceleration_along(bend);
         let turning = turning.min(limits.wrist_along(corner.wrist_bend())[1]).sqrt();
         let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
         let fastest =
@@ -133,7 +133,7 @@ impl Corner {
             let step = (z[1] - z[0]).abs();
             // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q''
             // times the change of z.
-            let joints = (0..2).map(|k| (bend[k], limits.acceleration[k])).chain(turning);
+            let joints = limits.axes().map(|axis| (axis.component(bend), axis.acceleration)).chain(turning);
             joints.into_iter().any(|(bend, limit)| 1.5 * bend.abs() * step > MAX_ACCELERATION_STEP * limit)
                 || (!self.is_straight() && step > 2.0 * MAX_SPEED_STEP * z[0].max(z[1]))
                 || limits
@@ -222,7 +222,9 @@ impl Corner {
         let span = |i: usize| {
             let ends = [share(i), share(i + 1)].map(|u| self.first_derivative(u));
             let mut bounds = Bounds::default();
-            let arm = (0..2).map(|k| (ends.map(|end| end[k]), bend[k], limits.velocity[k], limits.acceleration[k]));
+            let arm = limits.axes().map(|axis| {
+                (ends.map(|end| axis.component(end)), axis.component(bend), axis.velocity, axis.acceleration)
+            });
             let turning = limits.wrist.map(|wrist| {
                 let [before, after] = self.wrist_slopes();
                 let ends = [share(i), share(i + 1)].map(|u| before * (1.0 - u) + after * u);
@@ -277,7 +279,10 @@ impl Corner {
             acceleration.min(velocity).min(position)
         };
         let beside = BLEND_TOLERANCE * self.radius;
-        let arm = (0..2).map(|k| (bend[k], limits.velocity[k], limits.acceleration[k].min(torque[k]), beside));
+        let arm = limits.axes().map(|axis| {
+            let torque = axis.joint().map_or(f64::INFINITY, |k| torque[k]);
+            (axis.component(bend), axis.velocity, axis.acceleration.min(torque), beside)
+        });
         let turning =
             limits.wrist.map(|wrist| (self.wrist_bend(), wrist.velocity, wrist.acceleration, WRIST_TOLERANCE));
         arm.chain(turning).map(longest).fold(f64::INFINITY, f64::min).max(2.0 * MIN_INTERVAL)

@@ -6,13 +6,20 @@ use std::fmt::Write;
 
 /// Returns the trajectory as CSV: a header `time,A,B,A_velocity,B_velocity` for joints `A` and `B`, then one line per
 /// sample. With `accelerations`, there are also columns `A_acceleration,B_acceleration`. If the trajectory has torques,
-/// there are also `A_torque,B_torque`.
+/// there are also `A_torque,B_torque`. If `motors` is not empty, it has the angles of both motors' shafts for each sample,
+/// in columns `motor_1,motor_2`.
 ///
 /// Fields are quoted by RFC 4180. Lines end in a single line feed, which every reader accepts and text tools prefer.
 /// Numbers have as many digits as needed to read back the same `f64`.
 ///
 /// With `steps`, one number per sample, there is an additional column `step` with the step of each sample.
-pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, steps: Option<&[usize]>) -> String {
+pub fn csv(
+    joints: &[String; 2],
+    trajectory: &Trajectory,
+    motors: &[[f64; 2]],
+    accelerations: bool,
+    steps: Option<&[usize]>,
+) -> String {
     let mut text = String::from("time");
     let torques = !trajectory.torque.is_empty();
     let columns = [("", true), ("_velocity", true), ("_acceleration", accelerations), ("_torque", torques)];
@@ -22,7 +29,7 @@ pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, s
             text.push_str(&quoted(&format!("{joint}{suffix}")));
         }
     }
-    text.push_str(if steps.is_some() { ",step\n" } else { "\n" });
+    push_last_names(&mut text, motors, steps);
     let mut step = steps.into_iter().flatten();
     for (k, time) in trajectory.time.iter().enumerate() {
         let ([p1, p2], [v1, v2], [a1, a2]) =
@@ -35,18 +42,35 @@ pub fn csv(joints: &[String; 2], trajectory: &Trajectory, accelerations: bool, s
         if let Some([first, second]) = trajectory.torque.get(k) {
             write!(text, ",{first:?},{second:?}").expect("a string takes all");
         }
-        if let Some(step) = step.next() {
-            write!(text, ",{step}").expect("a string takes all");
-        }
-        text.push('\n');
+        push_last(&mut text, motors.get(k), step.next());
     }
     text
+}
+
+/// Names of the columns with the angles of the motors' shafts.
+const MOTOR_COLUMNS: &str = ",motor_1,motor_2";
+
+/// Ends the header with the columns of motors and steps.
+fn push_last_names(text: &mut String, motors: &[[f64; 2]], steps: Option<&[usize]>) {
+    text.push_str(if motors.is_empty() { "" } else { MOTOR_COLUMNS });
+    text.push_str(if steps.is_some() { ",step\n" } else { "\n" });
+}
+
+/// Ends a line with the angles of motors and the step.
+fn push_last(text: &mut String, motors: Option<&[f64; 2]>, step: Option<&usize>) {
+    if let Some([first, second]) = motors {
+        write!(text, ",{first:?},{second:?}").expect("a string takes all");
+    }
+    if let Some(step) = step {
+        write!(text, ",{step}").expect("a string takes all");
+    }
+    text.push('\n');
 }
 
 /// Returns a motion of all joints as CSV, in the format of [`csv`]: a value and a velocity of each joint, with their
 /// accelerations if the motion has them, and the step of each sample if it
 /// is given.
-pub fn csv_of_joints(motion: &JointMotion, steps: Option<&[usize]>) -> String {
+pub fn csv_of_joints(motion: &JointMotion, motors: &[[f64; 2]], steps: Option<&[usize]>) -> String {
     let columns = [("", Some(&motion.position)), ("_velocity", Some(&motion.velocity))];
     let columns = columns.into_iter().chain([("_acceleration", motion.acceleration.as_ref())]);
     let columns: Vec<_> = columns.filter_map(|(suffix, rows)| rows.map(|rows| (suffix, rows))).collect();
@@ -57,16 +81,13 @@ pub fn csv_of_joints(motion: &JointMotion, steps: Option<&[usize]>) -> String {
             text.push_str(&quoted(&format!("{joint}{suffix}")));
         });
     }
-    text.push_str(if steps.is_some() { ",step\n" } else { "\n" });
+    push_last_names(&mut text, motors, steps);
     for (k, time) in motion.time.iter().enumerate() {
         write!(text, "{time:?}").expect("a string takes all");
         for value in columns.iter().flat_map(|(_, rows)| &rows[k]) {
             write!(text, ",{value:?}").expect("a string takes all");
         }
-        if let Some(step) = steps.and_then(|steps| steps.get(k)) {
-            write!(text, ",{step}").expect("a string takes all");
-        }
-        text.push('\n');
+        push_last(&mut text, motors.get(k), steps.and_then(|steps| steps.get(k)));
     }
     text
 }

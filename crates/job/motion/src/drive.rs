@@ -74,7 +74,7 @@ impl Drive {
         if let Some(torque) = &torque {
             torque.check_holding_along(path.path())?;
         }
-        let limits = Limits { tip, torque, ..Limits::from(&scene.arm().joints) }.scaled(speed);
+        let limits = Limits { tip, torque, ..Limits::from(scene.arm()) }.scaled(speed);
         let (is_smooth, has_corners) = (limits.stops_at_corners(), path.path().waypoints().len() > 2);
         let blended = |path: &CertifiedPath| {
             if self.blend > 0.0 && !is_smooth {
@@ -172,7 +172,7 @@ pub fn along_curve(
     if let Some(torque) = &torque {
         torque.check_holding_along(curve.straight().path())?;
     }
-    let limits = Limits { wrist, ..Limits::from(&scene.arm().joints) }.scaled(share);
+    let limits = Limits { wrist, ..Limits::from(scene.arm()) }.scaled(share);
     let wrist = limits.wrist.filter(|_| !limits.stops_at_corners());
     let limits = Limits { tip, torque, wrist, ..limits };
     let mut timed = time(curve, &limits, period)?;

@@ -84,7 +84,7 @@ pub fn along_joint_curve(
     if torque.is_some_and(|torque| torque.check_holding_along(path.path()).is_err()) {
         return None;
     }
-    let own = Limits::from(&scene.arm().joints).scaled(drive.share);
+    let own = Limits::from(scene.arm()).scaled(drive.share);
     let limits = Limits { tip: drive.tip, torque, ..own };
     let mut used = limits;
     for _ in 0..MAX_TORQUE_ROUNDS {

@@ -55,6 +55,7 @@ mod tests {
             tip: None,
             torque: None,
             wrist: None,
+            sum: None,
         }
     }
 

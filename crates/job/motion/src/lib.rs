@@ -116,7 +116,7 @@ pub use format::{Format, FormatError};
 pub use joint_curve::{JointCurve, along_joint_curve};
 pub use json::field_per_line;
 pub use least::least_duration;
-pub use limits::{Limits, WristLimit};
+pub use limits::{Limits, SumLimit, WristLimit};
 pub use message::{AccelerationJump, JointMotion};
 pub use place_time::{BlockedTimes, MotionPart, PlaceTime, TimedPlace, WaitReason};
 pub use result::{BlendReport, DurationOptimality, LengthOptimality, SearchReport, interpolation};

@@ -2,8 +2,8 @@
 
 use super::tip::TipSpeed;
 use super::torque::TorqueLimit;
-use cplan_model::Joint;
 use cplan_model::space::Configuration;
+use cplan_model::{Arm, Joint};
 
 /// Limits of a motion, for the joints from base to tip. All are positive, in radians or metres and seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -20,6 +20,44 @@ pub struct Limits<'a> {
     pub torque: Option<TorqueLimit<'a>>,
     /// Limits of a wrist that turns along the path; `None` without such a wrist. Motions with limited jerks ignore them.
     pub wrist: Option<WristLimit<'a>>,
+    /// Limits of a sum of both joint values; `None` for no limits.
+    pub sum: Option<SumLimit>,
+}
+
+/// Limits of the sum `ratio q1 + q2` of joint values, which a motor of the elbow on the base drives.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SumLimit {
+    /// Factor of joint 1 in the sum.
+    pub ratio: f64,
+    /// Greatest speed of the sum; infinite for no limit.
+    pub velocity: f64,
+    /// Greatest acceleration of the sum; infinite for no limit.
+    pub acceleration: f64,
+}
+
+/// A joint, or the sum of both, with its limits.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct LimitedAxis {
+    /// Index of the joint, or the factor of joint 1 in the sum.
+    axis: Result<usize, f64>,
+    pub velocity: f64,
+    pub acceleration: f64,
+    pub jerk: Option<f64>,
+}
+
+impl LimitedAxis {
+    /// Returns the component of a vector in joint space along the axis.
+    pub fn component(&self, vector: Configuration) -> f64 {
+        match self.axis {
+            Ok(joint) => vector[joint],
+            Err(ratio) => ratio * vector[0] + vector[1],
+        }
+    }
+
+    /// Returns the index of the joint; `None` for the sum.
+    pub fn joint(&self) -> Option<usize> {
+        self.axis.ok()
+    }
 }
 
 /// A wrist that turns while the arm moves along a path, and its limits.
@@ -44,7 +82,21 @@ impl From<&[Joint; 2]> for Limits<'_> {
             tip: None,
             torque: None,
             wrist: None,
+            sum: None,
         }
+    }
+}
+
+impl From<&Arm> for Limits<'_> {
+    /// Takes the limits of the joints and of their motors, without limits on the tip and on torques.
+    fn from(arm: &Arm) -> Self {
+        let sum = arm.motors.filter(|motors| motors.velocity.is_some() || motors.acceleration.is_some());
+        let sum = sum.map(|motors| SumLimit {
+            ratio: motors.ratio,
+            velocity: motors.velocity.unwrap_or(f64::INFINITY),
+            acceleration: motors.acceleration.unwrap_or(f64::INFINITY),
+        });
+        Self { sum, ..Self::from(&arm.joints) }
     }
 }
 
@@ -64,7 +116,30 @@ impl Limits<'_> {
                 acceleration: wrist.acceleration * share * share,
                 ..wrist
             }),
+            sum: self.sum.map(|sum| SumLimit {
+                velocity: sum.velocity * share,
+                acceleration: sum.acceleration * share * share,
+                ..sum
+            }),
         }
+    }
+
+    /// Iterates over the joints, and the sum of their values if it is limited.
+    pub(super) fn axes(&self) -> impl Iterator<Item = LimitedAxis> + use<> {
+        let Self { velocity, acceleration, jerk, sum, .. } = *self;
+        let joint = move |k: usize| LimitedAxis {
+            axis: Ok(k),
+            velocity: velocity[k],
+            acceleration: acceleration[k],
+            jerk: jerk[k],
+        };
+        let of_sum = |sum: SumLimit| LimitedAxis {
+            axis: Err(sum.ratio),
+            velocity: sum.velocity,
+            acceleration: sum.acceleration,
+            jerk: None,
+        };
+        (0..2).map(joint).chain(sum.map(of_sum))
     }
 
     /// Returns the greatest speed and acceleration along a stretch on which the wrist turns by `slope` radians per unit of
@@ -108,18 +183,21 @@ impl Limits<'_> {
 
     /// Returns the greatest speed along a unit direction. A joint that does not move sets no limit.
     pub(super) fn speed_along(&self, direction: Configuration) -> f64 {
-        limit_along(self.velocity, direction)
+        self.limit_along(direction, |axis| axis.velocity)
     }
 
     /// Returns the greatest acceleration along a unit direction.
     pub(super) fn acceleration_along(&self, direction: Configuration) -> f64 {
-        limit_along(self.acceleration, direction)
+        self.limit_along(direction, |axis| axis.acceleration)
     }
 
     /// Returns the greatest jerk along a unit direction; infinite if no moving joint has a limit.
     pub(super) fn jerk_along(&self, direction: Configuration) -> f64 {
-        let limits = self.jerk.map(|jerk| jerk.unwrap_or(f64::INFINITY));
-        limit_along(limits, direction)
+        self.limit_along(direction, |axis| axis.jerk.unwrap_or(f64::INFINITY))
+    }
+
+    fn limit_along(&self, direction: Configuration, limit: impl Fn(&LimitedAxis) -> f64) -> f64 {
+        self.axes().map(|axis| limit(&axis) / axis.component(direction).abs()).fold(f64::INFINITY, f64::min)
     }
 
     /// Returns true if a motion must stop at every corner. This is so if the jerk of any joint is limited, because the
@@ -127,8 +205,4 @@ impl Limits<'_> {
     pub fn stops_at_corners(&self) -> bool {
         self.jerk.iter().any(Option::is_some)
     }
-}
-
-fn limit_along(limits: [f64; 2], direction: Configuration) -> f64 {
-    (0..2).map(|k| limits[k] / direction[k].abs()).fold(f64::INFINITY, f64::min)
 }

@@ -167,10 +167,11 @@ impl Spline {
             let [a, b, c, d] = [four[0], four[1], four[2], four[3]];
             let [first, second] = [(b - a) / h, (c - b * 2.0 + a) / (h * h)];
             let third = (d - c * 3.0 + b * 3.0 - a) / (h * h * h);
-            for k in 0..2 {
-                let jerk = limits.jerk[k].map_or(0.0, |most| third[k].abs() / most);
-                let acceleration = second[k].abs() / limits.acceleration[k];
-                excess = excess.max(first[k].abs() / limits.velocity[k]).max(acceleration.sqrt()).max(jerk.cbrt());
+            for axis in limits.axes() {
+                let [first, second, third] = [first, second, third].map(|vector| axis.component(vector).abs());
+                let jerk = axis.jerk.map_or(0.0, |most| third / most);
+                let acceleration = second / axis.acceleration;
+                excess = excess.max(first / axis.velocity).max(acceleration.sqrt()).max(jerk.cbrt());
             }
         }
         excess
@@ -267,12 +268,12 @@ fn conditions_at([position, velocity, acceleration, jerk]: [Configuration; 4], l
             asked.push(Condition { factors, has_root });
         }
     };
-    for k in 0..2 {
-        let (first, second, third) = (velocity[k], acceleration[k], jerk[k]);
-        ask([(first / limits.velocity[k]).powi(2), 0.0, 0.0], false);
+    for axis in limits.axes() {
+        let [first, second, third] = [velocity, acceleration, jerk].map(|vector| axis.component(vector));
+        ask([(first / axis.velocity).powi(2), 0.0, 0.0], false);
         for sign in [1.0, -1.0] {
-            ask([second, first / 2.0, 0.0].map(|factor| sign * factor / limits.acceleration[k]), false);
-            if let Some(most) = limits.jerk[k] {
+            ask([second, first / 2.0, 0.0].map(|factor| sign * factor / axis.acceleration), false);
+            if let Some(most) = axis.jerk {
                 ask([third, 1.5 * second, first / 2.0].map(|factor| sign * factor / most), true);
             }
         }
@@ -322,7 +323,15 @@ mod tests {
     use proptest::prelude::*;
 
     fn limits(velocity: f64, acceleration: f64, jerk: [Option<f64>; 2]) -> Limits<'static> {
-        Limits { velocity: [velocity; 2], acceleration: [acceleration; 2], jerk, tip: None, torque: None, wrist: None }
+        Limits {
+            velocity: [velocity; 2],
+            acceleration: [acceleration; 2],
+            jerk,
+            tip: None,
+            torque: None,
+            wrist: None,
+            sum: None,
+        }
     }
 
     /// Returns a path with a blend at each corner, timed without limits on jerks, and its smoothed motion.

@@ -83,6 +83,8 @@ pub(super) enum State {
     /// Undecided, and halving would not help. Either the box has the finest size, or it is in a column of the finest
     /// width in which only pairs of link 1 are undecided.
     Finest,
+    /// The sum of joint values is not allowed anywhere in the box.
+    Beyond,
     /// Replaced by two halves, which are the nodes with this index and the next one.
     Split(u32),
 }
@@ -153,7 +155,7 @@ impl<'a> Subdivision<'a> {
                 let left = if let State::Undecided(left) = state { left } else { Vec::new() };
                 for j in 0..INITIAL_COLUMNS {
                     let cell = Cell { lower: [lower, row(j)], upper: [upper, row(j + 1)] };
-                    let state = judge(scene, clearance, &cell, &second, &left);
+                    let state = judge_within_sum(scene, clearance, &cell, &second, &left);
                     add(cell, state);
                 }
             }
@@ -222,14 +224,19 @@ impl<'a> Subdivision<'a> {
         let cell = self.nodes[index as usize].cell;
         let narrow = cell.upper[0] - cell.lower[0] <= MIN_COLUMN_WIDTH * self.topology.ranges[0].extent();
         let (fixed, open): (Vec<Pair>, Vec<Pair>) = pairs.iter().partition(|p| p.link == 0 && narrow);
-        let axis = self.longer(&cell, &open);
+        let longer_side = || {
+            let share = |k: usize| (cell.upper[k] - cell.lower[k]) / self.topology.ranges[k].extent();
+            usize::from(share(1) > share(0))
+        };
+        // Without undecided pairs, the range of the sum of joint values decides.
+        let axis = if pairs.is_empty() { Some(longer_side()) } else { self.longer(&cell, &open) };
         let wide =
             |&axis: &usize| cell.upper[axis] - cell.lower[axis] > MIN_BOX_SIZE * self.topology.ranges[axis].extent();
         let Some(halves) = axis.filter(wide).map(|axis| halves(&cell, axis)) else {
             self.nodes[index as usize].state = State::Finest;
             return false;
         };
-        let states = halves.map(|half| judge(self.scene, self.clearance, &half, &open, &fixed));
+        let states = halves.map(|half| judge_within_sum(self.scene, self.clearance, &half, &open, &fixed));
         let first = self::index(self.nodes.len());
         let node = &mut self.nodes[index as usize];
         node.state = State::Split(first);
@@ -287,7 +294,7 @@ impl Mosaic for Subdivision<'_> {
             State::Free => Some(Openness::Free),
             State::Undecided(_) => Some(Openness::Undecided),
             State::Finest => Some(Openness::Finest),
-            State::Colliding(_) | State::Split(_) => None,
+            State::Colliding(_) | State::Beyond | State::Split(_) => None,
         }
     }
 
@@ -315,6 +322,24 @@ impl Mosaic for Subdivision<'_> {
 /// memory.
 fn index(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
+}
+
+/// Computes the state of a box, as [`judge`] does, within the range of the sum of joint values. A box that is free, but not
+/// wholly within that range, is undecided without pairs.
+fn judge_within_sum(scene: &Scene, clearance: f64, cell: &Cell, pairs: &[Pair], fixed: &[Pair]) -> State {
+    let topology = scene.arm().topology();
+    let is_closed = |part: [f64; 2]| part[0] <= cell.lower[1] && cell.upper[1] <= part[1];
+    if topology.closed_by_sum([cell.lower[0], cell.upper[0]]).any(is_closed) {
+        return State::Beyond;
+    }
+    let corners = [0, 1].map(|k| [cell.lower[k], cell.upper[k]]);
+    let allowed = |q1: f64, q2: f64| topology.sum.is_none_or(|sum| sum.contains(Configuration::new(q1, q2)));
+    match judge(scene, clearance, cell, pairs, fixed) {
+        State::Free if !corners[0].iter().all(|&q1| corners[1].iter().all(|&q2| allowed(q1, q2))) => {
+            State::Undecided(Vec::new())
+        }
+        state => state,
+    }
 }
 
 /// Computes the state of a box. `pairs` are the pairs to test, which were undecided in a larger box. The pairs `fixed`

@@ -87,7 +87,7 @@ pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: 
     let answer = decide(&mut boxes, start, goals, max_boxes);
     let known = |state: &State| match state {
         State::Free => Some(Occupancy::Free),
-        State::Colliding(_) => Some(Occupancy::Colliding),
+        State::Colliding(_) | State::Beyond => Some(Occupancy::Colliding),
         State::Undecided(_) | State::Finest => Some(Occupancy::Undecided),
         State::Split(_) => None,
     };

@@ -114,6 +114,8 @@ pub(super) struct Verdicts {
     pub outer: Vec<[f64; 2]>,
     /// Pairs by number, each with an interval in which it is too near all over the slab.
     pub inner: Vec<(usize, [f64; 2])>,
+    /// Intervals in which the sum of joint values is not allowed anywhere in the slab.
+    pub beyond: Vec<[f64; 2]>,
 }
 
 impl<'a> SecondLink<'a> {
@@ -148,6 +150,10 @@ impl<'a> SecondLink<'a> {
         checkpoint();
         verdicts.outer.clear();
         verdicts.inner.clear();
+        let topology = self.contacts.scene().arm().topology();
+        verdicts.outer.extend([from, to].into_iter().flat_map(|end| topology.closed_by_sum([end; 2])));
+        verdicts.beyond.clear();
+        verdicts.beyond.extend(topology.closed_by_sum([from, to]));
         let middle = (from + to) / 2.0;
         let width = (to - middle).max(middle - from);
         let (elbow, heading) = self.contacts.elbow(middle);
@@ -259,6 +265,7 @@ mod tests {
             tip_name: "tip".into(),
             plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
             dynamics: None,
+            motors: None,
             self_obstacles: Vec::new(),
         };
         let shape = Shape::Polygon(piece.core().to_vec());
@@ -288,7 +295,7 @@ mod tests {
             let mut verdicts = Verdicts::default();
             let (from, to) = (middle - half, middle + half);
             second.judge(from, to, 0, half * (1.0 + 1e-6), &mut verdicts);
-            let Verdicts { mut outer, inner } = verdicts;
+            let Verdicts { mut outer, inner, .. } = verdicts;
             cplan_geometry::merge_in_place(&mut outer);
             let (bottom, top) = scene.arm().joints[1].range.domain();
             for (u, v) in samples {

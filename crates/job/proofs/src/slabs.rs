@@ -230,9 +230,9 @@ impl<'a> Slabs<'a> {
     /// Adds the spans of a slab that its colliding intervals leave.
     fn cut(&mut self, level: usize, clear: bool) {
         let (bottom, top) = self.topology.ranges[1].domain();
-        let Verdicts { outer, inner } = &mut self.verdicts;
+        let Verdicts { outer, inner, beyond } = &mut self.verdicts;
         merge_in_place(outer);
-        let mut stuck: Vec<[f64; 2]> = inner.iter().map(|i| i.1).collect();
+        let mut stuck: Vec<[f64; 2]> = inner.iter().map(|i| i.1).chain(beyond.iter().copied()).collect();
         merge_in_place(&mut stuck);
         let openness = if level < MAX_HALVINGS { Openness::Undecided } else { Openness::Finest };
         let free = if clear { Openness::Free } else { openness };

@@ -13,6 +13,7 @@
 //! module documentation lists the stages.
 
 mod assumed;
+mod drives;
 mod error;
 mod identity;
 mod inspection;
@@ -30,6 +31,7 @@ mod urdf;
 mod wrist;
 
 pub use assumed::AssumedLimits;
+pub use drives::{DrivesTable, DrivesValue, MotorTable};
 pub use error::{Diagnostic, DiagnosticKind, InputError, quoted};
 pub use identity::FileIdentity;
 pub use inspection::{

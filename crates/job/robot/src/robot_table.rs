@@ -1,5 +1,6 @@
 //! The world file's `[robot]` table.
 
+use crate::drives::DrivesValue;
 use crate::quantity::{Number, Numbers, PerJoint, Written};
 #[cfg(feature = "schema")]
 use crate::schema::*;
@@ -37,6 +38,9 @@ toml_table! {
         /// Greatest acceleration of a joint, by name, rad/s2 or m/s2; by default top speed is reached in 0.25 s.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
         pub acceleration: PerJoint<Number>,
+        /// Motors of two joints that turn, with their limits: a table, "standard_scara" or "direct".
+        #[cfg_attr(feature = "schema", schemars(with = "Option<DrivesValue>"))]
+        pub drives: Option<Spanned<DrivesValue>>,
         /// Greatest jerk of a joint, by name, rad/s3 or m/s3; a joint without has no such limit.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
         pub jerk: PerJoint<Number>,

@@ -140,7 +140,7 @@ mod tests {
     use cplan_model::space::JointRange;
     use std::f64::consts::FRAC_PI_2;
 
-    const WIDE: Topology = Topology { ranges: [JointRange::Interval { lower: -2.0, upper: 2.0 }; 2] };
+    const WIDE: Topology = Topology::new([JointRange::Interval { lower: -2.0, upper: 2.0 }; 2]);
 
     /// Returns a quarter of a circle made of `chords` chords, with a tangent line at each end.
     fn quarter(chords: usize) -> Vec<Configuration> {
@@ -186,12 +186,10 @@ mod tests {
         let arc = quarter(8);
         let all = remove_pieces(&WIDE, &arc, Metric::Euclidean, 10.0, &[]);
         assert_eq!(all, [arc[0], Configuration::new(1.0, 1.0), arc[arc.len() - 1]]);
-        let narrow = Topology {
-            ranges: [
-                JointRange::Interval { lower: -2.0, upper: 1.01 },
-                JointRange::Interval { lower: -2.0, upper: 1.0 },
-            ],
-        };
+        let narrow = Topology::new([
+            JointRange::Interval { lower: -2.0, upper: 1.01 },
+            JointRange::Interval { lower: -2.0, upper: 1.0 },
+        ]);
         assert!(remove_pieces(&narrow, &arc, Metric::Euclidean, 10.0, &[]).iter().all(|q| narrow.contains(*q)));
         // An obstacle was met at the corner where all pieces would meet.
         let others = remove_pieces(&WIDE, &arc, Metric::Euclidean, 10.0, &[Configuration::new(0.999, 0.999)]);

@@ -290,8 +290,8 @@ fn decide_feasibility(
 
 pub(super) fn explain(scene: &Scene, rejection: Rejection) -> String {
     match rejection {
-        Rejection::OutOfLimits { waypoint, joint } => {
-            format!("waypoint {waypoint} is outside the limits of joint \"{}\"", scene.arm().joints[joint].name)
+        Rejection::OutOfLimits { waypoint, limited } => {
+            format!("waypoint {waypoint} is outside the limits of {}", scene.arm().describe_limit(limited))
         }
         Rejection::TooClose(nearest) | Rejection::Undecided(nearest) => format!(
             "{} come within {:.3e} m of each other at ({:.6}, {:.6})",

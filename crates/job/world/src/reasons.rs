@@ -12,7 +12,9 @@ pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, V
     let outside = |branch: &Configuration| {
         let counts = |i: usize| solved.free.is_none_or(|free| free == Freedom::Joint(1 - i));
         let copies = [0, 1].map(|i| equivalent_values(joints[i].range, joints[i].joint_type.is_revolute(), branch[i]));
-        let beyond = (0..2).any(|i| counts(i) && copies[i].is_empty());
+        let alone = || Inverse { branches: vec![*branch], free: solved.free }.solutions(scene.arm());
+        let beyond = (0..2).any(|i| counts(i) && copies[i].is_empty())
+            || scene.arm().topology().sum.is_some() && alone().is_empty();
         // A free joint has values within its limits, so any of them may be shown.
         let shown = Configuration::from_fn(|i, _| match joints[i].range {
             JointRange::Interval { lower, upper } if !counts(i) => branch[i].clamp(lower, upper),
@@ -63,6 +65,17 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
                 joint.name
             ));
         }
+    }
+    if let Some(sum) = scene.arm().topology().sum
+        && !sum.contains(q)
+    {
+        let [value, lower, upper] = [sum.of(q), sum.lower, sum.upper].map(rounded);
+        let turns = match sum.ratio {
+            1.0 => "the sum of both joint values".into(),
+            ratio => format!("{ratio} times the first joint value plus the second"),
+        };
+        outside
+            .push(format!("{turns} is {value} rad and exceeds the limits of the elbow's motor [{lower}, {upper}] rad"));
     }
     outside
 }

@@ -123,9 +123,9 @@ impl Ledger {
                     format!("it is not free: {pair}, {} apart at ({}, {})", cplan_text::length(distance), at[0], at[1]);
                 self.note("path", why);
             }
-            Err(Rejection::OutOfLimits { waypoint, joint }) => {
-                let name = &scene.arm().joints[joint].name;
-                self.note("path", format!("waypoint {waypoint} is beyond the limits of joint \"{name}\""));
+            Err(Rejection::OutOfLimits { waypoint, limited }) => {
+                let limit = scene.arm().describe_limit(limited);
+                self.note("path", format!("waypoint {waypoint} is beyond the limits of {limit}"));
             }
             // Equal to the clearance within the resolution, or free.
             Err(Rejection::Undecided(_)) | Ok(_) => {}

@@ -181,7 +181,7 @@ impl ExceededLimits {
     /// Splits violations of limits into those of stated limits and those of assumed ones.
     pub fn new(joints: &[Joint; 2], broken: &[LimitViolation], assumed: &AssumedLimits) -> Self {
         let is_assumed = |excess: &LimitViolation| {
-            let name = &joints[excess.joint].name;
+            let Some(Joint { name, .. }) = joints.get(excess.joint) else { return false };
             match excess.limit {
                 Limit::Velocity => assumed.velocity.contains_key(name),
                 Limit::Acceleration => assumed.acceleration.contains_key(name),
@@ -317,7 +317,7 @@ pub(crate) fn moment(m: &Moment, timed: bool) -> MomentFinding {
 
 fn limit(joints: &[Joint; 2], excess: &LimitViolation, timed: bool) -> LimitFinding {
     LimitFinding {
-        joint: joints[excess.joint].name.clone(),
+        joint: joints.get(excess.joint).map_or("elbow motor", |joint| &joint.name).to_owned(),
         limit: match excess.limit {
             Limit::Position => "position",
             Limit::Velocity => "velocity",

@@ -20,7 +20,8 @@ use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Rec
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Goal, Scene};
 use cplan_motion::recorded::{
-    CollisionCheck, Limit, LimitViolation, TurnContact, WristTurn, check_collision, limit_violations, torque_violations,
+    CollisionCheck, Limit, LimitViolation, TurnContact, WristTurn, check_collision, limit_violations, motor_violations,
+    torque_violations,
 };
 use order::{MatchedStep, match_steps};
 use overlap::{Overlaps, PartialStroke, turn_faults, turning_at_rest};
@@ -186,6 +187,7 @@ impl<'a> Iterator for Replay<'a> {
         let mut collision_check =
             shifted(check_collision(timed, &motion, task.workspace.fixed.clearance), *recorded.samples.start());
         let mut broken = limit_violations(&task.arm.joints, &motion);
+        broken.extend(motor_violations(&task.arm, &motion));
         broken.extend(torque_violations(&scene, &motion));
         broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
         let mut object = carried;

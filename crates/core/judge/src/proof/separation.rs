@@ -1,6 +1,6 @@
 //! Decides if collision boxes separate the start from all goals.
 
-use super::CollisionBox;
+use super::{Cell, CollisionBox};
 use cplan_model::checkpoint;
 use cplan_model::space::{Configuration, GoalSet, Segment, Topology};
 use petgraph::unionfind::UnionFind;
@@ -13,12 +13,37 @@ pub(super) fn not_separated(
     start: Configuration,
     goals: &GoalSet,
 ) -> Option<usize> {
-    let slabs = Slabs::new(topology, boxes);
+    let mut cells: Vec<Cell> = boxes.iter().map(|stuck| stuck.cell).collect();
+    cells.extend(beyond_sum(topology, &cells));
+    let slabs = Slabs::new(topology, &cells);
     // A start or goal inside a collision box is not free, so no path leads there.
     let from = slabs.locate(topology.wrap(start))?;
     let groups = slabs.groups(topology);
     let joined = |goals: Segment| slabs.gaps_meeting(&goals).into_iter().any(|to| groups.equiv(to, from));
     goals.wrapped(topology).position(joined)
+}
+
+/// Number of parts into which the range of joint 1 is cut, in addition to the cuts at the ends of boxes, to cover by boxes
+/// the configurations with sums of joint values that are not allowed.
+const SUM_PARTS: u32 = 4096;
+
+/// Returns boxes in which the sum of joint values is not allowed anywhere.
+fn beyond_sum(topology: &Topology, cells: &[Cell]) -> Vec<Cell> {
+    if topology.sum.is_none() {
+        return Vec::new();
+    }
+    let (left, right) = topology.ranges[0].domain();
+    let mut ends: Vec<f64> = cells.iter().flat_map(|cell| [cell.lower[0], cell.upper[0]]).collect();
+    ends.extend((0..=SUM_PARTS).map(|k| left + (right - left) * f64::from(k) / f64::from(SUM_PARTS)));
+    ends.retain(|end| left <= *end && *end <= right);
+    ends.sort_by(f64::total_cmp);
+    ends.dedup();
+    let of_part = |ends: &[f64]| {
+        let [from, to] = [ends[0], ends[1]];
+        let closed = topology.closed_by_sum([from, to]);
+        closed.map(move |[lower, upper]| Cell { lower: [from, lower], upper: [to, upper] })
+    };
+    ends.windows(2).flat_map(of_part).collect()
 }
 
 /// The part of the domain outside closed boxes. It consists of strips of `q1` between the boxes' sides, and in each
@@ -33,28 +58,28 @@ struct Slabs {
 }
 
 impl Slabs {
-    fn new(topology: &Topology, boxes: &[CollisionBox]) -> Self {
+    fn new(topology: &Topology, cells: &[Cell]) -> Self {
         let (left, right) = topology.ranges[0].domain();
         let (bottom, top) = topology.ranges[1].domain();
-        let mut ends: Vec<f64> = boxes.iter().flat_map(|b| [b.cell.lower[0], b.cell.upper[0]]).collect();
+        let mut ends: Vec<f64> = cells.iter().flat_map(|cell| [cell.lower[0], cell.upper[0]]).collect();
         ends.extend([left, right]);
         ends.sort_by(f64::total_cmp);
         ends.dedup();
-        let mut order: Vec<usize> = (0..boxes.len()).collect();
-        order.sort_by(|&a, &b| boxes[a].cell.lower[0].total_cmp(&boxes[b].cell.lower[0]));
+        let mut order: Vec<usize> = (0..cells.len()).collect();
+        order.sort_by(|&a, &b| cells[a].lower[0].total_cmp(&cells[b].lower[0]));
         let mut waiting = order.into_iter().peekable();
         let mut active: Vec<usize> = Vec::new();
         let (mut gaps, mut first) = (Vec::new(), vec![0]);
         for strip in ends.windows(2) {
             checkpoint();
-            active.retain(|&b| boxes[b].cell.upper[0] > strip[0]);
-            while let Some(b) = waiting.next_if(|&b| boxes[b].cell.lower[0] <= strip[0]) {
+            active.retain(|&b| cells[b].upper[0] > strip[0]);
+            while let Some(b) = waiting.next_if(|&b| cells[b].lower[0] <= strip[0]) {
                 active.push(b);
             }
-            active.sort_by(|&a, &b| boxes[a].cell.lower[1].total_cmp(&boxes[b].cell.lower[1]));
+            active.sort_by(|&a, &b| cells[a].lower[1].total_cmp(&cells[b].lower[1]));
             let mut from = bottom;
             for &b in &active {
-                let cell = &boxes[b].cell;
+                let cell = &cells[b];
                 if cell.lower[1] > from {
                     gaps.push([from, cell.lower[1]]);
                 }
@@ -128,8 +153,6 @@ impl Slabs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Cell;
-    use cplan_model::Pair;
     use cplan_model::space::JointRange;
     use std::f64::consts::PI;
 
@@ -143,16 +166,14 @@ mod tests {
             let mut cell = Cell { lower: [-PI; 2], upper: [PI; 2] };
             cell.lower[band] = 0.0;
             cell.upper[band] = 1.0;
-            let pair = Pair { link: 0, part: 0, obstacle: 0, piece: 0 };
-            let boxes = [CollisionBox { cell, pair }];
             let (mut below, mut above) = (Configuration::zeros(), Configuration::zeros());
             below[band] = -2.0;
             above[band] = 2.0;
             for across in [turn, bounded] {
                 let mut axes = [turn; 2];
                 axes[band] = across;
-                let topology = Topology { ranges: axes };
-                let slabs = Slabs::new(&topology, &boxes);
+                let topology = Topology::new(axes);
+                let slabs = Slabs::new(&topology, &[cell]);
                 let at = |q| slabs.locate(q).expect("no box holds it");
                 let joined = slabs.groups(&topology).equiv(at(below), at(above));
                 assert_eq!(joined, across.is_circle(), "band along axis {}", 1 - band);

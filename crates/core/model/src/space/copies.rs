@@ -69,7 +69,7 @@ mod tests {
     use super::*;
     use std::f64::consts::PI;
 
-    const TORUS: Topology = Topology { ranges: [JointRange::Circle; 2] };
+    const TORUS: Topology = Topology::new([JointRange::Circle; 2]);
 
     fn at(q1: f64, q2: f64) -> Configuration {
         Configuration::new(q1, q2)
@@ -98,7 +98,7 @@ mod tests {
         let parts = cut(at(-4.0, 1.0), at(4.0, 1.0));
         assert!((parts.iter().map(Segment::length).sum::<f64>() - 8.0).abs() < 1e-12, "{parts:?}");
         // On an interval nothing is cut off.
-        let strip = Topology { ranges: [JointRange::Interval { lower: -1.0, upper: 1.0 }, JointRange::Circle] };
+        let strip = Topology::new([JointRange::Interval { lower: -1.0, upper: 1.0 }, JointRange::Circle]);
         let far = Segment::new(at(-9.0, 1.0), at(9.0, 1.0));
         assert_eq!(far.within_domain(&strip).collect::<Vec<_>>(), [far]);
     }

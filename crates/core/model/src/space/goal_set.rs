@@ -92,7 +92,7 @@ mod tests {
 
     #[test]
     fn the_nearest_goal_may_be_on_another_turn() {
-        let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }] };
+        let topology = Topology::new([JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }]);
         let goals: GoalSet =
             [Segment::new(at(3.0, -2.0), at(3.0, 2.0)), Segment::point(at(0.0, 0.0))].into_iter().collect();
         let nearest = goals.nearest(&topology, Metric::Euclidean, at(-3.0, 0.7)).expect("there are goals");
@@ -105,7 +105,7 @@ mod tests {
 
     #[test]
     fn in_the_domain_a_piece_across_a_seam_is_two() {
-        let topology = Topology { ranges: [JointRange::Circle, JointRange::Circle] };
+        let topology = Topology::new([JointRange::Circle, JointRange::Circle]);
         let wrapped = |from, to| GoalSet::from(Segment::new(from, to)).wrapped(&topology).collect::<Vec<_>>();
         let inside = Segment::new(at(1.0, -PI), at(1.0, PI));
         assert_eq!(wrapped(at(1.0, -PI), at(1.0, PI)), [inside]);
@@ -119,7 +119,7 @@ mod tests {
 
     #[test]
     fn a_whole_circle_has_no_ends() {
-        let topology = Topology { ranges: [JointRange::Circle; 2] };
+        let topology = Topology::new([JointRange::Circle; 2]);
         let circle = GoalSet::from(Segment::new(at(-PI, 1.0), at(PI, 1.0)));
         for k in -20..20 {
             let q = at(f64::from(k) * 0.7, 1.25);

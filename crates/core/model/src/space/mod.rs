@@ -8,7 +8,7 @@
 //! ```
 //! use cplan_model::space::{Configuration, JointRange, Topology};
 //!
-//! let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }] };
+//! let topology = Topology::new([JointRange::Circle, JointRange::Interval { lower: -2.0, upper: 2.0 }]);
 //! let (from, to) = (Configuration::new(3.0, 0.0), Configuration::new(-3.0, 0.0));
 //! // The shorter direction crosses the seam, and values continue to count past pi.
 //! assert!((topology.distance(from, to) - (std::f64::consts::TAU - 6.0)).abs() < 1e-12);
@@ -32,7 +32,7 @@ pub use metric::Metric;
 pub use path::Path;
 pub use segment::Segment;
 pub use split_mix::SplitMix64;
-pub use topology::{JointRange, Topology};
+pub use topology::{JointRange, JointSumRange, LimitedValue, Topology};
 
 /// Values of the two joints, in the order base to tip; radians for a revolute joint, metres for a prismatic one.
 pub type Configuration = cplan_geometry::Vector;

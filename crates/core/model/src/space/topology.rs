@@ -1,6 +1,6 @@
 //! Intervals and circles. Only this module wraps configurations.
 
-use super::Configuration;
+use super::{Configuration, Segment};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::{PI, TAU};
 
@@ -133,17 +133,111 @@ impl JointRange {
     }
 }
 
-/// The shape of joint space: a product of two axes, which is a rectangle, cylinder or torus.
+/// The values that the sum `ratio q1 + q2` can take: an oblique strip of joint space. It is the range of an elbow motor that
+/// is mounted on the base.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct JointSumRange {
+    /// Factor of joint 1's value in the sum.
+    pub ratio: f64,
+    /// The least sum.
+    pub lower: f64,
+    /// The greatest sum.
+    pub upper: f64,
+}
+
+impl JointSumRange {
+    /// Returns true if the sum is allowed, up to the rounding of the sum.
+    pub fn contains(&self, q: Configuration) -> bool {
+        let may = SUM_ROUNDING * (1.0 + (self.ratio * q[0]).abs() + q[1].abs());
+        self.lower - may <= self.of(q) && self.of(q) <= self.upper + may
+    }
+
+    /// Returns the sum of a configuration's joint values.
+    pub fn of(&self, q: Configuration) -> f64 {
+        self.ratio * q[0] + q[1]
+    }
+
+    /// Returns the range without the outermost sums at both ends.
+    #[must_use]
+    pub fn narrowed(self, by: f64) -> Self {
+        Self { lower: self.lower + by, upper: self.upper - by, ..self }
+    }
+
+    /// Returns the values of joint 2 that are allowed at a value of joint 1.
+    pub fn second_joint(&self, q1: f64) -> [f64; 2] {
+        [self.lower, self.upper].map(|end| end - self.ratio * q1)
+    }
+}
+
+/// Rounding error of a sum of joint values, relative to their sizes. Paths along the limit have corners whose joint values
+/// are differences of the limit and of the other joint's value.
+const SUM_ROUNDING: f64 = 4.0 * f64::EPSILON;
+
+/// The shape of joint space: a product of two axes, which is a rectangle, cylinder or torus. A rectangle may be cut by an
+/// oblique strip.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Topology {
     /// The ranges of joints 1 and 2.
     pub ranges: [JointRange; 2],
+    /// The range of a sum of both joint values. Both joints then have limits.
+    pub sum: Option<JointSumRange>,
+}
+
+/// A limit of joint space.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LimitedValue {
+    /// The value of a joint, 0 or 1.
+    Joint(usize),
+    /// The sum of both joint values that [`Topology::sum`] limits.
+    Sum,
 }
 
 impl Topology {
-    /// Returns true if both joint values are allowed.
+    /// Creates the product of two axes.
+    pub const fn new(ranges: [JointRange; 2]) -> Self {
+        Self { ranges, sum: None }
+    }
+
+    /// Returns true if both joint values are allowed, and their sum.
     pub fn contains(&self, q: Configuration) -> bool {
-        self.ranges[0].contains(q[0]) && self.ranges[1].contains(q[1])
+        self.violated_limit(q).is_none()
+    }
+
+    /// Returns the first violated limit.
+    pub fn violated_limit(&self, q: Configuration) -> Option<LimitedValue> {
+        let joint = (0..2).find(|&k| !self.ranges[k].contains(q[k])).map(LimitedValue::Joint);
+        joint.or_else(|| self.sum.is_some_and(|sum| !sum.contains(q)).then_some(LimitedValue::Sum))
+    }
+
+    /// Returns the intervals of joint 2's range in which the sum of joint values is allowed at neither of two values of joint
+    /// 1, and so at none between them.
+    pub fn closed_by_sum(&self, q1: [f64; 2]) -> impl Iterator<Item = [f64; 2]> + use<> {
+        let (bottom, top) = self.ranges[1].domain();
+        let outside = self.sum.map(|sum| {
+            let [a, b] = q1.map(|q1| sum.second_joint(q1));
+            [[bottom, a[0].min(b[0]).min(top)], [a[1].max(b[1]).max(bottom), top]]
+        });
+        outside.into_iter().flatten().filter(|[from, to]| from < to)
+    }
+
+    /// Returns the joint value of a configuration that has this limit, or the sum.
+    pub fn value(&self, limited: LimitedValue, q: Configuration) -> f64 {
+        match (limited, self.sum) {
+            (LimitedValue::Joint(joint), _) => q[joint],
+            (LimitedValue::Sum, sum) => sum.map_or(0.0, |sum| sum.of(q)),
+        }
+    }
+
+    /// Returns the part of a segment on which the sum of joint values is allowed.
+    pub fn within_sum(&self, segment: Segment) -> Option<Segment> {
+        let Some(sum) = self.sum else { return Some(segment) };
+        if segment.ends().into_iter().all(|q| sum.contains(q)) {
+            return Some(segment);
+        }
+        let [from, to] = segment.ends().map(|q| sum.of(q) - sum.lower);
+        let above = segment.where_positive(from, to)?;
+        let [from, to] = above.ends().map(|q| sum.upper - sum.of(q));
+        above.where_positive(from, to)
     }
 
     /// Returns the representative of `q` in the fundamental domain.
@@ -182,7 +276,7 @@ mod tests {
         for (value, near) in [(0.1, 0.7), (1e-17, 0.3), (3.0, 0.1), (-2.0, 1.0), (0.0, PI)] {
             assert_eq!(JointRange::Circle.lift(value, near), value);
         }
-        let cylinder = Topology { ranges: [JointRange::Circle, interval] };
+        let cylinder = Topology::new([JointRange::Circle, interval]);
         let lifted = cylinder.lift(Configuration::new(-3.0, 0.1), Configuration::new(3.0, -5.0));
         assert!((lifted - Configuration::new(TAU - 3.0, 0.1)).amax() < 1e-15, "{lifted}");
     }

@@ -261,6 +261,7 @@ mod tests {
             tip_name: "tip".into(),
             plane,
             dynamics: None,
+            motors: None,
             self_obstacles: Vec::new(),
         }
     }

@@ -24,6 +24,15 @@ impl Grid {
         [0, 1].map(|k| self.topology.ranges[k].extent() / self.cells[k] as f64)
     }
 
+    /// Blocks the cells at whose centres the sum of joint values is not allowed. Lines between other centres are allowed,
+    /// because the allowed sums form a convex set.
+    pub(super) fn block_sums(&mut self) {
+        let Some(sum) = self.topology.sum else { return };
+        for index in 0..self.blocked.len() {
+            self.blocked[index] |= !sum.contains(self.center(index));
+        }
+    }
+
     /// Returns the centre of cell `index`, in the fundamental domain.
     pub fn center(&self, index: usize) -> Configuration {
         let step = self.step();

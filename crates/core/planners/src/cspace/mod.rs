@@ -57,8 +57,8 @@ pub use bitmap::{Bitmap, bitmap};
 pub use grid::Grid;
 pub use nearest::{NearestFree, nearest_free};
 pub use regions::{
-    CObstacle, NotPolygons, PolygonWithHoles, Regions, c_obstacles, exact_c_obstacles, exact_regions, inner_regions,
-    not_polygons, regions, traced_pairs, united,
+    CObstacle, NotPolygons, PolygonWithHoles, Regions, beyond_sum, c_obstacles, exact_c_obstacles, exact_regions,
+    inner_regions, not_polygons, regions, traced_pairs, united,
 };
 pub use sampled::sampled_grid;
 pub use slabs::{grid_from_slices, outer_grid};

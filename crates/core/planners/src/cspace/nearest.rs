@@ -120,15 +120,17 @@ impl<'a> Search<'a> {
     /// records it if it is the best. Returns `None` if the value is not allowed, or if no configuration with it is
     /// free.
     fn distance_at(&mut self, q1: f64) -> Option<f64> {
-        let [first, second] = self.scene.arm().topology().ranges;
+        let topology = self.scene.arm().topology();
+        let [first, second] = topology.ranges;
         let inside = |band: &[f64; 2], value: f64| band[0] < value && value < band[1];
         if !first.contains(q1) || self.bands.merged.iter().any(|band| inside(band, first.wrap(q1))) {
             return None;
         }
         self.slice.compute(&self.slices, q1, self.grow);
         let (lower, upper) = second.domain();
+        let [least, greatest] = topology.sum.map_or([f64::NEG_INFINITY, f64::INFINITY], |sum| sum.second_joint(q1));
         let wanted = match second {
-            JointRange::Interval { .. } => self.from[1].clamp(lower, upper),
+            JointRange::Interval { .. } => self.from[1].max(least).min(greatest).clamp(lower, upper),
             JointRange::Circle => second.wrap(self.from[1]),
         };
         let ends = self.slice.merged.iter().flat_map(|&[start, end]| [start, end]);
@@ -140,7 +142,7 @@ impl<'a> Search<'a> {
         values.into_iter().find_map(|q2| {
             let to = Configuration::new(q1, second.lift(q2, self.from[1]));
             let clearance = self.scene.clearance(to);
-            if clearance <= 0.0 || clearance < self.scene.workspace().clearance {
+            if clearance <= 0.0 || clearance < self.scene.workspace().clearance || !topology.contains(to) {
                 return None;
             }
             let distance = (to - self.from).norm();

@@ -2,11 +2,11 @@
 
 use super::coarse::coarse;
 use super::curves::Curves;
-use super::union::{blocked_space, free_space};
+use super::union::{Window, blocked_space, corners, free_space};
 use super::{Proves, translation};
 use cplan_geometry::{Hits, Point, cross};
 use cplan_interrupt::checkpoint;
-use cplan_model::space::{Configuration, JointRange, Topology};
+use cplan_model::space::{Configuration, JointRange, JointSumRange, Topology};
 use cplan_model::{Contacts, Joint, Pair, Scene};
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
@@ -21,6 +21,9 @@ const COARSENESS_PER_MARGIN: f64 = 2.0;
 /// Overlap of bands at the seam of a turn, relative to the distance by which obstacles are grown. It is far above
 /// the rounding of the union.
 const SEAM_OVERLAP: f64 = 1e-3;
+
+/// Distance from the ends of the range of joint sums, radians, within which free space ends.
+const SUM_INSET: f64 = 1e-9;
 
 /// A simple polygon with holes.
 #[derive(Debug, Clone, PartialEq)]
@@ -199,8 +202,45 @@ fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 
 }
 
 fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacles: Vec<CObstacle>) -> Regions {
-    let free = free_space(window, periods(scene), obstacles.iter().map(|o| o.contour.as_slice()));
-    Regions { topology: scene.arm().topology(), proves, window, obstacles, free }
+    let topology = scene.arm().topology();
+    let contours = obstacles.iter().map(|o| o.contour.as_slice());
+    let free = free_space(window, &allowed(window, topology.sum), periods(scene), contours);
+    Regions { topology, proves, window, obstacles, free }
+}
+
+/// Returns the part of a window in which the sum of joint values is allowed, counter-clockwise. Empty if there is none.
+fn allowed(window: Window, sum: Option<JointSumRange>) -> Vec<Point> {
+    let corners = corners(window).to_vec();
+    let Some(JointSumRange { ratio, lower, upper }) = sum else { return corners };
+    // A point is allowed where both values are positive. The inset covers the rounding of the union.
+    let above = |p: Point| ratio * p.x + p.y - (lower + SUM_INSET);
+    let below = |p: Point| (upper - SUM_INSET) - (ratio * p.x + p.y);
+    cut(&cut(&corners, above), below)
+}
+
+/// Returns the parts of the limits in which the sum of joint values is not allowed, for pictures.
+pub fn beyond_sum(topology: &Topology) -> Vec<Vec<Point>> {
+    let Some(JointSumRange { ratio, lower, upper }) = topology.sum else { return Vec::new() };
+    let corners = corners(topology.ranges.map(JointRange::domain));
+    let below = cut(&corners, |p| lower - (ratio * p.x + p.y));
+    let above = cut(&corners, |p| ratio * p.x + p.y - upper);
+    [below, above].into_iter().filter(|part| part.len() > 2).collect()
+}
+
+/// Returns the part of a convex polygon on which an affine function is not negative.
+fn cut(corners: &[Point], value: impl Fn(Point) -> f64) -> Vec<Point> {
+    let mut kept = Vec::new();
+    for (k, &from) in corners.iter().enumerate() {
+        let to = corners[(k + 1) % corners.len()];
+        let [at_from, at_to] = [from, to].map(&value);
+        if at_from >= 0.0 {
+            kept.push(from);
+        }
+        if (at_from >= 0.0) != (at_to >= 0.0) {
+            kept.push(from + (to - from) * (at_from / (at_from - at_to)));
+        }
+    }
+    kept
 }
 
 /// Returns the period after which poses repeat, for each joint; `None` for prismatic joints.

@@ -33,6 +33,7 @@ pub fn sampled_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
         let poses = scene.arm().pair_poses(q).map(|p| pose(&p));
         grid.blocked[index] = pairs.iter().any(|(link, part, piece)| part.meets(&poses[*link], piece));
     }
+    grid.block_sums();
     grid
 }
 

@@ -40,6 +40,7 @@ pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Gri
             on_axis(&scene.arm().joints[1], hits, &intervals, |[start, end]| columns.block_centers(row, start, end));
         }
     }
+    grid.block_sums();
     grid
 }
 
@@ -110,6 +111,7 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
             }
         });
     }
+    grid.block_sums();
     grid
 }
 

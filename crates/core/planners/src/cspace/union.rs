@@ -12,17 +12,18 @@ use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 /// contours almost touch, and too small for an arm.
 const SLIVER_AREA: f64 = 1e-10;
 
-/// Returns the free parts of `window`: one polygon per connected component.
+/// Returns the free parts of `allowed`, a polygon within `window`: one polygon per connected component.
 ///
 /// Every contour must be counter-clockwise. It repeats by `periods` along each axis that has a period. Corners are
 /// rounded to a grid of about 1e-17 of the coordinates' range and snapped to each other ([`SNAP_PRECISION`]). The
 /// margin of contours is far above both.
 pub(super) fn free_space<'a>(
     window: Window,
+    allowed: &[Point],
     periods: [Option<f64>; 2],
     contours: impl Iterator<Item = &'a [Point]>,
 ) -> Vec<PolygonWithHoles> {
-    let mut free = parts(window, periods, contours, OverlayRule::Difference);
+    let mut free = parts(window, allowed, periods, contours, OverlayRule::Difference);
     free.retain(|polygon| polygon.area() > SLIVER_AREA);
     free
 }
@@ -33,20 +34,26 @@ pub(super) fn blocked_space<'a>(
     periods: [Option<f64>; 2],
     contours: impl Iterator<Item = &'a [Point]>,
 ) -> Vec<PolygonWithHoles> {
-    parts(window, periods, contours, OverlayRule::Intersect)
+    parts(window, &corners(window), periods, contours, OverlayRule::Intersect)
 }
 
 /// Lower and upper value of each axis.
-type Window = [(f64, f64); 2];
+pub(super) type Window = [(f64, f64); 2];
+
+/// Returns the corners of a window, counter-clockwise.
+pub(super) fn corners([(left, right), (bottom, top)]: Window) -> [Point; 4] {
+    [(left, bottom), (right, bottom), (right, top), (left, top)].map(|(x, y)| Point::new(x, y))
+}
 
 fn parts<'a>(
     window: Window,
+    subject: &[Point],
     periods: [Option<f64>; 2],
     contours: impl Iterator<Item = &'a [Point]>,
     rule: OverlayRule,
 ) -> Vec<PolygonWithHoles> {
     let [(left, right), (bottom, top)] = window;
-    let subject = vec![[left, bottom], [right, bottom], [right, top], [left, top]];
+    let subject: Vec<[f64; 2]> = subject.iter().map(|p| [p.x, p.y]).collect();
     let mut blocked: Vec<Vec<[f64; 2]>> = Vec::new();
     for contour in contours {
         let shifts = |k: usize| copies(contour.iter().map(move |p| p[k]), window[k], periods[k]);
@@ -178,10 +185,13 @@ mod tests {
             .to_vec()
     }
 
+    fn free_among(window: Window, periods: [Option<f64>; 2], contours: &[Vec<Point>]) -> Vec<PolygonWithHoles> {
+        free_space(window, &corners(window), periods, contours.iter().map(Vec::as_slice))
+    }
+
     #[test]
     fn an_obstacle_inside_is_a_hole() {
-        let free =
-            free_space([(0.0, 4.0), (0.0, 4.0)], [None, None], [square(2.0, 2.0, 1.0)].iter().map(Vec::as_slice));
+        let free = free_among([(0.0, 4.0), (0.0, 4.0)], [None, None], &[square(2.0, 2.0, 1.0)]);
         assert_eq!(free.len(), 1);
         assert_eq!(free[0].holes.len(), 1);
         assert!((free[0].area() - 12.0).abs() < 1e-9);
@@ -190,7 +200,7 @@ mod tests {
     #[test]
     fn a_repeated_obstacle_blocks_every_period() {
         let wall = vec![Point::new(0.9, -1.0), Point::new(1.1, -1.0), Point::new(1.1, 9.0), Point::new(0.9, 9.0)];
-        let free = free_space([(0.0, 10.0), (0.0, 4.0)], [Some(2.0), None], [wall].iter().map(Vec::as_slice));
+        let free = free_among([(0.0, 10.0), (0.0, 4.0)], [Some(2.0), None], &[wall]);
         assert_eq!(free.len(), 6);
         assert!((free.iter().map(PolygonWithHoles::area).sum::<f64>() - (40.0 - 5.0 * 0.2 * 4.0)).abs() < 1e-9);
     }
@@ -198,7 +208,7 @@ mod tests {
     #[test]
     fn squares_touching_at_a_corner_separate_free_space() {
         let squares = [square(1.0, 1.0, 1.0), square(3.0, 3.0, 1.0)];
-        let free = free_space([(0.0, 4.0), (0.0, 4.0)], [None, None], squares.iter().map(Vec::as_slice));
+        let free = free_among([(0.0, 4.0), (0.0, 4.0)], [None, None], &squares);
         assert_eq!(free.len(), 2);
     }
 
@@ -223,7 +233,7 @@ mod tests {
                 })
                 .collect();
             let side = (0.0, n as f64);
-            let free = free_space([side, side], [None, None], squares.iter().map(Vec::as_slice));
+            let free = free_among([side, side], [None, None], &squares);
             let open = covered.iter().flatten().filter(|c| !**c).count() as f64;
             assert!((free.iter().map(PolygonWithHoles::area).sum::<f64>() - open).abs() < 1e-6, "{count}: {open}");
             for (y, row) in covered.iter().enumerate() {

@@ -45,7 +45,7 @@ mod tests {
     use cplan_model::space::{JointRange, Topology};
 
     fn empty() -> Grid {
-        let topology = Topology { ranges: [JointRange::Interval { lower: 0.0, upper: 100.0 }; 2] };
+        let topology = Topology::new([JointRange::Interval { lower: 0.0, upper: 100.0 }; 2]);
         Grid { topology, proves: Proves::Sampled, cells: [100, 100], blocked: vec![false; 10_000] }
     }
 

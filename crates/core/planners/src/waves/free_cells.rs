@@ -194,7 +194,7 @@ mod tests {
     fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
         let axes =
             circles.map(|c| if c { JointRange::Circle } else { JointRange::Interval { lower: 0.0, upper: 1.0 } });
-        Grid { topology: Topology { ranges: axes }, proves: Proves::Sampled, cells, blocked }
+        Grid { topology: Topology::new(axes), proves: Proves::Sampled, cells, blocked }
     }
 
     #[test]

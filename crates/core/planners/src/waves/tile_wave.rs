@@ -159,7 +159,7 @@ mod tests {
             let random = |k: usize| (seed ^ k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29) % 100;
             let blocked: Vec<bool> = (0..rows * columns).map(|k| random(k) < density).collect();
             let (cells, proves) = ([rows, columns], Proves::Sampled);
-            let free = FreeCells::new(&Grid { topology: Topology { ranges: axes }, proves, cells, blocked });
+            let free = FreeCells::new(&Grid { topology: Topology::new(axes), proves, cells, blocked });
             let sources = [0, rows * columns / 2, rows * columns - 1];
             let sources: Vec<usize> = sources.into_iter().filter(|&source| free.is_free(source)).collect();
             // The target is never met, so all cells are labelled.

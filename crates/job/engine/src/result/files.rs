@@ -22,7 +22,7 @@ impl Plan {
                 let Messages { whole, steps } = self.messages()?;
                 let step = |time: &f64| steps.partition_point(|(begin, _)| begin <= time);
                 let steps: Vec<usize> = whole.time.iter().map(step).collect();
-                csv_of_joints(&whole, Some(&steps)).into_bytes()
+                csv_of_joints(&whole, &self.motors_of(&whole), Some(&steps)).into_bytes()
             }
             Format::Csv => {
                 let motion = self.task().and_then(|(_, answer)| answer.outcome.found());
@@ -52,7 +52,9 @@ impl Plan {
             Format::Csv if self.moves_tool_on_the_way() => {
                 let motions = self.messages()?.steps.into_iter().zip(1..);
                 motions
-                    .map(|((_, motion), number)| csv_of_joints(&motion, Some(&vec![number; motion.time.len()])))
+                    .map(|((_, motion), number)| {
+                        csv_of_joints(&motion, &self.motors_of(&motion), Some(&vec![number; motion.time.len()]))
+                    })
                     .collect()
             }
             Format::Csv => {
@@ -85,7 +87,16 @@ impl Plan {
     /// Returns a motion as a table. If given, `steps` has the number of each sample's step.
     fn table(&self, motion: &Trajectory, steps: Option<&[usize]>) -> String {
         let joints = self.arm().joints.each_ref().map(|joint| joint.name.clone());
-        csv(&joints, motion, self.options().accelerations, steps)
+        let motors = self.arm().motor_angles(&motion.position);
+        csv(&joints, motion, &motors, self.options().accelerations, steps)
+    }
+
+    /// Returns the angles of both motors' shafts at the samples of a motion of all joints. Empty if the motors are unknown.
+    fn motors_of(&self, motion: &JointMotion) -> Vec<[f64; 2]> {
+        let column = |k: usize| motion.joints.iter().position(|name| *name == self.arm().joints[k].name);
+        let (Some(first), Some(second)) = (column(0), column(1)) else { return Vec::new() };
+        let positions: Vec<[f64; 2]> = motion.position.iter().map(|row| [row[first], row[second]]).collect();
+        self.arm().motor_angles(&positions)
     }
 
     /// Returns the content of ROS messages. A single motion counts as one step.

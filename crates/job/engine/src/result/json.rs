@@ -48,6 +48,9 @@ struct Samples<'a> {
     trajectory: &'a Trajectory,
     #[serde(skip_serializing_if = "Option::is_none")]
     step: Option<Vec<usize>>,
+    /// Angles of both motors' shafts, radians. Empty if the motors are unknown.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    motors: Vec<[f64; 2]>,
 }
 
 /// The samples of all joints of the robot, joined by cubics.
@@ -160,7 +163,7 @@ impl PlanResult<'_> {
         self.timings(fields)?;
         fields.add_optional("blends", motion.map(|motion| BlendReport::of(&motion.timed.curve)))?;
         fields.add_optional("duration", plan.duration())?;
-        self.trajectory(fields, plan.trajectory().map(|trajectory| Samples { trajectory, step: None }))
+        self.trajectory(fields, plan.trajectory().map(|trajectory| self.samples(trajectory, None)))
     }
 
     /// Writes the fields of a task. The path follows the steps. (In the result of a motion, the path precedes the
@@ -183,10 +186,8 @@ impl PlanResult<'_> {
         fields.add("path", &plan.waypoints())?;
         fields.add("length", &plan.length())?;
         self.timings(fields)?;
-        let samples = motion.map(|TaskMotion { sequence, .. }| Samples {
-            trajectory: &sequence.trajectory,
-            step: Some(sequence.steps()),
-        });
+        let samples =
+            motion.map(|TaskMotion { sequence, .. }| self.samples(&sequence.trajectory, Some(sequence.steps())));
         self.trajectory(fields, samples)?;
         fields.add_optional("all_joints", plan.motion_with_tool().map(AllJoints::from))
     }
@@ -194,6 +195,10 @@ impl PlanResult<'_> {
     fn timings<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         fields.add_optional("timings", plan.options().timings.then(|| Stages(plan.timings())))
+    }
+
+    fn samples<'b>(&self, trajectory: &'b Trajectory, step: Option<Vec<usize>>) -> Samples<'b> {
+        Samples { trajectory, step, motors: self.plan.arm().motor_angles(&trajectory.position) }
     }
 
     /// Writes the trajectory, and how to interpolate between its samples.

@@ -150,7 +150,7 @@ mod tests {
                 true => JointRange::Circle,
                 false => JointRange::Interval { lower: -1.0, upper },
             };
-            let topology = Topology { ranges: [axis(circles[0], 2.5), axis(circles[1], 0.3)] };
+            let topology = Topology::new([axis(circles[0], 2.5), axis(circles[1], 0.3)]);
             let grid = Grid { topology, proves: Proves::Sampled, cells: [rows, columns], blocked };
             let limits = if high { Limits::High } else { Limits::Reflecting };
             let step = grid.step();

@@ -5,7 +5,7 @@ use super::torque::torque_samples;
 use cplan_dynamics::Torques;
 use cplan_handling::{Derivative, Piece, Recording};
 use cplan_model::space::{Configuration, JointRange};
-use cplan_model::{Joint, Scene};
+use cplan_model::{Arm, Joint, Motors, Scene};
 
 /// Relative excess over a limit that is tolerated. Programs that plan up to a limit exceed it by rounding and by
 /// printing six digits. No drive can distinguish such values.
@@ -50,7 +50,7 @@ pub enum Limit {
 /// A violated limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LimitViolation {
-    /// Index of the joint, 0 or 1.
+    /// Index of the joint, 0 or 1, or [`ELBOW_MOTOR`].
     pub joint: usize,
     /// The violated limit.
     pub limit: Limit,
@@ -87,29 +87,39 @@ pub struct LimitViolation {
 pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<LimitViolation> {
     let precision = Precision::of(recording);
     let pieces = recording.pieces();
-    let mut found = Vec::new();
-    for (k, joint) in joints.iter().enumerate() {
-        let mut judge = Judge { joint, k, pieces: &pieces, precision: precision.of_joint(k), worst: Vec::new() };
-        judge.positions();
-        let of_joint = |rows: &[Configuration]| rows.iter().map(|row| row[k]).collect::<Vec<f64>>();
-        if let Some(times) = recording.times() {
-            judge.velocities(&of_joint(recording.positions()), times);
-            if let Some(rows) = recording.velocities() {
-                let velocities = of_joint(rows);
-                judge.judge_stated_rates(Limit::Velocity, &velocities);
-                judge.accelerations(&velocities, times);
-                judge.judge_rest(Limit::RestAtStart, velocities[0], 0);
-                judge.judge_rest(Limit::RestAtEnd, velocities[velocities.len() - 1], velocities.len() - 1);
-            }
-            if let Some(rows) = recording.accelerations() {
-                judge.judge_stated_rates(Limit::Acceleration, &of_joint(rows));
-            }
-            if let (Some(most), Some(_)) = (joint.jerk, recording.velocities()) {
-                judge.jerks(most);
-            }
-        }
-        judge.worst.sort_by_key(|(_, excess)| excess.limit);
-        found.extend(judge.worst.into_iter().map(|(_, excess)| excess));
+    let judged = |k: usize| {
+        let (joint, precision) = (&joints[k], precision.of_joint(k));
+        Judge { joint, k, pieces: &pieces, precision, worst: Vec::new() }.violations(recording)
+    };
+    [0, 1].map(judged).concat()
+}
+
+/// Index in [`LimitViolation::joint`] of the elbow's motor, where it is mounted on the base.
+pub const ELBOW_MOTOR: usize = 2;
+
+/// Returns every violated limit of the sum of joint values that the elbow's motor turns, as [`limit_violations`] does.
+pub fn motor_violations(arm: &Arm, recording: &Recording) -> Vec<LimitViolation> {
+    let Some(motors) = arm.motors else { return Vec::new() };
+    let Motors { ratio, range, velocity, acceleration, .. } = motors;
+    if range.is_none() && velocity.is_none() && acceleration.is_none() {
+        return Vec::new();
+    }
+    let joint = Joint {
+        range: range.map_or(JointRange::Circle, |[lower, upper]| JointRange::Interval { lower, upper }),
+        velocity: velocity.unwrap_or(f64::INFINITY),
+        acceleration: acceleration.unwrap_or(f64::INFINITY),
+        jerk: None,
+        ..arm.joints[1].clone()
+    };
+    let precision = Precision::of(recording).of_sum(ratio.abs());
+    // Joint 2 of the converted motion has the sum as its value.
+    let converted = recording.mapped(|row| Configuration::new(row[0], motors.joint_sum(*row)));
+    let pieces = converted.pieces();
+    let mut found = Judge { joint: &joint, k: 1, pieces: &pieces, precision, worst: Vec::new() }.violations(&converted);
+    found.retain(|excess| matches!(excess.limit, Limit::Position | Limit::Velocity | Limit::Acceleration));
+    for excess in &mut found {
+        excess.joint = ELBOW_MOTOR;
+        excess.moment.at[1] -= ratio * excess.moment.at[0];
     }
     found
 }
@@ -170,6 +180,31 @@ struct Judge<'a> {
 }
 
 impl<'a> Judge<'a> {
+    /// Returns every violated limit of the joint.
+    fn violations(mut self, recording: &Recording) -> Vec<LimitViolation> {
+        self.positions();
+        let k = self.k;
+        let of_joint = |rows: &[Configuration]| rows.iter().map(|row| row[k]).collect::<Vec<f64>>();
+        if let Some(times) = recording.times() {
+            self.velocities(&of_joint(recording.positions()), times);
+            if let Some(rows) = recording.velocities() {
+                let velocities = of_joint(rows);
+                self.judge_stated_rates(Limit::Velocity, &velocities);
+                self.accelerations(&velocities, times);
+                self.judge_rest(Limit::RestAtStart, velocities[0], 0);
+                self.judge_rest(Limit::RestAtEnd, velocities[velocities.len() - 1], velocities.len() - 1);
+            }
+            if let Some(rows) = recording.accelerations() {
+                self.judge_stated_rates(Limit::Acceleration, &of_joint(rows));
+            }
+            if let (Some(most), Some(_)) = (self.joint.jerk, recording.velocities()) {
+                self.jerks(most);
+            }
+        }
+        self.worst.sort_by_key(|(_, excess)| excess.limit);
+        self.worst.into_iter().map(|(_, excess)| excess).collect()
+    }
+
     /// Records a value that exceeds its limit by `over` in addition to the tolerance.
     fn note(&mut self, over: f64, limit: Limit, allowed: f64, value: f64, moment: Moment) {
         let excess = LimitViolation { joint: self.k, limit, allowed, value, moment };
@@ -405,6 +440,13 @@ impl Precision {
             acceleration: each(recording.accelerations()),
             time: recording.times().map_or(0.0, |times| rounding(times.iter().copied())),
         }
+    }
+
+    /// Returns the precision of `ratio q1 + q2`, for a ratio that is not negative.
+    fn of_sum(&self, ratio: f64) -> JointPrecision {
+        let sum = |[first, second]: [f64; 2]| ratio * first + second;
+        let [position, velocity, acceleration] = [self.position, self.velocity, self.acceleration].map(sum);
+        JointPrecision { position, velocity, acceleration, time: self.time }
     }
 
     fn of_joint(&self, k: usize) -> JointPrecision {

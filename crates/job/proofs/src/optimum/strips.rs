@@ -256,6 +256,7 @@ impl<'a> Strips<'a> {
             for wall in self.walls(after) {
                 closed.extend(within_domain(axis, wall.lower, wall.upper));
             }
+            closed.extend(self.topology.closed_by_sum([self.strips[after].from; 2]));
             for (strip, side) in [(before, 1), (after, 0)] {
                 let barriers = self.strips[strip].barriers.iter().flatten();
                 closed.extend(barriers.map(|(barrier, _)| [axis.wrap(barrier[side]); 2]));

@@ -15,6 +15,7 @@ mod attributes;
 mod bodies;
 mod chain;
 mod document;
+mod drives;
 mod effects;
 mod foreign;
 mod held;

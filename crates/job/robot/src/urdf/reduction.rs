@@ -84,10 +84,10 @@ impl<'a> Reduction<'a> {
                 None
             }
         });
-        match bounds {
-            [Some(first), Some(second)] => Ok([first, second]),
-            _ => Err(InputError::of(diagnostics)),
-        }
+        let [Some(first), Some(second)] = bounds else { return Err(InputError::of(diagnostics)) };
+        let mut bounds = [first, second];
+        self.limit_by_motors(&mut bounds)?;
+        Ok(bounds)
     }
 
     /// Returns true if a URDF link is fixed.
@@ -167,8 +167,10 @@ impl<'a> Reduction<'a> {
             tip_name: self.tree.links[self.chain.tip].clone(),
             plane,
             dynamics: None,
+            motors: self.motors().unwrap_or_default(),
             self_obstacles: outlines.self_obstacles,
         };
+        report.geometry.extend(arm.motors.as_ref().map(|motors| self.describe_motors(motors)));
         report.notes.extend(ignore_permanent_contact(&mut arm));
         let unknown = match self.dynamics(&arm, assumed) {
             Ok(dynamics) => {

@@ -26,6 +26,9 @@ pub fn title(scene: &Scene, findings: &ConfigurationFindings) -> String {
     if let Some(k) = beyond {
         return format!("Not free: {} is beyond its limits", joint_name(&scene.arm().joints[k]));
     }
+    if findings.motors.as_ref().is_some_and(|motors| !motors.within_limits) {
+        return "Not free: the elbow's motor is beyond its limits".into();
+    }
     let Some(near) = scene.closest(findings.configuration.into()) else {
         return format!("{answer}: no obstacle within reach");
     };

@@ -27,6 +27,9 @@ pub fn blame_in_words(scene: &Scene, set: &BlockingSet) -> String {
         n => parts.push(format!("{n} obstacles together are in the way")),
     }
     parts.extend(short_joints(scene.arm(), &joints));
+    parts.extend(
+        elements.contains(&Element::Motor).then(|| "the elbow\u{2019}s motor cannot turn far enough".to_owned()),
+    );
     let text = parts.join(", and ");
     let clearance = chosen_length(scene.workspace().clearance);
     match (elements.contains(&Element::Clearance), text.is_empty()) {
@@ -60,6 +63,7 @@ pub fn subject(scene: &Scene, element: Element) -> String {
             let which = if side == Side::Lower { "lower" } else { "upper" };
             format!("the {which} limit of {}", joint_name(&scene.arm().joints[joint]))
         }
+        Element::Motor => "the range of the elbow\u{2019}s motor".into(),
         Element::Clearance => format!("the clearance of {}", chosen_length(scene.workspace().clearance)),
     }
 }

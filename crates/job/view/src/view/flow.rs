@@ -108,7 +108,7 @@ mod tests {
     use cplan_model::space::JointRange;
 
     fn topology() -> Topology {
-        Topology { ranges: [JointRange::Interval { lower: -1.0, upper: 1.0 }; 2] }
+        Topology::new([JointRange::Interval { lower: -1.0, upper: 1.0 }; 2])
     }
 
     fn samples(f: impl Fn(f64, f64) -> f64) -> Samples {

@@ -90,7 +90,7 @@ mod tests {
 
     #[test]
     fn lines_cross_the_seam_of_a_circle() {
-        let topology = Topology { ranges: [JointRange::Circle, JointRange::Interval { lower: 0.0, upper: 1.0 }] };
+        let topology = Topology::new([JointRange::Circle, JointRange::Interval { lower: 0.0, upper: 1.0 }]);
         let cells = [8, 4];
         let potential: Vec<f64> = (0..32).map(|k| f64::from(k % 4)).collect();
         let all = samples(cells, &potential, &topology);
@@ -103,7 +103,7 @@ mod tests {
 
     #[test]
     fn a_field_without_values_has_no_lines() {
-        let topology = Topology { ranges: [JointRange::Circle; 2] };
+        let topology = Topology::new([JointRange::Circle; 2]);
         let trace = Trace::Field { cells: [4, 4], potential: vec![f64::NEG_INFINITY; 16] };
         assert_eq!(Slope::new(&trace, &topology), None);
         assert_eq!(span(&[f64::NEG_INFINITY, -3.0, 0.0], IGNORED_SHARE), Some((-3.0, 0.0)));

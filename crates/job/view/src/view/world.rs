@@ -7,7 +7,7 @@ use cplan_handling::{ObstacleTrajectory, TimedScene};
 use cplan_judge::CheckedProof;
 use cplan_model::space::Configuration;
 use cplan_model::{Carrier, Grip, LooseObstacle, Obstacle, Pair, Preference, Region, Scene, Shape};
-use cplan_planners::cspace::CObstacle;
+use cplan_planners::cspace::{CObstacle, beyond_sum};
 use cplan_theme::Rgb;
 use serde::{Serialize, Serializer};
 
@@ -46,6 +46,12 @@ impl ObstacleView {
     /// Returns the obstacle in the colour of the robot's own links.
     fn of_robot(self) -> Self {
         Self { color: cplan_theme::ROBOT, ..self }
+    }
+
+    /// Creates the view of the limits of the elbow's motor, which are an obstacle in the configuration space alone.
+    fn of_motor() -> Self {
+        let (outline, pieces) = (Shape::Pieces, Vec::new());
+        Self { name: "elbow motor".into(), color: cplan_theme::ROBOT, outline, own: 0, pieces }
     }
 
     /// Returns the pieces that form the obstacle itself. Empty for an object that is carried.
@@ -219,10 +225,17 @@ impl WorldView {
         let links = scene.listed_self_obstacles();
         let shown = |number| shown_number(scene, &links, number);
         let in_view = c_obstacles.iter().map(|c| CObstacle { obstacle: shown(c.obstacle), ..c.clone() });
-        let contours = contours(&in_view.collect::<Vec<_>>(), grain);
+        let mut contours = contours(&in_view.collect::<Vec<_>>(), grain);
         let obstacles = (0..standing).map(|number| obstacle(scene, number, number, grain));
         let own = links.iter().map(|&number| obstacle(scene, number, shown(number), grain).of_robot());
-        let obstacles: Vec<ObstacleView> = obstacles.chain(own).collect();
+        let mut obstacles: Vec<ObstacleView> = obstacles.chain(own).collect();
+        let beyond = beyond_sum(&scene.arm().topology()).into_iter();
+        let beyond = beyond.map(|contour| CObstacle { obstacle: obstacles.len(), link: 1, contour });
+        let beyond: Vec<CObstacle> = beyond.collect();
+        if !beyond.is_empty() {
+            contours.extend(self::contours(&beyond, grain));
+            obstacles.push(ObstacleView::of_motor());
+        }
         Self {
             label,
             clearance: scene.workspace().clearance,

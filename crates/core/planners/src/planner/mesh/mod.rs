@@ -147,7 +147,7 @@ mod tests {
         let free = vec![PolygonWithHoles { outer: square(-1.0, -1.0, 7.0), holes: squares.collect() }];
         let window = [(-50.0, 50.0); 2];
         let axes = window.map(|(lower, upper)| JointRange::Interval { lower, upper });
-        Regions { topology: Topology { ranges: axes }, proves: Proves::Exact, window, obstacles: Vec::new(), free }
+        Regions { topology: Topology::new(axes), proves: Proves::Exact, window, obstacles: Vec::new(), free }
     }
 
     fn matrices() -> impl Strategy<Value = [f64; 4]> {

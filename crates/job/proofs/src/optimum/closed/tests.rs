@@ -55,6 +55,7 @@ fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex
         tip_name: "tip".into(),
         plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
         dynamics: None,
+        motors: None,
         self_obstacles: Vec::new(),
     };
     let shape = Shape::Polygon(piece.core().to_vec());

@@ -1,0 +1,56 @@
+//! Motors of the joints.
+
+use crate::space::{Configuration, JointSumRange};
+use serde::{Deserialize, Serialize};
+
+/// The motors of an arm whose two joints turn. With joint values `q1` and `q2`, the shaft angles are
+///
+/// ```text
+/// gear[0] q1 + zero[0]
+/// gear[1] (ratio q1 + q2) + zero[1]
+/// ```
+///
+/// `ratio` is 0 if the elbow's motor is mounted on link 1. It is 1 if the motor is mounted on the base and a belt between
+/// equal pulleys leads to the elbow: the motor's angle then is that of link 2 against the base. The sum
+/// `ratio q1 + q2` is the *joint sum*.
+///
+/// Limits of the first motor, and those of the second one with `ratio` 0, are limits of joints and not repeated here.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Motors {
+    /// Turns of the elbow's motor, without its gear, for each turn of joint 1.
+    pub ratio: f64,
+    /// Turns of each motor's shaft for each turn that it drives. Negative if they turn in opposite directions.
+    pub gear: [f64; 2],
+    /// Angles of both shafts at joint values of zero, radians.
+    pub zero: [f64; 2],
+    /// Range of the joint sum, radians; `None` without such a limit.
+    pub range: Option<[f64; 2]>,
+    /// Greatest speed of the joint sum, rad/s; `None` without such a limit.
+    pub velocity: Option<f64>,
+    /// Greatest acceleration of the joint sum, rad/s2; `None` without such a limit.
+    pub acceleration: Option<f64>,
+}
+
+impl Motors {
+    /// Returns the angles of both shafts, radians.
+    pub fn angles(&self, q: Configuration) -> [f64; 2] {
+        let turned = self.rates(q);
+        [0, 1].map(|k| turned[k] + self.zero[k])
+    }
+
+    /// Returns the derivatives of the shafts' angles, given those of the joint values.
+    pub fn rates(&self, rates: Configuration) -> [f64; 2] {
+        [self.gear[0] * rates[0], self.gear[1] * self.joint_sum(rates)]
+    }
+
+    /// Returns `ratio q1 + q2`, of joint values or of their derivatives.
+    pub fn joint_sum(&self, q: Configuration) -> f64 {
+        self.ratio * q[0] + q[1]
+    }
+
+    /// Returns the range of the joint sum.
+    pub(crate) fn sum_range(&self) -> Option<JointSumRange> {
+        self.range.map(|[lower, upper]| JointSumRange { ratio: self.ratio, lower, upper })
+    }
+}

@@ -1,0 +1,69 @@
+//! The table `drives` of `[robot]` in the world file.
+
+use super::quantity::{Number, Numbers, Written};
+#[cfg(feature = "schema")]
+use super::schema::*;
+use super::toml_values::{FromToml, TomlError, TomlValue};
+use crate::toml_table;
+use toml::Spanned;
+
+/// The motors of the two joints: a table, or one of the names that firmware uses.
+#[derive(Debug, Clone, PartialEq)]
+#[cfg_attr(feature = "schema", derive(JsonSchema), schemars(inline, untagged))]
+pub enum DrivesValue {
+    /// `"standard_scara"` if the elbow's motor is mounted on the base; `"direct"` if it is mounted on link 1.
+    Preset(String),
+    /// The motors, with their limits.
+    Table(DrivesTable),
+}
+
+impl FromToml for DrivesValue {
+    fn read(value: &TomlValue) -> Result<Self, TomlError> {
+        match value.get_ref().as_str() {
+            Some(name) => Ok(Self::Preset(name.to_owned())),
+            None => DrivesTable::read(value).map(Self::Table),
+        }
+    }
+}
+
+toml_table! {
+    /// The motors of two joints that turn. The shafts have the angles `gear[0] q1 + zero[0]` and
+    /// `gear[1] (ratio q1 + q2) + zero[1]`.
+    #[derive(Debug, Clone, PartialEq)]
+    #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "drives"))]
+    pub struct DrivesTable {
+        /// Where the elbow's motor is mounted: `"base"` or `"link"`; by default `"base"`.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
+        pub elbow: Option<Spanned<String>>,
+        /// Turns of the elbow's motor on the base for each turn of joint 1; by default 1, for equal pulleys.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
+        pub ratio: Option<Number>,
+        /// Turns of each shaft for each turn that it drives, negative for the opposite direction; by default [1, 1].
+        #[cfg_attr(feature = "schema", schemars(with = "Option<NumberPair>"))]
+        pub gear: Option<Numbers>,
+        /// Angles of the shafts at joint values of zero, rad; by default [0, 0].
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[AngleOrLength; 2]>"))]
+        pub zero: Option<Spanned<Vec<Written>>>,
+        /// Limits of the shafts.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<MotorTable>"))]
+        pub motors: Option<MotorTable>,
+    }
+
+    /// Limits of both motors' shafts. They apply in addition to the limits of the joints.
+    #[derive(Debug, Clone, PartialEq)]
+    #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "motors"))]
+    pub struct MotorTable {
+        /// Least angles, rad.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[AngleOrLength; 2]>"))]
+        pub lower: Option<Spanned<Vec<Written>>>,
+        /// Greatest angles, rad.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[AngleOrLength; 2]>"))]
+        pub upper: Option<Spanned<Vec<Written>>>,
+        /// Top speeds, rad/s.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[Positive; 2]>"))]
+        pub velocity: Option<Numbers>,
+        /// Greatest accelerations, rad/s2.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[Positive; 2]>"))]
+        pub acceleration: Option<Numbers>,
+    }
+}
