@@ -242,6 +242,11 @@ fn a_list_has_degrees_and_millimetres_of_all_joints() {
     assert_eq!(last[2..], [-150.0, 90.0]);
     let [x, y] = scara_tip(&last);
     assert!((x + 0.27).hypot(y - 0.24) < 2e-6, "({x}, {y})");
+    // `verify` judges the heights and angles of each moment from the table alone.
+    let box_world = shipped("workspaces/arch/into_the_box.toml");
+    let verified = place.run(&["verify", &shipped("robots/scara.urdf"), &box_world, "box.txt"], "");
+    assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
+    assert!(verified.stdout.contains("free by 10 mm: the whole motion, proven"), "{}", verified.stdout);
     // All of the program's waypoints are those of the plan, whose other files have the same motion.
     let plan: serde_json::Value = serde_json::from_str(&place.read("box.json")).unwrap();
     let path = plan["steps"][0]["path"].as_array().unwrap();

@@ -118,7 +118,7 @@ fn invalid_messages_are_refused() {
 
 #[test]
 fn files_of_other_kinds_are_refused() {
-    refused("m.txt", "0 0\n", &["is unknown", ".json", ".csv", ".yaml"]);
+    refused("m.dat", "0 0\n", &["is unknown", ".json", ".csv", ".yaml"]);
     let folder = tempfile::tempdir().unwrap();
     let at = |file: &str| folder.path().join(file);
     fs::write(at("arm.urdf"), ARM).unwrap();

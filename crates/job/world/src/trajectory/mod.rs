@@ -58,7 +58,7 @@ pub struct AllJoints {
 }
 
 /// Reads a recorded motion: a joint path or a trajectory. The file's extension determines the format: `.json`, `.csv`,
-/// `.yaml`, `.yml` or `.mcap`.
+/// `.txt` (read like `.csv`), `.yaml`, `.yml` or `.mcap`.
 ///
 /// - JSON: a result of cplan, or a ROS 2 message. Of a result, the trajectory is read, or the path if there is none. If
 ///   it and the world have steps, these are read as well.
@@ -93,7 +93,7 @@ fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedR
             .help("give the .mcap file of the recording; `ros2 bag convert` makes one of a recording in .db3")
             .into());
     }
-    if !matches!(extension.as_deref(), Some("json" | "csv" | "yaml" | "yml" | "mcap")) {
+    if !matches!(extension.as_deref(), Some("json" | "csv" | "txt" | "yaml" | "yml" | "mcap")) {
         return Err(Diagnostic::new(path.display().to_string(), "the format of this file is unknown")
             .help("name it .json (cplan), .csv, .yaml (ROS 2 JointTrajectory), or .mcap (ROS 2 recording)")
             .into());
@@ -117,7 +117,7 @@ pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedReco
     let names = Names::of(scene);
     let extension = source.path().extension().map(|e| e.to_string_lossy().to_ascii_lowercase());
     match extension.as_deref() {
-        Some("csv") => Ok(names.recording(source, csv::read(source, &names)?)?),
+        Some("csv" | "txt") => Ok(names.recording(source, csv::read(source, &names)?)?),
         Some("yaml" | "yml") => Ok(names.recording(source, document::yaml(source)?)?),
         _ => read_json(source, scene, &names),
     }
