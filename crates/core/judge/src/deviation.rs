@@ -18,7 +18,7 @@ use cplan_model::{Arm, JointType, Pair, Scene};
 
 /// Bound on the rounding of one evaluation, as a fraction of the lengths in it: a few dozen operations at 1.1e-16
 /// each. Bounds are lowered by it, so that they hold in floating point too.
-const ROUNDING: f64 = 1e-13;
+pub(super) const ROUNDING: f64 = 1e-13;
 
 /// Allowance for rounding in proofs that shapes collide, as a fraction of the lengths. It is larger than the
 /// tolerance of the independent check ([`super::Disconnection::checked`], 1e-12), so that the check accepts these
@@ -39,7 +39,7 @@ pub enum Deviation {
 
 impl Deviation {
     /// Returns the greatest value of `|g_1 d_1 + g_2 d_2|` over the deviations.
-    fn linear(self, g: [f64; 2]) -> f64 {
+    pub(super) fn linear(self, g: [f64; 2]) -> f64 {
         match self {
             Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1]).abs(),
             Deviation::Box(h) => g[0].abs() * h[0] + g[1].abs() * h[1],
@@ -49,7 +49,7 @@ impl Deviation {
 
     /// Returns the greatest value of `|g_1 d_1 + g_2 d_2 - t c|` over the deviations, with `t` as in
     /// [`Deviation::Along`].
-    fn linear_less(self, g: [f64; 2], c: f64) -> f64 {
+    pub(super) fn linear_less(self, g: [f64; 2], c: f64) -> f64 {
         match self {
             Deviation::Along(d) => (g[0] * d[0] + g[1] * d[1] - c).abs(),
             Deviation::Box(_) => self.linear(g) + c.abs(),
@@ -57,8 +57,18 @@ impl Deviation {
         }
     }
 
+    /// Returns the sums of these deviations and all that change each joint by at most `by`.
+    #[must_use]
+    pub fn widened(self, by: f64) -> Self {
+        match self {
+            Deviation::Along(d) => Deviation::Tube(d, [by; 2]),
+            Deviation::Box(h) => Deviation::Box(h.map(|h| h + by)),
+            Deviation::Tube(d, h) => Deviation::Tube(d, h.map(|h| h + by)),
+        }
+    }
+
     /// Returns the greatest value of `|d_1|` over the deviations, and that of `|d_2|`.
-    fn greatest_components(self) -> [f64; 2] {
+    pub(super) fn greatest_components(self) -> [f64; 2] {
         match self {
             Deviation::Along(d) => [d[0].abs(), d[1].abs()],
             Deviation::Box(h) => h,
@@ -70,9 +80,9 @@ impl Deviation {
 /// An arm at one configuration, prepared for bounds on its distances nearby.
 #[derive(Debug, Clone)]
 pub struct Posture<'a> {
-    scene: &'a Scene,
+    pub(super) scene: &'a Scene,
     q: Configuration,
-    poses: [Pose; 3],
+    pub(super) poses: [Pose; 3],
     /// Positions of joint 2 in the plane: first at the configuration, then with joint 1 at zero instead.
     elbows: [Point; 2],
 }
@@ -310,7 +320,7 @@ impl<'a> Posture<'a> {
     }
 
     /// Returns the velocity along `n`, per unit of each joint, of the point of link `link` that is now at `x`.
-    fn rates(&self, link: usize, x: Point, n: Vector) -> [f64; 2] {
+    pub(super) fn rates(&self, link: usize, x: Point, n: Vector) -> [f64; 2] {
         let arm = self.scene.arm();
         let first = match arm.joints[0].joint_type {
             _ if link == 2 => 0.0,

@@ -7,6 +7,7 @@
 //!   segment. Only `certify` makes a [`CertifiedPath`] from a path; `then`, `part` and `within` derive others.
 //! - [`CurveSearch`] does the same for any curve, given bounds on its parts. The crate `motion` judges rounded
 //!   corners with it.
+//! - [`Posture::is_apart_with_errors`] proves that two shapes are apart if the arm differs from its model.
 //! - [`permanent_contacts`] proves which shapes of the robot's own body meet in every configuration. Their contact
 //!   is ignored.
 //! - [`Disconnection::checked`] judges a proof that there is no path. It joins the gaps between the collision boxes by
@@ -26,6 +27,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arm_errors;
 mod cell;
 mod deviation;
 mod drift;
@@ -34,6 +36,7 @@ mod permanent;
 mod proof;
 mod vicinity;
 
+pub use arm_errors::ArmErrors;
 pub use cell::Cell;
 pub use deviation::{COLLISION_ROUNDING, Deviation, Posture, SeparationBound, SpanPair};
 pub use drift::Drift;

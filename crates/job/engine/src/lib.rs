@@ -16,6 +16,7 @@ mod clock;
 mod fastest;
 mod field_report;
 pub mod findings;
+mod margins;
 mod motion;
 mod plan;
 mod problem;

@@ -10,12 +10,12 @@ use cplan_judge::CheckedProof;
 use cplan_legs::{Event, FailedStep, Leg, TaskAnswer, TaskMotion, TaskReplay};
 use cplan_model::space::Path;
 use cplan_model::{Arm, MotionProblem, Outcome, Scene, Status};
-use cplan_motion::{BlockedTimes, MotionPart, PlaceTime, Timing, TimingError, Trajectory};
+use cplan_motion::{BlockedTimes, Margins, MotionPart, PlaceTime, Timing, TimingError, Trajectory};
 use cplan_planners::cspace::{NotPolygons, not_polygons};
 use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
 use cplan_text::{length, percent};
 use std::borrow::Cow;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 use thiserror::Error;
 
 /// Reason why planning is refused. A plan with the status "unknown" is no error.
@@ -61,6 +61,7 @@ pub struct Plan {
     searches: Searches,
     detail: Box<Detail>,
     clock: Clock,
+    pub(super) margins: OnceLock<Margins>,
 }
 
 /// The planned problem and its answer. Limits that the options override have the options' values.
@@ -124,7 +125,7 @@ pub fn plan(
             plan_task((task, search), &joints_in_messages(&problem, options), options, &mut clock, progress)?
         }
     };
-    Ok(Plan { problem, options: *options, searches, detail: Box::new(detail), clock })
+    Ok(Plan { problem, options: *options, searches, detail: Box::new(detail), clock, margins: OnceLock::new() })
 }
 
 /// Returns the reason why the options do not suit the robot. `None` if they do.

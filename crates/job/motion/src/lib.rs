@@ -78,6 +78,7 @@ mod joint_curve;
 mod json;
 mod least;
 mod limits;
+mod margins;
 #[cfg(feature = "mcap")]
 mod mcap;
 mod message;
@@ -117,6 +118,9 @@ pub use joint_curve::{JointCurve, along_joint_curve};
 pub use json::field_per_line;
 pub use least::least_duration;
 pub use limits::{Limits, SumLimit, WristLimit};
+pub use margins::{
+    BodyKind, BodyMargin, BodyNames, ErrorKind, Margin, MarginSearch, Margins, MotionStretch, Tolerance,
+};
 pub use message::{AccelerationJump, JointMotion};
 pub use place_time::{BlockedTimes, MotionPart, PlaceTime, TimedPlace, WaitReason};
 pub use result::{BlendReport, DurationOptimality, LengthOptimality, SearchReport, interpolation};

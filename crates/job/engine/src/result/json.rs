@@ -4,6 +4,7 @@
 //! none. Other fields are omitted if they have no value. Numbers are finite: radians for a revolute joint, metres for a
 //! prismatic one, and seconds.
 
+use super::margin_report::{margin_reports, tolerance_reports};
 use super::step_report::{FailedStepReport, step_reports};
 use super::{finite, optimum};
 use crate::field_report::field_report;
@@ -29,10 +30,14 @@ struct Fields<'a, M> {
 }
 
 impl<M: SerializeMap> Fields<'_, M> {
+    /// Returns true if the field is written.
+    fn has(&self, name: &str) -> bool {
+        self.only.is_empty() || self.only.iter().any(|only| only == name)
+    }
+
     fn add(&mut self, name: &'static str, value: &(impl Serialize + ?Sized)) -> Result<(), M::Error> {
         debug_assert!(Plan::FIELD_NAMES.contains(&name), "{name} is not listed");
-        let is_written = self.only.is_empty() || self.only.iter().any(|only| only == name);
-        if is_written { self.map.serialize_entry(name, value) } else { Ok(()) }
+        if self.has(name) { self.map.serialize_entry(name, value) } else { Ok(()) }
     }
 
     /// Writes a field. Writes nothing if `value` is `None`.
@@ -157,6 +162,7 @@ impl PlanResult<'_> {
         fields.add("certified", &motion.is_some())?;
         fields.add("clearance", &plan.clearance())?;
         fields.add_optional("closest", plan.closest())?;
+        self.margins(fields)?;
         fields.add_optional("field", plan.options().planner.field().map(|field| field_report(field, answer)))?;
         let size: BTreeMap<_, _> = answer.run.size.figures().into_iter().collect();
         fields.add_optional("size", Some(size).filter(|size| !size.is_empty()))?;
@@ -175,6 +181,7 @@ impl PlanResult<'_> {
         fields.add_optional("moving", plan.timing())?;
         fields.add("certified", &motion.is_some())?;
         fields.add("clearance", &plan.clearance())?;
+        self.margins(fields)?;
         fields.add_optional("duration", plan.duration())?;
         fields.add_optional("lower_bound", finite(answer.least_seconds()))?;
         fields.add_optional("gap", answer.gap())?;
@@ -190,6 +197,15 @@ impl PlanResult<'_> {
             motion.map(|TaskMotion { sequence, .. }| self.samples(&sequence.trajectory, Some(sequence.steps())));
         self.trajectory(fields, samples)?;
         fields.add_optional("all_joints", plan.motion_with_tool().map(AllJoints::from))
+    }
+
+    /// Writes the margins of the motion, if there is one. They are computed only if they are written.
+    fn margins<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
+        let Self { plan, .. } = self;
+        let is_written = plan.trajectory().is_some() && ["margins", "tolerances"].iter().any(|name| fields.has(name));
+        let margins = is_written.then(|| plan.margins());
+        fields.add_optional("margins", margins.map(margin_reports))?;
+        fields.add_optional("tolerances", margins.map(tolerance_reports))
     }
 
     fn timings<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
@@ -218,7 +234,7 @@ fn free_joints(problem: &MotionProblem) -> Vec<&str> {
 
 impl Plan {
     /// The names of all fields that results can have.
-    pub const FIELD_NAMES: [&str; 36] = [
+    pub const FIELD_NAMES: [&str; 38] = [
         "status",
         "name",
         "planner",
@@ -241,6 +257,8 @@ impl Plan {
         "certified",
         "clearance",
         "closest",
+        "margins",
+        "tolerances",
         "field",
         "size",
         "duration",

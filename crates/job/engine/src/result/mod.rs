@@ -2,6 +2,7 @@
 
 mod files;
 mod json;
+mod margin_report;
 mod messages;
 mod step_report;
 
