@@ -3,6 +3,7 @@
 mod certificate;
 mod corner_optimum;
 mod jerk;
+mod margins;
 #[cfg(feature = "mcap")]
 mod mcap;
 mod optimum;

@@ -132,10 +132,13 @@ impl Posture<'_> {
             None => *errors,
         };
         let local = part.unwrap_or(self.scene.part(pair));
+        let (wrist, reach) = (wrist_motion(self.scene, pair, &errors), local.reach_from(Point::zeros()));
+        if known > 0.0 && known > Changes::new(self, link, self.slides(deviation), &errors).motion(reach) + wrist {
+            return true;
+        }
         let changes = Changes::new(self, link, deviation, &errors);
-        let wrist = wrist_motion(self.scene, pair, &errors);
-        let motion = changes.motion(local.reach_from(Point::zeros())) + wrist;
-        if self.disc_bound_during(during, Deviation::Box([0.0; 2])).max(known) > motion {
+        let motion = changes.motion(reach) + wrist;
+        if self.disc_bound_during(during, Deviation::Box([0.0; 2])) > motion {
             return true;
         }
         let moved = drift.map(|drift| self.scene.piece(pair).at(&drift.middle));
@@ -177,6 +180,13 @@ impl Posture<'_> {
                 n.dot(&p) - toward > line + room
             })
         })
+    }
+
+    /// Returns deviations that contain those of prismatic joints. Rotations do not change how far errors move a point.
+    fn slides(&self, deviation: Deviation) -> Deviation {
+        let greatest = deviation.greatest_components();
+        let joints = &self.scene.arm().joints;
+        Deviation::Box([0, 1].map(|k| if joints[k].joint_type.is_revolute() { 0.0 } else { greatest[k] }))
     }
 
     /// Returns the unit vectors along the links, from joint to joint and from joint 2 to the tip, that move the parts of a

@@ -7,7 +7,9 @@ use cplan_handling::{Piece, Task, TimedScene};
 use cplan_legs::{Event, Leg, TaskAnswer};
 use cplan_model::space::{Configuration, Path};
 use cplan_model::{Additions, Grip, Scene};
-use cplan_motion::{BLEND_TOLERANCE, BodyNames, MarginSearch, Margins, MotionStretch, TimedMotion};
+use cplan_motion::{BLEND_TOLERANCE, BodyNames, MarginSearch, Margins, MotionStretch, TimedMotion, Trajectory};
+use std::collections::BTreeSet;
+use std::sync::Arc;
 
 impl Plan {
     /// Returns the margins of the motion; none without a motion. They are computed at the first call.
@@ -33,8 +35,15 @@ fn of_task(task: &Task, answer: &TaskAnswer) -> Margins {
     let objects = task.objects.iter().map(|object| object.name.clone()).collect();
     let names = BodyNames { fixed: task.workspace.fixed.obstacles.len(), objects };
     let mut search = MarginSearch::new(&task.arm, names);
+    // Repetitions share their motions.
+    let mut examined = BTreeSet::new();
+    let motion = |leg: &Leg| (Arc::as_ptr(&leg.scene), Arc::as_ptr(&leg.timed));
     for (k, leg) in answer.legs.iter().enumerate() {
         let (before, next) = (k.checked_sub(1).map(|k| &answer.legs[k]), answer.legs.get(k + 1));
+        let neighbours = [before, Some(leg), next].map(|leg| leg.map(motion));
+        if !(task.has_moving_obstacles() || examined.insert(neighbours)) {
+            continue;
+        }
         let trajectories = task.trajectories_since(&leg.moving, leg.begin);
         examine(&mut search, TimedScene { scene: &leg.scene, trajectories: &trajectories }, &leg.timed, leg.begin);
         if task.has_moving_obstacles() {
@@ -43,12 +52,12 @@ fn of_task(task: &Task, answer: &TaskAnswer) -> Margins {
             for during in [Some(leg), next].into_iter().flatten() {
                 let trajectories = task.trajectories_since(&during.moving, leg.arrival());
                 let scene = TimedScene { scene: &during.scene, trajectories: &trajectories };
-                search.examine(&MotionStretch { scene, pieces: &rest, begin: Some(0.0), beside: 0.0, known: 0.0 });
+                search.examine(&MotionStretch { scene, pieces: &rest, begin: 0.0, beside: 0.0, known: 0.0 });
             }
         }
         for stretch in tool_stretches(task, [before, Some(leg), next]) {
             let (scene, pieces) = (TimedScene::from(&stretch.scene), &stretch.pieces[..]);
-            let (begin, known) = (Some(stretch.begin), stretch.known);
+            let (begin, known) = (stretch.begin, stretch.known);
             search.examine(&MotionStretch { scene, pieces, begin, beside: 0.0, known });
         }
     }
@@ -154,22 +163,43 @@ fn turning(scene: &Scene) -> Scene {
 
 /// Examines a motion that begins at a time, in seconds, and the straight path that it follows.
 fn examine(search: &mut MarginSearch, timed: TimedScene, motion: &TimedMotion, begin: f64) {
-    let path = motion.curve.straight().path();
-    let pieces = Some(motion.trajectory.pieces()).filter(|pieces| !pieces.is_empty());
+    let (path, trajectory) = (motion.curve.straight().path(), &motion.trajectory);
+    let pieces = Some(trajectory.pieces()).filter(|pieces| !pieces.is_empty());
     let pieces = pieces.unwrap_or_else(|| vec![at_rest(path.start())]);
-    let radius = motion.curve.radii().iter().copied().fold(0.0, f64::max);
-    let beside = BLEND_TOLERANCE * radius;
-    search.examine(&MotionStretch { scene: timed, pieces: &pieces, begin: Some(begin), beside, known: 0.0 });
-    let scene = TimedScene::from(timed.scene);
-    search.examine(&MotionStretch { scene, pieces: &straight(path), begin: None, beside: 0.0, known: 0.0 });
+    let beside = BLEND_TOLERANCE * motion.curve.radii().iter().copied().fold(0.0, f64::max);
+    search.examine(&MotionStretch { scene: timed, pieces: &pieces, begin, beside, known: 0.0 });
+    // The times of the straight path are about those of the motion, so they do not count for moving obstacles.
+    let (scene, pieces) = (TimedScene::from(timed.scene), straight(path, trajectory));
+    search.examine(&MotionStretch { scene, pieces: &pieces, begin, beside: 0.0, known: 0.0 });
 }
 
 fn at_rest(q: Configuration) -> Piece {
     Piece::line(0.0, 0.0, q, q)
 }
 
-/// Returns the pieces of a path; at least one.
-fn straight(path: &Path) -> Vec<Piece> {
-    let pieces: Vec<Piece> = path.segments().map(|(from, to)| Piece::line(0.0, 1.0, from, to)).collect();
+/// Returns the pieces of a path; at least one. Each waypoint has the time at which the trajectory is at the same share of
+/// its length.
+fn straight(path: &Path, trajectory: &Trajectory) -> Vec<Piece> {
+    let along = |steps: &mut dyn Iterator<Item = f64>| {
+        let sum = |length: &mut f64, step: f64| {
+            *length += step;
+            Some(*length)
+        };
+        [0.0].into_iter().chain(steps.scan(0.0, sum)).collect::<Vec<f64>>()
+    };
+    let moved = along(
+        &mut trajectory
+            .position
+            .windows(2)
+            .map(|ends| (Configuration::from(ends[1]) - Configuration::from(ends[0])).norm()),
+    );
+    let lengths = along(&mut path.segments().map(|(from, to)| (to - from).norm()));
+    let [whole, length] = [&moved, &lengths].map(|lengths| lengths[lengths.len() - 1]);
+    let time = |waypoint: usize| {
+        let at = moved.partition_point(|moved| moved * length < lengths[waypoint] * whole);
+        trajectory.time.get(at).copied().unwrap_or(0.0)
+    };
+    let pieces = path.segments().enumerate().map(|(k, (from, to))| Piece::line(time(k), time(k + 1), from, to));
+    let pieces: Vec<Piece> = pieces.collect();
     if pieces.is_empty() { vec![at_rest(path.start())] } else { pieces }
 }

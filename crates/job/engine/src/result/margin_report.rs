@@ -32,9 +32,8 @@ struct PlaceReport<'a> {
     between: [&'a str; 2],
     /// Configuration of the arm.
     at: [f64; 2],
-    /// Time of the trajectory, seconds. `None` at a corner of the path that the trajectory rounds.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    time: Option<f64>,
+    /// Time of the trajectory, seconds. At a corner that it rounds, it is about the time at which it passes.
+    time: f64,
 }
 
 impl<'a> PlaceReport<'a> {

@@ -21,8 +21,8 @@ pub struct Margin {
     pub size: f64,
     /// Configuration of the arm at that place.
     pub at: Configuration,
-    /// Time of that place, seconds; `None` if it is on the straight path that the motion leaves at a corner.
-    pub time: Option<f64>,
+    /// Time of that place, seconds. At a corner that the motion rounds, it is about the time at which the motion passes.
+    pub time: f64,
     /// The obstacle there, and the part of the arm or the payload: indices into [`Margins::bodies`].
     pub bodies: [usize; 2],
 }

@@ -33,8 +33,8 @@ pub struct MotionStretch<'a> {
     pub scene: TimedScene<'a>,
     /// The motion; at least one piece.
     pub pieces: &'a [Piece],
-    /// Time that is added to the times of the pieces, seconds. `None` if they have no times.
-    pub begin: Option<f64>,
+    /// Time that is added to the times of the pieces, seconds.
+    pub begin: f64,
     /// Greatest difference between readings of the motion and these pieces in each joint, radians or metres.
     pub beside: f64,
     /// Distance that is already proven for all pairs, metres. 0 if none is.
@@ -120,9 +120,16 @@ struct Look<'p> {
 }
 
 impl Look<'_> {
-    /// Returns true if the pair is proven to be apart over the deviation, and with these errors.
-    fn is_apart(&self, deviation: Deviation, errors: &ArmErrors) -> bool {
-        self.posture.is_apart_with_errors(self.during, deviation, errors, self.known)
+    /// Returns true if the pair is proven to be apart in the whole span, with these errors.
+    fn is_apart(&self, errors: &ArmErrors) -> bool {
+        self.posture.is_apart_with_errors(self.during, self.deviation, errors, self.known)
+    }
+
+    /// Returns true if the pair is proven to be apart in the middle of the span, with these errors.
+    fn is_apart_in_middle(&self, errors: &ArmErrors) -> bool {
+        let drift = self.during.drift.map(|drift| Drift { half: 0.0, ..*drift });
+        let during = SpanPair { drift: drift.as_ref(), ..self.during };
+        self.posture.is_apart_with_errors(during, self.beside, errors, self.known)
     }
 
     /// Returns a lower bound on the distance over the deviation. It may be below the greatest one once it is `enough`.
@@ -258,15 +265,15 @@ impl<'a> MarginSearch<'a> {
     fn decides_error(&mut self, look: &Look, kind: usize, is_last: bool) -> bool {
         let errors = |search: &Self, size: f64| search.kinds[kind].errors(search.arm, size);
         let mut size = self.errors[kind].target();
-        if !look.is_apart(look.deviation, &errors(self, size)) {
+        if !look.is_apart(&errors(self, size)) {
             self.improve(look, kind);
             let tried = std::mem::replace(&mut size, self.errors[kind].target());
-            if size == tried || !look.is_apart(look.deviation, &errors(self, size)) {
+            if size == tried || !look.is_apart(&errors(self, size)) {
                 if !is_last {
                     return false;
                 }
                 let halved = std::iter::successors(Some(size), |size| Some(size / 2.0)).take(MOST_ERROR_HALVINGS);
-                size = { halved }.find(|&size| look.is_apart(look.deviation, &errors(self, size))).unwrap_or(0.0);
+                size = { halved }.find(|&size| look.is_apart(&errors(self, size))).unwrap_or(0.0);
             }
         }
         self.errors[kind].accept(size);
@@ -288,7 +295,7 @@ impl<'a> MarginSearch<'a> {
     /// Reduces the size of an error to the largest one that keeps a pair apart at a place of the motion.
     fn improve(&mut self, look: &Look, kind: usize) {
         let Some(place) = look.place else { return };
-        let is_apart = |size: f64| look.is_apart(look.beside, &self.kinds[kind].errors(self.arm, size));
+        let is_apart = |size: f64| look.is_apart_in_middle(&self.kinds[kind].errors(self.arm, size));
         let [mut free, mut open] = [0.0, self.errors[kind].seen];
         if is_apart(open) {
             return;
@@ -311,7 +318,7 @@ fn look<'p>(
 ) -> Look<'p> {
     let bodies = bodies.of(during.pair);
     let place = place.map(|(piece, share)| {
-        let time = stretch.begin.map(|begin| begin + stretch.pieces[piece].time(share));
+        let time = stretch.begin + stretch.pieces[piece].time(share);
         Margin { size: 0.0, at: posture.configuration(), time, bodies }
     });
     let beside = Deviation::Box([stretch.beside; 2]);
