@@ -138,6 +138,7 @@ columns = 3
 pitch = [0.1, -0.1]
 at = [0.5, 0.5]
 angle = 0.5
+height = 0.1
 [[object]]
 name = "lid"
 circle = { center = [0, 0], radius = 0.01 }
@@ -155,7 +156,7 @@ at = [0.3, 0.2]
 window = [1, 2]
 dwell = 0.2
 [[step]]
-place = { at = [0.1, 0.3], angle = 1.57, supports = ["tray"] }
+place = { at = [0.1, 0.3], angle = 1.57, supports = ["tray"], height = 0.0 }
 speed = 0.5
 [[step]]
 move = { joints = [0, 0.5] }

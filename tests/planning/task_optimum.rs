@@ -54,7 +54,8 @@ fn distant_object(name: &str, at: Point) -> Object {
 }
 
 fn step(action: Action, number: usize) -> Step {
-    Step { action, number, cycle: 1, place: String::new(), speed: 1.0, dwell: 0.25, tool: ToolValues::default() }
+    let (place, tool) = (String::new(), ToolValues::default());
+    Step { action, number, cycle: 1, place, speed: 1.0, dwell: 0.25, tool, elevation: 0.0 }
 }
 
 /// Returns a task without obstacles at the height of its objects, with pairs of picks and places in fixed or free
@@ -168,7 +169,7 @@ fn the_fastest_of_all_ik_solutions_and_orders_is_found() {
                 *known.entry(key).or_insert_with(|| {
                     let there = Step { dwell: 0.0, ..step(Action::Move(Goal::Joints(to)), 1) };
                     let blocked = |q: Configuration| {
-                        let poses: Vec<_> = task.objects.iter().map(|o| Some(o.at)).collect();
+                        let poses: Vec<_> = task.objects.iter().map(|o| Some(o.at.into())).collect();
                         let scene = task.scene(&poses, &[], None, []);
                         !scene.obstructions(q).is_empty()
                     };

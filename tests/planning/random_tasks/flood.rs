@@ -103,7 +103,8 @@ fn payloads_are_judged_like_a_flood_fill() {
             Holding::Level => Grip::Level { angle: lies.rotation.angle(), point: Point::zeros() },
         };
         let payload = Payload { object, grip, supports };
-        let poses: Vec<_> = task.objects.iter().enumerate().map(|(i, o)| (i != object).then_some(o.at)).collect();
+        let poses: Vec<_> =
+            task.objects.iter().enumerate().map(|(i, o)| (i != object).then_some(o.at.into())).collect();
         let scene = task.scene(&poses, &[], Some(&payload), []);
         let topology = task.arm.topology();
         let mut free = || {

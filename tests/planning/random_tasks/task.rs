@@ -59,7 +59,7 @@ pub fn task(seed: u64) -> Task {
         });
     }
     // Somewhere free among all objects.
-    let all: Vec<_> = objects.iter().map(|object| Some(object.at)).collect();
+    let all: Vec<_> = objects.iter().map(|object| Some(object.at.into())).collect();
     let mut task = Task {
         arm,
         workspace: workspace.into(),
@@ -88,6 +88,7 @@ pub fn task(seed: u64) -> Task {
             speed: if dice.chance(0.2) { dice.within(0.2, 1.0) } else { 1.0 },
             dwell: if dice.chance(0.5) { dice.within(0.0, 0.5) } else { 0.0 },
             tool: ToolValues::default(),
+            elevation: 0.0,
         }
     };
     let mut pairs = Vec::new();

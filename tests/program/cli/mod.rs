@@ -41,6 +41,7 @@ mod outputs;
 mod own_body;
 mod path_kind;
 mod polygons;
+mod placed_heights;
 mod pressing_depth;
 mod programs;
 mod proof_sizes;

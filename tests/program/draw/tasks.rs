@@ -73,6 +73,7 @@ fn task(objects: Vec<Object>, obstacles: Vec<Obstacle>, steps: &[Action], rounds
                 speed: 1.0,
                 dwell: 0.25,
                 tool: ToolValues::default(),
+                elevation: 0.0,
             })
         };
         items.extend(steps.iter().enumerate().map(step));

@@ -24,6 +24,7 @@ use cplan_check::world::World;
 use cplan_check::{CheckError, Input};
 use held::HeldObject;
 use num_bigint::BigInt;
+use std::collections::BTreeMap;
 use std::iter;
 use std::ops::Range;
 
@@ -67,6 +68,12 @@ pub(super) struct Replay<'a> {
     /// Heights of the lowered tool at the start and at the goal, relative to the raised one. `None` if it is raised there,
     /// or has been raised.
     lowered: [Option<Interval>; 2],
+    /// Height of each object above its initial one, metres, where it lies or where it was picked.
+    elevations: Vec<Decimal>,
+    /// The same for the object of the present step, where it is picked or placed.
+    elevation: Decimal,
+    /// Objects that lie at other heights than initially, by their indices among the obstacles.
+    elevated: BTreeMap<usize, Obstacle>,
     /// Index among the obstacles of the object that was released last. `None` if it must not be touched any more.
     released: Option<usize>,
     /// Greatest deviation so far of an object or the tip from its required place.
@@ -85,6 +92,16 @@ enum ToolHeights<'a> {
     /// The heights while the tool is in a range, which is relative to its raised position. Only shapes that the stroke
     /// lowers are checked.
     At(&'a [Decimal; 2]),
+}
+
+/// Returns the least range that contains all of these.
+fn spanned(ranges: &[[Decimal; 2]]) -> [Decimal; 2] {
+    let mut spanned = ranges[0].clone();
+    for [low, high] in &ranges[1..] {
+        let [least, most] = spanned;
+        spanned = [least.min(low.clone()), most.max(high.clone())];
+    }
+    spanned
 }
 
 impl<'a> Replay<'a> {
@@ -130,6 +147,9 @@ impl<'a> Replay<'a> {
             lift,
             before: EndCurves::default(),
             lowered: [start?, goal?],
+            elevations: vec![Decimal::whole(0); task.objects.len()],
+            elevation: Decimal::whole(0),
+            elevated: BTreeMap::new(),
             released: None,
             off: BigInt::ZERO,
         })
@@ -169,9 +189,12 @@ impl<'a> Replay<'a> {
                 return CheckError::fails("a moving object cannot be renewed");
             }
             self.present[number] = Some(PlacedObstacle::new(&self.chain, self.all[number].clone())?);
+            self.elevated.remove(&number);
+            self.elevations[*object] = Decimal::whole(0);
             // A renewed object counts as another object, so the exemption for the released one ends.
             self.released = self.released.filter(|released| *released != number);
         }
+        self.elevation = self.elevation_of(step);
         // The arm stays where a step ends until its next motion begins.
         let (first, last) = (std::mem::replace(&mut self.knot, done.knots[1]), done.knots[1]);
         let (motion, released) = (self.motion, self.released);
@@ -229,6 +252,24 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
+    /// Returns the height of a step's object above its initial one, where it is picked or placed, metres.
+    fn elevation_of(&self, step: &Step) -> Decimal {
+        match (&step.action, &self.held) {
+            (Action::Pick { object, .. }, _) => self.elevations[*object].clone(),
+            (Action::Place { height, .. }, Some(held)) => {
+                let heights = self.all[self.task.first + held.object].heights.as_ref();
+                let stated = height.as_ref().zip(heights).map(|(height, [low, _])| height - low);
+                stated.unwrap_or_else(|| self.elevations[held.object].clone())
+            }
+            _ => Decimal::whole(0),
+        }
+    }
+
+    /// Returns an obstacle with its present heights.
+    fn obstacle(&self, number: usize) -> &Obstacle {
+        self.elevated.get(&number).unwrap_or(self.all[number])
+    }
+
     fn misses(&mut self, off: BigInt) -> Result<(), CheckError> {
         missed("target", &off)?;
         self.off = off.max(std::mem::take(&mut self.off));
@@ -239,20 +280,21 @@ impl<'a> Replay<'a> {
     /// collide.
     fn meets(&self, held: &HeldObject, obstacle: usize, tool: ToolHeights) -> Option<ContactRule> {
         let own = self.task.first + held.object;
-        let [heights, others] = [own, obstacle].map(|number| self.all[number].heights.as_ref());
-        if let (Some(lying), Some([low, high])) = (heights, others) {
+        let (heights, others) = (self.all[own].heights.as_ref(), self.obstacle(obstacle).heights.as_ref());
+        if let (Some(initial), Some([low, high])) = (heights, others) {
             let lift = &self.task.objects[held.object].lift;
-            let carried = lying.each_ref().map(|height| height + lift);
+            let carried = initial.each_ref().map(|height| height + lift);
+            let lying = initial.each_ref().map(|height| height + &self.elevation);
+            let picked = initial.each_ref().map(|height| height + &self.elevations[held.object]);
             let [least, most] = match tool {
                 ToolHeights::Raised => carried,
-                ToolHeights::Lying => lying.clone(),
+                ToolHeights::Lying => lying,
                 // The object follows the tool.
                 ToolHeights::At([below, above]) if self.task.depth(held.object) == Some(lift) => {
                     [&carried[0] + below, &carried[1] + above]
                 }
-                ToolHeights::Swept | ToolHeights::At(_) => {
-                    [lying[0].clone().min(carried[0].clone()), lying[1].clone().max(carried[1].clone())]
-                }
+                ToolHeights::Swept => spanned(&[lying, carried]),
+                ToolHeights::At(_) => spanned(&[lying, carried, picked]),
             };
             if most < *low || *high <= &least + &Decimal::power_of_ten(RESTING_DECIMALS) {
                 return None;
@@ -315,7 +357,7 @@ impl<'a> Replay<'a> {
 
     /// Returns true if a shape of the second link is at the height of an obstacle while the tool is raised.
     fn is_at_raised_height(&self, obstacle: usize) -> bool {
-        let heights = self.all[obstacle].heights.as_ref();
+        let heights = self.obstacle(obstacle).heights.as_ref();
         let mut bodies = self.shapes.iter().map(|(shape, ..)| &shape.around).filter(|body| body.link == 1);
         bodies.any(|body| !body.misses_heights(heights))
     }
@@ -329,7 +371,7 @@ impl<'a> Replay<'a> {
             (ToolHeights::Swept, held) => {
                 let Some(by) = held.as_ref().and_then(|held| self.task.depth(held.object)) else { return Ok(()) };
                 self.require_static("a stroke of the tool")?;
-                Some(swept_heights(by))
+                Some(swept_heights(&(by - &self.elevation)))
             }
         };
         let is_partial = matches!(tool, ToolHeights::At(_));
@@ -340,11 +382,11 @@ impl<'a> Replay<'a> {
             let body = &counted.around;
             let lowered = heights.as_ref().filter(|_| *is_lowered).map(|heights| displaced(counted, heights));
             let heights = lowered.as_ref().unwrap_or(body);
-            let meets = |(number, obstacle): (usize, &&Obstacle)| {
+            let meets = |number: usize| {
                 let is_allowed = body.link == 1 && touched.contains(&number);
-                !is_allowed && counted.meets(heights, obstacle)
+                !is_allowed && counted.meets(heights, self.obstacle(number))
             };
-            let meets = self.all.iter().enumerate().map(meets).collect();
+            let meets = (0..self.all.len()).map(meets).collect();
             Part { name: counted.to_string(), keeps: &self.keeps, solid, meets }
         };
         let counted = self.shapes.iter().filter(|(.., is_lowered)| *is_lowered || !is_partial);

@@ -19,6 +19,8 @@ struct Pallet {
     /// For each place, its row and column as they appear in names, and its position.
     places: Vec<(String, Point)>,
     turn: Point,
+    /// Height of its places, metres.
+    height: Option<Decimal>,
 }
 
 /// All that steps can refer to.
@@ -175,7 +177,9 @@ impl Reader<'_> {
             (format!("{},{}", row + 1, column + 1), sum(&at, &turned(&by, &turn)))
         };
         let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
-        Ok((self.text(name)?, Pallet { places: places.map(|(row, column)| place(row, column)).collect(), turn }))
+        let places = places.map(|(row, column)| place(row, column)).collect();
+        let height = table.get("height").map(|height| self.number(height)).transpose()?;
+        Ok((self.text(name)?, Pallet { places, turn, height }))
     }
 
     /// Reads an object, or one object for each place of a pallet. Adds them to `objects`, and returns them as obstacles
@@ -199,7 +203,7 @@ impl Reader<'_> {
             (None, Some(_)) => vec![lying],
             (None, None) if lying.trajectory.is_some() => vec![lying],
             (Some(pallet), None) if lying.trajectory.is_none() => {
-                let Some(Pallet { places, turn }) = pallets.get(&self.text(pallet)?) else {
+                let Some(Pallet { places, turn, .. }) = pallets.get(&self.text(pallet)?) else {
                     return self.error(pallet, "there is no pallet of this name");
                 };
                 let turn = both_turns(turn, &lying.turn);
@@ -346,19 +350,20 @@ impl Steps<'_, '_> {
 
     fn place(&self, value: &Value) -> ReadResult<Action> {
         let (reader, table) = (self.reader, self.reader.table(value)?);
-        let at = match (table.get("at"), table.get("on")) {
-            (Some(at), None) => point(&reader.pair(at, |n| reader.number(n))?),
+        let (at, of_pallet) = match (table.get("at"), table.get("on")) {
+            (Some(at), None) => (point(&reader.pair(at, |n| reader.number(n))?), None),
             (None, Some(on)) => {
                 let wanted = reader.text(on)?;
                 let mut places =
-                    self.pallets.iter().flat_map(|(name, pallet)| pallet.places.iter().map(move |p| (name, p)));
-                let found = places.find(|(name, (place, _))| wanted == format!("{name} {place}"));
-                let Some((_, (_, at))) = found else { return reader.error(on, "no pallet has this place") };
-                at.clone()
+                    self.pallets.iter().flat_map(|named| named.1.places.iter().map(move |place| (named, place)));
+                let found = places.find(|((name, _), (place, _))| wanted == format!("{name} {place}"));
+                let Some(((_, pallet), (_, at))) = found else { return reader.error(on, "no pallet has this place") };
+                (at.clone(), pallet.height.clone())
             }
             _ => return reader.error(value, "a place needs either `at` or `on`"),
         };
-        Ok(Action::Place { at, angle: self.angle(table)?, supports: self.supports(table)? })
+        let height = table.get("height").map(|height| reader.number(height)).transpose()?.or(of_pallet);
+        Ok(Action::Place { at, angle: self.angle(table)?, supports: self.supports(table)?, height })
     }
 
     /// Reads a transfer: returns a pick and a place for each object of a pallet, one after the other.
@@ -374,8 +379,8 @@ impl Steps<'_, '_> {
         };
         let (angle, supports) = (self.angle(table)?, self.supports(table)?);
         let pair = |(object, (_, at)): (usize, &(String, Point))| {
-            let (at, angle, supports) = (at.clone(), angle.clone(), supports.clone());
-            [self.pick(object, None, None, MovingPick::default()), Action::Place { at, angle, supports }]
+            let (at, angle, supports, height) = (at.clone(), angle.clone(), supports.clone(), pallet.height.clone());
+            [self.pick(object, None, None, MovingPick::default()), Action::Place { at, angle, supports, height }]
         };
         Ok(objects.into_iter().zip(&pallet.places).flat_map(pair).collect())
     }

@@ -120,6 +120,8 @@ pub enum Action {
         at: Point,
         angle: Option<Interval>,
         supports: Option<Vec<usize>>,
+        /// Height of the object's bottom there, metres. `None` if it is the one where the object was picked.
+        height: Option<Decimal>,
     },
     Move(Goal),
     /// The tip moves to the beginning of the line of the next step.

@@ -9,7 +9,7 @@ use super::stroke::{raising_first, stroke};
 use super::tool_turn::turned_first;
 use cplan_follow::{Found, Settings, WristAlong, follow_between};
 use cplan_geometry::Pose;
-use cplan_handling::{Action, FollowedLine, Payload, Step, Task, WristGuide};
+use cplan_handling::{Action, FollowedLine, Payload, Placement, Step, Task, WristGuide};
 use cplan_judge::CertifiedPath;
 use cplan_legs::{Overlap, StandstillScene, ToolStroke, WristMotion};
 use cplan_model::{Grip, Outcome, Scene};
@@ -282,7 +282,7 @@ impl MotionCache {
         let ends = [q[0], q[1], to[0], to[1]].map(f64::to_bits);
         let own = task.workspace.fixed.obstacles.len();
         let found = plan_among_few(scene, own, |among| {
-            let lies = |(object, pose): (usize, &Option<Pose>)| pose.filter(|_| among.contains(&object));
+            let lies = |(object, pose): (usize, &Option<Placement>)| pose.filter(|_| among.contains(&object));
             let poses = from.poses.iter().enumerate().map(lies).collect();
             let fewer = State { poses, ..from.clone() };
             let key = (scene_key(&fewer, candidate.step, |object| among.contains(&object)), ends);
@@ -314,7 +314,9 @@ impl MotionCache {
         require_free_after(task, from, candidate)?;
         let carried = from.held.as_ref().map(|held| task.objects[held.object].carried_heights());
         let own = || task.arm.links.iter().flat_map(|link| &link.parts).map(|part| part.heights);
-        let matters = |object: usize| own().chain(carried).any(|h| h.meet(task.objects[object].heights));
+        let elevation = |object: usize| from.poses[object].map_or(0.0, |lies| lies.elevation);
+        let heights = |object: usize| task.objects[object].heights_at(elevation(object));
+        let matters = |object: usize| own().chain(carried).any(|h| h.meet(heights(object)));
         let key = scene_key(from, candidate.step, matters);
         let next = self.numbers.len();
         let number = *self.numbers.entry(key).or_insert(next);
@@ -405,7 +407,10 @@ fn scene_key(from: &State, step: &Step, matters: impl Fn(usize) -> bool) -> Scen
         key.extend([object as u64, u64::from(allowed_contacts)]);
         match pose {
             None => key.push(u64::MAX),
-            Some(pose) => key.extend([pose.translation.x, pose.translation.y, pose.rotation.angle()].map(f64::to_bits)),
+            Some(Placement { pose, elevation }) => {
+                let Pose { translation, rotation } = pose;
+                key.extend([translation.x, translation.y, rotation.angle(), *elevation].map(f64::to_bits));
+            }
         }
     }
     if let Some(held) = &from.held {

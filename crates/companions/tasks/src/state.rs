@@ -1,8 +1,9 @@
 //! States of a task, and the candidates for the next step.
 
 use super::ik_solutions::{goal_ik_solutions, ik_solutions};
+use super::stroke::stroke_depth;
 use cplan_geometry::Pose;
-use cplan_handling::{Action, Holding, Item, Object, Payload, Step, Task};
+use cplan_handling::{Action, Holding, Item, Object, Payload, Placement, Step, Task};
 use cplan_legs::Event;
 use cplan_model::space::Configuration;
 use cplan_model::{Grip, Scene};
@@ -26,8 +27,8 @@ pub(super) struct Progress {
 pub(super) struct State {
     pub progress: Progress,
     pub q: Configuration,
-    /// Pose of each object. `None` while it is carried or still moves by itself.
-    pub poses: Arc<[Option<Pose>]>,
+    /// Placement of each object. `None` while it is carried or still moves by itself.
+    pub poses: Arc<[Option<Placement>]>,
     /// The objects that still move by themselves, in ascending order.
     pub moving: Arc<[usize]>,
     /// The payload. Its supports are the obstacles on which it rested and will rest, in ascending order.
@@ -65,7 +66,7 @@ impl Candidate<'_> {
     /// Returns the depth to which the tool is lowered at the target, in metres. `None` if it stays raised.
     pub fn depth(&self, task: &Task) -> Option<f64> {
         match self.event {
-            Some(event) => task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[event.object()])),
+            Some(event) => stroke_depth(task, self.step, Some(event.object())),
             None => self.step.tool.lowered_by(),
         }
     }
@@ -144,12 +145,14 @@ impl State {
             let turn = normalized(pose.rotation.angle());
             key.extend([pose.translation.x, pose.translation.y, turn].map(grains));
         };
-        self.poses.iter().flatten().for_each(&mut pose);
+        self.poses.iter().flatten().for_each(|lies| pose(&lies.pose));
+        let elevations: Vec<i64> = self.poses.iter().flatten().map(|lies| grains(lies.elevation)).collect();
         match &self.held {
             Some(Payload { grip: Grip::Rigid(in_link), .. }) => pose(in_link),
             Some(Payload { grip: Grip::Level { angle, .. }, .. }) => key.push(grains(normalized(*angle))),
             None => {}
         }
+        key.extend(elevations);
         key.extend(self.held.iter().map(|held| held.object as i64));
         key.extend(self.released.iter().map(|&object| object as i64));
         key.extend(self.turning.iter().flat_map(|(turn, _)| [turn.from, turn.to]).map(grains));
@@ -161,7 +164,7 @@ impl State {
     pub fn at_pick(&self, task: &Task, object: usize, time: f64) -> Self {
         let mut state = self.clone();
         Arc::make_mut(&mut state.poses)[object] =
-            task.objects[object].trajectory.as_ref().map(|trajectory| trajectory.pose(time));
+            task.objects[object].trajectory.as_ref().map(|trajectory| trajectory.pose(time).into());
         state.moving = self.moving.iter().copied().filter(|&other| other != object).collect();
         state
     }
@@ -218,7 +221,7 @@ impl State {
                 reach
             }
             (Action::Pick { object, grasp, .. }, None) => {
-                let Some(lies) = self.poses[*object] else { return Candidates::unknown(step) };
+                let Some(Placement { pose: lies, .. }) = self.poses[*object] else { return Candidates::unknown(step) };
                 let reach = ik_solutions(arm, arm.tip, lies.point(*grasp), self.q);
                 let wanted = place.and_then(|place| match place.action {
                     Action::Place { angle, .. } => angle,
@@ -302,7 +305,7 @@ impl State {
                 after.held = candidate.grip.map(|grip| Payload { object, grip, supports });
             }
             Some(Event::Release { object, pose }) => {
-                Arc::make_mut(&mut poses)[object] = Some(pose);
+                Arc::make_mut(&mut poses)[object] = Some(Placement { pose, elevation: candidate.step.elevation });
                 (after.held, after.released) = (None, Some(object));
             }
             None => {}
@@ -320,7 +323,7 @@ impl State {
     pub fn renewed(mut self, task: &Task) -> Self {
         while let Some(Item::Renew(objects)) = task.items.get(self.progress.item) {
             let poses = Arc::make_mut(&mut self.poses);
-            objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at));
+            objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at.into()));
             // A renewed object is a new one, which the arm must not touch.
             self.released = self.released.filter(|released| !objects.contains(released));
             self.progress.item += 1;

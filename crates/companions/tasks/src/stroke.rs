@@ -48,7 +48,8 @@ pub(super) fn least_raising_at_start(task: &Task, seconds: impl Fn(f64) -> f64) 
 
 /// Returns the depth in metres to which a step lowers the tool for its object, or at the end of a move.
 pub(super) fn stroke_depth(task: &Task, step: &Step, object: Option<usize>) -> Option<f64> {
-    let of_object = |object: usize| task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[object]));
+    let of_object =
+        |object: usize| task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[object]) - step.elevation);
     object.map_or(step.tool.lowered_by(), of_object)
 }
 
@@ -140,5 +141,6 @@ fn lowered(task: &Task, from: &State, candidate: &Candidate, event: Event) -> Op
         payload
     });
     let is_placed = matches!(event, Event::Release { .. });
-    task.lowered_scene(event.object(), is_placed, &with.poses, payload.as_ref(), with.released)
+    let lowered = (event.object(), candidate.step.elevation);
+    task.lowered_scene(lowered, is_placed, &with.poses, payload.as_ref(), with.released)
 }

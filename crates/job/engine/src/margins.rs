@@ -84,7 +84,7 @@ fn tool_stretches(task: &Task, legs: [Option<&Leg>; 3]) -> Vec<ToolStretch> {
         stretches.push(ToolStretch { scene, pieces: vec![at_rest(q)], begin, known });
     };
     if let Some(raising) = leg.raising {
-        let scene = lowered(task, leg, &[depth(raising.lowered)], |additions| {
+        let scene = lowered(task, leg, (&[depth(raising.lowered)], &[0.0]), |additions| {
             let picked = leg.step.action.picked().map(|object| task.obstacle_number_among(&leg.moving, object));
             additions.allowed_contacts.retain(|number| Some(*number) != picked);
         });
@@ -95,7 +95,7 @@ fn tool_stretches(task: &Task, legs: [Option<&Leg>; 3]) -> Vec<ToolStretch> {
     let turned = leg.turn.map(|(turn, _)| turn);
     if leg.stroke.is_some() || matches!(leg.event, Some(Event::Release { .. })) {
         let depths: Vec<f64> = leg.stroke.iter().map(|stroke| depth(stroke.lowered)).collect();
-        let scene = lowered(task, holding, &depths, |additions| {
+        let scene = lowered(task, holding, (&depths, &[leg.step.elevation]), |additions| {
             let grip = additions.attachment.as_mut().map(|attachment| &mut attachment.grip);
             if let (Some(Grip::Level { angle, .. }), Some(turn)) = (grip, turned) {
                 *angle = if std::ptr::eq(holding, leg) { turn.to } else { turn.from };
@@ -121,7 +121,8 @@ fn tool_stretches(task: &Task, legs: [Option<&Leg>; 3]) -> Vec<ToolStretch> {
     let strokes = [before.and_then(|leg| leg.stroke), leg.raising, leg.stroke].into_iter().flatten();
     let depths: Vec<f64> = strokes.map(|stroke| depth(stroke.lowered)).collect();
     let lower = || {
-        lowered(task, leg, &depths, |additions| {
+        let elevations = [before.unwrap_or(leg).step.elevation, leg.step.elevation];
+        lowered(task, leg, (&depths, &elevations), |additions| {
             let is_raised = |number: &usize| {
                 let heights = leg.scene.obstacle(*number).heights;
                 leg.scene.own_parts(1).iter().any(|part| part.heights.meet(heights))
@@ -135,7 +136,12 @@ fn tool_stretches(task: &Task, legs: [Option<&Leg>; 3]) -> Vec<ToolStretch> {
 }
 
 /// Returns the static scene of a step with the tool and its payload at all heights down to these depths, metres.
-fn lowered(task: &Task, leg: &Leg, depths: &[f64], change: impl FnOnce(&mut Additions)) -> Scene {
+fn lowered(
+    task: &Task,
+    leg: &Leg,
+    (depths, elevations): (&[f64], &[f64]),
+    change: impl FnOnce(&mut Additions),
+) -> Scene {
     let mut additions = Additions { loose: Vec::new(), ..leg.scene.additions().clone() };
     let (arm, workspace) = Scene::clone(&leg.scene).into_parts();
     let arm = match &task.stroke {
@@ -144,7 +150,11 @@ fn lowered(task: &Task, leg: &Leg, depths: &[f64], change: impl FnOnce(&mut Addi
     };
     if let Some((attachment, object)) = additions.attachment.as_mut().zip(leg.carried) {
         let object = &task.objects[object];
-        attachment.heights = if task.stroke.is_some() { object.handled_heights() } else { object.heights };
+        attachment.heights = if task.stroke.is_some() {
+            object.handled_heights(elevations.iter().copied())
+        } else {
+            object.heights_at(elevations[0])
+        };
     }
     change(&mut additions);
     Scene::with_trusted(arm, workspace, additions)

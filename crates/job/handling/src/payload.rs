@@ -1,8 +1,8 @@
 //! The object that the arm carries.
 
-use super::{Object, Stroke, Task, TimedWorkspace};
+use super::{Object, Placement, Stroke, Task, TimedWorkspace};
 use cplan_dynamics::{joined, spread};
-use cplan_geometry::{Convex, Pose, inset_union};
+use cplan_geometry::{Convex, inset_union};
 use cplan_model::{Additions, Arm, AttachedPart, Attachment, Body, Grip, Heights, Pair, Scene};
 use std::collections::BTreeSet;
 
@@ -85,7 +85,7 @@ impl Task {
     /// the workspace, in the order of [`Task::trajectories`]. Link 2 may touch the objects `touched`.
     pub fn scene(
         &self,
-        poses: &[Option<Pose>],
+        poses: &[Option<Placement>],
         moving: &[usize],
         payload: Option<&Payload>,
         touched: impl IntoIterator<Item = usize>,
@@ -96,23 +96,23 @@ impl Task {
         self.scene_of(self.arm.clone(), self.surroundings(poses, moving), payload, allowed_contacts)
     }
 
-    /// Returns the scene while the tool is lowered to pick or place an object. Returns `None` if the tool is not
-    /// lowered. Without a stroke, it is unknown how a placed object is lowered, so only its final pose is checked.
+    /// Returns the scene while the tool is lowered to pick or place an object at an elevation, in metres. Returns `None` if
+    /// the tool is not lowered. Without a stroke, it is unknown how a placed object is lowered, so only its final pose is checked.
     pub fn lowered_scene(
         &self,
-        object: usize,
+        (object, elevation): (usize, f64),
         is_placed: bool,
-        poses: &[Option<Pose>],
+        poses: &[Option<Placement>],
         payload: Option<&Payload>,
         touched: impl IntoIterator<Item = usize>,
     ) -> Option<Scene> {
         let lowered = &self.objects[object];
         let (arm, heights) = match &self.stroke {
             Some(stroke) => {
-                let depth = Some(stroke.depth(lowered)).filter(|depth| *depth != 0.0)?;
-                (stroke.swept(&self.arm, &[depth]), lowered.handled_heights())
+                let depth = Some(stroke.depth(lowered) - elevation).filter(|depth| *depth != 0.0)?;
+                (stroke.swept(&self.arm, &[depth]), lowered.handled_heights([elevation]))
             }
-            None if is_placed && lowered.lift != 0.0 => (self.arm.clone(), lowered.heights),
+            None if is_placed && lowered.lift != elevation => (self.arm.clone(), lowered.heights_at(elevation)),
             None => return None,
         };
         let allowed_contacts: Vec<usize> = touched.into_iter().map(|object| self.obstacle_number(object)).collect();
@@ -125,7 +125,7 @@ impl Task {
     pub fn empty_lowered_scene(
         &self,
         depth: f64,
-        poses: &[Option<Pose>],
+        poses: &[Option<Placement>],
         touched: impl IntoIterator<Item = usize>,
     ) -> Option<Scene> {
         let arm = self.stroke.as_ref()?.swept(&self.arm, &[depth]);
@@ -138,7 +138,7 @@ impl Task {
     pub fn arch_scene(
         &self,
         (stroke, depths): (&Stroke, &[f64]),
-        poses: &[Option<Pose>],
+        poses: &[Option<Placement>],
         payload: Option<&Payload>,
         touched: impl IntoIterator<Item = usize>,
     ) -> ArchScene {
@@ -153,15 +153,19 @@ impl Task {
             stroke.depth(object) == object.lift
         });
         let obstacles = self.obstacles(poses);
-        let scene = |arm: Arm, heights: fn(&Object) -> Heights| {
+        let scene = |arm: Arm, heights: &dyn Fn(&Object) -> Heights| {
             let payload = payload.map(|payload| (payload, heights(&self.objects[payload.object])));
             self.scene_of(arm, obstacles.clone(), payload, allowed.clone())
         };
-        let swept = scene(stroke.swept(&self.arm, depths), Object::handled_heights);
-        let raised = scene(self.arm.clone(), Object::carried_heights);
+        let handled = |object: &Object| {
+            let own = stroke.depth(object);
+            object.handled_heights(depths.iter().map(|depth| own - depth).chain([0.0]))
+        };
+        let swept = scene(stroke.swept(&self.arm, depths), &handled);
+        let raised = scene(self.arm.clone(), &Object::carried_heights);
         let known: BTreeSet<Pair> = raised.pairs().iter().copied().collect();
         let lowered_pairs = swept.pairs().iter().copied().filter(|pair| !known.contains(pair)).collect();
-        let raised = if lifts_payload { raised } else { scene(self.arm.clone(), Object::handled_heights) };
+        let raised = if lifts_payload { raised } else { scene(self.arm.clone(), &handled) };
         ArchScene { raised, swept, lowered_pairs, lifts_payload }
     }
 

@@ -56,6 +56,22 @@ impl Object {
     }
 }
 
+/// The place where an object lies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Placement {
+    /// Its pose in the plane.
+    pub pose: Pose,
+    /// Height of the object there above its own heights ([`Object::heights`]), metres.
+    pub elevation: f64,
+}
+
+impl From<Pose> for Placement {
+    /// Returns the placement at the object's own heights.
+    fn from(pose: Pose) -> Self {
+        Self { pose, elevation: 0.0 }
+    }
+}
+
 /// The action of a step.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -107,6 +123,15 @@ pub struct Step {
     /// Values of the tool's joints at the end of a move. The tool stays lowered until the next motion.
     #[serde(default, skip_serializing_if = "ToolValues::is_default")]
     pub tool: ToolValues,
+    /// Height of the object where it is picked or placed above its own heights, metres.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub elevation: f64,
+}
+
+/// Returns true for no elevation, which is omitted.
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
+fn is_zero(elevation: &f64) -> bool {
+    *elevation == 0.0
 }
 
 /// A part of a task.
@@ -185,7 +210,7 @@ impl Task {
 
     /// Returns the workspace with the objects at their poses, as static obstacles. A carried object has no pose. It
     /// becomes an obstacle without pieces, so that indices stay the same.
-    pub fn obstacles(&self, poses: &[Option<Pose>]) -> TimedWorkspace {
+    pub fn obstacles(&self, poses: &[Option<Placement>]) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
         workspace
             .fixed
@@ -196,7 +221,7 @@ impl Task {
 
     /// Returns the same workspace as [`Task::obstacles`], with the objects `moving` as moving obstacles, after those of
     /// the world.
-    pub fn surroundings(&self, poses: &[Option<Pose>], moving: &[usize]) -> TimedWorkspace {
+    pub fn surroundings(&self, poses: &[Option<Placement>], moving: &[usize]) -> TimedWorkspace {
         let mut workspace = self.obstacles(poses);
         workspace.movers.extend(moving.iter().filter_map(|&object| self.objects[object].moving()));
         workspace
@@ -259,18 +284,26 @@ impl Task {
 }
 
 impl Object {
-    /// Returns the object as an obstacle at `pose`. Without a pose, the obstacle has no pieces.
-    pub fn obstacle_at(&self, pose: Option<&Pose>) -> Obstacle {
-        let (shape, pieces) = match pose {
-            Some(pose) => (self.shape.at(pose), self.pieces.iter().map(|piece| piece.at(pose)).collect()),
+    /// Returns the object as an obstacle where it lies. If it lies nowhere, the obstacle has no pieces.
+    pub fn obstacle_at(&self, placement: Option<&Placement>) -> Obstacle {
+        let (shape, pieces) = match placement {
+            Some(Placement { pose, .. }) => {
+                (self.shape.at(pose), self.pieces.iter().map(|piece| piece.at(pose)).collect())
+            }
             None => (Shape::Pieces, Vec::new()),
         };
-        Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
+        let heights = placement.map_or(self.heights, |placement| self.heights_at(placement.elevation));
+        Obstacle { name: self.name.clone(), shape, pieces, heights }
     }
 
-    /// Returns the object's initial pose. Returns `None` if the object moves initially.
-    pub fn initial_static_pose(&self) -> Option<Pose> {
-        self.trajectory.is_none().then_some(self.at)
+    /// Returns the object's initial placement. Returns `None` if the object moves initially.
+    pub fn initial_static_pose(&self) -> Option<Placement> {
+        self.trajectory.is_none().then_some(self.at.into())
+    }
+
+    /// Returns the object's heights where it lies, at an elevation in metres.
+    pub fn heights_at(&self, elevation: f64) -> Heights {
+        self.heights.lifted([elevation; 2])
     }
 
     /// Returns the object as a moving obstacle. `None` if it does not move initially.
@@ -282,10 +315,10 @@ impl Object {
         self.trajectory.clone().map(|trajectory| MovingObstacle { obstacle: obstacle(), trajectory })
     }
 
-    /// Returns the range of all heights that the object has while it is raised or lowered.
-    pub fn handled_heights(&self) -> Heights {
-        let carried = self.carried_heights();
-        Heights { lower: self.heights.lower.min(carried.lower), upper: self.heights.upper.max(carried.upper) }
+    /// Returns the range of all heights that the object has while it is raised or lowered at these elevations, in metres.
+    pub fn handled_heights(&self, elevations: impl IntoIterator<Item = f64>) -> Heights {
+        let lying = elevations.into_iter().map(|elevation| self.heights_at(elevation));
+        lying.fold(self.carried_heights(), Heights::and)
     }
 
     /// Returns the object's heights while it is carried.

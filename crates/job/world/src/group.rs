@@ -51,7 +51,7 @@ pub(super) struct Leaf {
 /// The action of a step, as the file states it.
 pub(super) enum LeafAction {
     Pick { object: usize, grasp: Point, supports: Supports, when: Option<When> },
-    Place { at: Point, angle: Option<(f64, Range<usize>)>, supports: Option<Supports> },
+    Place { at: Point, angle: Option<(f64, Range<usize>)>, supports: Option<Supports>, height: Option<f64> },
     Move(Goal),
     Follow(FollowedLine),
 }

@@ -43,6 +43,7 @@ mod range_sensor;
 mod reader;
 mod reasons;
 mod requirement;
+mod resting;
 #[cfg(test)]
 mod schema;
 mod sensor;

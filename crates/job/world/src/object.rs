@@ -2,15 +2,16 @@
 
 use super::obstacle::{CircleTable, circle};
 use super::obstacle_trajectory::ObstacleTrajectoryTable;
-use super::pallet::Pallets;
+use super::pallet::{Pallet, Pallets};
 use super::polygon::{Ring, polygon};
 use super::reader::Reader;
 #[cfg(test)]
 use super::schema::*;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{Holding, MovingObstacle, Object, ObstacleTrajectory};
-use cplan_model::Obstacle;
+use cplan_model::{Obstacle, RESTING_TOLERANCE};
 use cplan_robot::{Diagnostic, Number, Numbers, Written, quoted, toml_table};
+use cplan_text::{length, short};
 use std::collections::BTreeMap;
 use std::ops::Range;
 use toml::Spanned;
@@ -255,7 +256,9 @@ fn placed<'a>(
                 all.push(PlacedObject { table, name: name.clone(), at: turned.shifted(at) });
             }
             (None, Some(pallet)) => {
-                let places = pallets.named(reader, pallet)?.places();
+                let on = pallets.named(reader, pallet)?;
+                require_height(reader, given, on, &what)?;
+                let places = on.places();
                 all.extend(places.map(|(place, pose)| PlacedObject {
                     table,
                     name: format!("{name} {place}"),
@@ -271,6 +274,18 @@ fn placed<'a>(
         }
     }
     Ok(all)
+}
+
+/// Checks that the objects of a table begin where their pallet ends, if both state heights.
+fn require_height(reader: &Reader, given: &ObjectTable, pallet: &Pallet, what: &str) -> Result<(), Diagnostic> {
+    let Some((numbers, height)) = given.height.as_ref().zip(pallet.height) else { return Ok(()) };
+    let [lower, upper] = reader.number_pair(numbers, &format!("{what}: height"))?;
+    if (lower - height).abs() <= RESTING_TOLERANCE {
+        return Ok(());
+    }
+    let message = format!("{what} begins at a height of {}, but its pallet has {}", length(lower), length(height));
+    let help = format!("height = [{}, {}], or the height of the pallet", short(height), short(height + upper - lower));
+    Err(reader.source.diagnostic_at(numbers.span(), message).help(help))
 }
 
 /// Reads all objects. `default` states how the gripper holds an object whose table does not state it.

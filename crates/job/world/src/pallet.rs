@@ -4,7 +4,7 @@ use super::reader::Reader;
 #[cfg(test)]
 use super::schema::*;
 use cplan_geometry::{Point, Pose};
-use cplan_robot::{Diagnostic, Numbers, Written, quoted, toml_table};
+use cplan_robot::{Diagnostic, Number, Numbers, Written, quoted, toml_table};
 use std::collections::BTreeMap;
 use toml::Spanned;
 
@@ -31,6 +31,10 @@ toml_table! {
         /// Angle of the pallet about that place, rad; by default 0. Objects on it turn with it.
         #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         angle: Option<Written>,
+        /// Height of its places along the plane's normal, m: the bottom of an object that is placed there; by default that of
+        /// the place where it was picked.
+        #[cfg_attr(test, schemars(with = "Option<f64>"))]
+        height: Option<Number>,
     }
 }
 
@@ -50,6 +54,8 @@ pub(super) struct Pallet {
     origin: Pose,
     /// Distances between columns and between rows, in metres.
     pitch: [f64; 2],
+    /// Height of its places, metres.
+    pub height: Option<f64>,
 }
 
 impl Pallet {
@@ -83,8 +89,8 @@ fn rounded(sum: f64, largest: f64) -> f64 {
 #[derive(Default)]
 pub(super) struct Pallets<'a> {
     by_name: BTreeMap<&'a str, Pallet>,
-    /// Positions of places by name.
-    places: BTreeMap<String, Point>,
+    /// Positions of places by name, and their heights.
+    places: BTreeMap<String, (Point, Option<f64>)>,
 }
 
 impl<'a> Pallets<'a> {
@@ -97,7 +103,8 @@ impl<'a> Pallets<'a> {
         for table in tables.iter().map(Spanned::get_ref) {
             let name = table.name.get_ref().as_str();
             let pallet = table.pallet(reader)?;
-            let places = pallet.places().map(|(place, pose)| (format!("{name} {place}"), pose.translation));
+            let at = |pose: Pose| (pose.translation, pallet.height);
+            let places = pallet.places().map(|(place, pose)| (format!("{name} {place}"), at(pose)));
             pallets.places.extend(places);
             if pallets.by_name.insert(name, pallet).is_some() {
                 let diagnostic =
@@ -120,11 +127,11 @@ impl<'a> Pallets<'a> {
         })
     }
 
-    /// Returns the position of the place with this name, such as `tray 2,3`.
+    /// Returns the position of the place with this name, such as `tray 2,3`, and its height in metres.
     ///
     /// # Errors
     /// An unknown name.
-    pub fn place(&self, reader: &Reader, name: &Spanned<String>) -> Result<Point, Diagnostic> {
+    pub fn place(&self, reader: &Reader, name: &Spanned<String>) -> Result<(Point, Option<f64>), Diagnostic> {
         let wanted = name.get_ref().as_str();
         if let Some(place) = self.places.get(wanted) {
             return Ok(*place);
@@ -176,7 +183,8 @@ impl PalletTable {
         let at = reader.point(&self.at, &format!("{what}, at"))?;
         let angle =
             self.angle.as_ref().map(|a| reader.quantity(a, &format!("{what}, angle"))).transpose()?.unwrap_or(0.0);
-        Ok(Pallet { rows, columns, origin: Pose::new(at, angle), pitch })
+        let height = self.height.as_ref().map(|h| reader.source.finite(h, &format!("{what}, height"))).transpose()?;
+        Ok(Pallet { rows, columns, origin: Pose::new(at, angle), pitch, height })
     }
 }
 
@@ -186,7 +194,7 @@ mod tests {
 
     /// Returns the last place of a pallet with two rows and two columns.
     fn last(at: [f64; 2], pitch: [f64; 2], angle: f64) -> Point {
-        let pallet = Pallet { rows: 2, columns: 2, origin: Pose::new(Point::from(at), angle), pitch };
+        let pallet = Pallet { rows: 2, columns: 2, origin: Pose::new(Point::from(at), angle), pitch, height: None };
         pallet.places().last().unwrap().1.translation
     }
 

@@ -8,7 +8,7 @@ use super::requirement::{Required, Requirement, Requirements};
 use super::{NAME_THE_WRIST, WITHOUT_JERK, WRIST_WITH_JERK};
 use cplan_geometry::Point;
 use cplan_handling::{Action, FollowedLine, Holding, Item, Step, ToolAngle};
-use cplan_model::Goal;
+use cplan_model::{Goal, Obstacle};
 use cplan_robot::Diagnostic;
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
@@ -35,16 +35,16 @@ const ANGLE_TOLERANCE: f64 = 1e-9;
 /// they began, and impossible orientations.
 pub(super) fn write_out(
     reader: &Reader,
-    names: &Names,
-    objects: &[MovableObject],
+    (names, obstacles, objects): (&Names, &[Obstacle], &[MovableObject]),
     wrist: WristOfWorld,
     steps: &Group,
     at: Range<usize>,
 ) -> Result<Sequence, Diagnostic> {
-    let object_places = objects.iter().map(ObjectPlace::initial).collect();
+    let object_places: Vec<_> = objects.iter().map(ObjectPlace::initial).collect();
     let mut writer = Writer {
         reader,
         names,
+        obstacles,
         objects,
         wrist,
         carried: None,
@@ -53,27 +53,35 @@ pub(super) fn write_out(
         items: Vec::new(),
         requirements: Requirements::default(),
     };
+    for object in 0..objects.len() {
+        writer.object_places[object] = writer.initial_place(object);
+    }
     writer.group(steps)?;
     Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at })
 }
 
 /// The place of an object. After the object was carried, parts of it may be unknown.
 #[derive(Clone, Copy)]
-struct ObjectPlace {
-    at: Point,
+pub(super) struct ObjectPlace {
+    pub at: Point,
     /// The angle of the object. `None` if it depends on the configuration in which a rigid payload is placed.
-    angle: Option<f64>,
+    pub angle: Option<f64>,
     /// Position of the tip when the object was placed. The place step already requires that the tip can reach it.
     tip: Option<Point>,
     /// True if the object moves by itself. The other fields are then its initial values.
     moves: bool,
+    /// Height of the object above its own heights, metres.
+    pub elevation: f64,
+    /// True if something carries the object there. Otherwise a surface at its height is assumed everywhere.
+    pub rests: bool,
 }
 
 impl ObjectPlace {
-    fn initial(movable: &MovableObject) -> Self {
+    pub fn initial(movable: &MovableObject) -> Self {
         let pose = &movable.object.at;
         let moves = movable.object.trajectory.is_some();
-        Self { at: pose.translation, angle: Some(pose.rotation.angle()), tip: None, moves }
+        let (angle, elevation) = (Some(pose.rotation.angle()), 0.0);
+        Self { at: pose.translation, angle, tip: None, moves, elevation, rests: false }
     }
 
     /// Returns the position of a point of the object's frame, if it is known.
@@ -108,13 +116,14 @@ struct CarriedObject {
     kept_by: Option<usize>,
 }
 
-struct Writer<'a> {
-    reader: &'a Reader<'a>,
+pub(super) struct Writer<'a> {
+    pub reader: &'a Reader<'a>,
     names: &'a Names<'a>,
-    objects: &'a [MovableObject],
+    pub obstacles: &'a [Obstacle],
+    pub objects: &'a [MovableObject],
     wrist: WristOfWorld,
     carried: Option<CarriedObject>,
-    object_places: Vec<ObjectPlace>,
+    pub object_places: Vec<ObjectPlace>,
     /// For each step of the file, the number of times that it has been written out.
     cycles: Vec<usize>,
     items: Vec<Item>,
@@ -170,7 +179,7 @@ impl Writer<'_> {
         }
         if !group.renewed.is_empty() {
             for object in &group.renewed {
-                self.object_places[*object] = ObjectPlace::initial(&self.objects[*object]);
+                self.object_places[*object] = self.initial_place(*object);
             }
             self.items.push(Item::Renew(group.renewed.iter().copied().collect()));
         }
@@ -182,11 +191,14 @@ impl Writer<'_> {
     }
 
     fn step(&mut self, leaf: &Leaf) -> Result<Step, Diagnostic> {
+        let handled = self.carried.map(|carried| carried.object);
         let action = match &leaf.action {
             LeafAction::Pick { object, grasp, supports, when } => {
                 self.pick(leaf, *object, *grasp, supports, when.as_ref())?
             }
-            LeafAction::Place { at, angle, supports } => self.place(leaf, *at, angle.as_ref(), supports.as_ref())?,
+            LeafAction::Place { at, angle, supports, height } => {
+                self.place(leaf, (*at, *height), angle.as_ref(), supports.as_ref())?
+            }
             LeafAction::Move(goal) => {
                 let required = match *goal {
                     Goal::Joints(q) => Some(Required::Joints(q)),
@@ -199,6 +211,8 @@ impl Writer<'_> {
             }
             LeafAction::Follow(line) => Action::Follow(self.line(leaf, line)?),
         };
+        let handled = action.picked().or(handled.filter(|_| matches!(action, Action::Place { .. })));
+        let elevation = handled.map_or(0.0, |object| self.object_places[object].elevation);
         if self.cycles.len() < leaf.number {
             self.cycles.resize(leaf.number, 0);
         }
@@ -212,6 +226,7 @@ impl Writer<'_> {
             speed: leaf.speed,
             dwell: leaf.dwell,
             tool: leaf.tool,
+            elevation,
         })
     }
 
@@ -297,7 +312,7 @@ impl Writer<'_> {
     fn place(
         &mut self,
         leaf: &Leaf,
-        at: Point,
+        (at, height): (Point, Option<f64>),
         angle: Option<&(f64, Range<usize>)>,
         supports: Option<&Supports>,
     ) -> Result<Action, Diagnostic> {
@@ -317,13 +332,20 @@ impl Writer<'_> {
             let help = "leave `wrist` out in the line before, or the angle here";
             return Err(self.reader.source.diagnostic_at(place.clone(), message).help(help));
         }
-        let mut object_places = match self.objects[object].object.holding {
-            Holding::Rigid => ObjectPlace { at, angle: None, tip: None, moves: false },
-            Holding::Level => {
-                ObjectPlace { at, angle: asked.or(self.object_places[object].angle), tip: None, moves: false }
-            }
+        let before = self.object_places[object];
+        let angle = match self.objects[object].object.holding {
+            Holding::Rigid => None,
+            Holding::Level => asked.or(before.angle),
         };
+        let elevation = self.elevation(leaf, object, height)?;
+        let mut object_places = ObjectPlace { at, angle, tip: None, moves: false, elevation, rests: true };
         object_places.tip = object_places.point(grasp);
+        if height.is_none() && !self.is_carried(object, &object_places) {
+            if before.rests {
+                return Err(self.in_the_air(leaf, object, &object_places));
+            }
+            object_places.rests = false;
+        }
         self.object_places[object] = object_places;
         if let Some(tip) = object_places.tip {
             self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());

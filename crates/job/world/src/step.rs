@@ -105,6 +105,10 @@ toml_table! {
         /// Obstacles and objects that it may touch there; by default those of the object.
         #[cfg_attr(test, schemars(with = "Option<Vec<String>>"))]
         supports: Option<NameList>,
+        /// Height of its bottom there along the plane's normal, m; by default that of the pallet, or of the place where it was
+        /// picked.
+        #[cfg_attr(test, schemars(with = "Option<f64>"))]
+        height: Option<Number>,
     }
 
     /// Objects that go from one pallet to another: the first one, row by row, to the first place, and so on.
@@ -430,8 +434,8 @@ impl<'a> StepReader<'a> {
     /// Returns the action of placing an object, with the position of its target in the file. `at` is the position of
     /// the step.
     fn place(&self, place: &PlaceTable, at: Range<usize>) -> Result<(Range<usize>, LeafAction), Diagnostic> {
-        let (to, stated) = match (&place.at, &place.on) {
-            (Some(at), None) => (self.reader.point(at, "place, at")?, at.span()),
+        let ((to, of_pallet), stated) = match (&place.at, &place.on) {
+            (Some(at), None) => ((self.reader.point(at, "place, at")?, None), at.span()),
             (None, Some(name)) => (self.pallets.place(self.reader, name)?, name.span()),
             (point, _) => {
                 let found = if point.is_some() { "both" } else { "neither" };
@@ -442,7 +446,8 @@ impl<'a> StepReader<'a> {
         };
         let angle = self.angle(place.angle.as_ref())?;
         let supports = place.supports.as_ref().map(|s| self.names.supports(self.reader, s)).transpose()?;
-        Ok((stated, LeafAction::Place { at: to, angle, supports }))
+        let height = place.height.as_ref().map(|h| self.reader.source.finite(h, "place, height")).transpose()?;
+        Ok((stated, LeafAction::Place { at: to, angle, supports, height: height.or(of_pallet) }))
     }
 
     fn angle(&self, angle: Option<&Written>) -> Result<Option<(f64, Range<usize>)>, Diagnostic> {
@@ -469,7 +474,8 @@ impl<'a> StepReader<'a> {
         let pair = |(object, (_, pose)): (usize, (String, Pose))| {
             let MovableObject { grasp, supports: resting, .. } = &self.objects[object];
             let pick = LeafAction::Pick { object, grasp: *grasp, supports: resting.clone(), when: None };
-            let place = LeafAction::Place { at: pose.translation, angle: angle.clone(), supports: supports.clone() };
+            let (angle, supports, height) = (angle.clone(), supports.clone(), pallet.height);
+            let place = LeafAction::Place { at: pose.translation, angle, supports, height };
             [(objects.span(), pick), (to.span(), place)]
         };
         Ok(family.zip(pallet.places()).flat_map(pair).collect())

@@ -103,7 +103,16 @@ impl LoadedScene {
         };
         let Diagnostic { origin, position, .. } = place.diagnostic(String::new());
         let place = position.map_or(origin.clone(), |at| format!("{origin}:{}:{}", at.line, at.column));
-        Ok(Item::Step(Step { action: Action::Move(goal), number: 1, cycle: 1, place, speed: 1.0, dwell: 0.0, tool }))
+        Ok(Item::Step(Step {
+            action: Action::Move(goal),
+            number: 1,
+            cycle: 1,
+            place,
+            speed: 1.0,
+            dwell: 0.0,
+            tool,
+            elevation: 0.0,
+        }))
     }
 }
 

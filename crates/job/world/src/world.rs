@@ -18,7 +18,7 @@ use super::tool_values::StatedTool;
 use super::world_map::{self, MapTable};
 use cplan_geometry::Pose;
 use cplan_handling::{Holding, Object, TimedWorkspace, Wrist};
-use cplan_model::{Goal, Workspace};
+use cplan_model::{Goal, Obstacle, Workspace};
 use cplan_robot::{Diagnostic, InputError, Number, Numbers, RobotSettings, RobotTable, Source, Written, toml_table};
 use std::ops::Range;
 use std::path::PathBuf;
@@ -217,7 +217,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         Some((wrist, _)) if wrist.jerk.is_some() => WristOfWorld::WithJerk,
         Some(_) => WristOfWorld::Named,
     };
-    let steps = steps(&reader, &file, &pallets, &names, &movables, of_wrist)?;
+    let steps = steps(&reader, &file, &pallets, (&names, &obstacles, &movables), of_wrist)?;
     let stem = source.stem().unwrap_or_else(|| "world".to_owned());
     let place = reader.pose(robot.at.as_ref(), robot.angle.as_ref(), "[robot]")?;
     let mut notes = reader.taken.lines();
@@ -251,8 +251,7 @@ fn steps(
     reader: &Reader,
     file: &WorldFile,
     pallets: &Pallets,
-    names: &Names,
-    movables: &[MovableObject],
+    (names, obstacles, movables): (&Names, &[Obstacle], &[MovableObject]),
     wrist: WristOfWorld,
 ) -> Result<Option<Sequence>, Diagnostic> {
     if file.step.is_empty() {
@@ -268,7 +267,7 @@ fn steps(
     let task = file.task.as_ref().map(Spanned::get_ref);
     let group = StepReader::new(reader, pallets, names, movables).all(&file.step, task)?;
     let at = file.step[0].span();
-    write_out(reader, names, movables, wrist, &group, at).map(Some)
+    write_out(reader, (names, obstacles, movables), wrist, &group, at).map(Some)
 }
 
 #[cfg(test)]

@@ -58,7 +58,7 @@ impl Replay<'_> {
         if done.raising.is_some() && next.is_none() {
             return CheckError::fails("its raising overlaps with a motion, but the task ends");
         }
-        let (raised, lowered) = (Interval::whole(0), -&Interval::from(depth));
+        let (raised, lowered) = (Interval::whole(0), -&Interval::from(&(depth - &self.elevation)));
         let start = &self.motion.knots[0][0];
         let read = |knots: &Option<Vec<[Decimal; 3]>>, name: &str, ends: [&Interval; 2]| {
             let curve = knots.as_ref().map(|knots| StrokeCurve::new(knots, start, axis, ends)).transpose();

@@ -127,6 +127,10 @@ impl Replay<'_> {
             self.misses(length(&minus(&lying.turn, &angle.sin_cos())).upper)?;
         }
         let number = self.task.first + held.object;
+        let mut placed = self.all[number].clone();
+        placed.heights = placed.heights.map(|heights| heights.each_ref().map(|height| height + &self.elevation));
+        self.elevated.insert(number, placed);
+        self.elevations[held.object] = self.elevation.clone();
         self.present[number] = Some(PlacedObstacle::new(&self.chain, lying)?);
         self.released = Some(number);
         Ok(())

@@ -193,7 +193,7 @@ impl<'a> Iterator for Replay<'a> {
         let mut object = carried;
         let handled = picked.or(carried.filter(|_| matches!(step.action, Action::Place { .. })));
         let depth = match handled {
-            Some(object) => task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[object])),
+            Some(object) => task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[object]) - step.elevation),
             None => step.tool.lowered_by(),
         };
         let raised_first = self.state.raise(task);
@@ -249,13 +249,13 @@ impl<'a> Iterator for Replay<'a> {
                     _ => None,
                 });
                 faults.extend(self.state.grasp(task, to, step, *grasp, following.unwrap_or_default()));
-                lowered = self.state.lowered(task, false);
+                lowered = self.state.lowered(task, step.elevation, false);
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
             }
             Action::Place { at, angle, .. } => {
                 turn = self.state.turn(task, to, recorded.turn, &mut faults);
-                lowered = self.state.lowered(task, true);
-                faults.extend(self.state.release(task, to, *at, *angle));
+                lowered = self.state.lowered(task, step.elevation, true);
+                faults.extend(self.state.release(task, (to, step.elevation), *at, *angle));
             }
             Action::Move(goal) => {
                 (object, lowered) = (None, self.state.lower(task, step));

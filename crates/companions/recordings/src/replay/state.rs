@@ -3,8 +3,8 @@
 use super::{Fault, PLACE_TOLERANCE, ReplayedTurn, TIME_TOLERANCE, angle_between};
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{
-    Action, ArchScene, Holding, Object, ObstacleTrajectory, Payload, RecordedOverlap, RecordedTurn, RecordedWrist,
-    Step, Stroke, Task, ToolLimits,
+    Action, ArchScene, Holding, Object, ObstacleTrajectory, Payload, Placement, RecordedOverlap, RecordedTurn,
+    RecordedWrist, Step, Stroke, Task, ToolLimits,
 };
 use cplan_model::space::Configuration;
 use cplan_model::{Grip, Scene};
@@ -13,8 +13,8 @@ use cplan_motion::recorded::{WristTurn, judge_given_turn, turn_angle, turn_profi
 /// The places of the objects, and the load.
 #[derive(Debug, Clone)]
 pub(super) struct State {
-    /// Pose of each object; `None` while it is carried.
-    poses: Vec<Option<Pose>>,
+    /// Placement of each object; `None` while it is carried.
+    poses: Vec<Option<Placement>>,
     /// Objects that are still moving and have no fixed pose.
     moving: Vec<usize>,
     held: Option<Payload>,
@@ -45,7 +45,7 @@ impl State {
     }
 
     pub fn renew(&mut self, task: &Task, objects: &[usize]) {
-        objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at));
+        objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at.into()));
         // A new object is not the one that was released, so it must not be touched.
         self.released = self.released.filter(|released| !objects.contains(released));
     }
@@ -55,14 +55,14 @@ impl State {
         let moved = self.moving.iter().position(|&other| other == object);
         if let Some((place, trajectory)) = moved.zip(task.objects[object].trajectory.as_ref()) {
             self.moving.remove(place);
-            self.poses[object] = Some(trajectory.pose(time));
+            self.poses[object] = Some(trajectory.pose(time).into());
         }
         moved.is_some()
     }
 
     /// Returns the pose of an object, or `None` while it is carried.
     pub fn pose(&self, object: usize) -> Option<Pose> {
-        self.poses[object]
+        self.poses[object].map(|lies| lies.pose)
     }
 
     pub fn carried(&self) -> Option<usize> {
@@ -91,7 +91,7 @@ impl State {
         let (object, arm) = (*object, &task.arm);
         self.released = None;
         // In a task, every pick has an object at its place.
-        let lies = self.poses[object].take()?;
+        let lies = self.poses[object].take()?.pose;
         let tip = arm.tip_at(q);
         let grip = match task.objects[object].holding {
             Holding::Rigid => Grip::rigid(arm, q, &lies),
@@ -104,11 +104,17 @@ impl State {
     }
 
     /// Releases the load with the arm at `q`. Returns the differences from the required place.
-    pub fn release(&mut self, task: &Task, q: Configuration, at: Point, angle: Option<f64>) -> Vec<Fault> {
+    pub fn release(
+        &mut self,
+        task: &Task,
+        (q, elevation): (Configuration, f64),
+        at: Point,
+        angle: Option<f64>,
+    ) -> Vec<Fault> {
         // In a task, every place follows a pick.
         let Some(Payload { object, grip, .. }) = self.held.take() else { return Vec::new() };
         let pose = grip.pose(&task.arm, q);
-        self.poses[object] = Some(pose);
+        self.poses[object] = Some(Placement { pose, elevation });
         self.released = Some(object);
         let mut faults = Vec::new();
         let off = (pose.translation - at).norm();
@@ -124,9 +130,9 @@ impl State {
     }
 
     /// Returns the scene with the lowered tool and its load: see [`Task::lowered_scene`].
-    pub fn lowered(&self, task: &Task, is_placed: bool) -> Option<Scene> {
+    pub fn lowered(&self, task: &Task, elevation: f64, is_placed: bool) -> Option<Scene> {
         let payload = self.held.as_ref()?;
-        task.lowered_scene(payload.object, is_placed, &self.poses, Some(payload), self.released)
+        task.lowered_scene((payload.object, elevation), is_placed, &self.poses, Some(payload), self.released)
     }
 
     /// Returns the scenes for strokes to these depths during a motion: see [`Task::arch_scene`]. `angle` is the

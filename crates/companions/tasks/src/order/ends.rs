@@ -5,36 +5,38 @@ use super::super::state::State;
 use super::Group;
 use super::condition::{Condition, Precedence};
 use cplan_geometry::Pose;
-use cplan_handling::{Action, Item, Step, Task};
+use cplan_handling::{Action, Item, Placement, Step, Task};
 use cplan_model::Scene;
 use cplan_model::space::Configuration;
 use std::sync::Arc;
 
 /// Poses of all objects; `None` for a carried object. If the orientation of an object depends on IK solutions, its
 /// initial orientation is assumed.
-type Poses = Arc<[Option<Pose>]>;
+type Poses = Arc<[Option<Placement>]>;
 
 /// Returns the poses of all objects before an item of a task.
 fn poses_before(task: &Task, item: usize) -> Poses {
-    let mut poses: Vec<Option<Pose>> = task.objects.iter().map(|object| Some(object.at)).collect();
+    let mut poses: Vec<Option<Placement>> = task.objects.iter().map(|object| Some(object.at.into())).collect();
     let mut held = None;
     for before in &task.items[..item] {
         match before {
             Item::Step(step) => follow(step, &mut poses, &mut held),
             Item::AnyOrder(pairs) => pairs.iter().flatten().for_each(|step| follow(step, &mut poses, &mut held)),
-            Item::Renew(objects) => objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at)),
+            Item::Renew(objects) => {
+                objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at.into()))
+            }
         }
     }
     poses.into()
 }
 
-fn follow(step: &Step, poses: &mut [Option<Pose>], held: &mut Option<(usize, Option<Pose>)>) {
+fn follow(step: &Step, poses: &mut [Option<Placement>], held: &mut Option<(usize, Option<Placement>)>) {
     match step.action {
         Action::Pick { object, .. } => *held = Some((object, poses[object].take())),
         Action::Place { at, angle, .. } => {
             if let Some((object, pose)) = held.take() {
-                let turned = angle.or(pose.map(|pose| pose.rotation.angle())).unwrap_or(0.0);
-                poses[object] = Some(Pose::new(at, turned));
+                let turned = angle.or(pose.map(|lies| lies.pose.rotation.angle())).unwrap_or(0.0);
+                poses[object] = Some(Placement { pose: Pose::new(at, turned), elevation: step.elevation });
             }
         }
         Action::Move(_) | Action::Follow(_) => {}
@@ -50,7 +52,11 @@ pub(super) fn conditions(task: &Task, group: &Group) -> Vec<Condition> {
     let objects = || group.objects().map(|object| &task.objects[object]);
     let heights = || own().chain(objects().map(|object| object.carried_heights()));
     // If all objects are carried above all others, there are no conditions.
-    if !objects().any(|object| heights().any(|h| h.meet(object.heights))) {
+    let lying = |object: usize| [&before, &after].map(|poses| poses[object].map_or(0.0, |lies| lies.elevation));
+    let is_met = |object: usize| {
+        lying(object).iter().any(|&elevation| heights().any(|h| h.meet(task.objects[object].heights_at(elevation))))
+    };
+    if !group.objects().any(is_met) {
         return Vec::new();
     }
     (0..group.pairs.len())

@@ -54,7 +54,10 @@ pub(super) fn steps_of_recording(
         let asked = task.steps().find(|asked| asked.number == step.number);
         held = asked.and_then(|asked| asked.action.picked()).or(held);
         let depth = match held {
-            Some(object) => task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[object])),
+            Some(object) => {
+                let elevation = asked.map_or(0.0, |asked| asked.elevation);
+                task.stroke.as_ref().map(|stroke| stroke.depth(&task.objects[object]) - elevation)
+            }
             None => asked.and_then(|asked| asked.tool.lowered_by()),
         };
         let departure = steps.get(index + 1).map_or(times.len() - 1, |next| *next.samples.start());

@@ -90,7 +90,7 @@ fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f6
             }));
         }
         if let (Some(Event::Release { object, pose }), Some(time)) = (leg.event, leg.event_time()) {
-            stage.poses.push((time, FIRST_OBJECT + object, pose, 0.0));
+            stage.poses.push((time, FIRST_OBJECT + object, pose, leg.step.elevation));
         }
     }
 }

@@ -13,7 +13,7 @@ use super::task_picture::TaskPicture;
 use super::tool_angle::ToolAngleView;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use cplan_geometry::Pose;
-use cplan_handling::{Object, ObstacleTrajectory, Task, TimedScene};
+use cplan_handling::{Object, ObstacleTrajectory, Placement, Task, TimedScene};
 use cplan_legs::{Event, FailedStep, Leg, Sequence};
 use cplan_model::space::Configuration;
 use cplan_model::{Additions, Obstacle, Outcome, Scene};
@@ -279,14 +279,14 @@ impl Worlds<'_> {
 }
 
 /// Returns the poses of the objects after all steps, and the objects that still move. A carried object has no pose.
-fn at_the_end(task: &Task, legs: &[Leg]) -> (Vec<Option<Pose>>, Vec<usize>) {
-    let mut poses: Vec<Option<Pose>> = task.objects.iter().map(Object::initial_static_pose).collect();
+fn at_the_end(task: &Task, legs: &[Leg]) -> (Vec<Option<Placement>>, Vec<usize>) {
+    let mut poses: Vec<Option<Placement>> = task.objects.iter().map(Object::initial_static_pose).collect();
     let mut moving: Vec<usize> = task.initially_moving().collect();
-    for event in legs.iter().filter_map(|leg| leg.event) {
+    for (step, event) in legs.iter().filter_map(|leg| Some((&leg.step, leg.event?))) {
         moving.retain(|&object| object != event.object());
         poses[event.object()] = match event {
             Event::Grasp { .. } => None,
-            Event::Release { pose, .. } => Some(pose),
+            Event::Release { pose, .. } => Some(Placement { pose, elevation: step.elevation }),
         };
     }
     (poses, moving)
@@ -308,5 +308,6 @@ fn placed(task: &Task, legs: &[Leg]) -> Vec<(usize, Obstacle)> {
             seen.push((object, pose));
         }
     }
-    seen[first..].iter().map(|(object, pose)| (*object, task.objects[*object].obstacle_at(Some(pose)))).collect()
+    let obstacle = |(object, pose): &(usize, Pose)| task.objects[*object].obstacle_at(Some(&(*pose).into()));
+    seen[first..].iter().map(|placed| (placed.0, obstacle(placed))).collect()
 }

@@ -1,0 +1,130 @@
+//! Heights of places: objects that are placed lower or higher than they were picked.
+
+use super::Place;
+use super::certified_tasks::read;
+use super::shipped;
+use cplan_check_files::check_files;
+use serde_json::Value;
+
+/// Returns a task that takes a part from a tray, 20 mm high, to a box and back. A low bar lies in the box.
+fn world(robot: &str, there: &str, back: &str, bar: &str) -> String {
+    format!(
+        r#"[robot]
+payload = "level"
+stroke = {{ joint = "axis_3", {robot} }}
+[start]
+joints = [0.3, 0.9]
+[[pallet]]
+name = "pockets"
+rows = 1
+columns = 1
+pitch = [0.1, 0.1]
+at = [0.35, 0.25]
+height = 0.02
+[[obstacle]]
+name = "tray"
+polygon = [[0.25, 0.15], [0.45, 0.15], [0.45, 0.35], [0.25, 0.35]]
+height = [0.0, 0.02]
+[[obstacle]]
+name = "box"
+polyline = [[0.25, -0.35], [0.45, -0.35], [0.45, -0.15], [0.25, -0.15], [0.25, -0.35]]
+height = [0.0, 0.03]
+[[obstacle]]
+name = "bar"
+polygon = [[0.33, -0.255], [0.37, -0.255], [0.37, -0.245], [0.33, -0.245]]
+height = {bar}
+[[object]]
+name = "part"
+circle = {{ center = [0.0, 0.0], radius = 0.01 }}
+pallet = "pockets"
+height = [0.02, 0.03]
+lift = 0.12
+[[step]]
+pick = "part 1,1"
+[[step]]
+place = {{ at = [0.35, -0.25]{there} }}
+[[step]]
+pick = "part 1,1"
+[[step]]
+place = {{ {back} }}
+"#
+    )
+}
+
+/// Deep below everything, so that it is in nobody's way.
+const NO_BAR: &str = "[-0.5, -0.4]";
+
+/// The tool goes down to the floor of the box, and to the top of the tray. `verify` and the checker agree.
+#[test]
+fn the_tool_goes_down_to_the_stated_heights() {
+    for (robot, reaches) in [("", [-0.12, -0.14, -0.14, -0.12]), ("travel = 0.1", [-0.1, -0.12, -0.12, -0.1])] {
+        let place = Place::new();
+        place.write("scara.urdf", read(&shipped("robots/scara.urdf")));
+        place.write("world.toml", world(robot, ", height = 0.0", "on = \"pockets 1,1\"", NO_BAR));
+        let done = place.run(&["scara.urdf", "world.toml"], "--quiet --output plan.json --certificate proof.json");
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        let plan: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+        let lowered = |step: &Value| step["stroke"]["lowered"].as_f64().unwrap();
+        let steps: Vec<f64> = plan["steps"].as_array().unwrap().iter().map(lowered).collect();
+        assert!(steps.iter().zip(reaches).all(|(is, asked)| (is - asked).abs() < 1e-12), "{steps:?}");
+        let judged = place.run(&["verify", "scara.urdf", "world.toml", "plan.json"], "");
+        assert_eq!(judged.code, 0, "{}", judged.stdout);
+        let checked = check_files(&place.path("scara.urdf"), &place.path("world.toml"), &place.path("proof.json"));
+        assert!(checked.is_ok(), "{checked:?}");
+        // At its other height, the checker and the judge see a wrong stroke.
+        place.write("wrong.toml", world(robot, ", height = 0.01", "on = \"pockets 1,1\"", NO_BAR));
+        assert_eq!(place.run(&["verify", "scara.urdf", "wrong.toml", "plan.json"], "").code, 3);
+    }
+}
+
+/// A bar that ends 15 mm above the floor is in the way of a part on the floor, and not of one at 20 mm.
+#[test]
+fn placed_objects_have_the_stated_heights() {
+    let back = "at = [0.35, 0.25], height = 0.02";
+    for (there, bar, code) in [
+        (", height = 0.0", "[0.0, 0.015]", 3),
+        (", height = 0.02", "[0.0, 0.015]", 0),
+        // It rests on the bar.
+        (", height = 0.015", "[0.0, 0.015]", 0),
+        ("", "[0.0, 0.02]", 0),
+        (", height = 0.0", "[0.01, 0.02]", 3),
+    ] {
+        let place = Place::new();
+        place.write("scara.urdf", read(&shipped("robots/scara.urdf")));
+        place.write("world.toml", world("", there, back, bar));
+        let done = place.run(&["scara.urdf", "world.toml"], "--quiet");
+        assert_eq!(done.code, code, "{there} {bar}: {}", done.stderr);
+    }
+}
+
+#[test]
+fn places_in_the_air_are_errors() {
+    let back = "at = [0.35, 0.25], height = 0.02";
+    for (there, back, bar, message) in [
+        (
+            "",
+            back,
+            NO_BAR,
+            "step 2: object \"part 1,1\" would hang in the air at (0.35, -0.25) m: its bottom is at a height of 20.00 mm",
+        ),
+        (
+            ", height = 0.0",
+            "at = [0.35, 0.25]",
+            NO_BAR,
+            "step 4: object \"part 1,1\" would hang in the air at (0.35, 0.25) m: its bottom is at a height of 0.000 mm",
+        ),
+        (
+            ", height = 0.15",
+            back,
+            NO_BAR,
+            "step 2: object \"part 1,1\" is placed at a height of 150.0 mm, but is carried with its bottom at 140.0 mm",
+        ),
+    ] {
+        let place = Place::new();
+        place.write("scara.urdf", read(&shipped("robots/scara.urdf")));
+        place.write("world.toml", world("", there, back, bar));
+        let done = place.run(&["scara.urdf", "world.toml"], "--quiet");
+        assert_eq!(done.code, 1, "{there}");
+        assert!(done.stderr.contains(message) && done.stderr.contains("world.toml: line "), "{}", done.stderr);
+    }
+}
