@@ -45,6 +45,9 @@ pub struct FollowArgs {
     /// Greatest speed of the tip, metres per second, instead of the speeds (F) of the file.
     #[arg(long, value_name = "M/S", value_parser = positive)]
     pub speed: Option<f64>,
+    /// Time for which the arm rests at both ends of each travel while the pen moves, seconds.
+    #[arg(long, value_name = "SECONDS", value_parser = positive)]
+    pub pen_time: Option<f64>,
     /// Angle of the tool, which the wrist keeps along the line: radians from the x axis, or degrees such as 90deg; tangent
     /// for the direction of the line; or tangent+ANGLE. It replaces that of a line in TOML.
     #[arg(long, value_name = "ANGLE", value_parser = tool_angle, allow_hyphen_values = true)]

@@ -106,16 +106,27 @@ fn text(answered: &Answered, content: Content, certificate: Option<&str>) -> Res
         }
         Content::Csv => {
             let joints = loaded.scene.arm().joints.each_ref().map(|joint| joint.name.clone());
-            trajectory.map(|trajectory| {
+            let table = trajectory.map(|trajectory| {
                 let motors = loaded.scene.arm().motor_angles(&trajectory.position);
                 match answered.wrist {
                     Some(wrist) => csv_of_joints(&wrist.motion(&joints, trajectory), &motors, None),
                     None => csv(&joints, trajectory, &motors, false, None),
                 }
-            })
+            });
+            table.map(|table| with_tool(&table, &answered.tool))
         }
         Content::Yaml => {
             trajectory.map(|trajectory| ros_yaml(&JointMotion::new(&loaded.robot.joints, trajectory, false)))
         }
     })
+}
+
+/// Returns a table with a column for the tool: 1 on the line, 0 during travels. Without travels, the table stays the same.
+fn with_tool(table: &str, tool: &[bool]) -> String {
+    let values = tool.iter().map(|is_on| if *is_on { "1" } else { "0" });
+    let column: Vec<&str> = ["tool"].into_iter().chain(values).collect();
+    if tool.is_empty() {
+        return table.to_owned();
+    }
+    table.lines().zip(column).map(|(line, value)| format!("{line},{value}\n")).collect()
 }

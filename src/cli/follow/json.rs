@@ -34,13 +34,19 @@ pub fn object(answered: &Answered) -> Value {
                 "wrist": answered.wrist.map(|wrist| wrist.to_json(found.tool_deviation)),
                 "interpolation": interpolation(&answered.loaded.scene.arm().joints),
                 "trajectory": found.timed.trajectory,
+                "tool": answered.tool.iter().map(|is_on| u8::from(*is_on)).collect::<Vec<_>>(),
             })
         }
         Outcome::Infeasible(infeasible) => infeasible_object(answered, infeasible),
         Outcome::Unknown(why) => json!({ "reason": why }),
     };
     if let (Value::Object(object), Value::Object(more)) = (&mut object, more) {
-        object.extend(more.into_iter().filter(|(key, value)| key != "wrist" || !value.is_null()));
+        let is_absent = |key: &str, value: &Value| match key {
+            "wrist" => value.is_null(),
+            "tool" => answered.tool.is_empty(),
+            _ => false,
+        };
+        object.extend(more.into_iter().filter(|(key, value)| !is_absent(key, value)));
     }
     object
 }

@@ -33,6 +33,8 @@ struct Answered<'a> {
     /// The wrist that turns the tool; `None` if the tool's angle does not matter.
     wrist: Option<&'a FollowingWrist>,
     answer: &'a Followed,
+    /// For each sample of the motion, whether the tool is on the line; empty without a motion or travels.
+    tool: Vec<bool>,
     /// The digests of the files of robot and world, for a certificate.
     digests: Option<Digests>,
 }
@@ -75,7 +77,11 @@ pub fn answer(
     let settings = Settings { tolerance, speed, period: args.period, wrist: along, ..Settings::default() };
     let answer = follow(&loaded.scene, &path, &settings).map_err(refused)?;
     let wrist = wrist.as_ref();
-    let answered = Answered { args, loaded: &loaded, line: &path, tolerance, speed, wrist, answer: &answer, digests };
+    let has_travels = path.pieces().iter().any(|piece| piece.is_travel);
+    let found = answer.found().filter(|_| has_travels);
+    let tool = found.map_or_else(Vec::new, |found| found.tool(loaded.scene.arm(), &path, tolerance));
+    let answered =
+        Answered { tool, args, loaded: &loaded, line: &path, tolerance, speed, wrist, answer: &answer, digests };
     outputs.write(&answered)?;
     let code = match answer.status() {
         Status::Found => DONE,

@@ -21,7 +21,23 @@ pub fn line(args: &FollowArgs) -> Result<FollowedLine, Failure> {
     };
     let (tolerance, speed) = (args.tolerance.unwrap_or(line.tolerance), args.speed.or(line.speed));
     let wrist = wrist::guide(args, line.wrist)?;
-    Ok(FollowedLine { tolerance, speed, wrist, ..line })
+    let path = match args.pen_time {
+        Some(seconds) => Arc::new(with_rests(&line.path, seconds).map_err(|error| defect(args, error))?),
+        None => line.path,
+    };
+    Ok(FollowedLine { path, tolerance, speed, wrist })
+}
+
+/// Returns a line with a rest at both ends of each travel.
+fn with_rests(path: &Toolpath, seconds: f64) -> Result<Toolpath, cplan_toolpath::Error> {
+    let mut pieces = path.pieces().to_vec();
+    for k in 1..pieces.len() {
+        if pieces[k - 1].is_travel != pieces[k].is_travel {
+            let dwell = pieces[k - 1].dwell.unwrap_or(0.0) + seconds;
+            pieces[k - 1].dwell = Some(dwell);
+        }
+    }
+    Toolpath::new(pieces).map(|rested| rested.with_notes(path.notes().to_vec()))
 }
 
 /// Reads a file with the keys of a step's table `follow`. It is placed by its own keys, and then by the arguments.

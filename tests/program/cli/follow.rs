@@ -31,7 +31,7 @@ fn the_shipped_plate_is_engraved_at_its_speeds() {
     let csv = place.read("m.csv");
     let rows: Vec<Vec<f64>> =
         csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
-    assert_eq!(csv.lines().next(), Some("time,shoulder,elbow,shoulder_velocity,elbow_velocity"));
+    assert_eq!(csv.lines().next(), Some("time,shoulder,elbow,shoulder_velocity,elbow_velocity,tool"));
     let [first, last] = [&rows[0], &rows[rows.len() - 1]].map(|row| tip([row[1], row[2]]));
     assert!((first[0] - 1.1).hypot(first[1] + 0.15) < 1e-9 && (last[0] - 1.25).hypot(last[1] - 0.06) < 1e-9);
     // The circle is engraved last, at 50 mm/s.
@@ -71,6 +71,44 @@ fn the_answer_is_json_with_a_bound_on_the_distance() {
         let [x, y] = tip([0, 1].map(|k| number(&position[k])));
         assert!((y + 0.15).abs() < 1e-5 && (1.1 - 1e-9..1.2 + 1e-9).contains(&x), "{x} {y}");
     }
+}
+
+/// The tool is off from the arrival where a travel begins to the arrival where it ends, and the arm rests there for the pen.
+#[test]
+fn files_mark_travels_and_the_arm_waits_for_the_pen() {
+    let place = Place::new();
+    let text = "G21 G0 X1100 Y-150\nG1 X1200 F3000\nG0 Y-100\nG1 X1100\n";
+    let rows = |options: &str| -> Vec<Vec<f64>> {
+        assert_eq!(follow_program(&place, text, &format!("--output m.csv --output m.json --quiet {options}")).code, 0);
+        let csv = place.read("m.csv");
+        csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect()
+    };
+    let fast = rows("");
+    for options in ["", "--pen-time 0.25"] {
+        let rows = rows(options);
+        let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+        let tool: Vec<f64> = rows.iter().map(|row| row[5]).collect();
+        assert!(result["tool"].as_array().unwrap().iter().zip(&tool).all(|(json, csv)| json.as_f64() == Some(*csv)));
+        let off: Vec<usize> = (0..tool.len()).filter(|k| tool[*k] == 0.0).collect();
+        assert!(off.len() > 5 && off[off.len() - 1] - off[0] == off.len() - 1, "one travel");
+        for row in &rows {
+            let [x, y] = tip([row[1], row[2]]);
+            let is_stroke = (y + 0.15).abs() < 2e-5 || (y + 0.1).abs() < 2e-5;
+            assert!(if row[5] == 1.0 { is_stroke } else { (x - 1.2).abs() < 2e-5 }, "{row:?}");
+        }
+        // The arm rests after the pen begins to rise, and after it begins to come down.
+        let rest = |from: usize| rows[from..].iter().take_while(|row| row[1..3] == rows[from][1..3]).count();
+        let rests = [off[0], off[off.len() - 1] + 1].map(|k| rows[k + rest(k) - 1][0] - rows[k][0]);
+        assert!(
+            rests.iter().all(|rest| (rest - if options.is_empty() { 0.0 } else { 0.25 }).abs() < 0.011),
+            "{rests:?}"
+        );
+        let more = rows[rows.len() - 1][0] - fast[fast.len() - 1][0];
+        assert!((more - if options.is_empty() { 0.0 } else { 0.5 }).abs() < 0.02, "{more}");
+    }
+    // Without a travel, the files have no column.
+    let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200 F3000\n", "--output m.csv --json");
+    assert!(!place.read("m.csv").contains("tool") && done.json().get("tool").is_none());
 }
 
 #[test]

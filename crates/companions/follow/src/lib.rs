@@ -52,6 +52,7 @@ mod search;
 mod sheets;
 mod smooth;
 mod spacing;
+mod tool;
 mod wrist;
 
 pub use cplan_deviation::Place;
