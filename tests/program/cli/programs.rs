@@ -258,6 +258,19 @@ fn a_list_has_degrees_and_millimetres_of_all_joints() {
 }
 
 #[test]
+fn a_wrist_that_the_program_cannot_turn_is_stated() {
+    let place = Place::new();
+    let text = |world: &str, robot: &str| {
+        let done = program(&place, robot, &shipped(world), "--template list --output a.txt");
+        assert_eq!(done.code, 0, "{}", done.stderr);
+        place.read("a.txt")
+    };
+    let statement = "# The program does not turn the wrist, which must keep objects at their orientation.";
+    assert!(text("workspaces/tasks/slot_level.toml", "scara").contains(statement));
+    assert!(!text("workspaces/tasks/kitting_cell.toml", "scara").contains(statement));
+}
+
+#[test]
 fn signs_zeros_and_units_are_those_of_the_template() {
     let place = Place::new();
     let template = "{% for move in moves %}{{ move.joint.axis_1 | negated | plus(90) | digits(3) }} {{ move.joint.axis_2.urdf }} \
@@ -350,6 +363,9 @@ fn options_that_contradict_a_program_are_refused() {
     let done =
         program(&place, "planar_2r", &shipped("workspaces/follow/badge.toml"), "--template epson --output a.prg");
     done.refused(1, &["step 2 follows a line", "hint: write .yaml or .csv files"]);
+    let turned = shipped("workspaces/tasks/board_turned.toml");
+    let done = program(&place, "gantry", &turned, "--template epson --output a.prg");
+    done.refused(1, &["turns its object, but the world does not name the wrist's joint", "hint: [robot] wrist"]);
     // The tolerance counts as clearance, also at the start and in proofs that there is no path.
     let kit = shipped("workspaces/tasks/kitting_cell.toml");
     let done = program(&place, "scara", &kit, "--template epson --output a.prg --joint-tolerance 2deg");

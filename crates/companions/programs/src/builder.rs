@@ -59,6 +59,13 @@ impl<'a> Builder<'a> {
         // After a pick, the wrist turns the object before the next step.
         let mut is_turned = false;
         for leg in legs {
+            if leg.turn.is_some() && self.robot.wrist.is_none() {
+                return Err(ProgramError::Unsuitable(format!(
+                    "step {} turns its object, but the world does not name the wrist's joint\n  hint: [robot] wrist = {{ joint \
+                     = \"NAME\", velocity = 6.0 }}, in rad/s",
+                    leg.step.number
+                )));
+            }
             self.steps.push(program_step(task, leg));
             let scene = widened(leg, task.stroke.as_ref(), tolerance);
             let is_placed = matches!(leg.event, Some(Event::Release { .. }));

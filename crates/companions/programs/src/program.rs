@@ -5,7 +5,7 @@ use crate::error::ProgramError;
 use crate::moves::{Move, ProgramJoint, ProgramStep, Travel};
 use crate::tolerance::JointTolerance;
 use cplan_engine::{Detail, Plan, Problem};
-use cplan_handling::{Action, Task};
+use cplan_handling::{Action, Holding, Task};
 use cplan_model::space::JointRange;
 
 /// Displacement of a joint that is due to rounding, radians or metres.
@@ -28,6 +28,8 @@ pub struct Program {
     pub(crate) clearance: f64,
     /// The distance that the lines between written targets must keep, metres.
     pub(crate) required: f64,
+    /// True if objects must keep their orientation, but the world does not name the joint that does this.
+    pub(crate) needs_wrist: bool,
     /// Names of the input files, and their SHA-256 in hexadecimal.
     pub(crate) digests: Vec<[String; 2]>,
 }
@@ -74,6 +76,7 @@ impl Program {
                 (answer.legs.iter().map(|leg| leg.path().length()).sum(), answer.clearance())
             }
         };
+        let is_level = |task: &Task| task.objects.iter().any(|object| object.holding == Holding::Level);
         let Moves { joints, steps, moves, travels } = builder.into_moves();
         let kept = if kept.is_finite() { (kept - tolerance.room(problem)).max(clearance) } else { clearance };
         let program = Self {
@@ -87,6 +90,7 @@ impl Program {
             tolerance,
             clearance: kept,
             required: kept + tolerance.room_as_written(problem),
+            needs_wrist: problem.robot().joints.wrist.is_none() && problem.task().is_some_and(is_level),
             digests: Vec::new(),
         };
         program.check_ranges()?;
