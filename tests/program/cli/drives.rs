@@ -17,7 +17,7 @@ fn results_have_the_angles_of_the_shafts() {
     let geared = "ratio = 1.0, gear = [2.0, -3.0], zero = [0.5, \"-90deg\"], ";
     let limits = "lower = [\"-150deg\", \"-50deg\"], upper = [\"150deg\", \"90deg\"]";
     let turned = "lower = [-4.7, \"-360deg\"], upper = [5.7, \"60deg\"]";
-    place.write("world.toml", &world.replace("ratio = 1.0, ", geared).replace(limits, turned));
+    place.write("world.toml", world.replace("ratio = 1.0, ", geared).replace(limits, turned));
     let done = place.run(&[&urdf, "world.toml"], "--output plan.json --output plan.csv");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let result: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
@@ -98,7 +98,7 @@ fn mistakes_in_the_table_of_motors_have_a_place_and_a_hint() {
         ("{ motors = { lower = [3.0, -1.0], upper = [4.0, 1.0] } }", "leave joint \"shoulder\" no values"),
         ("{ motors = { speed = [1.0, 2.0] } }", "unknown key `speed`"),
     ] {
-        place.write("world.toml", &world.replace("[start]", &format!("[robot]\ndrives = {drives}\n[start]")));
+        place.write("world.toml", world.replace("[start]", &format!("[robot]\ndrives = {drives}\n[start]")));
         let done = place.run(&[&urdf, "world.toml"], "");
         assert_eq!(done.code, 1, "{drives}: {}", done.stdout);
         assert!(done.stderr.contains(message), "{drives}: {}", done.stderr);
@@ -107,7 +107,7 @@ fn mistakes_in_the_table_of_motors_have_a_place_and_a_hint() {
     let gantry = [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")];
     let maze = std::fs::read_to_string(&gantry[1]).unwrap();
     let at = maze.find("[start]").unwrap();
-    place.write("maze.toml", &format!("{}[robot]\ndrives = \"direct\"\n{}", &maze[..at], &maze[at..]));
+    place.write("maze.toml", format!("{}[robot]\ndrives = \"direct\"\n{}", &maze[..at], &maze[at..]));
     let done = place.run(&[&gantry[0], "maze.toml"], "");
     assert!(done.code == 1 && done.stderr.contains("both joints must turn"), "{}", done.stderr);
 }

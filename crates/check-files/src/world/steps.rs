@@ -278,10 +278,10 @@ impl Steps<'_, '_> {
         let mut renewed = Vec::new();
         for node in &nodes {
             match node {
-                Node::Step(Step { action: Action::Pick { object, .. }, .. }) if self.objects[*object].renews => {
-                    renewed.push(*object);
-                }
-                Node::Step(_) => {}
+                Node::Step(step) => match step.action {
+                    Action::Pick { object, .. } if self.objects[object].renews => renewed.push(object),
+                    _ => {}
+                },
                 Node::Group(group) => renewed.extend(&group.renewed),
             }
         }
@@ -327,7 +327,7 @@ impl Steps<'_, '_> {
             self.count += 1;
             // The arm need not rest before it follows a line.
             let dwell = if matches!(action, Action::MoveToLine) { Decimal::whole(0) } else { dwell.clone() };
-            Node::Step(Step { number: self.count, action, dwell })
+            Node::Step(Box::new(Step { number: self.count, action, dwell }))
         };
         Ok(actions.into_iter().map(step).collect())
     }

@@ -15,6 +15,8 @@ pub enum Cause {
     Singular,
     /// A joint would leave its limits.
     JointLimit,
+    /// The motor of the elbow, mounted on the base, would leave its range.
+    MotorRange,
     /// The arm hits an obstacle, or comes nearer than the clearance.
     Collision,
     /// The arm does so while the joints move straight, as some firmwares play travels.
@@ -32,6 +34,7 @@ impl Cause {
             Cause::OutOfReach => "out_of_reach",
             Cause::Singular => "singular",
             Cause::JointLimit => "joint_limit",
+            Cause::MotorRange => "motor_range",
             Cause::Collision => "collision",
             Cause::JointMotion => "joint_motion",
             Cause::NoTravel => "no_travel",
@@ -79,6 +82,14 @@ impl Fault {
         let (name, value, at) = (&own.name, own.format_value(q[joint]), shown(place));
         let reason = format!("joint \"{name}\" would be at {value}, outside its limits{range}, at {at}");
         Self { cause: Cause::JointLimit, reason, place, is_proven }
+    }
+
+    pub(crate) fn motor(place: Point, is_proven: bool) -> Self {
+        let reason = match is_proven {
+            true => format!("the elbow's motor would leave its range at {}", shown(place)),
+            false => format!("the elbow's motor is not proven to stay in its range at {}", shown(place)),
+        };
+        Self { cause: Cause::MotorRange, reason, place, is_proven }
     }
 
     pub(crate) fn collision(scene: &Scene, nearest: Nearest, is_proven: bool) -> Self {

@@ -133,6 +133,22 @@ impl<'a> Player<'a> {
         })
     }
 
+    /// Checks that the elbow's motor stays in its range over a box of joint values about those at a place of the tip.
+    pub fn keeps_motor_range(&self, point: Point, q: Configuration, half: [f64; 2]) -> Result<(), Fault> {
+        let Some(sum) = self.kinematics.arm.topology().sum else { return Ok(()) };
+        let turns = [0, 1].map(|k| self.turns(k, [q[k]; 2]));
+        // A joint with a range of more than a turn leaves it open which sum the motor has.
+        if turns.iter().any(|[first, last]| first != last) {
+            return Err(Fault::motor(point, false));
+        }
+        let turned = q + Configuration::from(turns.map(|[turn, _]| turn * TAU));
+        let is_inside = |off: f64| sum.narrowed(off - LIMIT_ROUNDING).contains(turned);
+        match is_inside(sum.ratio.abs() * half[0] + half[1]) {
+            true => Ok(()),
+            false => Err(Fault::motor(point, !is_inside(0.0))),
+        }
+    }
+
     /// Plays a line in segments on which the joints move straight.
     fn segments(&self, curve: &Curve, length: f64) -> Result<Swept, Fault> {
         let count = (curve.length() / length).ceil().max(1.0);
@@ -148,6 +164,7 @@ impl<'a> Player<'a> {
             if let Some(joint) = self.joint_outside(q, q) {
                 return Err(Fault::limit(self.scene, point, joint, q, true));
             }
+            self.keeps_motor_range(point, q, [0.0; 2])?;
             let joints = &self.kinematics.arm.joints;
             if (0..2).any(|k| joints[k].joint_type.is_revolute() && (q[k] - before[k]).abs() > MAX_HALF_TURN) {
                 return Err(Fault::singular(point, false));
@@ -172,6 +189,7 @@ impl<'a> Player<'a> {
             if let Some(joint) = self.joint_outside(q, q) {
                 return Err(Fault::limit(self.scene, point, joint, q, true));
             }
+            self.keeps_motor_range(point, q, [0.0; 2])?;
             let near = distance_from_middle(curve, middle, half);
             let is_short = near <= self.tolerance;
             let ends = [a, b].map(|u| Point::from(curve.at(u)));
@@ -189,6 +207,13 @@ impl<'a> Player<'a> {
             if let Some(joint) = self.joint_outside(low, high) {
                 if near <= LIMIT_ROUNDING {
                     return Err(Fault::limit(self.scene, point, joint, q, false));
+                }
+                open.extend([[middle, b], [a, middle]]);
+                continue;
+            }
+            if let Err(fault) = self.keeps_motor_range(point, q, exact.half) {
+                if near <= LIMIT_ROUNDING {
+                    return Err(fault);
                 }
                 open.extend([[middle, b], [a, middle]]);
                 continue;

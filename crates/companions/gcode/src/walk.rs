@@ -112,7 +112,10 @@ impl<'a> Walk<'a> {
         let q = self.player.at(point)?;
         match self.player.joint_outside(q, q) {
             Some(joint) => Err(Fault::limit(self.player.scene, point, joint, q, true)),
-            None => Ok(self.begin(Swept::at_rest(q))),
+            None => {
+                self.player.keeps_motor_range(point, q, [0.0; 2])?;
+                Ok(self.begin(Swept::at_rest(q)))
+            }
         }
     }
 

@@ -49,9 +49,9 @@ impl Program {
             Err(refused) => refused,
         };
         let why = match refused {
-            Rejection::OutOfLimits { waypoint, joint } => {
-                let name = &scene.arm().joints[joint].name;
-                format!("joint \"{name}\" leaves its limits at {}", self.describe(first + waypoint))
+            Rejection::OutOfLimits { waypoint, limited } => {
+                let limited = scene.arm().describe_limit(limited);
+                format!("{limited} leaves its limits at {}", self.describe(first + waypoint))
             }
             Rejection::TooClose(nearest) | Rejection::Undecided(nearest) => {
                 let (pair, least) = (scene.describe(nearest.contact.pair), nearest.contact.separation.distance);

@@ -14,14 +14,14 @@ pub enum DrivesValue {
     /// `"standard_scara"` if the elbow's motor is mounted on the base; `"direct"` if it is mounted on link 1.
     Preset(String),
     /// The motors, with their limits.
-    Table(DrivesTable),
+    Table(Box<DrivesTable>),
 }
 
 impl FromToml for DrivesValue {
     fn read(value: &TomlValue) -> Result<Self, TomlError> {
         match value.get_ref().as_str() {
             Some(name) => Ok(Self::Preset(name.to_owned())),
-            None => DrivesTable::read(value).map(Self::Table),
+            None => DrivesTable::read(value).map(|table| Self::Table(Box::new(table))),
         }
     }
 }

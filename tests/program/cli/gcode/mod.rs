@@ -32,6 +32,7 @@ fn machine(dice: &mut Dice) -> Machine {
         lengths: [0.25, 0.2],
         width: 0.03,
         limits: [[-2.7, 2.7], [-2.5, 2.5]],
+        motor: dice.chance(0.3).then(|| [dice.within(-2.8, -1.5), dice.within(1.5, 2.8)]),
         obstacles: (0..count).map(|_| obstacle(dice)).collect(),
     }
 }
@@ -119,7 +120,7 @@ fn holds(machine: &Machine, original: &str, failed: &Value, is_left: bool) {
     let q = machine.solve(place, is_left);
     let holds = match failed["cause"].as_str().unwrap() {
         "out_of_reach" => q.is_none(),
-        "joint_limit" => q.is_none_or(|q| machine.turned(q).is_none()),
+        "joint_limit" | "motor_range" => q.is_none_or(|q| machine.turned(q).is_none()),
         "collision" | "joint_motion" => q.is_some_and(|q| machine.clearance(q) < ROUNDING),
         "no_travel" => {
             let line = failed["line"].as_u64().unwrap() as usize;
@@ -187,6 +188,7 @@ fn a_travel_that_does_not_exist_is_proven() {
         lengths: [0.25, 0.2],
         width: 0.03,
         limits: [[-2.7, 2.7], [-2.5, 2.5]],
+        motor: None,
         obstacles: vec![vec![[0.06, -0.01], [0.6, -0.01], [0.6, 0.01], [0.06, 0.01]]],
     };
     let place = Place::new();
@@ -237,6 +239,7 @@ fn the_machine_of_the_tests_stops() {
         lengths: [0.25, 0.2],
         width: 0.03,
         limits: [[-2.0, 2.0], [-2.5, 2.5]],
+        motor: None,
         obstacles: vec![vec![[0.3, 0.0], [0.33, 0.0], [0.33, 0.05], [0.3, 0.05]]],
     };
     let stop = |text: &str| machine.play(&moves(text)[0], true).map(|_| ());

@@ -9,6 +9,8 @@ pub struct Machine {
     pub lengths: [f64; 2],
     pub width: f64,
     pub limits: [[f64; 2]; 2],
+    /// Range of the elbow's motor, if it is mounted on the base: it turns the sum of both joint values.
+    pub motor: Option<[f64; 2]>,
     pub obstacles: Vec<Vec<Point>>,
 }
 
@@ -128,7 +130,10 @@ impl Machine {
 
     pub fn world(&self) -> String {
         let obstacle = |corners: &Vec<Point>| format!("[[obstacle]]\npolygon = {corners:?}\n");
-        format!("[robot]\ntip = \"pen\"\n{}", self.obstacles.iter().map(obstacle).collect::<String>())
+        let motor = self.motor.map_or(String::new(), |[lower, upper]| {
+            format!("drives = {{ motors = {{ lower = [-9.0, {lower:?}], upper = [9.0, {upper:?}] }} }}\n")
+        });
+        format!("[robot]\ntip = \"pen\"\n{motor}{}", self.obstacles.iter().map(obstacle).collect::<String>())
     }
 
     /// Returns the joint values that put the tip at a place; `None` if it is out of reach.
@@ -152,7 +157,8 @@ impl Machine {
     }
 
     pub fn is_within_limits(&self, q: Point) -> bool {
-        (0..2).all(|k| self.limits[k][0] - 1e-6 <= q[k] && q[k] <= self.limits[k][1] + 1e-6)
+        let is_within = |value: f64, [lower, upper]: [f64; 2]| lower - 1e-6 <= value && value <= upper + 1e-6;
+        (0..2).all(|k| is_within(q[k], self.limits[k])) && self.motor.is_none_or(|range| is_within(q[0] + q[1], range))
     }
 
     /// Returns the joint values with whole turns that bring them within the limits, if there are any.
