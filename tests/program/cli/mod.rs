@@ -9,6 +9,7 @@ mod certified_robots;
 mod certified_tasks;
 mod commands;
 mod compare;
+mod controller_languages;
 mod converge;
 mod cspace;
 mod demo_and_init;
