@@ -92,8 +92,16 @@ fn single_pick(seed: u64) -> Task {
         mass: 0.0,
     };
     let action = Action::Pick { object: 0, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() };
-    let step =
-        Step { action, number: 1, cycle: 1, place: String::new(), speed: 1.0, dwell: 0.0, tool: ToolValues::default(), elevation: 0.0 };
+    let step = Step {
+        action,
+        number: 1,
+        cycle: 1,
+        place: String::new(),
+        speed: 1.0,
+        dwell: 0.0,
+        tool: ToolValues::default(),
+        elevation: 0.0,
+    };
     let start = Configuration::new(dice.within(-PI, PI), dice.within(-PI, PI));
     let workspace = workspace.into();
     Task {

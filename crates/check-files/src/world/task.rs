@@ -78,7 +78,12 @@ impl Group {
     /// Makes a group of a single move, to a goal of the world or of the certificate.
     pub(super) fn single(goal: Option<Goal>) -> Self {
         let step = goal.map(|goal| Step { number: 1, action: Action::Move(goal), dwell: Decimal::whole(0) });
-        Self { nodes: step.map(|step| Node::Step(Box::new(step))).into_iter().collect(), repeat: 1, is_free: false, renewed: Vec::new() }
+        Self {
+            nodes: step.map(|step| Node::Step(Box::new(step))).into_iter().collect(),
+            repeat: 1,
+            is_free: false,
+            renewed: Vec::new(),
+        }
     }
 }
 
