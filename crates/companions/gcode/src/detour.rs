@@ -78,7 +78,7 @@ impl<'a> Detours<'a> {
             checkpoint();
             let problem = match self.problem(travel, share) {
                 Ok(problem) => problem,
-                Err(why) if share == 0.0 => return Err(Fault { reason: why, is_proven: true, ..travel.fault.clone() }),
+                Err(blocked) if share == 0.0 => return Err(blocked),
                 Err(_) => continue,
             };
             let options = Options { bounded: false, ..Options::default() };
@@ -101,8 +101,8 @@ impl<'a> Detours<'a> {
     /// Returns the problem in joint space, with a share of all margins.
     ///
     /// # Errors
-    /// An end is not free, in words.
-    fn problem(&self, travel: &Travel, share: f64) -> Result<MotionProblem, String> {
+    /// An end is not free.
+    fn problem(&self, travel: &Travel, share: f64) -> Result<MotionProblem, Fault> {
         let (scene, arm) = (self.player.scene, self.player.kinematics.arm);
         let mut ranges = [arm.joints[0].range, self.side(travel.start[1])];
         let ends = || travel.goals.iter().chain([&travel.start]);
@@ -118,7 +118,17 @@ impl<'a> Detours<'a> {
         let required = scene.workspace().clearance;
         let room = ends().map(|q| scene.clearance(*q) - required).fold(f64::INFINITY, f64::min);
         let extra = share * (EXTRA_CLEARANCE * arm.reach()).min(END_SHARE * room.max(0.0));
-        let mut scene = scene.clone().with_clearance(required + extra).map_err(|error| error.to_string())?;
+        let curve = &travel.own.piece.curve;
+        let blocked = |place: [f64; 2], reason: String| Fault {
+            cause: Cause::Collision,
+            reason,
+            place: place.into(),
+            is_proven: true,
+        };
+        let mut scene = scene
+            .clone()
+            .with_clearance(required + extra)
+            .map_err(|error| Fault::undecided(curve.start().into(), error.to_string()))?;
         for (joint, range) in scene.arm_mut().joints.iter_mut().zip(ranges) {
             joint.range = range;
         }
@@ -134,9 +144,9 @@ impl<'a> Detours<'a> {
         let goals: GoalSet =
             goals.iter().zip(&travel.goals).filter(is_near).map(|(goal, _)| Segment::point(*goal)).collect();
         MotionProblem::new(scene, start, goals).map_err(|error| match error {
-            MotionProblemError::StartBlocked { why } => format!("its start is not free: {why}"),
-            MotionProblemError::GoalBlocked { why, .. } => format!("its end is not free: {why}"),
-            error => error.to_string(),
+            MotionProblemError::StartBlocked { why } => blocked(curve.start(), format!("its start is not free: {why}")),
+            MotionProblemError::GoalBlocked { why, .. } => blocked(curve.end(), format!("its end is not free: {why}")),
+            error => Fault::undecided(curve.start().into(), error.to_string()),
         })
     }
 

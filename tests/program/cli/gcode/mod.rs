@@ -84,6 +84,7 @@ fn without_travels(text: &str) -> Vec<&str> {
 /// Checks that the machine can play the written program, which differs from the original in the stated travels only.
 fn is_safe(machine: &Machine, original: &str, written: &str, result: &Value, is_marlin: bool) {
     let is_left = result["elbow"] == "left";
+    let required = result["clearance"].as_f64().unwrap();
     assert_eq!(without_travels(original), without_travels(written));
     let [before, after] = [original, written].map(moves);
     let drawn = |moves: &[Move]| moves.iter().filter(|own| own.kind > 0).cloned().collect::<Vec<_>>();
@@ -93,9 +94,10 @@ fn is_safe(machine: &Machine, original: &str, written: &str, result: &Value, is_
     }
     let mut last: Option<Point> = None;
     for own in &after {
-        let (ends, _) = machine.play(own, is_left).unwrap_or_else(|stop| panic!("{stop:?} {own:?}\n{written}"));
+        let (ends, least) = machine.play(own, is_left).unwrap_or_else(|stop| panic!("{stop:?} {own:?}\n{written}"));
+        assert!(least >= required, "{least} {own:?}\n{written}");
         assert!(last.is_none_or(|last| distance(last, ends[0]) < 1e-6), "{own:?} jumps");
-        assert!(own.kind > 0 || !is_marlin || machine.straight(ends) > 0.0, "{own:?}");
+        assert!(own.kind > 0 || !is_marlin || machine.straight(ends) > required, "{own:?}");
         last = Some(ends[1]);
     }
     // Only travels that the machine cannot play safely are replaced.
@@ -105,7 +107,10 @@ fn is_safe(machine: &Machine, original: &str, written: &str, result: &Value, is_
         let own = before.iter().find(|own| own.line as u64 == *line).unwrap();
         let is_unsafe = match machine.play(own, is_left) {
             Err(_) => true,
-            Ok((ends, least)) => least < NEAR || (is_marlin && machine.straight(ends) < NEAR),
+            Ok((ends, least)) => {
+                let near = required + NEAR;
+                least < near || (is_marlin && machine.straight(ends) < near)
+            }
         };
         assert!(own.kind == 0 && is_unsafe, "{own:?}");
     }
@@ -115,24 +120,23 @@ fn is_safe(machine: &Machine, original: &str, written: &str, result: &Value, is_
 }
 
 /// Checks a fault that the answer calls proven.
-fn holds(machine: &Machine, original: &str, failed: &Value, is_left: bool) {
+fn holds(machine: &Machine, original: &str, failed: &Value, is_left: bool, required: f64) {
     let place = [0, 1].map(|k| failed["place"][k].as_f64().unwrap());
     let q = machine.solve(place, is_left);
     let holds = match failed["cause"].as_str().unwrap() {
         "out_of_reach" => q.is_none(),
         "joint_limit" | "motor_range" => q.is_none_or(|q| machine.turned(q).is_none()),
-        "collision" | "joint_motion" => q.is_some_and(|q| machine.clearance(q) < ROUNDING),
+        "collision" | "joint_motion" => q.is_some_and(|q| machine.clearance(q) < required + ROUNDING),
         "no_travel" => {
             let line = failed["line"].as_u64().unwrap() as usize;
             let own = moves(original).into_iter().find(|own| own.line == line).unwrap();
             let ends = [own.from, own.to].map(|p| machine.solve(p, is_left).and_then(|q| machine.turned(q)));
             let [Some(from), Some(to)] = ends else { panic!("{failed}") };
-            !machine.joins(from, to)
+            !machine.joins(from, to, required)
         }
         cause => panic!("{cause}"),
     };
-    let is_end = failed["reason"].as_str().unwrap().contains("is not free");
-    assert!(holds || is_end, "{failed}\n{original}");
+    assert!(holds, "{failed}\n{original}");
 }
 
 #[test]
@@ -146,7 +150,9 @@ fn written_programs_are_safe_and_proven_faults_hold() {
         place.write("world.toml", machine.world());
         place.write("job.gcode", &text);
         let is_marlin = dice.chance(0.5);
-        let options = format!("--output safe.gcode --json --dialect {}", if is_marlin { "marlin" } else { "klipper" });
+        let clearance = if dice.chance(0.3) { 0.004 } else { 0.0 };
+        let dialect = if is_marlin { "marlin" } else { "klipper" };
+        let options = format!("--output safe.gcode --json --dialect {dialect} --clearance {clearance}");
         let done = place.run(&["gcode", "arm.urdf", "world.toml", "job.gcode"], &options);
         let result = done.json();
         let lines = &result["lines"];
@@ -165,7 +171,7 @@ fn written_programs_are_safe_and_proven_faults_hold() {
                     let failed = failed.as_array().unwrap();
                     assert!(failed.iter().any(|failed| failed["proven"] == true), "{result}");
                     for failed in failed.iter().filter(|failed| failed["proven"] == true) {
-                        holds(&machine, &text, failed, elbow == "left");
+                        holds(&machine, &text, failed, elbow == "left", clearance);
                         counts[3] += usize::from(failed["cause"] == "no_travel");
                     }
                 }
@@ -209,7 +215,7 @@ fn a_travel_that_does_not_exist_is_proven() {
             (&4.into(), &"no_travel".into(), &true.into())
         );
         assert!(failed["reason"].as_str().unwrap().contains("no safe travel exists"), "{failed}");
-        holds(&machine, text, failed, elbow == "left");
+        holds(&machine, text, failed, elbow == "left", 0.0);
     }
 }
 

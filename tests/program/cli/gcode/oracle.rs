@@ -189,8 +189,8 @@ impl Machine {
     }
 
     /// Returns true if samples of a grid join two configurations with the elbow on the same side. The distances at the samples
-    /// exceed the motion between them, so they prove that there is a path.
-    pub fn joins(&self, from: Point, to: Point) -> bool {
+    /// exceed the required one by the motion between samples, so they prove that there is a path.
+    pub fn joins(&self, from: Point, to: Point, required: f64) -> bool {
         const SIZE: [usize; 2] = [140, 70];
         const ROOM: f64 = 0.005;
         let side = if from[1] < 0.0 { [self.limits[1][0], 0.0] } else { [0.0, self.limits[1][1]] };
@@ -202,7 +202,7 @@ impl Machine {
                 (share * (SIZE[k] - 1) as f64).round().clamp(0.0, (SIZE[k] - 1) as f64) as usize
             })
         };
-        let free = |q: Point| self.clearance(q) > ROOM;
+        let free = |q: Point| self.clearance(q) > required + ROOM;
         let goal = cell(to);
         let mut seen = vec![false; SIZE[0] * SIZE[1]];
         let mut open = vec![cell(from)];
