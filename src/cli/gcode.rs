@@ -6,14 +6,14 @@ use super::files::Files;
 use super::headings::OUTPUT;
 use super::print_args::PrintArgs;
 use super::sinks;
-use super::values::{clearance, tolerance};
+use super::values::{clearance, displacement, tolerance};
 use crate::input::{self, LoadedScene, line_diagnostic};
 use crate::model::Status;
 use crate::motion::{check_writable, write_whole};
 use crate::output::{format_columns, title_of};
 use crate::text::{chosen_length, counted};
 use clap::{Args, ValueEnum, ValueHint, builder::PossibleValue};
-use cplan_gcode::{Answer, Dialect, Elbow, Failed, GcodeError, Job, Pen, PenWords, Settings, judge};
+use cplan_gcode::{Answer, Dialect, Elbow, Failed, GcodeError, Job, Pen, PenWords, Settings, Setup, judge};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -52,6 +52,9 @@ pub struct GcodeArgs {
     /// Side of the elbow, seen from joint 1 towards the tip, if the machine's is fixed. By default both are tried.
     #[arg(long, value_name = "SIDE", value_enum)]
     elbow: Option<ElbowName>,
+    /// Place of the tip at the beginning and after homing (G28), metres. Without it, the moves from there are not judged.
+    #[arg(long, value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
+    home: Option<[f64; 2]>,
     /// Words of the lines that lift the pen, such as "M300 S50" or Z5. Then G1 with a lifted pen is a travel, too.
     #[arg(long, value_name = "WORDS", requires = "pen_down")]
     pen_up: Option<PenWords>,
@@ -116,7 +119,8 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let bytes = input::read_bytes(&args.job)?;
     let file = args.job.display().to_string();
     let pen = args.pen_up.clone().zip(args.pen_down.clone()).map(|(up, down)| Pen { up, down });
-    let job = Job::read(&bytes, pen.as_ref()).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
+    let setup = Setup { pen, home: args.home };
+    let job = Job::read(&bytes, &setup).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
     loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();

@@ -32,35 +32,44 @@ pub struct Pen {
     pub down: PenWords,
 }
 
+/// Facts about the machine that a program does not state.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Setup {
+    /// The lines that move the pen. `None` if only G0 is a travel.
+    pub pen: Option<Pen>,
+    /// Place of the tip at the beginning and after homing, metres. `None` if it is unknown.
+    pub home: Option<[f64; 2]>,
+}
+
 /// A program with its text.
 #[derive(Debug, Clone)]
 pub struct Job {
     pub(crate) bytes: Vec<u8>,
-    pen: Option<Pen>,
+    setup: Setup,
     /// The moves. Straight moves with a lifted pen are travels.
     pub program: Program,
 }
 
 impl Job {
-    /// Reads a program. With a pen, straight moves (G1) while it is lifted count as travels, too.
+    /// Reads a program. Straight moves (G1) while a stated pen is lifted count as travels, too.
     ///
     /// # Errors
     /// Words that the machine would follow otherwise than cplan, with their lines; broken text; a program without moves.
-    pub fn read(bytes: &[u8], pen: Option<&Pen>) -> Result<Self, cplan_toolpath::Error> {
-        let mut program = read_program(bytes)?;
-        if let Some(pen) = pen {
+    pub fn read(bytes: &[u8], setup: &Setup) -> Result<Self, cplan_toolpath::Error> {
+        let mut program = read_program(bytes, setup.home)?;
+        if let Some(pen) = &setup.pen {
             let lifted = lifted(&String::from_utf8_lossy(bytes), pen);
             for piece in program.moves.iter_mut().map(|own| &mut own.piece) {
                 let is_straight = matches!(piece.curve, Curve::Line { .. });
                 piece.is_travel |= is_straight && lifted.get(piece.source.line - 1).is_some_and(|lifted| *lifted);
             }
         }
-        Ok(Self { bytes: bytes.to_vec(), pen: pen.cloned(), program })
+        Ok(Self { bytes: bytes.to_vec(), setup: setup.clone(), program })
     }
 
     /// Reads another text of the same program.
     pub(crate) fn again(&self, bytes: &[u8]) -> Result<Self, cplan_toolpath::Error> {
-        Self::read(bytes, self.pen.as_ref())
+        Self::read(bytes, &self.setup)
     }
 
     /// Returns the number of drawing moves, and that of travels.

@@ -6,13 +6,14 @@
 //! remain unchanged, byte for byte.
 //!
 //! ```
-//! use cplan_gcode::{Job, Settings, judge};
+//! use cplan_gcode::{Job, Settings, Setup, judge};
 //! use cplan_model::{Arm, Obstacle, Scene, Status, Workspace};
 //!
 //! // The travel would hit the post.
 //! let post = Obstacle::circle("post", [0.2, 0.25], 0.03)?;
 //! let scene = Scene::new(Arm::rr([0.2, 0.2], 0.02)?, Workspace::new([post]))?;
-//! let job = Job::read(b"G21 G90\nG0 X300 Y0\nG1 X300 Y100\nG0 X50 Y350\nG1 X-50 Y350\n", None)?;
+//! let program = b"G21 G90\nG0 X300 Y0\nG1 X300 Y100\nG0 X50 Y350\nG1 X-50 Y350\n";
+//! let job = Job::read(program, &Setup::default())?;
 //! let answer = judge(&scene, &job, &Settings::default())?;
 //! assert_eq!((answer.status(), answer.replaced.len()), (Status::Found, 1));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -37,4 +38,4 @@ mod written;
 pub use answer::{Answer, Elbow, Failed, GcodeError, Settings, Travel, judge};
 pub use dialect::Dialect;
 pub use fault::{Cause, Fault};
-pub use job::{Job, Pen, PenWords};
+pub use job::{Job, Pen, PenWords, Setup};

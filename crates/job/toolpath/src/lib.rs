@@ -92,12 +92,12 @@ pub fn read(bytes: &[u8], format: Format, placement: &Placement) -> Result<Toolp
 }
 
 /// Reads a G-code program move by move, for a machine with its own kinematics. It may contain moves to places of the
-/// machine (G28), after which the place of the tip is unknown.
+/// machine (G28), after which the tip is at `home`, metres, as at the beginning. With `None`, its place there is unknown.
 ///
 /// # Errors
 /// If the file is broken, has something that cannot be followed, or has no move.
-pub fn read_program(bytes: &[u8]) -> Result<Program, Error> {
-    gcode::program(text(bytes)?)
+pub fn read_program(bytes: &[u8], home: Option<Point>) -> Result<Program, Error> {
+    gcode::program(text(bytes)?, home)
 }
 
 /// Returns bytes as UTF-8, without a byte order mark.

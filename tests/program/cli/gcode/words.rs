@@ -85,6 +85,13 @@ fn homing_makes_the_place_unknown() {
     let done = run(&place, text, "--check --json");
     assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
     assert_eq!(done.json()["lines"]["unstated"], serde_json::json!([3, 6, 9]));
+    // With a known home, the travels from there are judged, and the one to the other side of the bar is not safe.
+    let done = run(&place, text, "--check --json --home 0.4,0");
+    let lines = &done.json()["lines"];
+    assert_eq!((done.code, &lines["travels"], &lines["unstated"]), (3, &3.into(), &serde_json::json!([])));
+    assert_eq!((lines["failed"].as_array().unwrap().len(), &lines["failed"][0]["line"]), (1, &6.into()));
+    assert_eq!(run(&place, text, "--output safe.gcode --quiet --home 0.4,0").code, 0);
+    assert!(place.read("safe.gcode").contains("G28 X Y\n; cplan: the travel of line 6 of the original, in "));
 }
 
 #[test]

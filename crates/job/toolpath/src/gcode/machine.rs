@@ -48,7 +48,8 @@ pub(super) struct Machine<'p> {
     system: f64,
     /// Seconds per unit of P in dwells; `None` before the first one.
     dwell_unit: Option<f64>,
-    is_firmware: bool,
+    /// True for programs of printers and plotters.
+    pub is_firmware: bool,
     /// Sum of all dwells, seconds.
     dwells: f64,
     has_begun: bool,
@@ -57,6 +58,8 @@ pub(super) struct Machine<'p> {
     modes: Vec<Modes>,
     /// Height of the tool, metres; `None` if the program has not stated it.
     height: Option<f64>,
+    /// The place of the tip after homing, if it is known.
+    home: Option<Point>,
     /// Moves from places that the program does not state.
     unstated: Vec<Source>,
     remarks: Remarks,
@@ -65,9 +68,8 @@ pub(super) struct Machine<'p> {
 }
 
 impl<'p> Machine<'p> {
-    /// Creates a machine. `is_firmware` is true for programs of printers and plotters. With `allows_homes`, the program may
-    /// lead to places of the machine. After such a move, the place of the tip is unknown.
-    pub fn new(placement: &'p Placement, is_firmware: bool, allows_homes: bool) -> Self {
+    /// Creates a machine that refuses moves to its own places.
+    pub fn new(placement: &'p Placement) -> Self {
         Self {
             placement,
             unit: placement.unit.unwrap_or(Unit::MILLIMETER).metres(),
@@ -79,16 +81,30 @@ impl<'p> Machine<'p> {
             origin: Origin::default(),
             system: 54.0,
             dwell_unit: None,
-            is_firmware,
+            is_firmware: false,
             dwells: 0.0,
             has_begun: false,
             pieces: Vec::new(),
             modes: Vec::new(),
             height: None,
             unstated: Vec::new(),
-            remarks: Remarks::new(allows_homes),
+            home: None,
+            remarks: Remarks::default(),
             notes: Vec::new(),
         }
+    }
+
+    /// Allows moves to places of the machine. They lead to `home`, where the program also begins; or if it is `None`, to an
+    /// unknown place.
+    pub fn with_homing(mut self, home: Option<Point>) -> Self {
+        (self.home, self.remarks.allows_homes) = (home, true);
+        self.go_home();
+        self
+    }
+
+    fn go_home(&mut self) {
+        (self.origin.is_known, self.height) = ([false; 2], None);
+        self.home.into_iter().for_each(|home| self.origin.advance(home));
     }
 
     /// Runs a line. Returns true if the program ends there. Words that cannot be followed are collected.
@@ -116,7 +132,7 @@ impl<'p> Machine<'p> {
             }
         }
         if self.remarks.takes_home() {
-            (self.origin.is_known, self.height) = ([false; 2], None);
+            self.go_home();
         }
         Ok(false)
     }

@@ -8,7 +8,7 @@ mod program;
 mod remarks;
 mod words;
 
-use crate::{Error, Placement, Toolpath};
+use crate::{Error, Placement, Point, Toolpath};
 pub use program::{Modes, Program, ProgramMove};
 
 use machine::Machine;
@@ -23,22 +23,23 @@ const FIRMWARE: f64 = 80.0;
 /// If the program has words that cannot be followed: one error lists all of them. Otherwise the first defect, with its line
 /// and column; or if the program has no line.
 pub(crate) fn read(text: &str, placement: &Placement) -> Result<Toolpath, Error> {
-    run(text, placement, false)?.finish()
+    run(text, Machine::new(placement))?.finish()
 }
 
-/// Reads a program as [`read`], move by move, for a machine that knows its own places.
+/// Reads a program as [`read`], move by move, for a machine that knows its own places. `home` is the place of the tip at the
+/// beginning and after homing, metres, if it is known.
 ///
 /// # Errors
 /// Same as for [`read`].
-pub(crate) fn program(text: &str) -> Result<Program, Error> {
-    run(text, &Placement::default(), true)?.program()
+pub(crate) fn program(text: &str, home: Option<Point>) -> Result<Program, Error> {
+    run(text, Machine::new(&Placement::default()).with_homing(home))?.program()
 }
 
-/// Runs a program. With `allows_homes`, it may lead to places of the machine.
-fn run<'p>(text: &str, placement: &'p Placement, allows_homes: bool) -> Result<Machine<'p>, Error> {
+/// Runs a program on a machine.
+fn run<'p>(text: &str, mut machine: Machine<'p>) -> Result<Machine<'p>, Error> {
     let lines: Vec<Result<Line, Error>> =
         text.lines().zip(1..).map(|(line, number)| words::line(line, number)).collect();
-    let mut machine = Machine::new(placement, lines.iter().flatten().any(is_firmware), allows_homes);
+    machine.is_firmware = lines.iter().flatten().any(is_firmware);
     let mut first_error = None;
     for line in &lines {
         match line.as_ref().map_err(Clone::clone).and_then(|line| machine.run(line)) {

@@ -20,7 +20,7 @@ pub(super) struct Remarks {
     /// Number of drawn pieces so far.
     pub drawn: usize,
     /// True if moves to places of the machine are allowed. Then they are listed.
-    allows_homes: bool,
+    pub allows_homes: bool,
     /// True if the last line was such a move.
     pub is_home: bool,
 }
@@ -42,11 +42,6 @@ pub(super) fn name(word: &Word) -> String {
 }
 
 impl Remarks {
-    /// Creates remarks about no word so far.
-    pub fn new(allows_homes: bool) -> Self {
-        Self { allows_homes, ..Self::default() }
-    }
-
     /// Counts a word without an effect on the line.
     pub fn list(&mut self, name: String) {
         *self.listed.entry(name).or_default() += 1;

@@ -4,7 +4,7 @@ use super::near;
 use cplan_toolpath::{Program, ProgramMove, read_program};
 
 fn moves(text: &str) -> Program {
-    read_program(text.as_bytes()).expect("a program")
+    read_program(text.as_bytes(), None).expect("a program")
 }
 
 #[test]
@@ -13,8 +13,8 @@ fn travels_at_both_ends_belong_to_a_program() {
     let ends: Vec<_> = program.moves.iter().map(|own| (own.piece.is_travel, own.piece.curve.end())).collect();
     assert_eq!(ends, [(true, [0.02, 0.01]), (false, [0.02, 0.02]), (true, [0.0, 0.0])]);
     assert_eq!(program.unstated.iter().map(|source| source.line).collect::<Vec<_>>(), [2]);
-    assert_eq!(read_program(b"G21\nG0 X1 Y1\n").expect_err("an error").message, "the file has no line");
-    assert_eq!(read_program(b"G21\nG0 X0 Y0\nG0 X1e9\n").expect_err("an error").line, Some(3));
+    assert_eq!(read_program(b"G21\nG0 X1 Y1\n", None).expect_err("an error").message, "the file has no line");
+    assert_eq!(read_program(b"G21\nG0 X0 Y0\nG0 X1e9\n", None).expect_err("an error").line, Some(3));
 }
 
 #[test]
@@ -26,6 +26,9 @@ fn homing_is_allowed_and_makes_the_place_unknown() {
     let starts: Vec<_> = program.moves.iter().map(|own| own.piece.curve.start()).collect();
     assert!(starts.iter().zip([1.0, 5.0, 7.0, 8.0]).all(|(start, x)| near(*start, [x / 1e3; 2])), "{starts:?}");
     assert!(program.notes.iter().any(|note| note.contains("G28 (3), G53 (1)")), "{:?}", program.notes);
+    let known = read_program(text.as_bytes(), Some([0.1, 0.2])).expect("a program");
+    assert!(known.unstated.is_empty() && known.moves.len() == program.moves.len() + 4);
+    assert!([0, 2, 4, 6].iter().all(|k| near(known.moves[*k].piece.curve.start(), [0.1, 0.2])), "{:?}", known.moves);
 }
 
 #[test]
