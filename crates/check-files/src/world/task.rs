@@ -88,6 +88,7 @@ impl Group {
 }
 
 /// A step or a group.
+#[expect(clippy::large_enum_variant, reason = "most are steps")]
 pub enum Node {
     Step(Box<Step>),
     Group(Group),

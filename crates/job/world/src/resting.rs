@@ -8,13 +8,6 @@ use cplan_robot::Diagnostic;
 use cplan_text::{length, short};
 
 impl Writer<'_> {
-    /// Returns the initial place of an object.
-    pub(super) fn initial_place(&self, object: usize) -> ObjectPlace {
-        let mut place = ObjectPlace::initial(&self.objects[object]);
-        place.rests = self.is_carried(object, &place);
-        place
-    }
-
     /// Returns the elevation of an object at a place where its bottom is to be at a height, in metres. Without a height, it
     /// is the one where the object was picked.
     ///

@@ -49,13 +49,12 @@ pub(super) fn write_out(
         wrist,
         carried: None,
         object_places,
+        rest_initially: Vec::new(),
         cycles: Vec::new(),
         items: Vec::new(),
         requirements: Requirements::default(),
     };
-    for object in 0..objects.len() {
-        writer.object_places[object] = writer.initial_place(object);
-    }
+    writer.rest_initially = (0..objects.len()).map(|k| writer.is_carried(k, &writer.object_places[k])).collect();
     writer.group(steps)?;
     Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at })
 }
@@ -72,8 +71,6 @@ pub(super) struct ObjectPlace {
     moves: bool,
     /// Height of the object above its own heights, metres.
     pub elevation: f64,
-    /// True if something carries the object there. Otherwise a surface at its height is assumed everywhere.
-    pub rests: bool,
 }
 
 impl ObjectPlace {
@@ -81,7 +78,7 @@ impl ObjectPlace {
         let pose = &movable.object.at;
         let moves = movable.object.trajectory.is_some();
         let (angle, elevation) = (Some(pose.rotation.angle()), 0.0);
-        Self { at: pose.translation, angle, tip: None, moves, elevation, rests: false }
+        Self { at: pose.translation, angle, tip: None, moves, elevation }
     }
 
     /// Returns the position of a point of the object's frame, if it is known.
@@ -124,6 +121,8 @@ pub(super) struct Writer<'a> {
     wrist: WristOfWorld,
     carried: Option<CarriedObject>,
     pub object_places: Vec<ObjectPlace>,
+    /// For each object, true if something carries it initially. Otherwise a surface at its own height is assumed everywhere.
+    rest_initially: Vec<bool>,
     /// For each step of the file, the number of times that it has been written out.
     cycles: Vec<usize>,
     items: Vec<Item>,
@@ -179,7 +178,7 @@ impl Writer<'_> {
         }
         if !group.renewed.is_empty() {
             for object in &group.renewed {
-                self.object_places[*object] = self.initial_place(*object);
+                self.object_places[*object] = ObjectPlace::initial(&self.objects[*object]);
             }
             self.items.push(Item::Renew(group.renewed.iter().copied().collect()));
         }
@@ -338,13 +337,11 @@ impl Writer<'_> {
             Holding::Level => asked.or(before.angle),
         };
         let elevation = self.elevation(leaf, object, height)?;
-        let mut object_places = ObjectPlace { at, angle, tip: None, moves: false, elevation, rests: true };
+        let mut object_places = ObjectPlace { at, angle, tip: None, moves: false, elevation };
         object_places.tip = object_places.point(grasp);
-        if height.is_none() && !self.is_carried(object, &object_places) {
-            if before.rests {
-                return Err(self.in_the_air(leaf, object, &object_places));
-            }
-            object_places.rests = false;
+        let is_known = self.rest_initially[object] || elevation != 0.0;
+        if height.is_none() && is_known && !self.is_carried(object, &object_places) {
+            return Err(self.in_the_air(leaf, object, &object_places));
         }
         self.object_places[object] = object_places;
         if let Some(tip) = object_places.tip {
