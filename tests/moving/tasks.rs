@@ -92,11 +92,12 @@ fn single_pick(seed: u64) -> Task {
         mass: 0.0,
     };
     let action = Action::Pick { object: 0, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() };
+    let place = String::new();
     let step = Step {
         action,
         number: 1,
         cycle: 1,
-        place: String::new(),
+        place,
         speed: 1.0,
         dwell: 0.0,
         tool: ToolValues::default(),

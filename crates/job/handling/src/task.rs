@@ -267,6 +267,17 @@ impl Task {
         self.objects.iter_mut().for_each(|object| object.shape.restrict_to(&object.pieces));
     }
 
+    /// Returns the first step that lowers the tool beyond the range of its joint for an object at another height.
+    pub fn step_beyond_stroke(&self) -> Option<&Step> {
+        let stroke = self.stroke.as_ref()?;
+        let mut held = None;
+        self.steps().find(|step| {
+            held = step.action.picked().or(held);
+            let depth = held.map(|object| stroke.depth(&self.objects[object]) - step.elevation);
+            step.elevation != 0.0 && depth.is_some_and(|depth| !stroke.joint.range.contains(stroke.lowered(depth)))
+        })
+    }
+
     /// Returns the angle by which the wrist's joint turns from the start to the end of a move, radians. `None` unless the
     /// move states a value.
     pub fn wrist_turn(&self, step: &Step) -> Option<f64> {

@@ -156,6 +156,8 @@ impl Task {
             "the heights of its arch must be finite and not negative"
         } else if self.stroke.iter().any(|stroke| !self.objects.iter().all(|object| stroke.reaches(object))) {
             "an object lies too deep for the stroke"
+        } else if self.step_beyond_stroke().is_some() {
+            "a place is too low or too high for the stroke"
         } else if !tools().all(is_reached) {
             "it is lowered beyond its range, or without a stroke"
         } else if !tools().filter_map(|tool| tool.wrist).all(f64::is_finite) {

@@ -63,6 +63,12 @@ impl LoadedScene {
             let help = "remove its motion, or the feature that needs static obstacles";
             return Err(self.world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
         }
+        if let Some(step) = task.step_beyond_stroke() {
+            let message =
+                format!("step {} ({}): the stroke's joint cannot lower the tool so far", step.number, step.place);
+            let help = "choose another height of the place, another fixed value of the joint, or less travel";
+            return Err(self.world.source.diagnostic(message).help(help).into());
+        }
         if let Err(error) = task.check_tool() {
             let help = "raise the limits of [robot] stroke and wrist, or of their joints";
             return Err(self.world.source.diagnostic(error.to_string()).help(help).into());
