@@ -68,6 +68,7 @@ jerk = { a = 100 }
 own_body = true
 ignore_contact = [["base", "tool"]]
 effort = { a = 50 }
+drives = { elbow = "base", ratio = 0.5, gear = [5, -5], zero = [0, "90deg"], motors = { lower = [-9, -9], upper = [9, "500deg"], velocity = [9, 9], acceleration = [90, 90] } }
 dynamics = true
 gravity = [0, 0, -9.81]
 bar = 0.02

@@ -130,8 +130,8 @@ fn json_holds_the_contract() {
     assert!((json["length"].as_f64().expect("a number") - length).abs() < 1e-12);
     // There is one line per field, in the order of the list.
     let keys: Vec<_> = text.lines().filter_map(|l| l.strip_prefix("  \"")?.split('"').next()).collect();
-    let order = "status name planner joints units path_kind path length optimum certified clearance closest size timings \
-                 blends duration interpolation trajectory";
+    let order = "status name planner joints units path_kind path length optimum certified clearance closest margins tolerances \
+                 size timings blends duration interpolation trajectory";
     assert_eq!(keys.join(" "), order);
     assert!(text.starts_with("{\n  \"status\": \"found\",\n") && text.ends_with("]}\n}\n"));
 }
