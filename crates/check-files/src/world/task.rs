@@ -88,7 +88,6 @@ impl Group {
 }
 
 /// A step or a group.
-#[expect(clippy::large_enum_variant, reason = "most are steps")]
 pub enum Node {
     Step(Box<Step>),
     Group(Group),
