@@ -12,7 +12,7 @@ fn files(world: &str) -> [String; 2] {
 #[test]
 fn results_have_the_angles_of_the_shafts() {
     let place = Place::new();
-    let [urdf, world] = files("belt_elbow");
+    let [urdf, world] = files("belt_elbow_open");
     let world = std::fs::read_to_string(world).unwrap();
     let geared = "ratio = 1.0, gear = [2.0, -3.0], zero = [0.5, \"-90deg\"], ";
     let limits = "lower = [\"-150deg\", \"-50deg\"], upper = [\"150deg\", \"90deg\"]";
@@ -45,7 +45,7 @@ fn results_have_the_angles_of_the_shafts() {
 #[test]
 fn the_checker_knows_the_range_of_the_elbow_motor() {
     let place = Place::new();
-    let [urdf, world] = files("belt_elbow");
+    let [urdf, world] = files("belt_elbow_open");
     let text = |file: &str| std::fs::read_to_string(file).unwrap();
     let judged = |world: &str, certificate: &str| check(&text(&urdf), world, &place.read(certificate));
     // Judges the evidence of one world in another one, which has a certificate of its own.
