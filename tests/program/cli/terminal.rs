@@ -74,13 +74,14 @@ fn the_verdict_comes_first_and_assumptions_last() {
         keys.map(str::to_owned).collect::<Vec<_>>()
     };
     let done = Place::new().run(&shelf(), "");
-    assert_eq!(keys(&done.stdout), ["result", "optimum", "motion", "clearance", "note"], "{}", done.stdout);
+    assert_eq!(keys(&done.stdout), ["result", "optimum", "motion", "clearance", "margin", "note"], "{}", done.stdout);
     let verbose = Place::new().run(&shelf(), "-v").stdout;
     let order = [
         "result",
         "optimum",
         "motion",
         "clearance",
+        "margin",
         "planner",
         "time",
         "world",
