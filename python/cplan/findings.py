@@ -92,6 +92,17 @@ class NearestFree:
 
 
 @dataclass(frozen=True)
+class Motors:
+    """The shafts of both motors, if the world describes them: their angles in radians.
+
+    `within_limits` is false if the elbow's motor on the base is beyond its range.
+    """
+
+    angles: Pair
+    within_limits: bool
+
+
+@dataclass(frozen=True)
 class Check(_Findings):
     """The reasons why a configuration is free or not.
 
@@ -102,6 +113,7 @@ class Check(_Findings):
     free: bool
     configuration: Pair
     within_limits: tuple[bool, bool]
+    motors: Motors | None
     tip: Pair
     clearance: float | None
     required: float

@@ -14,7 +14,7 @@ pub struct ArmNumbers {
     pub limits: [f64; 2],
     /// Top speeds.
     pub speeds: [f64; 2],
-    /// Where the motors are mounted.
+    /// Mounting of the motors.
     pub drives: Option<DrivesName>,
 }
 

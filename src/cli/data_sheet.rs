@@ -23,7 +23,7 @@ pub struct DataSheet {
     /// Top speeds of both joints, degrees or metres per second.
     #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive, help_heading = DATA_SHEET)]
     pub speeds: Vec<f64>,
-    /// Where the motors are mounted (rr, scara).
+    /// Mounting of the motors (rr, scara).
     #[arg(long, value_enum, value_name = "NAME", help_heading = DATA_SHEET)]
     pub drives: Option<DrivesName>,
 }

@@ -92,7 +92,7 @@ fn mistakes_in_the_table_of_motors_have_a_place_and_a_hint() {
         ("{ elbow = \"link\", ratio = 2.0 }", "a motor on the link has no ratio"),
         ("{ gear = [1.0, 0.0] }", "the gear of motor 2 is 0"),
         ("{ gear = [1.0] }", "gear has 1 numbers, but there are two motors"),
-        ("{ motors = { lower = [-1.0, -1.0] } }", "motors need both lower and upper, or none of them"),
+        ("{ motors = { lower = [-1.0, -1.0] } }", "motors need both lower and upper limits"),
         ("{ motors = { lower = [-1.0, 1.0], upper = [1.0, 0.5] } }", "the lower limit of motor 2 is not below"),
         ("{ motors = { velocity = [1.0, 0.0] } }", "velocity: both numbers must be above 0"),
         ("{ motors = { lower = [3.0, -1.0], upper = [4.0, 1.0] } }", "leave joint \"shoulder\" no values"),

@@ -51,7 +51,7 @@ place = {{ {back} }}
     )
 }
 
-/// Deep below everything, so that it is in nobody's way.
+/// Deep below everything, so that it blocks nothing.
 const NO_BAR: &str = "[-0.5, -0.4]";
 
 /// The tool goes down to the floor of the box, and to the top of the tray. `verify` and the checker agree.
@@ -77,7 +77,7 @@ fn the_tool_goes_down_to_the_stated_heights() {
     }
 }
 
-/// A bar that ends 15 mm above the floor is in the way of a part on the floor, and not of one at 20 mm.
+/// A bar that ends 15 mm above the floor blocks a part on the floor, but not one at 20 mm.
 #[test]
 fn placed_objects_have_the_stated_heights() {
     let back = "at = [0.35, 0.25], height = 0.02";

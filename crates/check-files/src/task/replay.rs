@@ -70,7 +70,7 @@ pub(super) struct Replay<'a> {
     lowered: [Option<Interval>; 2],
     /// Height of each object above its initial one, metres, where it lies or where it was picked.
     elevations: Vec<Decimal>,
-    /// The same for the object of the present step, where it is picked or placed.
+    /// Height of the object of the present step above its initial one, metres, where it is picked or placed.
     elevation: Decimal,
     /// Objects that lie at other heights than initially, by their indices among the obstacles.
     elevated: BTreeMap<usize, Obstacle>,

@@ -10,8 +10,7 @@ use num_bigint::Sign;
 pub struct Drives {
     /// Turns of the elbow's motor for each turn of joint 1.
     pub ratio: Decimal,
-    /// Enclosures of the least and the greatest value that each motor allows what it turns: joint 1, and the sum of the
-    /// ratio times joint 1 and of joint 2.
+    /// Enclosures of the least and the greatest value of joint 1, and of the sum `ratio q1 + q2`, that the motors allow.
     pub limits: Option<[[Range; 2]; 2]>,
 }
 
@@ -68,13 +67,13 @@ impl Reader<'_> {
                 Some([first, second])
             }
             (None, None) => None,
-            _ => return self.error(value, "motors need both lower and upper, or none of them"),
+            _ => return self.error(value, "motors need both lower and upper limits"),
         };
         Ok(Some(Drives { ratio, limits }))
     }
 }
 
-/// Returns the limits of what a motor turns, from those of its shaft. `None` if the gear is 0.
+/// Returns the limits of a joint value, or of the sum, from those of the shaft. `None` if the gear is 0.
 fn limits(gear: &Decimal, zero: &Range, ends: [&Range; 2]) -> Option<[Range; 2]> {
     let is_one = *gear == Decimal::whole(1) && zero.iter().all(|zero| zero.sign() == Sign::NoSign);
     if is_one {

@@ -83,7 +83,7 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Returns what was collected.
+    /// Returns the collected moves.
     pub fn into_moves(self) -> Moves {
         let joints = self.joints.into_iter().map(|(joint, _)| joint).collect();
         Moves { joints, steps: self.steps, moves: self.moves, travels: self.travels }

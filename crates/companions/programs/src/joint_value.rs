@@ -14,7 +14,7 @@ pub(crate) const MARK: [char; 3] = ['\u{e000}', '\u{e001}', '\u{e002}'];
 /// Decimals of values in degrees and millimetres, unless the template chooses others.
 const DECIMALS: usize = 4;
 
-/// The same for values in radians and metres.
+/// Decimals of values in radians and metres.
 const DECIMALS_OF_URDF: usize = 7;
 
 /// Largest number of decimals. Doubles have no more.

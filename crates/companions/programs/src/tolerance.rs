@@ -11,7 +11,7 @@ use std::str::FromStr;
 /// of three decimals in degrees, and displaces the tip of a large arm by less than its repeatability.
 const ROUNDING_TURN: f64 = 1e-3 * std::f64::consts::PI / 180.0;
 
-/// The same for sliding joints, metres: a thousandth of a millimetre.
+/// Largest difference for sliding joints, metres: a thousandth of a millimetre.
 const ROUNDING_SLIDE: f64 = 1e-6;
 
 /// Greatest tolerance, radians and metres. Larger values are mistakes of units.

@@ -97,7 +97,7 @@ impl Task {
     }
 
     /// Returns the scene while the tool is lowered to pick or place an object at an elevation, in metres. Returns `None` if
-    /// the tool is not lowered. Without a stroke, it is unknown how a placed object is lowered, so only its final pose is checked.
+    /// the tool is not lowered. Without a stroke, only the final pose of a placed object is checked.
     pub fn lowered_scene(
         &self,
         (object, elevation): (usize, f64),

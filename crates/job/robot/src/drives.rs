@@ -32,7 +32,7 @@ toml_table! {
     #[derive(Debug, Clone, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "drives"))]
     pub struct DrivesTable {
-        /// Where the elbow's motor is mounted: `"base"` or `"link"`; by default `"base"`.
+        /// Place where the elbow's motor is mounted: `"base"` or `"link"`; by default `"base"`.
         #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
         pub elbow: Option<Spanned<String>>,
         /// Turns of the elbow's motor on the base for each turn of joint 1; by default 1, for equal pulleys.

@@ -1,6 +1,6 @@
 //! Margins of motions: how far bodies may be displaced, and how wrong the arm's model may be, while a motion stays free.
 //!
-//! Each stretch of a motion is examined by the bisection of [`crate::recorded`]. A lower bound is accepted as soon as it is
+//! Each stretch of a motion is examined by the bisection of [`crate::recorded`]. A lower bound is accepted once it is
 //! nearly as large as the least value that was seen for the same body or the same kind of error. So margins are proven,
 //! and tight for each of them.
 

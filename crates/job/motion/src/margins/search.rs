@@ -37,7 +37,7 @@ pub struct MotionStretch<'a> {
     pub begin: f64,
     /// Greatest difference between readings of the motion and these pieces in each joint, radians or metres.
     pub beside: f64,
-    /// Distance that is already proven for all pairs, metres. 0 if none is.
+    /// Distance that is already proven for all pairs, metres; 0 if unknown.
     pub known: f64,
 }
 

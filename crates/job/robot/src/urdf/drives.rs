@@ -13,7 +13,7 @@ use toml::Spanned;
 const EXAMPLE: &str =
     "drives = { elbow = \"base\", motors = { velocity = [3.0, 4.0] } }, or drives = \"standard_scara\"";
 
-/// Limits of what one motor turns: joint 1, joint 2, or their sum.
+/// Limits that one motor imposes on joint 1, joint 2, or their sum.
 #[derive(Debug, Clone, Copy, Default)]
 struct MotorLimits {
     range: Option<[f64; 2]>,
@@ -60,7 +60,7 @@ impl Reduction<'_> {
             two.limit(MotorLimits { range: Some([low, high]), ..MotorLimits::default() })
                 .ok_or_else(|| empty(names[1]))?;
         }
-        // A default of joint 2 gives way to the limits of the motors.
+        // The limits of the motors replace the defaults of joint 2.
         let together = |a: Option<f64>, b: f64| a.map(|limit| limit + motors.ratio.abs() * b);
         let assumed = two.rates.assumed;
         if let Some(velocity) = together(elbow.velocity, one.rates.velocity).filter(|_| assumed.velocity) {
@@ -167,7 +167,7 @@ impl Reduction<'_> {
             (Some(_), None) | (None, Some(_)) => {
                 let at = table.lower.as_ref().or(table.upper.as_ref()).map_or(0..0, Spanned::span);
                 return Err(self
-                    .diagnostic(at, "motors need both lower and upper, or none of them")
+                    .diagnostic(at, "motors need both lower and upper limits")
                     .help("motors = { lower = [\"-180deg\", \"-60deg\"], upper = [\"180deg\", \"60deg\"] }"));
             }
         };
