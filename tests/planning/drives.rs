@@ -119,7 +119,7 @@ fn unlimited_length(problem: &MotionProblem) -> Option<f64> {
 #[test]
 fn answers_agree_with_a_lattice_of_samples() {
     let (mut found, mut infeasible, mut limited) = (0, 0, 0);
-    for seed in 0..cplan_cases::times(30) {
+    for seed in cplan_cases::seeds(30) {
         let Some(problem) = limited_world(seed) else { continue };
         let length = lattice_length(&problem);
         let motors = problem.scene().arm().motors.unwrap();
@@ -146,7 +146,8 @@ fn answers_agree_with_a_lattice_of_samples() {
             Outcome::Unknown(unknown) => assert_eq!(length, None, "{seed}: {}", unknown.reason),
         }
     }
-    assert!(found >= 10 && infeasible >= 3 && limited >= 2, "{found} {infeasible} {limited}");
+    let are_usual = cplan_cases::uses_default_cases();
+    assert!(!are_usual || found >= 10 && infeasible >= 3 && limited >= 2, "{found} {infeasible} {limited}");
 }
 
 /// Returns the result of a world on the shelf's arm with a `[robot]` table.
