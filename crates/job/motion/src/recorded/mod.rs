@@ -8,6 +8,7 @@ mod arch;
 mod limits;
 mod collision;
 mod cover;
+mod precision;
 mod tool;
 mod torque;
 mod turning;
