@@ -41,7 +41,7 @@ def tables(settings: Settings) -> list[Table]:
             table.leads.append(Lead(f"C-space of {name}, {cells} x {cells}", "parry2d", "cplan bitmap", ratio))
             table.note(
                 f"{name}, {cells} x {cells}: {report['blocked']} of {report['cells']} cells blocked; parry2d, in "
-                f"single precision, differs in {report['differ']} of them; in {report['differ_double']} of "
-                "these its double precision differs, too."
+                f"single precision, differs in {report['differ']} of them, and in double precision in "
+                f"{report['differ_double']} of those."
             )
     return [table]
