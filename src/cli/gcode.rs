@@ -14,6 +14,7 @@ use crate::output::{format_columns, title_of};
 use crate::text::{chosen_length, counted};
 use clap::{Args, ValueEnum, ValueHint, builder::PossibleValue};
 use cplan_gcode::{Answer, Dialect, Elbow, Failed, GcodeError, Job, Pen, PenWords, Settings, Setup, judge};
+use cplan_toolpath::Source;
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
@@ -119,7 +120,7 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let bytes = input::read_bytes(&args.job)?;
     let file = args.job.display().to_string();
     let pen = args.pen_up.clone().zip(args.pen_down.clone()).map(|(up, down)| Pen { up, down });
-    let setup = Setup { pen, home: args.home };
+    let setup = Setup { dialect: args.dialect.0, pen, home: args.home };
     let job = Job::read(&bytes, &setup).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
     loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
@@ -130,7 +131,6 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
         tolerance: args.tolerance,
         segment: args.segment,
         elbow: args.elbow.map(|name| name.0),
-        dialect: args.dialect.0,
         repairs: !args.check,
     };
     let answer = judge(&loaded.scene, &job, &settings).map_err(|error| match error {
@@ -217,13 +217,7 @@ impl Answered<'_> {
             lines.push(("replaced", text));
         }
         let program = &self.job.program;
-        let unstated = program.unstated.iter().map(|source| {
-            (
-                "note",
-                format!("the move in line {} begins at a place that the file does not state: not judged", source.line),
-            )
-        });
-        lines.extend(unstated);
+        lines.extend(unstated(&program.unstated).map(|text| ("note", text)));
         let notes = program.notes.iter().chain(&self.loaded.robot.notes);
         lines.extend(notes.map(|note| ("note", note.clone())));
         format!("{}\n{}", title_of(&self.loaded.scene), format_columns(&lines))
@@ -240,6 +234,17 @@ impl Answered<'_> {
             Status::Unknown => format!("unknown: {} not proven to be safe", counted(failed.len(), "move")),
         }
     }
+}
+
+/// Returns a note about moves that begin at unstated places, if there are any.
+fn unstated(sources: &[Source]) -> Option<String> {
+    let more = sources.len().saturating_sub(MAX_SHOWN);
+    let shown: Vec<String> = sources.iter().take(MAX_SHOWN).map(|source| source.line.to_string()).collect();
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let (moves, begin) = if sources.len() == 1 { ("move in line", "begins") } else { ("moves in lines", "begin") };
+    let stated =
+        format!("the {moves} {}{more} {begin} at a place that the file does not state: not judged", shown.join(", "));
+    (!sources.is_empty()).then_some(stated)
 }
 
 /// Returns a move that fails, in words.

@@ -198,7 +198,7 @@ fn hints_about_obstacles() {
 #[test]
 fn hints_about_start_and_goal() {
     let (start, goal) = ("joints = [0.0, 0.5]", "joints = [1.0, -0.5]");
-    let limits = "choose values within the limits, or override [robot] limits in the world file";
+    let limits = "choose values within the limits, or change the limits in the world file: of joints in [robot] limits, of motors in [robot] drives";
     let wide = "[robot]\nlimits = { j1 = [-3.2, 3.2], j2 = [-3.1, 3.1] }\n[start]";
     let override_limits = |world: &str| with_replacement(world, "[start]", wide);
     let beyond = with_replacement(WORLD, start, "joints = [0.0, 2.5]");
@@ -216,7 +216,7 @@ fn hints_about_start_and_goal() {
     of_world(goal, "", "joints = [q1, q2], or tip = [x, y]", &["joints = [0.1, 0.2]", "tip = [1.0, 1.0]"]);
     of_world(goal, "tip = [3, 0]", "choose a point nearer to joint 1", &["tip = [1.5, 0]"]);
     // If only limits are violated, there is no obstacle to move away from.
-    let points = "choose another point, or override [robot] limits in the world file";
+    let points = "choose another point, or change the limits in the world file: of joints in [robot] limits, of motors in [robot] drives";
     let folded = with_replacement(WORLD, goal, "tip = [0, 0.1]");
     check_hint(
         [ARM, &folded],

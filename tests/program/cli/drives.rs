@@ -125,3 +125,32 @@ fn data_sheets_state_where_the_motors_are() {
     let refused = place.run(&["init", "gantry"], "--kind gantry --drives direct");
     assert!(refused.code == 2 && refused.stderr.contains("--drives needs two joints that turn"), "{}", refused.stderr);
 }
+
+/// Numbers beyond 1e6 are refused, and messages about the range of a motor name it.
+#[test]
+fn messages_name_the_motor() {
+    let place = Place::new();
+    let robot = shipped("robots/planar_2r.urdf");
+    let run = |command: &[&str], drives: &str| {
+        let ends = "[start]\njoints = [\"0deg\", \"90deg\"]\n[goal]\njoints = [\"60deg\", \"20deg\"]\n";
+        place.write("world.toml", format!("[robot]\ndrives = {{ {drives} }}\n{ends}"));
+        place.run(&[command, &[&robot, "world.toml"]].concat(), "")
+    };
+    for drives in [
+        "zero = [1e300, 0]",
+        "gear = [1e-300, 1.0]",
+        "motors = { lower = [-1e300, -1e300], upper = [1e300, 1e300] }",
+        "motors = { velocity = [1e300, 1.0] }",
+    ] {
+        let done = run(&[], drives);
+        assert!(done.code == 1 && done.stderr.contains("1e6"), "{drives}: {} {}", done.code, done.stderr);
+    }
+    let narrow = "motors = { lower = [\"-150deg\", \"0deg\"], upper = [\"150deg\", \"85deg\"] }";
+    let done = run(&[], narrow);
+    assert!(done.code == 1 && done.stderr.contains("of motors in [robot] drives"), "{}", done.stderr);
+    let done = run(&["explain"], narrow);
+    for part in ["The start is beyond the range of the elbow's motor.", "5.00 deg (0.0873 rad) beyond its range"] {
+        assert!(done.stdout.contains(part), "{part:?}: {}", done.stdout);
+    }
+    assert!(!done.stdout.contains("collides"), "{}", done.stdout);
+}

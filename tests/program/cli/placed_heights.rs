@@ -119,7 +119,12 @@ fn places_in_the_air_are_errors() {
             NO_BAR,
             "step 2: object \"part 1,1\" is placed at a height of 150.0 mm, but is carried with its bottom at 140.0 mm",
         ),
-        (", height = -0.1", back, NO_BAR, "step 2 (world.toml:33:1): the stroke's joint cannot lower the tool so far"),
+        (
+            ", height = -0.1",
+            back,
+            NO_BAR,
+            "step 2 (world.toml:33:1): the tool would be lowered to -0.24 m, outside the limits [",
+        ),
     ] {
         let place = Place::new();
         place.write("scara.urdf", read(&shipped("robots/scara.urdf")));
@@ -128,4 +133,23 @@ fn places_in_the_air_are_errors() {
         assert_eq!(done.code, 1, "{there}");
         assert!(done.stderr.contains(message) && done.stderr.contains("world.toml"), "{}", done.stderr);
     }
+}
+
+/// Hints about heights have the form of the value that the key takes, and a note states where the tool's travel does not suffice.
+#[test]
+fn hints_about_heights_can_be_followed() {
+    let place = Place::new();
+    let run = |from: &str, to: &str| {
+        let text = world("travel = 0.1", ", height = 0.0", "on = \"pockets 1,1\"", NO_BAR);
+        assert!(text.contains(from), "{from}");
+        place.write("world.toml", text.replacen(from, to, 1));
+        place.run(&[&shipped("robots/scara.urdf"), "world.toml"], "")
+    };
+    let done = run("height = 0.02\n", "height = \"20mm\"\n");
+    assert!(done.code == 1 && done.stderr.contains("hint: height = 0.02, metres"), "{}", done.stderr);
+    let done = run("height = [0.02, 0.03]", "height = [0.03, 0.02]");
+    assert!(done.code == 1 && !done.stderr.contains("but its pallet has"), "{}", done.stderr);
+    let done = run("name", "name");
+    let note = "\"part 1,1\" counts as lifted by 120.0 mm, but the stroke raises the tool by 100.0 mm";
+    assert!(done.code == 0 && done.stdout.contains(note), "{}", done.stdout);
 }

@@ -363,3 +363,45 @@ place = { at = [0.35, 0.1], angle = "90deg" }
     let turns: Vec<f64> = turns.map(|(_, sums)| sums[1] - sums[0]).collect();
     assert!(turns.len() == 1 && (turns[0] - 90.0).abs() < 1e-3, "{turns:?}");
 }
+
+/// The table of a task has no steps, so the motion of its quill is not judged as that task.
+#[test]
+fn a_table_of_a_task_leaves_the_quill_undecided() {
+    let place = Place::new();
+    let world = shipped("workspaces/tasks/kitting_cell.toml");
+    assert_eq!(program(&place, "scara", &world, "--quiet --template list --output kit.txt --output kit.csv").code, 0);
+    assert!(place.read("kit.csv").starts_with("time,axis_1,axis_2,axis_3,axis_4,"));
+    for file in ["kit.txt", "kit.csv"] {
+        let done = place.run(&["verify", &shipped("robots/scara.urdf"), &world, file], "--anywhere");
+        let expected = "joint \"axis_3\" moves during the steps: whether the arm hits something there is unknown";
+        assert!(done.code == 4 && done.stdout.contains(expected), "{} {}", done.code, done.stdout);
+    }
+}
+
+#[test]
+fn templates_end_and_keep_numbers_apart() {
+    let place = Place::new();
+    let loops = "{% for a in range(10000) %}{% for b in range(10000) %}{% endfor %}{% endfor %}";
+    let value = |before: &str, after: &str| {
+        format!(
+            "{{% for move in moves %}}{{% for v in move.joints %}}{before}{{{{ v }}}}{after}\n{{% endfor %}}{{% endfor %}}"
+        )
+    };
+    for (template, expected) in [
+        (loops.to_owned(), "the template takes more than 50000000 instructions"),
+        (value("-", ""), "joins the digits of"),
+        (value("9", ""), "joins the digits of"),
+        (value("", "00"), "joins the digits of"),
+        (value("", "e1"), "joins the digits of"),
+    ] {
+        place.write("own.j2", &template);
+        let done = program(&place, "planar_2r", &shipped("workspaces/shelf.toml"), "--template own.j2 --output a.job");
+        assert!(done.code == 1 && done.stderr.contains(expected), "{template}: {} {}", done.code, done.stderr);
+        assert!(!place.path("a.job").exists());
+    }
+    for tolerance in ["0.05deg,0.05deg", "1,2", "1mm,2mm"] {
+        let options = format!("--template list --output a.txt --joint-tolerance {tolerance}");
+        let done = program(&place, "planar_2r", &shipped("workspaces/shelf.toml"), &options);
+        assert!(done.code == 2 && done.stderr.contains("state one angle and one length"), "{}", done.stderr);
+    }
+}

@@ -36,6 +36,14 @@ impl BlockedEnd {
         self.standing.as_ref().map_or(scene, |standing| &standing.scene)
     }
 
+    /// Returns the angle of the elbow's motor outside its range, in radians. `None` if it is inside, or has no range of its
+    /// own.
+    pub fn beyond_motor(&self, arm: &Arm) -> Option<f64> {
+        let (sum, motors) = arm.topology().sum.zip(arm.motors)?;
+        let beyond = (sum.lower - sum.of(self.at)).max(sum.of(self.at) - sum.upper);
+        (!sum.contains(self.at)).then_some(motors.gear[1].abs() * beyond)
+    }
+
     /// Returns the distance, in metres, between the tip at the blocked configuration and the tip at the nearest free
     /// one. `None` if no configuration is free.
     pub fn tip_moves(&self, arm: &Arm) -> Option<f64> {

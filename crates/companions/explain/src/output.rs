@@ -149,7 +149,10 @@ fn infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Vec<Line> {
             continue;
         }
         let boxes = set.proof.as_ref().map_or_else(
-            || "the start or the goal collides".into(),
+            || match closed.ends.iter().any(|end| !end.hits.is_empty()) {
+                true => "the start or the goal collides".into(),
+                false => "the start or the goal is beyond limits".into(),
+            },
             |proof| match proof.collision_boxes().len() {
                 1 => "1 collision box proves it without anything else".into(),
                 n => format!("{n} collision boxes prove it without anything else"),
@@ -188,7 +191,10 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
             arm.joints[k].format_value(blocked.beyond[k])
         )
     });
-    let reasons: Vec<String> = beyond.chain(blocked.hits.iter().map(|hit| scene.explain(hit))).collect();
+    let motor = blocked.beyond_motor(arm).map(|angle| {
+        format!("the angle of the elbow's motor is {:.2} deg ({angle:.4} rad) beyond its range", angle.to_degrees())
+    });
+    let reasons: Vec<String> = beyond.chain(motor).chain(blocked.hits.iter().map(|hit| scene.explain(hit))).collect();
     let when = blocked.standing.as_ref().map_or_else(String::new, |standing| format!("{} ", standing.when));
     let mut lines = vec![(key, format!("{}: {when}{}", configuration(arm, blocked.at), listed(&reasons)))];
     if blocked.standing.is_some() {

@@ -80,6 +80,9 @@ fn describe_end(scene: &Scene, blocked: &BlockedEnd) -> String {
     if !beyond.is_empty() {
         return format!("The {end} is beyond the limits of {}.", joined(&beyond));
     }
+    if blocked.hits.is_empty() && blocked.beyond_motor(scene.arm()).is_some() {
+        return format!("The {end} is beyond the range of the elbow's motor.");
+    }
     let touching: Vec<&Obstruction> = blocked.hits.iter().filter(|hit| hit.touches).collect();
     let (hits, verb) =
         if touching.is_empty() { (blocked.hits.iter().collect(), "is too close to") } else { (touching, "hits") };

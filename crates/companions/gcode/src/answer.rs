@@ -3,7 +3,7 @@
 use crate::fault::{Cause, Fault};
 use crate::player::Player;
 use crate::walk::{Replaced, Walk};
-use crate::{Dialect, Job, written};
+use crate::{Job, written};
 use cplan_deviation::Kinematics;
 use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
 use cplan_model::{Scene, Status};
@@ -52,8 +52,6 @@ pub struct Settings {
     pub segment: Option<f64>,
     /// The side of the elbow. `None` if the machine can be set up with either side.
     pub elbow: Option<Elbow>,
-    /// The dialect of the program.
-    pub dialect: Dialect,
     /// True if unsafe travels are replaced.
     pub repairs: bool,
 }
@@ -62,8 +60,7 @@ impl Default for Settings {
     /// Returns a tolerance of a hundredth of a millimetre, no segments, either side of the elbow, Marlin, and replaced
     /// travels.
     fn default() -> Self {
-        let dialect = Dialect::default();
-        Self { tolerance: DEFAULT_TOLERANCE, segment: None, elbow: None, dialect, repairs: true }
+        Self { tolerance: DEFAULT_TOLERANCE, segment: None, elbow: None, repairs: true }
     }
 }
 
@@ -154,9 +151,10 @@ pub fn judge(scene: &Scene, job: &Job, settings: &Settings) -> Result<Answer, Gc
         None if has_elbow => Elbow::ALL.map(|elbow| (Some(elbow), elbow.solution())).to_vec(),
         None => (0..if kinematics.has_two_solutions() { 2 } else { 1 }).map(|solution| (None, solution)).collect(),
     };
+    let by_joints = job.setup.dialect.travels_by_joints();
     let players: Vec<(Option<Elbow>, Player)> = sides
         .into_iter()
-        .map(|(elbow, solution)| (elbow, Player::new(scene, &kinematics, solution, settings)))
+        .map(|(elbow, solution)| (elbow, Player::new(scene, &kinematics, solution, settings, by_joints)))
         .collect();
     let mut walks: Vec<(Option<Elbow>, Walk)> =
         players.iter().map(|(elbow, player)| (*elbow, Walk::new(player, &job.program.moves))).collect();
@@ -188,7 +186,7 @@ fn finished(job: &Job, settings: &Settings, elbow: Option<Elbow>, mut walk: Walk
     let failed = walk.failed.iter().map(|(index, fault)| Failed { own: moves[*index].clone(), fault: fault.clone() });
     let mut answer = Answer { elbow, failed: failed.collect(), replaced: travels, text: None, other: None };
     if answer.failed.is_empty() && settings.repairs {
-        let text = text(job, &replaced, settings.dialect)?;
+        let text = text(job, &replaced)?;
         match first_unproven(job, &walk, &text) {
             None => answer.text = Some(text),
             Some(failed) => answer.failed.push(failed),
@@ -198,14 +196,15 @@ fn finished(job: &Job, settings: &Settings, elbow: Option<Elbow>, mut walk: Walk
 }
 
 /// Returns the program with other travels.
-fn text(job: &Job, replaced: &[Replaced], dialect: Dialect) -> Result<Vec<u8>, GcodeError> {
+fn text(job: &Job, replaced: &[Replaced]) -> Result<Vec<u8>, GcodeError> {
     if replaced.is_empty() {
         return Ok(job.bytes.clone());
     }
     let text = String::from_utf8_lossy(&job.bytes);
     // The reader counts characters after a byte order mark.
     let (mark, rest) = text.split_at(text.len() - text.trim_start_matches('\u{feff}').len());
-    let program = written::program(rest, &job.program.moves, replaced, dialect).map_err(GcodeError::Checksum)?;
+    let program =
+        written::program(rest, &job.program.moves, replaced, job.setup.dialect).map_err(GcodeError::Checksum)?;
     Ok(format!("{mark}{program}").into_bytes())
 }
 

@@ -1,5 +1,6 @@
 //! A program with its text, and the words that lift its pen.
 
+use super::{Dialect, firmware};
 use cplan_toolpath::{Curve, Program, read_program};
 use std::str::FromStr;
 
@@ -35,6 +36,8 @@ pub struct Pen {
 /// Facts about the machine that a program does not state.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Setup {
+    /// The firmware that reads the program.
+    pub dialect: Dialect,
     /// The lines that move the pen. `None` if only G0 is a travel.
     pub pen: Option<Pen>,
     /// Place of the tip at the beginning and after homing, metres. `None` if it is unknown.
@@ -45,7 +48,7 @@ pub struct Setup {
 #[derive(Debug, Clone)]
 pub struct Job {
     pub(crate) bytes: Vec<u8>,
-    setup: Setup,
+    pub(crate) setup: Setup,
     /// The moves. Straight moves with a lifted pen are travels.
     pub program: Program,
 }
@@ -57,6 +60,7 @@ impl Job {
     /// Words that the machine would follow otherwise than cplan, with their lines; broken text; a program without moves.
     pub fn read(bytes: &[u8], setup: &Setup) -> Result<Self, cplan_toolpath::Error> {
         let mut program = read_program(bytes, setup.home)?;
+        firmware::check(&String::from_utf8_lossy(bytes), setup.dialect)?;
         if let Some(pen) = &setup.pen {
             let lifted = lifted(&String::from_utf8_lossy(bytes), pen);
             for piece in program.moves.iter_mut().map(|own| &mut own.piece) {

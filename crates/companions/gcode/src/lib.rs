@@ -30,6 +30,7 @@ mod answer;
 mod detour;
 mod dialect;
 mod fault;
+mod firmware;
 mod job;
 mod player;
 mod walk;

@@ -72,9 +72,15 @@ pub(crate) struct Player<'a> {
 }
 
 impl<'a> Player<'a> {
-    pub fn new(scene: &'a Scene, kinematics: &'a Kinematics<'a>, solution: usize, settings: &Settings) -> Self {
-        let (vicinity, travels_by_joints) = (Vicinity::new(scene), settings.dialect.travels_by_joints());
-        let Settings { tolerance, segment, .. } = *settings;
+    /// Creates an arm. `travels_by_joints` is as of [`crate::Dialect::travels_by_joints`].
+    pub fn new(
+        scene: &'a Scene,
+        kinematics: &'a Kinematics<'a>,
+        solution: usize,
+        settings: &Settings,
+        travels_by_joints: bool,
+    ) -> Self {
+        let (vicinity, Settings { tolerance, segment, .. }) = (Vicinity::new(scene), *settings);
         Self { scene, kinematics, vicinity, solution, tolerance, segment, travels_by_joints }
     }
 

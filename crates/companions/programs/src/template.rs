@@ -7,7 +7,7 @@ use crate::program::Program;
 use crate::written::Written;
 use cplan_robot::{Diagnostic, InputError, Source};
 use minijinja::syntax::SyntaxConfig;
-use minijinja::{AutoEscape, Environment, Error, UndefinedBehavior};
+use minijinja::{AutoEscape, Environment, Error, ErrorKind, UndefinedBehavior};
 use std::path::Path;
 
 /// The shipped templates: names and texts.
@@ -16,6 +16,9 @@ pub const SHIPPED: [(&str, &str); 3] = [
     ("rapid", include_str!("../templates/rapid.j2")),
     ("list", include_str!("../templates/list.j2")),
 ];
+
+/// Greatest number of instructions of a template, so that loops end. A target takes about a hundred.
+const MAX_INSTRUCTIONS: u64 = 50_000_000;
 
 /// The hint for all defects of templates.
 const HINT: &str = "docs/programs.md lists the data and the filters of templates";
@@ -73,6 +76,7 @@ impl Template {
     fn environment(&self) -> Environment<'_> {
         let mut environment = Environment::new();
         environment.set_debug(true);
+        environment.set_fuel(Some(MAX_INSTRUCTIONS));
         environment.set_undefined_behavior(UndefinedBehavior::Strict);
         environment.set_auto_escape_callback(|_| AutoEscape::None);
         // Lines that hold only a block leave no empty line.
@@ -87,7 +91,10 @@ impl Template {
 
     /// Describes a defect, with its place in the template.
     fn defect(&self, error: &Error) -> InputError {
-        let message = error.detail().map_or_else(|| error.kind().to_string(), str::to_owned);
+        let message = match error.kind() {
+            ErrorKind::OutOfFuel => format!("the template takes more than {MAX_INSTRUCTIONS} instructions"),
+            kind => error.detail().map_or_else(|| kind.to_string(), str::to_owned),
+        };
         let diagnostic = match (error.range(), error.line()) {
             (Some(range), _) => self.source.diagnostic_at(range, message),
             (None, Some(line)) => self.source.diagnostic_at_position(line, 1, message),

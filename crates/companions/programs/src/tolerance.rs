@@ -50,12 +50,19 @@ impl FromStr for JointTolerance {
     /// Parses one or two values, such as `0.02deg` or `0.02deg,0.1mm`. The other one has its default.
     fn from_str(text: &str) -> Result<Self, String> {
         let mut tolerance = Self::default();
+        let mut stated = [false; 2];
         for part in text.split(',').map(str::trim) {
             // A number without a unit is an angle in degrees.
             let units = [("deg", true, 1_f64.to_radians()), ("rad", true, 1.0), ("mm", false, 1e-3), ("m", false, 1.0)];
             let unit = units.into_iter().find_map(|(unit, turns, size)| Some((part.strip_suffix(unit)?, turns, size)));
             let (number, turns, size) = unit.unwrap_or((part, true, 1_f64.to_radians()));
             let value = number.trim().parse::<f64>().map(|number| number * size);
+            if std::mem::replace(&mut stated[usize::from(turns)], true) {
+                let kind = if turns { "angles" } else { "lengths" };
+                return Err(format!(
+                    "has two {kind}: state one angle and one length, with units, such as 0.05deg,0.1mm"
+                ));
+            }
             let most = if turns { MAX_TURN } else { MAX_SLIDE };
             match value {
                 Ok(value) if (0.0..=most).contains(&value) && turns => tolerance.turn = value,

@@ -65,6 +65,10 @@ impl Written {
                 let name = &program.joints[number.joint].name;
                 return Err(format!("the template writes joint \"{name}\" of {expected} twice"));
             }
+            let joins = |c: char, letters: &str| c.is_ascii_digit() || letters.contains(c);
+            if text.ends_with(|c| joins(c, "+-.")) || rest.starts_with(|c| joins(c, ".eE")) {
+                return Err(format!("the template joins the digits of {expected} to other ones, or to a sign"));
+            }
             text.push_str(number.digits);
             text.push_str(rest);
         }

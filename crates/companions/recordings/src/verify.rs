@@ -24,7 +24,8 @@ pub fn verify(
     overrides: &Overrides,
     anywhere: bool,
 ) -> Result<MotionFindings, InputError> {
-    let LoadedRecording { recording, held, steps, all_joints, claims, has_torques: _, notes: read } = recorded;
+    let LoadedRecording { recording, held, steps, all_joints, claims, has_torques: _, unjudged, notes: read } =
+        recorded;
     let nothing = Claims::default();
     let claims = claims.as_ref().unwrap_or(&nothing);
     let turns = describe_jumps(&loaded.scene, recording);
@@ -36,7 +37,13 @@ pub fn verify(
         Some((steps, task)) => {
             judge_task(loaded, task, (recording, steps, all_joints.as_ref()), claims, overrides, notes)?
         }
-        None => judge_motion(loaded, (recording, held), claims, overrides, anywhere, notes)?,
+        None => {
+            let moves = |name| {
+                format!("joint \"{name}\" moves during the steps: whether the arm hits something there is unknown")
+            };
+            judge_motion(loaded, (recording, held), claims, overrides, anywhere, notes)?
+                .with_faults(Judgement::Undecided, unjudged.iter().map(moves).collect())
+        }
     };
     Ok(findings.leaving(claims))
 }

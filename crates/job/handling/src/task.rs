@@ -268,13 +268,13 @@ impl Task {
     }
 
     /// Returns the first step that lowers the tool beyond the range of its joint for an object at another height.
-    pub fn step_beyond_stroke(&self) -> Option<&Step> {
+    pub fn step_beyond_stroke(&self) -> Option<(&Step, f64)> {
         let stroke = self.stroke.as_ref()?;
         let mut held = None;
-        self.steps().find(|step| {
+        self.steps().find_map(|step| {
             held = step.action.picked().or(held);
-            let depth = held.map(|object| stroke.depth(&self.objects[object]) - step.elevation);
-            step.elevation != 0.0 && depth.is_some_and(|depth| !stroke.joint.range.contains(stroke.lowered(depth)))
+            let value = stroke.lowered(stroke.depth(&self.objects[held?]) - step.elevation);
+            (step.elevation != 0.0 && !stroke.joint.range.contains(value)).then_some((step, value))
         })
     }
 

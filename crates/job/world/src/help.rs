@@ -2,7 +2,7 @@
 
 /// Names of keys, with the form of their values. A name such as `robot.joints` is that of a key in one table. A name
 /// without a table applies to all other tables.
-const KEY_FORMS: [(&str, &str); 30] = [
+const KEY_FORMS: [(&str, &str); 33] = [
     ("start", "[start] joints = [q1, q2], or tip = [x, y]"),
     ("goal", "[goal] joints = [q1, q2], or tip = [x, y]"),
     ("robot.joints", "joints = [\"first\", \"second\"], base to tip"),
@@ -30,6 +30,9 @@ const KEY_FORMS: [(&str, &str); 30] = [
     ("stops", "stops = [{ time = 0, at = [x, y] }, { time = 2, at = [x, y], angle = a }], seconds and metres"),
     ("time", "time = t, seconds since the arm's motion begins"),
     ("height", "height = [lower, upper], metres"),
+    ("pallet.height", "height = 0.02, metres"),
+    ("step.height", "height = 0.02, metres"),
+    ("step.steps.height", "height = 0.02, metres"),
     ("clearance", "clearance = 0.01, metres"),
     ("name", "name = \"words\""),
     ("image", "image = \"map.yaml\""),

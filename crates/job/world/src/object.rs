@@ -280,7 +280,8 @@ fn placed<'a>(
 fn require_height(reader: &Reader, given: &ObjectTable, pallet: &Pallet, what: &str) -> Result<(), Diagnostic> {
     let Some((numbers, height)) = given.height.as_ref().zip(pallet.height) else { return Ok(()) };
     let [lower, upper] = reader.number_pair(numbers, &format!("{what}: height"))?;
-    if (lower - height).abs() <= RESTING_TOLERANCE {
+    // Heights in the wrong order are refused where they are read.
+    if (lower - height).abs() <= RESTING_TOLERANCE || upper <= lower {
         return Ok(());
     }
     let message = format!("{what} begins at a height of {}, but its pallet has {}", length(lower), length(height));

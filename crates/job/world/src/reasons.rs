@@ -81,11 +81,10 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
 }
 
 /// Hint about a configuration outside the limits.
-pub(super) const HELP_FOR_LIMITS: &str =
-    "choose values within the limits, or override [robot] limits in the world file";
+pub(super) const HELP_FOR_LIMITS: &str = "choose values within the limits, or change the limits in the world file: of joints in [robot] limits, of motors in [robot] drives";
 
 /// Hint about a tip position outside the limits.
-pub(super) const HELP_FOR_TIP: &str = "choose another point, or override [robot] limits in the world file";
+pub(super) const HELP_FOR_TIP: &str = "choose another point, or change the limits in the world file: of joints in [robot] limits, of motors in [robot] drives";
 
 /// Explains why `q` is blocked: the worst pair of shapes for each link and obstacle.
 pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {

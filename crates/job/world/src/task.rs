@@ -8,11 +8,11 @@ use super::requirement::{Required, Requirement};
 use super::tool_values::require_free_lowered;
 use super::{LoadedScene, Overrides, World};
 use cplan_geometry::Point;
-use cplan_handling::{Item, Payload, Stroke, Task, ToolValues};
+use cplan_handling::{Item, Object, Payload, Stroke, Task, ToolJoint, ToolValues};
 use cplan_model::space::{Configuration, JointRange};
-use cplan_model::{Goal, inverse};
+use cplan_model::{Goal, RESTING_TOLERANCE, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
-use cplan_text::listed;
+use cplan_text::{length, listed, short};
 
 impl LoadedScene {
     /// Returns true if the world is a task: it has steps, or its start or goal states values of the tool's joints. Then the
@@ -49,6 +49,7 @@ impl LoadedScene {
         let mut workspace = self.world.workspace.clone();
         workspace.fixed.clearance = self.scene.workspace().clearance;
         notes.extend(self.world.wrist.iter().filter_map(|(_, note)| note.clone()));
+        notes.extend(stroke.iter().flat_map(|stroke| lifted_higher(stroke, &self.world.objects)));
         let task = Task {
             arm: self.scene.arm().clone(),
             workspace,
@@ -63,9 +64,14 @@ impl LoadedScene {
             let help = "remove its motion, or the feature that needs static obstacles";
             return Err(self.world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
         }
-        if let Some(step) = task.step_beyond_stroke() {
-            let message =
-                format!("step {} ({}): the stroke's joint cannot lower the tool so far", step.number, step.place);
+        if let Some((step, value)) = task.step_beyond_stroke() {
+            let limits = task.stroke.as_ref().map_or_else(String::new, |stroke| limits(&stroke.joint));
+            let message = format!(
+                "step {} ({}): the tool would be lowered to {} m, outside the {limits}",
+                step.number,
+                step.place,
+                short(value)
+            );
             let help = "choose another height of the place, another fixed value of the joint, or less travel";
             return Err(self.world.source.diagnostic(message).help(help).into());
         }
@@ -144,16 +150,35 @@ impl LoadedScene {
     }
 }
 
+/// Describes the limits of a tool's joint, which follow "the".
+fn limits(joint: &ToolJoint) -> String {
+    match joint.range {
+        JointRange::Interval { lower, upper } => format!("limits [{lower}, {upper}] m of joint \"{}\"", joint.name),
+        JointRange::Circle => format!("limits of joint \"{}\"", joint.name),
+    }
+}
+
+/// Iterates over notes about objects whose lift is greater than the tool's travel.
+fn lifted_higher<'a>(stroke: &Stroke, objects: &'a [Object]) -> impl Iterator<Item = String> + 'a {
+    let travel = stroke.travel.unwrap_or(f64::INFINITY);
+    let higher = move |object: &&Object| object.lift > travel + RESTING_TOLERANCE;
+    objects.iter().filter(higher).map(move |object| {
+        let (lift, travel) = (length(object.lift), length(travel));
+        format!(
+            "object \"{}\" counts as lifted by {lift}, but the stroke raises the tool by {travel}: its gripper must do the rest",
+            object.name
+        )
+    })
+}
+
 /// Iterates over diagnostics about objects that the tool cannot reach, because its joint cannot lower it so far.
 fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Diagnostic> + 'a {
     let joint = &stroke.joint;
     world.objects.iter().filter_map(|object| {
-        let JointRange::Interval { lower, upper } = joint.range else { return None };
         let (depth, at) = (stroke.depth(object), stroke.lowered(stroke.depth(object)));
         let message = format!(
-            "[robot] stroke: for object \"{}\" the tool is lowered by {depth} m, which takes joint \"{}\" to {at} m, outside its \
-             limits [{lower}, {upper}] m",
-            object.name, joint.name
+            "[robot] stroke: for object \"{}\" the tool is lowered by {depth} m, which takes joint \"{}\" to {at} m, outside the {}",
+            object.name, joint.name, limits(joint)
         );
         let help = "choose another fixed value of the joint, less travel, or less lift of the object";
         (!stroke.reaches(object)).then(|| world.source.diagnostic(message).help(help))

@@ -1,5 +1,6 @@
 //! `cplan gcode` from outside: written programs and answers against a machine of the tests' own.
 
+mod firmware;
 mod oracle;
 mod words;
 

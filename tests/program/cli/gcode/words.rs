@@ -20,7 +20,7 @@ fn written(text: &str, options: &str) -> Vec<String> {
 #[test]
 fn a_travel_keeps_the_words_of_its_line() {
     let text = "G21 G90\nG0 X240 Y265\nG1 Y275 F3000\nN7 G0 X-240 M106 S3 F9000 (over) ; there\nG1 Y265\n";
-    let lines = written(text, "--dialect klipper");
+    let lines = written(text, "--dialect duet");
     assert_eq!(lines[3], "; cplan: the travel of line 4 of the original, in 2 moves");
     assert!(lines[4].starts_with("N7 G0 X") && lines[4].ends_with(" M106 S3 F9000 (over) ; there"), "{lines:?}");
     // The original line states only X, so both coordinates are written.

@@ -12,13 +12,13 @@ impl Plan {
     /// motion. All formats except MCAP are text in UTF-8.
     ///
     /// The table of a task has a column with the number of each sample's step, counted from 1 in the order of
-    /// execution. If strokes of the tool overlap with motions of the arm, it has all joints. A ROS 2 message has the whole motion. A recording has a message for each step: its motion, followed
+    /// execution. If the tool has joints, it has all joints. A ROS 2 message has the whole motion. A recording has a message for each step: its motion, followed
     /// by the turns of the wrist and strokes of the tool. This recording has nothing to display; see
     /// `PlanOutput::bytes` of the crate `view` for one that has.
     pub fn encoded(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
             Format::Json => self.to_json().into_bytes(),
-            Format::Csv if self.moves_tool_on_the_way() => {
+            Format::Csv if self.moves_tool() => {
                 let Messages { whole, steps } = self.messages()?;
                 let step = |time: &f64| steps.partition_point(|(begin, _)| begin <= time);
                 let steps: Vec<usize> = whole.time.iter().map(step).collect();
@@ -49,7 +49,7 @@ impl Plan {
     pub fn encoded_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
         let (_, answer) = self.task()?;
         let text: Vec<String> = match format {
-            Format::Csv if self.moves_tool_on_the_way() => {
+            Format::Csv if self.moves_tool() => {
                 let motions = self.messages()?.steps.into_iter().zip(1..);
                 motions
                     .map(|((_, motion), number)| {
@@ -69,19 +69,16 @@ impl Plan {
 
     /// Returns the motion of all joints, if a joint of the tool moves too, without accelerations.
     pub(super) fn motion_with_tool(&self) -> Option<JointMotion> {
-        let is_tool = |joint: &RobotJoint| matches!(joint.driver, Driver::Stroke | Driver::Wrist);
-        if self.task().is_none() || !self.problem().robot().joints.joints.iter().any(is_tool) {
+        if !self.moves_tool() {
             return None;
         }
         Some(self.messages()?.whole.without_accelerations())
     }
 
-    /// Returns true if strokes of the tool overlap with motions of the arm, or if the world gives values of the tool's joints.
-    fn moves_tool_on_the_way(&self) -> bool {
-        self.task().is_some_and(|(task, answer)| {
-            let states_values = !task.start_tool.is_default() || task.steps().any(|step| !step.tool.is_default());
-            states_values || answer.legs.iter().any(|leg| leg.overlap.seconds() > 0.0)
-        })
+    /// Returns true if the motion is that of a task, and the tool has joints of its own.
+    fn moves_tool(&self) -> bool {
+        let is_tool = |joint: &RobotJoint| matches!(joint.driver, Driver::Stroke | Driver::Wrist);
+        self.task().is_some() && self.problem().robot().joints.joints.iter().any(is_tool)
     }
 
     /// Returns a motion as a table. If given, `steps` has the number of each sample's step.

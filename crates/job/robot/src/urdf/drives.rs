@@ -13,6 +13,9 @@ use toml::Spanned;
 const EXAMPLE: &str =
     "drives = { elbow = \"base\", motors = { velocity = [3.0, 4.0] } }, or drives = \"standard_scara\"";
 
+/// Greatest magnitude of angles, gears and rates.
+const LARGEST: f64 = 1e6;
+
 /// Limits that one motor imposes on joint 1, joint 2, or their sum.
 #[derive(Debug, Clone, Copy, Default)]
 struct MotorLimits {
@@ -124,8 +127,8 @@ impl Reduction<'_> {
         let mut read = with_ratio(self.ratio(table)?);
         if let Some(gear) = &table.gear {
             read.gear = self.pair(gear, "gear")?;
-            if let Some(k) = read.gear.iter().position(|gear| *gear == 0.0) {
-                let message = format!("the gear of motor {} is 0", k + 1);
+            if let Some(k) = read.gear.iter().position(|gear| gear.abs() < 1.0 / LARGEST) {
+                let message = format!("the gear of motor {} is {}, but it must be at least 1e-6", k + 1, read.gear[k]);
                 return Err(self.diagnostic(gear.span(), message).help("gear = [5.0, -5.0]"));
             }
         }
@@ -174,7 +177,7 @@ impl Reduction<'_> {
         if let Some(k) = range.and_then(|range| range.iter().position(|[lower, upper]| lower >= upper)) {
             let at = table.lower.as_ref().map_or(0..0, Spanned::span);
             let message = format!("the lower limit of motor {} is not below the upper one", k + 1);
-            return Err(self.diagnostic(at, message).help("swap them"));
+            return Err(self.diagnostic(at, message).help("write the lower one first, and the greater one second"));
         }
         let rates = |given: &Option<Numbers>, name: &str| match given {
             None => Ok(None),
@@ -217,6 +220,10 @@ impl Reduction<'_> {
             let message = format!("{name} has {} numbers, but there are two motors", values.len());
             return Err(self.diagnostic(at, message).help(EXAMPLE));
         };
+        if let Some(large) = values.iter().find(|value| value.abs() > LARGEST) {
+            let message = format!("{name} has the number {large:e}, but numbers are from -1e6 to 1e6");
+            return Err(self.diagnostic(at, message).help(EXAMPLE));
+        }
         Ok([first, second])
     }
 }

@@ -5,7 +5,7 @@ mod dwells;
 mod finish;
 
 use super::block::Block;
-use super::meaning::{self, OTHER_SYSTEM, Slot, UNSTATED_ORIGIN};
+use super::meaning::{self, OPTIONAL, OTHER_SYSTEM, Slot, UNSTATED_ORIGIN};
 use super::origin::Origin;
 use super::program::Modes;
 use super::remarks::Remarks;
@@ -116,6 +116,7 @@ impl<'p> Machine<'p> {
         self.has_begun |= !matches!(line, Line::Words(words) if words.is_empty());
         match line {
             Line::Percent => return Ok(!is_first),
+            Line::Optional(source) if self.remarks.allows_homes => self.remarks.refuse("/".into(), OPTIONAL, *source),
             Line::Optional(_) => self.remarks.list("/, left out".into()),
             Line::Command(name, source) => match meaning::of_command(name) {
                 Some(reason) => self.remarks.refuse(name.clone(), reason, *source),
@@ -135,6 +136,23 @@ impl<'p> Machine<'p> {
             self.go_home();
         }
         Ok(false)
+    }
+
+    /// Returns an error about lines after the end of the program, which some machines run, for a machine that knows its own
+    /// places. `end` is the number of the line with the end.
+    pub fn after_end<'l>(
+        &self,
+        end: usize,
+        mut left: impl Iterator<Item = (&'l Result<Line, Error>, usize)>,
+    ) -> Option<Error> {
+        let has_moves = |line: &Result<Line, Error>| match line {
+            Ok(Line::Words(words)) => words.iter().any(|word| "GXYZ".contains(word.letter)),
+            Ok(Line::Percent) => false,
+            Ok(Line::Optional(_) | Line::Command(..)) | Err(_) => true,
+        };
+        let (_, number) = left.find(|(line, _)| has_moves(line)).filter(|_| self.remarks.allows_homes)?;
+        let message = format!("this line is after the end of the program (line {end}), and some machines run it");
+        Some(Error::new(number, None, message, "remove all lines after the end, or the end before them"))
     }
 
     fn run_block(&mut self, block: &Block) -> Result<(), Error> {
@@ -283,16 +301,22 @@ impl<'p> Machine<'p> {
         let is_missing = |slot: Slot| self.is_relative || block.get(slot).is_none();
         let axes = [(Slot::X, 0, "X"), (Slot::Y, 1, "Y")];
         let missing = axes.into_iter().filter(|(slot, k, _)| !self.origin.is_known[*k] && is_missing(*slot));
-        let missing: Vec<&str> = missing.map(|(.., name)| name).collect();
-        if !missing.is_empty() {
-            let stated = missing.join(" and ");
+        let (missing, names): (Vec<usize>, Vec<&str>) = missing.map(|(_, k, name)| (k, name)).unzip();
+        self.unstated.push(word.source);
+        if self.remarks.allows_homes {
+            for k in (0..2).filter(|k| !missing.contains(k)) {
+                (self.origin.at[k], self.origin.is_known[k]) = (to[k], true);
+            }
+            return Ok(());
+        }
+        if !names.is_empty() {
+            let stated = names.join(" and ");
             self.notes.push(format!("the file does not state {stated} where the line begins: read as 0"));
         }
         if motion == Move::Line {
             let line = word.source.line;
             self.notes.push(format!("the first move (G1, line {line}) begins at an unstated place: left out"));
         }
-        self.unstated.push(word.source);
         self.origin.advance(to);
         Ok(())
     }

@@ -75,6 +75,8 @@ pub(super) const OTHER_SYSTEM: Reason = reason(
     "changes to coordinates whose origin the file does not state",
     "write all coordinates in one system, such as G54",
 );
+pub(super) const OPTIONAL: Reason =
+    reason("begins a line that some machines run and others leave out", "remove the line, or its /");
 pub(super) const UNSTATED_ORIGIN: Reason = reason(
     "returns to an origin that the file does not state",
     "write the coordinates that follow from the origin of G92",

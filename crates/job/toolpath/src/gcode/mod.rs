@@ -41,10 +41,14 @@ fn run<'p>(text: &str, mut machine: Machine<'p>) -> Result<Machine<'p>, Error> {
         text.lines().zip(1..).map(|(line, number)| words::line(line, number)).collect();
     machine.is_firmware = lines.iter().flatten().any(is_firmware);
     let mut first_error = None;
-    for line in &lines {
+    let mut left = lines.iter().zip(1..);
+    for (line, number) in left.by_ref() {
         match line.as_ref().map_err(Clone::clone).and_then(|line| machine.run(line)) {
             Ok(false) => {}
-            Ok(true) => break,
+            Ok(true) => {
+                first_error = first_error.or_else(|| machine.after_end(number, left));
+                break;
+            }
             Err(error) => first_error = first_error.or(Some(error)),
         }
     }

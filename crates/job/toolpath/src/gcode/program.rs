@@ -8,7 +8,7 @@ use std::ops::Range;
 pub struct Program {
     /// All moves with a length, in order. Each begins where the one before ends, except after a move in [`Self::unstated`].
     pub moves: Vec<ProgramMove>,
-    /// Moves from places that the program does not state: its first move, and the first one after homing.
+    /// Moves from places that the program does not state: the first ones, and the first ones after homing.
     pub unstated: Vec<Source>,
     /// Notes for the user about assumptions, and about words without an effect in the plane.
     pub notes: Vec<String>,

@@ -60,6 +60,10 @@ impl Word {
 /// If a comment is not closed, or if something is not a word.
 pub(super) fn line(text: &str, number: usize) -> Result<Line, Error> {
     let trimmed = text.trim();
+    if trimmed.contains('\r') {
+        let message = "a carriage return is within this line, and some machines end the line there";
+        return Err(Error::new(number, None, message, "save the file with line ends of one kind"));
+    }
     let source = Source { line: number, column: Some(text.chars().take_while(|c| c.is_whitespace()).count() + 1) };
     let name = trimmed.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).next().unwrap_or_default();
     let rest = trimmed[name.len()..].trim_start();

@@ -36,6 +36,8 @@ pub struct LoadedRecording {
     pub recording: Recording,
     /// Motions of joints that the world holds, if they move in the recording.
     pub held: Vec<HeldMotion>,
+    /// Names of joints that move during the steps of a task, and cannot be judged without these steps.
+    pub unjudged: Vec<String>,
     /// The steps of a task. `None` unless the file is cplan's result for a world with steps.
     pub steps: Option<Vec<RecordedStep>>,
     /// The motion of all joints that a result of cplan for a task states.
@@ -201,13 +203,23 @@ impl<'a> Names<'a> {
             Ok(recording.resting_after(&samples.rests))
         });
         let recording = recording.map_err(|d| misplaced(source, &samples, &d))?;
-        let held = self.moved(source, &samples, &recording, &mut notes)?;
+        let mut unjudged = Vec::new();
+        let held = self.moved(source, &samples, &recording, &mut notes, &mut unjudged)?;
         notes.push(rule(&recording).into());
         notes.extend(
             (recording.accelerations().is_some() && samples.joined.is_none()).then(|| STATED_ACCELERATIONS_NOTE.into()),
         );
         let has_torques = samples.has_torques;
-        Ok(LoadedRecording { recording, held, steps: None, all_joints: None, claims: None, has_torques, notes })
+        Ok(LoadedRecording {
+            recording,
+            held,
+            unjudged,
+            steps: None,
+            all_joints: None,
+            claims: None,
+            has_torques,
+            notes,
+        })
     }
 }
 

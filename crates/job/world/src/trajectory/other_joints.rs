@@ -21,7 +21,8 @@ pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
 }
 
 impl Names<'_> {
-    /// Returns the motions of held joints that move, and notes about all other joints.
+    /// Returns the motions of held joints that move, and notes about all other joints. Those that move during the steps of a
+    /// task are added to `unjudged`.
     ///
     /// # Errors
     /// Joints whose motion cannot be checked.
@@ -31,6 +32,7 @@ impl Names<'_> {
         samples: &Samples,
         recording: &Recording,
         notes: &mut Vec<String>,
+        unjudged: &mut Vec<String>,
     ) -> Result<Vec<HeldMotion>, Diagnostic> {
         let mut moved: Vec<HeldMotion> = Vec::new();
         let given = samples.joints.iter().map(|series| (series, true));
@@ -46,10 +48,8 @@ impl Names<'_> {
                 continue;
             };
             if self.has_steps {
-                notes.push(format!(
-                    "joint \"{name}\" moves during the steps: its motion is not judged, and the arm is judged with the joint at {}",
-                    joint.value
-                ));
+                notes.push(format!("the arm is judged with joint \"{name}\" at {}", joint.value));
+                unjudged.push(name.clone());
                 continue;
             }
             if let Some(why) = self.unjudgeable_reason(joint, at_samples, &moved) {

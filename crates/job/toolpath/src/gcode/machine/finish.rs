@@ -46,6 +46,11 @@ impl Machine<'_> {
             let message = format!("the program has more than {MAX_PIECES} moves");
             return Err(Error::new(None, None, message, "split the file into several"));
         }
+        if let (true, Some(first)) = (moves.is_empty(), self.unstated.first()) {
+            let message = "the file states for none of its moves where it begins";
+            let hint = "state the place of the tip at the beginning (--home), or begin with coordinates (G90, G0 X Y)";
+            return Err(Error::new(first.line, first.column, message, hint));
+        }
         if moves.is_empty() {
             return Err(no_line());
         }
