@@ -90,7 +90,7 @@ fn mistakes_in_the_table_of_motors_have_a_place_and_a_hint() {
         ("\"standard\"", "\"standard\" is unknown"),
         ("{ elbow = \"wrist\" }", "elbow is \"wrist\""),
         ("{ elbow = \"link\", ratio = 2.0 }", "a motor on the link has no ratio"),
-        ("{ gear = [1.0, 0.0] }", "the gear of motor 2 is 0"),
+        ("{ gear = [1.0, 0.0] }", "the gear of motor 2 must be from 1e-6"),
         ("{ gear = [1.0] }", "gear has 1 numbers, but there are two motors"),
         ("{ motors = { lower = [-1.0, -1.0] } }", "motors need both lower and upper limits"),
         ("{ motors = { lower = [-1.0, 1.0], upper = [1.0, 0.5] } }", "the lower limit of motor 2 is not below"),

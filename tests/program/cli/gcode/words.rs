@@ -20,8 +20,8 @@ fn written(text: &str, options: &str) -> Vec<String> {
 #[test]
 fn a_travel_keeps_the_words_of_its_line() {
     let text = "G21 G90\nG0 X240 Y265\nG1 Y275 F3000\nN7 G0 X-240 M106 S3 F9000 (over) ; there\nG1 Y265\n";
-    let lines = written(text, "--dialect duet");
-    assert_eq!(lines[3], "; cplan: the travel of line 4 of the original, in 2 moves");
+    let lines = written(text, "--dialect grbl");
+    assert_eq!(lines[3], "(cplan: the travel of line 4 of the original, in 2 moves)");
     assert!(lines[4].starts_with("N7 G0 X") && lines[4].ends_with(" M106 S3 F9000 (over) ; there"), "{lines:?}");
     // The original line states only X, so both coordinates are written.
     assert_eq!((lines[4].matches(" Y").count(), lines[5].as_str()), (1, "G0 X-240 Y275"));
@@ -64,10 +64,10 @@ fn displacements_units_origins_and_line_endings_stay() {
 fn words_that_lift_the_pen_make_travels() {
     let text = "G21 G90\nG1 X240 Y265\nM300 S30.00 (pen down)\nG1 Y275\nm300 s50 ; up\nG1 X-240 Y265 F3500\nM300S30\nG1 Y275\n";
     let place = Place::new();
-    assert_eq!(run(&place, text, "--check --json").json()["lines"]["travels"], 0);
+    assert_eq!(run(&place, text, "--check --json --dialect klipper").json()["lines"]["travels"], 0);
     place.write("job.gcode", text);
     let files = ["robots/scara.urdf", "workspaces/gcode/labels.toml"].map(shipped);
-    let pen = ["--pen-up", "M300 S50", "--pen-down", "M300 S30"];
+    let pen = ["--dialect", "klipper", "--pen-up", "M300 S50", "--pen-down", "M300 S30"];
     let arguments = [["gcode", &files[0], &files[1], "job.gcode"], pen].concat();
     let done = place.run(&arguments, "--output safe.gcode --json");
     assert_eq!((done.code, &done.json()["lines"]["travels"]), (0, &1.into()), "{}", done.stderr);

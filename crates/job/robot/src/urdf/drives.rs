@@ -128,7 +128,7 @@ impl Reduction<'_> {
         if let Some(gear) = &table.gear {
             read.gear = self.pair(gear, "gear")?;
             if let Some(k) = read.gear.iter().position(|gear| gear.abs() < 1.0 / LARGEST) {
-                let message = format!("the gear of motor {} is {}, but it must be at least 1e-6", k + 1, read.gear[k]);
+                let message = format!("the gear of motor {} must be from 1e-6 to 1e6 in magnitude", k + 1);
                 return Err(self.diagnostic(gear.span(), message).help("gear = [5.0, -5.0]"));
             }
         }
