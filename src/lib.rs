@@ -147,6 +147,7 @@ pub mod engine {
 /// Planners: pure functions that propose a path through a space for a query.
 pub mod planner {
     pub use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner, RELATIVE_TOLERANCE, field_domain};
+    pub use cplan_harmonic::Harmonic;
     pub use cplan_planners::planner::*;
     pub use cplan_roadmaps::{Prm, PrmMap, Triangles, TrianglesMap, Voronoi, VoronoiMap};
 }
@@ -155,12 +156,12 @@ pub mod planner {
 pub mod field {
     pub use cplan_fields::*;
     pub use cplan_harmonic::{
-        Component, Field, Guide, Lattice, LatticePoint, LocalMaximum, Place, Potential, PotentialGuide, Room,
-        STEP_LENGTH, Streamline, UNREACHED, Wave, advance, direction, estimated_harmonic, follow, harmonic,
+        Component, Field, Lattice, LocalMaximum, Potential, PotentialGuide, Room, Wave, estimated_harmonic, harmonic,
         harmonic_path, residual,
     };
     pub use cplan_multigrid as multigrid;
-    pub use cplan_planners::waves::{FreeCells, Move, Neighborhood, StepLabels, search};
+    pub use cplan_planners::planner::follow::*;
+    pub use cplan_planners::waves::{FreeCells, Move, Neighborhood, StepLabels, UNREACHED, search};
 }
 
 /// This compiles and runs the README's example as a documentation test.

@@ -5,11 +5,11 @@ use crate::{
     Cell, DeadEnd, Device, Domain, Equation, Escape, EscapedMinima, ForceField, ForceGuide, Khatib, Levels, Limits,
     Measure, RelaxError, Relaxation, RelaxedField, Scheme, Stopping, Trap, ValueGuide, relax_from, relax_on,
 };
-use cplan_harmonic::Place;
 use cplan_model::space::{Configuration, Path};
 use cplan_planners::cspace::{Grid, ZonedGrid};
 use cplan_planners::planner::attach::JoinedQuery;
-use cplan_planners::planner::{Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
+use cplan_planners::planner::follow::Place;
+use cplan_planners::planner::{FieldQuantity, Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 
 /// Default tolerance of relaxation: relative change of values in a sweep. At this tolerance, directions of ascent no
 /// longer change, except in cells where two directions are almost equal.
@@ -34,7 +34,8 @@ impl Planner for FieldPlanner {
 
     fn query(&self, space: &ZonedGrid, (): &(), query: &Query) -> Run {
         let grid = &space.grid;
-        let nothing = || Trace::Field { cells: grid.cells, potential: vec![f64::NEG_INFINITY; grid.blocked.len()] };
+        let nothing =
+            || Trace::field(grid.cells, FieldQuantity::Logarithm, vec![f64::NEG_INFINITY; grid.blocked.len()]);
         let ended =
             |outcome, cells| Run { outcome, trace: nothing(), size: Size::Grid { cells, sweeps: 0 }, note: None };
         let joined = match JoinedQuery::new(grid, query) {
@@ -101,7 +102,7 @@ impl FieldQuery<'_> {
             true => f64::INFINITY,
             false => field.potential(cell),
         });
-        let trace = Trace::Potential { cells: grid.cells, heights: heights.collect() };
+        let trace = Trace::field(grid.cells, FieldQuantity::Height, heights.collect::<Vec<_>>());
         let at = |place: Place| grid_path::cell(grid, place).filter(|&cell| !grid.blocked[cell]);
         let mut guide = ForceGuide::new(&field, goals, at).with_escape(escape);
         let path = grid_path::path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind);
@@ -149,7 +150,7 @@ impl FieldQuery<'_> {
             // If the equation is not monotone, a value may fall below 0, the level of obstacles.
             _ => value.max(0.0).ln(),
         };
-        let potential = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
+        let potential: Vec<f64> = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
         let (sweeps, change) = (field.sweeps(), field.change());
         if !field.converged() {
             // On a GPU, a stage that ends before the limit cannot improve in single precision.
@@ -171,7 +172,7 @@ impl FieldQuery<'_> {
             }),
         };
         let earlier = if let Some(Note::Continued { first, .. }) = note { first } else { 0 };
-        let trace = Trace::Field { cells: domain.cells(), potential };
+        let trace = Trace::field(domain.cells(), FieldQuantity::Logarithm, potential);
         Ok(FollowResult { path, trace, sweeps: earlier + sweeps, note })
     }
 }

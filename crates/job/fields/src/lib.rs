@@ -8,8 +8,8 @@
 //! - [`MovingField`]: a field among moving obstacles, which several robots share. It is updated at each moment.
 //! - [`FieldPlanner`]: the planner that follows any of these fields.
 //!
-//! The harmonic potential and the curve along a gradient are in the crate [`cplan_harmonic`], the solver of linear
-//! equations in [`cplan_multigrid`].
+//! The harmonic potential is in the crate `cplan-harmonic`, the curve along a gradient in
+//! [`cplan_planners::planner::follow`], the solver of linear equations in [`cplan_multigrid`].
 
 mod field_choice;
 mod field_planner;

@@ -5,10 +5,10 @@
 //! fails, the solver plans again on a finer grid.
 
 use super::attach::{Attachment, JoinedQuery};
+use super::follow::{Guide, Place, follow};
 use super::simplify::simplified;
 use super::{PathKind, Query, shortcut};
 use crate::cspace::Grid;
-use cplan_harmonic::{Guide, Place, follow};
 use cplan_model::space::{Configuration, Measure, Metric, Path};
 
 /// Returns the row or column with number `at` on an axis whose numbers continue across a seam; `None` beyond a

@@ -1,6 +1,7 @@
 //! Steepest ascent of a harmonic potential along its gradient.
 
-use super::{Component, Guide, Place, Potential};
+use super::{Component, Potential};
+use cplan_planners::planner::follow::{Guide, Place};
 
 /// The potential as a [`Guide`]: the gradient of its logarithm, by central differences with 0 at walls.
 pub struct PotentialGuide<'a, F> {

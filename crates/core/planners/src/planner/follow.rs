@@ -1,7 +1,6 @@
 //! Follows a field along its gradient, as a curve that is not bound to the centres of cells.
 //!
-//! [`follow`] works with any [`Guide`]: the harmonic potential ([`PotentialGuide`](crate::PotentialGuide)), a relaxed
-//! field, or forces. A guide returns the direction at the centres of free cells: the gradient of the logarithm, by
+//! [`follow`] works with any [`Guide`]: the harmonic potential, a relaxed field, or forces. A guide returns the direction at the centres of free cells: the gradient of the logarithm, by
 //! central differences.
 //! `follow` interpolates bilinearly and integrates with the fourth-order Runge-Kutta method, in steps of a fifth of a
 //! cell.
