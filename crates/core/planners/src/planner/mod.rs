@@ -356,6 +356,13 @@ pub struct Run {
     pub note: Option<Note>,
 }
 
+impl Run {
+    /// Returns a run without a remark.
+    pub fn new(outcome: Proposal, trace: Trace, size: Size) -> Self {
+        Self { outcome, trace, size, note: None }
+    }
+}
+
 /// A planner. Its settings are the fields of the implementing type.
 ///
 /// Structures that do not depend on the query are built once and can serve many queries. Planners are deterministic:

@@ -1,33 +1,17 @@
 //! Approximates a curve by fewer points.
 
 use super::grid_path::Line;
-use super::shortcut::is_clear;
+use super::shortcut::{fewer_points, is_clear};
 use crate::cspace::Grid;
-use cplan_interrupt::checkpoint;
 
 /// Returns a line through some of the points of a line, its ends included. Each omitted point is within `tolerance` (in
 /// cells) of the segment that replaces it. New segments pass only through free cells. Takes about `n log n` distances
 /// for `n` points.
 pub(super) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line {
-    let mut kept = vec![line[0]];
-    let mut at = 0;
-    while at + 1 < line.len() {
-        checkpoint();
-        let fits = |to: usize| {
-            let (a, b) = (line[at], line[to]);
-            line[at + 1..to].iter().all(|&p| distance(p, a, b) <= tolerance) && is_clear(grid, a, b)
-        };
-        // The search doubles the number of replaced points while a segment fits, then bisects.
-        let (mut good, mut bad) = (at + 1, line.len());
-        while good + 1 < bad {
-            let ahead = (at + 2 * (good - at)).min(line.len() - 1);
-            let probe = if bad == line.len() { ahead } else { usize::midpoint(good, bad) };
-            if fits(probe) { good = probe } else { bad = probe }
-        }
-        kept.push(line[good]);
-        at = good;
-    }
-    kept
+    fewer_points(line, |from, to| {
+        let (a, b) = (line[from], line[to]);
+        line[from + 1..to].iter().all(|&p| distance(p, a, b) <= tolerance) && is_clear(grid, a, b)
+    })
 }
 
 /// Returns the distance between a point and a segment.

@@ -139,18 +139,14 @@ impl Planner for Wavefront {
             Ok(joined) => joined,
             Err(reason) => {
                 let (labels, expanded) = (vec![UNREACHED; space.blocked.len()], Vec::new());
-                let forward = self.forward;
-                return Run {
-                    outcome: Proposal::GaveUp(reason),
-                    trace: Trace::Wavefront { cells: space.cells, labels, expanded, forward, estimates: None },
-                    size: Size::Grid { cells: 0, sweeps: 0 },
-                    note: None,
-                };
+                let (cells, forward) = (space.cells, self.forward);
+                let trace = Trace::Wavefront { cells, labels, expanded, forward, estimates: None };
+                return Run::new(Proposal::GaveUp(reason), trace, Size::Grid { cells: 0, sweeps: 0 });
             }
         };
         let (cells, trace, size) = self.cells(map, &joined);
         let path = cells.and_then(|cells| grid_path::path(space, query, &joined, &cells, self.path));
-        Run { outcome: path.map_or(Proposal::NoPath, Proposal::Found), trace, size, note: None }
+        Run::new(path.map_or(Proposal::NoPath, Proposal::Found), trace, size)
     }
 }
 
