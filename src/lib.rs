@@ -164,6 +164,12 @@ pub mod field {
     pub use cplan_planners::waves::{FreeCells, Move, Neighborhood, StepLabels, UNREACHED, search};
 }
 
+/// Brings the GPU to fields, as [`field::Device::Gpu`]. The program and [`plan`] do so; relaxations alone need the call.
+#[cfg(feature = "gpu")]
+pub fn bring_gpu() {
+    field::Device::bring_gpu(cplan_gpu::shared);
+}
+
 /// This compiles and runs the README's example as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -36,8 +36,7 @@ impl Planner for FieldPlanner {
         let grid = &space.grid;
         let nothing =
             || Trace::field(grid.cells, FieldQuantity::Logarithm, vec![f64::NEG_INFINITY; grid.blocked.len()]);
-        let ended =
-            |outcome, cells| Run { outcome, trace: nothing(), size: Size::Grid { cells, sweeps: 0 }, note: None };
+        let ended = |outcome, cells| Run::new(outcome, nothing(), Size::Grid { cells, sweeps: 0 });
         let joined = match JoinedQuery::new(grid, query) {
             Ok(joined) => joined,
             Err(reason) => return ended(Proposal::GaveUp(reason), 0),

@@ -24,8 +24,8 @@ pub use khatib::{
 };
 pub use moving::{Disc, Moment, MovingField, Solver};
 pub use relax::{
-    Boundary, Cell, Convergence, DeadEnd, Device, Difference, Direction, Domain, Ending, Equation, Factor, Influence,
-    Initial, Leap, Levels, Limits, Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, RelaxedField,
-    Sample, Scan, Scheme, Stencil, Stopping, SweepSnapshot, Trace, ValueGuide, by_multigrid, descend,
-    drift_around_robots, eliminated, relax, relax_from, relax_on, relax_watched, trace,
+    Accelerator, Boundary, Cell, CellEquations, Convergence, DeadEnd, Device, Difference, Direction, Domain, Ending,
+    Equation, Factor, Influence, Initial, Leap, Levels, Limits, Lines, Measure, Neighbor, OpenGpu, Order, Precision,
+    RelaxError, Relaxation, RelaxedField, Sample, Scan, Scheme, Stencil, Stopping, SweepSnapshot, Trace, ValueGuide,
+    by_multigrid, descend, drift_around_robots, eliminated, relax, relax_from, relax_on, relax_watched, trace,
 };
