@@ -181,19 +181,6 @@ impl Lattice {
 }
 
 impl Wave {
-    /// Returns the number of cells reached.
-    pub fn reached(&self) -> usize {
-        self.order.len()
-    }
-
-    /// Returns the number of steps from cell `index` of the grid to the nearest source, or [`UNREACHED`].
-    pub fn label(&self, lattice: &Lattice, index: usize) -> u32 {
-        match self.labels[lattice.framed(index)] {
-            WALL_LABEL.. => UNREACHED,
-            label => label,
-        }
-    }
-
     /// Returns the labels of all cells of the grid, without the frame.
     pub fn labels(&self, lattice: &Lattice) -> Vec<u32> {
         let [rows, columns] = lattice.cells;

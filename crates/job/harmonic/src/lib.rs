@@ -75,7 +75,6 @@
 
 mod component;
 mod extent;
-mod front;
 mod lattice;
 mod laplace;
 mod network;

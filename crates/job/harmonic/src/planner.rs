@@ -39,11 +39,8 @@ impl Planner for Harmonic {
     }
 
     fn query(&self, space: &Grid, map: &Lattice, query: &Query) -> Run {
-        let ended = |outcome, (quantity, values), cells, windows| Run {
-            outcome,
-            trace: Trace::field(space.cells, quantity, values),
-            size: Size::Windows { cells, windows },
-            note: None,
+        let ended = |outcome, (quantity, values), cells, windows| {
+            Run::new(outcome, Trace::field(space.cells, quantity, values), Size::Windows { cells, windows })
         };
         let joined = match JoinedQuery::new(space, query) {
             Ok(joined) => joined,
