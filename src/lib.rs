@@ -155,12 +155,13 @@ pub mod planner {
 /// Waves over the cells of a grid, and potential fields on a grid.
 pub mod field {
     pub use cplan_fields::*;
+    pub use cplan_harmonic::follow::*;
     pub use cplan_harmonic::{
         Component, Field, Lattice, LocalMaximum, Potential, PotentialGuide, Room, Wave, estimated_harmonic, harmonic,
         harmonic_path, residual,
     };
     pub use cplan_multigrid as multigrid;
-    pub use cplan_planners::planner::follow::*;
+    pub use cplan_planners::planner::grid_path::Place;
     pub use cplan_planners::waves::{FreeCells, Move, Neighborhood, StepLabels, UNREACHED, search};
 }
 

@@ -5,10 +5,11 @@ use crate::{
     Cell, DeadEnd, Device, Domain, Equation, Escape, EscapedMinima, ForceField, ForceGuide, Khatib, Levels, Limits,
     Measure, RelaxError, Relaxation, RelaxedField, Scheme, Stopping, Trap, ValueGuide, relax_from, relax_on,
 };
+use cplan_harmonic::path_along_field;
 use cplan_model::space::{Configuration, Path};
 use cplan_planners::cspace::{Grid, ZonedGrid};
 use cplan_planners::planner::attach::JoinedQuery;
-use cplan_planners::planner::follow::Place;
+use cplan_planners::planner::grid_path::Place;
 use cplan_planners::planner::{FieldQuantity, Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 
 /// Default tolerance of relaxation: relative change of values in a sweep. At this tolerance, directions of ascent no
@@ -104,7 +105,7 @@ impl FieldQuery<'_> {
         let trace = Trace::field(grid.cells, FieldQuantity::Height, heights.collect::<Vec<_>>());
         let at = |place: Place| grid_path::cell(grid, place).filter(|&cell| !grid.blocked[cell]);
         let mut guide = ForceGuide::new(&field, goals, at).with_escape(escape);
-        let path = grid_path::path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind);
+        let path = path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind);
         let path = path.map_err(|Trap { cell, value, minimum }| {
             let at = format_cell(grid, cell);
             match minimum {
@@ -132,7 +133,7 @@ impl FieldQuery<'_> {
         let grid = &self.space.grid;
         let climb = |field: &RelaxedField| {
             let mut guide = ValueGuide::new(domain, &field.values, |place: Place| grid_path::cell(grid, place));
-            grid_path::path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind)
+            path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind)
         };
         let refused = |error: RelaxError| error.to_string();
         let mut field = relax_on(on, domain, equation, relaxation, stopping).map_err(refused)?;

@@ -9,7 +9,7 @@
 //! - [`FieldPlanner`]: the planner that follows any of these fields.
 //!
 //! The harmonic potential is in the crate `cplan-harmonic`, the curve along a gradient in
-//! [`cplan_planners::planner::follow`], the solver of linear equations in [`cplan_multigrid`].
+//! [`cplan_harmonic::follow`], the solver of linear equations in [`cplan_multigrid`].
 
 mod field_choice;
 mod field_planner;

@@ -1,19 +1,17 @@
 //! The harmonic field planner.
 
-use super::{Component, Field, Lattice, Potential, PotentialGuide, estimated_harmonic, harmonic};
+use super::{Component, Field, Lattice, Potential, PotentialGuide, estimated_harmonic, harmonic, path_along_field};
 use cplan_interrupt::checkpoint;
 use cplan_planners::cspace::Grid;
 use cplan_planners::planner::attach::JoinedQuery;
-use cplan_planners::planner::follow::Place;
-use cplan_planners::planner::{
-    FieldQuantity, FieldValues, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path,
-};
+use cplan_planners::planner::grid_path::{Place, cell};
+use cplan_planners::planner::{FieldQuantity, FieldValues, PathKind, Planner, Proposal, Query, Run, Size, Trace};
 
 /// Solves Laplace's equation on the cells connected with the goal, and follows the solution's gradient upwards, as
 /// interpolated between the cells (Connolly, Grupen 1993; [`follow`]). The value is 1 at the goals and 0 on
 /// obstacles and beyond limits; on circles it is periodic.
 ///
-/// [`follow`]: cplan_planners::planner::follow::follow()
+/// [`follow`]: crate::follow::follow()
 ///
 /// Complete on the grid: the only local maxima of the field are the goals, even in long corridors (see
 /// [`harmonic()`]). So if no path is found, no path exists between the cells.
@@ -60,9 +58,9 @@ impl Planner for Harmonic {
             return ended(Proposal::NoPath, (FieldQuantity::EstimatedLogarithm, values), cells, 0);
         };
         let Field { potential, windows } = harmonic(&component);
-        let at = |place: Place| component.position_of(grid_path::cell(space, place)?);
+        let at = |place: Place| component.position_of(cell(space, place)?);
         let mut guide = PotentialGuide::new(&component, &potential, at);
-        let path = grid_path::path_along_field(space, query, &joined, &mut guide, component.cell(start), self.path);
+        let path = path_along_field(space, query, &joined, &mut guide, component.cell(start), self.path);
         let failed = |_| Proposal::GaveUp("the field has a local maximum".into());
         let outcome = path.map_or_else(failed, Proposal::Found);
         let values = FieldValues::computed_by(move || logarithms(&component, &potential));

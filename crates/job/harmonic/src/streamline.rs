@@ -1,7 +1,8 @@
 //! Steepest ascent of a harmonic potential along its gradient.
 
 use super::{Component, Potential};
-use cplan_planners::planner::follow::{Guide, Place};
+use crate::follow::Guide;
+use cplan_planners::planner::grid_path::Place;
 
 /// The potential as a [`Guide`]: the gradient of its logarithm, by central differences with 0 at walls.
 pub struct PotentialGuide<'a, F> {

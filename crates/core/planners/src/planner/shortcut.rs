@@ -17,7 +17,7 @@ const MIN_GAIN: f64 = 1e-3;
 /// Returns a shorter polyline with the same ends and few corners. Each of its segments either passes only through
 /// free cells (touching counts), or is a segment of the given line. The result is never longer, in any norm. Takes
 /// about `n log n` cell checks for a line that is `n` cells long.
-pub(super) fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
+pub fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut best = farthest(grid, line);
     for _ in 0..MAX_ROUNDS {
         // Go backwards, and use points between the corners as well: that pulls the corners towards the obstacles.
@@ -50,7 +50,7 @@ fn farthest(grid: &Grid, line: &[[f64; 2]]) -> Line {
 /// Returns a line through some of the given points, its ends included. From each point it goes to one far along the line
 /// to which a segment `fits`. The search doubles the distance along the line while the segment fits, then bisects. The
 /// next point always counts as fitting.
-pub(super) fn fewer_points(line: &[[f64; 2]], fits: impl Fn(usize, usize) -> bool) -> Line {
+pub fn fewer_points(line: &[[f64; 2]], fits: impl Fn(usize, usize) -> bool) -> Line {
     let mut kept = vec![line[0]];
     let mut at = 0;
     while at + 1 < line.len() {
@@ -83,7 +83,7 @@ fn refine(grid: &Grid, line: &[[f64; 2]]) -> Line {
 }
 
 /// Returns true if all cells that the segment passes through or touches are free.
-pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
+pub fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
     let d = [b[0] - a[0], b[1] - a[1]];
     let rows = touched_lines(grid, 0, a[0], b[0]);
     rows.into_iter().all(|i| {

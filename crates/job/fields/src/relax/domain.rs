@@ -1,7 +1,7 @@
 //! The domain of a field equation: cells, their kinds, and boundary conditions.
 
 use cplan_planners::cspace::Grid;
-use cplan_planners::planner::follow::Place;
+use cplan_planners::planner::grid_path::Place;
 use serde::{Deserialize, Serialize};
 
 /// The kind of a cell in a field.

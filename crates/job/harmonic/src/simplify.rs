@@ -1,13 +1,13 @@
 //! Approximates a curve by fewer points.
 
-use super::grid_path::Line;
-use super::shortcut::{fewer_points, is_clear};
-use crate::cspace::Grid;
+use cplan_planners::cspace::Grid;
+use cplan_planners::planner::grid_path::Line;
+use cplan_planners::planner::shortcut::{fewer_points, is_clear};
 
 /// Returns a line through some of the points of a line, its ends included. Each omitted point is within `tolerance` (in
 /// cells) of the segment that replaces it. New segments pass only through free cells. Takes about `n log n` distances
 /// for `n` points.
-pub(super) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line {
+pub(crate) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line {
     fewer_points(line, |from, to| {
         let (a, b) = (line[from], line[to]);
         line[from + 1..to].iter().all(|&p| distance(p, a, b) <= tolerance) && is_clear(grid, a, b)
@@ -25,8 +25,8 @@ fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cspace::Proves;
     use cplan_model::space::{JointRange, Topology};
+    use cplan_planners::cspace::Proves;
 
     fn empty() -> Grid {
         let topology = Topology::new([JointRange::Interval { lower: 0.0, upper: 100.0 }; 2]);
