@@ -7,7 +7,6 @@ use crate::waves::search::{Estimates, Order, Search, Ties};
 use crate::waves::{FreeCells, Neighborhood, StepLabels, UNREACHED};
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::str::FromStr;
 
 /// The search method on a grid. The wave begins at the goals. The other methods begin at the goals as well, or at
 /// the start if requested. A cell's label counts the moves to the cells where the search began.
@@ -77,17 +76,6 @@ impl GridSearch {
 impl fmt::Display for GridSearch {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.pad(self.name())
-    }
-}
-
-impl FromStr for GridSearch {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<Self, String> {
-        GridSearch::ALL.into_iter().find(|search| search.name() == name).ok_or_else(|| {
-            let known: Vec<&str> = GridSearch::ALL.iter().map(|search| search.name()).collect();
-            format!("no search is called \"{name}\"; choose one of {}", known.join(", "))
-        })
     }
 }
 
