@@ -147,6 +147,7 @@ pub mod engine {
 /// Planners: pure functions that propose a path through a space for a query.
 pub mod planner {
     pub use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner, RELATIVE_TOLERANCE, field_domain};
+    pub use cplan_harmonic::Harmonic;
     pub use cplan_planners::planner::*;
     pub use cplan_roadmaps::{Prm, PrmMap, Triangles, TrianglesMap, Voronoi, VoronoiMap};
 }
@@ -154,13 +155,20 @@ pub mod planner {
 /// Waves over the cells of a grid, and potential fields on a grid.
 pub mod field {
     pub use cplan_fields::*;
+    pub use cplan_harmonic::follow::*;
     pub use cplan_harmonic::{
-        Component, Field, Guide, Lattice, LatticePoint, LocalMaximum, Place, Potential, PotentialGuide, Room,
-        STEP_LENGTH, Streamline, UNREACHED, Wave, advance, direction, estimated_harmonic, follow, harmonic,
+        Component, Field, Lattice, LocalMaximum, Potential, PotentialGuide, Room, Wave, estimated_harmonic, harmonic,
         harmonic_path, residual,
     };
     pub use cplan_multigrid as multigrid;
-    pub use cplan_planners::waves::{FreeCells, Move, Neighborhood, StepLabels, search};
+    pub use cplan_planners::planner::grid_path::Place;
+    pub use cplan_planners::waves::{FreeCells, Move, Neighborhood, StepLabels, UNREACHED, search};
+}
+
+/// Brings the GPU to fields, as [`field::Device::Gpu`]. The program and [`plan`] do so; relaxations alone need the call.
+#[cfg(feature = "gpu")]
+pub fn bring_gpu() {
+    field::Device::bring_gpu(cplan_gpu::shared);
 }
 
 /// This compiles and runs the README's example as a documentation test.

@@ -18,6 +18,8 @@ pub fn plan(problem: &Problem, options: &Options) -> Result<Plan, PlanError> {
 /// # Errors
 /// The errors of [`plan`].
 pub fn plan_with(problem: &Problem, options: &Options, progress: &mut dyn FnMut(&str)) -> Result<Plan, PlanError> {
+    #[cfg(feature = "gpu")]
+    crate::bring_gpu();
     cplan_engine::plan(problem, options, SEARCHES, progress)
 }
 

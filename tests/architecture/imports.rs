@@ -29,9 +29,7 @@ const RINGS: [&str; 3] = ["crates/core", "crates/job", "crates/companions"];
 
 /// Crates of the main job that still use a companion, each with that companion. The list may only become shorter. Those
 /// marked "optional" are behind a feature.
-const LEAKS: [(&str, &str); 3] = [
-    // Optional.
-    ("fields", "gpu"),
+const LEAKS: [(&str, &str); 2] = [
     ("robot", "xacro"),
     // Optional.
     ("toolpath", "drawing"),

@@ -250,7 +250,7 @@ fn a_long_spiral_is_no_flat_field() {
     assert!(free > 10_000, "only {free} cells");
     let run = run(false, &grid, &query(&grid, outer, inner), PathKind::Own);
     assert!(found_path(&run).length() > 0.7 * free as f64);
-    let (_, potential) = run.trace.logarithms().expect("a field's");
+    let Trace::Field { values: potential, .. } = &run.trace else { panic!("{:?}", run.trace) };
     // In a corridor one cell wide, each cell has 2 - sqrt 3 times the value of the one before. The few cells at its
     // closed end are an exception.
     let expected = (free - 1) as f64 * (2.0 - 3.0_f64.sqrt()).ln();
@@ -295,10 +295,7 @@ fn a_wall_means_no_path_and_the_trace_shows_what_was_reached() {
         assert_eq!(run.outcome, Proposal::NoPath);
         assert!(matches!(run.size, Size::Grid { cells: 6, .. } | Size::Windows { cells: 6, .. }));
         let reached = match run.trace {
-            trace @ Trace::Harmonic { .. } => {
-                let (_, potential) = trace.logarithms().expect("a field's");
-                potential.iter().filter(|p| p.is_finite()).count()
-            }
+            Trace::Field { values, .. } => values.iter().filter(|p| p.is_finite()).count(),
             Trace::Wavefront { labels, .. } => labels.iter().filter(|&&label| label != UNREACHED).count(),
             _ => 0,
         };

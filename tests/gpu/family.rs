@@ -48,6 +48,7 @@ fn relaxation() -> impl Strategy<Value = Relaxation> {
 }
 
 fn difference_from_cpu(domain: &Domain, equation: &Equation, relaxation: &Relaxation, stopping: &Stopping) -> f64 {
+    cplan::bring_gpu();
     let [cpu, gpu] =
         [Device::Cpu, Device::Gpu].map(|on| relax_on(on, domain, equation, relaxation, stopping).expect("a field"));
     assert_eq!(cpu.stages.len(), gpu.stages.len());
@@ -94,6 +95,7 @@ proptest! {
 #[test]
 #[ignore = "needs a Vulkan driver: .ci/gpu"]
 fn unsupported_gpu_options_are_reported() {
+    cplan::bring_gpu();
     let domain = Domain::new([2, 2], vec![Cell::Free; 4], [Boundary::High; 2], Levels::PUBLISHED);
     let stopping = Stopping { measure: Measure::GreatestChange, below: 1e-3, max_sweeps: 10 };
     let rows = Relaxation::gauss_seidel(Order::Lines(cplan::field::Scan::ROWS));

@@ -11,8 +11,8 @@ use cplan::field::{
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{JointType, Scene};
 use cplan::planner::{
-    EquationChoice, FieldChoice, FieldPlanner, GridSearch, Harmonic, PathKind, Planner, Prm, Proposal, Query,
-    RoadmapSearch, Run, SearchOrder, Size, Trace, Trapezoid, Triangles, Visibility, Voronoi, Wavefront,
+    EquationChoice, FieldChoice, FieldPlanner, FieldQuantity, GridSearch, Harmonic, PathKind, Planner, Prm, Proposal,
+    Query, RoadmapSearch, Run, SearchOrder, Size, Trace, Trapezoid, Triangles, Visibility, Voronoi, Wavefront,
 };
 use cplan::space::{Configuration, JointRange, Metric, Path};
 use cplan_testkit::arms::{all_kinds, arm, joint, link, rr};
@@ -282,12 +282,9 @@ fn the_trace_and_size_are_those_of_the_representation() {
                     && expansions >= expanded.len()
             }
             (
-                trace @ (Trace::Field { .. } | Trace::Harmonic { .. }),
+                Trace::Field { cells, quantity: FieldQuantity::Logarithm, values },
                 Size::Windows { cells: reached, .. } | Size::Grid { cells: reached, .. },
-            ) => {
-                let (cells, ln) = trace.logarithms().expect("a field's");
-                ln.len() == cells[0] * cells[1] && ln.iter().filter(|p| p.is_finite()).count() == reached
-            }
+            ) => values.len() == cells[0] * cells[1] && values.iter().filter(|p| p.is_finite()).count() == reached,
             _ => false,
         };
         assert!(fits, "{name}: {:?}", run.size);

@@ -34,9 +34,7 @@ fn shown_count(shows: &Shows, trace: &Trace) -> Option<usize> {
         (Shows::Slices, Trace::Slices { free }) => free.len(),
         (Shows::Boxes, Trace::Boxes { free, stuck, mixed }) => free.len() + stuck.len() + mixed.len(),
         (Shows::Wave, Trace::Wavefront { labels, .. }) => labels.iter().filter(|&&label| label != u32::MAX).count(),
-        (Shows::Levels, Trace::Field { .. } | Trace::Harmonic { .. }) => {
-            trace.logarithms()?.1.iter().filter(|ln| ln.is_finite()).count()
-        }
+        (Shows::Levels, Trace::Field { values, .. }) => values.iter().filter(|value| value.is_finite()).count(),
         _ => return None,
     })
 }

@@ -10,7 +10,7 @@ mod tasks;
 
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
-use cplan::planner::{CellKind, ChannelPoints, GraphKind, Trace};
+use cplan::planner::{CellKind, ChannelPoints, FieldQuantity, GraphKind, Trace};
 use cplan::space::{Configuration, JointRange, Path, Segment};
 use cplan::view::{Picture, View, svg};
 use cplan_testkit::scenes::placed;
@@ -165,7 +165,7 @@ fn a_field_on_a_torus_is_drawn() {
         &torus(),
         [configuration(2.6, 0.3), configuration(-2.2, -1.6)],
         72,
-        |cells, _, goal, _| Trace::Field { cells: [cells.n; 2], potential: cells.potential(goal) },
+        |cells, _, goal, _| Trace::field([cells.n; 2], FieldQuantity::Logarithm, cells.potential(goal)),
     );
     let words = words(&text);
     assert!(words.contains("shoulder, wraps around") && words.contains("equipotentials"));
@@ -316,8 +316,8 @@ fn a_motion_that_stays_where_it_is_is_drawn() {
             forward: false,
             estimates: None,
         },
-        Trace::Field { cells: [2, 2], potential: vec![f64::NEG_INFINITY, 0.0, -1.0, -2.0] },
-        Trace::Field { cells: [0, 0], potential: Vec::new() },
+        Trace::field([2, 2], FieldQuantity::Logarithm, vec![f64::NEG_INFINITY, 0.0, -1.0, -2.0]),
+        Trace::field([0, 0], FieldQuantity::Logarithm, Vec::new()),
     ] {
         let mut picture = plain_picture(&scene, &goals);
         picture.paths = vec![("visibility".to_owned(), &path)];

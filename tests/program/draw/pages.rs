@@ -6,7 +6,7 @@ use cplan::cspace::c_obstacles;
 use cplan::geometry::Point;
 use cplan::model::Status;
 use cplan::motion::Drive;
-use cplan::planner::{CellKind, ChannelPoints, GraphKind, Trace};
+use cplan::planner::{CellKind, ChannelPoints, FieldQuantity, GraphKind, Trace};
 use cplan::proofs::{Connectivity, connectivity};
 use cplan::space::Path;
 use cplan::view::{AxesFrame, Picture, View, page};
@@ -160,7 +160,7 @@ fn other_traces_keep_their_parts() {
     let n = 64;
     let place = |k: usize| (k as f64 + 0.5) / n as f64 * std::f64::consts::TAU - std::f64::consts::PI;
     let height = |k: usize| -(place(k / n).powi(2) + place(k % n).powi(2));
-    let field = shown(&Trace::Field { cells: [n; 2], potential: (0..n * n).map(height).collect() });
+    let field = shown(&Trace::field([n; 2], FieldQuantity::Logarithm, (0..n * n).map(height).collect::<Vec<_>>()));
     let first = &field["levels"][0];
     assert!(first["part"].as_f64().unwrap() < 0.1);
     let radii = pairs(&first["lines"][0]).into_iter().map(|q| q[0].hypot(q[1]));
@@ -172,7 +172,7 @@ fn other_traces_keep_their_parts() {
         let [from, to] = [line[0], line[line.len() - 1]].map(|q| q[0].hypot(q[1]));
         assert!(to < from && to < 0.4, "{line:?}");
     }
-    let nothing = Trace::Field { cells: [2, 2], potential: vec![f64::NEG_INFINITY; 4] };
+    let nothing = Trace::field([2, 2], FieldQuantity::Logarithm, vec![f64::NEG_INFINITY; 4]);
     assert!(shown(&nothing).is_null(), "a field without values has nothing to show");
 }
 

@@ -5,7 +5,8 @@
 //! The source does not publish its states of play. Here the field is empty, with a goal in the middle of one end and
 //! ten robots for the local drifts. So the rows are of the same kind, but sweep counts differ.
 
-use cplan_gpu::{Edge, Gpu, GpuError, GridEquations, Multigrid, Settings, Stencil, Sweep};
+use cplan_fields::{Boundary, CellEquations, Factor, Measure, Order, Relaxation, Stopping};
+use cplan_gpu::{Gpu, GpuError, GridEquations, Multigrid};
 use std::time::Instant;
 
 /// Rows and columns of the source's field.
@@ -41,17 +42,11 @@ fn problem([rows, columns]: [usize; 2], drift: Drift, is_upwind: bool) -> Result
         weights.map(|weight| weight / sum)
     };
     let is_plain = std::ptr::fn_addr_eq(drift, none as Drift);
-    let stencil = if is_plain { Stencil::Mean } else { Stencil::Weights((0..rows * columns).map(weights).collect()) };
+    let equations =
+        if is_plain { CellEquations::Mean } else { CellEquations::Weights((0..rows * columns).map(weights).collect()) };
     let mut unknown = vec![true; rows * columns];
     unknown[rows / 2 * columns + columns - 1] = false;
-    GridEquations::new([rows, columns], [Edge::Wall; 2], 1.0, vec![0.0; rows * columns], unknown, stencil)
-}
-
-/// Returns the factor of over-relaxation `4 / (2 + sqrt(4 - c^2))`, where `c` is the sum over both axes of the cosine
-/// of pi divided by the number of cells (Young 1954).
-fn formula(cells: [usize; 2]) -> f64 {
-    let c: f64 = cells.map(|n| (std::f64::consts::PI / n as f64).cos()).iter().sum();
-    4.0 / (2.0 + (4.0 - c * c).sqrt())
+    GridEquations::new([rows, columns], [Boundary::High; 2], 1.0, vec![0.0; rows * columns], unknown, equations)
 }
 
 /// Returns the shortest time of several runs, in milliseconds, with the result.
@@ -68,9 +63,9 @@ fn timed<T>(runs: usize, mut work: impl FnMut() -> Result<T, GpuError>) -> Resul
     best.ok_or_else(|| GpuError::Refused("no run".into()))
 }
 
-/// A benchmark: name, drift, whether differences are upwind, sweep and factor, and the published times on a CPU and on
+/// A benchmark: name, drift, whether differences are upwind, relaxation, and the published times on a CPU and on
 /// a GPU.
-type Row = (&'static str, Drift, bool, (Sweep, f64), &'static str, &'static str);
+type Row = (&'static str, Drift, bool, Relaxation, &'static str, &'static str);
 
 fn main() -> Result<(), GpuError> {
     let gpu = Gpu::open()?;
@@ -78,8 +73,10 @@ fn main() -> Result<(), GpuError> {
     println!("{} ({kind})\n", gpu.adapter());
     println!("{} x {} cells, milliseconds with the way there and back", FIELD_SIZE[1], FIELD_SIZE[0]);
     println!("{:<28} {:>8} {:>8} {:>10} {:>7}", "", "CPU 2011", "GPU 2011", "here", "sweeps");
-    let (gs, sor) = ((Sweep::RedBlack, 1.0), (Sweep::RedBlack, formula(FIELD_SIZE)));
-    let (jacobi, weighted) = ((Sweep::Jacobi, 1.0), (Sweep::Jacobi, 0.8));
+    let stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-6, max_sweeps: 10_000 };
+    let gs = Relaxation::gauss_seidel(Order::RedBlack);
+    let sor = Relaxation::sor(Factor::Formula, Order::RedBlack);
+    let (jacobi, weighted) = (Relaxation::JACOBI, Relaxation::weighted_jacobi(0.8));
     let rows: [Row; 12] = [
         ("harmonic, GS", none, false, gs, "5.38", "0.62"),
         ("harmonic, SOR", none, false, sor, "5.20", "0.49"),
@@ -94,10 +91,9 @@ fn main() -> Result<(), GpuError> {
         ("local, upwind, GS", local, true, gs, "28.41", "1.07"),
         ("local, upwind, SOR", local, true, sor, "16.92", "0.85"),
     ];
-    for (name, drift, is_upwind, (sweep, factor), cpu, published) in rows {
+    for (name, drift, is_upwind, relaxation, cpu, published) in rows {
         let problem = problem(FIELD_SIZE, drift, is_upwind)?;
-        let settings = Settings { sweep, factor, ..Settings::default() };
-        let (time, relaxed) = timed(RUNS_PER_ROW, || gpu.relax(&problem, &settings))?;
+        let (time, relaxed) = timed(RUNS_PER_ROW, || gpu.relax(&problem, &relaxation, &stopping))?;
         println!("{name:<28} {cpu:>8} {published:>8} {time:>10.2} {:>7}", relaxed.sweeps);
     }
     println!("\nopen squares, nanoseconds a cell: of a red-black sweep, and of multigrid until 1e-10");
@@ -105,10 +101,10 @@ fn main() -> Result<(), GpuError> {
     let sizes = if sizes.is_empty() { vec![256, 512] } else { sizes };
     for n in sizes {
         let problem = problem([n; 2], none, false)?;
-        let sweeps = |max_sweeps| Settings { below: 0.0, max_sweeps, ..Settings::default() };
+        let sweeps = |max_sweeps| Stopping { below: 0.0, max_sweeps, ..stopping };
         // Without the way there and back, which both have.
-        let (few, _) = timed(3, || gpu.relax(&problem, &sweeps(64)))?;
-        let (many, _) = timed(3, || gpu.relax(&problem, &sweeps(192)))?;
+        let (few, _) = timed(3, || gpu.relax(&problem, &gs, &sweeps(64)))?;
+        let (many, _) = timed(3, || gpu.relax(&problem, &gs, &sweeps(192)))?;
         let cells = (n * n) as f64;
         let (solved, solution) = timed(1, || gpu.solve(&problem, &Multigrid { below: 1e-10, ..Multigrid::default() }))?;
         let how = if solution.converged { "" } else { ", not converged" };

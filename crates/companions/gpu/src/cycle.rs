@@ -3,7 +3,8 @@
 use super::buffers::blocks;
 use super::levels::Level;
 use super::relax::turns;
-use super::{Edge, Gpu, GpuError, GridEquations};
+use super::{Gpu, GpuError, GridEquations};
+use cplan_fields::Boundary;
 
 /// Number of sweeps before and after each correction.
 const SMOOTHING_SWEEPS: usize = 2;
@@ -58,8 +59,9 @@ impl Cycle {
         let stage = |k: usize| {
             let level = &levels[k];
             let coarse = levels.get(k + 1).map_or([0; 2], |coarse| coarse.cells);
-            let odd = GridEquations::odd_circles(level.cells, level.edges);
-            let mirrors = u32::from(level.edges[0] == Edge::Mirror) + 2 * u32::from(level.edges[1] == Edge::Mirror);
+            let odd = GridEquations::odd_circles(level.cells, level.boundaries);
+            let mirrors = u32::from(level.boundaries[0] == Boundary::Reflecting)
+                + 2 * u32::from(level.boundaries[1] == Boundary::Reflecting);
             let [rows, columns] = level.cells.map(|n| n as u32);
             let [coarse_rows, coarse_columns] = coarse.map(|n| n as u32);
             let shape = Shape { rows, columns, coarse_rows, coarse_columns, odd, mirrors, colour: 0, region: 0 };

@@ -1,48 +1,25 @@
 //! The problem to solve: a grid of cells with an equation at each.
 
 use super::GpuError;
-
-/// Boundary condition at the first and the last cell of an axis.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Edge {
-    /// The axis is a circle: beyond its end lie the cells of the other end.
-    Circle,
-    /// Beyond the end lies a wall with the value `outside`.
-    Wall,
-    /// The end reflects: a cell at the end is its own neighbour.
-    Mirror,
-}
-
-/// The equation at a cell. Neighbours are in the order previous row, next row, previous column, next column.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Stencil {
-    /// The value is the mean of the four neighbours.
-    Mean,
-    /// The value is a weighted mean of the neighbours. The four weights of each cell add up to 1. With negative
-    /// weights, relaxation may diverge.
-    Weights(Vec<[f64; 4]>),
-    /// The value is the mean of the neighbours plus a multiple of `(|difference of rows| + |difference of columns|) /
-    /// 2`. Each cell has its own factor.
-    Altered(Vec<f64>),
-}
+use cplan_fields::{Boundary, CellEquations};
 
 /// A grid of cells with their values, equations and boundary.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GridEquations {
     pub(super) cells: [usize; 2],
-    pub(super) edges: [Edge; 2],
+    pub(super) boundaries: [Boundary; 2],
     pub(super) outside: f64,
     pub(super) values: Vec<f64>,
     pub(super) unknown: Vec<bool>,
-    pub(super) stencil: Stencil,
+    pub(super) equations: CellEquations,
 }
 
 /// Largest number of cells: places are counted in 32 bits, with four weights per cell.
 const MAX_CELLS: usize = 1 << 29;
 
 impl GridEquations {
-    /// Creates a grid of `cells[0]` rows and `cells[1]` columns. `edges[0]` applies beyond the first and the last row.
-    /// `outside` is the value beyond walls. Lists have one entry per cell, row by row. Where `unknown` is false,
+    /// Creates a grid of `cells[0]` rows and `cells[1]` columns. `boundaries[0]` applies beyond the first and the last row.
+    /// `outside` is the value beyond [`Boundary::High`]. Lists have one entry per cell, row by row. Where `unknown` is false,
     /// `values` are fixed; where it is true, they are the initial values. Takes `O(cells)`.
     ///
     /// # Errors
@@ -50,17 +27,17 @@ impl GridEquations {
     /// 2^29 cells.
     pub fn new(
         cells: [usize; 2],
-        edges: [Edge; 2],
+        boundaries: [Boundary; 2],
         outside: f64,
         values: Vec<f64>,
         unknown: Vec<bool>,
-        stencil: Stencil,
+        equations: CellEquations,
     ) -> Result<Self, GpuError> {
         let refused = |what: &str| Err(GpuError::Refused(what.into()));
-        let (given, fine) = match &stencil {
-            Stencil::Mean => (values.len(), true),
-            Stencil::Weights(weights) => (weights.len(), weights.iter().flatten().all(|w| w.is_finite())),
-            Stencil::Altered(strength) => (strength.len(), strength.iter().all(|s| s.is_finite())),
+        let (given, fine) = match &equations {
+            CellEquations::Mean => (values.len(), true),
+            CellEquations::Weights(weights) => (weights.len(), weights.iter().flatten().all(|w| w.is_finite())),
+            CellEquations::Altered(strength) => (strength.len(), strength.iter().all(|s| s.is_finite())),
         };
         let Some(count) = cells[0].checked_mul(cells[1]).filter(|&count| count <= MAX_CELLS) else {
             return refused("there are more than 2^29 cells");
@@ -71,7 +48,7 @@ impl GridEquations {
         if !(fine && outside.is_finite() && values.iter().all(|v| v.is_finite())) {
             return refused("values, weights and strengths must be finite numbers");
         }
-        Ok(Self { cells, edges, outside, values, unknown, stencil })
+        Ok(Self { cells, boundaries, outside, values, unknown, equations })
     }
 
     /// Replaces the values, one per cell.
@@ -79,23 +56,21 @@ impl GridEquations {
     /// # Errors
     /// Same as [`GridEquations::new`].
     pub fn from(self, values: Vec<f64>) -> Result<Self, GpuError> {
-        Self::new(self.cells, self.edges, self.outside, values, self.unknown, self.stencil)
+        Self::new(self.cells, self.boundaries, self.outside, values, self.unknown, self.equations)
     }
 
     /// Returns the axes that are circles with an odd number of cells, as bits; rows are bit 0.
-    pub(super) fn odd_circles(cells: [usize; 2], edges: [Edge; 2]) -> u32 {
-        let odd = |axis: usize| u32::from(edges[axis] == Edge::Circle && cells[axis] % 2 == 1);
+    pub(super) fn odd_circles(cells: [usize; 2], boundaries: [Boundary; 2]) -> u32 {
+        let odd = |axis: usize| u32::from(boundaries[axis] == Boundary::Periodic && cells[axis] % 2 == 1);
         odd(0) + 2 * odd(1)
     }
 }
 
-impl Edge {
-    /// Returns the code used by the kernels.
-    pub(super) fn code(self) -> u32 {
-        match self {
-            Self::Circle => 0,
-            Self::Wall => 1,
-            Self::Mirror => 2,
-        }
+/// Returns the code of a boundary condition in the kernels.
+pub(super) fn code(boundary: Boundary) -> u32 {
+    match boundary {
+        Boundary::Periodic => 0,
+        Boundary::High => 1,
+        Boundary::Reflecting => 2,
     }
 }

@@ -1,6 +1,7 @@
 //! A hierarchy of coarser grids with their equations.
 
-use super::{Edge, GridEquations};
+use super::GridEquations;
+use cplan_fields::Boundary;
 
 /// Factor by which the diffusion between blocks of 2 x 2 cells is reduced. In open space, 2 would be exact, because
 /// block centres are twice as far apart. A slightly smaller value keeps corrections small where blocks meet walls, so
@@ -14,7 +15,7 @@ const MIN_COARSENED_SIDE: usize = 8;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Level {
     pub cells: [usize; 2],
-    pub edges: [Edge; 2],
+    pub boundaries: [Boundary; 2],
     /// Diagonal coefficients; 0 for cells that are not unknowns.
     pub own: Vec<f64>,
     /// Couplings to the neighbours; 0 for neighbours that are not unknowns.
@@ -29,8 +30,12 @@ impl Level {
     /// that side is subtracted from the cell's diagonal coefficient.
     pub fn finest(problem: &GridEquations, weights: impl Fn(usize) -> [f64; 4]) -> Self {
         let count = problem.values.len();
-        let mut level =
-            Self { cells: problem.cells, edges: problem.edges, own: vec![0.0; count], sides: vec![[0.0; 4]; count] };
+        let mut level = Self {
+            cells: problem.cells,
+            boundaries: problem.boundaries,
+            own: vec![0.0; count],
+            sides: vec![[0.0; 4]; count],
+        };
         for cell in (0..count).filter(|&cell| problem.unknown[cell]) {
             level.own[cell] = 1.0;
             let weights = weights(cell);
@@ -38,7 +43,7 @@ impl Level {
                 match level.neighbor(cell, side) {
                     Some(next) if next == cell => level.own[cell] -= weight,
                     Some(next) if problem.unknown[next] => level.sides[cell][side] = weight,
-                    None if problem.edges[side / 2] == Edge::Mirror => level.own[cell] -= weight,
+                    None if problem.boundaries[side / 2] == Boundary::Reflecting => level.own[cell] -= weight,
                     _ => {}
                 }
             }
@@ -50,15 +55,15 @@ impl Level {
     pub fn neighbor(&self, cell: usize, side: usize) -> Option<usize> {
         let [rows, columns] = self.cells;
         let (i, j) = (cell / columns, cell % columns);
-        let step = |at: usize, n: usize, edge: Edge| match side % 2 {
+        let step = |at: usize, n: usize, boundary: Boundary| match side % 2 {
             0 if at > 0 => Some(at - 1),
             1 if at + 1 < n => Some(at + 1),
-            _ if edge == Edge::Circle => Some(n - 1 - at),
+            _ if boundary == Boundary::Periodic => Some(n - 1 - at),
             _ => None,
         };
         match side / 2 {
-            0 => step(i, rows, self.edges[0]).map(|i| i * columns + j),
-            _ => step(j, columns, self.edges[1]).map(|j| i * columns + j),
+            0 => step(i, rows, self.boundaries[0]).map(|i| i * columns + j),
+            _ => step(j, columns, self.boundaries[1]).map(|j| i * columns + j),
         }
     }
 
@@ -91,7 +96,8 @@ impl Level {
             }
             lost[here] += rest;
         }
-        let mut coarse = Self { cells, edges: self.edges, own: vec![0.0; count], sides: vec![[0.0; 4]; count] };
+        let mut coarse =
+            Self { cells, boundaries: self.boundaries, own: vec![0.0; count], sides: vec![[0.0; 4]; count] };
         for here in 0..count {
             for side in 0..4 {
                 let (diffusion, drift) =

@@ -6,18 +6,20 @@
 //!
 //! - [`Gpu::open`] opens the adapter through Vulkan, Metal or Direct3D 12, or returns a clear error.
 //! - [`Gpu::relax`] runs Jacobi, weighted Jacobi, Gauss-Seidel or SOR relaxation until a stopping rule holds.
+//! - [`shared`] brings it to fields, as [`cplan_fields::Device::Gpu`].
 //! - [`Gpu::solve`] solves linear problems by multigrid, refined to double precision.
 //!
 //! ```no_run
-//! use cplan_gpu::*;
+//! use cplan_fields::{Boundary, CellEquations, Measure, Order, Relaxation, Stopping};
+//! use cplan_gpu::{Gpu, GpuError, GridEquations};
 //!
 //! // A row between 1 and 0: the values in between are on a straight line.
 //! let unknown = vec![false, true, true, false];
-//! let problem = GridEquations::new([1, 4], [Edge::Mirror; 2], 0.0, vec![1.0, 0.0, 0.0, 0.0], unknown, Stencil::Weights(
-//!     vec![[0.0, 0.0, 0.5, 0.5]; 4],
-//! ))?;
-//! let gpu = Gpu::open()?;
-//! let relaxed = gpu.relax(&problem, &Settings { below: 1e-6, ..Settings::default() })?;
+//! let equations = CellEquations::Weights(vec![[0.0, 0.0, 0.5, 0.5]; 4]);
+//! let ends = [Boundary::Reflecting; 2];
+//! let problem = GridEquations::new([1, 4], ends, 0.0, vec![1.0, 0.0, 0.0, 0.0], unknown, equations)?;
+//! let stopping = Stopping { measure: Measure::SumOfSquares, below: 1e-6, max_sweeps: 10_000 };
+//! let relaxed = Gpu::open()?.relax(&problem, &Relaxation::gauss_seidel(Order::RedBlack), &stopping)?;
 //! assert!((relaxed.values[1] - 2.0 / 3.0).abs() < 1e-4);
 //! # Ok::<(), GpuError>(())
 //! ```
@@ -42,6 +44,7 @@
 //!
 //! The same input on the same adapter and driver gives the same bytes. Another driver may round differently.
 
+mod accelerator;
 mod buffers;
 mod cycle;
 mod gpu;
@@ -52,8 +55,9 @@ mod grid_equations;
 mod relax;
 mod rule;
 
+pub use accelerator::shared;
 pub use gpu::{Gpu, GpuError};
-pub use grid_equations::{Edge, GridEquations, Stencil};
+pub use grid_equations::GridEquations;
 pub use multigrid::{Multigrid, Solution};
 pub use relax::RelaxedField;
-pub use rule::{Ending, Measure, Settings, Sweep};
+pub use rule::Ending;

@@ -3,7 +3,8 @@
 use super::buffers::with_driver_errors;
 use super::cycle::Cycle;
 use super::levels::Level;
-use super::{Gpu, GpuError, GridEquations, Stencil};
+use super::{Gpu, GpuError, GridEquations};
+use cplan_fields::{Boundary, CellEquations};
 use cplan_interrupt::checkpoint;
 
 /// Stopping rule of multigrid.
@@ -54,16 +55,16 @@ impl Gpu {
     /// 2`.
     ///
     /// # Errors
-    /// [`GpuError::Refused`] for [`Stencil::Altered`], which is not linear. [`GpuError::TooLarge`] and
+    /// [`GpuError::Refused`] for [`CellEquations::Altered`], which is not linear. [`GpuError::TooLarge`] and
     /// [`GpuError::Failed`] if the GPU cannot solve the problem. A lack of convergence is not an error;
     /// [`Solution::converged`] reports it. It occurs with drifts of 2 or more per cell by central differences, and if
     /// no given value reaches some unknowns.
     pub fn solve(&self, problem: &GridEquations, settings: &Multigrid) -> Result<Solution, GpuError> {
-        let weights = |cell: usize| match &problem.stencil {
-            Stencil::Weights(weights) => weights[cell],
-            Stencil::Mean | Stencil::Altered(_) => [0.25; 4],
+        let weights = |cell: usize| match &problem.equations {
+            CellEquations::Weights(weights) => weights[cell],
+            CellEquations::Mean | CellEquations::Altered(_) => [0.25; 4],
         };
-        if let Stencil::Altered(_) = problem.stencil {
+        if let CellEquations::Altered(_) = problem.equations {
             return Err(GpuError::Refused(
                 "multigrid solves only linear equations; use a relaxation for this one".into(),
             ));
@@ -141,7 +142,7 @@ fn residual(
             weight
                 * match finest.neighbor(cell, side) {
                     Some(next) => values[next],
-                    None if problem.edges[side / 2] == super::Edge::Mirror => own,
+                    None if problem.boundaries[side / 2] == Boundary::Reflecting => own,
                     None => problem.outside,
                 }
         });

@@ -2,8 +2,9 @@
 
 use super::buffers::{blocks, with_driver_errors};
 use super::half::Half;
-use super::rule::{Rule, State};
-use super::{Ending, Gpu, GpuError, GridEquations, Settings, Stencil, Sweep};
+use super::rule::{self, Rule, State};
+use super::{Ending, Gpu, GpuError, GridEquations, grid_equations};
+use cplan_fields::{CellEquations, Order, Relaxation, Scheme, Stopping};
 use cplan_interrupt::checkpoint;
 
 /// A relaxed field.
@@ -12,7 +13,7 @@ pub struct RelaxedField {
     /// One value per cell, row by row. Given values are unchanged up to rounding to single precision.
     pub values: Vec<f64>,
     /// Number of sweeps.
-    pub sweeps: u32,
+    pub sweeps: usize,
     /// The measure in the last sweep; infinite if there was none.
     pub change: f64,
     /// Reason why the relaxation ended.
@@ -46,7 +47,7 @@ pub(super) struct Turn {
     pub unused: u32,
 }
 
-/// Returns the turns of a sweep, in the order of a sequential [`Sweep::RedBlack`].
+/// Returns the turns of a sweep, in the order of a sequential red-black relaxation.
 pub(super) fn turns(odd: u32, blocks: u32) -> Vec<Turn> {
     let regions = [0, 2, 1, 3].into_iter().filter(|region| region & !odd == 0);
     let turns = (0..2).flat_map(|colour| regions.clone().map(move |region| (colour, region)));
@@ -54,37 +55,51 @@ pub(super) fn turns(odd: u32, blocks: u32) -> Vec<Turn> {
 }
 
 impl Gpu {
-    /// Relaxes the problem from its initial values until the stopping rule is satisfied. Takes `O(cells)` per sweep,
-    /// and 12 to 28 bytes per cell on the GPU.
+    /// Relaxes the problem from its initial values until the stopping rule is satisfied. The order of updates must be
+    /// red-black or all at once. Takes `O(cells)` per sweep, and 12 to 28 bytes per cell on the GPU.
     ///
     /// # Errors
-    /// [`GpuError::Refused`] if settings are invalid. [`GpuError::Diverged`] if values grow without bound.
+    /// [`GpuError::Refused`] if the relaxation is invalid, or not supported. [`GpuError::Diverged`] if values grow without bound.
     /// [`GpuError::TooLarge`] and [`GpuError::Failed`] if the GPU cannot solve the problem. A lack of convergence is
     /// not an error; the [`Ending`] reports it.
-    pub fn relax(&self, problem: &GridEquations, settings: &Settings) -> Result<RelaxedField, GpuError> {
-        if let Some(refusal) = settings.refusal() {
-            return Err(refusal);
+    pub fn relax(
+        &self,
+        problem: &GridEquations,
+        relaxation: &Relaxation,
+        stopping: &Stopping,
+    ) -> Result<RelaxedField, GpuError> {
+        if let Some(refusal) = relaxation.refusal(problem.cells) {
+            return Err(GpuError::Refused(refusal));
+        }
+        if let Scheme::Successive { order, .. } = relaxation.scheme
+            && order != Order::RedBlack
+        {
+            let reason = format!("a GPU relaxes cells red-black or all at once; use the CPU for the order {order}");
+            return Err(GpuError::Refused(reason));
         }
         let is_done = !problem.unknown.contains(&true);
-        if is_done || settings.max_sweeps == 0 {
+        if is_done || stopping.max_sweeps == 0 {
             let ending = if is_done { Ending::Converged } else { Ending::Unconverged };
             return Ok(RelaxedField { values: problem.values.clone(), sweeps: 0, change: f64::INFINITY, ending });
         }
-        with_driver_errors(&self.device, || self.relax_all(problem, settings))
+        with_driver_errors(&self.device, || self.relax_all(problem, relaxation, stopping))
     }
 
-    fn relax_all(&self, problem: &GridEquations, settings: &Settings) -> Result<RelaxedField, GpuError> {
+    fn relax_all(
+        &self,
+        problem: &GridEquations,
+        relaxation: &Relaxation,
+        stopping: &Stopping,
+    ) -> Result<RelaxedField, GpuError> {
+        let is_jacobi = matches!(relaxation.scheme, Scheme::Simultaneous { .. });
         let half = Half::new(problem.cells);
         let [across, down] = blocks(half.half, half.rows);
-        let odd = GridEquations::odd_circles(problem.cells, problem.edges);
+        let odd = GridEquations::odd_circles(problem.cells, problem.boundaries);
         let turns = turns(odd, across * down);
-        let rule = rule(problem, settings, half, odd, turns.len() as u32 * across * down);
+        let rule = rule(problem, (relaxation, stopping), half, odd, turns.len() as u32 * across * down);
         let start = half.spread(|cell| problem.values[cell] as f32);
-        let pair = [
-            self.storage(&start)?,
-            if settings.sweep == Sweep::Jacobi { self.storage(&start)? } else { self.storage::<f32>(&[])? },
-        ];
-        let coefficients = self.storage(&coefficients(&problem.stencil, half))?;
+        let pair = [self.storage(&start)?, if is_jacobi { self.storage(&start)? } else { self.storage::<f32>(&[])? }];
+        let coefficients = self.storage(&coefficients(&problem.equations, half))?;
         let unknown = self.storage(&half.mask(&problem.unknown))?;
         let partials = self.storage(&vec![[0.0_f32; 2]; rule.blocks as usize])?;
         let state = State {
@@ -101,7 +116,6 @@ impl Gpu {
         let rule = self.uniform(&rule);
         let turns: Vec<wgpu::Buffer> = turns.iter().map(|turn| self.uniform(turn)).collect();
 
-        let is_jacobi = settings.sweep == Sweep::Jacobi;
         let sweep = if is_jacobi { &self.pipelines.simultaneous } else { &self.pipelines.successive };
         // Buffers for an odd or an even sweep.
         let groups = [0, 1].map(|parity: usize| {
@@ -144,7 +158,7 @@ impl Gpu {
             3 => Ending::Unconverged,
             _ => return Err(diverged(&values, problem, ended.sweeps)),
         };
-        Ok(RelaxedField { values, sweeps: ended.sweeps, change: f64::from(ended.change), ending })
+        Ok(RelaxedField { values, sweeps: ended.sweeps as usize, change: f64::from(ended.change), ending })
     }
 }
 
@@ -175,30 +189,37 @@ fn diverged(values: &[f64], problem: &GridEquations, sweeps: u32) -> GpuError {
     GpuError::Diverged { sweeps, cell: [at / problem.cells[1], at % problem.cells[1]], value: values[at] }
 }
 
-fn rule(problem: &GridEquations, settings: &Settings, half: Half, odd: u32, blocks: u32) -> Rule {
-    let [low, high] = settings.clamp.map_or([-f32::MAX, f32::MAX], |range| range.map(|bound| bound as f32));
+fn rule(
+    problem: &GridEquations,
+    (relaxation, stopping): (&Relaxation, &Stopping),
+    half: Half,
+    odd: u32,
+    blocks: u32,
+) -> Rule {
+    let factor = relaxation.factor(problem.cells);
+    let [low, high] = relaxation.clamp.map_or([-f32::MAX, f32::MAX], |range| range.map(|bound| bound as f32));
     Rule {
         rows: half.rows as u32,
         columns: half.columns as u32,
         half: half.half as u32,
-        edge_rows: problem.edges[0].code(),
-        edge_columns: problem.edges[1].code(),
+        edge_rows: grid_equations::code(problem.boundaries[0]),
+        edge_columns: grid_equations::code(problem.boundaries[1]),
         odd,
-        stencil: match problem.stencil {
-            Stencil::Mean => 0,
-            Stencil::Weights(_) => 1,
-            Stencil::Altered(_) => 2,
+        stencil: match problem.equations {
+            CellEquations::Mean => 0,
+            CellEquations::Weights(_) => 1,
+            CellEquations::Altered(_) => 2,
         },
-        measure: settings.measure.code(),
-        max_sweeps: settings.max_sweeps,
+        measure: rule::code(stopping.measure),
+        max_sweeps: u32::try_from(stopping.max_sweeps).unwrap_or(u32::MAX),
         blocks,
         outside: problem.outside as f32,
-        factor: settings.factor as f32,
+        factor: factor as f32,
         low,
         high,
-        below: settings.below as f32,
+        below: stopping.below as f32,
         beyond: divergence_bound(problem),
-        rounding: rounding(settings.factor),
+        rounding: rounding(factor),
         patience: half.rows.max(half.columns).max(MIN_IDLE_SWEEPS) as u32,
         unused: [0; 2],
     }
@@ -206,10 +227,12 @@ fn rule(problem: &GridEquations, settings: &Settings, half: Half, odd: u32, bloc
 
 /// Returns the coefficients of a stencil in the order of places. A place has none, one or four coefficients, depending
 /// on the stencil.
-fn coefficients(stencil: &Stencil, half: Half) -> Vec<f32> {
-    match stencil {
-        Stencil::Mean => Vec::new(),
-        Stencil::Altered(strength) => half.spread(|cell| strength[cell] as f32),
-        Stencil::Weights(weights) => (0..4).flat_map(|side| half.spread(|cell| weights[cell][side] as f32)).collect(),
+fn coefficients(equations: &CellEquations, half: Half) -> Vec<f32> {
+    match equations {
+        CellEquations::Mean => Vec::new(),
+        CellEquations::Altered(strength) => half.spread(|cell| strength[cell] as f32),
+        CellEquations::Weights(weights) => {
+            (0..4).flat_map(|side| half.spread(|cell| weights[cell][side] as f32)).collect()
+        }
     }
 }

@@ -1,67 +1,6 @@
-//! Settings of a relaxation: order of updates, factor and stopping rule.
+//! Parameters and state of a relaxation, as the kernels read them.
 
-use super::GpuError;
-
-/// The order of updates.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Sweep {
-    /// Updates all cells at once from the values of the previous sweep: Jacobi relaxation, weighted if the factor is
-    /// below 1.
-    Jacobi,
-    /// Updates first the cells whose indices have an even sum, then the others, each from the newest values:
-    /// Gauss-Seidel relaxation, or SOR if the factor is above 1.
-    #[default]
-    RedBlack,
-}
-
-/// The quantity that is measured in a sweep. `change` is the difference of a cell's value before and after the sweep.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-pub enum Measure {
-    /// Sum of `|change|`.
-    Sum,
-    /// Sum of `change^2`.
-    #[default]
-    Squares,
-    /// Greatest `|change|`.
-    Greatest,
-    /// Greatest `|change| / |value after|`.
-    Relative,
-    /// Difference between the sum of `|change|` and that of the previous sweep.
-    DifferenceOfSums,
-}
-
-/// Settings of a relaxation.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Settings {
-    /// The order of updates.
-    pub sweep: Sweep,
-    /// Relaxation factor: a cell's value changes by this multiple of its difference from the implied value.
-    pub factor: f64,
-    /// Range to which new values are clamped; `None` for no limits.
-    pub clamp: Option<[f64; 2]>,
-    /// The measured quantity.
-    pub measure: Measure,
-    /// Bound for the measure. The relaxation has converged when the measure falls below the bound, or when a sweep
-    /// changes nothing.
-    pub below: f64,
-    /// Largest number of sweeps.
-    pub max_sweeps: u32,
-}
-
-impl Default for Settings {
-    /// Returns the settings of Silva 2011: Gauss-Seidel relaxation until the squared changes of a sweep add up to less
-    /// than 10^-6.
-    fn default() -> Self {
-        Self {
-            sweep: Sweep::RedBlack,
-            factor: 1.0,
-            clamp: None,
-            measure: Measure::Squares,
-            below: 1e-6,
-            max_sweeps: 10_000,
-        }
-    }
-}
+use cplan_fields::Measure;
 
 /// Reason why a relaxation ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -119,31 +58,13 @@ pub(super) struct State {
     pub unused: f32,
 }
 
-impl Settings {
-    /// Returns the reason why the settings are invalid. Returns `None` if they are valid.
-    pub(super) fn refusal(&self) -> Option<GpuError> {
-        let reason = match self {
-            _ if !(self.factor.is_finite() && self.factor > 0.0) => {
-                format!("a relaxation factor must be positive, this one is {}", self.factor)
-            }
-            // This comparison also refuses NaN.
-            Self { clamp: Some([low, high]), .. } if !matches!(low.partial_cmp(high), Some(o) if o.is_le()) => {
-                format!("values cannot be brought into the empty range {low}..{high}")
-            }
-            _ => return None,
-        };
-        Some(GpuError::Refused(reason))
-    }
-}
-
-impl Measure {
-    pub(super) fn code(self) -> u32 {
-        match self {
-            Self::Sum => 0,
-            Self::Squares => 1,
-            Self::Greatest => 2,
-            Self::Relative => 3,
-            Self::DifferenceOfSums => 4,
-        }
+/// Returns the code of a measure in the kernels.
+pub(super) fn code(measure: Measure) -> u32 {
+    match measure {
+        Measure::SumOfChange => 0,
+        Measure::SumOfSquares => 1,
+        Measure::GreatestChange => 2,
+        Measure::GreatestRelativeChange => 3,
+        Measure::DifferenceOfSums => 4,
     }
 }

@@ -51,24 +51,18 @@ pub enum ConvexError {
 /// The core is counter-clockwise and has no repeated corners. In a scene, a shape that may be approached closer than
 /// the clearance has a negative radius; see `receding`.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "Corners", into = "Corners")]
+#[serde(try_from = "Corners")]
 pub struct Convex {
     core: Vec<Point>,
     radius: f64,
 }
 
-/// The serialised form of a shape.
-#[derive(Serialize, Deserialize)]
+/// The form in which a shape is read.
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Corners {
     core: Vec<Point>,
     radius: f64,
-}
-
-impl From<Convex> for Corners {
-    fn from(Convex { core, radius }: Convex) -> Self {
-        Self { core, radius }
-    }
 }
 
 impl TryFrom<Corners> for Convex {

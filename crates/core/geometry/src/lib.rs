@@ -32,7 +32,6 @@ mod open_list;
 mod ordered;
 mod penetration;
 pub mod planar;
-mod pole;
 mod polygon;
 mod pose;
 mod predicates;
@@ -57,7 +56,6 @@ pub use ordered::OrderedF64;
 pub use penetration::{
     CornerInside, Location, PointPenetration, PolygonTest, point_penetration, polygon_test, signed_distance,
 };
-pub use pole::pole_of_inaccessibility;
 pub use polygon::{PolygonError, SimplePolygon};
 pub use pose::Pose;
 pub use predicates::{Orientation, in_circle, orientation, point_on_segment, segments_cross, segments_meet};

@@ -106,18 +106,20 @@ pub struct PolygonTest {
 /// in the other, then their boundaries cross at points that are not corners.
 pub fn polygon_test(a: &Convex, b: &Convex) -> PolygonTest {
     let (a, b) = (a.core(), b.core());
-    let a_inside = corners_inside(a, b);
-    let b_inside = corners_inside(b, a);
-    let mut crossings = Vec::new();
-    for (i, (p, q)) in sides(a).enumerate() {
-        for (k, (r, s)) in sides(b).enumerate() {
-            if segments_cross(p, q, r, s) {
-                crossings.push((i, k));
-            }
+    PolygonTest::of(a, b, [corners_inside(a, b), corners_inside(b, a)])
+}
+
+impl PolygonTest {
+    /// Completes a test by the sides of the polygons that cross.
+    pub(super) fn of(a: &[Point], b: &[Point], [a_inside, b_inside]: [Vec<CornerInside>; 2]) -> Self {
+        let mut crossings = Vec::new();
+        for (i, (p, q)) in sides(a).enumerate() {
+            let crossed = sides(b).enumerate().filter(|&(_, (r, s))| segments_cross(p, q, r, s));
+            crossings.extend(crossed.map(|(k, _)| (i, k)));
         }
+        let meet = !(a_inside.is_empty() && b_inside.is_empty() && crossings.is_empty());
+        Self { meet, a_inside, b_inside, crossings }
     }
-    let meet = !(a_inside.is_empty() && b_inside.is_empty() && crossings.is_empty());
-    PolygonTest { meet, a_inside, b_inside, crossings }
 }
 
 fn corners_inside(corners: &[Point], polygon: &[Point]) -> Vec<CornerInside> {

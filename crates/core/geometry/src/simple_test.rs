@@ -1,7 +1,7 @@
 //! The penetration test for simple polygons, which need not be convex, and the parts of their Minkowski difference.
 
+use super::meet::sides;
 use super::penetration::{CornerInside, PolygonTest, distance_to_segment};
-use super::predicates::segments_cross;
 use super::{Convex, Point, SimplePolygon, minkowski_difference, penetration_depth};
 
 /// Runs the polygon penetration test on two simple polygons: finds the corners of each inside the other, and the sides
@@ -10,25 +10,13 @@ use super::{Convex, Point, SimplePolygon, minkowski_difference, penetration_dept
 /// Signs are exact. The depth of a corner is its distance from the nearest side. The test is complete: if two polygons
 /// meet and no corner of either lies in the other, then their boundaries cross at points that are not corners.
 pub fn simple_polygon_test(a: &SimplePolygon, b: &SimplePolygon) -> PolygonTest {
-    let (a_inside, b_inside) = (corners_inside(a, b), corners_inside(b, a));
-    let mut crossings = Vec::new();
-    for (i, (p, q)) in sides(a).enumerate() {
-        crossings.extend(sides(b).enumerate().filter(|(_, (r, s))| segments_cross(p, q, *r, *s)).map(|(k, _)| (i, k)));
-    }
-    let meet = !(a_inside.is_empty() && b_inside.is_empty() && crossings.is_empty());
-    PolygonTest { meet, a_inside, b_inside, crossings }
+    PolygonTest::of(a.corners(), b.corners(), [corners_inside(a, b), corners_inside(b, a)])
 }
 
 fn corners_inside(corners: &SimplePolygon, polygon: &SimplePolygon) -> Vec<CornerInside> {
-    let depth = |p: Point| sides(polygon).map(|(a, b)| distance_to_segment(p, a, b)).fold(f64::INFINITY, f64::min);
+    let to_side = |p: Point| sides(polygon.corners()).map(move |(a, b)| distance_to_segment(p, a, b));
     let inside = corners.corners().iter().enumerate().filter(|(_, p)| polygon.contains(**p));
-    inside.map(|(corner, &p)| CornerInside { corner, depth: depth(p) }).collect()
-}
-
-/// Iterates over the sides. Side `i` runs from corner `i` to the next one.
-fn sides(polygon: &SimplePolygon) -> impl Iterator<Item = (Point, Point)> + '_ {
-    let corners = polygon.corners();
-    (0..corners.len()).map(move |i| (corners[i], corners[(i + 1) % corners.len()]))
+    inside.map(|(corner, &p)| CornerInside { corner, depth: to_side(p).fold(f64::INFINITY, f64::min) }).collect()
 }
 
 /// The Minkowski difference `b - a` of two simple polygons, and the depth of the origin in it.

@@ -1,5 +1,6 @@
 //! The interval of displacements at which a sliding convex shape meets a fixed one.
 
+use super::meet::sides;
 use super::turning::ROUNDING;
 use super::{Convex, Point, Vector, cross};
 
@@ -62,16 +63,6 @@ pub fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<
         }
     }
     interval
-}
-
-/// Iterates over the sides of a core.
-fn sides(core: &[Vector]) -> impl Iterator<Item = (Vector, Vector)> + '_ {
-    let count = match core.len() {
-        0 | 1 => 0,
-        2 => 1,
-        n => n,
-    };
-    (0..count).map(|i| (core[i], core[(i + 1) % core.len()]))
 }
 
 /// Calls `include` with the places where the segment from `p` to `q`, moved by `radius` to either side, crosses the

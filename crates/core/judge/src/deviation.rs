@@ -396,10 +396,8 @@ impl<'a> Posture<'a> {
         let arm = self.scene.arm();
         let [d1, d2] = deviation.greatest_components();
         match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
-            (0, Revolute { .. }, _) => reach * d1,
-            (0, Prismatic { .. }, _) => d1,
-            (2, _, Revolute { .. }) => reach * d2,
-            (2, _, Prismatic { .. }) => d2,
+            (0, first, _) => first.lever(reach) * d1,
+            (2, _, second) => second.lever(reach) * d2,
             (_, Revolute { .. }, Revolute { .. }) => arm.offset.norm() * d1 + reach * turn_of_link_2(arm, deviation),
             (_, Revolute { .. }, Prismatic { direction }) => {
                 ((arm.offset + direction * self.q[1]).norm() + d2 + reach) * d1 + d2

@@ -55,11 +55,7 @@ impl Scene {
                 None => waiting.extend([(middle, to, halvings + 1), (from, middle, halvings + 1)]),
             }
         }
-        let whose = |obstruction: &Obstruction| {
-            let pair = obstruction.contact.pair;
-            (pair.link, self.is_attached(pair), pair.obstacle)
-        };
-        let same = |a: &(f64, f64, Obstruction), b: &(f64, f64, Obstruction)| whose(&a.2) == whose(&b.2);
+        let same = |a: &(f64, f64, Obstruction), b: &(f64, f64, Obstruction)| self.bodies(&a.2) == self.bodies(&b.2);
         let joined = blocked.chunk_by(same).map(|run| {
             let deepest = run
                 .iter()

@@ -238,10 +238,7 @@ impl<'a> Contacts<'a> {
     /// metres per radian or metre.
     pub fn lever(&self, index: usize) -> f64 {
         let part = &self.part(self.pairs[index]).carried;
-        match part.joint_type() {
-            JointType::Prismatic { .. } => 1.0,
-            JointType::Revolute { .. } => part.shape().reach_from(Point::zeros()),
-        }
+        part.joint_type().lever(part.shape().reach_from(Point::zeros()))
     }
 
     /// Returns the place of joint 2 at `q1`, and the direction of link 1's x axis.

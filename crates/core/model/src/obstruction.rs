@@ -35,6 +35,12 @@ impl Scene {
         self.worst(q, static_obstacles.chain(loose))
     }
 
+    /// Returns what identifies the two bodies that are too close: the link, whether its payload is, and the obstacle.
+    pub(super) fn bodies(&self, obstruction: &Obstruction) -> (usize, bool, usize) {
+        let pair = obstruction.contact.pair;
+        (pair.link, self.is_attached(pair), pair.obstacle)
+    }
+
     fn worst<'a>(&self, q: Configuration, pieces: impl Iterator<Item = (Pair, Cow<'a, Convex>)>) -> Vec<Obstruction> {
         let poses = self.arm().pair_poses(q);
         let mut worst: Vec<Obstruction> = Vec::new();
@@ -47,11 +53,7 @@ impl Scene {
                 continue;
             }
             let found = Obstruction { contact, touches };
-            let whose = |o: &Obstruction| {
-                let pair = o.contact.pair;
-                (pair.link, self.is_attached(pair), pair.obstacle)
-            };
-            match worst.iter_mut().find(|known| whose(known) == whose(&found)) {
+            match worst.iter_mut().find(|known| self.bodies(known) == self.bodies(&found)) {
                 Some(known) if known.contact.separation.distance <= distance => {}
                 Some(known) => *known = found,
                 None => worst.push(found),

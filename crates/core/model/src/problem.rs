@@ -84,7 +84,7 @@ pub enum MotionProblemError {
 /// The start lies within the joint limits and is free. There is at least one goal. Goals lie within the limits. A
 /// goal that is a single configuration is free; of a segment, only a part may be free, or none.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "MotionRecord", into = "MotionRecord")]
+#[serde(try_from = "MotionRecord")]
 pub struct MotionProblem {
     scene: Scene,
     start: Configuration,

@@ -41,19 +41,12 @@ impl TryFrom<SceneRecord> for Scene {
 }
 
 /// The serialized form of a [`MotionProblem`].
-#[derive(Serialize, Deserialize)]
+#[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct MotionRecord {
     scene: Scene,
     start: Configuration,
     goals: GoalSet,
-}
-
-impl From<MotionProblem> for MotionRecord {
-    fn from(problem: MotionProblem) -> Self {
-        let (start, goals) = (problem.start(), problem.goals().clone());
-        Self { scene: problem.into_scene(), start, goals }
-    }
 }
 
 impl TryFrom<MotionRecord> for MotionProblem {

@@ -46,41 +46,38 @@ pub fn round_down(value: f64, decimals: usize) -> String {
 /// three decimals: `0.004 mm`, `20.43 mm`, `345.6 mm`, `1.234 m`. If another length than zero would look like zero, it
 /// gets two significant digits.
 pub fn length(metres: f64) -> String {
-    let (value, decimals, unit) = in_unit(metres);
-    format!("{} {unit}", nonzero(value, decimals))
+    let (scale, decimals, unit) = in_unit(metres);
+    format!("{} {unit}", nonzero(scale * metres, decimals))
 }
 
 /// Formats a positive length in metres as [`length`] does, but rounded down, so that a proven lower bound is still true
 /// as printed.
 pub fn length_down(metres: f64) -> String {
-    let (value, decimals, unit) = in_unit(metres);
-    let metres_per_unit = if unit == "mm" { 1e3 } else { 1.0 };
-    let text = round_until(value, decimals, |shown| shown / metres_per_unit <= metres, -1.0);
-    let text = if metres > 0.0 && text.parse() == Ok(0.0) { two_digits_below(value) } else { text };
+    let (scale, decimals, unit) = in_unit(metres);
+    let text = round_until(scale * metres, decimals, |shown| shown / scale <= metres, -1.0);
+    let text = if metres > 0.0 && text.parse() == Ok(0.0) { two_digits_below(scale * metres) } else { text };
     format!("{text} {unit}")
 }
 
 /// Formats a positive length in metres as [`length`] does, but rounded up, so that an upper bound is still true as
 /// printed.
 pub fn length_up(metres: f64) -> String {
-    let (value, decimals, unit) = in_unit(metres);
-    let metres_per_unit = if unit == "mm" { 1e3 } else { 1.0 };
-    format!("{} {unit}", round_until(value, decimals, |shown| shown / metres_per_unit >= metres, 1.0))
+    let (scale, decimals, unit) = in_unit(metres);
+    format!("{} {unit}", round_until(scale * metres, decimals, |shown| shown / scale >= metres, 1.0))
 }
 
 /// Formats a length in metres as [`length`] does, with as many more decimals as needed to look different from another
 /// length that is not equal.
 pub fn length_unlike(metres: f64, other: f64) -> String {
-    let (value, decimals, unit) = in_unit(metres);
-    let units_per_metre = if unit == "mm" { 1e3 } else { 1.0 };
-    let [text, _] = format_distinct([value, units_per_metre * other], decimals);
+    let (scale, decimals, unit) = in_unit(metres);
+    let [text, _] = format_distinct([scale * metres, scale * other], decimals);
     format!("{text} {unit}")
 }
 
 /// Formats a length in metres that somebody chose, such as a clearance, without zeros at its end: `200 mm`, `1.5 m`.
 pub fn chosen_length(metres: f64) -> String {
-    let (value, _, unit) = in_unit(metres);
-    format!("{} {unit}", short(value))
+    let (scale, _, unit) = in_unit(metres);
+    format!("{} {unit}", short(scale * metres))
 }
 
 /// Formats a number with three significant digits and without zeros at its end, for a headline: rounded up if `up`,
@@ -101,18 +98,17 @@ pub fn headline_number(value: f64, up: bool) -> String {
 
 /// Formats a length in metres for a headline, see [`headline_number`]: `614 mm`, `1.24 m`.
 pub fn headline_length(metres: f64, up: bool) -> String {
-    let (value, _, unit) = in_unit(metres);
-    format!("{} {unit}", headline_number(value, up))
+    let (scale, _, unit) = in_unit(metres);
+    format!("{} {unit}", headline_number(scale * metres, up))
 }
 
-/// Returns a length in the unit in which it is displayed, the number of decimals, and the unit.
+/// Returns the unit in which a length is displayed: how many a metre has, the number of decimals, and the name.
 fn in_unit(metres: f64) -> (f64, usize, &'static str) {
-    let millimetres = 1e3 * metres;
-    match millimetres.abs() {
-        mm if mm < 10.0 => (millimetres, 3, "mm"),
-        mm if mm < 100.0 => (millimetres, 2, "mm"),
-        mm if mm < 1000.0 => (millimetres, 1, "mm"),
-        _ => (metres, 3, "m"),
+    match 1e3 * metres.abs() {
+        mm if mm < 10.0 => (1e3, 3, "mm"),
+        mm if mm < 100.0 => (1e3, 2, "mm"),
+        mm if mm < 1000.0 => (1e3, 1, "mm"),
+        _ => (1.0, 3, "m"),
     }
 }
 

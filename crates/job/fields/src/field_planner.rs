@@ -5,11 +5,12 @@ use crate::{
     Cell, DeadEnd, Device, Domain, Equation, Escape, EscapedMinima, ForceField, ForceGuide, Khatib, Levels, Limits,
     Measure, RelaxError, Relaxation, RelaxedField, Scheme, Stopping, Trap, ValueGuide, relax_from, relax_on,
 };
-use cplan_harmonic::Place;
+use cplan_harmonic::path_along_field;
 use cplan_model::space::{Configuration, Path};
 use cplan_planners::cspace::{Grid, ZonedGrid};
 use cplan_planners::planner::attach::JoinedQuery;
-use cplan_planners::planner::{Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
+use cplan_planners::planner::grid_path::Place;
+use cplan_planners::planner::{FieldQuantity, Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 
 /// Default tolerance of relaxation: relative change of values in a sweep. At this tolerance, directions of ascent no
 /// longer change, except in cells where two directions are almost equal.
@@ -34,9 +35,9 @@ impl Planner for FieldPlanner {
 
     fn query(&self, space: &ZonedGrid, (): &(), query: &Query) -> Run {
         let grid = &space.grid;
-        let nothing = || Trace::Field { cells: grid.cells, potential: vec![f64::NEG_INFINITY; grid.blocked.len()] };
-        let ended =
-            |outcome, cells| Run { outcome, trace: nothing(), size: Size::Grid { cells, sweeps: 0 }, note: None };
+        let nothing =
+            || Trace::field(grid.cells, FieldQuantity::Logarithm, vec![f64::NEG_INFINITY; grid.blocked.len()]);
+        let ended = |outcome, cells| Run::new(outcome, nothing(), Size::Grid { cells, sweeps: 0 });
         let joined = match JoinedQuery::new(grid, query) {
             Ok(joined) => joined,
             Err(reason) => return ended(Proposal::GaveUp(reason), 0),
@@ -101,10 +102,10 @@ impl FieldQuery<'_> {
             true => f64::INFINITY,
             false => field.potential(cell),
         });
-        let trace = Trace::Potential { cells: grid.cells, heights: heights.collect() };
+        let trace = Trace::field(grid.cells, FieldQuantity::Height, heights.collect::<Vec<_>>());
         let at = |place: Place| grid_path::cell(grid, place).filter(|&cell| !grid.blocked[cell]);
         let mut guide = ForceGuide::new(&field, goals, at).with_escape(escape);
-        let path = grid_path::path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind);
+        let path = path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind);
         let path = path.map_err(|Trap { cell, value, minimum }| {
             let at = format_cell(grid, cell);
             match minimum {
@@ -132,7 +133,7 @@ impl FieldQuery<'_> {
         let grid = &self.space.grid;
         let climb = |field: &RelaxedField| {
             let mut guide = ValueGuide::new(domain, &field.values, |place: Place| grid_path::cell(grid, place));
-            grid_path::path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind)
+            path_along_field(grid, self.query, self.joined, &mut guide, self.start, self.kind)
         };
         let refused = |error: RelaxError| error.to_string();
         let mut field = relax_on(on, domain, equation, relaxation, stopping).map_err(refused)?;
@@ -149,7 +150,7 @@ impl FieldQuery<'_> {
             // If the equation is not monotone, a value may fall below 0, the level of obstacles.
             _ => value.max(0.0).ln(),
         };
-        let potential = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
+        let potential: Vec<f64> = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
         let (sweeps, change) = (field.sweeps(), field.change());
         if !field.converged() {
             // On a GPU, a stage that ends before the limit cannot improve in single precision.
@@ -171,7 +172,7 @@ impl FieldQuery<'_> {
             }),
         };
         let earlier = if let Some(Note::Continued { first, .. }) = note { first } else { 0 };
-        let trace = Trace::Field { cells: domain.cells(), potential };
+        let trace = Trace::field(domain.cells(), FieldQuantity::Logarithm, potential);
         Ok(FollowResult { path, trace, sweeps: earlier + sweeps, note })
     }
 }

@@ -8,8 +8,8 @@
 //! - [`MovingField`]: a field among moving obstacles, which several robots share. It is updated at each moment.
 //! - [`FieldPlanner`]: the planner that follows any of these fields.
 //!
-//! The harmonic potential and the curve along a gradient are in the crate [`cplan_harmonic`], the solver of linear
-//! equations in [`cplan_multigrid`].
+//! The harmonic potential is in the crate `cplan-harmonic`, the curve along a gradient in
+//! [`cplan_harmonic::follow`], the solver of linear equations in [`cplan_multigrid`].
 
 mod field_choice;
 mod field_planner;
@@ -24,8 +24,8 @@ pub use khatib::{
 };
 pub use moving::{Disc, Moment, MovingField, Solver};
 pub use relax::{
-    Boundary, Cell, Convergence, DeadEnd, Device, Difference, Direction, Domain, Ending, Equation, Factor, Influence,
-    Initial, Leap, Levels, Limits, Lines, Measure, Neighbor, Order, Precision, RelaxError, Relaxation, RelaxedField,
-    Sample, Scan, Scheme, Stencil, Stopping, SweepSnapshot, Trace, ValueGuide, by_multigrid, descend,
-    drift_around_robots, eliminated, relax, relax_from, relax_on, relax_watched, trace,
+    Accelerator, Boundary, Cell, CellEquations, Convergence, DeadEnd, Device, Difference, Direction, Domain, Ending,
+    Equation, Factor, Influence, Initial, Leap, Levels, Limits, Lines, Measure, Neighbor, OpenGpu, Order, Precision,
+    RelaxError, Relaxation, RelaxedField, Sample, Scan, Scheme, Stencil, Stopping, SweepSnapshot, Trace, ValueGuide,
+    by_multigrid, descend, drift_around_robots, eliminated, relax, relax_from, relax_on, relax_watched, trace,
 };

@@ -5,7 +5,8 @@ use super::{
     Boundary, Cell, Convergence, DeadEnd, Difference, Domain, Equation, Influence, Levels, Measure, RelaxError,
     Relaxation, Stopping, ValueGuide, drift_around_robots, relax_from,
 };
-use cplan_harmonic::{LatticePoint, Place, Streamline, advance, direction, follow};
+use cplan_harmonic::follow::{LatticePoint, Streamline, advance, direction, follow};
+use cplan_planners::planner::grid_path::Place;
 use std::f64::consts::FRAC_1_SQRT_2;
 
 /// Side lengths of cells, which are squares.
@@ -209,7 +210,7 @@ impl MovingField {
         direction(&self.guide(), SQUARE_SIDES, at)
     }
 
-    /// Follows the field from a point for this many steps of length [`STEP_LENGTH`](cplan_harmonic::STEP_LENGTH), and
+    /// Follows the field from a point for this many steps of length [`STEP_LENGTH`](cplan_harmonic::follow::STEP_LENGTH), and
     /// returns the last point; see [`advance()`]. All points lie in free cells and goals.
     pub fn advance(&self, from: LatticePoint, steps: usize) -> LatticePoint {
         advance(&self.guide(), SQUARE_SIDES, from, steps)

@@ -77,18 +77,9 @@ impl Planner for Triangles {
                 }
             }
         };
-        Run {
-            outcome,
-            trace: Trace::Channel {
-                kind: CellKind::Triangles,
-                cells: Arc::clone(&map.corners),
-                channel,
-                points: ChannelPoints::default(),
-                expanded,
-            },
-            size: Size::Graph { nodes: map.mesh.triangles(), edges: map.sides.len() },
-            note: None,
-        }
+        let (kind, cells) = (CellKind::Triangles, Arc::clone(&map.corners));
+        let size = Size::Graph { nodes: map.mesh.triangles(), edges: map.sides.len() };
+        Run::new(outcome, Trace::Channel { kind, cells, channel, points: ChannelPoints::default(), expanded }, size)
     }
 }
 

@@ -4,37 +4,13 @@
 //! configuration that is free in the space, at the end of a short, certified straight motion. That motion completes the
 //! planner's path, and the result is judged as a whole, like any other path.
 
+use super::planner_space::PlannerSpace;
 use cplan_judge::certify;
 use cplan_model::space::{Configuration, Path, Segment, Topology};
 use cplan_model::{MotionProblem, Scene};
-use cplan_planners::cspace::{Grid, Regions, ZonedGrid, free_stretches};
+use cplan_planners::cspace::free_stretches;
 use cplan_planners::planner::Query;
 use std::f64::consts::TAU;
-
-/// A planner's representation of free space. It may refuse a start or goal that is free, because it is not exact. Then
-/// the search uses a *stand-in*: an admitted configuration nearby.
-pub(super) trait EndAdmission {
-    /// Returns true if a planner can begin or end at `q`.
-    fn admits(&self, q: Configuration) -> bool;
-}
-
-impl EndAdmission for Regions {
-    fn admits(&self, q: Configuration) -> bool {
-        self.component(q).is_some()
-    }
-}
-
-impl EndAdmission for Grid {
-    fn admits(&self, q: Configuration) -> bool {
-        !self.blocked[self.locate(q)]
-    }
-}
-
-impl EndAdmission for ZonedGrid {
-    fn admits(&self, q: Configuration) -> bool {
-        self.grid.admits(q)
-    }
-}
 
 /// Number of directions in which the search for a stand-in looks.
 const STAND_IN_DIRECTIONS: usize = 64;
@@ -48,7 +24,7 @@ const SHORTEST_STEP: f64 = 1e-4;
 
 /// Returns `q` if the space admits it. Otherwise returns an admitted configuration to which a certified straight motion
 /// leads from `q`, the shortest that is found. Returns `q` itself if none is found.
-fn stand_in(scene: &Scene, space: &impl EndAdmission, q: Configuration) -> Configuration {
+fn stand_in(scene: &Scene, space: &impl PlannerSpace, q: Configuration) -> Configuration {
     if space.admits(q) {
         return q;
     }
@@ -93,7 +69,7 @@ const COPY_DISTANCE: f64 = 1e-9;
 impl Ends {
     /// Finds stand-ins for the start and for single goals that the space does not admit. Of a goal segment, the space
     /// usually admits some part. If it admits no part of a free stretch, the stretch's middle gets a stand-in.
-    pub fn new(problem: &MotionProblem, space: &impl EndAdmission) -> Self {
+    pub fn new(problem: &MotionProblem, space: &impl PlannerSpace) -> Self {
         let (scene, start) = (problem.scene(), problem.start());
         let topology = scene.arm().topology();
         let mut goals: Vec<Segment> = Vec::new();
@@ -153,7 +129,7 @@ impl Ends {
 }
 
 /// Returns the middles of those free stretches of a segment of which the space admits no part. Each needs a stand-in.
-fn middles_unknown(scene: &Scene, space: &impl EndAdmission, piece: &Segment) -> Vec<Configuration> {
+fn middles_unknown(scene: &Scene, space: &impl PlannerSpace, piece: &Segment) -> Vec<Configuration> {
     let knows = |stretch: &Segment| {
         (0..SAMPLES_PER_STRETCH).any(|k| space.admits(stretch.at(k as f64 / (SAMPLES_PER_STRETCH - 1) as f64)))
     };

@@ -23,6 +23,6 @@ pub(super) fn answer(method: Method, decided: Outcome<CertifiedPath, CheckedProo
         Outcome::Infeasible(proof) => (Proposal::NoPath, Outcome::Infeasible(proof)),
         Outcome::Unknown(reason) => (Proposal::GaveUp(reason.clone()), Outcome::Unknown(reason.into())),
     };
-    let run = Run { outcome: proposal, trace: Trace::Slices { free: Vec::new() }, size: Size::Nothing, note: None };
+    let run = Run::new(proposal, Trace::Slices { free: Vec::new() }, Size::Nothing);
     Answer { method, outcome, path_kind: PathKind::Taut, history: Vec::new(), run, space: Space::Scene, stages }
 }

@@ -1,10 +1,11 @@
 //! The ladder of refinement: a planner tries finer and finer spaces until its path is certified and good enough.
 
-use super::admission::{EndAdmission, Ends};
+use super::admission::Ends;
 use super::bound::{Bound, bound};
 use super::decision::decide;
-use super::rungs::{Describe, grid_cells, polygons, zoned_cells};
-use super::{Answer, BoundedPath, Options, Settings, Space, Stages, Unknown};
+use super::planner_space::PlannerSpace;
+use super::rungs::{grid_cells, polygons, zoned_cells};
+use super::{Answer, BoundedPath, Options, Settings, Stages, Unknown};
 use cplan_fields::FieldChoice;
 use cplan_interrupt::Instant;
 use cplan_judge::{CertifiedPath, CheckedProof, Rejection, certify};
@@ -105,7 +106,7 @@ fn climb<P: Planner>(
     build: impl Fn(usize) -> Option<P::Space>,
 ) -> Answer
 where
-    P::Space: Into<Space> + Describe + EndAdmission,
+    P::Space: PlannerSpace,
 {
     let (method, metric) = (options.planner.method(), options.planner.metric(problem.scene().arm()));
     let mut climb = Climb { problem, options, metric, level: 0, stages: Stages::default(), path: None };
@@ -174,7 +175,7 @@ where
         (None, _) => Outcome::Unknown(unknown().into()),
     };
     let (path_kind, stages) = (options.planner.path_kind(), climb.stages);
-    Answer { method, outcome, path_kind, history, run, space: space.into(), stages }
+    Answer { method, outcome, path_kind, history, run, space: space.into_space(), stages }
 }
 
 /// The state of a search that goes from level to level.

@@ -61,6 +61,7 @@ mod ladder;
 mod options;
 mod planner;
 mod planner_errors;
+mod planner_space;
 mod registry;
 mod replay;
 mod rungs;

@@ -8,7 +8,8 @@ use Setting::{
     Seed, Space, Ties,
 };
 use cplan_fields::FieldPlanner;
-use cplan_planners::planner::{Harmonic, PathKind, Planner, Trapezoid, Visibility, Wavefront};
+use cplan_harmonic::Harmonic;
+use cplan_planners::planner::{PathKind, Planner, Trapezoid, Visibility, Wavefront};
 use cplan_roadmaps::{Prm, Triangles, Voronoi};
 use std::fmt;
 use std::str::FromStr;

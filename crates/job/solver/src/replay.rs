@@ -214,12 +214,9 @@ impl Phases {
                     self.add(expanded.len(), caption, Shows::Wave);
                 }
             }
-            trace @ (Trace::Field { .. } | Trace::Harmonic { .. } | Trace::Potential { .. }) => {
+            Trace::Field { values, .. } => {
                 self.of_sweeps(problem, options, answer);
-                let cells = match trace {
-                    Trace::Potential { heights, .. } => heights.iter().filter(|height| height.is_finite()).count(),
-                    _ => trace.logarithms().map_or(0, |(_, ln)| ln.iter().filter(|ln| ln.is_finite()).count()),
-                };
+                let cells = values.iter().filter(|value| value.is_finite()).count();
                 self.add(cells, "Equipotentials of the field, from the goal outwards", Shows::Levels);
             }
         }

@@ -1,10 +1,10 @@
 //! The representation of each level: successively finer approximations of one configuration space.
 
 use super::setting::DEFAULT_CELLS;
-use super::{CellCounts, GridSpace, Space};
+use super::{CellCounts, GridSpace};
 use cplan_model::{Arm, MotionProblem};
 use cplan_planners::cspace::{
-    Grid, Proves, Regions, ZonedGrid, exact_regions, grid_from_slices, not_polygons, outer_grid, regions, sampled_grid,
+    Grid, Regions, ZonedGrid, exact_regions, grid_from_slices, not_polygons, outer_grid, regions, sampled_grid,
     traced_pairs,
 };
 
@@ -141,46 +141,4 @@ fn grid(problem: &MotionProblem, space: GridSpace, level: usize, shape: [usize; 
         GridSpace::Rows | GridSpace::Centers => grid_from_slices,
     };
     build(problem.scene(), shape, problem.scene().workspace().clearance)
-}
-
-/// A space with a short description.
-pub(super) trait Describe {
-    fn describe(&self) -> String;
-}
-
-impl Describe for Regions {
-    fn describe(&self) -> String {
-        format!("polygons ({})", self.proves)
-    }
-}
-
-impl Describe for Grid {
-    fn describe(&self) -> String {
-        let kind = if self.proves == Proves::Sampled { " by their centres" } else { "" };
-        format!("{} x {} cells{kind}", self.cells[0], self.cells[1])
-    }
-}
-
-impl Describe for ZonedGrid {
-    fn describe(&self) -> String {
-        self.grid.describe()
-    }
-}
-
-impl From<Regions> for Space {
-    fn from(regions: Regions) -> Self {
-        Space::Regions(Box::new(regions))
-    }
-}
-
-impl From<Grid> for Space {
-    fn from(grid: Grid) -> Self {
-        Space::Grid(Box::new(grid))
-    }
-}
-
-impl From<ZonedGrid> for Space {
-    fn from(zoned: ZonedGrid) -> Self {
-        zoned.grid.into()
-    }
 }

@@ -53,7 +53,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     if let Outcome::Unknown(Unknown { reason, .. }) = &outcome {
         progress(&format!("{}: {reason}", Method::Subdivision));
     }
-    let run = Run { outcome: proposal, trace, size, note: None };
+    let run = Run::new(proposal, trace, size);
     Answer {
         method: Method::Subdivision,
         outcome,

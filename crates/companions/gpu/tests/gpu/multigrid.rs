@@ -2,7 +2,8 @@
 
 use crate::gpu;
 use crate::oracle::{Case, greatest_difference, linear};
-use cplan_gpu::{Edge, GpuError, Multigrid, Stencil};
+use cplan_fields::{Boundary, CellEquations};
+use cplan_gpu::{GpuError, Multigrid};
 use proptest::prelude::*;
 
 proptest! {
@@ -32,7 +33,14 @@ fn bars(n: usize) -> Case {
     let mut values = vec![0.0; n * n];
     let goal = (n / 2 + n / 16) * n + n / 2;
     (values[goal], unknown[goal]) = (1.0, false);
-    Case { cells: [n; 2], edges: [Edge::Wall, Edge::Circle], outside: 0.0, values, unknown, stencil: Stencil::Mean }
+    Case {
+        cells: [n; 2],
+        boundaries: [Boundary::High, Boundary::Periodic],
+        outside: 0.0,
+        values,
+        unknown,
+        equations: CellEquations::Mean,
+    }
 }
 
 #[test]
@@ -54,7 +62,7 @@ fn divergence_is_reported() {
     // Mirrors all round and nothing given but the start: any constant is a solution, and there is drift that fights it.
     let n = 24;
     let weights = vec![[0.25 - 2.0, 0.25 + 2.0, 0.25, 0.25]; n * n];
-    let case = Case { stencil: Stencil::Weights(weights), ..bars(n) };
+    let case = Case { equations: CellEquations::Weights(weights), ..bars(n) };
     let solved = gpu().solve(&case.problem(), &Multigrid::default()).unwrap();
     assert!(!solved.converged && solved.values.iter().all(|value| value.is_finite()), "{}", solved.residual);
 }
@@ -62,6 +70,6 @@ fn divergence_is_reported() {
 #[test]
 #[ignore = "needs a Vulkan driver: .ci/gpu"]
 fn nonlinear_equations_are_refused() {
-    let case = Case { stencil: Stencil::Altered(vec![0.1; 64]), ..bars(8) };
+    let case = Case { equations: CellEquations::Altered(vec![0.1; 64]), ..bars(8) };
     assert!(matches!(gpu().solve(&case.problem(), &Multigrid::default()), Err(GpuError::Refused(_))));
 }

@@ -1,7 +1,8 @@
 //! Makes random problems, relaxes them one cell after the other in double precision, and solves them by dense
 //! elimination.
 
-use cplan_gpu::{Edge, GridEquations, Measure, Settings, Stencil, Sweep};
+use cplan_fields::{Boundary, CellEquations, Measure, Relaxation, Scheme};
+use cplan_gpu::GridEquations;
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 
@@ -9,11 +10,11 @@ use proptest::prelude::*;
 #[derive(Debug, Clone)]
 pub struct Case {
     pub cells: [usize; 2],
-    pub edges: [Edge; 2],
+    pub boundaries: [Boundary; 2],
     pub outside: f64,
     pub values: Vec<f64>,
     pub unknown: Vec<bool>,
-    pub stencil: Stencil,
+    pub equations: CellEquations,
 }
 
 /// The kind of equation.
@@ -27,8 +28,8 @@ pub enum Kind {
 
 impl Case {
     pub fn problem(&self) -> GridEquations {
-        let Case { cells, edges, outside, values, unknown, stencil } = self.clone();
-        GridEquations::new(cells, edges, outside, values, unknown, stencil).unwrap()
+        let Case { cells, boundaries, outside, values, unknown, equations } = self.clone();
+        GridEquations::new(cells, boundaries, outside, values, unknown, equations).unwrap()
     }
 
     /// Returns the four neighbours of a cell. On a short circle, a neighbour may be the cell itself. It is `None`
@@ -38,10 +39,10 @@ impl Case {
         let (i, j) = (cell as isize / columns, cell as isize % columns);
         [(i - 1, j), (i + 1, j), (i, j - 1), (i, j + 1)].map(|(a, b)| {
             let is_beyond = [a != a.clamp(0, rows - 1), b != b.clamp(0, columns - 1)];
-            for (edge, is_beyond) in self.edges.into_iter().zip(is_beyond) {
-                match edge {
-                    Edge::Wall if is_beyond => return None,
-                    Edge::Mirror if is_beyond => return Some(cell),
+            for (boundary, is_beyond) in self.boundaries.into_iter().zip(is_beyond) {
+                match boundary {
+                    Boundary::High if is_beyond => return None,
+                    Boundary::Reflecting if is_beyond => return Some(cell),
                     _ => {}
                 }
             }
@@ -51,16 +52,16 @@ impl Case {
 
     fn implied_value(&self, cell: usize, values: &[f64]) -> f64 {
         let [a, b, c, d] = self.neighbors(cell).map(|place| place.map_or(self.outside, |place| values[place]));
-        match &self.stencil {
-            Stencil::Mean => (a + b + c + d) / 4.0,
-            Stencil::Weights(w) => w[cell][0] * a + w[cell][1] * b + w[cell][2] * c + w[cell][3] * d,
-            Stencil::Altered(s) => (a + b + c + d) / 4.0 + s[cell] * ((a - b).abs() + (c - d).abs()) / 2.0,
+        match &self.equations {
+            CellEquations::Mean => (a + b + c + d) / 4.0,
+            CellEquations::Weights(w) => w[cell][0] * a + w[cell][1] * b + w[cell][2] * c + w[cell][3] * d,
+            CellEquations::Altered(s) => (a + b + c + d) / 4.0 + s[cell] * ((a - b).abs() + (c - d).abs()) / 2.0,
         }
     }
 
     /// Returns the values after this many sweeps, and the measure of each sweep.
-    pub fn relaxed(&self, settings: &Settings, sweeps: u32) -> (Vec<f64>, Vec<f64>) {
-        let columns = self.cells[1];
+    pub fn relaxed(&self, relaxation: &Relaxation, measure: Measure, sweeps: usize) -> (Vec<f64>, Vec<f64>) {
+        let (columns, is_jacobi) = (self.cells[1], matches!(relaxation.scheme, Scheme::Simultaneous { .. }));
         let mut order: Vec<usize> = (0..self.values.len()).filter(|&cell| self.unknown[cell]).collect();
         order.sort_by_key(|cell| (cell / columns + cell % columns) % 2);
         let mut values = self.values.clone();
@@ -68,19 +69,19 @@ impl Case {
         for _ in 0..sweeps {
             let old = values.clone();
             for &cell in &order {
-                let asked = self.implied_value(cell, if settings.sweep == Sweep::Jacobi { &old } else { &values });
-                let next = old[cell] + settings.factor * (asked - old[cell]);
-                values[cell] = settings.clamp.map_or(next, |[low, high]| next.clamp(low, high));
+                let asked = self.implied_value(cell, if is_jacobi { &old } else { &values });
+                let next = old[cell] + relaxation.factor(self.cells) * (asked - old[cell]);
+                values[cell] = relaxation.clamp.map_or(next, |[low, high]| next.clamp(low, high));
             }
             let changes = || order.iter().map(|&cell| (values[cell] - old[cell]).abs());
             let sum: f64 = changes().sum();
             let shares =
                 || order.iter().zip(changes()).filter(|(_, c)| *c > 0.0).map(|(&cell, c)| c / values[cell].abs());
-            measures.push(match settings.measure {
-                Measure::Sum => sum,
-                Measure::Squares => changes().map(|c| c * c).sum(),
-                Measure::Greatest => changes().fold(0.0, f64::max),
-                Measure::Relative => shares().fold(0.0, f64::max),
+            measures.push(match measure {
+                Measure::SumOfChange => sum,
+                Measure::SumOfSquares => changes().map(|c| c * c).sum(),
+                Measure::GreatestChange => changes().fold(0.0, f64::max),
+                Measure::GreatestRelativeChange => shares().fold(0.0, f64::max),
                 Measure::DifferenceOfSums => (sum - before).abs(),
             });
             before = sum;
@@ -94,7 +95,7 @@ impl Case {
         let (mut matrix, mut right) = (DMatrix::identity(n, n), DVector::from_column_slice(&self.values));
         for cell in (0..n).filter(|&cell| self.unknown[cell]) {
             right[cell] = 0.0;
-            let weights = if let Stencil::Weights(weights) = &self.stencil { weights[cell] } else { [0.25; 4] };
+            let weights = if let CellEquations::Weights(weights) = &self.equations { weights[cell] } else { [0.25; 4] };
             for (place, weight) in self.neighbors(cell).into_iter().zip(weights) {
                 match place {
                     Some(place) => matrix[(cell, place)] -= weight,
@@ -106,11 +107,11 @@ impl Case {
     }
 }
 
-fn edge() -> impl Strategy<Value = Edge> {
-    prop_oneof![Just(Edge::Circle), Just(Edge::Wall), Just(Edge::Mirror)]
+fn boundary() -> impl Strategy<Value = Boundary> {
+    prop_oneof![Just(Boundary::Periodic), Just(Boundary::High), Just(Boundary::Reflecting)]
 }
 
-fn stencil(kind: Kind, drifts: &[[f64; 2]]) -> Stencil {
+fn equations(kind: Kind, drifts: &[[f64; 2]]) -> CellEquations {
     let side = |b: f64| if matches!(kind, Kind::Upwind) { 1.0 + b.max(0.0) } else { 1.0 + 0.5 * b };
     let weights = |b: &[f64; 2]| {
         let weights = [side(-b[0]), side(b[0]), side(-b[1]), side(b[1])];
@@ -118,9 +119,9 @@ fn stencil(kind: Kind, drifts: &[[f64; 2]]) -> Stencil {
         weights.map(|weight| weight / sum)
     };
     match kind {
-        Kind::Mean => Stencil::Mean,
-        Kind::Central | Kind::Upwind => Stencil::Weights(drifts.iter().map(weights).collect()),
-        Kind::Altered => Stencil::Altered(drifts.iter().map(|b| 0.25 * b[0]).collect()),
+        Kind::Mean => CellEquations::Mean,
+        Kind::Central | Kind::Upwind => CellEquations::Weights(drifts.iter().map(weights).collect()),
+        Kind::Altered => CellEquations::Altered(drifts.iter().map(|b| 0.25 * b[0]).collect()),
     }
 }
 
@@ -128,7 +129,7 @@ fn stencil(kind: Kind, drifts: &[[f64; 2]]) -> Stencil {
 /// monotone.
 pub fn case(kind: Kind, most: usize) -> impl Strategy<Value = Case> {
     let cells = [1..=most, 1..=most];
-    (cells, [edge(), edge()], 0.0..0.6_f64).prop_flat_map(move |(cells, edges, walls)| {
+    (cells, [boundary(), boundary()], 0.0..0.6_f64).prop_flat_map(move |(cells, boundaries, walls)| {
         let count = cells[0] * cells[1];
         let cell = prop::collection::vec((0.0..1.0_f64, 0.0..1.0_f64, [-1.9..1.9_f64, -1.9..1.9]), count);
         (cell, -1.0..1.0_f64).prop_map(move |(drawn, outside)| {
@@ -137,7 +138,7 @@ pub fn case(kind: Kind, most: usize) -> impl Strategy<Value = Case> {
             let unknown: Vec<bool> = drawn.iter().enumerate().map(|cell| !is_given(cell)).collect();
             let drifts: Vec<[f64; 2]> = drawn.iter().map(|cell| cell.2).collect();
             let values = drawn.iter().map(|cell| cell.1).collect();
-            Case { cells, edges, outside, values, unknown, stencil: stencil(kind, &drifts) }
+            Case { cells, boundaries, outside, values, unknown, equations: equations(kind, &drifts) }
         })
     })
 }

@@ -219,7 +219,7 @@ fn below_at(apex: Point, a: Point, b: Point) -> Ordering {
 }
 
 /// Returns, for each number from 0 to `count`, how many of the `keys` are less than it.
-fn starts(count: usize, keys: impl Iterator<Item = usize>) -> Vec<u32> {
+pub fn starts(count: usize, keys: impl Iterator<Item = usize>) -> Vec<u32> {
     let mut starts = vec![0; count + 1];
     for key in keys {
         starts[key + 1] += 1;

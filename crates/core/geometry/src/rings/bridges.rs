@@ -10,9 +10,9 @@
 
 use super::super::Point;
 use super::super::box_tree::BoxTree;
-use super::super::predicates::{Orientation, orientation, point_on_segment, segments_meet};
+use super::super::predicates::{point_on_segment, segments_meet};
 use super::RingError;
-use super::noding::{Loop, NodedGraph};
+use super::noding::{NodedGraph, is_counter_clockwise};
 use cplan_interrupt::checkpoint;
 
 /// A graph of rings, and diagonals that connect the holes with their surroundings.
@@ -43,7 +43,7 @@ pub(super) fn join_holes(noded: NodedGraph) -> Result<BridgedGraph, RingError> {
         has[a.min(b)][1] = true;
     };
     edges.iter().for_each(|edge| note(&mut has, *edge));
-    for hole in loops.iter().filter(|l| !is_counter_clockwise(points, l)) {
+    for hole in loops.iter().filter(|l| !is_counter_clockwise(points, &l.vertices)) {
         let extremes = [hole.vertices.iter().min(), hole.vertices.iter().max()];
         for (side, &from) in extremes.into_iter().flatten().enumerate() {
             // If all edges run to one side, the first of them determines whether the region is on the other side. It is
@@ -65,14 +65,6 @@ pub(super) fn join_holes(noded: NodedGraph) -> Result<BridgedGraph, RingError> {
         }
     }
     Ok(BridgedGraph { noded, bridges })
-}
-
-/// Returns true if a loop is counter-clockwise, by its leftmost vertex, where it cannot be straight.
-fn is_counter_clockwise(points: &[Point], walk: &Loop) -> bool {
-    let n = walk.vertices.len();
-    let at = (0..n).min_by_key(|i| walk.vertices[*i]).unwrap_or(0);
-    let [a, b, c] = [at + n - 1, at, at + 1].map(|i| points[walk.vertices[i % n]]);
-    orientation(a, b, c) == Orientation::CounterClockwise
 }
 
 /// Visibility between vertices.

@@ -150,7 +150,7 @@ fn cuts(points: &[Point], sides: &[Piece]) -> Result<Vec<Vec<usize>>, RingError>
 
 /// Returns true if a ring is counter-clockwise. It may touch itself, but must not cross or overlap itself. At its
 /// leftmost vertex all its edges run to the right, and the outside is below the lowest of them.
-fn is_counter_clockwise(points: &[Point], walk: &[usize]) -> bool {
+pub(super) fn is_counter_clockwise(points: &[Point], walk: &[usize]) -> bool {
     let n = walk.len();
     let Some(&least) = walk.iter().min() else { return true };
     let ends = (0..n).flat_map(|i| {

@@ -1,9 +1,7 @@
 //! A configuration space with one bit per cell.
 
-use super::Slice;
-use cplan_model::space::JointRange;
-use cplan_model::{Contacts, Scene, on_axis};
-use std::ops::Range;
+use super::slabs::block_centers;
+use cplan_model::Scene;
 
 /// The cells of a [`super::Grid`] with one bit each: set if the cell's *centre* is within the clearance of an
 /// obstacle.
@@ -54,78 +52,12 @@ impl Bitmap {
 /// Each pair is examined only in the rows where link 2 can reach its piece.
 /// `O(reached slices * contacts + cells / 64)`.
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
-    let slices = Contacts::new(scene);
-    let axes: [JointRange; 2] = scene.arm().topology().ranges;
     let words = cells[1].div_ceil(WORD_BITS);
     let mut bits = vec![0_u64; words * cells[0]];
-    let [lines, columns] = [0, 1].map(|k| Centers::new(axes[k], cells[k]));
-
-    let banned = Slice::bands(&slices, clearance).merged;
-    let banned: Vec<Range<usize>> = banned.into_iter().map(|band| lines.within(band)).collect();
-    for band in &banned {
-        for i in band.clone() {
-            fill(&mut bits[i * words..(i + 1) * words], 0, cells[1]);
-        }
-    }
-    let elbows: Vec<_> = (0..cells[0]).map(|i| slices.elbow(lines.at(i))).collect();
-    let (mut reached, mut intervals) = (Vec::new(), Vec::new());
-    for index in slices.second_link_pairs() {
-        reached.clear();
-        let hits = slices.reach_range(index, clearance, &mut reached);
-        on_axis(&scene.arm().joints[0], hits, &reached, |range| {
-            // Add a row at either end, for the rounding of the range.
-            let range = lines.within(range);
-            let range = range.start.saturating_sub(1)..(range.end + 1).min(cells[0]);
-            for i in without(range, &banned) {
-                let (elbow, heading) = elbows[i];
-                let row = &mut bits[i * words..(i + 1) * words];
-                intervals.clear();
-                let hits = slices.at_elbow(index, elbow, heading, clearance, &mut intervals);
-                on_axis(&scene.arm().joints[1], hits, &intervals, |blocked| {
-                    let blocked = columns.within(blocked);
-                    fill(row, blocked.start, blocked.end);
-                });
-            }
-        });
-    }
+    block_centers(scene, cells, clearance, |row, columns| {
+        fill(&mut bits[row * words..(row + 1) * words], columns.start, columns.end);
+    });
     Bitmap { cells, words, bits }
-}
-
-/// The centres of the cells along one axis.
-struct Centers {
-    lower: f64,
-    step: f64,
-    per_cell: f64,
-    count: usize,
-}
-
-impl Centers {
-    fn new(range: JointRange, count: usize) -> Self {
-        let step = range.extent() / count as f64;
-        Self { lower: range.domain().0, step, per_cell: 1.0 / step, count }
-    }
-
-    fn at(&self, i: usize) -> f64 {
-        self.lower + (i as f64 + 0.5) * self.step
-    }
-
-    /// Returns the cells whose centres lie in the closed interval.
-    fn within(&self, [start, end]: [f64; 2]) -> Range<usize> {
-        // Conversions truncate and saturate, which is cheaper than rounding up or down without SSE 4.1.
-        let at = |value: f64| (value - self.lower) * self.per_cell - 0.5;
-        let up = |x: f64| x as usize + usize::from(x > (x as usize) as f64);
-        let (start, end) = (at(start), at(end));
-        let to = if end >= 0.0 { end as usize + 1 } else { 0 };
-        let (from, to) = (up(start), to.min(self.count));
-        from..to
-    }
-}
-
-/// Iterates over the members of `range` that are in none of the `others`, which must be ascending.
-fn without<'a>(range: Range<usize>, others: &'a [Range<usize>]) -> impl Iterator<Item = usize> + 'a {
-    let ends = others.iter().map(|o| o.start).chain([usize::MAX]);
-    let starts = [0].into_iter().chain(others.iter().map(|o| o.end));
-    starts.zip(ends).flat_map(move |(from, to)| from.max(range.start)..to.min(range.end))
 }
 
 /// Sets the bits from `from` up to, but not including, `to`.

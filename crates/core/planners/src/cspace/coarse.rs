@@ -2,7 +2,7 @@
 //! space.
 
 use super::covering::covering;
-use cplan_geometry::{Convex, Point, SimplePolygon, Vector, cross, farthest, perpendicular};
+use cplan_geometry::{Convex, Point, SimplePolygon, Vector, cross, farthest, hull, perpendicular};
 use cplan_model::{Obstacle, Scene, Shape};
 use std::borrow::Cow;
 
@@ -123,7 +123,7 @@ fn around_convex(core: &[Point], within: f64) -> Option<Vec<Point>> {
     }
     let middle = outline.iter().sum::<Vector>() / outline.len() as f64;
     let out = |p: Point| p + (p - middle) * ROUNDING + (p - middle).map(f64::signum) * (ROUNDING * p.amax());
-    let outline = cplan_geometry::hull(&outline.into_iter().map(out).collect::<Vec<_>>());
+    let outline = hull(&outline.into_iter().map(out).collect::<Vec<_>>());
     (outline.len() > 2).then_some(outline)
 }
 
@@ -153,7 +153,7 @@ fn distance_from_line(p: Point, a: Point, b: Point) -> f64 {
 fn around_polygon(corners: &[Point], within: f64) -> Option<Vec<Convex>> {
     let polygon = SimplePolygon::new(corners.to_vec()).ok()?;
     if polygon.is_convex() {
-        return around_convex(&strictly_convex(corners), within).map(|core| vec![Convex::trusted(core, 0.0)]);
+        return around_convex(&hull(corners), within).map(|core| vec![Convex::trusted(core, 0.0)]);
     }
     let closed: Vec<Point> = corners.iter().chain([&corners[0]]).copied().collect();
     (0..ATTEMPTS).find_map(|attempt| {
@@ -164,10 +164,6 @@ fn around_polygon(corners: &[Point], within: f64) -> Option<Vec<Convex>> {
         pieces.extend(runs.into_iter().filter(|run| run.len() > 2).map(rectangle));
         Some(pieces)
     })
-}
-
-fn strictly_convex(corners: &[Point]) -> Vec<Point> {
-    cplan_geometry::hull(corners)
 }
 
 /// Returns convex pieces that cover a polyline, none farther than `within` from it.

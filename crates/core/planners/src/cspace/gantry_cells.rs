@@ -28,7 +28,7 @@ const TOUCH_DEPTH: f64 = 2.0 * ROUNDING;
 /// Each configuration of a blocked cell is within `clearance + margin` of an obstacle, where `margin` is that of the
 /// grid's [`Proves::Outer`]. `O(reached rows * contacts + cells)`.
 pub(super) fn block(grid: &mut Grid, scene: &Scene, map: &Matrix2<f64>, clearance: f64) {
-    let [rows, columns] = [0, 1].map(|axis| Columns::new(grid, axis));
+    let [rows, columns] = Columns::both(&grid.topology, grid.cells);
     let step = grid.step();
     grid.proves = Proves::Outer { margin: step[0] + step[1] + 2.0 * TOUCH_DEPTH };
     let contacts = Contacts::new(scene);
@@ -38,8 +38,7 @@ pub(super) fn block(grid: &mut Grid, scene: &Scene, map: &Matrix2<f64>, clearanc
         intervals.clear();
         contacts.first_link(index, clearance, &mut intervals);
         for &[start, end] in &intervals {
-            let [start, end] = touched_part([start, end]);
-            let banned = rows.touched(start, end);
+            let banned = rows.touched(touched_part([start, end]));
             grid.blocked[banned.start * count..banned.end * count].fill(true);
         }
     }
@@ -47,13 +46,11 @@ pub(super) fn block(grid: &mut Grid, scene: &Scene, map: &Matrix2<f64>, clearanc
     for index in contacts.second_link_pairs() {
         checkpoint();
         let c_obstacle = PairOutline::new(&contacts, index, map, clearance);
-        let [start, end] = touched_part(c_obstacle.extent());
-        for i in rows.touched(start, end) {
+        for i in rows.touched(touched_part(c_obstacle.extent())) {
             let sides = [0, 1].map(|k| lower + (i + k) as f64 * step[0]);
             let Some(within) = c_obstacle.within(sides, &mut intervals) else { continue };
             let row = &mut grid.blocked[i * count..(i + 1) * count];
-            let [start, end] = touched_part(within);
-            columns.block_touched(row, start, end);
+            row[columns.touched(touched_part(within))].fill(true);
         }
     }
 }

@@ -4,6 +4,7 @@ use super::coarse::coarse;
 use super::{Grid, Proves, Slice, gantry_cells, translation};
 use cplan_geometry::ROUNDING;
 use cplan_interrupt::checkpoint;
+use cplan_model::space::Topology;
 use cplan_model::{Contacts, Scene, on_axis};
 use std::borrow::Cow;
 use std::f64::consts::TAU;
@@ -19,29 +20,65 @@ const MAX_COARSENING: f64 = 1.0 / 16.0;
 
 /// Computes the grid whose cells are blocked if the arm is within `clearance` of an obstacle at the cell's *centre*.
 /// The result equals that of [`super::sampled_grid`], except for centres within [`ROUNDING`] of contact.
-/// `O(slices * contacts + cells)`.
+/// Each pair is examined only in the rows where link 2 can reach its piece: `O(reached slices * contacts + cells)`.
 pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
-    let slices = Contacts::new(scene);
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
-    let columns = Columns::new(&grid, 1);
-    let bands = Slice::bands(&slices, clearance);
-    let mut intervals = Vec::new();
-    for i in 0..cells[0] {
-        let q1 = grid.center(i * cells[1])[0];
-        let row = &mut grid.blocked[i * cells[1]..(i + 1) * cells[1]];
-        if bands.forbids(q1) {
-            row.fill(true);
-            continue;
-        }
-        let (elbow, heading) = slices.elbow(q1);
-        for index in slices.second_link_pairs() {
-            intervals.clear();
-            let hits = slices.at_elbow(index, elbow, heading, clearance, &mut intervals);
-            on_axis(&scene.arm().joints[1], hits, &intervals, |[start, end]| columns.block_centers(row, start, end));
-        }
-    }
+    block_centers(scene, cells, clearance, |row, columns| grid.blocked[row * cells[1]..][columns].fill(true));
     grid.block_sums();
     grid
+}
+
+/// Calls `block` with a row and some of its columns, for all cells whose centres are within `clearance` of an obstacle.
+/// A cell may come up several times.
+pub(super) fn block_centers(
+    scene: &Scene,
+    cells: [usize; 2],
+    clearance: f64,
+    mut block: impl FnMut(usize, Range<usize>),
+) {
+    let slices = Contacts::new(scene);
+    let [rows, columns] = Columns::both(&scene.arm().topology(), cells);
+    let bands = Slice::bands(&slices, clearance);
+    let is_banned = |q1: f64| bands.forbids(q1);
+    forbid_in_rows(&slices, &rows, is_banned, |_| clearance, 0.0, |row, range| block(row, columns.centers(range)));
+}
+
+/// Calls `forbid` with each row and each forbidden range of joint 2 at the row's centre, where pair `index` is grown by
+/// `grow(index)` and each range widened by `widening`. In a banned row all values are forbidden.
+///
+/// Each pair is examined only in the rows where link 2 can reach its piece.
+fn forbid_in_rows(
+    slices: &Contacts,
+    rows: &Columns,
+    is_banned: impl Fn(f64) -> bool,
+    grow: impl Fn(usize) -> f64,
+    widening: f64,
+    mut forbid: impl FnMut(usize, [f64; 2]),
+) {
+    let joints = &slices.scene().arm().joints;
+    let centers = (0..rows.count).map(|row| rows.center(row));
+    let elbows: Vec<_> = centers.map(|q1| (!is_banned(q1)).then(|| slices.elbow(q1))).collect();
+    for (row, _) in elbows.iter().enumerate().filter(|(_, elbow)| elbow.is_none()) {
+        forbid(row, [f64::NEG_INFINITY, f64::INFINITY]);
+    }
+    let (mut reached, mut intervals) = (Vec::new(), Vec::new());
+    for index in slices.second_link_pairs() {
+        let grow = grow(index);
+        reached.clear();
+        checkpoint();
+        let hits = slices.reach_range(index, grow, &mut reached);
+        on_axis(&joints[0], hits, &reached, |range| {
+            // Add a row at either end, for the rounding of the range.
+            let Range { start, end } = rows.centers(range);
+            for (row, elbow) in elbows.iter().enumerate().take(end + 1).skip(start.saturating_sub(1)) {
+                let &Some((elbow, heading)) = elbow else { continue };
+                intervals.clear();
+                let hits = slices.at_elbow(index, elbow, heading, grow, &mut intervals);
+                intervals.iter_mut().for_each(|[start, end]| (*start, *end) = (*start - widening, *end + widening));
+                on_axis(&joints[1], hits, &intervals, |range| forbid(row, range));
+            }
+        });
+    }
 }
 
 /// Computes a grid whose free cells are *entirely* free: each of their configurations keeps at least `clearance`,
@@ -75,42 +112,17 @@ pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let motions = motions(&slices);
     grid.proves = Proves::Outer { margin: margin(&slices, &motions, steps, clearance) + within };
 
-    let columns = Columns::new(&grid, 1);
+    let [rows, columns] = Columns::both(&grid.topology, cells);
     let bands = Slice::bands(&slices, kept);
     let axis = grid.topology.ranges[0];
     let turns: &[f64] = if axis.is_circle() { &[-TAU, 0.0, TAU] } else { &[0.0] };
-    let centers: Vec<f64> = (0..cells[0]).map(|i| grid.center(i * cells[1])[0]).collect();
     let half = steps[0] / 2.0 + ARC_WIDENING;
     let banned = |q1: f64, band: &[f64; 2], turn: f64| band[0] <= q1 + turn + half && band[1] >= q1 + turn - half;
     let is_banned = |q1: f64| bands.merged.iter().any(|band| turns.iter().any(|&turn| banned(q1, band, turn)));
-    let elbows: Vec<_> = centers.iter().map(|&q1| (!is_banned(q1)).then(|| slices.elbow(q1))).collect();
-    for (row, _) in grid.blocked.chunks_mut(cells[1]).zip(&elbows).filter(|(_, elbow)| elbow.is_none()) {
-        row.fill(true);
-    }
-    let (mut reached, mut intervals) = (Vec::new(), Vec::new());
-    for (index, motion) in slices.second_link_pairs().zip(&motions) {
-        let grow = kept + motion;
-        reached.clear();
-        checkpoint();
-        let hits = slices.reach_range(index, grow, &mut reached);
-        on_axis(&scene.arm().joints[0], hits, &reached, |[start, end]| {
-            // Add a row at either end, for the rounding of the range.
-            let first = centers.partition_point(|&q1| q1 < start).saturating_sub(1);
-            let last = (centers.partition_point(|&q1| q1 <= end) + 1).min(cells[0]);
-            let rows_within = grid.blocked.chunks_mut(cells[1]).zip(&elbows).take(last).skip(first);
-            for (row, elbow) in rows_within {
-                let &Some((elbow, heading)) = elbow else { continue };
-                intervals.clear();
-                let hits = slices.at_elbow(index, elbow, heading, grow, &mut intervals);
-                intervals
-                    .iter_mut()
-                    .for_each(|[start, end]| (*start, *end) = (*start - ARC_WIDENING, *end + ARC_WIDENING));
-                on_axis(&scene.arm().joints[1], hits, &intervals, |[start, end]| {
-                    columns.block_touched(row, start, end)
-                });
-            }
-        });
-    }
+    let grow = |index: usize| kept + motions[index - slices.second_link_pairs().start];
+    forbid_in_rows(&slices, &rows, is_banned, grow, ARC_WIDENING, |row, range| {
+        grid.blocked[row * cells[1]..][columns.touched(range)].fill(true);
+    });
     grid.block_sums();
     grid
 }
@@ -129,40 +141,44 @@ fn margin(slices: &Contacts<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance:
 /// The cells along one axis, in ascending order: the rows (axis 0), or the columns of a row (axis 1).
 pub(super) struct Columns {
     lower: f64,
+    step: f64,
     per_cell: f64,
     count: usize,
 }
 
 impl Columns {
-    pub(super) fn new(grid: &Grid, axis: usize) -> Self {
-        let lower = grid.topology.ranges[axis].domain().0;
-        Self { lower, per_cell: 1.0 / grid.step()[axis], count: grid.cells[axis] }
+    /// Returns the rows and the columns of a grid.
+    pub(super) fn both(topology: &Topology, cells: [usize; 2]) -> [Self; 2] {
+        [0, 1].map(|axis| {
+            let (range, count) = (topology.ranges[axis], cells[axis]);
+            let step = range.extent() / count as f64;
+            Self { lower: range.domain().0, step, per_cell: 1.0 / step, count }
+        })
     }
 
-    /// Blocks the cells whose centres lie in the closed interval.
-    fn block_centers(&self, row: &mut [bool], start: f64, end: f64) {
-        let first = ((start - self.lower) * self.per_cell - 0.5).ceil();
-        let last = ((end - self.lower) * self.per_cell - 0.5).floor();
-        row[self.within(first, last)].fill(true);
+    /// Returns the centre of a cell.
+    fn center(&self, number: usize) -> f64 {
+        self.lower + (number as f64 + 0.5) * self.step
     }
 
-    /// Blocks the closed cells that meet the closed interval.
-    pub(super) fn block_touched(&self, row: &mut [bool], start: f64, end: f64) {
-        row[self.touched(start, end)].fill(true);
+    /// Returns the numbers of the cells whose centres lie in the closed interval.
+    fn centers(&self, [start, end]: [f64; 2]) -> Range<usize> {
+        let at = |value: f64| (value - self.lower) * self.per_cell - 0.5;
+        self.within(at(start), at(end))
     }
 
     /// Returns the numbers of the closed cells that meet the closed interval.
-    pub(super) fn touched(&self, start: f64, end: f64) -> Range<usize> {
-        let first = ((start - self.lower) * self.per_cell).ceil() - 1.0;
-        let last = ((end - self.lower) * self.per_cell).floor();
-        self.within(first, last)
+    pub(super) fn touched(&self, [start, end]: [f64; 2]) -> Range<usize> {
+        let at = |value: f64| (value - self.lower) * self.per_cell;
+        self.within(at(start) - 1.0, at(end))
     }
 
-    /// Returns the numbers of cells from `first` to `last`, both included.
+    /// Returns the whole numbers of cells from `first` to `last`, both included.
     fn within(&self, first: f64, last: f64) -> Range<usize> {
-        // Conversions saturate: positions before the first cell become 0. Positions beyond the last one are cut off.
-        let (from, to) = (first.max(0.0) as usize, (last + 1.0).max(0.0) as usize);
-        let to = to.min(self.count);
+        // Conversions truncate and saturate, which is cheaper than rounding up or down without SSE 4.1. Positions before
+        // the first cell become 0. Positions beyond the last one are cut off.
+        let from = first as usize + usize::from(first > (first as usize) as f64);
+        let to = if last >= 0.0 { (last as usize).saturating_add(1).min(self.count) } else { 0 };
         from.min(to)..to
     }
 }

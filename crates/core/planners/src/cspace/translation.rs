@@ -82,20 +82,12 @@ pub(super) fn extremes(
 /// Returns a polygon that contains all points within `radius - sag` of a convex polygon, and only points within
 /// `radius`.
 fn chord_polygon(core: &[Point], radius: f64, sag: f64) -> Vec<Point> {
-    let n = core.len();
     let widest = 2.0 * (1.0 - sag / radius).max(0.0).acos();
-    let mut polygon = Vec::new();
-    for i in 0..n {
-        let (before, at, after) = (core[(i + n - 1) % n], core[i], core[(i + 1) % n]);
-        let (normal, turn) = if n == 1 { (Vector::x(), TAU) } else { corner(before, at, after) };
-        let chords = (turn / widest).ceil().max(1.0);
+    with_arcs(core, widest, |turn, chords| {
         // The last corner of a disc is its first one.
-        for k in 0..chords as usize + usize::from(n > 1 && turn > 0.0) {
-            let angle = normal.y.atan2(normal.x) + turn * (k as f64 / chords);
-            polygon.push(at + radius * Vector::new(angle.cos(), angle.sin()));
-        }
-    }
-    polygon
+        let last = if core.len() > 1 && turn > 0.0 { chords + 1 } else { chords };
+        (0..last).map(|k| (turn * (k as f64 / chords as f64), radius)).collect()
+    })
 }
 
 /// Converts a polygon of positions of link 2's origin to joint values.
@@ -114,17 +106,23 @@ fn tangent_polygon(core: &[Point], radius: f64, reach: f64) -> Vec<Point> {
     if radius <= 0.0 {
         return core.to_vec();
     }
+    with_arcs(core, 2.0 * (radius / reach).acos(), |turn, tangents| {
+        let step = turn / tangents as f64;
+        (0..tangents).map(|k| ((k as f64 + 0.5) * step, radius / (step / 2.0).cos())).collect()
+    })
+}
+
+/// Returns the polygon that has an arc at each corner of a convex polygon. For an arc, `corners` gets the angle by which
+/// the outward normal turns, and the number of equal parts of it, each at most `widest`. It returns the arc's corners:
+/// the angle from the first normal, and the distance.
+fn with_arcs(core: &[Point], widest: f64, corners: impl Fn(f64, usize) -> Vec<(f64, f64)>) -> Vec<Point> {
     let n = core.len();
-    let widest = 2.0 * (radius / reach).acos();
     let mut polygon = Vec::new();
-    for i in 0..n {
-        let (before, at, after) = (core[(i + n - 1) % n], core[i], core[(i + 1) % n]);
+    for (i, &at) in core.iter().enumerate() {
+        let (before, after) = (core[(i + n - 1) % n], core[(i + 1) % n]);
         let (normal, turn) = if n == 1 { (Vector::x(), TAU) } else { corner(before, at, after) };
-        let tangents = (turn / widest).ceil().max(1.0);
-        let step = turn / tangents;
-        for k in 0..tangents as usize {
-            let angle = normal.y.atan2(normal.x) + (k as f64 + 0.5) * step;
-            let distance = radius / (step / 2.0).cos();
+        for (angle, distance) in corners(turn, (turn / widest).ceil().max(1.0) as usize) {
+            let angle = normal.y.atan2(normal.x) + angle;
             polygon.push(at + distance * Vector::new(angle.cos(), angle.sin()));
         }
     }

@@ -28,12 +28,11 @@
 pub mod attach;
 pub mod channel;
 pub mod decomposition;
+mod field_values;
 pub mod grid_path;
-mod harmonic;
 pub mod mesh;
 mod path_kind;
 pub mod shortcut;
-pub mod simplify;
 mod polyanya;
 pub mod roadmap;
 pub mod terminals;
@@ -41,7 +40,7 @@ mod trapezoid;
 mod visibility;
 mod wavefront;
 
-pub use harmonic::Harmonic;
+pub use field_values::{FieldQuantity, FieldValues};
 pub use path_kind::PathKind;
 pub use roadmap::{RoadmapSearch, SearchOrder};
 pub use trapezoid::{Trapezoid, TrapezoidMap};
@@ -50,10 +49,8 @@ pub use wavefront::{GridSearch, Wavefront};
 
 use crate::waves::search::Estimates;
 use cplan_geometry::planar::NO_ENTRY;
-use cplan_harmonic::{Component, Potential, estimated_harmonic};
 use cplan_model::space::{Configuration, GoalSet, Path};
 use cplan_text::counted;
-use std::borrow::Cow;
 use std::sync::Arc;
 
 /// A query to a planner. Configurations are unwrapped values within the space (see [`crate::cspace`]).
@@ -265,47 +262,21 @@ pub enum Trace {
         /// The estimates of the search. `None` if it uses none.
         estimates: Option<Estimates>,
     },
-    /// The natural logarithm of the potential for each cell: 0 at the goal, lower farther away. Minus infinity where
-    /// there is no potential.
+    /// A field on a grid that a path follows.
     Field {
         /// Number of cells along each axis.
         cells: [usize; 2],
-        /// One value per cell.
-        potential: Vec<f64>,
-    },
-    /// The harmonic potential of the cells from which the goal can be reached. Its logarithms are only for pictures,
-    /// so [`Trace::logarithms`] computes them on request.
-    Harmonic {
-        /// The cells that the field covers.
-        component: Component,
-        /// The potential; `None` if the start is in none of these cells.
-        potential: Option<Potential>,
-    },
-    /// A potential, with one value for each cell. Paths descend it. It is infinite in cells without a potential.
-    Potential {
-        /// Number of cells along each axis.
-        cells: [usize; 2],
-        /// One value per cell.
-        heights: Vec<f64>,
+        /// Meaning of the values.
+        quantity: FieldQuantity,
+        /// One value per cell; infinite in cells without a potential.
+        values: FieldValues,
     },
 }
 
 impl Trace {
-    /// Returns, for a field that paths ascend, the number of cells along each axis and the natural logarithm of the
-    /// potential of each cell. The logarithm is minus infinity where there is no potential. `None` for other traces.
-    /// Linear in the number of cells.
-    pub fn logarithms(&self) -> Option<([usize; 2], Cow<'_, [f64]>)> {
-        match self {
-            Self::Field { cells, potential } => Some((*cells, Cow::Borrowed(potential))),
-            Self::Harmonic { component, potential } => {
-                let guess = || Cow::Owned(estimated_harmonic(component));
-                let potential = potential.as_ref().map_or_else(guess, Cow::Borrowed);
-                let mut ln = vec![f64::NEG_INFINITY; component.shape[0] * component.shape[1]];
-                (0..component.len()).for_each(|at| ln[component.cell(at)] = potential.ln(at));
-                Some((component.shape, Cow::Owned(ln)))
-            }
-            _ => None,
-        }
+    /// Returns the trace of a field.
+    pub fn field(cells: [usize; 2], quantity: FieldQuantity, values: impl Into<FieldValues>) -> Self {
+        Self::Field { cells, quantity, values: values.into() }
     }
 }
 
@@ -381,6 +352,13 @@ pub struct Run {
     pub size: Size,
     /// A remark about the outcome; `None` if there is none.
     pub note: Option<Note>,
+}
+
+impl Run {
+    /// Returns a run without a remark.
+    pub fn new(outcome: Proposal, trace: Trace, size: Size) -> Self {
+        Self { outcome, trace, size, note: None }
+    }
 }
 
 /// A planner. Its settings are the fields of the implementing type.

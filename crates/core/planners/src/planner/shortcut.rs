@@ -17,7 +17,7 @@ const MIN_GAIN: f64 = 1e-3;
 /// Returns a shorter polyline with the same ends and few corners. Each of its segments either passes only through
 /// free cells (touching counts), or is a segment of the given line. The result is never longer, in any norm. Takes
 /// about `n log n` cell checks for a line that is `n` cells long.
-pub(super) fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
+pub fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut best = farthest(grid, line);
     for _ in 0..MAX_ROUNDS {
         // Go backwards, and use points between the corners as well: that pulls the corners towards the obstacles.
@@ -42,24 +42,29 @@ fn length(grid: &Grid, line: &[[f64; 2]]) -> f64 {
     line.windows(2).map(|w| ((w[1][0] - w[0][0]) * step[0]).hypot((w[1][1] - w[0][1]) * step[1])).sum()
 }
 
-/// Returns a line whose corners are some of the given ones. From each corner it goes to a visible one far along the
-/// line. The search doubles the distance along the line while the corner there is visible, then bisects. The next
-/// corner always counts as visible.
+/// Returns a line whose corners are some of the given ones, joined by segments through free cells only.
 fn farthest(grid: &Grid, line: &[[f64; 2]]) -> Line {
-    let mut corners = vec![line[0]];
+    fewer_points(line, |from, to| is_clear(grid, line[from], line[to]))
+}
+
+/// Returns a line through some of the given points, its ends included. From each point it goes to one far along the line
+/// to which a segment `fits`. The search doubles the distance along the line while the segment fits, then bisects. The
+/// next point always counts as fitting.
+pub fn fewer_points(line: &[[f64; 2]], fits: impl Fn(usize, usize) -> bool) -> Line {
+    let mut kept = vec![line[0]];
     let mut at = 0;
     while at + 1 < line.len() {
         checkpoint();
-        let (mut seen, mut hidden) = (at + 1, line.len());
-        while seen + 1 < hidden {
-            let ahead = (at + 2 * (seen - at)).min(line.len() - 1);
-            let probe = if hidden == line.len() { ahead } else { usize::midpoint(seen, hidden) };
-            if is_clear(grid, line[at], line[probe]) { seen = probe } else { hidden = probe }
+        let (mut good, mut bad) = (at + 1, line.len());
+        while good + 1 < bad {
+            let ahead = (at + 2 * (good - at)).min(line.len() - 1);
+            let probe = if bad == line.len() { ahead } else { usize::midpoint(good, bad) };
+            if fits(at, probe) { good = probe } else { bad = probe }
         }
-        corners.push(line[seen]);
-        at = seen;
+        kept.push(line[good]);
+        at = good;
     }
-    corners
+    kept
 }
 
 /// Returns the line with additional points on its clear segments, at most a cell apart.
@@ -78,7 +83,7 @@ fn refine(grid: &Grid, line: &[[f64; 2]]) -> Line {
 }
 
 /// Returns true if all cells that the segment passes through or touches are free.
-pub(super) fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
+pub fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
     let d = [b[0] - a[0], b[1] - a[1]];
     let rows = touched_lines(grid, 0, a[0], b[0]);
     rows.into_iter().all(|i| {

@@ -91,18 +91,9 @@ impl Planner for Trapezoid {
         };
         // Pictures of cells do not show the expansions of the default search.
         let expanded = if self.search.is_default() { Vec::new() } else { expanded };
-        Run {
-            outcome,
-            trace: Trace::Channel {
-                kind: CellKind::Trapezoids,
-                cells: Arc::clone(&map.corners),
-                channel,
-                points,
-                expanded,
-            },
-            size: Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.portals.len() },
-            note: None,
-        }
+        let (kind, cells) = (CellKind::Trapezoids, Arc::clone(&map.corners));
+        let size = Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.portals.len() };
+        Run::new(outcome, Trace::Channel { kind, cells, channel, points, expanded }, size)
     }
 }
 

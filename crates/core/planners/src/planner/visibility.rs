@@ -92,12 +92,8 @@ impl Planner for Visibility {
         let terminals = match Terminals::new(space, query, |segment| map.mesh.parts_of(segment)) {
             Ok(terminals) => terminals,
             Err(reason) => {
-                return Run {
-                    outcome: Proposal::GaveUp(reason),
-                    trace: Trace::Roadmap { edges: Vec::new(), whole: false },
-                    size: Size::Graph { nodes: 0, edges: 0 },
-                    note: None,
-                };
+                let nothing = Trace::Roadmap { edges: Vec::new(), whole: false };
+                return Run::new(Proposal::GaveUp(reason), nothing, Size::Graph { nodes: 0, edges: 0 });
             }
         };
         if !self.search.is_default() || self.graph == VisibilityGraph::Full {
@@ -110,7 +106,7 @@ impl Planner for Visibility {
         };
         let edges = search.arcs.clone();
         let size = Size::Graph { nodes: search.nodes(), edges: edges.len() };
-        Run { outcome, trace: Trace::Roadmap { edges, whole: false }, size, note: None }
+        Run::new(outcome, Trace::Roadmap { edges, whole: false }, size)
     }
 }
 
@@ -170,7 +166,7 @@ impl Visibility {
         };
         let [nodes, edges] = query_graph.size();
         let trace = Trace::Roads { edges: query_graph.edges(), expanded, kind: GraphKind::Visibility(self.graph) };
-        Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
+        Run::new(outcome, trace, Size::Graph { nodes, edges })
     }
 }
 

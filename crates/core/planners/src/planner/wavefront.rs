@@ -4,11 +4,9 @@ use super::attach::JoinedQuery;
 use super::{PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 use crate::cspace::Grid;
 use crate::waves::search::{Estimates, Order, Search, Ties};
-use crate::waves::{FreeCells, Neighborhood, StepLabels};
-use cplan_harmonic::UNREACHED;
+use crate::waves::{FreeCells, Neighborhood, StepLabels, UNREACHED};
 use serde::{Deserialize, Serialize};
 use std::fmt;
-use std::str::FromStr;
 
 /// The search method on a grid. The wave begins at the goals. The other methods begin at the goals as well, or at
 /// the start if requested. A cell's label counts the moves to the cells where the search began.
@@ -81,17 +79,6 @@ impl fmt::Display for GridSearch {
     }
 }
 
-impl FromStr for GridSearch {
-    type Err = String;
-
-    fn from_str(name: &str) -> Result<Self, String> {
-        GridSearch::ALL.into_iter().find(|search| search.name() == name).ok_or_else(|| {
-            let known: Vec<&str> = GridSearch::ALL.iter().map(|search| search.name()).collect();
-            format!("no search is called \"{name}\"; choose one of {}", known.join(", "))
-        })
-    }
-}
-
 /// Labels cells with the number of moves to the nearest goal, then descends the labels from the start to a goal.
 /// Moves lead to cells that share a side, or also to those that share a corner. With the default settings the result
 /// is a path of cells that is shortest in the `L1` metric (Latombe 1991, the navigation function in that metric).
@@ -140,18 +127,14 @@ impl Planner for Wavefront {
             Ok(joined) => joined,
             Err(reason) => {
                 let (labels, expanded) = (vec![UNREACHED; space.blocked.len()], Vec::new());
-                let forward = self.forward;
-                return Run {
-                    outcome: Proposal::GaveUp(reason),
-                    trace: Trace::Wavefront { cells: space.cells, labels, expanded, forward, estimates: None },
-                    size: Size::Grid { cells: 0, sweeps: 0 },
-                    note: None,
-                };
+                let (cells, forward) = (space.cells, self.forward);
+                let trace = Trace::Wavefront { cells, labels, expanded, forward, estimates: None };
+                return Run::new(Proposal::GaveUp(reason), trace, Size::Grid { cells: 0, sweeps: 0 });
             }
         };
         let (cells, trace, size) = self.cells(map, &joined);
         let path = cells.and_then(|cells| grid_path::path(space, query, &joined, &cells, self.path));
-        Run { outcome: path.map_or(Proposal::NoPath, Proposal::Found), trace, size, note: None }
+        Run::new(path.map_or(Proposal::NoPath, Proposal::Found), trace, size)
     }
 }
 

@@ -6,7 +6,6 @@
 
 mod deepening;
 mod free_cells;
-mod lattice;
 mod queue_wave;
 mod run_wave;
 pub mod search;
@@ -16,4 +15,5 @@ mod tile_wave;
 pub use free_cells::{FreeCells, Move, Neighborhood};
 pub use step_labels::StepLabels;
 
-use cplan_harmonic::UNREACHED;
+/// Label of a cell that no wave and no search reached.
+pub const UNREACHED: u32 = u32::MAX;

@@ -1,7 +1,8 @@
 //! Attraction and repulsion as a guide for a curve that is not bound to the centres of cells.
 
 use super::{Escape, ForceField, Trap};
-use cplan_harmonic::{Guide, Place};
+use cplan_harmonic::follow::Guide;
+use cplan_planners::planner::grid_path::Place;
 use std::collections::BTreeSet;
 
 /// The forces as a [`Guide`] for a curve. The curve descends the potential. Saturated forces have no potential; then

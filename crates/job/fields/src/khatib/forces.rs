@@ -5,6 +5,7 @@ use super::charges::Charges;
 use super::{Limits, nearest_obstacles};
 use cplan_model::space::Configuration;
 use cplan_planners::cspace::Grid;
+use cplan_planners::planner::grid_path;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
@@ -262,13 +263,8 @@ impl<'a> ForceField<'a> {
 
     /// Returns the cell that is this many rows and columns away. `None` if there is no such cell, or if it is not free.
     fn free(&self, from: usize, by: [i64; 2]) -> Option<usize> {
-        let [rows, columns] = self.grid.cells;
-        let place = |k: usize, at: usize, n: usize| {
-            let at = at as i64 + by[k];
-            let at = if self.grid.topology.ranges[k].is_circle() { at.rem_euclid(n as i64) } else { at };
-            usize::try_from(at).ok().filter(|&at| at < n)
-        };
-        let cell = place(0, from / columns, rows)? * columns + place(1, from % columns, columns)?;
-        (!self.grid.blocked[cell]).then_some(cell)
+        let columns = self.grid.cells[1];
+        let place = [(from / columns) as i64 + by[0], (from % columns) as i64 + by[1]];
+        grid_path::cell(self.grid, place).filter(|&cell| !self.grid.blocked[cell])
     }
 }

@@ -1,7 +1,8 @@
 //! Descent to a goal: from cell to cell, and along the gradient as a curve.
 
 use super::{Cell, Domain, Neighbor};
-use cplan_harmonic::{Guide, Place};
+use cplan_harmonic::follow::Guide;
+use cplan_planners::planner::grid_path::Place;
 use std::collections::{BTreeMap, VecDeque};
 
 /// A cell at which a descent ended without a goal.

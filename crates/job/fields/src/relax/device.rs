@@ -1,7 +1,9 @@
 //! The device that relaxes a field.
 
+use super::accelerated::{self, Accelerator};
 use super::{Domain, Equation, RelaxError, Relaxation, RelaxedField, Stopping, relax};
 use serde::{Deserialize, Serialize};
+use std::sync::OnceLock;
 
 /// A device on which a field is relaxed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
@@ -15,19 +17,32 @@ pub enum Device {
     Gpu,
 }
 
+/// Opens the GPU on first use. `Err` is the reason, with a hint, if there is none.
+pub type OpenGpu = fn() -> Result<&'static dyn Accelerator, String>;
+
+static OPEN_GPU: OnceLock<OpenGpu> = OnceLock::new();
+
 impl Device {
+    /// Brings the GPU of this process. Only the first one counts.
+    pub fn bring_gpu(open: OpenGpu) {
+        let _ = OPEN_GPU.set(open);
+    }
+
+    /// Returns the device, or `None` for the CPU.
+    fn accelerator(self) -> Result<Option<&'static dyn Accelerator>, String> {
+        match (self, OPEN_GPU.get()) {
+            (Self::Cpu, _) => Ok(None),
+            (Self::Gpu, Some(open)) => open().map(Some),
+            (Self::Gpu, None) => Err(NO_GPU_MESSAGE.into()),
+        }
+    }
+
     /// Returns the name of the GPU adapter, or `None` for the CPU.
     ///
     /// # Errors
     /// Returns the reason, with a hint: there is no driver, or the program was built without the feature `gpu`.
     pub fn adapter(self) -> Result<Option<&'static str>, String> {
-        match self {
-            Self::Cpu => Ok(None),
-            #[cfg(feature = "gpu")]
-            Self::Gpu => super::gpu::shared().map(|gpu| Some(gpu.adapter())),
-            #[cfg(not(feature = "gpu"))]
-            Self::Gpu => Err(NO_GPU_MESSAGE.into()),
-        }
+        self.accelerator().map(|accelerator| accelerator.map(Accelerator::name))
     }
 
     /// Returns true for the CPU. Results do not mention this default.
@@ -41,7 +56,6 @@ impl Device {
     }
 }
 
-#[cfg(not(feature = "gpu"))]
 const NO_GPU_MESSAGE: &str = "this program was built without GPU; build it with --features gpu, or relax on the CPU";
 
 /// Does the same as [`relax`], on a device. On a GPU, values are rounded to single precision. A stage that cannot
@@ -57,11 +71,8 @@ pub fn relax_on(
     relaxation: &Relaxation,
     stopping: &Stopping,
 ) -> Result<RelaxedField, RelaxError> {
-    match device {
-        Device::Cpu => relax(domain, equation, relaxation, stopping),
-        #[cfg(feature = "gpu")]
-        Device::Gpu => super::gpu::relax(domain, equation, relaxation, stopping),
-        #[cfg(not(feature = "gpu"))]
-        Device::Gpu => Err(RelaxError::Refused(NO_GPU_MESSAGE.into())),
+    match device.accelerator().map_err(RelaxError::Refused)? {
+        None => relax(domain, equation, relaxation, stopping),
+        Some(accelerator) => accelerated::relax(accelerator, domain, equation, relaxation, stopping),
     }
 }

@@ -1,7 +1,7 @@
 //! The domain of a field equation: cells, their kinds, and boundary conditions.
 
-use cplan_harmonic::Place;
 use cplan_planners::cspace::Grid;
+use cplan_planners::planner::grid_path::Place;
 use serde::{Deserialize, Serialize};
 
 /// The kind of a cell in a field.
@@ -219,17 +219,22 @@ impl Domain {
 
     /// Returns the neighbours of a cell, in the order `-q1, +q1, -q2, +q2`.
     pub fn neighbors(&self, cell: usize) -> [Neighbor; 4] {
-        let [rows, columns] = self.cells;
-        let (i, j) = (cell / columns, cell % columns);
-        let row = |i: Step| i.of(cell, |i| i * columns + j);
-        let column = |j: Step| j.of(cell, |j| i * columns + j);
-        let [first, second] = self.boundaries;
-        [
-            row(Step::down(i, rows, first)),
-            row(Step::up(i, rows, first)),
-            column(Step::down(j, columns, second)),
-            column(Step::up(j, columns, second)),
-        ]
+        let columns = self.cells[1];
+        let place = [cell / columns, cell % columns];
+        [(0, false), (0, true), (1, false), (1, true)].map(|(axis, ahead)| self.neighbor(place, axis, ahead))
+    }
+
+    /// Returns the neighbour of the cell at a place, in one direction along an axis.
+    fn neighbor(&self, mut place: [usize; 2], axis: usize, ahead: bool) -> Neighbor {
+        let (at, last) = (place[axis], self.cells[axis] - 1);
+        place[axis] = match self.boundaries[axis] {
+            _ if ahead && at < last => at + 1,
+            _ if !ahead && at > 0 => at - 1,
+            Boundary::High => return Neighbor::Limit,
+            Boundary::Periodic if last > 0 => last - at,
+            Boundary::Periodic | Boundary::Reflecting => return Neighbor::Mirror,
+        };
+        Neighbor::Cell(place[0] * self.cells[1] + place[1])
     }
 
     /// Returns true if the value of a cell is an unknown: the cell is free and has a neighbour other than itself. A
@@ -260,39 +265,6 @@ impl Domain {
             Cell::Free => None,
             Cell::Obstacle => Some(self.levels.obstacle),
             Cell::Goal => Some(self.levels.goal),
-        }
-    }
-}
-
-/// The result of a step along one axis.
-enum Step {
-    To(usize),
-    Beyond(Boundary),
-}
-
-impl Step {
-    fn down(at: usize, n: usize, boundary: Boundary) -> Self {
-        match boundary {
-            _ if at > 0 => Self::To(at - 1),
-            Boundary::Periodic => Self::To(n - 1),
-            boundary => Self::Beyond(boundary),
-        }
-    }
-
-    fn up(at: usize, n: usize, boundary: Boundary) -> Self {
-        match boundary {
-            _ if at + 1 < n => Self::To(at + 1),
-            Boundary::Periodic => Self::To(0),
-            boundary => Self::Beyond(boundary),
-        }
-    }
-
-    fn of(self, cell: usize, index: impl Fn(usize) -> usize) -> Neighbor {
-        match self {
-            Self::To(at) if index(at) == cell => Neighbor::Mirror,
-            Self::To(at) => Neighbor::Cell(index(at)),
-            Self::Beyond(Boundary::High) => Neighbor::Limit,
-            Self::Beyond(_) => Neighbor::Mirror,
         }
     }
 }

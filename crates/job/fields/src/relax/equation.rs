@@ -36,7 +36,7 @@ const UNIT_ROUNDING: f64 = 1e-15;
 
 /// A direction in the plane of joint values: a unit vector.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
-#[serde(try_from = "[f64; 2]", into = "[f64; 2]")]
+#[serde(try_from = "[f64; 2]")]
 pub struct Direction([f64; 2]);
 
 impl TryFrom<[f64; 2]> for Direction {
@@ -49,12 +49,6 @@ impl TryFrom<[f64; 2]> for Direction {
         ((length - 1.0).abs() <= UNIT_ROUNDING)
             .then_some(Self(vector))
             .ok_or("a direction must be a vector of length 1")
-    }
-}
-
-impl From<Direction> for [f64; 2] {
-    fn from(direction: Direction) -> Self {
-        direction.0
     }
 }
 

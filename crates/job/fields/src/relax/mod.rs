@@ -6,14 +6,13 @@
 //! state its drift in each cell; any other equation needs a new stencil. Attraction and repulsion ([`super::Khatib`])
 //! are not an equation, because their potential is given in closed form.
 
+mod accelerated;
 mod by_multigrid;
 mod descent;
 mod device;
 mod direct;
 mod domain;
 mod equation;
-#[cfg(feature = "gpu")]
-mod gpu;
 mod relaxation;
 mod stages;
 mod stencil;
@@ -21,10 +20,11 @@ mod stopping;
 mod sweeps;
 mod trace;
 
+pub use accelerated::{Accelerator, CellEquations};
 pub use by_multigrid::by_multigrid;
 pub(super) use by_multigrid::{Memory, by_multigrid_in};
 pub use descent::{DeadEnd, ValueGuide, descend};
-pub use device::{Device, relax_on};
+pub use device::{Device, OpenGpu, relax_on};
 pub use direct::eliminated;
 pub use domain::{Boundary, Cell, Domain, Initial, Levels, Limits, Neighbor, Stencil};
 pub use equation::{Difference, Direction, Equation, Influence, drift_around_robots};

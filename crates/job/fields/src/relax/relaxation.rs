@@ -202,6 +202,18 @@ impl Relaxation {
     }
 }
 
+impl Relaxation {
+    /// Returns the reason why the relaxation is invalid on a grid. `None` if it is valid.
+    pub fn refusal(&self, cells: [usize; 2]) -> Option<String> {
+        let factor = self.factor(cells);
+        if !(factor.is_finite() && factor > 0.0) {
+            return Some(format!("a relaxation factor must be positive, this one is {factor}"));
+        }
+        let [low, high] = self.clamp.filter(|[low, high]| low > high || low.is_nan() || high.is_nan())?;
+        Some(format!("values cannot be brought into the empty range {low}..{high}"))
+    }
+}
+
 impl fmt::Display for Relaxation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self.scheme {

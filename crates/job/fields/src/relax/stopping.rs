@@ -49,39 +49,3 @@ pub struct Convergence {
     /// True if the measure fell below the requested bound.
     pub converged: bool,
 }
-
-/// Accumulates the measure of a sweep.
-pub(super) trait Tally {
-    /// Adds a value to the measure.
-    fn add(total: f64, old: f64, new: f64) -> f64;
-}
-
-pub(super) struct SumTally;
-pub(super) struct SquareTally;
-pub(super) struct GreatestTally;
-pub(super) struct RelativeTally;
-
-impl Tally for SumTally {
-    fn add(total: f64, old: f64, new: f64) -> f64 {
-        total + (new - old).abs()
-    }
-}
-
-impl Tally for SquareTally {
-    fn add(total: f64, old: f64, new: f64) -> f64 {
-        total + (new - old) * (new - old)
-    }
-}
-
-impl Tally for GreatestTally {
-    fn add(total: f64, old: f64, new: f64) -> f64 {
-        total.max((new - old).abs())
-    }
-}
-
-impl Tally for RelativeTally {
-    fn add(total: f64, old: f64, new: f64) -> f64 {
-        // If a value stays 0, the quotient is NaN, which `max` ignores. If a value becomes 0, the quotient is infinite.
-        total.max((new - old).abs() / new.abs())
-    }
-}

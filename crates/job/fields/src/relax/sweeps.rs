@@ -3,7 +3,7 @@
 use super::relaxation::{Precision, Relaxation, Scheme};
 use super::stages::{Stages, relax_in_stages};
 use super::stencil::{AlteredMean, Mean, Stencil, WeightedMean};
-use super::stopping::{Convergence, GreatestTally, Measure, RelativeTally, SquareTally, Stopping, SumTally, Tally};
+use super::stopping::{Convergence, Measure, Stopping};
 use super::{Boundary, Cell, Difference, Direction, Domain, Equation, Neighbor};
 use cplan_interrupt::checkpoint;
 use std::fmt;
@@ -162,16 +162,7 @@ pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxat
     if let Some(refusal) = equation.refusal(domain) {
         return Some(RelaxError::Refused(refusal));
     }
-    let factor = relaxation.factor(domain.cells());
-    if !(factor.is_finite() && factor > 0.0) {
-        return Some(RelaxError::Refused(format!("a relaxation factor must be positive, this one is {factor}")));
-    }
-    if let Some([low, high]) = relaxation.clamp
-        && (low > high || low.is_nan() || high.is_nan())
-    {
-        return Some(RelaxError::Refused(format!("values cannot be brought into the empty range {low}..{high}")));
-    }
-    None
+    relaxation.refusal(domain.cells()).map(RelaxError::Refused)
 }
 
 /// Returns the free cells that have a neighbour other than themselves, ascending. Other free cells keep their values.
@@ -304,14 +295,19 @@ impl<'a> Engine<'a> {
     /// Relaxes one stage, with the measure of the stopping rule.
     fn run<S: Stencil>(&mut self, stencil: &S) -> Result<(), RelaxError> {
         match self.stopping.measure {
-            Measure::SumOfChange | Measure::DifferenceOfSums => self.stage::<S, SumTally>(stencil),
-            Measure::SumOfSquares => self.stage::<S, SquareTally>(stencil),
-            Measure::GreatestChange => self.stage::<S, GreatestTally>(stencil),
-            Measure::GreatestRelativeChange => self.stage::<S, RelativeTally>(stencil),
+            Measure::SumOfChange | Measure::DifferenceOfSums => {
+                self.stage(stencil, |sum, old, new| sum + (new - old).abs())
+            }
+            Measure::SumOfSquares => self.stage(stencil, |sum, old, new| sum + (new - old) * (new - old)),
+            Measure::GreatestChange => self.stage(stencil, |most, old, new| most.max((new - old).abs())),
+            // If a value stays 0, the quotient is NaN, which `max` ignores. If it becomes 0, the quotient is infinite.
+            Measure::GreatestRelativeChange => {
+                self.stage(stencil, |most, old, new| most.max((new - old).abs() / new.abs()))
+            }
         }
     }
 
-    fn stage<S: Stencil, T: Tally>(&mut self, stencil: &S) -> Result<(), RelaxError> {
+    fn stage<S: Stencil>(&mut self, stencil: &S, tally: impl Tally) -> Result<(), RelaxError> {
         let Self { relaxation, stopping, .. } = *self;
         let factor = relaxation.factor(self.domain.cells());
         let passes = match relaxation.scheme {
@@ -331,8 +327,8 @@ impl<'a> Engine<'a> {
         while !stage.converged && stage.sweeps < stopping.max_sweeps {
             checkpoint();
             let Changes { total, greatest } = match passes.len() {
-                0 => self.at_once::<S, T>(&step, &mut next),
-                count => self.in_turn::<S, T>(&step, &passes[stage.sweeps % count]),
+                0 => self.at_once(&step, &mut next, tally),
+                count => self.in_turn(&step, &passes[stage.sweeps % count], tally),
             };
             stage.sweeps += 1;
             self.show(stage.sweeps);
@@ -359,12 +355,12 @@ impl<'a> Engine<'a> {
         (self.watch)(SweepSnapshot { stage: self.stages.len(), sweep, values });
     }
 
-    fn at_once<S: Stencil, T: Tally>(&mut self, step: &Step<S>, next: &mut [f64]) -> Changes {
+    fn at_once<S: Stencil>(&mut self, step: &Step<S>, next: &mut [f64], tally: impl Tally) -> Changes {
         let mut changes = Changes::default();
         for (k, next) in next.iter_mut().enumerate() {
             let old = self.values[self.unknowns[k] as usize];
             *next = step.new_value(k, old, self.around[k].map(|n| self.values[n as usize]));
-            changes.add::<T>(old, *next);
+            changes.add(tally, old, *next);
         }
         for (&cell, &new) in self.unknowns.iter().zip(&*next) {
             self.values[cell as usize] = new;
@@ -372,7 +368,7 @@ impl<'a> Engine<'a> {
         changes
     }
 
-    fn in_turn<S: Stencil, T: Tally>(&mut self, step: &Step<S>, pass: &[u32]) -> Changes {
+    fn in_turn<S: Stencil>(&mut self, step: &Step<S>, pass: &[u32], tally: impl Tally) -> Changes {
         let mut changes = Changes::default();
         for &k in pass {
             let k = k as usize;
@@ -380,7 +376,7 @@ impl<'a> Engine<'a> {
             let old = self.values[cell];
             let new = step.new_value(k, old, self.around[k].map(|n| self.values[n as usize]));
             self.values[cell] = new;
-            changes.add::<T>(old, new);
+            changes.add(tally, old, new);
         }
         changes
     }
@@ -397,6 +393,11 @@ impl<'a> Engine<'a> {
     }
 }
 
+/// Adds the change of a value to the measure of a sweep.
+trait Tally: Fn(f64, f64, f64) -> f64 + Copy {}
+
+impl<F: Fn(f64, f64, f64) -> f64 + Copy> Tally for F {}
+
 /// The changes in a sweep.
 #[derive(Default)]
 struct Changes {
@@ -407,8 +408,8 @@ struct Changes {
 }
 
 impl Changes {
-    fn add<T: Tally>(&mut self, old: f64, new: f64) {
-        self.total = T::add(self.total, old, new);
+    fn add(&mut self, tally: impl Tally, old: f64, new: f64) {
+        self.total = tally(self.total, old, new);
         self.greatest = self.greatest.max((new - old).abs());
     }
 }

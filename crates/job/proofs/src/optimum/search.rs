@@ -54,10 +54,6 @@ impl Hasher for MixingHasher {
         }
     }
 
-    fn write_i64(&mut self, number: i64) {
-        self.write_u64(number as u64);
-    }
-
     fn write_u64(&mut self, number: u64) {
         // An odd number near the golden section of 2^64 (Knuth).
         self.0 = (self.0.rotate_left(26) ^ number).wrapping_mul(0x9E37_79B9_7F4A_7C15);

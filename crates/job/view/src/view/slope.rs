@@ -2,7 +2,7 @@
 
 use super::isolines::Samples;
 use cplan_model::space::Topology;
-use cplan_planners::planner::Trace;
+use cplan_planners::planner::{FieldQuantity, Trace};
 use std::borrow::Cow;
 
 /// Number of equipotentials that are drawn.
@@ -25,22 +25,16 @@ pub struct Slope {
 impl Slope {
     /// Returns the field that a field planner followed. `None` for other planners, and if the field has no values.
     pub fn new(trace: &Trace, topology: &Topology) -> Option<Self> {
-        let (cells, values, tail) = match trace {
+        let Trace::Field { cells, quantity, values } = trace else { return None };
+        let (values, tail): (Cow<[f64]>, f64) = match quantity {
             // Heights fall towards the goal, so their negatives rise towards it.
-            Trace::Potential { cells, heights } => (
-                *cells,
-                Cow::Owned(heights.iter().map(|height| -height).collect::<Vec<_>>()),
-                IGNORED_SHARE_OF_UNBOUNDED,
-            ),
-            _ => {
-                let (cells, ln) = trace.logarithms()?;
-                (cells, ln, IGNORED_SHARE)
-            }
+            FieldQuantity::Height => (values.iter().map(|height| -height).collect(), IGNORED_SHARE_OF_UNBOUNDED),
+            FieldQuantity::Logarithm | FieldQuantity::EstimatedLogarithm => (Cow::Borrowed(values), IGNORED_SHARE),
         };
         if values.len() != cells[0] * cells[1] {
             return None;
         }
-        Some(Self { span: span(&values, tail)?, samples: samples(cells, &values, topology) })
+        Some(Self { span: span(&values, tail)?, samples: samples(*cells, &values, topology) })
     }
 
     /// Iterates over equipotentials at equal steps of the value. Each comes with its place in the span of values, from
@@ -104,7 +98,7 @@ mod tests {
     #[test]
     fn a_field_without_values_has_no_lines() {
         let topology = Topology::new([JointRange::Circle; 2]);
-        let trace = Trace::Field { cells: [4, 4], potential: vec![f64::NEG_INFINITY; 16] };
+        let trace = Trace::field([4, 4], FieldQuantity::Logarithm, vec![f64::NEG_INFINITY; 16]);
         assert_eq!(Slope::new(&trace, &topology), None);
         assert_eq!(span(&[f64::NEG_INFINITY, -3.0, 0.0], IGNORED_SHARE), Some((-3.0, 0.0)));
     }

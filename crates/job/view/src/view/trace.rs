@@ -5,7 +5,7 @@ use super::numbers::{Chain, RoundingSteps, number};
 use super::slope::Slope;
 use super::waves::Waves;
 use cplan_model::space::{Configuration, Topology};
-use cplan_planners::planner::{Trace, VisibilityGraph};
+use cplan_planners::planner::{FieldQuantity, Trace, VisibilityGraph};
 use serde::Serialize;
 
 /// Lines on which a field has one value.
@@ -135,14 +135,14 @@ impl TraceView {
                 waves.from_start = *forward;
                 Self::Wavefront(waves)
             }
-            Trace::Field { .. } | Trace::Harmonic { .. } | Trace::Potential { .. } => {
+            Trace::Field { quantity, .. } => {
                 let slope = Slope::new(trace, topology)?;
                 let chain =
                     |line: &Vec<[f64; 2]>| Chain(line.iter().map(|&q| grain.configuration(q.into()).into()).collect());
                 let levels = slope
                     .equipotentials()
                     .map(|(part, lines)| LevelView { part: number(part), lines: lines.iter().map(chain).collect() });
-                let logarithmic = !matches!(trace, Trace::Potential { .. });
+                let logarithmic = *quantity != FieldQuantity::Height;
                 let sign = if logarithmic { 1.0 } else { -1.0 };
                 Self::Field {
                     levels: levels.collect(),

@@ -1,6 +1,6 @@
 //! Finds the triangle that contains a point.
 
-use cplan_geometry::planar::HalfEdges;
+use cplan_geometry::planar::{HalfEdges, starts};
 use cplan_geometry::{Orientation, Point, orientation};
 
 /// An index of triangles by vertical strips. The number of strips is the square root of the number of triangles.
@@ -37,12 +37,7 @@ impl Columns {
             columns.strip(x[0].min(x[1]).min(x[2]))..=columns.strip(x[0].max(x[1]).max(x[2]))
         };
         let ranges: Vec<_> = (0..count).map(range).collect();
-        for strip in ranges.iter().cloned().flatten() {
-            columns.first[strip + 1] += 1;
-        }
-        for k in 1..columns.first.len() {
-            columns.first[k] += columns.first[k - 1];
-        }
+        columns.first = starts(strips as usize, ranges.iter().cloned().flatten());
         let mut place = columns.first.clone();
         columns.triangles = vec![Entry::default(); columns.first.last().map_or(0, |&n| n as usize)];
         for (t, range) in ranges.into_iter().enumerate() {

@@ -70,7 +70,7 @@ pub fn run(kind: GraphKind, outcome: Proposal, query_graph: Option<&QueryGraph>,
     let [nodes, edges] = query_graph.map_or([0; 2], QueryGraph::size);
     let drawn = query_graph.map_or_else(Vec::new, QueryGraph::edges);
     let trace = Trace::Roads { edges: drawn, expanded, kind };
-    Run { outcome, trace, size: Size::Graph { nodes, edges }, note: None }
+    Run::new(outcome, trace, Size::Graph { nodes, edges })
 }
 
 /// A roadmap with the start and the goals of a query.

@@ -1,5 +1,6 @@
 //! An index that finds the points nearest to a place.
 
+use cplan_geometry::planar::starts;
 use cplan_geometry::{OrderedF64, Point};
 
 /// Points sorted into square buckets.
@@ -12,7 +13,7 @@ pub struct Nearby {
     /// Number of buckets along each axis.
     shape: [usize; 2],
     /// The points of bucket `k` are `order[first[k]..first[k + 1]]`.
-    first: Vec<usize>,
+    first: Vec<u32>,
     order: Vec<usize>,
 }
 
@@ -32,19 +33,13 @@ impl Nearby {
         let side = (extent[0] * extent[1] * share).sqrt().max(extent[0].max(extent[1]) * share);
         let side = if side > 0.0 { side } else { 1.0 };
         let shape = extent.map(|extent| (extent / side) as usize + 1);
-        let first = vec![0; shape[0] * shape[1] + 1];
-        let mut nearby = Self { points, lower, side, shape, first, order: Vec::new() };
+        let mut nearby = Self { points, lower, side, shape, first: Vec::new(), order: Vec::new() };
         let bucket = |p: &Point| {
             let [i, j] = nearby.place(*p);
             i * nearby.shape[1] + j
         };
         let buckets: Vec<usize> = nearby.points.iter().map(bucket).collect();
-        for &bucket in &buckets {
-            nearby.first[bucket + 1] += 1;
-        }
-        for k in 1..nearby.first.len() {
-            nearby.first[k] += nearby.first[k - 1];
-        }
+        nearby.first = starts(shape[0] * shape[1], buckets.iter().copied());
         nearby.order = (0..buckets.len()).collect();
         nearby.order.sort_by_key(|&point| buckets[point]);
         nearby
@@ -73,7 +68,7 @@ impl Nearby {
                 for j in home[1].saturating_sub(ring)..=(home[1] + ring).min(self.shape[1] - 1) {
                     if i.abs_diff(home[0]).max(j.abs_diff(home[1])) == ring {
                         let bucket = i * self.shape[1] + j;
-                        let points = &self.order[self.first[bucket]..self.first[bucket + 1]];
+                        let points = &self.order[self.first[bucket] as usize..self.first[bucket + 1] as usize];
                         found.extend(points.iter().map(|&k| (OrderedF64((self.points[k] - p).norm()), k)));
                     }
                 }

@@ -18,7 +18,7 @@ use cplan_model::space::{Configuration, Path};
 use cplan_model::{Joint, MotionProblem, Scene, Status};
 use cplan_motion::{CertifiedCurve, field_per_line};
 use cplan_planners::cspace::{self, PolygonWithHoles, Proves};
-use cplan_planners::planner::{Trace, VisibilityGraph};
+use cplan_planners::planner::{FieldQuantity, Trace, VisibilityGraph};
 use cplan_planners::waves::FreeCells;
 use cplan_planners::waves::search::Estimates;
 use cplan_solver::{Answer, Space};
@@ -309,13 +309,13 @@ impl CSpace {
                 let grid = grid(quantity, &values).map(|grid| grid.with_estimates(estimates.collect()));
                 Self { grid, ..self }
             }
-            Trace::Potential { heights, .. } => Self { grid: grid("height", heights), ..self },
-            // These values are an estimate for pictures.
-            Trace::Harmonic { potential: None, .. } => Self { grid: grid("ln_potential", &[]), ..self },
-            Trace::Field { .. } | Trace::Harmonic { .. } => {
-                let logarithms = trace.logarithms();
-                let values = logarithms.as_ref().map_or(&[][..], |(_, values)| values);
-                Self { grid: grid("ln_potential", values), ..self }
+            Trace::Field { quantity, values, .. } => {
+                let (quantity, values): (_, &[f64]) = match quantity {
+                    FieldQuantity::Height => ("height", values),
+                    FieldQuantity::Logarithm => ("ln_potential", values),
+                    FieldQuantity::EstimatedLogarithm => ("ln_potential", &[]),
+                };
+                Self { grid: grid(quantity, values), ..self }
             }
         }
     }

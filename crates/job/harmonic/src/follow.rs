@@ -1,8 +1,7 @@
 //! Follows a field along its gradient, as a curve that is not bound to the centres of cells.
 //!
-//! [`follow`] works with any [`Guide`]: the harmonic potential ([`PotentialGuide`](crate::PotentialGuide)), a relaxed
-//! field, or forces. A guide returns the direction at the centres of free cells: the gradient of the logarithm, by
-//! central differences.
+//! [`follow`] works with any [`Guide`]: the harmonic potential, a relaxed field, or forces. A guide returns the direction
+//! at the centres of free cells: the gradient of the logarithm, by central differences.
 //! `follow` interpolates bilinearly and integrates with the fourth-order Runge-Kutta method, in steps of a fifth of a
 //! cell.
 //!
@@ -10,10 +9,7 @@
 //! wide), the guide gives the next cells. So the curve reaches a goal whenever a path from cell to cell does.
 
 use cplan_interrupt::checkpoint;
-
-/// Row and column of a cell on the unbounded lattice. On a circle, they continue past the seam instead of starting
-/// again.
-pub type Place = [i64; 2];
+use cplan_planners::planner::grid_path::Place;
 
 /// A point in units of cells. Centres of cells have integer coordinates.
 pub type LatticePoint = [f64; 2];

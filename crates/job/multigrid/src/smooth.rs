@@ -31,14 +31,6 @@ impl Vectors {
     }
 }
 
-/// The operations of a cycle on one level.
-pub(super) trait Smooth {
-    /// Takes two smoothing steps from zero, for a right-hand side whose frame is set.
-    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors);
-    /// Computes row `i` of the residual, including padding.
-    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]);
-}
-
 impl Stencil {
     /// Takes one smoothing step for row `i`, except for the extra cells at its ends.
     #[inline(always)]
@@ -76,10 +68,9 @@ impl Stencil {
         );
         self.frame.finish(solution);
     }
-}
 
-impl Smooth for Stencil {
-    fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors) {
+    /// Takes two smoothing steps from zero, for a right-hand side whose frame is set.
+    pub fn begin<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         m.run(
             #[inline(always)]
@@ -111,7 +102,8 @@ impl Smooth for Stencil {
         );
     }
 
-    fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
+    /// Computes row `i` of the residual, including padding.
+    pub fn residual<M: Machine>(&self, m: M, right: &[f32], solution: &[f32], i: usize, out: &mut [f32]) {
         m.run(
             #[inline(always)]
             || {

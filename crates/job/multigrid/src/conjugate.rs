@@ -17,14 +17,6 @@ use super::transfer::Corners;
 /// numbers, which are slow.
 const NEGLIGIBLE: f32 = 1e-25;
 
-/// A right-hand side of the equations.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Right<'a> {
-    Given(&'a [f64]),
-    /// 1 at one cell, 0 at the others.
-    Unit(usize),
-}
-
 /// The vectors of a solve. They can be reused for other solves, also with other walls, on a grid of the same shape.
 /// They need about 16 bytes per cell, or 36 if the rows form a circle.
 #[derive(Debug, Clone)]
@@ -244,7 +236,7 @@ impl Workspace {
         &mut self,
         m: M,
         red_black: &RedBlack,
-        right: Right,
+        right: &[f64],
         values: &mut [f64],
         unit: f64,
         scale: Option<f64>,
@@ -286,7 +278,7 @@ impl Workspace {
         &mut self,
         m: M,
         red_black: &RedBlack,
-        right: Right,
+        right: &[f64],
         values: &[f64],
         unit: M::Double,
         i: usize,
@@ -294,18 +286,7 @@ impl Workspace {
         let (columns, count) = (red_black.shape.columns, red_black.count());
         let range = i * columns..(i + 1) * columns;
         let [even, odd] = [&mut self.right_even, &mut self.right_odd].map(|band| band.cells_mut(i));
-        match right {
-            Right::Given(right) => part(&right[range.clone()], i, even, odd),
-            Right::Unit(cell) => {
-                even.fill(0.0);
-                odd.fill(0.0);
-                if range.contains(&cell) {
-                    let j = cell - range.start;
-                    (if (i + j).is_multiple_of(2) { even } else { odd })[j / 2] = 1.0;
-                }
-            }
-        }
-        // The values of odd cells are not needed.
+        part(&right[range.clone()], i, even, odd);
         part(&values[range], i, self.exact_even.cells_mut(i), self.exact_odd.cells_mut(i));
         let (sum, free) = (self.sum.row(i, count), red_black.even.row(i, count));
         for ((sum, free), to) in sum.iter().zip(free).zip(self.exact_even.row_mut(i, count)) {

@@ -1,6 +1,6 @@
 //! Conjugate gradients.
 
-use super::conjugate::{Right, Step, Workspace};
+use super::conjugate::{Step, Workspace};
 use super::cycle::{Hierarchy, Stack};
 use super::frame::{Ends, Frame};
 use super::machine::{Machine, Portable};
@@ -87,16 +87,8 @@ impl Multigrid {
     /// # Panics
     /// If a length is not the number of cells, or the workspace is for another grid.
     pub fn solve(&self, right: &[f64], values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
-        assert!(right.len() == self.cells(), "one number a cell");
-        self.solve_for(Right::Given(right), values, tolerance, workspace)
-    }
-
-    fn cells(&self) -> usize {
-        self.red_black.shape.rows * self.red_black.shape.columns
-    }
-
-    fn solve_for(&self, right: Right, values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
-        assert!(values.len() == self.cells(), "one number a cell");
+        let cells = self.red_black.shape.rows * self.red_black.shape.columns;
+        assert!(right.len() == cells && values.len() == cells, "one number a cell");
         assert!(workspace.is_for(&self.red_black), "a workspace of this grid");
         match &self.hierarchy {
             Some(hierarchy) => {
@@ -111,14 +103,15 @@ impl Multigrid {
         &self,
         m: M,
         hierarchy: &Hierarchy,
-        right: Right,
+        right: &[f64],
         values: &mut [f64],
         tolerance: f64,
         workspace: &mut Workspace,
     ) -> Convergence {
         let red_black = &self.red_black;
         let mut convergence = Convergence { iterations: 0, error: f64::INFINITY, converged: false };
-        let mut scale = self.start(right, values);
+        // The residual is computed in the range of single precision.
+        let mut scale = power_of_two(right.iter().chain(&*values).map(|x| x.abs()).fold(0.0, f64::max));
         workspace.clear_steps();
         let mut start = workspace.correct(m, red_black, right, values, 0.0, Some(scale));
         let mut residual = start.change / scale;
@@ -187,28 +180,6 @@ impl Multigrid {
         }
     }
 
-    /// Prepares the initial values: for the field of a goal, scales them so that they satisfy the equation at the goal.
-    /// Returns the factor that scales the residual to the range of single precision.
-    fn start(&self, right: Right, values: &mut [f64]) -> f64 {
-        match right {
-            Right::Given(right) => {
-                let greatest = right.iter().chain(&*values).map(|x| x.abs()).fold(0.0, f64::max);
-                power_of_two(greatest)
-            }
-            Right::Unit(cell) => {
-                // A start in proportion to the solution is as good as the solution: with `A u = e`, `(A u)` at the cell
-                // is 1.
-                let free = |cell: &usize| self.red_black.is_free(*cell);
-                let around: f64 = self.red_black.neighbors(cell).filter(free).map(|other| values[other]).sum();
-                let source = self.red_black.degree * values[cell] - around;
-                if free(&cell) && source > 0.0 {
-                    values.iter_mut().for_each(|value| *value /= source);
-                }
-                1.0
-            }
-        }
-    }
-
     /// Solves for the field of a single goal: 1 there, harmonic elsewhere, 0 where it is cut off. `values` is the
     /// initial guess and receives the result. The field of the same goal among slightly different walls is a good
     /// initial guess.
@@ -216,7 +187,16 @@ impl Multigrid {
     /// # Panics
     /// If a length is not the number of cells, the goal is not a cell, or the workspace is for another grid.
     pub fn goal(&self, goal: usize, values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
-        let convergence = self.solve_for(Right::Unit(goal), values, tolerance, workspace);
+        let mut right = vec![0.0; values.len()];
+        right[goal] = 1.0;
+        // A start in proportion to the solution is as good as the solution: with `A u = e`, `(A u)` at the goal is 1.
+        let free = |cell: &usize| self.red_black.is_free(*cell);
+        let around: f64 = self.red_black.neighbors(goal).filter(free).map(|other| values[other]).sum();
+        let source = self.red_black.degree * values[goal] - around;
+        if free(&goal) && source > 0.0 {
+            values.iter_mut().for_each(|value| *value /= source);
+        }
+        let convergence = self.solve(&right, values, tolerance, workspace);
         let scale = values[goal];
         if scale > 0.0 {
             values.iter_mut().for_each(|value| *value /= scale);
@@ -266,11 +246,12 @@ mod tests {
             let solver = Multigrid::new(cells, ends, &free, 0.0);
             let operator = operator(cells, ends, &free, 0.0);
             let [mut plain, mut vectors] = [0; 2].map(|_| vec![0.0; free.len()]);
-            let goal = Right::Unit(2000);
+            let mut right = vec![0.0; free.len()];
+            right[2000] = 1.0;
             let hierarchy = Hierarchy::new(Portable, &operator);
-            let one = solver.rounds(Portable, &hierarchy, goal, &mut plain, 1e-9, &mut solver.workspace());
+            let one = solver.rounds(Portable, &hierarchy, &right, &mut plain, 1e-9, &mut solver.workspace());
             let hierarchy = Hierarchy::new(fast, &operator);
-            let other = solver.rounds(fast, &hierarchy, goal, &mut vectors, 1e-9, &mut solver.workspace());
+            let other = solver.rounds(fast, &hierarchy, &right, &mut vectors, 1e-9, &mut solver.workspace());
             assert_eq!(one, other);
             assert_eq!(plain, vectors);
         }

@@ -13,7 +13,8 @@
 //! `1e-50000`.
 //!
 //! ```
-//! use cplan_harmonic::{Component, Lattice, PotentialGuide, follow, harmonic};
+//! use cplan_harmonic::follow::follow;
+//! use cplan_harmonic::{Component, Lattice, PotentialGuide, harmonic};
 //!
 //! // A corridor of 3000 cells with a bend, one cell wide: `true` is wall.
 //! let (rows, columns) = (2, 1500);
@@ -49,8 +50,8 @@
 //! - Every cell except the goals has a strictly greater neighbour, compared exactly ([`Potential::navigates`]). This
 //!   also holds where symmetry makes the harmonic function level, because each step of a walk ends with probability
 //!   `3e-14`. That exceeds all rounding, and lowers a value ten million steps away by less than a millionth.
-//! - [`follow`] stays in free cells and ends at a goal: if the gradient leads nowhere, it moves from cell to cell. It
-//!   works with any field that implements [`Guide`].
+//! - [`follow`](follow::follow) stays in free cells and ends at a goal: if the gradient leads nowhere, it moves from cell
+//!   to cell. It works with any field that implements [`Guide`](follow::Guide).
 //! - The same input gives the same bits. Long solves can be interrupted: they pass a
 //!   [`checkpoint`](cplan_interrupt::checkpoint).
 //!
@@ -74,19 +75,22 @@
 
 mod component;
 mod extent;
-mod follow;
-mod front;
+mod field_path;
+pub mod follow;
 mod lattice;
 mod laplace;
 mod network;
 mod peeling;
+mod planner;
 mod potential;
+mod simplify;
 mod streamline;
 mod wide;
 
 pub use component::{Component, Room};
-pub use follow::{Guide, LatticePoint, Place, STEP_LENGTH, Streamline, advance, direction, follow};
+pub use field_path::path_along_field;
 pub use laplace::{Field, estimated_harmonic, harmonic, harmonic_path, residual};
-pub use lattice::{Lattice, UNREACHED, Wave};
+pub use lattice::{Lattice, Wave};
+pub use planner::Harmonic;
 pub use potential::Potential;
 pub use streamline::{LocalMaximum, PotentialGuide};

@@ -4,7 +4,7 @@ use super::envelope::Envelope;
 use super::frame::Frame;
 use super::galerkin::coarsen;
 use super::machine::{LANES, Machine};
-use super::smooth::{Smooth, Vectors};
+use super::smooth::Vectors;
 use super::stencil::{FivePoint, Line, Operator, Stencil};
 use super::transfer::{Corners, Rows, Transfer};
 use cplan_interrupt::checkpoint;
@@ -65,7 +65,8 @@ impl Hierarchy {
         let last = self.transfers.len();
         for (k, transfer) in self.transfers.iter().enumerate() {
             let (upper, lower) = vectors.split_at_mut(k + 1);
-            descend(m, &self.levels[k], transfer, &mut upper[k], &mut lower[0], rows);
+            self.levels[k].begin(m, &mut upper[k]);
+            transfer.restrict(m, &self.levels[k], &upper[k], rows, &mut lower[0].right);
         }
         let frame = self.levels[last].frame;
         for (i, bottom) in bottom.chunks_exact_mut(frame.columns).enumerate() {
@@ -85,22 +86,9 @@ impl Hierarchy {
     }
 }
 
-/// Smooths the solution of a level, and restricts its residual to the next level.
-fn descend<M: Machine, L: Smooth>(
-    m: M,
-    level: &L,
-    transfer: &Transfer,
-    upper: &mut Vectors,
-    lower: &mut Vectors,
-    rows: &mut Rows,
-) {
-    level.begin(m, upper);
-    transfer.restrict(m, level, upper, rows, &mut lower.right);
-}
-
 /// Factorises the operator of the coarsest level.
-fn envelope<M: Machine, O: Operator>(m: M, operator: &O) -> Envelope {
-    let Frame { rows, columns, width, .. } = operator.frame();
+fn envelope<M: Machine>(m: M, operator: &Stencil) -> Envelope {
+    let Frame { rows, columns, width, .. } = operator.frame;
     let mut entries = Vec::with_capacity(5 * rows * columns);
     let mut line = Line::new(width + 2 + LANES);
     for i in 0..rows {

@@ -1,33 +1,17 @@
 //! Approximates a curve by fewer points.
 
-use super::grid_path::Line;
-use super::shortcut::is_clear;
-use crate::cspace::Grid;
-use cplan_interrupt::checkpoint;
+use cplan_planners::cspace::Grid;
+use cplan_planners::planner::grid_path::Line;
+use cplan_planners::planner::shortcut::{fewer_points, is_clear};
 
 /// Returns a line through some of the points of a line, its ends included. Each omitted point is within `tolerance` (in
 /// cells) of the segment that replaces it. New segments pass only through free cells. Takes about `n log n` distances
 /// for `n` points.
-pub(super) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line {
-    let mut kept = vec![line[0]];
-    let mut at = 0;
-    while at + 1 < line.len() {
-        checkpoint();
-        let fits = |to: usize| {
-            let (a, b) = (line[at], line[to]);
-            line[at + 1..to].iter().all(|&p| distance(p, a, b) <= tolerance) && is_clear(grid, a, b)
-        };
-        // The search doubles the number of replaced points while a segment fits, then bisects.
-        let (mut good, mut bad) = (at + 1, line.len());
-        while good + 1 < bad {
-            let ahead = (at + 2 * (good - at)).min(line.len() - 1);
-            let probe = if bad == line.len() { ahead } else { usize::midpoint(good, bad) };
-            if fits(probe) { good = probe } else { bad = probe }
-        }
-        kept.push(line[good]);
-        at = good;
-    }
-    kept
+pub(crate) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line {
+    fewer_points(line, |from, to| {
+        let (a, b) = (line[from], line[to]);
+        line[from + 1..to].iter().all(|&p| distance(p, a, b) <= tolerance) && is_clear(grid, a, b)
+    })
 }
 
 /// Returns the distance between a point and a segment.
@@ -41,8 +25,8 @@ fn distance(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cspace::Proves;
     use cplan_model::space::{JointRange, Topology};
+    use cplan_planners::cspace::Proves;
 
     fn empty() -> Grid {
         let topology = Topology::new([JointRange::Interval { lower: 0.0, upper: 100.0 }; 2]);

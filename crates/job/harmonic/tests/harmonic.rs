@@ -2,9 +2,9 @@
 //! cells.
 
 use cplan_cases::mazes;
-use cplan_harmonic::{
-    Component, Field, Lattice, Place, Potential, PotentialGuide, follow, harmonic, harmonic_path, residual,
-};
+use cplan_harmonic::follow::follow;
+use cplan_harmonic::{Component, Field, Lattice, Potential, PotentialGuide, harmonic, harmonic_path, residual};
+use cplan_planners::planner::grid_path::Place;
 use num_rational::BigRational;
 use proptest::prelude::*;
 use std::f64::consts::PI;

@@ -1,9 +1,8 @@
 //! The grid with a frame of cells, in which each cell has four neighbours, and a breadth-first search (wave) over it.
 
 use cplan_interrupt::checkpoint;
-
-/// Label of a cell that the wave did not reach.
-pub const UNREACHED: u32 = u32::MAX;
+use cplan_planners::cspace::Grid;
+use cplan_planners::waves::UNREACHED;
 
 /// Label of a [`Site::Twin`].
 const TWIN_LABEL: u32 = u32::MAX - 1;
@@ -43,6 +42,12 @@ pub struct Wave {
     pub levels: usize,
     /// Label of each place.
     pub(super) labels: Vec<u32>,
+}
+
+impl From<&Grid> for Lattice {
+    fn from(grid: &Grid) -> Self {
+        Self::new(grid.cells, grid.topology.ranges.map(|range| range.is_circle()), &grid.blocked)
+    }
 }
 
 impl Lattice {
@@ -176,19 +181,6 @@ impl Lattice {
 }
 
 impl Wave {
-    /// Returns the number of cells reached.
-    pub fn reached(&self) -> usize {
-        self.order.len()
-    }
-
-    /// Returns the number of steps from cell `index` of the grid to the nearest source, or [`UNREACHED`].
-    pub fn label(&self, lattice: &Lattice, index: usize) -> u32 {
-        match self.labels[lattice.framed(index)] {
-            WALL_LABEL.. => UNREACHED,
-            label => label,
-        }
-    }
-
     /// Returns the labels of all cells of the grid, without the frame.
     pub fn labels(&self, lattice: &Lattice) -> Vec<u32> {
         let [rows, columns] = lattice.cells;

@@ -13,12 +13,12 @@
 //! values. If no path is long, the first window covers everything and is usually the last.
 
 use super::extent::Bounds;
-use super::front::KeyQueue;
 use super::laplace::decay;
 use super::network::{Network, RIGHT_SIDES};
 use super::potential::ScaledNumber;
 use super::wide::WideSystem;
 use super::{Component, Potential};
+use cplan_geometry::OpenList;
 use cplan_interrupt::checkpoint;
 use std::f64::consts::LN_2;
 
@@ -67,7 +67,7 @@ pub(super) struct Peeling<'a> {
     unknown: usize,
     /// Accepted positions that may have unknown neighbours, the greatest value first. Keys are negated binary
     /// logarithms of the values.
-    front: KeyQueue,
+    front: OpenList<u32>,
     /// Number of each position within the window, or [`NO_WINDOW`]. Empty until the first window is gathered.
     number: Vec<u32>,
     depth: f64,
@@ -96,7 +96,7 @@ const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 impl<'a> Peeling<'a> {
     pub fn new(component: &'a Component, loss: f64) -> Self {
         let mut potential = Potential::zero(component.len());
-        let mut front = KeyQueue::default();
+        let mut front = OpenList::default();
         for goal in 0..component.goals {
             potential.set(goal, ScaledNumber { mantissa: 1.0, exponent: 0 });
             front.push(0.0, goal as u32);
@@ -238,10 +238,10 @@ impl<'a> Peeling<'a> {
 
     /// Gathers the unknown cells around the greatest accepted values. Returns `None` if no cells remain.
     fn gather(&mut self) -> Option<Window> {
-        while self.front.peek().is_some_and(|(_, position)| !self.is_front(position as usize)) {
+        while self.front.peek().is_some_and(|(_, &position)| !self.is_front(position as usize)) {
             self.front.pop();
         }
-        let (top, position) = self.front.peek()?;
+        let (top, &position) = self.front.peek()?;
         let exponent = self.potential.at(position as usize).exponent;
         let greatest = self.potential.at(position as usize).mantissa;
         let mut sources = Vec::new();
@@ -249,7 +249,7 @@ impl<'a> Peeling<'a> {
         let (mut beside, mut cut) = (0.0_f64, false);
         // Cells to continue from, by depth in whole nepers.
         let mut waiting: Vec<Vec<(f64, u32)>> = vec![Vec::new(); self.depth.ceil() as usize + 1];
-        while let Some((below, position)) = self.front.peek() {
+        while let Some((below, &position)) = self.front.peek() {
             let depth = (below - top) * LN_2;
             let is_front = self.is_front(position as usize);
             if is_front && depth > self.depth {

@@ -4,7 +4,8 @@ use super::band::Band;
 use super::frame::Frame;
 use super::machine::{LANES, Machine, Pack, packs, packs_mut};
 use super::seam::odd_circles;
-use super::smooth::{Smooth, Vectors};
+use super::smooth::Vectors;
+use super::stencil::Stencil;
 
 /// Interpolation `P` from a coarse level to the finer one, and its transpose, the restriction. The weights of a fine
 /// cell are stored at the coarse cell to the north or west of it.
@@ -141,7 +142,7 @@ impl Transfer {
     }
 
     /// Computes the residual of the finer level, applies `P^T` to it, and writes the result to `into`.
-    pub fn restrict<M: Machine, L: Smooth>(&self, m: M, level: &L, upper: &Vectors, rows: &mut Rows, into: &mut [f32]) {
+    pub fn restrict<M: Machine>(&self, m: M, level: &Stencil, upper: &Vectors, rows: &mut Rows, into: &mut [f32]) {
         let (fine, coarse) = (self.fine, self.coarse);
         let Rows { natural, even, odd, above, below } = rows;
         let read = |i: usize, natural: &mut [f32], even: &mut [f32], odd: &mut [f32]| {

@@ -1,6 +1,8 @@
 //! Steepest ascent of a harmonic potential along its gradient.
 
-use super::{Component, Guide, Place, Potential};
+use super::{Component, Potential};
+use crate::follow::Guide;
+use cplan_planners::planner::grid_path::Place;
 
 /// The potential as a [`Guide`]: the gradient of its logarithm, by central differences with 0 at walls.
 pub struct PotentialGuide<'a, F> {

@@ -1,0 +1,46 @@
+//! The values of a field on a grid, for pictures.
+
+use std::ops::Deref;
+use std::sync::{Arc, LazyLock};
+
+/// The meaning of a field's values.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum FieldQuantity {
+    /// Natural logarithm of a potential that paths ascend: 0 at the goal, lower farther away.
+    Logarithm,
+    /// Estimate of such a logarithm, only for pictures.
+    EstimatedLogarithm,
+    /// A potential that paths descend.
+    Height,
+}
+
+/// One value per cell of a grid. They are computed when they are first read, because paths do not need them.
+#[derive(Debug, Clone)]
+pub struct FieldValues(Arc<LazyLock<Vec<f64>, Box<dyn FnOnce() -> Vec<f64> + Send>>>);
+
+impl FieldValues {
+    /// Stores the computation of the values.
+    pub fn computed_by(values: impl FnOnce() -> Vec<f64> + Send + 'static) -> Self {
+        Self(Arc::new(LazyLock::new(Box::new(values))))
+    }
+}
+
+impl From<Vec<f64>> for FieldValues {
+    fn from(values: Vec<f64>) -> Self {
+        Self::computed_by(|| values)
+    }
+}
+
+impl Deref for FieldValues {
+    type Target = [f64];
+
+    fn deref(&self) -> &[f64] {
+        &self.0
+    }
+}
+
+impl PartialEq for FieldValues {
+    fn eq(&self, other: &Self) -> bool {
+        **self == **other
+    }
+}
