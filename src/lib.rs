@@ -116,6 +116,12 @@ pub mod input {
         RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source, meshes_elsewhere, read_bytes,
     };
     pub use cplan_world::*;
+
+    /// Lets worlds name SVG drawings as lines, in the whole process. The program does this when it begins.
+    #[cfg(feature = "program")]
+    pub fn read_svg_lines() {
+        cplan_toolpath::read_svg_by(cplan_drawing::read_line);
+    }
 }
 
 /// Plans problems: the solver of a single motion, motions among moving obstacles, tasks, and explanations.
