@@ -38,7 +38,7 @@ pub use payload::{ArchScene, Payload};
 pub use piece::{Derivative, Piece, State};
 pub use recording::{RecordedJoints, Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};
-pub use stroke::{Arch, Stroke, ToolJoint, ToolLimits, ToolValues};
+pub use stroke::{Arch, Stroke, ToolJoint, ToolLimits, ToolValues, rest_to_rest};
 pub use task::{Action, Holding, Item, Object, Placement, Step, Task, Wrist};
 pub use task_error::TaskError;
 pub use timed::{TimedScene, TimedWorkspace};

@@ -1,9 +1,13 @@
 //! Limits of a motion.
 
+use super::sample::Trajectory;
 use super::tip::TipSpeed;
 use super::torque::TorqueLimit;
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Joint};
+
+/// Number of times that torques are reduced if they exceed the efforts between the positions at which they are limited.
+const MAX_TORQUE_ROUNDS: usize = 6;
 
 /// Limits of a motion, for the joints from base to tip. All are positive, in radians or metres and seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -156,6 +160,20 @@ impl Limits<'_> {
             let [a, b] = [wrist.values[from], wrist.values[toward]];
             a + (b - a) * (distance / length)
         })
+    }
+
+    /// Returns a trajectory whose torques are within the efforts. `drive` makes trajectories within limits whose efforts are
+    /// reduced as long as the torques between two samples exceed them.
+    pub(super) fn within_torque(&self, drive: impl Fn(&Self) -> Option<Trajectory>) -> Option<Trajectory> {
+        let mut used = *self;
+        for _ in 0..MAX_TORQUE_ROUNDS {
+            let trajectory = drive(&used)?;
+            match (self.torque.and_then(|limit| limit.excess(&trajectory.pieces())), &mut used.torque) {
+                (Some(excess), Some(used)) => used.share /= excess,
+                _ => return Some(trajectory),
+            }
+        }
+        None
     }
 
     /// Returns the limits with a share of the tip's speed.
