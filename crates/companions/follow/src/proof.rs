@@ -226,17 +226,11 @@ impl Prover<'_> {
         let solution = self.sheets.sheets[sheet].solution;
         let known = self.kinematics.solution_box(self.place(node).point, solution, self.tolerance)?;
         // The box is known up to whole turns, and its middle is near the solution.
-        let middle = Configuration::from_fn(|k, _| self.near(k, known.middle[k], q[k]));
+        let middle = self.kinematics.near(known.middle, q);
         let is_near = (0..2).all(|k| (middle[k] - q[k]).abs() <= known.half[k] + 1e-6);
         // Sheets that are not listed must be outside the limits with the whole box.
         let is_known = is_near && known.half[0].max(known.half[1]) < LISTED_BEYOND_LIMITS;
         is_known.then_some((middle, known.half))
-    }
-
-    fn near(&self, joint: usize, value: f64, near: f64) -> f64 {
-        let turn = std::f64::consts::TAU;
-        let is_revolute = self.kinematics.arm.joints[joint].joint_type.is_revolute();
-        if is_revolute { value + ((near - value) / turn).round() * turn } else { value }
     }
 
     fn is_outside(&self, joint: usize, middle: f64, half: f64) -> bool {
@@ -311,6 +305,12 @@ impl Infeasible {
                 format!("the IK solution must change between {at} and {last}, and cannot")
             }
         }
+    }
+}
+
+impl From<Infeasible> for String {
+    fn from(infeasible: Infeasible) -> Self {
+        infeasible.describe()
     }
 }
 

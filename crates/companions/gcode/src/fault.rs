@@ -5,9 +5,11 @@ use cplan_judge::Nearest;
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, JointRange};
 use cplan_text::{length, length_down};
+use serde::Serialize;
 
 /// The kind of a reason.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Cause {
     /// The tip cannot be there.
     OutOfReach,
@@ -25,22 +27,6 @@ pub enum Cause {
     NoTravel,
     /// The move is too long or too complicated to decide.
     Undecided,
-}
-
-impl Cause {
-    /// Returns the name in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Cause::OutOfReach => "out_of_reach",
-            Cause::Singular => "singular",
-            Cause::JointLimit => "joint_limit",
-            Cause::MotorRange => "motor_range",
-            Cause::Collision => "collision",
-            Cause::JointMotion => "joint_motion",
-            Cause::NoTravel => "no_travel",
-            Cause::Undecided => "undecided",
-        }
-    }
 }
 
 /// The reason why a machine cannot play a move.

@@ -100,15 +100,6 @@ impl<'a> Player<'a> {
         solutions.map(|both| both[self.solution]).ok_or_else(|| Fault::singular(point, true))
     }
 
-    /// Returns the nearest value of each joint that has the same pose.
-    pub fn near(&self, q: Configuration, near: Configuration) -> Configuration {
-        let joints = &self.kinematics.arm.joints;
-        Configuration::from_fn(|k, _| match joints[k].joint_type.is_revolute() {
-            true => q[k] + ((near[k] - q[k]) / TAU).round() * TAU,
-            false => q[k],
-        })
-    }
-
     /// Returns the numbers of whole turns that bring all values of a joint within its limits: the first one and the last
     /// one. If the first one is greater, no whole turn does so.
     pub fn turns(&self, joint: usize, [low, high]: [f64; 2]) -> [f64; 2] {
@@ -160,7 +151,7 @@ impl<'a> Player<'a> {
         for k in 0..=count as u32 {
             let point = Point::from(curve.at(f64::from(k) / count));
             let before = places[places.len() - 1];
-            let q = self.near(self.at(point)?, before);
+            let q = self.kinematics.near(self.at(point)?, before);
             if let Some(joint) = self.joint_outside(q, q) {
                 return Err(Fault::limit(self.scene, point, joint, q, true));
             }
@@ -202,7 +193,7 @@ impl<'a> Player<'a> {
                 open.extend([[middle, b], [a, middle]]);
                 continue;
             };
-            let q = self.near(exact.middle, swept.end);
+            let q = self.kinematics.near(exact.middle, swept.end);
             let [low, high] = [-1.0, 1.0].map(|sign| q + Configuration::from(exact.half) * sign);
             if let Some(joint) = self.joint_outside(low, high) {
                 if near <= LIMIT_ROUNDING {
@@ -218,7 +209,7 @@ impl<'a> Player<'a> {
                 open.extend([[middle, b], [a, middle]]);
                 continue;
             }
-            let end = self.near(self.at(ends[1])?, q);
+            let end = self.kinematics.near(self.at(ends[1])?, q);
             swept = swept.then(&Swept { start: q, end, low, high });
             parts.push(([a, b], wide));
             if parts.len() + open.len() > MAX_PARTS {
@@ -246,7 +237,7 @@ impl<'a> Player<'a> {
             let near = distance_from_middle(curve, u, half) + self.tolerance;
             let known = self.kinematics.solution_box(point, self.solution, near).unwrap_or(*whole);
             let q = self.at(point).unwrap_or(known.middle);
-            let off = (self.near(known.middle, q) - q).abs();
+            let off = (self.kinematics.near(known.middle, q) - q).abs();
             (q, Deviation::Box([0, 1].map(|k| known.half[k] + off[k])))
         };
         search.curve(&self.vicinity, on_part).map_err(|rejection| self.blocked(rejection))

@@ -66,7 +66,7 @@ impl<'a> Walk<'a> {
         let ProgramMove { piece, modes } = &self.moves[index];
         let played = self.player.play(&piece.curve, modes.is_rapid).and_then(|swept| {
             let Some(before) = chain.map(|chain| self.chains[chain]) else { return Ok(swept) };
-            let turns = self.player.near(swept.start, before.end) - swept.start;
+            let turns = self.player.kinematics.near(swept.start, before.end) - swept.start;
             let joined = before.then(&swept.turned(turns));
             match self.player.joint_outside(joined.low, joined.high) {
                 None => Ok(joined),
