@@ -63,12 +63,7 @@ pub(crate) struct Division {
 impl Nodes {
     /// Divides a line. With `joints`, the motion begins, passes from each piece to the next one, and ends at these points,
     /// which may differ from the ends of the pieces. `None` if it would need more than [`MAX_NODES`].
-    pub fn new(
-        kinematics: &Kinematics,
-        line: &Line,
-        joints: Option<&[Point]>,
-        division: Division,
-    ) -> Option<Self> {
+    pub fn new(kinematics: &Kinematics, line: &Line, joints: Option<&[Point]>, division: Division) -> Option<Self> {
         let mut divider = Divider { kinematics, line, joints, division, nodes: Vec::new(), parts: Vec::new() };
         for (piece, own) in line.pieces.iter().enumerate() {
             if piece == 0 {
@@ -183,7 +178,6 @@ impl Divider<'_, '_> {
         let deviation = |s: usize| off + sag + chord_deviation(self.kinematics, before[s], lifted[s]);
         Some((lifted, deviation(0).max(deviation(1))))
     }
-
 }
 
 /// Returns a bound on the distance of the tip from the straight line between its two ends, at equal shares of a straight

@@ -18,7 +18,7 @@ use cplan_interrupt::checkpoint;
 use cplan_judge::{Deviation, Posture};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Pair, Scene};
-use cplan_text::{length, length_down};
+use cplan_text::length_down;
 
 /// Greatest difference of joint values at both ends of a part for which no whole turn can be hidden between them.
 const MAX_STEP: f64 = 0.5;
@@ -318,27 +318,9 @@ impl Exclusion {
     /// Describes the exclusion in words.
     pub fn describe(&self, scene: &Scene) -> String {
         match &self.by {
-            Obstacle::Limit(joint) => {
-                let own = &scene.arm().joints[*joint];
-                let range = match own.range {
-                    JointRange::Circle => String::new(),
-                    JointRange::Interval { lower, upper } => {
-                        format!(" from {} to {}", own.format_value(lower), own.format_value(upper))
-                    }
-                };
-                let value = own.format_value(self.q[*joint]);
-                format!("joint \"{}\" would be at {value}, outside its limits{range}", own.name)
-            }
+            Obstacle::Limit(joint) => scene.arm().joints[*joint].explain_outside(self.q[*joint]),
             Obstacle::Wrist(excess) => excess.describe(),
-            Obstacle::Collision(pair) => {
-                let (part, obstacle) = (scene.describe_part(*pair), scene.describe_obstacle(pair.obstacle));
-                match scene.workspace().clearance {
-                    clearance if clearance > 0.0 => {
-                        format!("{part} is nearer to {obstacle} than the clearance of {}", length(clearance))
-                    }
-                    _ => format!("{part} hits {obstacle}"),
-                }
-            }
+            Obstacle::Collision(pair) => scene.explain_contact(*pair),
         }
     }
 }

@@ -285,7 +285,11 @@ impl<'a> Stretch<'a> {
         let slack = SLACK_SHARE * self.driver.settings.tolerance;
         let target = kinematics.reachable(self.driver.line.curve(piece).at(u).into(), slack)?;
         let off = |q: &Configuration| (q - near).norm_squared();
-        kinematics.solutions(target)?.into_iter().map(|q| kinematics.near(q, near)).min_by(|a, b| off(a).total_cmp(&off(b)))
+        kinematics
+            .solutions(target)?
+            .into_iter()
+            .map(|q| kinematics.near(q, near))
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
     }
 
     fn within_limits(&self, q: Configuration) -> Configuration {

@@ -186,7 +186,6 @@ impl WristAlong {
         let [first, last] = turns.map(|turns| turns.clamp(-MAX_TURNS, MAX_TURNS));
         Ok((0..=(last - first) as u32).map(|k| (first + f64::from(k)) * TAU).collect())
     }
-
 }
 
 /// Returns the stretches of waypoints between stops and travels, with the joint's values up to whole turns of each stretch.

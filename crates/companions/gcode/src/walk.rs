@@ -110,13 +110,8 @@ impl<'a> Walk<'a> {
     /// Begins a chain with the arm at rest.
     fn begin_at(&mut self, point: Point) -> Result<usize, Fault> {
         let q = self.player.at(point)?;
-        match self.player.joint_outside(q, q) {
-            Some(joint) => Err(Fault::limit(self.player.scene, point, joint, q, true)),
-            None => {
-                self.player.keeps_motor_range(point, q, [0.0; 2])?;
-                Ok(self.begin(Swept::at_rest(q)))
-            }
-        }
+        self.player.check_limits(point, q)?;
+        Ok(self.begin(Swept::at_rest(q)))
     }
 
     /// Returns the whole turns that bring a chain within the limits.

@@ -165,18 +165,9 @@ impl Stretch {
     /// Finds the times at which the distance of a turning piece from a part is at most `grow`. The result may include
     /// more times. It is computed in steps in which the piece moves by at most `step`.
     fn turning(&self, around: &PartDeviation, within: Interval, [grow, step]: [f64; 2], out: &mut Vec<Interval>) {
-        let mut open = vec![within];
-        while let Some([from, to]) = open.pop() {
-            checkpoint();
-            let (middle, drifts) = (f64::midpoint(from, to), self.speed * (to - from) / 2.0);
-            let Some(distance) = self.distance(around, middle, grow + drifts) else { continue };
-            // The piece is near during the whole interval, or the interval is too short to decide.
-            if distance + drifts <= grow || drifts <= step {
-                out.push([from, to]);
-            } else {
-                open.extend([[middle, to], [from, middle]]);
-            }
-        }
+        // The piece is near during the whole interval, or the interval is too short to decide.
+        let decide = |most: f64, drifts: f64, _| (most <= grow || drifts <= step).then_some(true);
+        self.divide(around, within, grow, decide, out);
     }
 
     /// Finds times at which the piece overlaps a part by more than `deeper`. It may omit some: its ends are accurate to
@@ -188,15 +179,29 @@ impl Stretch {
         [deeper, shortest]: [f64; 2],
         out: &mut Vec<Interval>,
     ) {
+        let decide = |most: f64, _, lasts: f64| Some(most < -deeper).filter(|is_deep| *is_deep || lasts <= shortest);
+        self.divide(around, within, -deeper, decide, out);
+    }
+
+    /// Finds the intervals that `decide` accepts. It gets an upper bound on the distance during the interval, the motion from
+    /// its middle to its ends, and its duration; with `None`, the interval is divided. Intervals during which the distance is
+    /// greater than `near` are not examined.
+    fn divide(
+        &self,
+        around: &PartDeviation,
+        within: Interval,
+        near: f64,
+        decide: impl Fn(f64, f64, f64) -> Option<bool>,
+        out: &mut Vec<Interval>,
+    ) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
             checkpoint();
             let (middle, drifts) = (f64::midpoint(from, to), self.speed * (to - from) / 2.0);
-            let Some(distance) = self.distance(around, middle, drifts - deeper) else { continue };
-            if distance + drifts < -deeper {
-                out.push([from, to]);
-            } else if to - from > shortest {
-                open.extend([[middle, to], [from, middle]]);
+            let Some(distance) = self.distance(around, middle, near + drifts) else { continue };
+            match decide(distance + drifts, drifts, to - from) {
+                Some(is_met) => out.extend(is_met.then_some([from, to])),
+                None => open.extend([[middle, to], [from, middle]]),
             }
         }
     }
