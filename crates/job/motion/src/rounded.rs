@@ -204,6 +204,7 @@ fn spaced(length: f64, distances: [f64; 2]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cplan_model::space::Configuration;
     use proptest::prelude::*;
 
     proptest! {

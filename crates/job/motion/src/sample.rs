@@ -1,7 +1,7 @@
 //! Trajectories: motions along a path, sampled in time.
 
 use super::clock::{self, NANOSECONDS_PER_SECOND, nanoseconds, round_up, whole_nanoseconds};
-use super::limits::Limits;
+use super::limits::{Axes, Limits};
 use super::profile::Phase;
 use super::schedule::{TimedTrack, Track, schedule};
 use super::single::single;
@@ -336,17 +336,15 @@ pub(super) fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f6
         };
         let state = |at: u64| {
             let (track, state) = place(at);
-            (track.at(state), limits.wrist.map(|_| track.wrist_at(state)))
+            track.at(state)
         };
-        let mut push = |at: u64, (arm, wrist): ([Configuration; 3], Option<[f64; 3]>)| {
-            trajectory.push(at, arm);
-            trajectory.wrist.extend(wrist.map(|row| row.map(|x| x + 0.0)));
+        let mut push = |at: u64, rows: [Axes; 3]| {
+            trajectory.push(at, rows.map(|row| row.xy()));
+            trajectory.wrist.extend(limits.wrist.map(|_| rows.map(|row| row[2] + 0.0)));
         };
-        let ([position, velocity, _], turn) = state(first);
-        let begins = phase.at(0.0);
-        let [.., acceleration] = track.at(begins);
-        let turn = turn.map(|[value, rate, _]| [value, rate, track.wrist_at(begins)[2]]);
-        push(first, ([position, velocity, acceleration], turn));
+        let [position, velocity, _] = state(first);
+        let [.., acceleration] = track.at(phase.at(0.0));
+        push(first, [position, velocity, acceleration]);
         let interval = track.interval(phase, limits);
         let mut left = first;
         let count = (clock::seconds(first) / period) as u64;

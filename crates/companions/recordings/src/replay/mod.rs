@@ -331,13 +331,11 @@ impl<'a> Iterator for Replay<'a> {
         let holding = |object: usize| task.objects[object].holding;
         let tool = StepTool {
             times,
-            raising: overlaps.raising,
-            lowering: overlaps.lowering,
+            overlaps,
             depth,
             stays_lowered: handled.is_none(),
             carried: carried.map(holding),
             picked: picked.map(holding),
-            turn_before: overlaps.turn_before,
             turn: recorded.turn,
         };
         Some(ReplayedStep {
