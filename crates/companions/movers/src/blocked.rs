@@ -4,7 +4,7 @@
 use cplan_geometry::{
     Convex, Interval, Point, Pose, Vector, cross, merge_in_place, separation, separation_at, sliding,
 };
-use cplan_handling::{Leg, TimedScene};
+use cplan_handling::{TimedScene, TrajectoryLeg};
 use cplan_interrupt::checkpoint;
 use cplan_judge::{Deviation, Posture};
 use cplan_model::space::Configuration;
@@ -29,8 +29,8 @@ pub struct MovingObstacles<'a> {
     clearance: f64,
     /// One entry for each moving obstacle, each of its pieces, and each leg of its trajectory.
     stretches: Vec<Stretch>,
-    /// All pairs of a part of the arm and a piece of an obstacle that can meet.
-    meetings: Vec<Meeting>,
+    /// All pairs of a part of the arm and a piece of an obstacle that can meet, at all times.
+    pub(crate) meetings: Vec<Meeting>,
 }
 
 /// A part of the arm, and a piece of a moving obstacle on one leg of its trajectory, within an interval of time.
@@ -62,7 +62,7 @@ pub struct PartDeviation<'a> {
     /// A disc that contains the part: centre and radius.
     disc: (Point, f64),
     /// Upper bound on the deviation of a point of the part, in metres.
-    moves: f64,
+    pub moves: f64,
 }
 
 impl<'a> PartDeviation<'a> {
@@ -82,11 +82,6 @@ impl<'a> PartDeviation<'a> {
         known.as_ref().expect("just made")
     }
 
-    /// Returns an upper bound on the deviation of a point of the part, in metres.
-    pub fn max_motion(&self) -> f64 {
-        self.moves
-    }
-
     fn placed(&self) -> &(Convex, f64) {
         self.placed.get_or_init(|| {
             let placed = self.part.at(&self.pose);
@@ -98,7 +93,7 @@ impl<'a> PartDeviation<'a> {
 
 /// A piece of a moving obstacle along one leg of its trajectory.
 struct Stretch {
-    leg: Leg,
+    leg: TrajectoryLeg,
     /// The piece in its own frame, and a disc around it.
     own: Convex,
     own_disc: (Point, f64),
@@ -114,7 +109,7 @@ struct Stretch {
 }
 
 impl Stretch {
-    fn new(piece: &Convex, leg: Leg) -> Self {
+    fn new(piece: &Convex, leg: TrajectoryLeg) -> Self {
         let placed = piece.at(&leg.pose(leg.from));
         let speed = leg.velocity.norm();
         Self {
@@ -253,7 +248,7 @@ impl<'a> MovingObstacles<'a> {
         for &pair in timed.moving_pairs() {
             let Some((mover, trajectory)) = scene.loose_index(pair).zip(timed.trajectory(pair)) else { continue };
             let legs = trajectory.legs();
-            meetings.extend(legs.iter().enumerate().map(|(leg, Leg { from, to, .. })| Meeting {
+            meetings.extend(legs.iter().enumerate().map(|(leg, TrajectoryLeg { from, to, .. })| Meeting {
                 pair,
                 within: [*from, *to],
                 stretch: first[mover][pair.piece] + leg,
@@ -265,11 +260,6 @@ impl<'a> MovingObstacles<'a> {
     /// Returns the scene.
     pub fn scene(&self) -> &'a Scene {
         self.scene
-    }
-
-    /// Returns all pairs that can meet, at all times.
-    pub(crate) fn meetings(&self) -> &[Meeting] {
-        &self.meetings
     }
 
     /// Returns the times at which each moving obstacle is nearer to the arm at `q` than the clearance, in order and

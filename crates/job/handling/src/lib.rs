@@ -33,7 +33,9 @@ pub use claims::{
 pub use followed_line::{DEFAULT_TOLERANCE, FollowedLine, MIN_TOLERANCE};
 pub use held::{HeldEffect, HeldJoint, HeldMotion};
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
-pub use moving_obstacle::{Leg, MAX_STOP_TIME, MovingObstacle, ObstacleTrajectory, ObstacleTrajectoryError, Stop};
+pub use moving_obstacle::{
+    MAX_STOP_TIME, MovingObstacle, ObstacleTrajectory, ObstacleTrajectoryError, Stop, TrajectoryLeg,
+};
 pub use payload::{ArchScene, Payload};
 pub use piece::{Derivative, Piece, State};
 pub use recording::{RecordedJoints, Recording, RecordingError};

@@ -77,10 +77,7 @@ pub fn along_joint_curve(
     drive: CurveDrive,
     too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
 ) -> Option<TimedMotion> {
-    let torque = TorqueLimit::of(scene);
-    if torque.is_some_and(|torque| torque.check_holding_along(path.path()).is_err()) {
-        return None;
-    }
+    let torque = TorqueLimit::along_path(scene, path.path()).ok()?;
     let own = Limits::from(scene.arm()).scaled(drive.share);
     let limits = Limits { tip: drive.tip, torque, ..own };
     let mut trajectory = limits.within_torque(|limits| {

@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 const MAX_TORQUE_ROUNDS: usize = 6;
 
 /// Limits of a motion, for the joints from base to tip. All are positive, in radians or metres and seconds.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits<'a> {
     /// Greatest speed of each joint.
     pub velocity: [f64; 2],
@@ -87,10 +87,7 @@ impl From<&[Joint; 2]> for Limits<'_> {
             velocity: joints.each_ref().map(|joint| joint.velocity),
             acceleration: joints.each_ref().map(|joint| joint.acceleration),
             jerk: joints.each_ref().map(|joint| joint.jerk),
-            tip: None,
-            torque: None,
-            wrist: None,
-            sum: None,
+            ..Self::default()
         }
     }
 }

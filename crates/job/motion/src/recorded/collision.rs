@@ -377,8 +377,7 @@ impl<'a> Search<'a> {
 
     /// Returns the motion of the obstacle of a pair between two places, if it moves.
     fn drift(&self, pair: Pair, from: Place, to: Place) -> Option<Drift> {
-        let time = |(piece, share): Place| self.pieces[piece].time(share) - self.pieces[0].from;
-        self.scene.trajectory(pair).map(|trajectory| trajectory.drift(time(from), time(to)))
+        self.scene.drift(pair, self.pieces, [from, to])
     }
 
     /// Records a sampled distance.
