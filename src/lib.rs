@@ -81,10 +81,10 @@ pub mod model {
     pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
     pub use cplan_handling::{
         Action, Arch, BlendsClaim, Claims, Driver, Drives, EventClaim, FollowedLine, HeldEffect, HeldJoint, HeldMotion,
-        Holding, Item, Leg, MAX_STOP_TIME, MovingObstacle, Object, ObstacleTrajectory, ObstacleTrajectoryError,
+        Holding, Item, MAX_STOP_TIME, MovingObstacle, Object, ObstacleTrajectory, ObstacleTrajectoryError,
         OptimumClaim, Payload, Placement, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist, RobotJoint,
         RobotJoints, Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene, TimedWorkspace,
-        ToolAngle, ToolJoint, ToolValues, Wrist, WristGuide, WristJoint,
+        ToolAngle, ToolJoint, ToolValues, TrajectoryLeg as Leg, Wrist, WristGuide, WristJoint,
     };
     pub use cplan_model::*;
     pub use cplan_robot::AssumedLimits;
@@ -116,6 +116,12 @@ pub mod input {
         RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source, meshes_elsewhere, read_bytes,
     };
     pub use cplan_world::*;
+
+    /// Lets worlds name SVG drawings as lines, in the whole process. The program does this when it begins.
+    #[cfg(feature = "program")]
+    pub fn read_svg_lines() {
+        cplan_toolpath::read_svg_by(cplan_drawing::read_line);
+    }
 }
 
 /// Plans problems: the solver of a single motion, motions among moving obstacles, tasks, and explanations.

@@ -17,6 +17,7 @@ use std::ffi::OsString;
 /// Registers the names that `cplan/__init__.py` exports.
 #[pymodule]
 fn _cplan(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    cplan::input::read_svg_lines();
     module.add_class::<problem::Arm>()?;
     module.add_class::<problem::World>()?;
     module.add_class::<problem::Options>()?;

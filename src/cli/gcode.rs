@@ -261,7 +261,7 @@ fn failure(failed: &Failed) -> Value {
         "line": piece.source.line,
         "column": piece.source.column,
         "kind": if piece.is_travel { "travel" } else { "drawing" },
-        "cause": fault.cause.name(),
+        "cause": fault.cause,
         "reason": fault.reason,
         "place": [fault.place.x, fault.place.y],
         "proven": fault.is_proven,

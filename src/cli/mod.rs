@@ -207,6 +207,7 @@ pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
 pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     #[cfg(feature = "gpu")]
     crate::bring_gpu();
+    crate::input::read_svg_lines();
     let in_json = arguments.iter().any(|argument| argument == "--json");
     let first = arguments.get(1).cloned();
     let mut command = match read_alone(&arguments).map_or_else(|| Cli::read(&arguments), Ok) {

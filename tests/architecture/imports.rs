@@ -31,8 +31,6 @@ const RINGS: [&str; 3] = ["crates/core", "crates/job", "crates/companions"];
 /// marked "optional" are behind a feature.
 const LEAKS: [(&str, &str); 2] = [
     ("robot", "xacro"),
-    // Optional.
-    ("toolpath", "drawing"),
 ];
 
 /// Returns the names of the crates in a ring.

@@ -6,7 +6,7 @@ use crate::nodes::{Division, MAX_NODES, Nodes};
 use crate::proof::{self, Infeasible, Prover};
 use crate::search::{Route, Search};
 use crate::sheets::Sheets;
-use crate::wrist::{OutOfRange, Turns, WristAlong};
+use crate::wrist::{Turns, WristAlong};
 use crate::{FollowError, Found, MIN_TOLERANCE, Settings};
 use cplan_deviation::{Kinematics, Line, Place};
 use cplan_geometry::Point;
@@ -68,18 +68,11 @@ pub(crate) struct Follower<'a> {
 #[expect(clippy::large_enum_variant, reason = "one exists at a time")]
 enum Attempt {
     Found(Found),
-    /// A motion that is not proven to be within the tolerance.
-    TooFar(Excess),
+    /// A motion that is not proven to be within the tolerance: the position of the tip where the bound on its distance is
+    /// greatest, or `None` if only the angle of the tool may be wrong.
+    TooFar(Option<Point>),
     NoRoute(Stuck),
     TooLong,
-}
-
-/// The reason why a motion is not proven to be within the tolerance.
-enum Excess {
-    /// The tip may be too far from the line: its position where the bound is greatest.
-    Tip(Point),
-    /// The angle of the tool may be wrong.
-    Tool,
 }
 
 /// The place that no route passes.
@@ -94,10 +87,9 @@ struct Stuck {
 impl Follower<'_> {
     /// Searches for a motion, with smaller shares of the tolerance until the motion is proven to be within it. `prove`
     /// searches for a proof if there is no sequence of IK solutions. `option` returns the words that advise a tolerance.
-    pub fn run<P>(
+    pub fn run<P: From<Infeasible>>(
         &self,
         prove: &dyn Fn(&Prover, &Search) -> Option<P>,
-        proof: &dyn Fn(Infeasible) -> P,
         option: &dyn Fn(&str, f64) -> String,
     ) -> Result<Outcome<Found, P>, FollowError> {
         let is_tangent = |wrist: WristAlong| matches!(wrist.guide.angle, ToolAngle::Tangent(_));
@@ -110,7 +102,7 @@ impl Follower<'_> {
                 Attempt::Found(found) => return Ok(Outcome::Found(found)),
                 Attempt::TooFar(excess) => farthest = farthest.or(Some(excess)),
                 Attempt::NoRoute(stuck) if farthest.is_none() => {
-                    return Ok(match self.without_route(stuck, prove, proof)? {
+                    return Ok(match self.without_route(stuck, prove)? {
                         Outcome::Unknown(why) => Outcome::Unknown(self.advised(why, option)?),
                         known => known,
                     });
@@ -126,7 +118,7 @@ impl Follower<'_> {
             return Ok(Outcome::Found(found));
         }
         let why = match farthest {
-            Some(Excess::Tip(tip)) => {
+            Some(Some(tip)) => {
                 let ([x, y], within) = ([1e3 * tip.x, 1e3 * tip.y], length(self.settings.tolerance));
                 format!("the motion near ({x:.1}, {y:.1}) mm is not proven to stay within {within} of the line")
             }
@@ -195,7 +187,7 @@ impl Follower<'_> {
         let size = MERGED_SHARE * (tolerance - division.slack).min(division.deviation);
         let merged = &Merged::new(written, Merging { size, turn });
         let line = &Line::of(&merged.pieces);
-        let Ok(nodes) = &Nodes::new(kinematics, line, Some(&merged.joints), division) else {
+        let Some(nodes) = &Nodes::new(kinematics, line, Some(&merged.joints), division) else {
             return Ok(Attempt::TooLong);
         };
         let sheets = Sheets::new(kinematics, nodes);
@@ -214,7 +206,7 @@ impl Follower<'_> {
         let Motion { timed, deviation, tool, farthest } = driver.motion(&route, turns.as_ref())?;
         let keeps_angle = tool.zip(settings.wrist).is_none_or(|(off, wrist)| off <= wrist.guide.tolerance);
         if deviation > tolerance || !keeps_angle {
-            return Ok(Attempt::TooFar(if deviation > tolerance { Excess::Tip(farthest) } else { Excess::Tool }));
+            return Ok(Attempt::TooFar((deviation > tolerance).then_some(farthest)));
         }
         let place = |w: &usize| merged.place(written, &nodes.nodes[route.nodes[*w]].place);
         let (changes, waypoints) = (route.changes.iter().map(place).collect(), route.nodes.len());
@@ -222,19 +214,18 @@ impl Follower<'_> {
     }
 
     /// Returns the answer if no route passes a place: a motion beside the reach of the arm, a proof, or the reason.
-    fn without_route<P>(
+    fn without_route<P: From<Infeasible>>(
         &self,
         stuck: Stuck,
         prove: &dyn Fn(&Prover, &Search) -> Option<P>,
-        proof: &dyn Fn(Infeasible) -> P,
     ) -> Result<Outcome<Found, P>, FollowError> {
         let Self { scene, kinematics, line, settings, ends } = *self;
         let (tolerance, division) = (settings.tolerance, self.division(SHARES[0]));
-        let Ok(nodes) = &Nodes::new(kinematics, line, None, division) else {
+        let Some(nodes) = &Nodes::new(kinematics, line, None, division) else {
             return Ok(Outcome::Unknown(stuck.describe(tolerance)));
         };
         if let Some(infeasible) = proof::out_of_reach(kinematics, nodes, tolerance) {
-            return Ok(Outcome::Infeasible(proof(infeasible)));
+            return Ok(Outcome::Infeasible(infeasible.into()));
         }
         let mut last = stuck;
         for [deviation, slack] in OUTER_SHARES.map(|shares| shares.map(|share| share * tolerance)) {
@@ -271,7 +262,7 @@ impl Follower<'_> {
             let Some(wrist) = self.settings.wrist else { return Ok((route, None)) };
             match wrist.turns(self.scene.arm(), line, nodes, &route) {
                 Ok(turns) => return Ok((route, Some(turns))),
-                Err(OutOfRange { waypoint }) => {
+                Err(waypoint) => {
                     stuck = stuck.or(Some(nodes.nodes[route.nodes[waypoint]].place));
                     if !search.close_before(&route, waypoint) {
                         break;
@@ -291,7 +282,7 @@ impl Follower<'_> {
         let least_parts = (MAX_COARSE_NODES / self.line.pieces.len()).clamp(1, PROOF_PARTS) as u32;
         let turn = self.settings.greatest_turn();
         let finer = Division { deviation: division.deviation / PROOF_FINENESS, least_parts, turn, ..division };
-        let nodes = &Nodes::new(self.kinematics, self.line, None, finer).ok()?;
+        let nodes = &Nodes::new(self.kinematics, self.line, None, finer)?;
         let sheets = &Sheets::new(self.kinematics, nodes);
         let finer = Prover { nodes, sheets, ..*prover };
         proof::out_of_reach(self.kinematics, nodes, self.settings.tolerance).or_else(|| finer.prove())

@@ -187,7 +187,7 @@ pub fn follow(scene: &Scene, path: &Toolpath, settings: &Settings) -> Result<Fol
     let (kinematics, line) = (Kinematics::new(scene.arm()), Line::new(path));
     let follower = Follower { scene, kinematics: &kinematics, line: &line, settings, ends: None };
     let prove = |prover: &Prover, _: &Search| prover.prove().or_else(|| follower.prove_finely(prover));
-    follower.run(&prove, &|infeasible| infeasible, &|text, _| format!("`--tolerance {text}`"))
+    follower.run(&prove, &|text, _| format!("`--tolerance {text}`"))
 }
 
 /// Returns a motion along a line from one configuration to another, up to whole turns of joints on circles. Both put the
@@ -208,8 +208,8 @@ pub fn follow_between(
         let sheet = |end: usize| (0..prover.sheets.sheets.len()).find(|sheet| search.is_end(end, *sheet));
         let between = sheet(0).zip(sheet(1)).and_then(|(from, to)| prover.prove_between([from, to]));
         let whole = || prover.prove().or_else(|| follower.prove_finely(prover));
-        between.or_else(|| whole().map(|infeasible| infeasible.describe()))
+        between.or_else(|| whole().map(String::from))
     };
     let option = |_: &str, tolerance: f64| format!("`tolerance = {tolerance}`");
-    follower.run(&prove, &|infeasible: Infeasible| infeasible.describe(), &option)
+    follower.run(&prove, &option)
 }

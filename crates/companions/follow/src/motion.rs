@@ -6,7 +6,7 @@ use crate::merge::Merged;
 use crate::nodes::Nodes;
 use crate::search::Route;
 use crate::smooth::Stretch;
-use crate::wrist::{Turns, WristAlong};
+use crate::wrist::{Turns, WristAlong, values_between};
 use crate::{FollowError, Settings};
 use cplan_deviation::{Deviation, Foot, Kinematics, Line, ToolDeviation};
 use cplan_geometry::Point;
@@ -79,7 +79,7 @@ impl Driver<'_> {
             let join = |(first, before), (from, next)| (first, joined(before, self.dwell(route, from), next));
             let (_, mut timed) = parts.into_iter().reduce(join).expect("at least one part");
             let Some((wrist, turns)) = wrist else { return Ok(self.judged(route, timed, is_smooth)) };
-            fixed_angle::add_wrist(self.scene.arm(), &wrist, turns.values[0][1], &mut timed.trajectory);
+            fixed_angle::add_wrist(self.scene.arm(), &wrist, turns[0][1], &mut timed.trajectory);
             let excess = fixed_angle::excess(&wrist, self.settings.share, &timed.trajectory);
             if excess <= 1.0 {
                 return Ok(self.judged(route, timed, is_smooth));
@@ -138,7 +138,7 @@ impl Driver<'_> {
             self.radius(q, route, w).min(tool)
         };
         let radii: Vec<f64> = (0..q.len()).map(radius).collect();
-        let turn_at = |w: usize| wrist.map(|(_, turns)| turns.values[w]).filter(|[from, to]| from != to);
+        let turn_at = |w: usize| wrist.map(|(_, turns)| turns[w]).filter(|[from, to]| from != to);
         let last = q.len() - 1;
         let stops = (1..last.max(1)).filter(|w| turn_at(*w).is_some() || self.dwell(route, *w).is_some());
         let stops: Vec<usize> = [0].into_iter().chain(stops).chain([last]).collect();
@@ -149,7 +149,7 @@ impl Driver<'_> {
             let own = &speeds[from..to];
             let greatest = own.iter().copied().fold(0.0, f64::max);
             let shares: Vec<f64> = own.iter().map(|speed| speed / greatest).collect();
-            let values = wrist.map(|(wrist, turns)| (wrist, turns.between(from, to)));
+            let values = wrist.map(|(wrist, turns)| (wrist, values_between(turns, from, to)));
             let limit = values.as_ref().map(|(WristAlong { velocity, acceleration, .. }, values)| WristLimit {
                 values,
                 velocity: *velocity,
@@ -279,7 +279,7 @@ impl Driver<'_> {
         if w == 0 || w + 1 >= q.len() {
             return 0.0;
         }
-        let angle = |w: usize, end: usize| wrist.joint.tool_angle(self.scene.arm(), q[w].into(), turns.values[w][end]);
+        let angle = |w: usize, end: usize| wrist.joint.tool_angle(self.scene.arm(), q[w].into(), turns[w][end]);
         let slope = |from: usize| (angle(from + 1, 0) - angle(from, 1)) / (q[from + 1] - q[from]).norm();
         // The middle of a blend is at a quarter of this times the radius from the corner.
         let off = (slope(w) - slope(w - 1)).abs();

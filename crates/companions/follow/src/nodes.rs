@@ -5,7 +5,7 @@ use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
 use cplan_model::space::Configuration;
 use cplan_toolpath::Curve;
-use std::f64::consts::{FRAC_PI_2, TAU};
+use std::f64::consts::FRAC_PI_2;
 
 /// Greatest number of places. A line that needs more is too long for its tolerance.
 pub(crate) const MAX_NODES: usize = 400_000;
@@ -60,18 +60,10 @@ pub(crate) struct Division {
     pub is_even: bool,
 }
 
-/// The reason why a line cannot be divided.
-pub(crate) struct TooManyNodes;
-
 impl Nodes {
     /// Divides a line. With `joints`, the motion begins, passes from each piece to the next one, and ends at these points,
-    /// which may differ from the ends of the pieces.
-    pub fn new(
-        kinematics: &Kinematics,
-        line: &Line,
-        joints: Option<&[Point]>,
-        division: Division,
-    ) -> Result<Self, TooManyNodes> {
+    /// which may differ from the ends of the pieces. `None` if it would need more than [`MAX_NODES`].
+    pub fn new(kinematics: &Kinematics, line: &Line, joints: Option<&[Point]>, division: Division) -> Option<Self> {
         let mut divider = Divider { kinematics, line, joints, division, nodes: Vec::new(), parts: Vec::new() };
         for (piece, own) in line.pieces.iter().enumerate() {
             if piece == 0 {
@@ -86,7 +78,7 @@ impl Nodes {
             let share = |k: u32| f64::from(k) / f64::from(count);
             (0..count).try_for_each(|k| divider.divide(piece, [share(k), share(k + 1)]))?;
         }
-        Ok(Self { nodes: divider.nodes, parts: divider.parts })
+        Some(Self { nodes: divider.nodes, parts: divider.parts })
     }
 }
 
@@ -132,7 +124,7 @@ impl Divider<'_, '_> {
     }
 
     /// Appends the nodes of a part of a piece, up to the part's end. Its beginning is the last node.
-    fn divide(&mut self, piece: usize, [from, to]: [f64; 2]) -> Result<(), TooManyNodes> {
+    fn divide(&mut self, piece: usize, [from, to]: [f64; 2]) -> Option<()> {
         let mut open = vec![(self.node(piece, to), 0_u32)];
         let mut from = from;
         while let Some((mut next, halvings)) = open.pop() {
@@ -157,7 +149,7 @@ impl Divider<'_, '_> {
                 open.push((half, halvings + 1));
             }
         }
-        Ok(())
+        Some(())
     }
 
     fn turns_little(&self, piece: usize, ends: [f64; 2]) -> bool {
@@ -165,35 +157,26 @@ impl Divider<'_, '_> {
             || self.line.curve(piece).headings(ends).is_none_or(|headings| 2.0 * headings.half <= self.division.turn)
     }
 
-    fn accept(&mut self, node: Node, piece: usize, ends: [f64; 2]) -> Result<(), TooManyNodes> {
+    fn accept(&mut self, node: Node, piece: usize, ends: [f64; 2]) -> Option<()> {
         if self.nodes.len() >= MAX_NODES {
-            return Err(TooManyNodes);
+            return None;
         }
         self.nodes.push(node);
         self.parts.push(Part { piece, ends });
-        Ok(())
+        Some(())
     }
 
     /// Returns the solutions of `next` that continue those of `last`, and the greater one of the deviations of the tip
     /// on the straight motions between them.
     fn continued(&self, last: &Node, next: &Node, piece: usize, ends: [f64; 2]) -> Option<([Configuration; 2], f64)> {
         let (before, after) = (last.solutions?, next.solutions?);
-        let lifted = [0, 1].map(|s| self.lift(before[s], after[s]));
+        let lifted = [0, 1].map(|s| self.kinematics.near(after[s], before[s]));
         let off = last.off.max(next.off);
         let curve = self.line.curve(piece);
         let part = ends[1] - ends[0];
         let sag = if self.division.is_even { curve.bend() * part * part / 8.0 } else { sag(curve, ends) };
         let deviation = |s: usize| off + sag + chord_deviation(self.kinematics, before[s], lifted[s]);
         Some((lifted, deviation(0).max(deviation(1))))
-    }
-
-    /// Returns a configuration plus the whole turns of its joints that bring it nearest to another one.
-    fn lift(&self, near: Configuration, q: Configuration) -> Configuration {
-        let joints = &self.kinematics.arm.joints;
-        Configuration::from_fn(|k, _| {
-            let turns = if joints[k].joint_type.is_revolute() { ((near[k] - q[k]) / TAU).round() } else { 0.0 };
-            q[k] + turns * TAU
-        })
     }
 }
 

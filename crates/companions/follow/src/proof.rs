@@ -18,7 +18,7 @@ use cplan_interrupt::checkpoint;
 use cplan_judge::{Deviation, Posture};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Pair, Scene};
-use cplan_text::{length, length_down};
+use cplan_text::length_down;
 
 /// Greatest difference of joint values at both ends of a part for which no whole turn can be hidden between them.
 const MAX_STEP: f64 = 0.5;
@@ -226,17 +226,11 @@ impl Prover<'_> {
         let solution = self.sheets.sheets[sheet].solution;
         let known = self.kinematics.solution_box(self.place(node).point, solution, self.tolerance)?;
         // The box is known up to whole turns, and its middle is near the solution.
-        let middle = Configuration::from_fn(|k, _| self.near(k, known.middle[k], q[k]));
+        let middle = self.kinematics.near(known.middle, q);
         let is_near = (0..2).all(|k| (middle[k] - q[k]).abs() <= known.half[k] + 1e-6);
         // Sheets that are not listed must be outside the limits with the whole box.
         let is_known = is_near && known.half[0].max(known.half[1]) < LISTED_BEYOND_LIMITS;
         is_known.then_some((middle, known.half))
-    }
-
-    fn near(&self, joint: usize, value: f64, near: f64) -> f64 {
-        let turn = std::f64::consts::TAU;
-        let is_revolute = self.kinematics.arm.joints[joint].joint_type.is_revolute();
-        if is_revolute { value + ((near - value) / turn).round() * turn } else { value }
     }
 
     fn is_outside(&self, joint: usize, middle: f64, half: f64) -> bool {
@@ -314,31 +308,19 @@ impl Infeasible {
     }
 }
 
+impl From<Infeasible> for String {
+    fn from(infeasible: Infeasible) -> Self {
+        infeasible.describe()
+    }
+}
+
 impl Exclusion {
     /// Describes the exclusion in words.
     pub fn describe(&self, scene: &Scene) -> String {
         match &self.by {
-            Obstacle::Limit(joint) => {
-                let own = &scene.arm().joints[*joint];
-                let range = match own.range {
-                    JointRange::Circle => String::new(),
-                    JointRange::Interval { lower, upper } => {
-                        format!(" from {} to {}", own.format_value(lower), own.format_value(upper))
-                    }
-                };
-                let value = own.format_value(self.q[*joint]);
-                format!("joint \"{}\" would be at {value}, outside its limits{range}", own.name)
-            }
+            Obstacle::Limit(joint) => scene.arm().joints[*joint].explain_outside(self.q[*joint]),
             Obstacle::Wrist(excess) => excess.describe(),
-            Obstacle::Collision(pair) => {
-                let (part, obstacle) = (scene.describe_part(*pair), scene.describe_obstacle(pair.obstacle));
-                match scene.workspace().clearance {
-                    clearance if clearance > 0.0 => {
-                        format!("{part} is nearer to {obstacle} than the clearance of {}", length(clearance))
-                    }
-                    _ => format!("{part} hits {obstacle}"),
-                }
-            }
+            Obstacle::Collision(pair) => scene.explain_contact(*pair),
         }
     }
 }

@@ -124,17 +124,13 @@ impl<'a> Search<'a> {
 
     /// Returns the cheapest sequence that is certified. Returns `None` if no considered sequence is certified.
     pub fn route(&mut self) -> Option<Route> {
-        let (path, nodes, solutions, changes) = self.cheapest()?;
-        if let Ok(path) = certify(self.scene, path) {
-            return Some(Route { path, nodes, solutions, changes });
-        }
-        self.check_all();
         // Changes are checked here, and a change that collides closes its node.
-        for _ in 0..self.nodes.nodes.len() {
+        for attempt in 0..=self.nodes.nodes.len() {
             checkpoint();
             let (path, nodes, solutions, changes) = self.cheapest()?;
             match certify(self.scene, path.clone()) {
                 Ok(path) => return Some(Route { path, nodes, solutions, changes }),
+                Err(_) if attempt == 0 => self.check_all(),
                 Err(_) if !self.close_first_blocked(&path, &nodes, &solutions) => return None,
                 Err(_) => {}
             }

@@ -17,10 +17,9 @@ use crate::{FollowError, MIN_TOLERANCE};
 use cplan_handling::Piece;
 use cplan_interrupt::checkpoint;
 use cplan_judge::CertifiedPath;
-use cplan_model::space::{Configuration, JointRange};
+use cplan_model::space::Configuration;
 use cplan_motion::{CertifiedCurve, CurveDrive, JointCurve, TimedMotion, along_curve, along_joint_curve};
 use std::cell::Cell;
-use std::f64::consts::TAU;
 
 /// Shares of the tolerance that are tried in turn, until a motion is found without rounds in vain.
 const TOLERANCE_SHARES: [f64; 3] = [1.0, 0.1, 0.01];
@@ -285,20 +284,15 @@ impl<'a> Stretch<'a> {
         let kinematics = self.driver.kinematics;
         let slack = SLACK_SHARE * self.driver.settings.tolerance;
         let target = kinematics.reachable(self.driver.line.curve(piece).at(u).into(), slack)?;
-        let lifted = |q: Configuration| {
-            Configuration::from_fn(|k, _| {
-                let is_turning = kinematics.arm.joints[k].joint_type.is_revolute();
-                q[k] + if is_turning { ((near[k] - q[k]) / TAU).round() * TAU } else { 0.0 }
-            })
-        };
         let off = |q: &Configuration| (q - near).norm_squared();
-        kinematics.solutions(target)?.into_iter().map(lifted).min_by(|a, b| off(a).total_cmp(&off(b)))
+        kinematics
+            .solutions(target)?
+            .into_iter()
+            .map(|q| kinematics.near(q, near))
+            .min_by(|a, b| off(a).total_cmp(&off(b)))
     }
 
     fn within_limits(&self, q: Configuration) -> Configuration {
-        Configuration::from_fn(|k, _| match self.driver.scene.arm().joints[k].range {
-            JointRange::Circle => q[k],
-            JointRange::Interval { lower, upper } => q[k].clamp(lower, upper),
-        })
+        Configuration::from_fn(|k, _| self.driver.scene.arm().joints[k].range.clamp(q[k]))
     }
 }

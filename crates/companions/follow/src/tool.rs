@@ -11,9 +11,7 @@ impl Found {
     pub fn tool(&self, arm: &Arm, path: &Toolpath, tolerance: f64) -> Vec<bool> {
         let trajectory = &self.timed.trajectory;
         let (kinematics, line) = (Kinematics::new(arm), Line::new(path));
-        let last = Foot { piece: line.pieces.len() - 1, u: 1.0 };
-        let ends = [Foot { piece: 0, u: 0.0 }, last];
-        let deviation = Deviation { kinematics: &kinematics, line: &line, tolerance, ends };
+        let deviation = Deviation::of_line(&kinematics, &line, tolerance);
         let mut pairs = deviation.pairing(&trajectory.pieces()).pairs.into_iter().peekable();
         let mut tool = vec![true; trajectory.time.len()];
         let mut begin = 0;

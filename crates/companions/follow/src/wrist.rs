@@ -36,27 +36,14 @@ pub struct WristAlong {
     pub acceleration: f64,
 }
 
-/// The values of the wrist's joint along a route.
-#[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Turns {
-    /// The values on arrival at each waypoint and on departure from it, radians. If they differ, the arm rests there while
-    /// the wrist turns.
-    pub values: Vec<[f64; 2]>,
-}
+/// The values of the wrist's joint on arrival at each waypoint of a route and on departure from it, radians. If they differ,
+/// the arm rests there while the wrist turns.
+pub(crate) type Turns = Vec<[f64; 2]>;
 
-impl Turns {
-    /// Returns the values at the waypoints from one to another: on departure from the first, and on arrival at the others.
-    pub fn between(&self, from: usize, to: usize) -> Vec<f64> {
-        let arrivals = self.values[from + 1..=to].iter().map(|[arrival, _]| *arrival);
-        std::iter::once(self.values[from][1]).chain(arrivals).collect()
-    }
-}
-
-/// A waypoint of a route at which the joint cannot be within its range.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct OutOfRange {
-    /// Index of the waypoint.
-    pub waypoint: usize,
+/// Returns the values at the waypoints from one to another: on departure from the first, and on arrival at the others.
+pub(crate) fn values_between(turns: &[[f64; 2]], from: usize, to: usize) -> Vec<f64> {
+    let arrivals = turns[from + 1..=to].iter().map(|[arrival, _]| *arrival);
+    std::iter::once(turns[from][1]).chain(arrivals).collect()
 }
 
 /// The required angles of the tool at a waypoint, up to whole turns, radians: on arrival and on departure. `None` on
@@ -87,7 +74,7 @@ impl WristAlong {
     ///
     /// # Errors
     /// The waypoint at which the joint leaves its range, whatever whole turns are chosen.
-    pub(crate) fn turns(&self, arm: &Arm, line: &Line, nodes: &Nodes, route: &Route) -> Result<Turns, OutOfRange> {
+    pub(crate) fn turns(&self, arm: &Arm, line: &Line, nodes: &Nodes, route: &Route) -> Result<Turns, usize> {
         let q = route.path.path().waypoints();
         let mut before = None;
         let angles: Vec<Angles> = (0..q.len())
@@ -107,7 +94,7 @@ impl WristAlong {
             let last = stretch.values.len() - 1;
             for (k, value) in stretch.values.iter().enumerate() {
                 let own = &mut values[stretch.first + k];
-                let value = self.at_limit(value + shift);
+                let value = self.joint.range.clamp(value + shift);
                 // The ends of a stretch may be stops.
                 if k > 0 || stretch.first == 0 || last == 0 {
                     own[0] = Some(value);
@@ -118,7 +105,7 @@ impl WristAlong {
             }
         }
         let lengths: Vec<f64> = q.windows(2).map(|leg| (leg[1] - leg[0]).norm()).collect();
-        Ok(Turns { values: joined(&values, &lengths, self.joint.rest) })
+        Ok(joined(&values, &lengths, self.joint.rest))
     }
 
     /// Returns the required angles at a waypoint, which stands for these nodes.
@@ -147,7 +134,7 @@ impl WristAlong {
     }
 
     /// Returns the whole turns to add to the values of each stretch, radians. The joint turns least between the stretches.
-    fn shifts(&self, stretches: &[Stretch]) -> Result<Vec<f64>, OutOfRange> {
+    fn shifts(&self, stretches: &[Stretch]) -> Result<Vec<f64>, usize> {
         // For each stretch: the possible shifts, each with the least cost up to there and the choice for the stretch before.
         let mut table: Vec<Vec<(f64, f64, usize)>> = Vec::new();
         for (k, stretch) in stretches.iter().enumerate() {
@@ -181,7 +168,7 @@ impl WristAlong {
 
     /// Returns the whole turns that bring all values of a stretch into the range, radians. Without limits these are the
     /// numbers of turns `near`.
-    fn candidates(&self, stretch: &Stretch, mut near: Vec<f64>) -> Result<Vec<f64>, OutOfRange> {
+    fn candidates(&self, stretch: &Stretch, mut near: Vec<f64>) -> Result<Vec<f64>, usize> {
         let JointRange::Interval { lower, upper } = self.joint.range else {
             near.dedup();
             return Ok(near.into_iter().map(|turns| turns * TAU).collect());
@@ -193,19 +180,11 @@ impl WristAlong {
             (least, greatest) = (least.min(*value), greatest.max(*value));
             turns = [((lower - least) / TAU).ceil(), ((upper - greatest) / TAU).floor()];
             if turns[0] > turns[1] {
-                return Err(OutOfRange { waypoint: stretch.first + k });
+                return Err(stretch.first + k);
             }
         }
         let [first, last] = turns.map(|turns| turns.clamp(-MAX_TURNS, MAX_TURNS));
         Ok((0..=(last - first) as u32).map(|k| (first + f64::from(k)) * TAU).collect())
-    }
-
-    /// Returns a value within the range, without the rounding that is allowed beyond it.
-    fn at_limit(&self, value: f64) -> f64 {
-        match self.joint.range {
-            JointRange::Circle => value,
-            JointRange::Interval { lower, upper } => value.clamp(lower, upper),
-        }
     }
 }
 

@@ -132,12 +132,7 @@ impl<'a> Detours<'a> {
         for (joint, range) in scene.arm_mut().joints.iter_mut().zip(ranges) {
             joint.range = range;
         }
-        let within = |q: &Configuration| {
-            Configuration::from_fn(|k, _| match ranges[k] {
-                JointRange::Circle => q[k],
-                JointRange::Interval { lower, upper } => q[k].clamp(lower, upper),
-            })
-        };
+        let within = |q: &Configuration| Configuration::from_fn(|k, _| ranges[k].clamp(q[k]));
         let (start, goals) = (within(&travel.start), travel.goals.iter().map(within).collect::<Vec<_>>());
         // A goal that is clamped by more than rounding has another number of whole turns of joint 2.
         let is_near = |(goal, stated): &(&Configuration, &Configuration)| (**goal - **stated).amax() < SAME_TURN;
@@ -228,7 +223,7 @@ impl<'a> Detours<'a> {
     fn line(&self, own: &ProgramMove, [from, to]: [Point; 2], at: Configuration) -> Option<Configuration> {
         let curve = Curve::Line { from: from.into(), to: to.into() };
         let swept = self.player.play(&curve, own.modes.is_rapid).ok()?;
-        let turns = self.player.near(swept.start, at) - swept.start;
+        let turns = self.player.kinematics.near(swept.start, at) - swept.start;
         let swept = swept.turned(turns);
         let is_within = (0..2).all(|k| match self.player.kinematics.arm.joints[k].range {
             JointRange::Circle => true,

@@ -3,11 +3,13 @@
 use cplan_geometry::Point;
 use cplan_judge::Nearest;
 use cplan_model::Scene;
-use cplan_model::space::{Configuration, JointRange};
-use cplan_text::{length, length_down};
+use cplan_model::space::Configuration;
+use cplan_text::length_down;
+use serde::Serialize;
 
 /// The kind of a reason.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Cause {
     /// The tip cannot be there.
     OutOfReach,
@@ -25,22 +27,6 @@ pub enum Cause {
     NoTravel,
     /// The move is too long or too complicated to decide.
     Undecided,
-}
-
-impl Cause {
-    /// Returns the name in results.
-    pub fn name(self) -> &'static str {
-        match self {
-            Cause::OutOfReach => "out_of_reach",
-            Cause::Singular => "singular",
-            Cause::JointLimit => "joint_limit",
-            Cause::MotorRange => "motor_range",
-            Cause::Collision => "collision",
-            Cause::JointMotion => "joint_motion",
-            Cause::NoTravel => "no_travel",
-            Cause::Undecided => "undecided",
-        }
-    }
 }
 
 /// The reason why a machine cannot play a move.
@@ -72,15 +58,7 @@ impl Fault {
     }
 
     pub(crate) fn limit(scene: &Scene, place: Point, joint: usize, q: Configuration, is_proven: bool) -> Self {
-        let own = &scene.arm().joints[joint];
-        let range = match own.range {
-            JointRange::Circle => String::new(),
-            JointRange::Interval { lower, upper } => {
-                format!(" from {} to {}", own.format_value(lower), own.format_value(upper))
-            }
-        };
-        let (name, value, at) = (&own.name, own.format_value(q[joint]), shown(place));
-        let reason = format!("joint \"{name}\" would be at {value}, outside its limits{range}, at {at}");
+        let reason = format!("{}, at {}", scene.arm().joints[joint].explain_outside(q[joint]), shown(place));
         Self { cause: Cause::JointLimit, reason, place, is_proven }
     }
 
@@ -94,12 +72,12 @@ impl Fault {
 
     pub(crate) fn collision(scene: &Scene, nearest: Nearest, is_proven: bool) -> Self {
         let (pair, place) = (nearest.contact.pair, scene.arm().tip_at(nearest.at));
-        let (part, obstacle) = (scene.describe_part(pair), scene.describe_obstacle(pair.obstacle));
-        let clearance = scene.workspace().clearance;
-        let reason = match (is_proven, clearance > 0.0) {
-            (true, true) => format!("{part} is nearer to {obstacle} than the clearance of {}", length(clearance)),
-            (true, false) => format!("{part} hits {obstacle}"),
-            (false, _) => format!("{part} is not proven to keep clear of {obstacle}"),
+        let reason = match is_proven {
+            true => scene.explain_contact(pair),
+            false => {
+                let (part, obstacle) = (scene.describe_part(pair), scene.describe_obstacle(pair.obstacle));
+                format!("{part} is not proven to keep clear of {obstacle}")
+            }
         };
         let reason = format!("{reason} with the tip at {}", shown(place));
         Self { cause: Cause::Collision, reason, place, is_proven }

@@ -106,15 +106,6 @@ impl<'a> Player<'a> {
         solutions.map(|both| both[self.solution]).ok_or_else(|| Fault::singular(point, true))
     }
 
-    /// Returns the nearest value of each joint that has the same pose.
-    pub fn near(&self, q: Configuration, near: Configuration) -> Configuration {
-        let joints = &self.kinematics.arm.joints;
-        Configuration::from_fn(|k, _| match joints[k].joint_type.is_revolute() {
-            true => q[k] + ((near[k] - q[k]) / TAU).round() * TAU,
-            false => q[k],
-        })
-    }
-
     /// Returns the numbers of whole turns that bring all values of a joint within its limits: the first one and the last
     /// one. If the first one is greater, no whole turn does so.
     pub fn turns(&self, joint: usize, [low, high]: [f64; 2]) -> [f64; 2] {
@@ -155,6 +146,14 @@ impl<'a> Player<'a> {
         }
     }
 
+    /// Checks the joint limits and the range of the elbow's motor at a place of the tip.
+    pub fn check_limits(&self, point: Point, q: Configuration) -> Result<(), Fault> {
+        match self.joint_outside(q, q) {
+            Some(joint) => Err(Fault::limit(self.scene, point, joint, q, true)),
+            None => self.keeps_motor_range(point, q, [0.0; 2]),
+        }
+    }
+
     /// Plays a line in segments on which the joints move straight.
     fn segments(&self, curve: &Curve, length: f64) -> Result<Swept, Fault> {
         let count = (curve.length() / length).ceil().max(1.0);
@@ -166,11 +165,8 @@ impl<'a> Player<'a> {
         for k in 0..=count as u32 {
             let point = Point::from(curve.at(f64::from(k) / count));
             let before = places[places.len() - 1];
-            let q = self.near(self.at(point)?, before);
-            if let Some(joint) = self.joint_outside(q, q) {
-                return Err(Fault::limit(self.scene, point, joint, q, true));
-            }
-            self.keeps_motor_range(point, q, [0.0; 2])?;
+            let q = self.kinematics.near(self.at(point)?, before);
+            self.check_limits(point, q)?;
             let joints = &self.kinematics.arm.joints;
             if (0..2).any(|k| joints[k].joint_type.is_revolute() && (q[k] - before[k]).abs() > MAX_HALF_TURN) {
                 return Err(Fault::singular(point, false));
@@ -189,50 +185,55 @@ impl<'a> Player<'a> {
         let mut open = vec![[0.0, 1.0]];
         while let Some([a, b]) = open.pop() {
             checkpoint();
-            let (middle, half) = ((a + b) / 2.0, (b - a) / 2.0);
-            let point = Point::from(curve.at(middle));
-            let q = self.at(point)?;
-            if let Some(joint) = self.joint_outside(q, q) {
-                return Err(Fault::limit(self.scene, point, joint, q, true));
-            }
-            self.keeps_motor_range(point, q, [0.0; 2])?;
-            let near = distance_from_middle(curve, middle, half);
-            let is_short = near <= self.tolerance;
-            let ends = [a, b].map(|u| Point::from(curve.at(u)));
-            let is_apart = self.kinematics.distance_from_singular(ends, sag(curve, [a, b])) > 0.0;
-            let boxes = self.small_box(point, near).zip(self.small_box(point, near + self.tolerance));
-            let Some((exact, wide)) = boxes.filter(|_| is_apart || is_short) else {
-                if is_short {
-                    return Err(Fault::singular(point, false));
-                }
+            let middle = (a + b) / 2.0;
+            let Some((next, wide)) = self.part(curve, [a, b], swept.end)? else {
                 open.extend([[middle, b], [a, middle]]);
                 continue;
             };
-            let q = self.near(exact.middle, swept.end);
-            let [low, high] = [-1.0, 1.0].map(|sign| q + Configuration::from(exact.half) * sign);
-            if let Some(joint) = self.joint_outside(low, high) {
-                if near <= LIMIT_ROUNDING {
-                    return Err(Fault::limit(self.scene, point, joint, q, false));
-                }
-                open.extend([[middle, b], [a, middle]]);
-                continue;
-            }
-            if let Err(fault) = self.keeps_motor_range(point, q, exact.half) {
-                if near <= LIMIT_ROUNDING {
-                    return Err(fault);
-                }
-                open.extend([[middle, b], [a, middle]]);
-                continue;
-            }
-            let end = self.near(self.at(ends[1])?, q);
-            swept = swept.then(&Swept { start: q, end, low, high });
+            swept = swept.then(&next);
             parts.push(([a, b], wide));
             if parts.len() + open.len() > MAX_PARTS {
-                return Err(Fault::undecided(point, format!("the move needs more than {MAX_PARTS} parts")));
+                let why = format!("the move needs more than {MAX_PARTS} parts");
+                return Err(Fault::undecided(curve.at(middle).into(), why));
             }
         }
         first_fault(parts.iter().map(|(ends, wide)| self.keeps_clear(curve, *ends, wide)))?;
         Ok(swept)
+    }
+
+    /// Plays a part of a line, from joint values near those before it. Returns the box of the IK solution within the tolerance
+    /// of the part, too. `None` if only shorter parts can be judged.
+    fn part(
+        &self,
+        curve: &Curve,
+        [a, b]: [f64; 2],
+        before: Configuration,
+    ) -> Result<Option<(Swept, SolutionBox)>, Fault> {
+        let (middle, half) = ((a + b) / 2.0, (b - a) / 2.0);
+        let point = Point::from(curve.at(middle));
+        self.check_limits(point, self.at(point)?)?;
+        let near = distance_from_middle(curve, middle, half);
+        let is_short = near <= self.tolerance;
+        let ends = [a, b].map(|u| Point::from(curve.at(u)));
+        let is_apart = self.kinematics.distance_from_singular(ends, sag(curve, [a, b])) > 0.0;
+        let boxes = self.small_box(point, near).zip(self.small_box(point, near + self.tolerance));
+        let Some((exact, wide)) = boxes.filter(|_| is_apart || is_short) else {
+            return if is_short { Err(Fault::singular(point, false)) } else { Ok(None) };
+        };
+        let q = self.kinematics.near(exact.middle, before);
+        let [low, high] = [-1.0, 1.0].map(|sign| q + Configuration::from(exact.half) * sign);
+        let fault = match self.joint_outside(low, high) {
+            Some(joint) => Some(Fault::limit(self.scene, point, joint, q, false)),
+            None => self.keeps_motor_range(point, q, exact.half).err(),
+        };
+        match fault {
+            Some(fault) if near <= LIMIT_ROUNDING => Err(fault),
+            Some(_) => Ok(None),
+            None => {
+                let end = self.kinematics.near(self.at(ends[1])?, q);
+                Ok(Some((Swept { start: q, end, low, high }, wide)))
+            }
+        }
     }
 
     fn small_box(&self, point: Point, near: f64) -> Option<SolutionBox> {
@@ -252,7 +253,7 @@ impl<'a> Player<'a> {
             let near = distance_from_middle(curve, u, half) + self.tolerance;
             let known = self.kinematics.solution_box(point, self.solution, near).unwrap_or(*whole);
             let q = self.at(point).unwrap_or(known.middle);
-            let off = (self.near(known.middle, q) - q).abs();
+            let off = (self.kinematics.near(known.middle, q) - q).abs();
             (q, Deviation::Box([0, 1].map(|k| known.half[k] + off[k])))
         };
         search.curve(&self.vicinity, on_part).map_err(|rejection| self.blocked(rejection))

@@ -66,7 +66,7 @@ impl<'a> Walk<'a> {
         let ProgramMove { piece, modes } = &self.moves[index];
         let played = self.player.play(&piece.curve, modes.is_rapid).and_then(|swept| {
             let Some(before) = chain.map(|chain| self.chains[chain]) else { return Ok(swept) };
-            let turns = self.player.near(swept.start, before.end) - swept.start;
+            let turns = self.player.kinematics.near(swept.start, before.end) - swept.start;
             let joined = before.then(&swept.turned(turns));
             match self.player.joint_outside(joined.low, joined.high) {
                 None => Ok(joined),
@@ -110,13 +110,8 @@ impl<'a> Walk<'a> {
     /// Begins a chain with the arm at rest.
     fn begin_at(&mut self, point: Point) -> Result<usize, Fault> {
         let q = self.player.at(point)?;
-        match self.player.joint_outside(q, q) {
-            Some(joint) => Err(Fault::limit(self.player.scene, point, joint, q, true)),
-            None => {
-                self.player.keeps_motor_range(point, q, [0.0; 2])?;
-                Ok(self.begin(Swept::at_rest(q)))
-            }
-        }
+        self.player.check_limits(point, q)?;
+        Ok(self.begin(Swept::at_rest(q)))
     }
 
     /// Returns the whole turns that bring a chain within the limits.

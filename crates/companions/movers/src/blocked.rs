@@ -4,7 +4,7 @@
 use cplan_geometry::{
     Convex, Interval, Point, Pose, Vector, cross, merge_in_place, separation, separation_at, sliding,
 };
-use cplan_handling::{Leg, TimedScene};
+use cplan_handling::{TimedScene, TrajectoryLeg};
 use cplan_interrupt::checkpoint;
 use cplan_judge::{Deviation, Posture};
 use cplan_model::space::Configuration;
@@ -29,8 +29,8 @@ pub struct MovingObstacles<'a> {
     clearance: f64,
     /// One entry for each moving obstacle, each of its pieces, and each leg of its trajectory.
     stretches: Vec<Stretch>,
-    /// All pairs of a part of the arm and a piece of an obstacle that can meet.
-    meetings: Vec<Meeting>,
+    /// All pairs of a part of the arm and a piece of an obstacle that can meet, at all times.
+    pub(crate) meetings: Vec<Meeting>,
 }
 
 /// A part of the arm, and a piece of a moving obstacle on one leg of its trajectory, within an interval of time.
@@ -62,7 +62,7 @@ pub struct PartDeviation<'a> {
     /// A disc that contains the part: centre and radius.
     disc: (Point, f64),
     /// Upper bound on the deviation of a point of the part, in metres.
-    moves: f64,
+    pub moves: f64,
 }
 
 impl<'a> PartDeviation<'a> {
@@ -82,11 +82,6 @@ impl<'a> PartDeviation<'a> {
         known.as_ref().expect("just made")
     }
 
-    /// Returns an upper bound on the deviation of a point of the part, in metres.
-    pub fn max_motion(&self) -> f64 {
-        self.moves
-    }
-
     fn placed(&self) -> &(Convex, f64) {
         self.placed.get_or_init(|| {
             let placed = self.part.at(&self.pose);
@@ -98,7 +93,7 @@ impl<'a> PartDeviation<'a> {
 
 /// A piece of a moving obstacle along one leg of its trajectory.
 struct Stretch {
-    leg: Leg,
+    leg: TrajectoryLeg,
     /// The piece in its own frame, and a disc around it.
     own: Convex,
     own_disc: (Point, f64),
@@ -114,7 +109,7 @@ struct Stretch {
 }
 
 impl Stretch {
-    fn new(piece: &Convex, leg: Leg) -> Self {
+    fn new(piece: &Convex, leg: TrajectoryLeg) -> Self {
         let placed = piece.at(&leg.pose(leg.from));
         let speed = leg.velocity.norm();
         Self {
@@ -165,18 +160,9 @@ impl Stretch {
     /// Finds the times at which the distance of a turning piece from a part is at most `grow`. The result may include
     /// more times. It is computed in steps in which the piece moves by at most `step`.
     fn turning(&self, around: &PartDeviation, within: Interval, [grow, step]: [f64; 2], out: &mut Vec<Interval>) {
-        let mut open = vec![within];
-        while let Some([from, to]) = open.pop() {
-            checkpoint();
-            let (middle, drifts) = (f64::midpoint(from, to), self.speed * (to - from) / 2.0);
-            let Some(distance) = self.distance(around, middle, grow + drifts) else { continue };
-            // The piece is near during the whole interval, or the interval is too short to decide.
-            if distance + drifts <= grow || drifts <= step {
-                out.push([from, to]);
-            } else {
-                open.extend([[middle, to], [from, middle]]);
-            }
-        }
+        // The piece is near during the whole interval, or the interval is too short to decide.
+        let decide = |most: f64, drifts: f64, _| (most <= grow || drifts <= step).then_some(true);
+        self.divide(around, within, grow, decide, out);
     }
 
     /// Finds times at which the piece overlaps a part by more than `deeper`. It may omit some: its ends are accurate to
@@ -188,15 +174,29 @@ impl Stretch {
         [deeper, shortest]: [f64; 2],
         out: &mut Vec<Interval>,
     ) {
+        let decide = |most: f64, _, lasts: f64| Some(most < -deeper).filter(|is_deep| *is_deep || lasts <= shortest);
+        self.divide(around, within, -deeper, decide, out);
+    }
+
+    /// Finds the intervals that `decide` accepts. It gets an upper bound on the distance during the interval, the motion from
+    /// its middle to its ends, and its duration; with `None`, the interval is divided. Intervals during which the distance is
+    /// greater than `near` are not examined.
+    fn divide(
+        &self,
+        around: &PartDeviation,
+        within: Interval,
+        near: f64,
+        decide: impl Fn(f64, f64, f64) -> Option<bool>,
+        out: &mut Vec<Interval>,
+    ) {
         let mut open = vec![within];
         while let Some([from, to]) = open.pop() {
             checkpoint();
             let (middle, drifts) = (f64::midpoint(from, to), self.speed * (to - from) / 2.0);
-            let Some(distance) = self.distance(around, middle, drifts - deeper) else { continue };
-            if distance + drifts < -deeper {
-                out.push([from, to]);
-            } else if to - from > shortest {
-                open.extend([[middle, to], [from, middle]]);
+            let Some(distance) = self.distance(around, middle, near + drifts) else { continue };
+            match decide(distance + drifts, drifts, to - from) {
+                Some(is_met) => out.extend(is_met.then_some([from, to])),
+                None => open.extend([[middle, to], [from, middle]]),
             }
         }
     }
@@ -248,7 +248,7 @@ impl<'a> MovingObstacles<'a> {
         for &pair in timed.moving_pairs() {
             let Some((mover, trajectory)) = scene.loose_index(pair).zip(timed.trajectory(pair)) else { continue };
             let legs = trajectory.legs();
-            meetings.extend(legs.iter().enumerate().map(|(leg, Leg { from, to, .. })| Meeting {
+            meetings.extend(legs.iter().enumerate().map(|(leg, TrajectoryLeg { from, to, .. })| Meeting {
                 pair,
                 within: [*from, *to],
                 stretch: first[mover][pair.piece] + leg,
@@ -260,11 +260,6 @@ impl<'a> MovingObstacles<'a> {
     /// Returns the scene.
     pub fn scene(&self) -> &'a Scene {
         self.scene
-    }
-
-    /// Returns all pairs that can meet, at all times.
-    pub(crate) fn meetings(&self) -> &[Meeting] {
-        &self.meetings
     }
 
     /// Returns the times at which each moving obstacle is nearer to the arm at `q` than the clearance, in order and

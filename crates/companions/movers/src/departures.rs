@@ -26,7 +26,7 @@ pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: In
     let scene = movers.scene();
     let finest = MAX_STRETCH_MOTION * scene.arm().reach();
     let (mut blocked, mut times) = (Vec::new(), Vec::new());
-    let mut open = vec![(Span::all(pieces.len()), movers.meetings().to_vec())];
+    let mut open = vec![(Span::all(pieces.len()), movers.meetings.clone())];
     while !open.is_empty() {
         let (mut halves, mut found) = (Vec::new(), Vec::new());
         for (span, meetings) in open {
@@ -39,7 +39,7 @@ pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: In
             let (mut departures, mut open) = (Vec::new(), Vec::new());
             for meeting in meetings {
                 let around = PartDeviation::of(&mut known, movers, &posture, deviation, meeting);
-                moves = moves.max(around.max_motion());
+                moves = moves.max(around.moves);
                 times.clear();
                 movers.near(around, meeting, &mut times);
                 merge_in_place(&mut times);

@@ -182,10 +182,7 @@ pub fn clearance_at_rest(timed: TimedScene, q: Configuration, seconds: f64) -> O
     let times = if seconds > 0.0 { vec![0.0, seconds] } else { vec![0.0] };
     let (positions, velocities) = (vec![q; times.len()], vec![Configuration::zeros(); times.len()]);
     let standing = Recording::new(positions, Some(times), Some(velocities)).ok()?;
-    match certify_in_time(timed, &standing, timed.scene.workspace().clearance) {
-        CollisionCheck::Free { clearance, .. } => Some(clearance),
-        CollisionCheck::Collision { .. } | CollisionCheck::Undecided(_) => None,
-    }
+    certify_in_time(timed, &standing, timed.scene.workspace().clearance).clearance()
 }
 
 /// Returns a motion as recordings for both interpolations: by cubics, and by the polynomials that it states.

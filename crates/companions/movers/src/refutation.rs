@@ -36,7 +36,7 @@ impl Stretch {
         self.left.get_or_init(|| {
             let posture = Posture::new(movers.scene(), self.middle);
             let (mut met, mut known) = (Vec::new(), None);
-            for &meeting in movers.meetings() {
+            for &meeting in &movers.meetings {
                 let around = PartDeviation::of(&mut known, movers, &posture, Deviation::Along(self.half), meeting);
                 movers.collision_times(around, meeting, OVERLAP_TIME_STEP, &mut met);
             }

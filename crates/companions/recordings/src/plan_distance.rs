@@ -10,6 +10,7 @@ use cplan_handling::{Piece, Recording};
 use cplan_interrupt::checkpoint;
 use cplan_model::Arm;
 use cplan_model::space::Configuration;
+use cplan_motion::distance_to_leg;
 use cplan_motion::recorded::Moment;
 use std::cell::Cell;
 use std::f64::consts::TAU;
@@ -136,16 +137,8 @@ impl Chords {
         let first = group * CHORDS_PER_BOX;
         let own = &self.corners[first..=(first + CHORDS_PER_BOX).min(self.corners.len() - 1)];
         let to_first = (at - own[0]).norm();
-        own.windows(2).map(|chord| from_chord(at, chord[0], chord[1])).fold(to_first, f64::min)
+        own.windows(2).map(|chord| distance_to_leg(at, chord[0], chord[1])).fold(to_first, f64::min)
     }
-}
-
-/// Returns the distance of a point from a chord.
-fn from_chord(at: Point, from: Point, to: Point) -> f64 {
-    let (along, off) = (to - from, at - from);
-    let length2 = along.norm_squared();
-    let share = if length2 > 0.0 { (along.dot(&off) / length2).clamp(0.0, 1.0) } else { 0.0 };
-    (off - along * share).norm()
 }
 
 /// Returns the place with the greatest distance. `most` bounds the change of the distance, given bounds on the motion of

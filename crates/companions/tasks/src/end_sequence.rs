@@ -3,9 +3,7 @@
 use super::arch::{clearance_of_both, longest_free};
 use super::stroke::stroke_seconds;
 use cplan_handling::{ArchScene, Recording, Stroke, Task, Wrist};
-use cplan_motion::recorded::{
-    CollisionCheck, StrokeDuringMotion, TurnCover, TurnDuringMotion, WristTurn, seconds_to_rise,
-};
+use cplan_motion::recorded::{StrokeDuringMotion, TurnCover, TurnDuringMotion, WristTurn, seconds_to_rise};
 use cplan_motion::{TimedMotion, round_down};
 
 /// Factors by which the duration of a turn may be stretched, so that the wrist can also compensate the rotation of link 2
@@ -162,11 +160,7 @@ impl<'a> EndSequence<'a> {
                 motion,
                 recordings,
                 |recording, clearance| stroke.keeps(recording, clearance),
-                |recording| match stroke.check(recording) {
-                    None => Some(f64::INFINITY),
-                    Some(CollisionCheck::Free { clearance, .. }) => Some(clearance),
-                    Some(_) => None,
-                },
+                |recording| stroke.check(recording).map_or(Some(f64::INFINITY), |check| check.clearance()),
             )?,
         };
         let (required, of_motion) = (self.task.workspace.fixed.clearance, motion.curve.clearance());

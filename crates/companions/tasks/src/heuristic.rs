@@ -14,8 +14,8 @@ use nalgebra::Rotation2;
 #[derive(Debug, Clone)]
 pub(super) struct Stop {
     /// All IK solutions at the target. `None` if there are infinitely many, or if earlier steps determine them.
-    ik_solutions: Option<Vec<Configuration>>,
-    speed: f64,
+    pub ik_solutions: Option<Vec<Configuration>>,
+    pub speed: f64,
     /// Lower bound on the duration of the motion to the stop, from the speed of the tip alone, in seconds.
     least_travel: f64,
     /// Longest overlaps of strokes with the motion to the stop, at its beginning and its end, in seconds.
@@ -33,16 +33,6 @@ impl Stop {
     /// Returns the configuration of the stop with this index. `None` if the configurations are unknown.
     fn at(&self, place: usize) -> Option<Configuration> {
         self.ik_solutions.as_ref().map(|ik_solutions| ik_solutions[place])
-    }
-
-    /// Returns all IK solutions, if they are known.
-    pub fn ik_solutions(&self) -> Option<&[Configuration]> {
-        self.ik_solutions.as_deref()
-    }
-
-    /// Returns the fraction of the top speeds for the motion to the stop.
-    pub fn speed(&self) -> f64 {
-        self.speed
     }
 
     /// Returns a lower bound on the duration of the motion to a configuration of the stop, plus its dwell, in seconds.

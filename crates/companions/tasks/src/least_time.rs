@@ -1,19 +1,9 @@
 //! Lower bounds on the durations of motions.
 
 use super::ik_solutions::JOINT_ROUNDING;
-use cplan_handling::{Action, Step, ToolLimits, Wrist};
+use cplan_handling::{Action, Step, ToolLimits, Wrist, rest_to_rest};
 use cplan_model::Arm;
 use cplan_model::space::Configuration;
-
-/// Returns the time that a joint takes for a distance from rest to rest, in seconds. It accelerates constantly until it
-/// reaches its top speed.
-pub fn rest_to_rest(distance: f64, velocity: f64, acceleration: f64) -> f64 {
-    if distance * acceleration <= velocity * velocity {
-        2.0 * (distance / acceleration).sqrt()
-    } else {
-        distance / velocity + velocity / acceleration
-    }
-}
 
 /// Returns a lower bound on the duration of a turn, in seconds.
 pub(super) fn least_turn(wrist: &Wrist, angle: f64) -> f64 {
@@ -23,23 +13,8 @@ pub(super) fn least_turn(wrist: &Wrist, angle: f64) -> f64 {
 /// Returns a lower bound, in seconds, on the duration of every motion of a joint of the tool over a distance, from rest to
 /// rest.
 pub(super) fn least_of_tool(distance: f64, limits: &ToolLimits) -> f64 {
-    let ToolLimits { velocity, acceleration, jerk } = *limits;
-    let Some(jerk) = jerk else { return rest_to_rest(distance, velocity, acceleration) };
-    // In each half, the acceleration grows for a time and shrinks for as long. It is constant in between, and so is the
-    // speed between the halves. The limits are reached one after the other as the distance grows.
-    let grow = (velocity / jerk).sqrt().min(acceleration / jerk);
-    let hold = (velocity / (jerk * grow) - grow).max(0.0);
-    let speeding = 2.0 * grow + hold;
-    let seconds = if distance >= velocity * speeding {
-        distance / velocity + speeding
-    } else if distance <= 2.0 * jerk * grow.powi(3) {
-        4.0 * (distance / (2.0 * jerk)).cbrt()
-    } else {
-        // With `h` between growing and shrinking, the distance is `j g (g + h) (2 g + h)`.
-        let held = (grow * grow / 4.0 + distance / (jerk * grow)).sqrt() - 1.5 * grow;
-        2.0 * (2.0 * grow + held)
-    };
-    seconds * (1.0 - ROUNDING)
+    let seconds = limits.least_seconds(distance);
+    if limits.jerk.is_some() { seconds * (1.0 - ROUNDING) } else { seconds }
 }
 
 /// Fraction by which the time of a motion is lowered. So rounding cannot make the bound exceed the time of the straight

@@ -74,7 +74,7 @@ use cplan_handling::Task;
 use cplan_legs::{TaskAnswer, TaskReplay};
 use cplan_solver::Options;
 
-pub use least_time::rest_to_rest;
+pub use cplan_handling::rest_to_rest;
 pub use plan::plan;
 pub use replay::replay;
 pub use standstill::raising_at_start;

@@ -13,7 +13,7 @@ use cplan_handling::{Action, FollowedLine, Payload, Placement, Step, Task, Wrist
 use cplan_judge::CertifiedPath;
 use cplan_legs::{Overlap, StandstillScene, ToolStroke, WristMotion};
 use cplan_model::{Grip, Outcome, Scene};
-use cplan_motion::recorded::{WristTurn, wrist_turn};
+use cplan_motion::recorded::{TurnAtRest, WristTurn};
 use cplan_motion::{TimedMotion, TorqueLimit, nanoseconds, seconds, single};
 use cplan_solver::Options;
 use std::collections::BTreeMap;
@@ -44,6 +44,23 @@ pub(super) struct Motion {
 }
 
 impl Motion {
+    /// Creates a motion of the arm alone.
+    fn of(timed: Arc<TimedMotion>) -> Self {
+        Self {
+            timed,
+            turn: None,
+            raising: None,
+            stroke: None,
+            wrist: None,
+            raises_again: false,
+            overlap: Overlap::NONE,
+            deviation: None,
+            tool_deviation: None,
+            turning_before: 0.0,
+            turning: 0.0,
+        }
+    }
+
     /// Returns the time from the end of the step before to the end of this one, without its dwell, in seconds. A step
     /// ends when the tool is raised. If the arm departs earlier, the time is shorter than that of the motion. A turn
     /// after a pick that may overlap with the next motion counts for that motion.
@@ -137,21 +154,8 @@ impl MotionCache {
                 timed = turned_first(&from.scene(task, None), &timed, begin, &wrist, candidate.step.speed);
             }
             let turning_before = from.turning.map_or(0.0, |(_, seconds)| seconds);
-            let overlap = Overlap::NONE;
             let deviation = Some(deviation);
-            return Ok(Motion {
-                timed,
-                turn: None,
-                raising: None,
-                stroke: None,
-                wrist: None,
-                raises_again: false,
-                overlap,
-                deviation,
-                tool_deviation,
-                turning_before,
-                turning: 0.0,
-            });
+            return Ok(Motion { deviation, tool_deviation, turning_before, ..Motion::of(timed) });
         }
         let key = self.checked_path_key(task, from, candidate)?;
         let speed = candidate.step.speed;
@@ -176,19 +180,8 @@ impl MotionCache {
             .turning
             .map_or(0.0, |(_, seconds)| overlap.turn_seconds.filter(|_| own_turn.is_none()).unwrap_or(seconds));
         let raises_again = candidate.event.is_some();
-        let motion = Motion {
-            timed,
-            turn,
-            raising,
-            stroke,
-            wrist: None,
-            raises_again,
-            overlap,
-            deviation: None,
-            tool_deviation: None,
-            turning_before,
-            turning,
-        };
+        let overlaps = Motion { overlap, turning_before, turning, ..Motion::of(timed) };
+        let motion = Motion { turn, raising, stroke, raises_again, ..overlaps };
         let departure = motion.before_departure() - motion.overlap.departure();
         let wrist = task.wrist_turn(candidate.step).zip(task.wrist).map(|(angle, limits)| {
             let ends = [departure + motion.timed.trajectory.duration(), motion.seconds() + candidate.step.dwell];
@@ -347,8 +340,9 @@ impl MotionCache {
         let Some(wrist) = task.wrist else {
             return Err(unproven("the arm has no wrist that could turn the object"));
         };
-        let found = wrist_turn(task, &task.obstacles(&with.poses).fixed, held, *point, candidate.to, turn);
-        let found = found.ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
+        let turning = TurnAtRest::new(task, &task.obstacles(&with.poses).fixed, held, *point, candidate.to);
+        let found =
+            turning.free(turn).ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
         let turning = single((found.to - found.from).abs(), &wrist.limits());
         Ok((found, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }

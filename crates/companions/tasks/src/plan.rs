@@ -57,7 +57,7 @@ pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> T
     let lower_bound = raising + heuristic.remaining(start.q, start.progress);
     let turns = task.steps().filter_map(|step| task.wrist_turn(step)).zip(&task.wrist);
     let lower_bound = turns.map(|(angle, wrist)| least_turn(wrist, angle)).fold(lower_bound, f64::max);
-    let planning = Planning { task, options, legs: MotionCache::new(options), lower_bound, expanded: 0, progress };
+    let mut planning = Planning { task, options, legs: MotionCache::new(options), lower_bound, expanded: 0, progress };
     if let Some(found) = alone::impossible(task) {
         return planning.answer(found);
     }
@@ -65,7 +65,10 @@ pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> T
     match task.items.iter().map(pairs).max().unwrap_or(0) {
         0 => planning.plan_fixed_order(&heuristic),
         1..=MAX_FULLY_ORDERED_PAIRS => planning.in_any_order(&heuristic),
-        _ => planning.in_fixed_order(),
+        _ => {
+            let found = planning.in_chosen_order();
+            planning.answer(found)
+        }
     }
 }
 
@@ -113,12 +116,6 @@ impl Planning<'_, '_> {
         let last = Found::of(&mut search, ending, ending == Ending::Exhausted);
         self.expanded += search.expanded();
         self.answer(if ending == Ending::OutOfBudget { found } else { Found { exact: false, ..last } })
-    }
-
-    /// Plans a task with more orders than can be searched.
-    fn in_fixed_order(mut self) -> TaskAnswer {
-        let found = self.in_chosen_order();
-        self.answer(found)
     }
 
     /// Plans the task in an order that this function chooses.

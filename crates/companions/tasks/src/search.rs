@@ -13,7 +13,7 @@ use super::state::{Candidate, State, turns_on_the_way};
 use super::stroke::{least_rest, least_stroke, least_without_strokes, most_overlap};
 use super::tool_turn::wrist_after;
 use cplan_geometry::OpenList;
-use cplan_handling::{Action, Task};
+use cplan_handling::{Action, Step, Task};
 use cplan_interrupt::checkpoint;
 use cplan_legs::{FailedStep, Leg};
 use std::cmp::Reverse;
@@ -55,6 +55,16 @@ struct Node<'a> {
     /// Time from the start to this node, in seconds. While the motion to it is not planned, this is a lower bound.
     seconds: f64,
     stage: Stage<'a>,
+}
+
+impl Node<'_> {
+    /// Returns the state, unless the motion to it is not planned.
+    fn state(&self) -> Option<&State> {
+        match &self.stage {
+            Stage::Reached(state, _) => Some(state),
+            Stage::Pending(_) => None,
+        }
+    }
 }
 
 /// The stages of a node: whether the motion to it is already planned.
@@ -151,6 +161,12 @@ impl<'a, 'l> Search<'a, 'l> {
         self.nodes[index].seconds
     }
 
+    /// Records that a step is refused after a node.
+    fn refuse(&mut self, node: usize, step: &'a Step, candidate: Option<Candidate<'a>>, refusal: Refusal) {
+        let (depth, ik_solution) = (self.nodes[node].depth, candidate.map(|candidate| candidate.to));
+        self.refused.push(RefusedStep { depth, node, step, ik_solution, candidate, refusal });
+    }
+
     fn push(&mut self, node: Node<'a>) {
         self.nodes.push(node);
         self.open(self.nodes.len() - 1);
@@ -175,22 +191,15 @@ impl<'a, 'l> Search<'a, 'l> {
 
     /// Records that the search stopped at a limit. The steps after the farthest state could not be done within it.
     pub fn give_up(&mut self) {
-        let open = |&node: &usize| self.state(node).is_some_and(|state| !state.is_done(self.task));
+        let open = |&node: &usize| self.nodes[node].state().is_some_and(|state| !state.is_done(self.task));
         let farthest = (0..self.nodes.len()).filter(open).max_by_key(|&node| (self.nodes[node].depth, Reverse(node)));
-        let next = farthest.zip(farthest.and_then(|node| self.state(node)?.candidates(self.task).into_iter().next()));
+        let next =
+            farthest.zip(farthest.and_then(|node| self.nodes[node].state()?.candidates(self.task).into_iter().next()));
         if let Some((node, candidates)) = next {
             let (motions, states) = (self.legs.planned(), self.expanded);
             let reason = format!("given up after {motions} motions and {states} states of the world");
             let refusal = Refusal::new(reason, false);
-            let depth = self.nodes[node].depth;
-            self.refused.push(RefusedStep {
-                depth,
-                node,
-                step: candidates.step,
-                ik_solution: None,
-                candidate: None,
-                refusal,
-            });
+            self.refuse(node, candidates.step, None, refusal);
         }
     }
 
@@ -214,14 +223,7 @@ impl<'a, 'l> Search<'a, 'l> {
                     (seconds, Stage::Reached(Box::new(state), Some(Box::new((candidate, motion)))));
                 self.open(index);
             }
-            Err(refusal) => self.refused.push(RefusedStep {
-                depth: self.nodes[parent].depth,
-                node: parent,
-                step: candidate.step,
-                ik_solution: Some(candidate.to),
-                candidate: Some(candidate),
-                refusal,
-            }),
+            Err(refusal) => self.refuse(parent, candidate.step, Some(candidate), refusal),
         }
     }
 
@@ -239,15 +241,7 @@ impl<'a, 'l> Search<'a, 'l> {
                     Action::Follow(_) => "no IK solution within the joint limits reaches the end of the line",
                     _ => UNREACHABLE,
                 };
-                let refusal = Refusal::new(reason, candidates.all);
-                self.refused.push(RefusedStep {
-                    depth,
-                    node: index,
-                    step: candidates.step,
-                    ik_solution: None,
-                    candidate: None,
-                    refusal,
-                });
+                self.refuse(index, candidates.step, None, Refusal::new(reason, candidates.all));
             }
             for candidate in candidates.ways {
                 // A turn after a pick counts for the next motion, in which it may be hidden.
@@ -314,21 +308,10 @@ impl<'a, 'l> Search<'a, 'l> {
     /// Explains why the search got no farther. Also returns the node that it reached. The last value is true if the
     /// failure is proven for all choices, provided that the search is exhausted.
     pub fn failure(&mut self) -> (FailedStep, usize, bool) {
-        let state = |node: usize| match &self.nodes[node].stage {
-            Stage::Reached(state, _) => Some(&**state),
-            Stage::Pending(_) => None,
-        };
         let (task, legs) = (self.task, &mut *self.legs);
-        let (failed, node) = farthest(task, &self.refused, state, |from, step| legs.scene(task, from, step));
+        let (failed, node) =
+            farthest(task, &self.refused, |node| self.nodes[node].state(), |from, step| legs.scene(task, from, step));
         let proven = self.complete && self.refused.iter().all(|refused| refused.refusal.proven);
         (failed, node, proven)
-    }
-
-    /// Returns the state that a node has reached.
-    fn state(&self, node: usize) -> Option<&State> {
-        match &self.nodes[node].stage {
-            Stage::Reached(state, _) => Some(state),
-            Stage::Pending(_) => None,
-        }
     }
 }

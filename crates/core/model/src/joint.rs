@@ -137,6 +137,18 @@ impl Joint {
         shown
     }
 
+    /// States that a value is outside the range: `joint "elbow" would be at 20.00 deg (0.3491 rad), outside its limits`, with
+    /// these limits.
+    pub fn explain_outside(&self, value: f64) -> String {
+        let limits = match self.range {
+            JointRange::Circle => String::new(),
+            JointRange::Interval { lower, upper } => {
+                format!(" from {} to {}", self.format_value(lower), self.format_value(upper))
+            }
+        };
+        format!("joint \"{}\" would be at {}, outside its limits{limits}", self.name, self.format_value(value))
+    }
+
     /// Returns several values with their units, with enough digits that different values look different.
     pub fn format_distinct<const N: usize>(&self, values: [f64; N]) -> [String; N] {
         let mut texts = format_distinct(values, 4);

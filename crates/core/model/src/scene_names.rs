@@ -53,6 +53,17 @@ impl Scene {
         format!("{} and {}", self.describe_part(pair), self.describe_obstacle(pair.obstacle))
     }
 
+    /// States that a part is too near to an obstacle: `link "forearm" hits obstacle "shelf"`, or is nearer than the clearance.
+    pub fn explain_contact(&self, pair: Pair) -> String {
+        let (part, obstacle) = (self.describe_part(pair), self.describe_obstacle(pair.obstacle));
+        match self.workspace().clearance {
+            clearance if clearance > 0.0 => {
+                format!("{part} is nearer to {obstacle} than the clearance of {}", cplan_text::length(clearance))
+            }
+            _ => format!("{part} hits {obstacle}"),
+        }
+    }
+
     /// Describes an obstacle in words: `obstacle "shelf"`, `link "base_link"`.
     pub fn describe_obstacle(&self, number: usize) -> String {
         let kind = if self.self_obstacles().contains(&number) { "link" } else { "obstacle" };

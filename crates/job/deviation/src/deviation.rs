@@ -85,6 +85,14 @@ pub struct Pairing {
     pub bounds: Vec<f64>,
 }
 
+impl<'a> Deviation<'a> {
+    /// Creates the deviation from a whole line.
+    pub fn of_line(kinematics: &'a Kinematics<'a>, line: &'a Line<'a>, tolerance: f64) -> Self {
+        let ends = [Foot { piece: 0, u: 0.0 }, Foot { piece: line.pieces.len() - 1, u: 1.0 }];
+        Self { kinematics, line, tolerance, ends }
+    }
+}
+
 impl Deviation<'_> {
     /// Pairs a motion with the line. It takes `O(n)` for `n` pieces if each place of the line is near only those moments
     /// that belong to it, and more where a bound exceeds the tolerance.

@@ -3,7 +3,7 @@
 use cplan_geometry::{Point, Vector, cross};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, JointType, inverse};
-use std::f64::consts::{FRAC_PI_2, PI};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 /// Joint values are widened by this, radians or metres, for rounding in proofs.
 const ROUNDING: f64 = 1e-11;
@@ -172,6 +172,14 @@ impl<'a> Kinematics<'a> {
         let found = inverse(self.arm, point, Configuration::zeros());
         let first = *found.branches.first().filter(|_| found.free.is_none())?;
         Some([first, found.branches.get(1).copied().unwrap_or(first)])
+    }
+
+    /// Returns the configuration with whole turns of revolute joints that brings it nearest to another one.
+    pub fn near(&self, q: Configuration, near: Configuration) -> Configuration {
+        Configuration::from_fn(|k, _| match self.arm.joints[k].joint_type.is_revolute() {
+            true => q[k] + ((near[k] - q[k]) / TAU).round() * TAU,
+            false => q[k],
+        })
     }
 
     /// Returns true if the arm has two IK solutions at most places.

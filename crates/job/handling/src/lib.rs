@@ -33,12 +33,14 @@ pub use claims::{
 pub use followed_line::{DEFAULT_TOLERANCE, FollowedLine, MIN_TOLERANCE};
 pub use held::{HeldEffect, HeldJoint, HeldMotion};
 pub use interpolation::{INTERPOLATION, Interpolation, SMOOTH_INTERPOLATION};
-pub use moving_obstacle::{Leg, MAX_STOP_TIME, MovingObstacle, ObstacleTrajectory, ObstacleTrajectoryError, Stop};
+pub use moving_obstacle::{
+    MAX_STOP_TIME, MovingObstacle, ObstacleTrajectory, ObstacleTrajectoryError, Stop, TrajectoryLeg,
+};
 pub use payload::{ArchScene, Payload};
 pub use piece::{Derivative, Piece, State};
 pub use recording::{RecordedJoints, Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};
-pub use stroke::{Arch, Stroke, ToolJoint, ToolLimits, ToolValues};
+pub use stroke::{Arch, Stroke, ToolJoint, ToolLimits, ToolValues, rest_to_rest};
 pub use task::{Action, Holding, Item, Object, Placement, Step, Task, Wrist};
 pub use task_error::TaskError;
 pub use timed::{TimedScene, TimedWorkspace};

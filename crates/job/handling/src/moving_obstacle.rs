@@ -32,7 +32,7 @@ pub struct ObstacleTrajectory {
     /// Velocity from the last stop on, metres per second.
     velocity: Vector,
     /// Legs that follow from the stops and the velocity.
-    legs: Vec<Leg>,
+    legs: Vec<TrajectoryLeg>,
 }
 
 /// Serialized form of an [`ObstacleTrajectory`].
@@ -83,7 +83,7 @@ pub enum ObstacleTrajectoryError {
 
 /// A stretch of a trajectory with constant velocity and angular velocity.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Leg {
+pub struct TrajectoryLeg {
     /// Time at which the leg begins, seconds.
     pub from: f64,
     /// Time at which the leg ends, seconds; infinite for the last leg.
@@ -96,7 +96,7 @@ pub struct Leg {
     pub turn: f64,
 }
 
-impl Leg {
+impl TrajectoryLeg {
     /// Returns the frame's pose at a time of the leg.
     pub fn pose(&self, time: f64) -> Pose {
         let since = time - self.from;
@@ -159,7 +159,7 @@ impl ObstacleTrajectory {
     }
 
     /// Returns the legs from time 0 on, in order. The last leg never ends.
-    pub fn legs(&self) -> &[Leg] {
+    pub fn legs(&self) -> &[TrajectoryLeg] {
         &self.legs
     }
 
@@ -205,7 +205,7 @@ impl ObstacleTrajectory {
     /// Returns the intervals of time, in order, in which the frame's origin passes a point: when it is at the point, or
     /// nearest to it and within `within` metres.
     pub fn passes(&self, at: Point, within: f64) -> Vec<Interval> {
-        let of = |leg: &Leg| {
+        let of = |leg: &TrajectoryLeg| {
             let (way, speed2) = (at - leg.start.at, leg.velocity.norm_squared());
             let times = if speed2 > 0.0 {
                 let nearest = (leg.from + leg.velocity.dot(&way) / speed2).clamp(leg.from, leg.to);
@@ -221,28 +221,28 @@ impl ObstacleTrajectory {
         times
     }
 
-    fn leg(&self, time: f64) -> &Leg {
+    fn leg(&self, time: f64) -> &TrajectoryLeg {
         let next = self.legs.partition_point(|leg| leg.from <= time);
         &self.legs[next.saturating_sub(1)]
     }
 }
 
 /// Computes the legs of a trajectory from time 0 on.
-fn legs(stops: &[Stop], velocity: Vector) -> Vec<Leg> {
+fn legs(stops: &[Stop], velocity: Vector) -> Vec<TrajectoryLeg> {
     let first = stops[0];
     let mut legs = Vec::with_capacity(stops.len() + 1);
     if first.time > 0.0 {
         let start = Stop { time: 0.0, ..first };
-        legs.push(Leg { from: 0.0, to: first.time, start, velocity: Vector::zeros(), turn: 0.0 });
+        legs.push(TrajectoryLeg { from: 0.0, to: first.time, start, velocity: Vector::zeros(), turn: 0.0 });
     }
     for pair in stops.windows(2) {
         let [a, b] = [pair[0], pair[1]];
         let lasts = b.time - a.time;
         let (velocity, turn) = ((b.at - a.at) / lasts, (b.angle - a.angle) / lasts);
-        legs.push(Leg { from: a.time, to: b.time, start: a, velocity, turn });
+        legs.push(TrajectoryLeg { from: a.time, to: b.time, start: a, velocity, turn });
     }
     let last = stops[stops.len() - 1];
-    legs.push(Leg { from: last.time, to: f64::INFINITY, start: last, velocity, turn: 0.0 });
+    legs.push(TrajectoryLeg { from: last.time, to: f64::INFINITY, start: last, velocity, turn: 0.0 });
     legs
 }
 

@@ -48,6 +48,38 @@ pub struct ToolLimits {
     pub jerk: Option<f64>,
 }
 
+impl ToolLimits {
+    /// Returns the time of the fastest motion over a distance from rest to rest, in seconds.
+    pub fn least_seconds(&self, distance: f64) -> f64 {
+        let Self { velocity, acceleration, jerk } = *self;
+        let Some(jerk) = jerk else { return rest_to_rest(distance, velocity, acceleration) };
+        // In each half, the acceleration grows for a time and shrinks for as long. It is constant in between, and so is the
+        // speed between the halves. The limits are reached one after the other as the distance grows.
+        let grow = (velocity / jerk).sqrt().min(acceleration / jerk);
+        let hold = (velocity / (jerk * grow) - grow).max(0.0);
+        let speeding = 2.0 * grow + hold;
+        if distance >= velocity * speeding {
+            distance / velocity + speeding
+        } else if distance <= 2.0 * jerk * grow.powi(3) {
+            4.0 * (distance / (2.0 * jerk)).cbrt()
+        } else {
+            // With `h` between growing and shrinking, the distance is `j g (g + h) (2 g + h)`.
+            let held = (grow * grow / 4.0 + distance / (jerk * grow)).sqrt() - 1.5 * grow;
+            2.0 * (2.0 * grow + held)
+        }
+    }
+}
+
+/// Returns the time that a joint takes for a distance from rest to rest, in seconds. It accelerates constantly until it
+/// reaches its top speed.
+pub fn rest_to_rest(distance: f64, velocity: f64, acceleration: f64) -> f64 {
+    if distance * acceleration <= velocity * velocity {
+        2.0 * (distance / acceleration).sqrt()
+    } else {
+        distance / velocity + velocity / acceleration
+    }
+}
+
 /// Values of the tool's joints at the beginning of a task or at the end of a move.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

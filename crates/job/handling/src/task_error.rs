@@ -243,60 +243,43 @@ impl Gripper<'_> {
     }
 
     fn step(&mut self, step: &Step) -> Result<(), TaskError> {
-        if step.number == 0 || step.cycle == 0 {
-            return Err(wrong(step, "numbers begin with 1"));
-        }
-        if !(step.speed > 0.0 && step.speed <= 1.0 && (0.0..=MAX_PART_DURATION).contains(&step.dwell)) {
-            return Err(wrong(
-                step,
-                "its speed must be greater than 0 and at most 1, and its dwell from 0 to a million seconds",
-            ));
-        }
+        require(step.number > 0 && step.cycle > 0, step, "numbers begin with 1")?;
+        require(
+            step.speed > 0.0 && step.speed <= 1.0 && (0.0..=MAX_PART_DURATION).contains(&step.dwell),
+            step,
+            "its speed must be greater than 0 and at most 1, and its dwell from 0 to a million seconds",
+        )?;
         if !step.tool.is_default() {
             let is_alone = self.task.steps().count() == 1 && self.carried.is_none();
-            if !(is_alone && matches!(step.action, Action::Move(_))) {
-                return Err(wrong(step, "only the move of a task with a single step has values of the tool's joints"));
-            }
-            if step.tool.wrist.is_some() && (self.task.start_tool.wrist.is_none() || self.task.wrist.is_none()) {
-                return Err(wrong(step, "its wrist turns from an unknown value, or there is no wrist"));
-            }
+            let why = "only the move of a task with a single step has values of the tool's joints";
+            require(is_alone && matches!(step.action, Action::Move(_)), step, why)?;
+            let may_turn = self.task.start_tool.wrist.is_some() && self.task.wrist.is_some();
+            let why = "its wrist turns from an unknown value, or there is no wrist";
+            require(step.tool.wrist.is_none() || may_turn, step, why)?;
         }
         let tip = if let Action::Move(Goal::Tip(tip)) = step.action { Some(tip) } else { None };
         let before = std::mem::replace(&mut self.tip, tip);
         match &step.action {
             Action::Pick { object, grasp, supports, when } => {
-                if *object >= self.task.objects.len() || self.carried.is_some() {
-                    return Err(wrong(
-                        step,
-                        "it picks an object that does not exist, or picks while the tool carries an object",
-                    ));
-                }
+                let why = "it picks an object that does not exist, or picks while the tool carries an object";
+                require(*object < self.task.objects.len() && self.carried.is_none(), step, why)?;
                 let is_first = self.task.objects[*object].trajectory.is_some() && self.picked.insert(*object);
                 let mut ends = when.iter().flatten();
                 let is_timely =
                     is_first && ends.clone().is_sorted() && ends.all(|end| (0.0..=MAX_STOP_TIME).contains(end));
-                if !when.is_empty() && !is_timely {
-                    return Err(wrong(
-                        step,
-                        "only the first pick of a moving object has times, and these must be in order",
-                    ));
-                }
+                let why = "only the first pick of a moving object has times, and these must be in order";
+                require(when.is_empty() || is_timely, step, why)?;
                 self.carried = Some(*object);
                 self.check_supports(step, *object, supports, are_small(grasp.iter().copied()))
             }
             Action::Place { at, angle, supports } => {
-                let Some(object) = self.carried.take() else {
-                    return Err(wrong(step, "it places an object, but the tool carries none"));
-                };
+                let why = "it places an object, but the tool carries none";
+                let object = self.carried.take().ok_or_else(|| wrong(step, why))?;
                 if let Some(angle) = *angle {
                     let is_turned = angle != std::mem::replace(&mut self.turned[object], angle);
                     let is_level = self.task.objects[object].holding == Holding::Level;
-                    if !is_level || is_turned && self.task.wrist.is_none() {
-                        return Err(wrong(
-                            step,
-                            "its object cannot be turned: it is not held level, or the tool has no wrist",
-                        ));
-                    }
+                    let why = "its object cannot be turned: it is not held level, or the tool has no wrist";
+                    require(is_level && (!is_turned || self.task.wrist.is_some()), step, why)?;
                 }
                 let is_finite = are_small(at.iter().chain(angle).copied());
                 self.check_supports(step, object, supports, is_finite)
@@ -304,44 +287,39 @@ impl Gripper<'_> {
             Action::Move(Goal::Joints(q)) => {
                 let mut values = self.task.arm.joints.iter().zip(q.iter());
                 let is_within = values.all(|(joint, value)| joint.range.contains(*value));
-                is_within.then_some(()).ok_or_else(|| wrong(step, "its joint values are beyond the joint limits"))
+                require(is_within, step, "its joint values are beyond the joint limits")
             }
             Action::Move(Goal::Area(_)) => {
                 Err(wrong(step, "a move needs joint values or a position of the tip, not an area"))
             }
             Action::Follow(line) => {
                 let start: Point = line.path.start().into();
-                if !line.is_valid() {
-                    let why =
-                        "its tolerance must be finite and at least a micrometre, and its speed finite and positive";
-                    Err(wrong(step, why))
-                } else if before.is_none_or(|tip| (tip - start).norm() > LINE_START_TOLERANCE) {
-                    Err(wrong(step, "the step before a line must move the tip to where the line begins"))
-                } else {
-                    Ok(())
-                }
+                let why = "its tolerance must be finite and at least a micrometre, and its speed finite and positive";
+                require(line.is_valid(), step, why)?;
+                let is_there = before.is_some_and(|tip| (tip - start).norm() <= LINE_START_TOLERANCE);
+                require(is_there, step, "the step before a line must move the tip to where the line begins")
             }
             Action::Move(Goal::Tip(tip)) => {
-                let is_finite = are_small(tip.iter().copied());
-                is_finite.then_some(()).ok_or_else(|| wrong(step, "its position must be finite"))
+                require(are_small(tip.iter().copied()), step, "its position must be finite")
             }
         }
     }
 
     /// Checks the supports of a pick or a place.
     fn check_supports(&self, step: &Step, object: usize, supports: &[usize], is_finite: bool) -> Result<(), TaskError> {
-        let task = self.task;
+        let (task, own) = (self.task, self.task.obstacle_number(object));
         let count = task.obstacle_number(task.objects.len());
-        if !is_finite {
-            Err(wrong(step, "its position must be finite"))
-        } else if supports.iter().any(|&support| support >= count || support == task.obstacle_number(object)) {
-            Err(wrong(step, "its object rests on itself or on an obstacle that does not exist"))
-        } else if !supports.is_empty() && !task.objects[object].can_rest(&task.arm) {
-            Err(wrong(step, "its object is too thin to rest on anything"))
-        } else {
-            Ok(())
-        }
+        require(is_finite, step, "its position must be finite")?;
+        let exist = supports.iter().all(|&support| support < count && support != own);
+        require(exist, step, "its object rests on itself or on an obstacle that does not exist")?;
+        let can_rest = supports.is_empty() || task.objects[object].can_rest(&task.arm);
+        require(can_rest, step, "its object is too thin to rest on anything")
     }
+}
+
+/// Refuses a step that does not meet a condition.
+fn require(is_met: bool, step: &Step, why: &'static str) -> Result<(), TaskError> {
+    if is_met { Ok(()) } else { Err(wrong(step, why)) }
 }
 
 fn wrong(step: &Step, why: &'static str) -> TaskError {

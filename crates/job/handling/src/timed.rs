@@ -1,7 +1,8 @@
 //! Workspaces and scenes with moving obstacles.
 
-use super::{MovingObstacle, ObstacleTrajectory};
+use super::{MovingObstacle, ObstacleTrajectory, Piece};
 use cplan_geometry::Pose;
+use cplan_judge::Drift;
 use cplan_model::space::Configuration;
 use cplan_model::{Additions, Arm, Obstacle, Obstruction, Pair, Scene, SceneError, Workspace};
 use serde::{Deserialize, Serialize};
@@ -90,6 +91,13 @@ impl<'a> TimedScene<'a> {
     /// Returns the trajectory of a pair's obstacle. `None` for a static obstacle.
     pub fn trajectory(self, pair: Pair) -> Option<&'a ObstacleTrajectory> {
         self.trajectories.get(self.scene.loose_index(pair)?)
+    }
+
+    /// Returns the motion of a pair's obstacle between two places of the arm's motion, which begins at the same time as
+    /// the trajectories. `None` for a static obstacle.
+    pub fn drift(self, pair: Pair, pieces: &[Piece], places: [(usize, f64); 2]) -> Option<Drift> {
+        let [from, to] = places.map(|(piece, share)| pieces[piece].time(share) - pieces[0].from);
+        self.trajectory(pair).map(|trajectory| trajectory.drift(from, to))
     }
 
     /// Returns the obstacle of a pair at its place at a time. `None` for a static obstacle.

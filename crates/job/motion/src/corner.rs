@@ -14,12 +14,11 @@
 //! All these conditions are linear in `z0` and `z1`. On each span, `q(t)` is a polynomial of degree four.
 
 use super::clock::reserve;
-use super::limits::Limits;
+use super::limits::{Axes, LimitedAxis, Limits};
 use super::profile::{Phase, State};
 use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL};
 use super::tip::{Part, TIP_SPEED_STEP};
-use crate::{BLEND_TOLERANCE, Blend};
-use cplan_model::space::Configuration;
+use crate::BLEND_TOLERANCE;
 
 /// Number of spans into which a blend is cut initially.
 const INITIAL_SPANS: usize = 8;
@@ -58,9 +57,11 @@ const MAX_TORQUE_SPANS: usize = 1024;
 /// a blend whose two directions are equal.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Corner {
-    blend: Blend,
+    /// The blend's beginning, corner and end.
+    points: [Axes; 3],
     radius: f64,
-    directions: [Configuration; 2],
+    /// Derivatives by the parameter at both ends.
+    directions: [Axes; 2],
     spans: usize,
     /// Upper bound on the speed of the parameter.
     fastest: f64,
@@ -68,8 +69,6 @@ pub(super) struct Corner {
     share: f64,
     /// Share of the tip's speed limit that applies.
     tip_share: f64,
-    /// Values of the wrist's joint at the blend's beginning, corner and end, radians; 0 without a wrist.
-    wrist: [f64; 3],
 }
 
 /// Returns the least duration, seconds, of a blend that is cut into this many spans. Each span must last at least the
@@ -81,35 +80,26 @@ fn shortest(spans: usize) -> f64 {
 impl Corner {
     /// Prepares a blend. Returns `None` if it is so small that it would be passed in little more than the interval
     /// between samples.
-    pub(super) fn new(blend: Blend, wrist: [f64; 3], limits: &Limits, share: f64) -> Option<Self> {
+    pub(super) fn new(points: [Axes; 3], limits: &Limits, share: f64) -> Option<Self> {
         let limits = &limits.scaled(share);
-        let directions = [blend.corner - blend.from, blend.to - blend.corner].map(|leg| leg / leg[0].hypot(leg[1]));
-        let (radius, fastest) = (blend.radius(), f64::INFINITY);
-        let corner = Self { blend, radius, directions, spans: INITIAL_SPANS, fastest, share, tip_share: 1.0, wrist };
-        let bend = corner.second_derivative();
-        let turning = limits.acceleration_along(bend);
-        let turning = turning.min(limits.wrist_along(corner.wrist_bend())[1]).sqrt();
+        let legs = [points[1] - points[0], points[2] - points[1]];
+        let radius = legs[0].xy().norm();
+        let directions = legs.map(|leg| (leg.xy() / leg[0].hypot(leg[1])).push(leg[2] / radius));
+        let (spans, fastest) = (INITIAL_SPANS, f64::INFINITY);
+        let corner = Self { points, radius, directions, spans, fastest, share, tip_share: 1.0 };
+        let turning = limits.acceleration_along(corner.second_derivative()).sqrt();
         let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
-        let fastest =
-            corner.wrist_slopes().into_iter().map(|slope| limits.wrist_along(slope)[0]).fold(fastest, f64::min);
         (corner.length() / fastest >= shortest(INITIAL_SPANS)).then_some(Self { fastest, ..corner })
     }
 
     /// Prepares a straight stretch. Returns `None` if it is too small.
-    pub(super) fn straight(
-        from: Configuration,
-        to: Configuration,
-        [begin, end]: [f64; 2],
-        limits: &Limits,
-    ) -> Option<Self> {
-        let blend = Blend { from, corner: (from + to) / 2.0, to };
-        let offset = to - from;
+    pub(super) fn straight(from: Axes, to: Axes, limits: &Limits) -> Option<Self> {
+        let (points, offset) = ([from, (from + to) / 2.0, to], to - from);
         let length = offset[0].hypot(offset[1]);
         let directions = [offset / length; 2];
-        let fastest = limits.speed_along(directions[0]).min(limits.wrist_along((end - begin) / length)[0]);
-        let wrist = [begin, (begin + end) / 2.0, end];
+        let fastest = limits.speed_along(directions[0]);
         let (radius, spans) = (length / 2.0, INITIAL_LINE_SPANS);
-        let corner = Self { blend, radius, directions, spans, fastest, share: 1.0, tip_share: 1.0, wrist };
+        let corner = Self { points, radius, directions, spans, fastest, share: 1.0, tip_share: 1.0 };
         (length / fastest >= shortest(INITIAL_LINE_SPANS)).then_some(corner)
     }
 
@@ -128,13 +118,12 @@ impl Corner {
     /// speeds at their ends, or cannot be cut.
     pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
         let (bend, limits) = (self.second_derivative(), &limits.with_tip_share(self.tip_share));
-        let turning = limits.wrist.map(|wrist| (self.wrist_bend(), wrist.acceleration));
         let coarse = squared_speeds.windows(2).enumerate().any(|(i, z)| {
             let step = (z[1] - z[0]).abs();
             // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q''
             // times the change of z.
-            let joints = limits.axes().map(|axis| (axis.component(bend), axis.acceleration)).chain(turning);
-            joints.into_iter().any(|(bend, limit)| 1.5 * bend.abs() * step > MAX_ACCELERATION_STEP * limit)
+            let changes = |axis: LimitedAxis| 1.5 * axis.component(bend).abs() * step;
+            limits.axes().any(|axis| changes(axis) > MAX_ACCELERATION_STEP * axis.acceleration)
                 || (!self.is_straight() && step > 2.0 * MAX_SPEED_STEP * z[0].max(z[1]))
                 || limits
                     .tip
@@ -161,7 +150,7 @@ impl Corner {
 
     /// Returns true for a straight stretch.
     pub(super) fn is_straight(&self) -> bool {
-        self.directions[0] == self.directions[1]
+        self.directions[0].xy() == self.directions[1].xy()
     }
 
     /// Returns the range of the parameter.
@@ -169,46 +158,27 @@ impl Corner {
         2.0 * self.radius
     }
 
-    fn second_derivative(&self) -> Configuration {
+    fn second_derivative(&self) -> Axes {
         (self.directions[1] - self.directions[0]) / self.length()
     }
 
-    fn first_derivative(&self, u: f64) -> Configuration {
+    fn first_derivative(&self, u: f64) -> Axes {
         self.directions[0] * (1.0 - u) + self.directions[1] * u
     }
 
-    /// Returns the derivatives of the wrist's value by the parameter at both ends.
-    fn wrist_slopes(&self) -> [f64; 2] {
-        let [from, corner, to] = self.wrist;
-        [corner - from, to - corner].map(|by| by / self.radius)
-    }
-
-    /// Returns the second derivative of the wrist's value by the parameter.
-    fn wrist_bend(&self) -> f64 {
-        let [before, after] = self.wrist_slopes();
-        (after - before) / self.length()
-    }
-
-    /// Returns value, velocity and acceleration of the wrist's joint in a state.
-    pub(super) fn wrist_at(&self, state: State) -> [f64; 3] {
-        let State { distance, speed, acceleration } = state;
-        let u = (distance / self.length()).clamp(0.0, 1.0);
-        let [from, corner, to] = self.wrist;
-        let mix = |a: f64, b: f64| a * (1.0 - u) + b * u;
-        let [before, after] = self.wrist_slopes();
-        let slope = mix(before, after);
-        let value = mix(mix(from, corner), mix(corner, to));
-        let value = value.clamp(from.min(corner).min(to), from.max(corner).max(to));
-        [value, slope * speed, self.wrist_bend() * speed * speed + slope * acceleration]
+    fn position(&self, u: f64) -> Axes {
+        let mix = |a: Axes, b: Axes| a * (1.0 - u) + b * u;
+        let [from, corner, to] = self.points;
+        mix(mix(from, corner), mix(corner, to))
     }
 
     /// Returns a span as a part of a curve, for the limits on the tip and on torques.
     fn part(&self, span: usize) -> Part {
         let middle = (span as f64 + 0.5) / self.spans as f64;
         Part {
-            middle: self.blend.at(middle),
-            slope: self.first_derivative(middle),
-            bend: self.second_derivative(),
+            middle: self.position(middle).xy(),
+            slope: self.first_derivative(middle).xy(),
+            bend: self.second_derivative().xy(),
             half: self.radius / self.spans as f64,
         }
     }
@@ -222,16 +192,9 @@ impl Corner {
         let span = |i: usize| {
             let ends = [share(i), share(i + 1)].map(|u| self.first_derivative(u));
             let mut bounds = Bounds::default();
-            let arm = limits.axes().map(|axis| {
-                (ends.map(|end| axis.component(end)), axis.component(bend), axis.velocity, axis.acceleration)
-            });
-            let turning = limits.wrist.map(|wrist| {
-                let [before, after] = self.wrist_slopes();
-                let ends = [share(i), share(i + 1)].map(|u| before * (1.0 - u) + after * u);
-                (ends, self.wrist_bend(), wrist.velocity, wrist.acceleration)
-            });
-            for ([p, q], bend, velocity, acceleration) in arm.chain(turning) {
-                let (acceleration, velocity) = (left * acceleration, (left * velocity).powi(2));
+            for axis in limits.axes() {
+                let ([p, q], bend) = (ends.map(|end| axis.component(end)), axis.component(bend));
+                let (acceleration, velocity) = (left * axis.acceleration, (left * axis.velocity).powi(2));
                 // q'' z + q' (z1 - z0) / (2 step) at the first end and at the second, in both directions.
                 let [at_first, at_second] = [p, q].map(|slope| slope / (2.0 * step));
                 for row in [[bend - at_first, at_first], [-at_second, bend + at_second]] {
@@ -271,31 +234,27 @@ impl Corner {
     pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
         let bend = self.second_derivative();
         let torque = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
-        let longest = |(bend, velocity, acceleration, off): (f64, f64, f64, f64)| {
-            let fourth = 3.0 * bend.abs() * phase.acceleration * phase.acceleration;
-            let acceleration = (12.0 * LIMIT_RESERVE * acceleration / fourth).sqrt();
-            let velocity = (72.0 * 3f64.sqrt() * LIMIT_RESERVE * velocity / fourth).cbrt();
+        let longest = |axis: LimitedAxis| {
+            let is_wrist = axis.joint() == Some(2);
+            let off = if is_wrist { WRIST_TOLERANCE } else { BLEND_TOLERANCE * self.radius };
+            let torque = axis.joint().and_then(|k| torque.get(k)).copied().unwrap_or(f64::INFINITY);
+            let fourth = 3.0 * axis.component(bend).abs() * phase.acceleration * phase.acceleration;
+            let acceleration = (12.0 * LIMIT_RESERVE * axis.acceleration.min(torque) / fourth).sqrt();
+            let velocity = (72.0 * 3f64.sqrt() * LIMIT_RESERVE * axis.velocity / fourth).cbrt();
             let position = (384.0 * off / fourth).sqrt().sqrt();
             acceleration.min(velocity).min(position)
         };
-        let beside = BLEND_TOLERANCE * self.radius;
-        let arm = limits.axes().map(|axis| {
-            let torque = axis.joint().map_or(f64::INFINITY, |k| torque[k]);
-            (axis.component(bend), axis.velocity, axis.acceleration.min(torque), beside)
-        });
-        let turning =
-            limits.wrist.map(|wrist| (self.wrist_bend(), wrist.velocity, wrist.acceleration, WRIST_TOLERANCE));
-        arm.chain(turning).map(longest).fold(f64::INFINITY, f64::min).max(2.0 * MIN_INTERVAL)
+        limits.axes().map(longest).fold(f64::INFINITY, f64::min).max(2.0 * MIN_INTERVAL)
     }
 
-    /// Returns the joints' position, velocity and acceleration in a state.
-    pub(super) fn at(&self, state: State) -> [Configuration; 3] {
+    /// Returns position, velocity and acceleration of all axes in a state.
+    pub(super) fn at(&self, state: State) -> [Axes; 3] {
         let State { distance, speed, acceleration } = state;
         let u = (distance / self.length()).clamp(0.0, 1.0);
         let along = self.first_derivative(u);
-        let Blend { from, corner, to } = self.blend;
+        let [from, corner, to] = self.points;
         // Rounding must not carry a sample beyond the corner, which may lie on a joint limit.
-        let position = self.blend.at(u).zip_zip_map(
+        let position = self.position(u).zip_zip_map(
             &from.inf(&corner).inf(&to),
             &from.sup(&corner).sup(&to),
             |value, least, greatest| value.clamp(least, greatest),

@@ -20,74 +20,43 @@ pub fn csv(
     accelerations: bool,
     steps: Option<&[usize]>,
 ) -> String {
-    let mut text = String::from("time");
-    let torques = !trajectory.torque.is_empty();
-    let columns = [("", true), ("_velocity", true), ("_acceleration", accelerations), ("_torque", torques)];
-    for (suffix, _) in columns.into_iter().filter(|(_, is_there)| *is_there) {
-        for joint in joints {
-            text.push(',');
-            text.push_str(&quoted(&format!("{joint}{suffix}")));
-        }
-    }
-    push_last_names(&mut text, motors, steps);
-    let mut step = steps.into_iter().flatten();
-    for (k, time) in trajectory.time.iter().enumerate() {
-        let ([p1, p2], [v1, v2], [a1, a2]) =
-            (trajectory.position[k], trajectory.velocity[k], trajectory.acceleration[k]);
-        // Debug formatting gives the shortest text that reads back the same number, with an exponent for long numbers.
-        write!(text, "{time:?},{p1:?},{p2:?},{v1:?},{v2:?}").expect("a string takes all");
-        if accelerations {
-            write!(text, ",{a1:?},{a2:?}").expect("a string takes all");
-        }
-        if let Some([first, second]) = trajectory.torque.get(k) {
-            write!(text, ",{first:?},{second:?}").expect("a string takes all");
-        }
-        push_last(&mut text, motors.get(k), step.next());
-    }
-    text
-}
-
-/// Names of the columns with the angles of the motors' shafts.
-const MOTOR_COLUMNS: &str = ",motor_1,motor_2";
-
-/// Ends the header with the columns of motors and steps.
-fn push_last_names(text: &mut String, motors: &[[f64; 2]], steps: Option<&[usize]>) {
-    text.push_str(if motors.is_empty() { "" } else { MOTOR_COLUMNS });
-    text.push_str(if steps.is_some() { ",step\n" } else { "\n" });
-}
-
-/// Ends a line with the angles of motors and the step.
-fn push_last(text: &mut String, motors: Option<&[f64; 2]>, step: Option<&usize>) {
-    if let Some([first, second]) = motors {
-        write!(text, ",{first:?},{second:?}").expect("a string takes all");
-    }
-    if let Some(step) = step {
-        write!(text, ",{step}").expect("a string takes all");
-    }
-    text.push('\n');
+    let Trajectory { time, position, velocity, acceleration, torque, .. } = trajectory;
+    let mut columns = vec![("", &position[..]), ("_velocity", velocity)];
+    columns.extend(accelerations.then_some(("_acceleration", &acceleration[..])));
+    columns.extend((!torque.is_empty()).then_some(("_torque", &torque[..])));
+    table(joints, time, &columns, motors, steps)
 }
 
 /// Returns a motion of all joints as CSV, in the format of [`csv`]: a value and a velocity of each joint, with their
 /// accelerations if the motion has them, and the step of each sample if it
 /// is given.
 pub fn csv_of_joints(motion: &JointMotion, motors: &[[f64; 2]], steps: Option<&[usize]>) -> String {
-    let columns = [("", Some(&motion.position)), ("_velocity", Some(&motion.velocity))];
-    let columns = columns.into_iter().chain([("_acceleration", motion.acceleration.as_ref())]);
-    let columns: Vec<_> = columns.filter_map(|(suffix, rows)| rows.map(|rows| (suffix, rows))).collect();
-    let mut text = String::from("time");
-    for (suffix, _) in &columns {
-        motion.joints.iter().for_each(|joint| {
-            text.push(',');
-            text.push_str(&quoted(&format!("{joint}{suffix}")));
-        });
-    }
-    push_last_names(&mut text, motors, steps);
-    for (k, time) in motion.time.iter().enumerate() {
+    let mut columns = vec![("", &motion.position[..]), ("_velocity", &motion.velocity)];
+    columns.extend(motion.acceleration.iter().map(|rows| ("_acceleration", &rows[..])));
+    table(&motion.joints, &motion.time, &columns, motors, steps)
+}
+
+/// Returns a table: the times, for each suffix a column for each joint, and the columns of motors and steps.
+fn table<R: AsRef<[f64]>>(
+    joints: &[String],
+    time: &[f64],
+    columns: &[(&str, &[R])],
+    motors: &[[f64; 2]],
+    steps: Option<&[usize]>,
+) -> String {
+    let names = columns.iter().flat_map(|(suffix, _)| joints.iter().map(move |joint| format!("{joint}{suffix}")));
+    let mut text = names.fold(String::from("time"), |text, name| text + "," + &quoted(&name));
+    text.push_str(if motors.is_empty() { "" } else { ",motor_1,motor_2" });
+    text.push_str(if steps.is_some() { ",step\n" } else { "\n" });
+    for (k, time) in time.iter().enumerate() {
+        let values = columns.iter().flat_map(|(_, rows)| rows[k].as_ref()).chain(motors.get(k).into_iter().flatten());
+        // Debug formatting gives the shortest text that reads back the same number, with an exponent for long numbers.
         write!(text, "{time:?}").expect("a string takes all");
-        for value in columns.iter().flat_map(|(_, rows)| &rows[k]) {
-            write!(text, ",{value:?}").expect("a string takes all");
+        values.for_each(|value| write!(text, ",{value:?}").expect("a string takes all"));
+        if let Some(step) = steps.and_then(|steps| steps.get(k)) {
+            write!(text, ",{step}").expect("a string takes all");
         }
-        push_last(&mut text, motors.get(k), steps.and_then(|steps| steps.get(k)));
+        text.push('\n');
     }
     text
 }

@@ -70,10 +70,7 @@ impl Drive {
     /// somewhere on the path.
     pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<TimedMotion, TimingError> {
         let tip = self.tip_speed.map(|speed| TipSpeed::new(scene.arm(), speed));
-        let torque = TorqueLimit::of(scene);
-        if let Some(torque) = &torque {
-            torque.check_holding_along(path.path())?;
-        }
+        let torque = TorqueLimit::along_path(scene, path.path())?;
         let limits = Limits { tip, torque, ..Limits::from(scene.arm()) }.scaled(speed);
         let (is_smooth, has_corners) = (limits.stops_at_corners(), path.path().waypoints().len() > 2);
         let blended = |path: &CertifiedPath| {
@@ -124,11 +121,7 @@ impl Drive {
             };
             best = found.into_iter().fold(best, faster);
         }
-        if let Some(torque) = torque {
-            torque.check(&best.trajectory.pieces())?;
-            best.trajectory.torque = torque.along_trajectory(&best.trajectory);
-        }
-        Ok(best)
+        with_torques(best, torque)
     }
 }
 
@@ -168,17 +161,18 @@ pub fn along_curve(
     curve: CertifiedCurve,
     CurveDrive { tip, share, period, wrist }: CurveDrive,
 ) -> Result<TimedMotion, TimingError> {
-    let torque = TorqueLimit::of(scene);
-    if let Some(torque) = &torque {
-        torque.check_holding_along(curve.straight().path())?;
-    }
+    let torque = TorqueLimit::along_path(scene, curve.straight().path())?;
     let limits = Limits { wrist, ..Limits::from(scene.arm()) }.scaled(share);
     let wrist = limits.wrist.filter(|_| !limits.stops_at_corners());
     let limits = Limits { tip, torque, wrist, ..limits };
-    let mut timed = time(curve, &limits, period)?;
-    if let Some(torque) = torque {
-        torque.check(&timed.trajectory.pieces())?;
-        timed.trajectory.torque = torque.along_trajectory(&timed.trajectory);
+    with_torques(time(curve, &limits, period)?, torque)
+}
+
+/// Checks the torques of a motion, and adds them at its samples.
+fn with_torques(mut timed: TimedMotion, limit: Option<TorqueLimit>) -> Result<TimedMotion, TimingError> {
+    if let Some(limit) = limit {
+        limit.check(&timed.trajectory.pieces())?;
+        timed.trajectory.torque = limit.along_trajectory(&timed.trajectory);
     }
     Ok(timed)
 }

@@ -92,13 +92,13 @@ fn last_on_path(q: &[Configuration], piece: &Piece, [from, to]: [f64; 2], [was, 
 /// Compares a configuration with the legs from `leg` on.
 fn located(q: &[Configuration], at: Configuration, leg: usize) -> Position {
     let legs = leg..(leg + MAX_LEGS_AHEAD).min(q.len() - 1);
-    let off = legs.map(|leg| (to_leg(at, q[leg], q[leg + 1]), leg)).min_by(|a, b| a.0.total_cmp(&b.0));
+    let off = legs.map(|leg| (distance_to_leg(at, q[leg], q[leg + 1]), leg)).min_by(|a, b| a.0.total_cmp(&b.0));
     let (off, leg) = off.unwrap_or_else(|| ((at - q[leg]).norm(), leg));
     Position { at, leg, off }
 }
 
 /// Returns the distance of a configuration from a straight piece.
-fn to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
+pub fn distance_to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
     let (along, off) = (to - from, at - from);
     let length2 = along.norm_squared();
     let share = if length2 > 0.0 { (along.dot(&off) / length2).clamp(0.0, 1.0) } else { 0.0 };

@@ -38,9 +38,6 @@ const MAX_DIVISIONS: usize = 2;
 /// Greatest number of steps of a motion.
 const MAX_STEPS: f64 = 1e6;
 
-/// Number of times that torques are reduced if they exceed the efforts between the positions at which they are limited.
-const MAX_TORQUE_ROUNDS: usize = 6;
-
 /// A smooth curve in joint space: a uniform cubic B-spline. Its second derivative is continuous.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointCurve {
@@ -80,39 +77,27 @@ pub fn along_joint_curve(
     drive: CurveDrive,
     too_far: &dyn Fn(&[Piece]) -> Vec<usize>,
 ) -> Option<TimedMotion> {
-    let torque = TorqueLimit::of(scene);
-    if torque.is_some_and(|torque| torque.check_holding_along(path.path()).is_err()) {
-        return None;
-    }
+    let torque = TorqueLimit::along_path(scene, path.path()).ok()?;
     let own = Limits::from(scene.arm()).scaled(drive.share);
     let limits = Limits { tip: drive.tip, torque, ..own };
-    let mut used = limits;
-    for _ in 0..MAX_TORQUE_ROUNDS {
-        let spline = motion(&curve.spline, &used, drive.period, too_far)?;
+    let mut trajectory = limits.within_torque(|limits| {
+        let spline = motion(&curve.spline, limits, drive.period, too_far)?;
         let mut trajectory = Trajectory::default();
         spline.sample(0, drive.period, &mut trajectory);
-        let rest = [path.path().goal(), Configuration::zeros(), Configuration::zeros()];
-        trajectory.push(spline.duration(), rest);
-        let pieces = trajectory.pieces();
-        if let (Some(limit), Some(used)) = (limits.torque, &mut used.torque)
-            && let Some(excess) = limit.excess(&pieces)
-        {
-            used.share /= excess;
-            continue;
-        }
-        if !too_far(&pieces).is_empty() {
-            return None;
-        }
-        let rounding = Rounding::new(scene, path, scene.workspace().clearance);
-        let last = path.path().waypoints().len() - 1;
-        let radii = extents(path.path(), &pieces, |w| 0 < w && w < last);
-        let curve = rounding.certified(radii, &pieces)?;
-        if let Some(torque) = torque {
-            trajectory.torque = torque.along_trajectory(&trajectory);
-        }
-        return Some(TimedMotion { curve, trajectory });
+        trajectory.push_rest(spline.duration(), path.path().goal());
+        Some(trajectory)
+    })?;
+    let pieces = trajectory.pieces();
+    if !too_far(&pieces).is_empty() {
+        return None;
     }
-    None
+    let last = path.path().waypoints().len() - 1;
+    let radii = extents(path.path(), &pieces, |w| 0 < w && w < last);
+    let curve = Rounding::new(scene, path, scene.workspace().clearance).certified(radii, &pieces)?;
+    if let Some(torque) = torque {
+        trajectory.torque = torque.along_trajectory(&trajectory);
+    }
+    Some(TimedMotion { curve, trajectory })
 }
 
 /// Returns the fastest motion along a curve whose pieces are all near enough, within all limits except those on torques.

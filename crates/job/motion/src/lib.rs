@@ -112,6 +112,7 @@ pub use clock::{nanoseconds, nearest_within, round_down, round_up, seconds, whol
 pub use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use csv::{csv, csv_of_joints};
 pub use drive::{CurveDrive, Drive, Objective, along_curve};
+pub use extent::distance_to_leg;
 pub use field::FieldReport;
 pub use format::{Format, FormatError};
 pub use joint_curve::{JointCurve, along_joint_curve};

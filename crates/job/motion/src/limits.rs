@@ -1,12 +1,17 @@
 //! Limits of a motion.
 
+use super::sample::Trajectory;
 use super::tip::TipSpeed;
 use super::torque::TorqueLimit;
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Joint};
+use nalgebra::Vector3;
+
+/// Number of times that torques are reduced if they exceed the efforts between the positions at which they are limited.
+const MAX_TORQUE_ROUNDS: usize = 6;
 
 /// Limits of a motion, for the joints from base to tip. All are positive, in radians or metres and seconds.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits<'a> {
     /// Greatest speed of each joint.
     pub velocity: [f64; 2],
@@ -35,7 +40,10 @@ pub struct SumLimit {
     pub acceleration: f64,
 }
 
-/// A joint, or the sum of both, with its limits.
+/// Values of both joints and of the wrist's joint, or their rates; 0 for the wrist's joint if the arm has none.
+pub(super) type Axes = Vector3<f64>;
+
+/// An axis that a motion moves: joint 1, joint 2, or the wrist's joint, by its index, or the sum of both joints.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LimitedAxis {
     /// Index of the joint, or the factor of joint 1 in the sum.
@@ -46,8 +54,8 @@ pub(super) struct LimitedAxis {
 }
 
 impl LimitedAxis {
-    /// Returns the component of a vector in joint space along the axis.
-    pub fn component(&self, vector: Configuration) -> f64 {
+    /// Returns the component of a vector along the axis.
+    pub fn component(&self, vector: Axes) -> f64 {
         match self.axis {
             Ok(joint) => vector[joint],
             Err(ratio) => ratio * vector[0] + vector[1],
@@ -79,10 +87,7 @@ impl From<&[Joint; 2]> for Limits<'_> {
             velocity: joints.each_ref().map(|joint| joint.velocity),
             acceleration: joints.each_ref().map(|joint| joint.acceleration),
             jerk: joints.each_ref().map(|joint| joint.jerk),
-            tip: None,
-            torque: None,
-            wrist: None,
-            sum: None,
+            ..Self::default()
         }
     }
 }
@@ -126,7 +131,7 @@ impl Limits<'_> {
 
     /// Iterates over the joints, and the sum of their values if it is limited.
     pub(super) fn axes(&self) -> impl Iterator<Item = LimitedAxis> + use<> {
-        let Self { velocity, acceleration, jerk, sum, .. } = *self;
+        let Self { velocity, acceleration, jerk, sum, wrist, .. } = *self;
         let joint = move |k: usize| LimitedAxis {
             axis: Ok(k),
             velocity: velocity[k],
@@ -139,14 +144,18 @@ impl Limits<'_> {
             acceleration: sum.acceleration,
             jerk: None,
         };
-        (0..2).map(joint).chain(sum.map(of_sum))
+        let of_wrist = |WristLimit { velocity, acceleration, .. }: WristLimit| LimitedAxis {
+            axis: Ok(2),
+            velocity,
+            acceleration,
+            jerk: None,
+        };
+        (0..2).map(joint).chain(sum.map(of_sum)).chain(wrist.map(of_wrist))
     }
 
-    /// Returns the greatest speed and acceleration along a stretch on which the wrist turns by `slope` radians per unit of
-    /// length; infinite without a wrist.
-    pub(super) fn wrist_along(&self, slope: f64) -> [f64; 2] {
-        let limits = self.wrist.map_or([f64::INFINITY; 2], |wrist| [wrist.velocity, wrist.acceleration]);
-        limits.map(|limit| limit / slope.abs())
+    /// Returns the values of all axes at a waypoint with these joint values.
+    pub(super) fn axes_at(&self, waypoint: usize, q: Configuration) -> Axes {
+        q.push(self.wrist.map_or(0.0, |wrist| wrist.values[waypoint]))
     }
 
     /// Returns the value of the wrist's joint at a distance, radians or metres in joint space, from waypoint `from` towards
@@ -156,6 +165,20 @@ impl Limits<'_> {
             let [a, b] = [wrist.values[from], wrist.values[toward]];
             a + (b - a) * (distance / length)
         })
+    }
+
+    /// Returns a trajectory whose torques are within the efforts. `drive` makes trajectories within limits whose efforts are
+    /// reduced as long as the torques between two samples exceed them.
+    pub(super) fn within_torque(&self, drive: impl Fn(&Self) -> Option<Trajectory>) -> Option<Trajectory> {
+        let mut used = *self;
+        for _ in 0..MAX_TORQUE_ROUNDS {
+            let trajectory = drive(&used)?;
+            match (self.torque.and_then(|limit| limit.excess(&trajectory.pieces())), &mut used.torque) {
+                (Some(excess), Some(used)) => used.share /= excess,
+                _ => return Some(trajectory),
+            }
+        }
+        None
     }
 
     /// Returns the limits with a share of the tip's speed.
@@ -182,21 +205,21 @@ impl Limits<'_> {
     }
 
     /// Returns the greatest speed along a unit direction. A joint that does not move sets no limit.
-    pub(super) fn speed_along(&self, direction: Configuration) -> f64 {
+    pub(super) fn speed_along(&self, direction: Axes) -> f64 {
         self.limit_along(direction, |axis| axis.velocity)
     }
 
     /// Returns the greatest acceleration along a unit direction.
-    pub(super) fn acceleration_along(&self, direction: Configuration) -> f64 {
+    pub(super) fn acceleration_along(&self, direction: Axes) -> f64 {
         self.limit_along(direction, |axis| axis.acceleration)
     }
 
     /// Returns the greatest jerk along a unit direction; infinite if no moving joint has a limit.
-    pub(super) fn jerk_along(&self, direction: Configuration) -> f64 {
+    pub(super) fn jerk_along(&self, direction: Axes) -> f64 {
         self.limit_along(direction, |axis| axis.jerk.unwrap_or(f64::INFINITY))
     }
 
-    fn limit_along(&self, direction: Configuration, limit: impl Fn(&LimitedAxis) -> f64) -> f64 {
+    fn limit_along(&self, direction: Axes, limit: impl Fn(&LimitedAxis) -> f64) -> f64 {
         self.axes().map(|axis| limit(&axis) / axis.component(direction).abs()).fold(f64::INFINITY, f64::min)
     }
 

@@ -15,7 +15,7 @@ use crate::{BlendedPath, Rounding};
 use cplan_handling::Piece;
 use cplan_judge::CertifiedPath;
 use cplan_model::Scene;
-use cplan_model::space::{Configuration, Path};
+use cplan_model::space::Path;
 
 /// Share of the allowed distance at which the curve leaves a leg. The motion leaves it up to two steps earlier.
 const USED_SHARE: f64 = 0.95;
@@ -38,9 +38,6 @@ const MIN_GAP_SHARE: f64 = 0.5;
 /// Number of motions that are tried, each with reduced distances at some corners.
 const MAX_TRIES: usize = 6;
 
-/// Number of times that torques are reduced if they exceed the efforts between the positions at which they are limited.
-const MAX_TORQUE_ROUNDS: usize = 6;
-
 /// Returns a fast motion along a path that is off the path only within `greatest` of a corner, and shown to be free.
 /// `None` if no such motion is found that is shorter than `below` seconds and passes a corner without a stop.
 pub(super) fn rounded(
@@ -55,7 +52,10 @@ pub(super) fn rounded(
     let mut curve = RoundedPath::new(path.path(), greatest);
     for _ in 0..MAX_TRIES {
         curve.keep_free(&rounding)?;
-        let trajectory = curve.driven(&limits, period).filter(|driven| driven.duration() < below)?;
+        let trajectory = limits.within_torque(|limits| curve.driven(limits, period))?;
+        if trajectory.duration() >= below {
+            return None;
+        }
         let pieces = trajectory.pieces();
         let open = rounding.uncertified_pieces(&pieces);
         if open.is_empty() {
@@ -135,20 +135,7 @@ impl<'a> RoundedPath<'a> {
         Spline::of_curve(&points)
     }
 
-    /// Returns the fastest motion that is found along the curve; `None` if none is found.
     fn driven(&self, limits: &Limits, period: f64) -> Option<Trajectory> {
-        let mut used = *limits;
-        for _ in 0..MAX_TORQUE_ROUNDS {
-            let trajectory = self.driven_within(&used, period)?;
-            match (limits.torque.and_then(|limit| limit.excess(&trajectory.pieces())), &mut used.torque) {
-                (Some(excess), Some(used)) => used.share /= excess,
-                _ => return Some(trajectory),
-            }
-        }
-        None
-    }
-
-    fn driven_within(&self, limits: &Limits, period: f64) -> Option<Trajectory> {
         let q = self.path.waypoints();
         let straight = BlendedPath::from(self.path.clone());
         let (mut trajectory, mut begin) = (Trajectory::default(), 0);
@@ -167,7 +154,7 @@ impl<'a> RoundedPath<'a> {
             spline.sample(begin, period, &mut trajectory);
             begin += spline.duration();
         }
-        trajectory.push(begin, [self.path.goal(), Configuration::zeros(), Configuration::zeros()]);
+        trajectory.push_rest(begin, self.path.goal());
         Some(trajectory)
     }
 }
@@ -217,6 +204,7 @@ fn spaced(length: f64, distances: [f64; 2]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cplan_model::space::Configuration;
     use proptest::prelude::*;
 
     proptest! {

@@ -1,7 +1,7 @@
 //! Trajectories: motions along a path, sampled in time.
 
 use super::clock::{self, NANOSECONDS_PER_SECOND, nanoseconds, round_up, whole_nanoseconds};
-use super::limits::Limits;
+use super::limits::{Axes, Limits};
 use super::profile::Phase;
 use super::schedule::{TimedTrack, Track, schedule};
 use super::single::single;
@@ -129,8 +129,8 @@ impl Trajectory {
 
     /// Returns a single sample at time 0, at which the arm of a scene rests at `q`.
     pub fn at_rest(scene: &Scene, q: Configuration) -> Self {
-        let mut trajectory = Self::with_capacity(1);
-        trajectory.push(0, [q, Configuration::zeros(), Configuration::zeros()]);
+        let mut trajectory = Self::default();
+        trajectory.push_rest(0, q);
         if let Some(torque) = TorqueLimit::of(scene) {
             trajectory.torque = torque.along_trajectory(&trajectory);
         }
@@ -199,7 +199,7 @@ impl Trajectory {
 
     fn append_rest_to(&mut self, end: u64) {
         if let Some(&position) = self.position.last() {
-            self.push(end, [position.into(), Configuration::zeros(), Configuration::zeros()]);
+            self.push_rest(end, position.into());
             // At rest, the last torques are those that hold the arm.
             self.torque.extend(self.torque.last().copied());
             self.wrist.extend(self.wrist.last().map(|[value, ..]| [*value, 0.0, 0.0]));
@@ -219,15 +219,9 @@ impl Trajectory {
         (1..self.wrist.len()).map(|i| Piece::hermite(self.time[i - 1], self.time[i], end(i - 1), end(i))).collect()
     }
 
-    fn with_capacity(samples: usize) -> Self {
-        Self {
-            time: Vec::with_capacity(samples),
-            position: Vec::with_capacity(samples),
-            velocity: Vec::with_capacity(samples),
-            acceleration: Vec::with_capacity(samples),
-            torque: Vec::new(),
-            wrist: Vec::new(),
-        }
+    /// Adds a sample at rest.
+    pub(super) fn push_rest(&mut self, nanoseconds: u64, q: Configuration) {
+        self.push(nanoseconds, [q, Configuration::zeros(), Configuration::zeros()]);
     }
 
     pub(super) fn push(&mut self, nanoseconds: u64, [position, velocity, acceleration]: [Configuration; 3]) {
@@ -316,9 +310,9 @@ pub(super) fn time_curve(
         return Err(TimingError::TooManySamples { duration, period });
     }
 
-    let mut trajectory = Trajectory::with_capacity(samples as usize + 1);
+    let mut trajectory = Trajectory::default();
     let end = runs.iter().fold(0, |begin, run| sample(run, begin, limits, period, &mut trajectory));
-    trajectory.push(end, [curve.path().goal(), Configuration::zeros(), Configuration::zeros()]);
+    trajectory.push_rest(end, curve.path().goal());
     trajectory.wrist.extend(limits.wrist.and_then(|wrist| Some([*wrist.values.last()?, 0.0, 0.0])));
     Ok((used, trajectory))
 }
@@ -342,17 +336,15 @@ pub(super) fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f6
         };
         let state = |at: u64| {
             let (track, state) = place(at);
-            (track.at(state), limits.wrist.map(|_| track.wrist_at(state)))
+            track.at(state)
         };
-        let mut push = |at: u64, (arm, wrist): ([Configuration; 3], Option<[f64; 3]>)| {
-            trajectory.push(at, arm);
-            trajectory.wrist.extend(wrist.map(|row| row.map(|x| x + 0.0)));
+        let mut push = |at: u64, rows: [Axes; 3]| {
+            trajectory.push(at, rows.map(|row| row.xy()));
+            trajectory.wrist.extend(limits.wrist.map(|_| rows.map(|row| row[2] + 0.0)));
         };
-        let ([position, velocity, _], turn) = state(first);
-        let begins = phase.at(0.0);
-        let [.., acceleration] = track.at(begins);
-        let turn = turn.map(|[value, rate, _]| [value, rate, track.wrist_at(begins)[2]]);
-        push(first, ([position, velocity, acceleration], turn));
+        let [position, velocity, _] = state(first);
+        let [.., acceleration] = track.at(phase.at(0.0));
+        push(first, [position, velocity, acceleration]);
         let interval = track.interval(phase, limits);
         let mut left = first;
         let count = (clock::seconds(first) / period) as u64;

@@ -3,7 +3,7 @@
 use super::clock::reserve;
 use super::corner::{Bounds, Corner};
 use super::jerk;
-use super::limits::Limits;
+use super::limits::{Axes, Limits};
 use super::profile::{Phase, State, passing, rest_to_rest};
 use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL, Trajectory, sample};
 use super::tip::{Part, TIP_SPEED_STEP};
@@ -38,60 +38,55 @@ pub(super) enum Track {
 /// A straight stretch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Line {
-    from: Configuration,
-    to: Configuration,
+    from: Axes,
+    to: Axes,
     length: f64,
-    direction: Configuration,
+    direction: Axes,
     /// The greatest speed along the line within the joints' limits.
     speed: f64,
     acceleration: f64,
     /// The greatest jerk along the line; infinite without a limit.
     jerk: f64,
-    /// Values of the wrist's joint at both ends, radians; 0 without a wrist.
-    wrist: [f64; 2],
 }
 
 impl Line {
     /// Creates a line. If torques are limited, the line's acceleration may exceed that limit: see [`Line::safe`].
-    fn new(from: Configuration, to: Configuration, wrist: [f64; 2], limits: &Limits) -> Self {
+    fn new([from, to]: [Axes; 2], limits: &Limits) -> Self {
         let offset = to - from;
         // Unlike the root of the sum of squares, this does not vanish for very short offsets.
         let length = offset[0].hypot(offset[1]);
         let direction = offset / length;
-        let [turning, gaining] = limits.wrist_along((wrist[1] - wrist[0]) / length);
-        let speed = limits.speed_along(direction).min(turning);
-        let acceleration = limits.acceleration_along(direction).min(gaining);
-        let jerk = limits.jerk_along(direction);
-        let part =
-            Part { middle: from + offset / 2.0, slope: direction, bend: Configuration::zeros(), half: length / 2.0 };
-        let speed = limits.tip.map_or(speed, |tip| speed.min(tip.speed_within_limit(&part)));
-        Self { from, to, length, direction, speed, acceleration, jerk, wrist }
+        let (speed, jerk) = (limits.speed_along(direction), limits.jerk_along(direction));
+        let acceleration = limits.acceleration_along(direction);
+        let line = Self { from, to, length, direction, speed, acceleration, jerk };
+        let speed = limits.tip.map_or(speed, |tip| speed.min(tip.speed_within_limit(&line.part())));
+        Self { speed, ..line }
+    }
+
+    /// Returns the line as a part of a curve, for the limits on the tip.
+    fn part(&self) -> Part {
+        let middle = self.from + (self.to - self.from) / 2.0;
+        let (bend, half) = (Configuration::zeros(), self.length / 2.0);
+        Part { middle: middle.xy(), slope: self.direction.xy(), bend, half }
     }
 
     /// Returns the line with a speed and an acceleration that the torques allow everywhere on it.
     fn safe(self, limits: &Limits) -> Self {
-        let [speed, acceleration] = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.safe(self.from, self.to));
+        let [speed, acceleration] =
+            limits.torque.map_or([f64::INFINITY; 2], |torque| torque.safe(self.from.xy(), self.to.xy()));
         Self { speed: self.speed.min(speed), acceleration: self.acceleration.min(acceleration), ..self }
     }
 
     /// Splits a straight stretch into parts with separate top speeds; several if the tip's limit requires it.
-    fn parts(from: Configuration, to: Configuration, wrist: [f64; 2], limits: &Limits) -> Vec<Self> {
-        let whole = Self::new(from, to, wrist, limits);
-        let own = Self::new(from, to, wrist, &Limits { tip: None, ..*limits }).speed;
+    fn parts([from, to]: [Axes; 2], limits: &Limits) -> Vec<Self> {
+        let whole = Self::new([from, to], limits);
+        let own = Self::new([from, to], &Limits { tip: None, ..*limits }).speed;
         let Some(tip) = limits.tip.filter(|_| whole.speed < own) else { return vec![whole] };
-        let part = Part {
-            middle: from + (to - from) / 2.0,
-            slope: whole.direction,
-            bend: Configuration::zeros(),
-            half: whole.length / 2.0,
-        };
         // Tolerance of the derivative of the tip's path where it matters, that is, where it is more than speed / own.
         let off = TIP_SPEED_STEP * tip.speed / own;
-        let count = (tip.slack(&part) / off).ceil().clamp(1.0, MAX_LINE_PARTS);
+        let count = (tip.slack(&whole.part()) / off).ceil().clamp(1.0, MAX_LINE_PARTS);
         let end = |i: f64| if i == count { to } else { from + (to - from) * (i / count) };
-        let turned = |i: f64| if i == count { wrist[1] } else { wrist[0] + (wrist[1] - wrist[0]) * (i / count) };
-        let part = |i: f64| Self::new(end(i), end(i + 1.0), [turned(i), turned(i + 1.0)], limits);
-        (0..count as u32).map(|i| part(f64::from(i))).collect()
+        (0..count as u32).map(f64::from).map(|i| Self::new([end(i), end(i + 1.0)], limits)).collect()
     }
 
     /// Returns the least duration of a phase on the line, seconds.
@@ -106,53 +101,33 @@ impl Line {
         Self { speed: left * self.speed, acceleration: left * self.acceleration, ..self }
     }
 
-    fn at(&self, state: State) -> [Configuration; 3] {
+    fn at(&self, state: State) -> [Axes; 3] {
         let State { distance, speed, acceleration } = state;
-        let part = distance / self.length;
-        let between = |k: usize| {
-            let (a, b) = (self.from[k], self.to[k]);
-            // Rounding must not carry a sample beyond the end, which may lie on a joint limit.
-            (a + (b - a) * part).clamp(a.min(b), a.max(b))
-        };
-        let position = Configuration::new(between(0), between(1));
+        let (part, Self { from, to, .. }) = (distance / self.length, self);
+        // Rounding must not carry a sample beyond the end, which may lie on a joint limit.
+        let between = |value: f64, a: f64, b: f64| value.clamp(a.min(b), a.max(b));
+        let position = (from + (to - from) * part).zip_zip_map(from, to, between);
         [position, self.direction * speed, self.direction * acceleration]
-    }
-
-    /// Returns value, velocity and acceleration of the wrist's joint.
-    fn wrist_at(&self, state: State) -> [f64; 3] {
-        let State { distance, speed, acceleration } = state;
-        let [from, to] = self.wrist;
-        let slope = (to - from) / self.length;
-        let value = (from + (to - from) * (distance / self.length)).clamp(from.min(to), from.max(to));
-        [value, slope * speed, slope * acceleration]
     }
 }
 
 impl Track {
     /// Splits a straight stretch into as many tracks as its limits require.
-    fn straight([from, to]: [Configuration; 2], wrist: [f64; 2], limits: &Limits, tip_share: f64) -> Vec<Self> {
+    fn straight(ends: [Axes; 2], limits: &Limits, tip_share: f64) -> Vec<Self> {
         let limits = &limits.with_tip_share(tip_share);
         if limits.torque.is_none() {
-            return Line::parts(from, to, wrist, limits).into_iter().map(Track::Line).collect();
+            return Line::parts(ends, limits).into_iter().map(Track::Line).collect();
         }
-        let corner = Corner::straight(from, to, wrist, limits);
+        let corner = Corner::straight(ends[0], ends[1], limits);
         let corner = corner.map(|corner| Track::Corner(corner.with_tip_share(tip_share)));
-        vec![corner.unwrap_or_else(|| Track::Line(Line::new(from, to, wrist, limits).safe(limits)))]
+        vec![corner.unwrap_or_else(|| Track::Line(Line::new(ends, limits).safe(limits)))]
     }
 
-    /// Returns position, velocity and acceleration of the joints.
-    pub(super) fn at(&self, state: State) -> [Configuration; 3] {
+    /// Returns position, velocity and acceleration of all axes.
+    pub(super) fn at(&self, state: State) -> [Axes; 3] {
         match self {
             Track::Line(line) => line.at(state),
             Track::Corner(corner) => corner.at(state),
-        }
-    }
-
-    /// Returns value, velocity and acceleration of the wrist's joint, radians and seconds; 0 without a wrist.
-    pub(super) fn wrist_at(&self, state: State) -> [f64; 3] {
-        match self {
-            Track::Line(line) => line.wrist_at(state),
-            Track::Corner(corner) => corner.wrist_at(state),
         }
     }
 
@@ -213,8 +188,7 @@ fn scheduled(
 ) -> (BlendedPath, Vec<Vec<TimedTrack>>) {
     let corner = |waypoint: usize| {
         let blend = curve.blend(waypoint).filter(|_| !limits.stops_at_corners());
-        blend
-            .and_then(|blend: Blend| Corner::new(blend, blend_wrist(curve, waypoint, limits), limits, shares[waypoint]))
+        blend.and_then(|blend| Corner::new(blend_points(curve, waypoint, blend, limits), limits, shares[waypoint]))
     };
     let count = curve.radii().len();
     let mut used = curve.clone();
@@ -267,42 +241,41 @@ pub(super) fn places(run: &[TimedTrack], step: f64) -> Vec<Configuration> {
     for (track, phase) in run.iter().flat_map(|(track, phases)| phases.iter().map(move |phase| (track, phase))) {
         while places.len() as f64 * step < since + phase.duration {
             let [place, ..] = track.at(phase.at(places.len() as f64 * step - since));
-            places.push(place);
+            places.push(place.xy());
         }
         since += phase.duration;
     }
     if let Some((track, phase)) = run.last().and_then(|(track, phases)| Some((track, phases.last()?))) {
-        places.push(track.at(phase.at(phase.duration))[0]);
+        places.push(track.at(phase.at(phase.duration))[0].xy());
     }
     places
 }
 
 /// Returns the tracks from rest to rest on each leg from one waypoint to another.
 fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans: Spans) -> Vec<Vec<TimedTrack>> {
-    let legs = waypoints.clone().zip(curve.path().waypoints()[waypoints.start..=waypoints.end].windows(2));
-    let timed_tracks = |(number, leg): (usize, &[Configuration])| {
+    let timed_tracks = |number: usize| {
         let tip_share = limits.tip_share(number);
         let whole_limits = limits;
-        let wrist = limits.wrist.map_or([0.0; 2], |wrist| [wrist.values[number], wrist.values[number + 1]]);
+        let ends = [number, number + 1].map(|w| limits.axes_at(w, curve.path().waypoints()[w]));
         let limits = &limits.with_tip_share(tip_share);
+        let line = Line::new(ends, limits);
         let whole = || {
-            let line = Line::new(leg[0], leg[1], wrist, limits).safe(limits);
+            let line = line.safe(limits);
             let phases = rest_to_rest(line.length, line.speed, line.acceleration, MIN_INTERVAL);
             vec![(Track::Line(line), phases)]
         };
-        if Line::new(leg[0], leg[1], wrist, limits).jerk.is_finite() {
+        if line.jerk.is_finite() {
             // One top speed for all parts avoids jumps between them.
-            let parts = Line::parts(leg[0], leg[1], wrist, limits);
-            let speed = parts.iter().map(|part| part.speed).fold(f64::INFINITY, f64::min);
-            let line = Line { speed, ..Line::new(leg[0], leg[1], wrist, limits) }.safe(limits);
+            let speed = Line::parts(ends, limits).iter().map(|part| part.speed).fold(f64::INFINITY, f64::min);
+            let line = Line { speed, ..line }.safe(limits);
             let phases = jerk::rest_to_rest(line.length, line.speed, line.acceleration, line.jerk, MIN_INTERVAL);
             return vec![(Track::Line(line), phases)];
         }
-        let tracks = Track::straight([leg[0], leg[1]], wrist, whole_limits, tip_share);
+        let tracks = Track::straight(ends, whole_limits, tip_share);
         let is_more = tracks.len() > 1 || matches!(tracks[0], Track::Corner(_));
         is_more.then(|| driven(tracks, whole_limits, 0.0, spans)).flatten().unwrap_or_else(whole)
     };
-    legs.map(timed_tracks).collect()
+    waypoints.map(timed_tracks).collect()
 }
 
 /// A part of a run over which the squared speed is linear, or on a line as fast as possible.
@@ -442,30 +415,26 @@ fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
 /// sampled.
 fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, shares: &[f64]) -> Option<Vec<Track>> {
     let q = curve.path().waypoints();
-    let mut from = q[waypoints.start];
-    let mut turned = limits.wrist.map_or(0.0, |wrist| wrist.values[waypoints.start]);
+    let mut from = limits.axes_at(waypoints.start, q[waypoints.start]);
     let mut tracks = Vec::new();
     for (waypoint, &corner) in q.iter().enumerate().take(waypoints.end + 1).skip(waypoints.start + 1) {
-        let blend = curve.blend(waypoint);
         let tip_share = limits.tip_share(waypoint - 1);
-        let wrist = match blend {
-            Some(_) => blend_wrist(curve, waypoint, limits),
-            None => [limits.wrist.map_or(0.0, |wrist| wrist.values[waypoint]); 3],
-        };
-        let ends = [from, blend.map_or(corner, |b| b.from)];
-        tracks.extend(Track::straight(ends, [turned, wrist[0]], limits, tip_share));
-        if let Some(blend) = blend {
-            let corner = Corner::new(blend, wrist, limits, shares[waypoint])?;
+        let points = curve.blend(waypoint).map(|blend| blend_points(curve, waypoint, blend, limits));
+        let to = points.map_or_else(|| limits.axes_at(waypoint, corner), |points| points[0]);
+        tracks.extend(Track::straight([from, to], limits, tip_share));
+        if let Some(points) = points {
+            let corner = Corner::new(points, limits, shares[waypoint])?;
             tracks.push(Track::Corner(corner.with_tip_share(tip_share.min(limits.tip_share(waypoint)))));
-            (from, turned) = (blend.to, wrist[2]);
+            from = points[2];
         }
     }
     Some(tracks)
 }
 
-/// Returns the values of the wrist's joint at the beginning of a blend, at its corner, and at its end; 0 without a wrist.
-fn blend_wrist(curve: &BlendedPath, waypoint: usize, limits: &Limits) -> [f64; 3] {
+/// Returns the values of all axes at the beginning of a blend, at its corner, and at its end.
+fn blend_points(curve: &BlendedPath, waypoint: usize, blend: Blend, limits: &Limits) -> [Axes; 3] {
     let (q, radius) = (curve.path().waypoints(), curve.radii()[waypoint]);
     let toward = |other: usize| limits.wrist_at(waypoint, other, radius, (q[other] - q[waypoint]).norm());
-    [toward(waypoint - 1), limits.wrist.map_or(0.0, |wrist| wrist.values[waypoint]), toward(waypoint + 1)]
+    let corner = limits.axes_at(waypoint, blend.corner);
+    [blend.from.push(toward(waypoint - 1)), corner, blend.to.push(toward(waypoint + 1))]
 }

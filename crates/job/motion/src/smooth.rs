@@ -14,7 +14,6 @@ use crate::{BlendedPath, Rounding, blend};
 use cplan_handling::Piece;
 use cplan_judge::CertifiedPath;
 use cplan_model::Scene;
-use cplan_model::space::Configuration;
 use std::collections::BTreeSet;
 
 /// Factor by which the speed at a corner is reduced if the motion near it is not shown to be free.
@@ -158,8 +157,7 @@ impl<'a> Smoothing<'a> {
                 self.run(run, ends[0], begin, &mut smooth)
             };
         }
-        let rest = [curve.path().goal(), Configuration::zeros(), Configuration::zeros()];
-        smooth.trajectory.push(begin, rest);
+        smooth.trajectory.push_rest(begin, curve.path().goal());
         Some(smooth)
     }
 

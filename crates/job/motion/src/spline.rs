@@ -168,7 +168,8 @@ impl Spline {
             let [first, second] = [(b - a) / h, (c - b * 2.0 + a) / (h * h)];
             let third = (d - c * 3.0 + b * 3.0 - a) / (h * h * h);
             for axis in limits.axes() {
-                let [first, second, third] = [first, second, third].map(|vector| axis.component(vector).abs());
+                let [first, second, third] =
+                    [first, second, third].map(|vector| axis.component(vector.push(0.0)).abs());
                 let jerk = axis.jerk.map_or(0.0, |most| third / most);
                 let acceleration = second / axis.acceleration;
                 excess = excess.max(first / axis.velocity).max(acceleration.sqrt()).max(jerk.cbrt());
@@ -269,7 +270,7 @@ fn conditions_at([position, velocity, acceleration, jerk]: [Configuration; 4], l
         }
     };
     for axis in limits.axes() {
-        let [first, second, third] = [velocity, acceleration, jerk].map(|vector| axis.component(vector));
+        let [first, second, third] = [velocity, acceleration, jerk].map(|vector| axis.component(vector.push(0.0)));
         ask([(first / axis.velocity).powi(2), 0.0, 0.0], false);
         for sign in [1.0, -1.0] {
             ask([second, first / 2.0, 0.0].map(|factor| sign * factor / axis.acceleration), false);

@@ -228,6 +228,17 @@ impl<'a> TorqueLimit<'a> {
         Self::of(scene).map_or(Ok(()), |own| own.check_holding(q))
     }
 
+    /// Returns the limit of a scene, if the arm can be held against gravity along a whole path. `None` if motions need not
+    /// respect efforts.
+    ///
+    /// # Errors
+    /// The place where it needs more than a joint's effort.
+    pub(super) fn along_path(scene: &'a Scene, path: &Path) -> Result<Option<Self>, TimingError> {
+        let own = Self::of(scene);
+        own.iter().try_for_each(|own| own.check_holding_along(path))?;
+        Ok(own)
+    }
+
     fn check_holding(&self, at: Configuration) -> Result<(), TimingError> {
         let holding = self.torques.at(at).holding();
         match (0..2).find(|&k| holding[k].abs() >= self.torques.dynamics.effort[k]) {
@@ -237,10 +248,7 @@ impl<'a> TorqueLimit<'a> {
     }
 
     /// Checks that the arm can be held against gravity along a whole path.
-    ///
-    /// # Errors
-    /// The place where it needs more than a joint's effort.
-    pub(super) fn check_holding_along(&self, path: &Path) -> Result<(), TimingError> {
+    fn check_holding_along(&self, path: &Path) -> Result<(), TimingError> {
         let effort = self.torques.dynamics.effort;
         for (from, to) in path.segments() {
             let (offset, half) = ((to - from) / 2.0, 1.0);

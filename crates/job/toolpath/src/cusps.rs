@@ -1,6 +1,7 @@
 //! Cusps of cubic curves: places where a curve turns back, or almost does.
 
 use crate::curve::norm;
+use crate::heading::mixed;
 use crate::{Curve, Point};
 
 /// Number of intervals in which the least speeds of a curve are sought.
@@ -46,9 +47,8 @@ fn least([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
 
 /// Cuts a cubic Bézier curve in two at a parameter, by de Casteljau's algorithm.
 fn cut([a, b, c, d]: [Point; 4], u: f64) -> [[Point; 4]; 2] {
-    let mix = |p: Point, q: Point| [0, 1].map(|k| p[k] * (1.0 - u) + q[k] * u);
-    let [ab, bc, cd] = [mix(a, b), mix(b, c), mix(c, d)];
-    let [abc, bcd] = [mix(ab, bc), mix(bc, cd)];
-    let middle = mix(abc, bcd);
+    let [ab, bc, cd] = [mixed(a, b, u), mixed(b, c, u), mixed(c, d, u)];
+    let [abc, bcd] = [mixed(ab, bc, u), mixed(bc, cd, u)];
+    let middle = mixed(abc, bcd, u);
     [[a, ab, abc, middle], [middle, bcd, cd, d]]
 }

@@ -64,7 +64,8 @@ fn slant(radius: f64, by: f64, growth: f64) -> f64 {
     if growth == 0.0 { by.signum() * FRAC_PI_2 } else { (radius * by).atan2(growth) }
 }
 
-fn mixed(a: Point, b: Point, u: f64) -> Point {
+/// Returns the point at a share of the way between two points.
+pub(crate) fn mixed(a: Point, b: Point, u: f64) -> Point {
     [0, 1].map(|k| a[k] * (1.0 - u) + b[k] * u)
 }
 

@@ -1,5 +1,5 @@
-//! Lines that the tip of a robot follows: straight lines, circular arcs and cubic Bézier curves, read from G-code and
-//! SVG, or through given points.
+//! Lines that the tip of a robot follows: straight lines, circular arcs and cubic Bézier curves, read from G-code, or
+//! through given points.
 //!
 //! ```
 //! use cplan_toolpath::{Curve, Format, Placement, read};
@@ -29,9 +29,7 @@
 //!
 //! # SVG
 //!
-//! Every visible element is a line along its outline, in the order of the file. Curves stay exact, except that arcs of
-//! ellipses become cubic curves that deviate by less than a millionth of the ellipse's size. Between two elements there
-//! is a straight move, as for G0. Metres, and y upwards from the lower edge of the page, as in `cplan import`.
+//! Drawings are read by the reader that the program gives ([`read_svg_by`]).
 #![forbid(unsafe_code)]
 
 mod arc;
@@ -43,8 +41,6 @@ mod heading;
 mod path;
 mod placement;
 mod shapes;
-#[cfg(feature = "svg")]
-mod svg;
 
 pub use cplan_text::Unit;
 pub use curve::{Curve, Point};
@@ -56,6 +52,7 @@ pub use placement::Placement;
 pub use shapes::{Leg, arc_through, polyline, spline};
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 /// A format of line files.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -84,11 +81,21 @@ impl Format {
 pub fn read(bytes: &[u8], format: Format, placement: &Placement) -> Result<Toolpath, Error> {
     match format {
         Format::GCode => gcode::read(text(bytes)?, placement),
-        #[cfg(feature = "svg")]
-        Format::Svg => svg::read(bytes, placement),
-        #[cfg(not(feature = "svg"))]
-        Format::Svg => Err(Error::new(None, None, "this program reads no SVG", "use G-code, or list the points")),
+        Format::Svg => match SVG_READER.get() {
+            Some(read) => read(bytes, placement),
+            None => Err(Error::new(None, None, "this program reads no SVG", "use G-code, or list the points")),
+        },
     }
+}
+
+/// A reader of lines, which also places them.
+pub type LineReader = fn(&[u8], &Placement) -> Result<Toolpath, Error>;
+
+static SVG_READER: OnceLock<LineReader> = OnceLock::new();
+
+/// Sets the reader of [`Format::Svg`] for the whole process. Without one, [`read`] refuses drawings. The first one stays.
+pub fn read_svg_by(reader: LineReader) {
+    SVG_READER.get_or_init(|| reader);
 }
 
 /// Reads a G-code program move by move, for a machine with its own kinematics. It may contain moves to places of the

@@ -4,6 +4,7 @@ mod cell;
 mod dxf;
 mod geojson;
 mod hostile;
+mod line;
 mod svg;
 mod written;
 

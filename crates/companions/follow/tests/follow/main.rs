@@ -81,7 +81,7 @@ fn arcs_and_curves() {
     check(&BARS, &scene, &circle, &Settings::default(), &found(&scene, &circle, &Settings::default()));
     let svg = "<svg xmlns='http://www.w3.org/2000/svg' width='1000mm' height='1000mm' viewBox='0 0 1000 1000'>\
                <path d='M 700 800 C 900 500 1000 900 800 400 S 600 300 700 700'/></svg>";
-    let curve = read(svg.as_bytes(), Format::Svg, &Placement::default()).expect("a line");
+    let curve = cplan_drawing::read_line(svg.as_bytes(), &Placement::default()).expect("a line");
     check(&BARS, &scene, &curve, &Settings::default(), &found(&scene, &curve, &Settings::default()));
 }
 

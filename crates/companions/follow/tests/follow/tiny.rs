@@ -5,7 +5,7 @@ use cplan_cases::dice::Dice;
 use cplan_follow::{Cause, Found, Settings, follow, metres};
 use cplan_model::{Arm, Joint, Link, Outcome, Scene, Workspace};
 use cplan_testkit::follow_oracle::{Bars, Point, pass_together, played, points};
-use cplan_toolpath::{Curve, Format, Piece, Placement, Source, Toolpath, read};
+use cplan_toolpath::{Curve, Piece, Placement, Source, Toolpath};
 use std::f64::consts::TAU;
 
 /// The tip's position with both joints at 0.
@@ -96,7 +96,7 @@ fn the_closing_of_a_circle_by_rounding_is_followed() {
                <path d='m 32.92839,34.43654 0,3 m 11.89854,-3 A 2.44561,2.44561 0 0 0 39.93571,34.43654 \
                2.44561,2.44561 0 0 0 44.82693,34.43654 Z M 5,5 L 9,9'/></svg>";
     let placement = Placement { shift: [0.3, 0.2], ..Placement::default() };
-    let line = read(svg.as_bytes(), Format::Svg, &placement).expect("a line");
+    let line = cplan_drawing::read_line(svg.as_bytes(), &placement).expect("a line");
     assert!(line.pieces().iter().any(|piece| piece.curve.length() < 1e-15), "no closing by rounding");
     followed(&line, 1e-5).expect("found");
 }

@@ -2,6 +2,7 @@
 
 use cplan_handling::Recording;
 use cplan_model::space::{Configuration, Path};
+use cplan_motion::distance_to_leg;
 
 /// Largest deviation of a motion from its path, in each joint, radians or metres. It is a thousand times the rounding
 /// of either, and equals the tolerance of blends.
@@ -26,7 +27,7 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
     let within = rounding + radius / 2.0;
     let inner = q.get(1..q.len().saturating_sub(1)).unwrap_or_default();
     let last = q.len().saturating_sub(2);
-    let off = |at: Configuration, leg: usize| to_leg(at, q[leg], q[(leg + 1).min(q.len() - 1)]);
+    let off = |at: Configuration, leg: usize| distance_to_leg(at, q[leg], q[(leg + 1).min(q.len() - 1)]);
     // Where legs are close to each other, or turn back, the motion may be on one of several legs.
     let (mut legs, mut before) = (vec![0], q[0]);
     for (sample, piece) in recording.pieces().iter().enumerate() {
@@ -67,14 +68,6 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
         return Err(format!("the motion does not follow it to the end: not to ({}, {})", missed[0], missed[1]));
     }
     Ok(())
-}
-
-/// Returns the distance of a configuration from a straight piece.
-fn to_leg(at: Configuration, from: Configuration, to: Configuration) -> f64 {
-    let (along, off) = (to - from, at - from);
-    let length2 = along.norm_squared();
-    let share = if length2 > 0.0 { (along.dot(&off) / length2).clamp(0.0, 1.0) } else { 0.0 };
-    (off - along * share).norm()
 }
 
 #[cfg(test)]

@@ -54,6 +54,12 @@ impl Ledger {
         }
     }
 
+    /// Records a stated clearance that is larger than a distance. `what` says what comes so near, with its verb.
+    fn too_large(&mut self, claim: &str, stated: f64, distance: f64, what: &str) {
+        let [stated, distance] = [length_unlike(stated, distance), length_unlike(distance, stated)];
+        self.note(claim, format!("stated as {stated}, but {what} as near as {distance}"));
+    }
+
     /// Checks a stated number that may differ from the actual number `is` by at most `within`.
     fn number(&mut self, claim: &str, stated: Option<f64>, is: f64, within: f64) {
         if let Some(stated) = stated.filter(|stated| (stated - is).abs() > within) {
@@ -162,15 +168,7 @@ impl Ledger {
             );
         };
         if let Some((distance, pair)) = nearer(timed, recording, stated, nearest.separation.distance, nearest.pair) {
-            let pair = scene.describe(pair);
-            self.note(
-                "clearance",
-                format!(
-                    "stated as {}, but {pair} come as near as {}",
-                    length_unlike(stated, distance),
-                    length_unlike(distance, stated)
-                ),
-            );
+            self.too_large("clearance", stated, distance, &format!("{} come", scene.describe(pair)));
         }
     }
 }
@@ -261,15 +259,8 @@ impl Ledger {
     fn clearance_of_path(&mut self, scene: &Scene, path: Path, stated: f64) {
         let asked = stated - NUMBER_TOLERANCE * stated.abs() - NUMBER_TOLERANCE * f64::EPSILON.sqrt();
         if let Err(Rejection::TooClose(nearest)) = certify_at(scene, path, asked.max(0.0)) {
-            let (pair, distance) = (scene.describe(nearest.contact.pair), nearest.contact.separation.distance);
-            self.note(
-                "clearance",
-                format!(
-                    "stated as {}, but on the path {pair} come as near as {}",
-                    length_unlike(stated, distance),
-                    length_unlike(distance, stated)
-                ),
-            );
+            let what = format!("on the path {} come", scene.describe(nearest.contact.pair));
+            self.too_large("clearance", stated, nearest.contact.separation.distance, &what);
         }
     }
 }

@@ -6,7 +6,6 @@ use cplan_geometry::Point;
 use cplan_handling::{Action, Claims, EventClaim, RecordedStep, Recording, Task, TimedScene};
 use cplan_model::space::Configuration;
 use cplan_motion::recorded::turn_resolution;
-use cplan_text::length_unlike;
 
 /// Returns the false claims of a result about the step with this `index`, given its replay.
 pub fn false_step_claims(
@@ -109,18 +108,11 @@ impl Ledger {
         let most = free.clearance + turn_resolution(&task.arm, task.workspace.fixed.clearance);
         match stated {
             Some(stated) if stated > most => {
-                let why = format!(
-                    "stated as {}, but during the turn of the wrist the object comes as near as {}",
-                    length_unlike(stated, most),
-                    length_unlike(most, stated)
-                );
-                self.note(claim, why);
+                self.too_large(claim, stated, most, "during the turn of the wrist the object comes");
             }
             None if free.clearance.is_finite() => {
-                self.note(
-                    claim,
-                    "stated as null, which means no obstacle within reach, but the object can meet one".into(),
-                );
+                let why = "stated as null, which means no obstacle within reach, but the object can meet one";
+                self.note(claim, why.into());
             }
             _ => {}
         }

@@ -5,6 +5,7 @@
 //! contacts follow from the world's steps and from the recorded configurations.
 
 mod fault;
+mod judged;
 mod line;
 mod order;
 mod overlap;
@@ -16,16 +17,18 @@ pub use fault::{Fault, OrderDeviation};
 pub use tool_joints::{MisplacedJoint, StepTool, misplaced_joints};
 
 use cplan_geometry::{Interval, Point, Pose};
-use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Recording, Step, Task, TimedScene};
+use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Recording, Step, Task};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Goal, Scene};
 use cplan_motion::recorded::{
-    CollisionCheck, Limit, LimitViolation, TurnContact, WristTurn, check_collision, limit_violations, motor_violations,
+    CollisionCheck, Limit, LimitViolation, TurnContact, WristTurn, limit_violations, motor_violations,
     torque_violations,
 };
+use judged::Judged;
 use order::{MatchedStep, match_steps};
 use overlap::{Overlaps, PartialStroke, turn_faults, turning_at_rest};
 use state::{State, lowering_seconds, wrist_faults};
+use std::ops::RangeInclusive;
 
 /// Largest difference between an actual and a required place, metres or radians. It is a thousand times the error of
 /// inverse kinematics, and below the repeatability of any arm.
@@ -128,7 +131,7 @@ pub struct Replay<'a> {
 ///   an angle of the tool, the wrist must keep it between samples, too, and stay within its limits.
 /// - The end of each step. The tip must be at the grasp, and the object or the arm at its target, within a micrometre.
 ///   A turn must start at the object's orientation, last at least as long as the wrist needs, and be free
-///   ([`cplan_motion::recorded::judge_given_turn`]). The arm must rest for the dwell, the turn, and the stroke of the
+///   ([`cplan_motion::recorded::TurnAtRest`]). The arm must rest for the dwell, the turn, and the stroke of the
 ///   tool. The stroke must be free at all its heights.
 /// - The values of the tool's joints at the start and at the end of a move. The arm rests while the tool is raised and
 ///   lowered there, except in overlaps, and the wrist turns from one value to the other within its limits.
@@ -169,7 +172,8 @@ impl<'a> Iterator for Replay<'a> {
         let (matched, recorded) = (self.matched.get(index)?.clone(), self.recorded.get(index)?);
         let motion = self.recording.part(recorded.samples.clone())?;
         self.next += 1;
-        let (task, step) = (self.task, matched.step);
+        let (task, recording, step) = (self.task, self.recording, matched.step);
+        let required = task.workspace.fixed.clearance;
         let mut faults = Vec::new();
         let [from, to] = [0, motion.positions().len() - 1].map(|sample| motion.positions()[sample]);
         if index == 0 && !is_same_pose(task, from, task.start) {
@@ -177,19 +181,18 @@ impl<'a> Iterator for Replay<'a> {
         }
         self.state.renew(task, &matched.renewed);
         let (carried, released) = (self.state.carried(), self.state.released());
-        let picked = match step.action {
-            Action::Pick { object, .. } => Some(object),
-            _ => None,
-        };
+        let picked = step.action.picked();
         let times = self.times(index, recorded);
-        let (mut scene, mut trajectories) = (self.state.scene(task, picked), self.state.trajectories(task, times[0]));
-        let timed = TimedScene { scene: &scene, trajectories: &trajectories };
-        let mut collision_check =
-            shifted(check_collision(timed, &motion, task.workspace.fixed.clearance), *recorded.samples.start());
+        let [first, last] = [*recorded.samples.start(), *recorded.samples.end()];
+        let scene = self.state.scene(task, picked);
         let mut broken = limit_violations(&task.arm.joints, &motion);
         broken.extend(motor_violations(&task.arm, &motion));
         broken.extend(torque_violations(&scene, &motion));
-        broken.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.start());
+        broken.iter_mut().for_each(|excess| excess.moment.sample += first);
+        let judge = |samples: RangeInclusive<usize>, scene: Scene, trajectories: Vec<ObstacleTrajectory>| {
+            Judged::of(task, recording, samples, scene, trajectories)
+        };
+        let mut judged = judge(first..=last, scene, self.state.trajectories(task, times[0]))?;
         let mut object = carried;
         let handled = picked.or(carried.filter(|_| matches!(step.action, Action::Place { .. })));
         let depth = match handled {
@@ -212,27 +215,15 @@ impl<'a> Iterator for Replay<'a> {
         }
         let overlaps = Overlaps::new(before, recorded, depth);
         faults.extend(overlaps.faults(task, motion.duration().unwrap_or(0.0)));
-        if let CollisionCheck::Free { clearance, .. } = collision_check
-            && let Some((at_heights, found)) = overlaps.check(task, &self.state, &motion, picked, clearance)
+        if let Some(clearance) = judged.check.clearance()
+            && let Some(found) = overlaps.check(task, &self.state, &motion, picked, clearance)
         {
-            let found = shifted(found, *recorded.samples.start());
-            match (&mut collision_check, found) {
-                (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
-                    *clearance = clearance.min(least);
-                }
-                (_, found) => (scene, collision_check) = (at_heights, found),
-            }
+            judged.add_in(found, first);
         }
-        if let CollisionCheck::Free { clearance, .. } = collision_check
-            && let Some((turned, found)) =
-                overlaps.check_turns(task, &scene, &motion, (task.workspace.fixed.clearance, clearance), &mut faults)
+        if let Some(sought) = judged.check.clearance()
+            && let Some(found) = overlaps.check_turns(task, &judged.scene, &motion, (required, sought), &mut faults)
         {
-            match (&mut collision_check, shifted(found, *recorded.samples.start())) {
-                (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
-                    *clearance = clearance.min(least);
-                }
-                (_, found) => (scene, collision_check) = (turned, found),
-            }
+            judged.add_in(found, first);
         }
         let (turn, lowered);
         match &step.action {
@@ -277,56 +268,33 @@ impl<'a> Iterator for Replay<'a> {
             + depth.map_or(0.0, |depth| lowering_seconds(task, depth) * if handled.is_some() { 2.0 } else { 1.0 })
             - overlaps.lowering.map_or(0.0, |lowering| lowering.overlap)
             - handled.map_or(0.0, |_| recorded.overlap.after_departure);
-        let standing = || self.recording.part(*recorded.samples.end()..=*recorded.samples.end());
         // A moving obstacle may hit the resting arm.
-        if task.has_moving_obstacles()
-            && matches!(collision_check, CollisionCheck::Free { .. })
-            && let Some(standing) = self.recording.part(*recorded.samples.end()..=self.next_begins(index))
-        {
+        if task.has_moving_obstacles() && judged.check.is_free() {
             let (stays, then) = (self.state.scene(task, released), self.state.trajectories(task, times[1]));
-            let timed = TimedScene { scene: &stays, trajectories: &then };
-            let found = check_collision(timed, &standing, task.workspace.fixed.clearance);
-            if !matches!(found, CollisionCheck::Free { .. }) {
-                (scene, trajectories, collision_check) = (stays, then, shifted(found, *recorded.samples.end()));
-            }
+            let found = judge(last..=self.next_begins(index), stays, then).filter(|found| !found.check.is_free());
+            found.into_iter().for_each(|found| judged.add(found));
         }
-        let [first, last] = [*recorded.samples.start(), *recorded.samples.end()];
         let below = [raised_first.map(|(_, scene)| (scene, first)), lowered.map(|scene| (scene, last))];
         for (below, sample) in below.into_iter().flatten() {
-            let Some(standing) = self.recording.part(sample..=sample) else { continue };
-            let then = task.workspace.trajectories();
-            let timed = TimedScene { scene: &below, trajectories: &then };
-            let found = check_collision(timed, &standing, task.workspace.fixed.clearance);
-            match (&mut collision_check, found) {
-                (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
-                    *clearance = clearance.min(least);
-                }
-                (CollisionCheck::Free { .. }, found) => {
-                    (scene, trajectories, collision_check) = (below, then, shifted(found, sample));
-                }
-                _ => {}
-            }
+            let found = judge(sample..=sample, below, task.workspace.trajectories());
+            found.into_iter().for_each(|found| judged.add(found));
         }
         // The next step begins in the state after this one. Judge the rest in the state of this step if it is the last,
         // or if objects are renewed next: until then, released objects are still present.
         let next = self.matched.get(self.next);
         let (is_last, is_renewed) = (next.is_none(), next.is_some_and(|next| !next.renewed.is_empty()));
-        if (is_last || is_renewed)
-            && matches!(collision_check, CollisionCheck::Free { .. })
-            && let Some(standing) = standing()
-        {
+        if (is_last || is_renewed) && judged.check.is_free() {
             let after = self.state.scene(task, released.filter(|_| is_last));
-            let then = self.state.trajectories(task, times[1]);
-            if is_last && broken.iter().all(|excess| excess.limit != Limit::Torque) {
+            if is_last
+                && broken.iter().all(|excess| excess.limit != Limit::Torque)
+                && let Some(standing) = recording.part(last..=last)
+            {
                 let mut held = torque_violations(&after, &standing);
-                held.iter_mut().for_each(|excess| excess.moment.sample += recorded.samples.end());
+                held.iter_mut().for_each(|excess| excess.moment.sample += last);
                 broken.extend(held);
             }
-            let timed = TimedScene { scene: &after, trajectories: &then };
-            let found = check_collision(timed, &standing, task.workspace.fixed.clearance);
-            if !matches!(found, CollisionCheck::Free { .. }) {
-                (scene, trajectories, collision_check) = (after, then, shifted(found, *recorded.samples.end()));
-            }
+            let found = judge(last..=last, after, self.state.trajectories(task, times[1]));
+            found.filter(|found| !found.check.is_free()).into_iter().for_each(|found| judged.add(found));
         }
         let is_picked = matches!(step.action, Action::Pick { .. });
         let raising = depth.filter(|_| handled.is_some() && recorded.overlap.after_departure > 0.0);
@@ -363,27 +331,25 @@ impl<'a> Iterator for Replay<'a> {
         let holding = |object: usize| task.objects[object].holding;
         let tool = StepTool {
             times,
-            raising: overlaps.raising,
-            lowering: overlaps.lowering,
+            overlaps,
             depth,
             stays_lowered: handled.is_none(),
             carried: carried.map(holding),
             picked: picked.map(holding),
-            turn_before: overlaps.turn_before,
             turn: recorded.turn,
         };
         Some(ReplayedStep {
             tool,
             step,
             recorded,
-            scene,
-            trajectories,
+            scene: judged.scene,
+            trajectories: judged.trajectories,
             object,
             carried,
             seconds,
             times,
             event,
-            collision_check,
+            collision_check: judged.check,
             broken,
             turn,
             faults,
@@ -411,18 +377,4 @@ fn distance_from_goal(task: &Task, q: Configuration, goal: &Goal) -> Option<Faul
 /// Returns the difference between two orientations, from zero to half a turn.
 pub(super) fn angle_between(a: f64, b: f64) -> f64 {
     JointRange::Circle.displacement(b, a).abs()
-}
-
-/// Returns the check with the indices of samples increased by `by`, so that they count from the beginning of the whole
-/// recording.
-fn shifted(mut collision_check: CollisionCheck, by: usize) -> CollisionCheck {
-    match &mut collision_check {
-        CollisionCheck::Free { nearest, .. } => nearest.iter_mut().for_each(|nearest| nearest.moment.sample += by),
-        CollisionCheck::Collision { first, deepest, .. } => {
-            first.moment.sample += by;
-            deepest.moment.sample += by;
-        }
-        CollisionCheck::Undecided(nearest) => nearest.moment.sample += by,
-    }
-    collision_check
 }

@@ -4,9 +4,7 @@ use super::state::{State, lowering_seconds};
 use super::{Fault, TIME_TOLERANCE};
 use cplan_handling::{RecordedOverlap, RecordedStep, RecordedTurn, Recording, Task, Wrist};
 use cplan_model::Scene;
-use cplan_motion::recorded::{
-    CollisionCheck, Encounter, StrokeDuringMotion, TurnCover, TurnDuringMotion, seconds_to_rise,
-};
+use cplan_motion::recorded::{CollisionCheck, StrokeDuringMotion, TurnCover, TurnDuringMotion, seconds_to_rise};
 
 /// A stroke that overlaps with a motion, and by how many seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,13 +114,8 @@ impl Overlaps {
         if turns.iter().any(|turn| !turn.keeps_limits(&task.arm, motion)) {
             faults.push(Fault::WristLimits);
         }
-        let worse = |a: (Scene, CollisionCheck), b: (Scene, CollisionCheck)| match (&a.1, &b.1) {
-            (CollisionCheck::Free { clearance: least, .. }, CollisionCheck::Free { clearance, .. }) => {
-                if least <= clearance { a } else { b }
-            }
-            (CollisionCheck::Free { .. }, _) => b,
-            _ => a,
-        };
+        let worse =
+            |a: (Scene, CollisionCheck), b: (Scene, CollisionCheck)| if b.1.is_worse_than(&a.1) { b } else { a };
         turns.iter().map(|turn| turn.check(motion, required, sought)).reduce(worse)
     }
 
@@ -157,24 +150,11 @@ impl Overlaps {
         };
         let of = |stroke: Option<PartialStroke>, is_raising| stroke.and_then(|stroke| during(stroke, is_raising));
         let checks = of(self.raising, true).into_iter().chain(of(self.lowering, false));
-        let worse = |a: CollisionCheck, b: CollisionCheck| match (a, b) {
-            (CollisionCheck::Free { clearance: least, .. }, CollisionCheck::Free { clearance, .. }) => {
-                if least <= clearance { a } else { b }
-            }
-            (CollisionCheck::Free { .. }, _) => b,
-            _ => a,
-        };
+        let worse = |a: CollisionCheck, b: CollisionCheck| if b.is_worse_than(&a) { b } else { a };
         let mut check = checks.reduce(worse)?;
         // The check has more samples than the recording.
         let number = |time: f64| times.partition_point(|sample| *sample <= time).saturating_sub(1);
-        let renumber = |encounter: &mut Encounter| {
-            encounter.moment.sample = number(encounter.moment.time);
-        };
-        match &mut check {
-            CollisionCheck::Free { nearest, .. } => nearest.iter_mut().for_each(renumber),
-            CollisionCheck::Collision { first, deepest, .. } => [first, deepest].into_iter().for_each(renumber),
-            CollisionCheck::Undecided(nearest) => renumber(nearest),
-        }
+        check.moments_mut().for_each(|moment| moment.sample = number(moment.time));
         let [scene, _] = scenes;
         Some((scene.swept, check))
     }

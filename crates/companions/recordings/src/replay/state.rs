@@ -4,11 +4,11 @@ use super::{Fault, PLACE_TOLERANCE, ReplayedTurn, TIME_TOLERANCE, angle_between}
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{
     Action, ArchScene, Holding, Object, ObstacleTrajectory, Payload, Placement, RecordedOverlap, RecordedTurn,
-    RecordedWrist, Step, Stroke, Task, ToolLimits,
+    RecordedWrist, Step, Stroke, Task,
 };
 use cplan_model::space::Configuration;
 use cplan_model::{Grip, Scene};
-use cplan_motion::recorded::{WristTurn, judge_given_turn, turn_angle, turn_profile};
+use cplan_motion::recorded::{TurnAtRest, WristTurn, turn_angle, turn_profile};
 
 /// The places of the objects, and the load.
 #[derive(Debug, Clone)]
@@ -168,7 +168,7 @@ impl State {
         let turn = turn?;
         match task.wrist {
             Some(wrist) => {
-                let least = least_seconds((turn.to - turn.from).abs(), &wrist.limits());
+                let least = wrist.limits().least_seconds((turn.to - turn.from).abs());
                 if turn.seconds < least - TIME_TOLERANCE {
                     faults.push(Fault::TooFast { seconds: turn.seconds, least });
                 }
@@ -187,7 +187,7 @@ impl State {
         let verdict = match angles_at_rest(task, &turn) {
             [a, b] if a == b => Ok(WristTurn { from: turn.from, to: turn.to, clearance: f64::INFINITY }),
             angles => {
-                let judged = judge_given_turn(task, &workspace.fixed, payload, point, q, angles);
+                let judged = TurnAtRest::new(task, &workspace.fixed, payload, point, q).judge(angles);
                 judged.map(|free| WristTurn { from: turn.from, to: turn.to, ..free })
             }
         };
@@ -214,7 +214,7 @@ fn angles_at_rest(task: &Task, turn: &RecordedTurn) -> [f64; 2] {
 /// Returns the least time, in seconds, in which the tool moves down to a depth. It moves up in the same time.
 pub(super) fn lowering_seconds(task: &Task, depth: f64) -> f64 {
     let stroke = task.stroke.as_ref();
-    stroke.map_or(0.0, |stroke| least_seconds(depth.abs(), &stroke.limits()))
+    stroke.map_or(0.0, |stroke| stroke.limits().least_seconds(depth.abs()))
 }
 
 /// Returns the faults of a step's turn of the wrist to a value of its joint. `end` is the time at which the step ends, in
@@ -228,7 +228,7 @@ pub(super) fn wrist_faults(task: &Task, step: &Step, turn: Option<RecordedWrist>
     if (turn.from - from).abs().max((turn.to - to).abs()) > PLACE_TOLERANCE {
         faults.push(Fault::WristEnds { is: [turn.from, turn.to], asked: [from, to] });
     }
-    let least = least_seconds(task.wrist_turn(step).unwrap_or(0.0).abs(), &wrist.limits());
+    let least = wrist.limits().least_seconds(task.wrist_turn(step).unwrap_or(0.0).abs());
     if turn.seconds < least - TIME_TOLERANCE {
         faults.push(Fault::TooFast { seconds: turn.seconds, least });
     }
@@ -236,33 +236,4 @@ pub(super) fn wrist_faults(task: &Task, step: &Step, turn: Option<RecordedWrist>
         faults.push(Fault::WristOutside { begin: turn.begin, until: turn.begin + turn.seconds, end });
     }
     faults
-}
-
-/// Returns the least time, in seconds, for a distance from rest to rest. The motion speeds up, moves at top speed, and
-/// slows down. If the distance is too short for the top speed, it only speeds up and slows down. With a limit on the jerk,
-/// the acceleration grows to its limit and shrinks again while the joint speeds up, or it does not reach the limit.
-fn least_seconds(distance: f64, limits: &ToolLimits) -> f64 {
-    let ToolLimits { velocity, acceleration, jerk } = *limits;
-    if let Some(jerk) = jerk {
-        // Duration of the change from rest to a speed.
-        let to_speed = |speed: f64| match speed * jerk >= acceleration * acceleration {
-            true => speed / acceleration + acceleration / jerk,
-            false => 2.0 * (speed / jerk).sqrt(),
-        };
-        if distance >= velocity * to_speed(velocity) {
-            return distance / velocity + to_speed(velocity);
-        }
-        let grown = acceleration * acceleration / jerk;
-        return match distance >= 2.0 * grown * acceleration / jerk {
-            // The peak speed `v` satisfies v (v / a + a / j) = d.
-            true => 2.0 * to_speed(((grown * grown + 4.0 * acceleration * distance).sqrt() - grown) / 2.0),
-            false => 4.0 * (distance / (2.0 * jerk)).cbrt(),
-        };
-    }
-    let ramps = velocity * velocity / acceleration;
-    if distance > ramps {
-        2.0 * velocity / acceleration + (distance - ramps) / velocity
-    } else {
-        2.0 * (distance / acceleration).sqrt()
-    }
 }

@@ -1,7 +1,7 @@
 //! The angle of the tool on recorded motions along a line.
 
 use super::Fault;
-use cplan_deviation::{Deviation, Foot, Kinematics, Line, ToolDeviation};
+use cplan_deviation::{Deviation, Kinematics, Line, ToolDeviation};
 use cplan_handling::{FollowedLine, Recording, RecordingError, Task, Wrist, WristGuide, WristJoint};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Joint, JointType};
@@ -60,9 +60,7 @@ fn angle_fault(
     followed: &FollowedLine,
 ) -> Option<Fault> {
     let (kinematics, line) = (Kinematics::new(&task.arm), Line::new(&followed.path));
-    let last = followed.path.pieces().len() - 1;
-    let ends = [Foot { piece: 0, u: 0.0 }, Foot { piece: last, u: 1.0 }];
-    let deviation = Deviation { kinematics: &kinematics, line: &line, tolerance: followed.tolerance, ends };
+    let deviation = Deviation::of_line(&kinematics, &line, followed.tolerance);
     let bounds = ToolDeviation { deviation, guide }.of_pieces(&motion.pieces(), &angles.pieces());
     let (piece, off) = bounds.into_iter().enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
     let tolerance = guide.tolerance;

@@ -5,7 +5,7 @@
 //! height down to its lowest position there, and a payload may have any orientation of its turn, since all of them were
 //! judged.
 
-use super::overlap::PartialStroke;
+use super::overlap::{Overlaps, PartialStroke};
 use cplan_handling::{
     Drives, Holding, RecordedJoints, RecordedStep, RecordedTurn, Recording, RobotJoints, Stroke, Task, ToolJoint,
     WristJoint,
@@ -27,8 +27,8 @@ const PLACES_PER_PIECE: u8 = 4;
 pub struct StepTool {
     /// Seconds from the beginning of the record to the beginning of the arm's motion, its end, and the next motion.
     pub(super) times: [f64; 3],
-    pub(super) raising: Option<PartialStroke>,
-    pub(super) lowering: Option<PartialStroke>,
+    /// The overlaps of the motion with strokes and turns.
+    pub(super) overlaps: Overlaps,
     /// Depth to which the tool is lowered at the end of the motion, metres.
     pub(super) depth: Option<f64>,
     /// True if the tool stays lowered after the step.
@@ -37,7 +37,6 @@ pub struct StepTool {
     pub(super) carried: Option<Holding>,
     /// Grip of the object that is picked at the end of the motion.
     pub(super) picked: Option<Holding>,
-    pub(super) turn_before: Option<RecordedTurn>,
     pub(super) turn: Option<RecordedTurn>,
 }
 
@@ -191,7 +190,7 @@ impl<'a> Guide<'a> {
             return [lowered(start); 2];
         }
         let Some(step) = self.step_at(time) else { return down_to(start) };
-        let StepTool { times: [begin, arrival, _], raising, lowering, depth, stays_lowered, .. } = self.tools[step];
+        let StepTool { times: [begin, arrival, _], overlaps, depth, stays_lowered, .. } = self.tools[step];
         if is_end[1] {
             return [lowered(depth.filter(|_| stays_lowered)); 2];
         }
@@ -199,7 +198,7 @@ impl<'a> Guide<'a> {
             return down_to(depth);
         }
         let profile = |depth: f64| single(depth.abs(), &stroke.limits());
-        let value = match (raising, lowering) {
+        let value = match (overlaps.raising, overlaps.lowering) {
             (Some(PartialStroke { depth, overlap }), _) if time < begin + overlap => {
                 let profile = profile(depth);
                 let whole = profile.last().map_or(0.0, |[end, ..]| *end);
@@ -254,7 +253,7 @@ impl<'a> Guide<'a> {
     fn turned(&self, since: usize, step: usize, time: f64) -> [f64; 2] {
         let by = |turn: Option<RecordedTurn>| turn.map_or(0.0, |turn| turn.to - turn.from);
         let before: f64 = self.tools[since..step].iter().map(|tool| by(tool.turn)).sum();
-        let StepTool { times: [begin, arrival, _], turn_before, turn, .. } = self.tools[step];
+        let StepTool { times: [begin, arrival, _], overlaps, turn, .. } = self.tools[step];
         if time > arrival {
             let after = before + by(turn);
             return [before.min(after), before.max(after)];
@@ -265,11 +264,11 @@ impl<'a> Guide<'a> {
             profile.map_or(0.0, |profile| turn_angle(&profile, [0.0, by], since))
         };
         let mut sum = before;
-        if let Some(turn) = turn_before {
+        if let Some(turn) = overlaps.turn_before {
             let from = begin + turn.overlap.after_departure - turn.seconds;
             sum += during(turn, time - from) - by(Some(turn));
         }
-        if let Some(turn) = turn.filter(|turn| turn.overlap.before_arrival > 0.0) {
+        if let Some(turn) = overlaps.turn_at_end {
             sum += during(turn, time - (arrival - turn.overlap.before_arrival));
         }
         [sum; 2]

@@ -23,10 +23,11 @@ use super::motion_path::of_legs;
 use super::refusal::{Refusal, require_unobstructed};
 use super::state::State;
 use cplan_geometry::OrderedF64;
-use cplan_handling::{Task, TimedScene};
+use cplan_handling::{Step, Task, TimedScene};
 use cplan_interrupt::checkpoint;
 use cplan_judge::Posture;
 use cplan_legs::{Event, FailedStep, Leg, Overlap, Sequence, TaskAnswer, TaskMotion};
+use cplan_model::space::Configuration;
 use cplan_model::{MotionProblem, Outcome};
 use cplan_motion::{Limits, TimedMotion, Timing, Wait, after_pause, nanoseconds, round_up, seconds};
 use cplan_movers::{MovingObstacles, TimingRequirements, clearance_at_rest, time_among_moving_obstacles};
@@ -117,6 +118,16 @@ struct Node<'a> {
     stage: Stage<'a>,
 }
 
+impl Node<'_> {
+    /// Returns the state, unless the motion to it is not planned.
+    fn state(&self) -> Option<&State> {
+        match &self.stage {
+            Stage::Reached(state, _) => Some(state),
+            Stage::Pending(_) => None,
+        }
+    }
+}
+
 /// The stages of a node: whether the motion to it is already planned.
 enum Stage<'a> {
     /// The motion is not planned yet.
@@ -196,6 +207,12 @@ impl<'a> Search<'a> {
         best
     }
 
+    /// Records that a step is refused after a node.
+    fn refuse(&mut self, node: usize, step: &'a Step, ik_solution: Option<Configuration>, refusal: Refusal) {
+        let depth = self.nodes[node].depth;
+        self.refused.push(RefusedStep { depth, node, step, ik_solution, candidate: None, refusal });
+    }
+
     fn push(&mut self, node: Node<'a>) {
         self.nodes.push(node);
         self.open(self.nodes.len() - 1);
@@ -226,16 +243,7 @@ impl<'a> Search<'a> {
         };
         if let Some((node, step)) = next.filter(|_| !is_known) {
             let refusal = Refusal::new(format!("given up after {} motions planned in time", self.motions), false);
-            let depth = self.nodes[node].depth;
-            self.refused.push(RefusedStep { depth, node, step, ik_solution: None, candidate: None, refusal });
-        }
-    }
-
-    /// Returns the state that a node has reached.
-    fn state(&self, node: usize) -> Option<&State> {
-        match &self.nodes[node].stage {
-            Stage::Reached(state, _) => Some(state),
-            Stage::Pending(_) => None,
+            self.refuse(node, step, None, refusal);
         }
     }
 
@@ -244,8 +252,7 @@ impl<'a> Search<'a> {
         let depth = *depth;
         let Choices { ways, refused } = TimedState { task: self.task, state, time: *seconds }.choices();
         for reason in refused {
-            let (step, ik_solution, refusal) = (reason.step, reason.to, reason.refusal);
-            self.refused.push(RefusedStep { depth, node: index, step, ik_solution, candidate: None, refusal });
+            self.refuse(index, reason.step, reason.to, reason.refusal);
         }
         for choice in ways {
             self.push(Node {
@@ -263,8 +270,8 @@ impl<'a> Search<'a> {
             return;
         };
         let choice = choice.clone();
-        let Node { stage: Stage::Reached(state, _), seconds, depth, .. } = &self.nodes[parent] else { return };
-        let (state, time, depth) = (state.clone(), *seconds, *depth);
+        let Node { stage: Stage::Reached(state, _), seconds, .. } = &self.nodes[parent] else { return };
+        let (state, time) = (state.clone(), *seconds);
         let here = TimedState { task: self.task, state: &state, time };
         match self.done(here, &choice) {
             Ok(done) => {
@@ -277,8 +284,7 @@ impl<'a> Search<'a> {
             Err(refusal) => {
                 // A passing object is picked at many places, so that no single IK solution is reported.
                 let ik_solution = choice.moment.is_none().then_some(choice.candidate.to);
-                let step = choice.candidate.step;
-                self.refused.push(RefusedStep { depth, node: parent, step, ik_solution, candidate: None, refusal });
+                self.refuse(parent, choice.candidate.step, ik_solution, refusal);
             }
         }
     }
@@ -431,8 +437,8 @@ impl<'a> Search<'a> {
     /// Returns the time until which the arm may stay at its configuration in a node, in seconds. `None` if it may stay
     /// for ever.
     fn free_until(&self, index: usize) -> Option<f64> {
-        let (node, state) = (&self.nodes[index], self.state(index)?);
-        let released = node.parent.and_then(|parent| self.state(parent)?.released);
+        let (node, state) = (&self.nodes[index], self.nodes[index].state()?);
+        let released = node.parent.and_then(|parent| self.nodes[parent].state()?.released);
         let scene = state.scene(self.task, released);
         let trajectories = self.task.trajectories_since(&state.moving, node.seconds);
         let timed = TimedScene { scene: &scene, trajectories: &trajectories };
@@ -443,11 +449,7 @@ impl<'a> Search<'a> {
 
     /// Explains why the search got no farther. Also returns the node that it reached.
     fn failure(&mut self) -> (FailedStep, usize) {
-        let state = |node: usize| match &self.nodes[node].stage {
-            Stage::Reached(state, _) => Some(&**state),
-            Stage::Pending(_) => None,
-        };
         let (task, legs) = (self.task, &mut self.legs);
-        farthest(task, &self.refused, state, |from, step| legs.scene(task, from, step))
+        farthest(task, &self.refused, |node| self.nodes[node].state(), |from, step| legs.scene(task, from, step))
     }
 }

@@ -1,7 +1,7 @@
 //! Passages of moving objects through the reach of the arm.
 
 use cplan_geometry::{Interval, Point};
-use cplan_handling::{Leg, Object, ObstacleTrajectory};
+use cplan_handling::{Object, ObstacleTrajectory, TrajectoryLeg};
 use cplan_model::space::JointRange;
 use cplan_model::{Arm, JointType};
 
@@ -68,7 +68,7 @@ fn tip_reach(arm: &Arm) -> f64 {
 }
 
 /// Returns the times of a leg during which the origin of the object's frame is in a disc. `None` if there are none.
-fn times_in_disc(leg: &Leg, center: Point, radius: f64) -> Option<Interval> {
+fn times_in_disc(leg: &TrajectoryLeg, center: Point, radius: f64) -> Option<Interval> {
     let (extent, speed) = (center - leg.start.at, leg.velocity.norm());
     if speed == 0.0 || radius == f64::INFINITY {
         return (extent.norm() <= radius).then_some([leg.from, leg.to]);

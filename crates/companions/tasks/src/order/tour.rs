@@ -52,16 +52,16 @@ impl Tour {
         }
         let entry = match index.checked_sub(1).map(|before| &stops[before]) {
             None => Some(vec![task.start]),
-            Some(Stops::One(stop)) => stop.ik_solutions().map(<[_]>::to_vec),
+            Some(Stops::One(stop)) => stop.ik_solutions.clone(),
             Some(_) => None,
         };
         let exit = match stops.get(index + 1) {
-            Some(Stops::One(stop)) => stop.ik_solutions().map(<[_]>::to_vec),
+            Some(Stops::One(stop)) => stop.ik_solutions.clone(),
             _ => None,
         };
         let arm = &task.arm;
         let to_stop =
-            |from: Option<&[Configuration]>, to: &Stop| bounds_between(arm, from, to.ik_solutions(), to.speed());
+            |from: Option<&[Configuration]>, to: &Stop| bounds_between(arm, from, to.ik_solutions.as_deref(), to.speed);
         let least = |times: Vec<Vec<f64>>| -> Vec<f64> {
             let column = |at: usize| times.iter().map(|row| row[at]).fold(f64::INFINITY, f64::min);
             (0..times.first().map_or(0, Vec::len)).map(column).collect()
@@ -69,15 +69,18 @@ impl Tour {
         let shortest = |row: Vec<f64>| row.into_iter().fold(f64::INFINITY, f64::min);
         Some(Self {
             entry: pairs.iter().map(|[pick, _]| least(to_stop(entry.as_deref(), pick))).collect(),
-            carry: pairs.iter().map(|[pick, place]| to_stop(pick.ik_solutions(), place)).collect(),
+            carry: pairs.iter().map(|[pick, place]| to_stop(pick.ik_solutions.as_deref(), place)).collect(),
             transfer: pairs
                 .iter()
-                .map(|[_, place]| pairs.iter().map(|[pick, _]| to_stop(place.ik_solutions(), pick)).collect())
+                .map(|[_, place]| pairs.iter().map(|[pick, _]| to_stop(place.ik_solutions.as_deref(), pick)).collect())
                 .collect(),
             exit: pairs
                 .iter()
                 .map(|[_, place]| {
-                    bounds_between(arm, place.ik_solutions(), exit.as_deref(), 1.0).into_iter().map(shortest).collect()
+                    bounds_between(arm, place.ik_solutions.as_deref(), exit.as_deref(), 1.0)
+                        .into_iter()
+                        .map(shortest)
+                        .collect()
                 })
                 .collect(),
             extra_carry_times: vec![0.0; pairs.len()],

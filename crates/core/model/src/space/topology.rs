@@ -79,6 +79,14 @@ impl JointRange {
         }
     }
 
+    /// Returns the nearest value within the range.
+    pub fn clamp(self, value: f64) -> f64 {
+        match self {
+            JointRange::Interval { lower, upper } => value.clamp(lower, upper),
+            JointRange::Circle => value,
+        }
+    }
+
     /// Returns the representative of `value` in the domain: the value itself on an interval, and its copy in
     /// `[-pi, pi)` on a circle. Turns are subtracted with more digits of pi than a double has, so the error is at most
     /// 1e-15 for magnitudes up to 1e15. Beyond that, a double does not distinguish neighbouring angles.

@@ -197,7 +197,7 @@ impl<'a> MarginSearch<'a> {
         let posture = Posture::new(stretch.scene.scene, stretch.pieces[place.0].at(place.1));
         let beside = Deviation::Box([stretch.beside; 2]);
         for &OpenPair { pair, .. } in pairs {
-            let drift = drift(stretch, pair, place, place);
+            let drift = stretch.scene.drift(pair, stretch.pieces, [place; 2]);
             let during = SpanPair { pair, part: None, drift: drift.as_ref() };
             let look = look(stretch, bodies, (&posture, beside), during, Some(place));
             let seen = look.bodies.map(|body| self.distances[body].seen);
@@ -227,7 +227,7 @@ impl<'a> MarginSearch<'a> {
         let place = Some(span.middle()).filter(|_| matches!(span, Span::Part(..)));
         pairs.retain_mut(|OpenPair { pair, open }| {
             self.checks += 1;
-            let drift = drift(stretch, *pair, from, to);
+            let drift = stretch.scene.drift(*pair, stretch.pieces, [from, to]);
             let during = SpanPair { pair: *pair, part: None, drift: drift.as_ref() };
             let look = look(stretch, bodies, (&posture, deviation), during, place);
             if *open & DISTANCE > 0 && self.decides_distance(&look, is_last) {
@@ -323,12 +323,6 @@ fn look<'p>(
     });
     let beside = Deviation::Box([stretch.beside; 2]);
     Look { posture, deviation, during, bodies, beside, known: stretch.known, place }
-}
-
-/// Returns the motion of the obstacle of a pair between two places, if it moves.
-fn drift(stretch: &MotionStretch, pair: Pair, from: Place, to: Place) -> Option<Drift> {
-    let time = |(piece, share): Place| stretch.pieces[piece].time(share) - stretch.pieces[0].from;
-    stretch.scene.trajectory(pair).map(|trajectory| trajectory.drift(time(from), time(to)))
 }
 
 /// Returns true if a pair consists of a payload and one of its supports, which may touch.

@@ -99,6 +99,36 @@ pub enum CollisionCheck {
     Undecided(Encounter),
 }
 
+impl CollisionCheck {
+    /// Returns the proven clearance of a free motion.
+    pub fn clearance(&self) -> Option<f64> {
+        match self {
+            Self::Free { clearance, .. } => Some(*clearance),
+            Self::Collision { .. } | Self::Undecided(_) => None,
+        }
+    }
+
+    /// Returns true if the motion is free.
+    pub fn is_free(&self) -> bool {
+        self.clearance().is_some()
+    }
+
+    /// Returns true if the other motion is free, and this one is not or has a smaller clearance.
+    pub fn is_worse_than(&self, other: &Self) -> bool {
+        other.clearance().is_some_and(|least| self.clearance().is_none_or(|clearance| clearance < least))
+    }
+
+    /// Returns the moments of all encounters.
+    pub fn moments_mut(&mut self) -> impl Iterator<Item = &mut Moment> {
+        let encounters = match self {
+            Self::Free { nearest, .. } => [nearest.as_mut(), None],
+            Self::Collision { first, deepest, .. } => [Some(first), Some(deepest)],
+            Self::Undecided(nearest) => [Some(nearest), None],
+        };
+        encounters.into_iter().flatten().map(|encounter| &mut encounter.moment)
+    }
+}
+
 /// Checks the whole motion against every pair of shapes that can meet, in order of time. The distance must be positive
 /// and at least `clearance` metres. [`super::limit_violations`] checks joint limits.
 ///
@@ -177,10 +207,8 @@ pub(super) fn keeps_during_stroke(scene: &ArchScene, recording: &Recording, held
     let tool = ToolMotion::of_stroke(scene, held);
     let pieces = recording.pieces();
     let timed = TimedScene { scene: tool.scene(), trajectories: &[] };
-    let mut search = Search::new(timed, &scene.lowered_pairs, &pieces, clearance);
-    (search.tool, search.tightness, search.budget, search.is_trial) = (Some(&tool), 0.0, TRIAL_EVALUATIONS, true);
-    search.run();
-    matches!(search.verdict(), CollisionCheck::Free { .. })
+    let search = Search { tool: Some(&tool), ..Search::new(timed, &scene.lowered_pairs, &pieces, clearance) };
+    search.trial(TRIAL_EVALUATIONS).is_free()
 }
 
 /// Returns a proven lower bound on the distance of all pairs of a scene along a motion, if it is at least `clearance`
@@ -188,13 +216,7 @@ pub(super) fn keeps_during_stroke(scene: &ArchScene, recording: &Recording, held
 pub(super) fn proven_clearance(scene: &Scene, recording: &Recording, clearance: f64, budget: usize) -> Option<f64> {
     let pieces = recording.pieces();
     let timed = TimedScene { scene, trajectories: &[] };
-    let mut search = Search::new(timed, scene.pairs(), &pieces, clearance);
-    (search.tightness, search.budget, search.is_trial) = (0.0, budget, true);
-    search.run();
-    match search.verdict() {
-        CollisionCheck::Free { clearance, .. } => Some(clearance),
-        _ => None,
-    }
+    Search::new(timed, scene.pairs(), &pieces, clearance).trial(budget).clearance()
 }
 
 /// Returns the pairs with static obstacles, and if the recording has times, also the pairs with moving obstacles.
@@ -355,8 +377,7 @@ impl<'a> Search<'a> {
 
     /// Returns the motion of the obstacle of a pair between two places, if it moves.
     fn drift(&self, pair: Pair, from: Place, to: Place) -> Option<Drift> {
-        let time = |(piece, share): Place| self.pieces[piece].time(share) - self.pieces[0].from;
-        self.scene.trajectory(pair).map(|trajectory| trajectory.drift(time(from), time(to)))
+        self.scene.drift(pair, self.pieces, [from, to])
     }
 
     /// Records a sampled distance.
@@ -471,6 +492,13 @@ impl<'a> Search<'a> {
             self.open = Some((span.start(), nearest));
             self.budget = self.budget.min(self.evaluations + EVALUATIONS_AFTER_UNDECIDED);
         }
+    }
+
+    /// Decides with at most `budget` evaluations, without a tight bound, and stops at the first place that is not free.
+    fn trial(mut self, budget: usize) -> CollisionCheck {
+        (self.tightness, self.budget, self.is_trial) = (0.0, budget, true);
+        self.run();
+        self.verdict()
     }
 
     /// Samples and examines the whole motion.

@@ -22,4 +22,4 @@ pub use collision::{
 pub use limits::{ELBOW_MOTOR, Limit, LimitViolation, limit_violations, motor_violations, torque_violations};
 pub use torque::torque_samples;
 pub use turning::{TurnCover, TurnDuringMotion, turn_angle, turn_profile};
-pub use wrist::{TurnContact, WristTurn, judge_given_turn, turn_resolution, wrist_turn};
+pub use wrist::{TurnAtRest, TurnContact, WristTurn, turn_resolution};

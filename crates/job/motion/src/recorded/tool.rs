@@ -15,33 +15,63 @@ use std::borrow::Cow;
 /// Greatest distance of the centre of a round part from its axis of rotation, metres. It allows for rounding.
 const AXIS_TOLERANCE: f64 = 1e-9;
 
-/// A joint that lifts some bodies.
-struct Lift<'a> {
+/// A joint that moves although the scene holds it still.
+struct MovingJoint {
     pieces: Vec<Piece>,
-    /// The value of the joint in the scene that holds it still, and the direction of increasing values.
+    /// The held value of the joint, and the direction of increasing values.
     rest: f64,
     sign: f64,
+}
+
+impl MovingJoint {
+    fn new(HeldMotion { joint, values, .. }: &HeldMotion, sign: f64) -> Self {
+        Self { pieces: values.pieces(), rest: joint.value, sign }
+    }
+
+    /// Returns bounds on the joint's values during a span, relative to the held value.
+    fn extent(&self, span: Span) -> [f64; 2] {
+        let (middle, deviation) = span.deviation(&self.pieces);
+        let half = match deviation {
+            Deviation::Box([half, _]) => half,
+            Deviation::Tube(chord, [half, _]) => chord[0].abs() + half,
+            Deviation::Along(chord) => chord[0].abs(),
+        };
+        let value = self.sign * (middle[0] - self.rest);
+        [value - half, value + half]
+    }
+}
+
+/// A joint that lifts some bodies.
+struct Lift<'a> {
+    joint: MovingJoint,
     bodies: &'a [String],
     lifts_payload: bool,
 }
 
-impl Lift<'_> {
-    /// Returns bounds on the joint's lift during a span, in metres relative to the held value.
-    fn extent(&self, span: Span) -> [f64; 2] {
-        extent(&self.pieces, span, (self.rest, self.sign))
+impl<'a> Lift<'a> {
+    fn new(motion: &'a HeldMotion, sign: f64) -> Self {
+        let HeldMotion { joint, lifts_payload, .. } = motion;
+        Self { joint: MovingJoint::new(motion, sign), bodies: &joint.bodies, lifts_payload: *lifts_payload }
+    }
+
+    fn lifts(&self, body: &str) -> bool {
+        self.bodies.iter().any(|lifted| lifted == body)
     }
 }
 
-/// Returns bounds on the values of a joint during a span, relative to `rest` and multiplied by `sign`.
-fn extent(pieces: &[Piece], span: Span, (rest, sign): (f64, f64)) -> [f64; 2] {
-    let (middle, deviation) = span.deviation(pieces);
-    let half = match deviation {
-        Deviation::Box([half, _]) => half,
-        Deviation::Tube(chord, [half, _]) => chord[0].abs() + half,
-        Deviation::Along(chord) => chord[0].abs(),
-    };
-    let value = sign * (middle[0] - rest);
-    [value - half, value + half]
+/// Returns heights after the lifts by those joints that carry the body. Each joint comes with bounds on its lift, in metres
+/// relative to the held value.
+fn lifted<'l>(
+    heights: Heights,
+    lifts: impl Iterator<Item = (&'l Lift<'l>, [f64; 2])>,
+    carries: impl Fn(&Lift) -> bool,
+) -> Heights {
+    lifts.filter(|(lift, _)| carries(lift)).fold(heights, |heights, (_, extent)| heights.lifted(extent))
+}
+
+/// Returns the heights of a bar whose one end moves with the tip, after these lifts.
+fn lifted_bar<'l>(heights: Heights, lifts: impl Iterator<Item = (&'l Lift<'l>, [f64; 2])>) -> Heights {
+    lifts.fold(heights, |heights, (_, extent)| heights.and(heights.lifted(extent)))
 }
 
 /// A part of link 2 that a joint turns.
@@ -51,10 +81,7 @@ struct Turn {
     /// The part's shape while the joint is at its held value.
     shape: Convex,
     axis: Point,
-    pieces: Vec<Piece>,
-    /// The held value of the joint, and the direction of increasing values.
-    rest: f64,
-    sign: f64,
+    joint: MovingJoint,
 }
 
 /// Shapes of the parts that a joint turns, at a moment or during a span.
@@ -86,47 +113,35 @@ impl<'a> ToolMotion<'a> {
     pub fn new(scene: &Scene, motions: &'a [HeldMotion]) -> Self {
         let mut lifts = Vec::new();
         let mut turns = Vec::new();
-        for HeldMotion { joint, values, lifts_payload } in motions {
-            match joint.effect {
-                HeldEffect::Lifts { sign } => {
-                    let (pieces, lifts_payload) = (values.pieces(), *lifts_payload);
-                    lifts.push(Lift { pieces, rest: joint.value, sign, bodies: &joint.bodies, lifts_payload });
-                }
+        for motion in motions {
+            match motion.joint.effect {
+                HeldEffect::Lifts { sign } => lifts.push(Lift::new(motion, sign)),
                 HeldEffect::Turns { axis, sign } => {
                     let turned = |(part, own): (usize, &Part)| {
-                        let is_turned = joint.bodies.contains(&own.body) && !is_round(&own.shape, axis);
-                        let (shape, pieces) = (own.shape.clone(), values.pieces());
-                        is_turned.then_some(Turn { part, shape, axis, pieces, rest: joint.value, sign })
+                        let is_turned = motion.joint.bodies.contains(&own.body) && !is_round(&own.shape, axis);
+                        let (shape, joint) = (own.shape.clone(), MovingJoint::new(motion, sign));
+                        is_turned.then_some(Turn { part, shape, axis, joint })
                     };
                     turns.extend(scene.own_parts(1).iter().enumerate().filter_map(turned));
                 }
                 HeldEffect::Unjudged { .. } => {}
             }
         }
-        let all = |part: &mut Part| {
-            for lift in lifts.iter().filter(|lift| lift.bodies.contains(&part.body)) {
-                part.heights = part.heights.lifted(lift.extent(Span::all(lift.pieces.len())));
-            }
-        };
+        let whole = || lifts.iter().map(|lift| (lift, lift.joint.extent(Span::all(lift.joint.pieces.len()))));
+        let all = |part: &mut Part| part.heights = lifted(part.heights, whole(), |lift| lift.lifts(&part.body));
         let swept = scene.reshaped(all, |obstacle| obstacle.pieces.clone());
-        let all_pieces = |lift: &Lift| lift.extent(Span::all(lift.pieces.len()));
         let swept = match scene.attachment() {
             Some(attachment) => {
-                let carrying = lifts.iter().filter(|lift| lift.lifts_payload);
-                let heights = carrying.fold(attachment.heights, |heights, lift| heights.lifted(all_pieces(lift)));
-                swept.with_attached_heights(heights)
+                swept.with_attached_heights(lifted(attachment.heights, whole(), |lift| lift.lifts_payload))
             }
             None => swept,
         };
-        let swept = swept.with_self_heights(|link, heights| {
-            let carried = lifts.iter().filter(|lift| lift.bodies.iter().any(|body| body == link));
-            carried.fold(heights, |heights, lift| heights.lifted(all_pieces(lift)))
-        });
+        let swept = swept.with_self_heights(|link, heights| lifted(heights, whole(), |lift| lift.lifts(link)));
         let bar = bar_of(scene).filter(|_| !lifts.is_empty());
         let swept = match bar {
             Some(bar) => swept.changed(|arm, _| {
                 let heights = &mut arm.links[1].parts[bar].heights;
-                *heights = lifts.iter().fold(*heights, |heights, lift| heights.and(heights.lifted(all_pieces(lift))));
+                *heights = lifted_bar(*heights, whole());
             }),
             None => swept,
         };
@@ -134,13 +149,11 @@ impl<'a> ToolMotion<'a> {
     }
 
     /// Creates a motion of the joint that lowers the tool, in scenes that are already known.
-    pub fn of_stroke(scene: &'a ArchScene, HeldMotion { joint, values, lifts_payload }: &'a HeldMotion) -> Self {
+    pub fn of_stroke(scene: &'a ArchScene, motion: &'a HeldMotion) -> Self {
         let ArchScene { raised, swept, .. } = scene;
-        let sign = if let HeldEffect::Lifts { sign } = joint.effect { sign } else { 0.0 };
-        let (pieces, lifts_payload) = (values.pieces(), *lifts_payload);
-        let lifts = vec![Lift { pieces, rest: joint.value, sign, bodies: &joint.bodies, lifts_payload }];
+        let sign = if let HeldEffect::Lifts { sign } = motion.joint.effect { sign } else { 0.0 };
         let (still, swept) = (Cow::Borrowed(raised), Cow::Borrowed(swept));
-        Self { lifts, bar: bar_of(raised), turns: Vec::new(), still, swept }
+        Self { lifts: vec![Lift::new(motion, sign)], bar: bar_of(raised), turns: Vec::new(), still, swept }
     }
 
     /// Returns the scene with all pairs that meet at some time.
@@ -150,48 +163,38 @@ impl<'a> ToolMotion<'a> {
 
     /// Returns shapes that contain the turning parts at all times of a span.
     pub fn shapes_during(&self, span: Span) -> TurnedShapes {
-        let cover = |turn: &Turn| {
-            let angles = extent(&turn.pieces, span, (turn.rest, turn.sign));
-            (turn.part, cover_about(turn.axis, &turn.shape, angles))
-        };
-        TurnedShapes(self.turns.iter().map(cover).collect())
+        self.shapes(|joint| joint.extent(span))
     }
 
     /// Returns the shapes of the turning parts at a moment.
     pub fn shapes_at(&self, (piece, share): Place) -> TurnedShapes {
-        let turned = |turn: &Turn| {
-            let angle = turn.sign * (turn.pieces[piece].at(share)[0] - turn.rest);
-            (turn.part, cover_about(turn.axis, &turn.shape, [angle; 2]))
-        };
-        TurnedShapes(self.turns.iter().map(turned).collect())
+        self.shapes(|joint| [joint.sign * (joint.pieces[piece].at(share)[0] - joint.rest); 2])
+    }
+
+    /// Returns shapes that contain the turning parts at all angles between the bounds that `angles` returns.
+    fn shapes(&self, angles: impl Fn(&MovingJoint) -> [f64; 2]) -> TurnedShapes {
+        let cover = |turn: &Turn| (turn.part, cover_about(turn.axis, &turn.shape, angles(&turn.joint)));
+        TurnedShapes(self.turns.iter().map(cover).collect())
     }
 
     /// Returns bounds on the lift of each joint during a span.
     pub fn extents(&self, span: Span) -> Vec<[f64; 2]> {
-        self.lifts.iter().map(|lift| lift.extent(span)).collect()
+        self.lifts.iter().map(|lift| lift.joint.extent(span)).collect()
     }
 
     /// Returns the heights of a pair's part with these lifts, and those of its obstacle.
     fn heights(&self, pair: Pair, extents: &[[f64; 2]]) -> [Heights; 2] {
         let part = &self.still.link(pair).parts[pair.part];
-        let lifts_part = |lift: &Lift| match self.still.is_attached(pair) {
-            true => lift.lifts_payload,
-            false => lift.bodies.contains(&part.body),
-        };
-        let lifts = || self.lifts.iter().zip(extents);
-        let of_part = if self.is_bar(pair) {
-            lifts().fold(part.heights, |heights, (_, extent)| heights.and(heights.lifted(*extent)))
-        } else {
-            let carrying = lifts().filter(|(lift, _)| lifts_part(lift));
-            carrying.fold(part.heights, |heights, (_, extent)| heights.lifted(*extent))
-        };
-        let lifted = |link: &String, heights: Heights| {
-            let carrying = lifts().filter(|(lift, _)| lift.bodies.contains(link));
-            carrying.fold(heights, |heights, (_, extent)| heights.lifted(*extent))
+        let is_attached = self.still.is_attached(pair);
+        let lifts_part = |lift: &Lift| if is_attached { lift.lifts_payload } else { lift.lifts(&part.body) };
+        let lifts = || self.lifts.iter().zip(extents.iter().copied());
+        let of_part = match self.is_bar(pair) {
+            true => lifted_bar(part.heights, lifts()),
+            false => lifted(part.heights, lifts(), lifts_part),
         };
         let obstacle = self.still.obstacle(pair.obstacle);
         let is_own = self.still.self_obstacle(pair.obstacle).is_some();
-        let of_obstacle = if is_own { lifted(&obstacle.name, obstacle.heights) } else { obstacle.heights };
+        let of_obstacle = lifted(obstacle.heights, lifts(), |lift| is_own && lift.lifts(&obstacle.name));
         [of_part, of_obstacle]
     }
 

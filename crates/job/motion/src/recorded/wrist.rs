@@ -36,45 +36,9 @@ pub fn turn_resolution(arm: &Arm, clearance: f64) -> f64 {
     (clearance + arm.reach()) / f64::from(1u32 << (CLEARANCE_HALVINGS - 1))
 }
 
-/// Returns a free turn about the tip from one orientation to another while the arm rests at `q`: the shorter direction
-/// if it is free, otherwise the longer; `None` if neither is. See [`judge_given_turn`].
-pub fn wrist_turn(
-    task: &Task,
-    workspace: &Workspace,
-    payload: &Payload,
-    point: Point,
-    q: Configuration,
-    [from, to]: [f64; 2],
-) -> Option<WristTurn> {
-    let displacement = JointRange::Circle.displacement(from, to);
-    let ahead = if displacement < 0.0 { displacement + TAU } else { displacement };
-    let mut ends = [from + ahead, from + ahead - TAU];
-    if ahead > TAU / 2.0 {
-        ends.reverse();
-    }
-    let turning = Turning::new(task, workspace, payload, point, q);
-    ends.into_iter().find_map(|end| turning.judge([from, end]).ok())
-}
-
-/// Checks the turn about the tip from one orientation to another, in the direction from the first to the second, while
-/// the arm rests at `q`. The payload's point `point` is at the tip. `O(n m)` for each pair of pieces. Exact up to
-/// rounding, which is added to the required distance.
-///
-/// # Errors
-/// The first place where the payload touches an obstacle, or comes closer than the workspace's clearance.
-pub fn judge_given_turn(
-    task: &Task,
-    workspace: &Workspace,
-    payload: &Payload,
-    point: Point,
-    q: Configuration,
-    turn: [f64; 2],
-) -> Result<WristTurn, TurnContact> {
-    Turning::new(task, workspace, payload, point, q).judge(turn)
-}
-
-/// A payload that turns about the tip, and the obstacles that it can touch.
-struct Turning {
+/// A payload that turns about the tip while the arm rests, and the obstacles that it can touch.
+#[derive(Debug)]
+pub struct TurnAtRest {
     tip: Point,
     /// The pairs of a piece of the payload, relative to the tip, and a piece of an obstacle, with the obstacle's index.
     pairs: Vec<(Features, Features, usize)>,
@@ -82,8 +46,9 @@ struct Turning {
     reach: f64,
 }
 
-impl Turning {
-    fn new(task: &Task, workspace: &Workspace, payload: &Payload, point: Point, q: Configuration) -> Self {
+impl TurnAtRest {
+    /// Collects the obstacles that can be touched while the arm rests at `q`. The payload's point `point` is at the tip.
+    pub fn new(task: &Task, workspace: &Workspace, payload: &Payload, point: Point, q: Configuration) -> Self {
         let arm = &task.arm;
         let attachment = payload.attachment(task, arm, task.objects[payload.object].carried_heights());
         let about = Pose::translation(-point);
@@ -102,7 +67,24 @@ impl Turning {
         Self { tip: arm.tip_at(q), pairs, clearance: workspace.clearance, reach: arm.reach() }
     }
 
-    fn judge(&self, [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
+    /// Returns a free turn from one orientation to another: in the shorter direction if it is free, otherwise in the
+    /// longer. `None` if neither is.
+    pub fn free(&self, [from, to]: [f64; 2]) -> Option<WristTurn> {
+        let displacement = JointRange::Circle.displacement(from, to);
+        let ahead = if displacement < 0.0 { displacement + TAU } else { displacement };
+        let mut ends = [from + ahead, from + ahead - TAU];
+        if ahead > TAU / 2.0 {
+            ends.reverse();
+        }
+        ends.into_iter().find_map(|end| self.judge([from, end]).ok())
+    }
+
+    /// Checks the turn from one orientation to another, in the direction from the first to the second. `O(n m)` for each
+    /// pair of pieces. Exact up to rounding, which is added to the required distance.
+    ///
+    /// # Errors
+    /// The first place where the payload touches an obstacle, or comes closer than the workspace's clearance.
+    pub fn judge(&self, [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
         // Shift the turn to the orientations nearest to zero, where contact angles are known. Shifting these instead
         // would cause more rounding than the margin covers.
         let near = JointRange::Circle.wrap(from);

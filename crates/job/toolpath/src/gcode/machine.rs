@@ -32,8 +32,9 @@ enum Move {
 }
 
 /// The state between two lines of a program.
-pub(super) struct Machine<'p> {
-    placement: &'p Placement,
+#[derive(Default)]
+pub(super) struct Machine {
+    placement: Placement,
     /// Metres per unit of length.
     unit: f64,
     says_unit: bool,
@@ -67,31 +68,11 @@ pub(super) struct Machine<'p> {
     notes: Vec<String>,
 }
 
-impl<'p> Machine<'p> {
+impl Machine {
     /// Creates a machine that refuses moves to its own places.
-    pub fn new(placement: &'p Placement) -> Self {
-        Self {
-            placement,
-            unit: placement.unit.unwrap_or(Unit::MILLIMETER).metres(),
-            says_unit: false,
-            is_relative: false,
-            has_absolute_centers: false,
-            motion: None,
-            speed: None,
-            origin: Origin::default(),
-            system: 54.0,
-            dwell_unit: None,
-            is_firmware: false,
-            dwells: 0.0,
-            has_begun: false,
-            pieces: Vec::new(),
-            modes: Vec::new(),
-            height: None,
-            unstated: Vec::new(),
-            home: None,
-            remarks: Remarks::default(),
-            notes: Vec::new(),
-        }
+    pub fn new(placement: Placement) -> Self {
+        let unit = placement.unit.unwrap_or(Unit::MILLIMETER).metres();
+        Self { placement, unit, system: 54.0, ..Self::default() }
     }
 
     /// Allows moves to places of the machine. They lead to `home`, where the program also begins; or if it is `None`, to an

@@ -23,7 +23,7 @@ const FIRMWARE: f64 = 80.0;
 /// If the program has words that cannot be followed: one error lists all of them. Otherwise the first defect, with its line
 /// and column; or if the program has no line.
 pub(crate) fn read(text: &str, placement: &Placement) -> Result<Toolpath, Error> {
-    run(text, Machine::new(placement))?.finish()
+    run(text, Machine::new(*placement))?.finish()
 }
 
 /// Reads a program as [`read`], move by move, for a machine that knows its own places. `home` is the place of the tip at the
@@ -32,11 +32,11 @@ pub(crate) fn read(text: &str, placement: &Placement) -> Result<Toolpath, Error>
 /// # Errors
 /// Same as for [`read`].
 pub(crate) fn program(text: &str, home: Option<Point>) -> Result<Program, Error> {
-    run(text, Machine::new(&Placement::default()).with_homing(home))?.program()
+    run(text, Machine::new(Placement::default()).with_homing(home))?.program()
 }
 
 /// Runs a program on a machine.
-fn run<'p>(text: &str, mut machine: Machine<'p>) -> Result<Machine<'p>, Error> {
+fn run(text: &str, mut machine: Machine) -> Result<Machine, Error> {
     let lines: Vec<Result<Line, Error>> =
         text.lines().zip(1..).map(|(line, number)| words::line(line, number)).collect();
     machine.is_firmware = lines.iter().flatten().any(is_firmware);

@@ -1,5 +1,4 @@
-//! Tests of lines: from G-code, from SVG outlines, and through given points.
+//! Tests of lines: from G-code, and through given points.
 
 mod gcode;
 mod shapes;
-mod svg;

@@ -6,7 +6,7 @@ use crate::gcode::meaning::Slot;
 use crate::gcode::words::Word;
 use crate::{Curve, Error, Point, arc};
 
-impl Machine<'_> {
+impl Machine {
     /// Returns the arc from the place of the tip to a point. `first` is the first coordinate of the block.
     ///
     /// # Errors
@@ -14,7 +14,6 @@ impl Machine<'_> {
     pub(super) fn arc(&self, block: &Block, first: &Word, to: Point, is_left: bool) -> Result<Curve, Error> {
         let (at, word) = (self.origin.at, block.get(Slot::Motion).unwrap_or(first));
         let value = |slot: Slot| block.value(slot).map(|value| value * self.unit);
-        let shown = |length: f64| format!("{} {}", (length / self.unit * 1e6).round() / 1e6, self.unit_name());
         if let Some(turns) = block.with_letters("P").find(|turns| turns.value != Some(1.0)) {
             return Err(turns.error("gives an arc several turns", "write an arc for each turn"));
         }
@@ -25,8 +24,8 @@ impl Machine<'_> {
                     return word.error("ends where it begins, so R does not give its centre", "use I and J");
                 }
                 let chord = (to[0] - at[0]).hypot(to[1] - at[1]);
-                let message = format!("has ends {} apart, more than twice its radius", shown(chord));
-                word.error(&message, format!("give a radius of at least {}", shown(chord / 2.0)))
+                let message = format!("has ends {} apart, more than twice its radius", self.shown(chord));
+                word.error(&message, format!("give a radius of at least {}", self.shown(chord / 2.0)))
             }),
             (_, _, Some(_)) => Err(word.error("has a centre and a radius", "keep I and J, or R")),
             (Some(i), Some(j), None) if self.has_absolute_centers => {
@@ -42,9 +41,9 @@ impl Machine<'_> {
 
     /// Returns the arc about a centre.
     fn about(&self, word: &Word, to: Point, center: Point, is_left: bool) -> Result<Curve, Error> {
-        let shown = |length: f64| format!("{} {}", (length / self.unit * 1e6).round() / 1e6, self.unit_name());
         arc::about(self.origin.at, to, center, is_left).map_err(|[first, last]| {
-            let message = format!("begins {} from its centre, and ends {} from it", shown(first), shown(last));
+            let message =
+                format!("begins {} from its centre, and ends {} from it", self.shown(first), self.shown(last));
             let hint = match self.has_absolute_centers {
                 true => "I and J are the coordinates of the centre (G90.1); write them with more digits",
                 false => "I and J count from the start of the arc (G91.1); write them with more digits",
@@ -53,11 +52,13 @@ impl Machine<'_> {
         })
     }
 
-    fn unit_name(&self) -> String {
-        match self.placement.unit {
+    /// Returns a length in the unit of the file.
+    fn shown(&self, length: f64) -> String {
+        let unit = match self.placement.unit {
             Some(unit) => unit.to_string(),
             None if self.unit == INCH => "in".into(),
             None => "mm".into(),
-        }
+        };
+        format!("{} {unit}", (length / self.unit * 1e6).round() / 1e6)
     }
 }

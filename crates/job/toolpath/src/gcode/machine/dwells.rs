@@ -14,7 +14,7 @@ const MAX_DWELL: f64 = 86_400.0;
 /// Least sum of dwells that counts as more than rounding, seconds.
 const MIN_DWELL: f64 = 1e-9;
 
-impl Machine<'_> {
+impl Machine {
     /// Rests (G4).
     ///
     /// # Errors

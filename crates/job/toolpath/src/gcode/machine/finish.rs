@@ -6,7 +6,7 @@ use crate::path::{Piece, Toolpath};
 use crate::{Error, MAX_PIECES};
 use cplan_text::counted;
 
-impl Machine<'_> {
+impl Machine {
     /// Returns the line.
     ///
     /// # Errors

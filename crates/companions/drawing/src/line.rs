@@ -1,14 +1,14 @@
-//! Reads the outlines of an SVG drawing.
+//! Reads the outlines of an SVG drawing as a line for the tip of a robot.
 
-use crate::path::{Piece, Source, Toolpath};
-use crate::{Curve, Error, Placement, Point};
-use cplan_drawing::{Settings, StrokeCurve, strokes};
+use crate::{Settings, StrokeCurve, strokes};
+use cplan_toolpath::{Curve, Error, Piece, Placement, Point, Source, Toolpath};
 
-/// Reads the outlines of all visible elements, with travels between them.
+/// Reads the outlines of all visible elements of an SVG as a line, in the order of the file, with straight travels between
+/// them. Curves stay exact, as for [`strokes`].
 ///
 /// # Errors
 /// If the file is not SVG, or has no line.
-pub(crate) fn read(bytes: &[u8], placement: &Placement) -> Result<Toolpath, Error> {
+pub fn read_line(bytes: &[u8], placement: &Placement) -> Result<Toolpath, Error> {
     let settings = Settings { unit: placement.unit, ..Settings::default() };
     let drawing = strokes(bytes, &settings)
         .map_err(|error| Error::new(error.line, None, error.message.clone(), error.cure.clone()))?;

@@ -1,13 +1,14 @@
 //! Tests of reading SVG outlines as lines.
 
-use cplan_toolpath::{Curve, Format, Placement, Toolpath, read};
+use cplan_drawing::read_line;
+use cplan_toolpath::{Curve, Placement, Toolpath};
 use std::f64::consts::{PI, TAU};
 
 fn drawing(content: &str) -> Toolpath {
     let text = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"200mm\" height=\"100mm\" viewBox=\"0 0 200 100\">\n{content}\n</svg>"
     );
-    read(text.as_bytes(), Format::Svg, &Placement::default()).expect("a line")
+    read_line(text.as_bytes(), &Placement::default()).expect("a line")
 }
 
 fn near(a: [f64; 2], b: [f64; 2]) -> bool {
@@ -74,7 +75,7 @@ fn outlines_have_a_stretch_for_each_element() {
 
 #[test]
 fn broken_and_empty_drawings_are_refused() {
-    let refuse = |text: &str| read(text.as_bytes(), Format::Svg, &Placement::default()).expect_err("an error");
+    let refuse = |text: &str| read_line(text.as_bytes(), &Placement::default()).expect_err("an error");
     let empty = refuse("<svg xmlns=\"http://www.w3.org/2000/svg\"/>");
     assert_eq!(empty.to_string(), "the file has no line");
     assert!(empty.hint.contains("<path") && !empty.hint.contains("G1"), "{empty:?}");
