@@ -45,6 +45,7 @@
 #[cfg(feature = "program")]
 pub mod cli;
 mod planning;
+mod robots;
 pub use cplan_compare as compare;
 pub use cplan_explore as explore;
 pub use cplan_geometry as geometry;
@@ -110,10 +111,12 @@ pub mod check {
 
 /// Input: reads robots, worlds, maps and recordings, and returns problems, or errors with file, line and help.
 pub mod input {
+    pub use super::robots::robot;
     pub use cplan_robot::{
-        BodyEntry, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry, LimitEntry,
-        LimitSource, LinkEntry, MAX_LENGTH, OutlineEntry, PairEntry, PlaneEntry, Position, Quantity, RateEntry,
-        RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source, meshes_elsewhere, read_bytes,
+        BodyEntry, Conversion, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry,
+        LimitEntry, LimitSource, LinkEntry, MAX_LENGTH, Origins, OutlineEntry, PairEntry, PlaneEntry, Position,
+        Quantity, RateEntry, RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source,
+        meshes_elsewhere, read_bytes,
     };
     pub use cplan_world::*;
 }

@@ -29,10 +29,9 @@ const RINGS: [&str; 3] = ["crates/core", "crates/job", "crates/companions"];
 
 /// Crates of the main job that still use a companion, each with that companion. The list may only become shorter. Those
 /// marked "optional" are behind a feature.
-const LEAKS: [(&str, &str); 3] = [
+const LEAKS: [(&str, &str); 2] = [
     // Optional.
     ("fields", "gpu"),
-    ("robot", "xacro"),
     // Optional.
     ("toolpath", "drawing"),
 ];

@@ -10,7 +10,7 @@ use cplan_robot::{Diagnostic, InputError, Quantity, RobotFile, Source};
 use cplan_solver::Options;
 use cplan_world::{Overrides, scene_from};
 use std::ops::Range;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 /// Largest number of layouts of a study.
@@ -31,7 +31,11 @@ struct Reader<'a> {
 ///
 /// # Errors
 /// All defects of the files, with line, column and hint.
-pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, InputError> {
+pub(super) fn load(
+    path: &Path,
+    read_options: ReadOptions,
+    robot: &dyn Fn(PathBuf) -> RobotFile,
+) -> Result<Study, InputError> {
     let study = Source::read(path)?;
     let beside = |which: NamedFile, name: Option<&str>| {
         let missing = || {
@@ -42,7 +46,7 @@ pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, Inpu
         };
         let path = path.with_file_name(name.ok_or_else(missing)?);
         match which {
-            NamedFile::Robot => RobotFile::from(path).read(),
+            NamedFile::Robot => robot(path).read(),
             NamedFile::World => Source::read(&path),
         }
     };
