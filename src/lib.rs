@@ -83,9 +83,9 @@ pub mod model {
     pub use cplan_handling::{
         Action, Arch, BlendsClaim, Claims, Driver, Drives, EventClaim, FollowedLine, HeldEffect, HeldJoint, HeldMotion,
         Holding, Item, Leg, MAX_STOP_TIME, MovingObstacle, Object, ObstacleTrajectory, ObstacleTrajectoryError,
-        OptimumClaim, Payload, Placement, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist, RobotJoint,
-        RobotJoints, Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene, TimedWorkspace,
-        ToolAngle, ToolJoint, ToolValues, Wrist, WristGuide, WristJoint,
+        OptimumClaim, Payload, Placement, PoseClaim, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist,
+        RobotJoint, RobotJoints, Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene,
+        TimedWorkspace, ToolAngle, ToolJoint, ToolValues, Wrist, WristGuide, WristJoint,
     };
     pub use cplan_model::*;
     pub use cplan_robot::AssumedLimits;
