@@ -6,12 +6,11 @@ use super::measure::{Condition, Measure, Objective};
 use super::parameter::{Design, Parameter, Values};
 use super::schema::{ParameterTable, StudyFile, Text};
 use super::template::{Place, Setting, Template, place};
-use cplan_robot::{Diagnostic, InputError, Quantity, RobotFile, Source};
+use cplan_robot::{Diagnostic, InputError, Quantity, RobotFile, Source, Spanned};
 use cplan_solver::Options;
 use cplan_world::{Overrides, scene_from};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
-use toml::Spanned;
 
 /// Largest number of layouts of a study.
 const MAX_LAYOUTS: usize = 20_000_000;

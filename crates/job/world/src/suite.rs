@@ -1,9 +1,8 @@
 //! Many problems: those that a manifest lists, or one robot in all worlds of a folder.
 
 use super::{LoadedProblem, LoadedScene, Overrides, RobotFile, load_scene};
-use cplan_robot::{Diagnostic, InputError, Source, toml_table};
+use cplan_robot::{Diagnostic, InputError, Source, Spanned, toml_table};
 use std::path::{Path, PathBuf};
-use toml::Spanned;
 
 /// Name of the manifest in a folder.
 pub const MANIFEST_NAME: &str = "suite.toml";

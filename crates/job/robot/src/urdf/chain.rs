@@ -5,10 +5,10 @@ use super::held::HeldValues;
 use super::limits::Limits;
 use super::pairing::{self, ImpliedPair};
 use super::tree::Tree;
+use crate::Spanned;
 use crate::error::{Diagnostic, InputError, quoted};
 use crate::robot_table::RobotTable;
 use crate::settings::RobotSettings;
-use toml::Spanned;
 
 /// The choices that reduce a robot to a two-joint arm. Links and joints are given by their indices in the file.
 #[derive(Debug)]

@@ -2,13 +2,13 @@
 
 use super::limits::MissingRates;
 use super::reduction::{Bounds, Reduction};
+use crate::Spanned;
 use crate::drives::{DrivesTable, DrivesValue, MotorTable};
 use crate::error::{Diagnostic, InputError};
 use crate::quantity::{Numbers, Written};
 use cplan_model::space::JointRange;
 use cplan_model::{Motors, assumed_acceleration};
 use std::ops::Range;
-use toml::Spanned;
 
 const EXAMPLE: &str =
     "drives = { elbow = \"base\", motors = { velocity = [3.0, 4.0] } }, or drives = \"standard_scara\"";

@@ -1,13 +1,13 @@
 //! Ranges, top speeds, accelerations and jerks of the joints.
 
 use super::document::{Document, Joint, JointType};
+use crate::Spanned;
 use crate::error::Diagnostic;
 use crate::quantity::{MAX_LENGTH, PerJoint, Written, find};
 use crate::settings::RobotSettings;
 use cplan_model::space::JointRange;
 use cplan_model::{DEFAULT_SLIDING_SPEED, DEFAULT_TURNING_SPEED, MAX_TURN_RANGE, assumed_acceleration};
 use std::f64::consts::{PI, TAU};
-use toml::Spanned;
 
 /// Longest range of a prismatic joint, in metres. It spans all coordinates that a world may have, so a longer range
 /// would be of no use.

@@ -28,7 +28,8 @@ pub(super) fn check(settings: RobotSettings) -> Result<(), Diagnostic> {
     let bad =
         settings.table.effort.iter().find(|(_, effort)| !(effort.get_ref().is_finite() && *effort.get_ref() > 0.0));
     if let Some((joint, effort)) = bad {
-        let message = format!("[robot] effort of \"{joint}\" must be positive, is {}", effort.get_ref());
+        let (joint, value) = (joint.get_ref(), effort.get_ref());
+        let message = format!("[robot] effort of \"{joint}\" must be positive, is {value}");
         return Err(settings.source.diagnostic_at(effort.span(), message).help("N m, or N for a joint that slides"));
     }
     let Some(given) = &settings.table.gravity else { return Ok(()) };

@@ -2,13 +2,13 @@
 
 use super::plane::project;
 use super::reduction::Reduction;
+use crate::Spanned;
 use crate::error::Diagnostic;
 use crate::quantity::Number;
 use crate::stroke::{ArchTable, ArchValue, StrokeTable};
 use cplan_handling::{Arch, Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
 use cplan_model::{Plane, assumed_acceleration};
 use nalgebra::Vector3;
-use toml::Spanned;
 
 /// Largest difference between 1 and the cosine of the angle between an axis and the plane's normal, for which the two
 /// count as parallel. It covers rounding.
