@@ -45,6 +45,7 @@
 #[cfg(feature = "program")]
 pub mod cli;
 mod planning;
+mod robots;
 pub use cplan_compare as compare;
 pub use cplan_explore as explore;
 pub use cplan_geometry as geometry;
@@ -82,7 +83,7 @@ pub mod model {
     pub use cplan_handling::{
         Action, Arch, BlendsClaim, Claims, Driver, Drives, EventClaim, FollowedLine, HeldEffect, HeldJoint, HeldMotion,
         Holding, Item, MAX_STOP_TIME, MovingObstacle, Object, ObstacleTrajectory, ObstacleTrajectoryError,
-        OptimumClaim, Payload, Placement, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist, RobotJoint,
+        OptimumClaim, Payload, Placement, PoseClaim, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist, RobotJoint,
         RobotJoints, Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene, TimedWorkspace,
         ToolAngle, ToolJoint, ToolValues, TrajectoryLeg as Leg, Wrist, WristGuide, WristJoint,
     };
@@ -110,10 +111,12 @@ pub mod check {
 
 /// Input: reads robots, worlds, maps and recordings, and returns problems, or errors with file, line and help.
 pub mod input {
+    pub use super::robots::robot;
     pub use cplan_robot::{
-        BodyEntry, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry, LimitEntry,
-        LimitSource, LinkEntry, MAX_LENGTH, OutlineEntry, PairEntry, PlaneEntry, Position, Quantity, RateEntry,
-        RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source, meshes_elsewhere, read_bytes,
+        BodyEntry, Conversion, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry,
+        LimitEntry, LimitSource, LinkEntry, MAX_LENGTH, Origins, OutlineEntry, PairEntry, PlaneEntry, Position,
+        Quantity, RateEntry, RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source,
+        meshes_elsewhere, read_bytes,
     };
     pub use cplan_world::*;
 

@@ -2,7 +2,7 @@
 
 use crate::error::{raised, refused};
 use cplan::Joint;
-use cplan::input::{InputError, LoadedScene, Overrides, RobotFile, Source, scene_from, scene_of};
+use cplan::input::{self, InputError, LoadedScene, Overrides, RobotFile, Source, scene_from, scene_of};
 use pyo3::PyClass;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -42,8 +42,8 @@ impl Arm {
     #[staticmethod]
     #[pyo3(signature = (path, *, xacro_args = None))]
     fn from_urdf(py: Python<'_>, path: PathBuf, xacro_args: Option<BTreeMap<String, String>>) -> PyResult<Self> {
-        let xacro_args = xacro_args.unwrap_or_default().into_iter().collect();
-        RobotFile { path: absolute(path)?, xacro_args }
+        let arguments = xacro_args.unwrap_or_default().into_iter().collect();
+        RobotFile { arguments, ..input::robot(absolute(path)?) }
             .read()
             .map(|source| Self(ArmSource::Urdf(source)))
             .map_err(|error| raised(py, &error))

@@ -34,7 +34,7 @@ impl Study {
             // Absolute, so that a pickled study finds maps and meshes elsewhere.
             None => {
                 let path = std::path::absolute(&path)?;
-                py.detach(|| study::Study::load(path, &words))
+                py.detach(|| study::Study::load(path, &words, &cplan::input::robot))
             }
         };
         study.map(|study| Self { study }).map_err(|error| raised(py, &error))

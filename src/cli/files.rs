@@ -1,6 +1,6 @@
 //! The input files that most subcommands have.
 
-use crate::input::RobotFile;
+use crate::input::{self, RobotFile};
 use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
 
@@ -22,7 +22,7 @@ pub struct Files {
 impl Files {
     /// Returns the robot's file, with its arguments.
     pub fn robot(&self) -> RobotFile {
-        RobotFile { path: self.urdf.clone(), xacro_args: self.xacro_args.clone() }
+        RobotFile { arguments: self.xacro_args.clone(), ..input::robot(&self.urdf) }
     }
 
     /// Returns files and arguments as words of a command line.
@@ -44,7 +44,7 @@ pub struct XacroArgs {
 impl XacroArgs {
     /// Returns a robot's file with these arguments.
     pub fn robot(&self, path: &Path) -> RobotFile {
-        RobotFile { path: path.to_owned(), xacro_args: self.xacro_args.clone() }
+        RobotFile { arguments: self.xacro_args.clone(), ..input::robot(path) }
     }
 }
 

@@ -142,7 +142,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
 /// new file.
 fn write_expanded(robot: &RobotFile, path: &Path) -> Result<(), Failure> {
     let source = robot.read()?;
-    if !source.is_expanded() {
+    if !source.is_converted() {
         let message = "this is a plain URDF: there is nothing to expand";
         return Err(InputError::from(source.diagnostic(message).help("leave --expanded out")).into());
     }

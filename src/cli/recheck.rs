@@ -123,7 +123,7 @@ fn check_certificate(args: &RecheckArgs, what: &str, certificate: &str) -> Resul
     let at = |path: &Path, why: &dyn Display| Failure::Refused(format!("{}{why}", path.display()));
     let whole = |path: &Path| std::fs::read_to_string(path).map_err(|error| at(path, &format!(": {error}")));
     let urdf = robot.read()?;
-    let urdf = if urdf.is_expanded() { urdf.text().to_owned() } else { whole(&robot.path)? };
+    let urdf = if urdf.is_converted() { urdf.text().to_owned() } else { whole(&robot.path)? };
     check_beside([&urdf, &whole(world)?, certificate], [&robot.path, world]).map_err(|error| match error {
         CheckError::Fails(why) => evidence_failure(args, format!("the {what} does not hold: {why}")),
         CheckError::Input { input: Input::Certificate, message, .. } => evidence_failure(args, message),

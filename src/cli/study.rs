@@ -6,6 +6,7 @@ use super::headings::OUTPUT;
 use super::print_args::PrintArgs;
 use super::progress::Progress;
 use super::{signals, sinks};
+use crate::input;
 use crate::motion::write_whole_set;
 use crate::study::{Journal, JournalError, Row, Study, Summary, pictures};
 use crate::text::{counted, for_a_shell};
@@ -91,7 +92,7 @@ enum Content {
 /// Bad input and I/O.
 pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     let files = contents(&args.output, args.layout.is_some())?;
-    let study = Study::load(&args.study, &|words| super::read_words(words))?;
+    let study = Study::load(&args.study, &|words| super::read_words(words), &input::robot)?;
     let inputs = study.files();
     sinks::refuse_to_overwrite_inputs(files.iter().map(|(path, _)| path.as_path()), &inputs)?;
     if let Some(layout) = args.layout {

@@ -1,6 +1,6 @@
 //! Invalid input of every kind. It is refused with the file, the line, the defect, and a hint.
 
-use cplan::input::{InputError, LoadedProblem, Overrides, load};
+use cplan::input::{InputError, LoadedProblem, Overrides, load, robot};
 use cplan::model::Region;
 use std::fs;
 
@@ -50,7 +50,7 @@ pub fn load_files(
     let (u, w) = (folder.path().join(urdf_name), folder.path().join("world.toml"));
     fs::write(&u, urdf).unwrap();
     fs::write(&w, world).unwrap();
-    load(&u, &w, overrides)
+    load(robot(&u), &w, overrides)
 }
 
 fn refused(result: Result<LoadedProblem, InputError>, parts: &[&str]) {

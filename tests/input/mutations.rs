@@ -1,7 +1,7 @@
 //! Hundreds of files with a typing error. Each is read, or refused with position and hint. Reading never panics, and
 //! its result is never far larger than the file.
 
-use cplan::input::{InputError, Overrides, RobotFile, Source, load_recording, scene_from};
+use cplan::input::{InputError, Overrides, Source, load_recording, robot, scene_from};
 use cplan_cases::slips::slipped;
 use cplan_cases::{dice, times};
 
@@ -135,7 +135,7 @@ fn slips_in_xacro_are_read_or_refused() {
         for ((name, _), text) in XACRO.iter().zip(&texts) {
             std::fs::write(folder.path().join(name), text).unwrap();
         }
-        match RobotFile::from(&main).read() {
+        match robot(&main).read() {
             Ok(source) => {
                 read += 1;
                 assert!(source.text().len() <= LONGEST, "{} bytes of {texts:?}", source.text().len());

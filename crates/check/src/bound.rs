@@ -43,7 +43,7 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
         None => {
             let goal = End::goal(certificate, world)?;
             let is_collision = |part: &Rectangle| boxes.iter().any(|stuck| within(part, stuck));
-            (goal.region(arm)?.places(arm, MAX_LOCATED_PARTS, is_collision), format!(" the goal{}", goal.named(arm)))
+            (goal.places(arm, MAX_LOCATED_PARTS, is_collision)?, format!(" the goal{}", goal.named(arm)))
         }
     };
     bound.metric.is_a_norm()?;

@@ -46,9 +46,10 @@ impl Piece {
         Self { curves: self.curves.iter().map(curve).collect(), ..self.clone() }
     }
 
-    /// Returns both halves of the piece, by de Casteljau's algorithm.
+    /// Returns both halves of the piece.
     pub fn halves(&self) -> [Self; 2] {
-        let halves: Vec<[Vec<Values>; 2]> = self.curves.iter().map(|curve| halves(curve)).collect();
+        let middle = |[a, b]: &Values, [c, d]: &Values| [(a + c) >> 1, (b + d) >> 1];
+        let halves: Vec<[Vec<Values>; 2]> = self.curves.iter().map(|curve| halves(curve, middle)).collect();
         let [begin, end] = &self.time;
         let middle = Decimal::middle(begin, end);
         let half = |k: usize, time| Self {
@@ -60,16 +61,17 @@ impl Piece {
     }
 }
 
-fn halves(curve: &[Values]) -> [Vec<Values>; 2] {
+/// Returns the control points of both halves of a curve, by de Casteljau's algorithm. `middle` is the point between two.
+pub fn halves<T: Clone>(curve: &[T], middle: impl Fn(&T, &T) -> T) -> [Vec<T>; 2] {
     let (mut first, mut second) = (Vec::new(), Vec::new());
     let mut points = curve.to_vec();
-    while let [from, .., to] = points[..] {
-        first.push(from);
-        second.push(to);
-        points = points.windows(2).map(|p| [0, 1].map(|k| (p[0][k] + p[1][k]) >> 1)).collect();
+    while let [from, .., to] = &points[..] {
+        first.push(from.clone());
+        second.push(to.clone());
+        points = points.windows(2).map(|pair| middle(&pair[0], &pair[1])).collect();
     }
-    first.extend(&points);
-    second.extend(&points);
+    first.extend(points.clone());
+    second.extend(points);
     second.reverse();
     [first, second]
 }

@@ -20,7 +20,7 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     let Some(reached) = Reached::new(&arm.domain, &closed, &start.configuration(arm)?) else {
         return CheckError::fails("the boxes leave more gaps than the checker examines");
     };
-    if !goal.region(arm)?.places(arm, MAX_ENCLOSED_PARTS, |part| !reached.meets(part)).is_empty() {
+    if !goal.places(arm, MAX_ENCLOSED_PARTS, |part| !reached.meets(part))?.is_empty() {
         return CheckError::fails("the boxes do not separate the goal from the start");
     }
     Contacts::new(arm, world, certificate, clearance)?.check_boxes(arm, stuck, &boxes)?;

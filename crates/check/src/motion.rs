@@ -2,7 +2,7 @@
 
 use crate::arm::Arm;
 use crate::certificate::{Certificate, Interpolation, Motion};
-use crate::curve::{FRACTION_BITS, INTEGER_BITS, Piece, Values};
+use crate::curve::{FRACTION_BITS, INTEGER_BITS, Piece, Values, halves};
 use crate::decimal::Decimal;
 use crate::ends::End;
 use crate::error::{CheckError, Input};
@@ -184,18 +184,7 @@ fn is_curve_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings:
     if halvings == 0 || !ends.into_iter().all(is_within) {
         return false;
     }
-    let (mut first, mut second) = (Vec::new(), Vec::new());
-    let mut points = control.to_vec();
-    loop {
-        first.push(points[0].clone());
-        second.push(points[points.len() - 1].clone());
-        if points.len() == 1 {
-            break;
-        }
-        points = points.windows(2).map(|p| Decimal::middle(&p[0], &p[1])).collect();
-    }
-    second.reverse();
-    [first, second].iter().all(|half| is_curve_within(half, low, high, halvings - 1))
+    halves(control, Decimal::middle).iter().all(|half| is_curve_within(half, low, high, halvings - 1))
 }
 
 /// Checks that all shapes of the arm keep farther than the clearance from all obstacles, along the whole motion. `start`

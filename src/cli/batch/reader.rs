@@ -4,7 +4,7 @@ use super::turns::Line;
 use crate::cli::failure::Failure;
 use crate::cli::words::{self, ParsedWords};
 use crate::engine::{Plan, Problem, plan};
-use crate::input::{Diagnostic, InputError, LoadedScene, Position, RobotFile, Source, scene_from};
+use crate::input::{self, Diagnostic, InputError, LoadedScene, Position, RobotFile, Source, scene_from};
 use crate::interrupt::{Instant, Interrupt};
 use crate::parallel::caught;
 use serde::Deserialize;
@@ -60,7 +60,7 @@ impl Default for Options {
 #[derive(Clone, PartialEq, Eq, Hash)]
 enum Named {
     File(PathBuf),
-    Robot(RobotFile),
+    Robot(PathBuf, Vec<(String, String)>),
     Text(String),
 }
 
@@ -141,7 +141,7 @@ impl Reader {
     fn plan(&mut self, given: LineKeys, refused: &dyn Fn(String, &str) -> Failure) -> Result<ProblemOutcome, Failure> {
         let one = |what: &str| refused(format!("give either `{what}` or `{what}_text`"), "see `cplan batch --help`");
         let robot = match (given.urdf, given.urdf_text) {
-            (Some(path), None) => Named::Robot(RobotFile { path, xacro_args: given.xacro_args.into_iter().collect() }),
+            (Some(path), None) => Named::Robot(path, given.xacro_args.into_iter().collect()),
             (None, Some(text)) => Named::Text(text),
             _ => return Err(one("urdf")),
         };
@@ -204,7 +204,7 @@ impl Named {
     fn source(&self, name: &str) -> Result<Source, InputError> {
         match self {
             Self::File(path) => Source::read(path),
-            Self::Robot(robot) => robot.read(),
+            Self::Robot(path, arguments) => RobotFile { arguments: arguments.clone(), ..input::robot(path) }.read(),
             Self::Text(text) => Ok(Source::in_memory(Path::new(name), text.clone())),
         }
     }

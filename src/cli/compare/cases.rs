@@ -71,7 +71,7 @@ impl Cases {
         let suite = match (&args.urdf, &args.world, &args.suite) {
             (Some(urdf), Some(world), _) => single_robot_suite(input::load_scene(args.xacro.robot(urdf), world)?),
             (Some(urdf), None, Some(folder)) => input::load_folder(args.xacro.robot(urdf), folder)?,
-            (_, _, Some(place)) => input::load_suite(place)?,
+            (_, _, Some(place)) => input::load_suite(place, &input::robot)?,
             _ => return Err(Failure::Usage("URDF and WORLD are required, or --suite".into())),
         };
         Self::of_suite(suite, args)

@@ -34,42 +34,26 @@ impl End {
         }
     }
 
-    /// Returns the set of all configurations at which a motion may begin or end.
+    /// Returns rectangles that cover all configurations at which a motion may begin or end. Configurations in rectangles
+    /// that `is_left_out` excludes need not be covered. There are at most `most` rectangles for each tip position.
     ///
     /// # Errors
     /// If values are outside the limits.
-    pub fn region(&self, arm: &Arm) -> Result<Region, CheckError> {
-        match &self.at {
-            Goal::Joints(values) => Ok(Region::Configuration(arm.configuration(self.what, values)?)),
-            Goal::Tip(at) => Ok(Region::Tip(at.each_ref().map(Interval::from))),
-            Goal::Areas(areas) => Ok(Region::Any(areas.iter().map(|area| Region::Tip(arm.area(area))).collect())),
-        }
-    }
-}
-
-/// A set of configurations at which a motion may begin or end.
-pub enum Region {
-    /// Enclosure of one configuration.
-    Configuration(Rectangle),
-    /// All configurations that put the tip at a position.
-    Tip(Point),
-    /// The union of several regions.
-    Any(Vec<Region>),
-}
-
-impl Region {
-    /// Returns rectangles that cover the region. Configurations in rectangles that `is_left_out` excludes need not be
-    /// covered. There are at most `most` rectangles for each tip position.
-    pub fn places(&self, arm: &Arm, most: usize, is_left_out: impl Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
-        self.places_by(arm, most, &is_left_out)
-    }
-
-    fn places_by(&self, arm: &Arm, most: usize, is_left_out: &dyn Fn(&Rectangle) -> bool) -> Vec<Rectangle> {
-        match self {
-            Self::Configuration(goal) => [goal.clone()].into_iter().filter(|goal| !is_left_out(goal)).collect(),
-            Self::Tip(place) => arm.places(place, most, is_left_out),
-            Self::Any(regions) => regions.iter().flat_map(|r| r.places_by(arm, most, is_left_out)).collect(),
-        }
+    pub fn places(
+        &self,
+        arm: &Arm,
+        most: usize,
+        is_left_out: impl Fn(&Rectangle) -> bool,
+    ) -> Result<Vec<Rectangle>, CheckError> {
+        let tips = match &self.at {
+            Goal::Joints(values) => {
+                let place = arm.configuration(self.what, values)?;
+                return Ok(if is_left_out(&place) { Vec::new() } else { vec![place] });
+            }
+            Goal::Tip(at) => vec![at.each_ref().map(Interval::from)],
+            Goal::Areas(areas) => areas.iter().map(|area| arm.area(area)).collect(),
+        };
+        Ok(tips.iter().flat_map(|tip| arm.places(tip, most, &is_left_out)).collect())
     }
 }
 

@@ -6,12 +6,11 @@ use super::measure::{Condition, Measure, Objective};
 use super::parameter::{Design, Parameter, Values};
 use super::schema::{ParameterTable, StudyFile, Text};
 use super::template::{Place, Setting, Template, place};
-use cplan_robot::{Diagnostic, InputError, Quantity, RobotFile, Source};
+use cplan_robot::{Diagnostic, InputError, Quantity, RobotFile, Source, Spanned};
 use cplan_solver::Options;
 use cplan_world::{Overrides, scene_from};
 use std::ops::Range;
-use std::path::Path;
-use toml::Spanned;
+use std::path::{Path, PathBuf};
 
 /// Largest number of layouts of a study.
 const MAX_LAYOUTS: usize = 20_000_000;
@@ -31,7 +30,11 @@ struct Reader<'a> {
 ///
 /// # Errors
 /// All defects of the files, with line, column and hint.
-pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, InputError> {
+pub(super) fn load(
+    path: &Path,
+    read_options: ReadOptions,
+    robot: &dyn Fn(PathBuf) -> RobotFile,
+) -> Result<Study, InputError> {
     let study = Source::read(path)?;
     let beside = |which: NamedFile, name: Option<&str>| {
         let missing = || {
@@ -42,7 +45,7 @@ pub(super) fn load(path: &Path, read_options: ReadOptions) -> Result<Study, Inpu
         };
         let path = path.with_file_name(name.ok_or_else(missing)?);
         match which {
-            NamedFile::Robot => RobotFile::from(path).read(),
+            NamedFile::Robot => robot(path).read(),
             NamedFile::World => Source::read(&path),
         }
     };

@@ -41,7 +41,7 @@ pub use summary::Summary;
 
 use cplan_engine::{Plan, Problem, plan};
 use cplan_parallel::{caught, run_in_order};
-use cplan_robot::{InputError, Source};
+use cplan_robot::{InputError, RobotFile, Source};
 use cplan_solver::{Options, solve};
 use cplan_tasks::SEARCHES;
 use cplan_world::{LoadedScene, Overrides};
@@ -95,12 +95,16 @@ impl Study {
         self.source.files().into_iter().chain(self.base.files()).collect()
     }
 
-    /// Reads a study file, and the robot and the world that it names.
+    /// Reads a study file, and the robot and the world that it names. `robot` adds the conversion of the robot's file.
     ///
     /// # Errors
     /// All defects of the files, with line, column and hint.
-    pub fn load(path: impl AsRef<Path>, read_options: ReadOptions) -> Result<Self, InputError> {
-        file::load(path.as_ref(), read_options)
+    pub fn load(
+        path: impl AsRef<Path>,
+        read_options: ReadOptions,
+        robot: &dyn Fn(PathBuf) -> RobotFile,
+    ) -> Result<Self, InputError> {
+        file::load(path.as_ref(), read_options, robot)
     }
 
     /// Reads a study from the texts of the study file, of the robot and of the world.

@@ -2,9 +2,8 @@
 
 #[cfg(test)]
 use cplan_robot::schema::*;
-use cplan_robot::{FromToml, Quantity, TomlError, TomlValue, toml_table};
+use cplan_robot::{FromToml, Quantity, Spanned, TomlError, TomlValue, toml_table};
 use std::ops::Range;
-use toml::Spanned;
 use toml::de::DeValue;
 
 /// A text, and where it stands.
@@ -24,10 +23,8 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<String>"))]
         pub world: Option<Text>,
         /// Options of the main job, such as ["--planner=first", "--clearance=0.01"].
-        #[cfg_attr(test, schemars(with = "Option<Vec<String>>"))]
         pub options: Option<Spanned<Vec<String>>>,
         /// Draws for each combination of the values that are listed; needed where a parameter is drawn.
-        #[cfg_attr(test, schemars(with = "Option<u64>"))]
         pub draws: Option<Spanned<u64>>,
         /// Seed of the draws; by default 0.
         pub seed: Option<u64>,
@@ -54,7 +51,6 @@ toml_table! {
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields))]
     pub(super) struct SearchTable {
         /// Layouts that it may try.
-        #[cfg_attr(test, schemars(with = "u64"))]
         pub layouts: Spanned<u64>,
     }
 
@@ -68,19 +64,14 @@ toml_table! {
         pub unit: Option<String>,
         /// The numbers that it sets: an address such as "world.robot.at[0]" or "urdf.joint.elbow.origin.xyz[0]", or
         /// several.
-        #[cfg_attr(test, schemars(with = "Targets"))]
         pub sets: Spanned<Targets>,
         /// Its values; angles may be written as "30deg".
-        #[cfg_attr(test, schemars(with = "Option<Vec<AngleOrLength>>"))]
         pub values: Option<Spanned<Vec<Quantity>>>,
         /// Its least value.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         pub from: Option<Spanned<Quantity>>,
         /// Its greatest value.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         pub to: Option<Spanned<Quantity>>,
         /// The number of its values from the least to the greatest, in equal steps.
-        #[cfg_attr(test, schemars(with = "Option<u64>"))]
         pub steps: Option<Spanned<u64>>,
         /// Instead of steps: "uniform" (independent draws) or "latin" (one in each of as many equal intervals as there are
         /// draws).

@@ -1,5 +1,6 @@
 //! Tests that Parquet tables contain the same values as the rows.
 
+use cplan_robot::RobotFile;
 use cplan_solver::Options;
 use cplan_study::{Ending, Row, Study};
 use cplan_world::Overrides;
@@ -11,7 +12,7 @@ use std::path::Path;
 /// Returns a shipped study with two parameters and four measures.
 fn study() -> Study {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../workspaces/studies/base.toml");
-    Study::load(path, &|_| Ok((Options::default(), Overrides::default()))).unwrap()
+    Study::load(path, &|_| Ok((Options::default(), Overrides::default())), &RobotFile::from).unwrap()
 }
 
 /// Returns rows with each ending in turn.

@@ -46,7 +46,6 @@ mod expression;
 mod include;
 mod limits;
 mod macros;
-mod package;
 mod property;
 mod scope;
 mod substitution;
@@ -54,9 +53,9 @@ mod value;
 mod writer;
 mod yaml;
 
+pub use cplan_packages::packages;
 pub use document::{File, Place};
 pub use error::Error;
-pub use package::packages;
 pub use writer::Span;
 
 use std::io;

@@ -7,7 +7,7 @@ use crate::expression::{self, Names};
 use crate::limits::Budget;
 use crate::scope::Slot;
 use crate::value::Value;
-use crate::{package, path_beside, yaml};
+use crate::{packages, path_beside, yaml};
 use std::path::Path;
 
 /// The scope and the file in which a text is evaluated.
@@ -135,7 +135,7 @@ impl Expander<'_> {
         if let Some(known) = self.packages.get(&(name.to_owned(), file)) {
             return Ok(known.clone());
         }
-        let found = package::packages(name, &self.files[file].path).next().ok_or_else(|| {
+        let found = packages(name, &self.files[file].path).next().ok_or_else(|| {
             let message =
                 format!("the package \"{name}\" is not found: no folder near this file has a package.xml of that name");
             Fault::with_hint(message, "put the package beside this one, or add its parent folder to ROS_PACKAGE_PATH")

@@ -1,6 +1,7 @@
 //! Claims: statements of a file about its motion or task, in addition to the samples.
 
 use cplan_model::space::{Configuration, Metric};
+use serde::Deserialize;
 use std::ops::RangeInclusive;
 
 /// A recorded turn of the wrist.
@@ -28,7 +29,7 @@ pub struct RecordedOverlap {
 }
 
 /// A recorded turn of the wrist to a value of its joint.
-#[derive(Debug, Clone, Copy, Default, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Deserialize)]
 pub struct RecordedWrist {
     /// The joint's value at the beginning, radians.
     pub from: f64,
@@ -96,7 +97,7 @@ pub struct Claims {
 }
 
 /// The corners of a path that a motion rounds off.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 pub struct BlendsClaim {
     /// Number of rounded corners.
     pub count: usize,
@@ -105,7 +106,7 @@ pub struct BlendsClaim {
 }
 
 /// Claims about the optimality of a path.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct OptimumClaim {
     /// Name of the metric: `euclidean`, `weighted` or `time`.
     pub metric: String,
@@ -176,7 +177,7 @@ pub struct StepClaims {
 }
 
 /// A claimed action of the gripper.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct EventClaim {
     /// Seconds from the beginning of the task.
     pub time: f64,
@@ -190,6 +191,15 @@ pub struct EventClaim {
     pub cycle: usize,
     /// Position of the tip, metres.
     pub tip: [f64; 2],
-    /// Pose of the object from this event on: its origin, metres, and its orientation, radians.
-    pub pose: Option<([f64; 2], f64)>,
+    /// Pose of the object from this event on.
+    pub pose: Option<PoseClaim>,
+}
+
+/// A claimed pose of an object.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+pub struct PoseClaim {
+    /// Origin of the object, metres.
+    pub at: [f64; 2],
+    /// Orientation of the object, radians.
+    pub angle: f64,
 }

@@ -27,8 +27,8 @@ mod timed;
 mod wrist_guide;
 
 pub use claims::{
-    BlendsClaim, Claims, EventClaim, OptimumClaim, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist,
-    StepClaims, TaskClaims,
+    BlendsClaim, Claims, EventClaim, OptimumClaim, PoseClaim, RecordedOverlap, RecordedStep, RecordedTurn,
+    RecordedWrist, StepClaims, TaskClaims,
 };
 pub use followed_line::{DEFAULT_TOLERANCE, FollowedLine, MIN_TOLERANCE};
 pub use held::{HeldEffect, HeldJoint, HeldMotion};

@@ -4,8 +4,8 @@ use super::quantity::{Number, Numbers, Written};
 #[cfg(feature = "schema")]
 use super::schema::*;
 use super::toml_values::{FromToml, TomlError, TomlValue};
+use crate::Spanned;
 use crate::toml_table;
-use toml::Spanned;
 
 /// The motors of the two joints: a table, or one of the names that firmware uses.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,10 +33,8 @@ toml_table! {
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "drives"))]
     pub struct DrivesTable {
         /// Place where the elbow's motor is mounted: `"base"` or `"link"`; by default `"base"`.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
         pub elbow: Option<Spanned<String>>,
         /// Turns of the elbow's motor on the base for each turn of joint 1; by default 1, for equal pulleys.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         pub ratio: Option<Number>,
         /// Turns of each shaft for each turn that it drives, negative for the opposite direction; by default [1, 1].
         #[cfg_attr(feature = "schema", schemars(with = "Option<NumberPair>"))]
@@ -45,7 +43,6 @@ toml_table! {
         #[cfg_attr(feature = "schema", schemars(with = "Option<[AngleOrLength; 2]>"))]
         pub zero: Option<Spanned<Vec<Written>>>,
         /// Limits of the shafts.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<MotorTable>"))]
         pub motors: Option<MotorTable>,
     }
 

@@ -1,9 +1,9 @@
-//! Reads a robot from URDF or xacro and reduces it to a planar two-joint arm. Errors have file, line and hint.
+//! Reads a robot from URDF and reduces it to a planar two-joint arm. Errors have file, line and hint.
 //!
 //! ```text
-//! arm.xacro --> RobotFile --> Source (URDF text) --+--> load -----> Arm, RobotReport
-//!                                                  |
-//! [robot] of a world file --> RobotSettings -------+--> survey ---> Inspection
+//! arm.urdf --> RobotFile --> Source (URDF text) --+--> load -----> Arm, RobotReport
+//!                                                 |
+//! [robot] of a world file --> RobotSettings ------+--> survey ---> Inspection
 //! ```
 //!
 //! [`load`] stops at the first stage that fails; [`survey`] reports all stages. The other readers use the same errors
@@ -25,6 +25,7 @@ mod robot_table;
 pub mod schema;
 mod settings;
 mod source;
+mod spanned;
 mod stroke;
 mod toml_values;
 mod urdf;
@@ -40,10 +41,11 @@ pub use inspection::{
 };
 pub use quantity::{MAX_LENGTH, Number, Numbers, PerJoint, Quantity, Written};
 pub use report::RobotReport;
-pub use robot_file::RobotFile;
+pub use robot_file::{Conversion, RobotFile};
 pub use robot_table::RobotTable;
 pub use settings::RobotSettings;
-pub use source::{Cursor, Position, Source, read_bounded, read_bytes, read_recorded};
+pub use source::{Cursor, Origins, Position, Source, read_bounded, read_bytes, read_recorded};
+pub use spanned::Spanned;
 pub use stroke::StrokeTable;
 pub use toml_values::{Fields, FromToml, TomlError, TomlValue, key_of, number};
 pub use urdf::{load, meshes_elsewhere, survey};

@@ -3,11 +3,12 @@
 use super::error::Diagnostic;
 use super::source::Source;
 use super::toml_values::{FromToml, TomlError, TomlValue, number};
+use crate::Spanned;
 use std::collections::BTreeMap;
-use toml::Spanned;
 
 /// A joint's value or an angle, in radians or metres. The file may state it in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(from = "super::schema::AngleOrLength"))]
 pub struct Quantity {
     /// Value in radians or metres.
     pub value: f64,

@@ -1,17 +1,22 @@
-//! The file of a robot: URDF, or xacro that is expanded to URDF.
+//! The file of a robot: URDF, or another language that is converted to URDF.
 
-use super::error::{Diagnostic, InputError};
-use super::source::{Source, read_bounded};
-use cplan_xacro::{Settings, expand, is_xacro};
+use super::error::InputError;
+use super::source::Source;
 use std::path::{Path, PathBuf};
 
-/// The file of a robot, with arguments for its expansion.
-#[derive(Debug, Clone, PartialEq, Eq, Hash)]
+/// A conversion of robots in another language to URDF. Gets the text and the arguments of the file. Returns `None` for a
+/// text that is already URDF.
+pub type Conversion = fn(&Source, &[(String, String)]) -> Option<Result<Source, InputError>>;
+
+/// The file of a robot, with arguments for its conversion.
+#[derive(Debug, Clone)]
 pub struct RobotFile {
-    /// Path of a URDF or of xacro.
+    /// Path of the file.
     pub path: PathBuf,
-    /// Names and values of xacro arguments, which override the defaults in the file.
-    pub xacro_args: Vec<(String, String)>,
+    /// Names and values of arguments, which override the defaults in the file.
+    pub arguments: Vec<(String, String)>,
+    /// The conversion of files that are not URDF. Without it, they are refused.
+    pub conversion: Option<Conversion>,
 }
 
 impl From<&RobotFile> for RobotFile {
@@ -22,44 +27,25 @@ impl From<&RobotFile> for RobotFile {
 
 impl<P: AsRef<Path>> From<P> for RobotFile {
     fn from(path: P) -> Self {
-        Self { path: path.as_ref().to_owned(), xacro_args: Vec::new() }
+        Self { path: path.as_ref().to_owned(), arguments: Vec::new(), conversion: None }
     }
 }
 
 impl RobotFile {
-    /// Reads the file as URDF. If it is xacro, which its name or content shows, expands it. Positions in messages then
-    /// refer to the xacro files.
+    /// Reads the file as URDF, converted if necessary. Positions in messages then refer to the original files.
     ///
     /// # Errors
-    /// A file that cannot be read or expanded, and arguments for a file that is not xacro.
+    /// A file that cannot be read or converted, and arguments for a file that is not converted.
     pub fn read(&self) -> Result<Source, InputError> {
         let source = Source::read(&self.path)?;
-        let is_named_so = self.path.extension().is_some_and(|e| e.eq_ignore_ascii_case("xacro"));
-        if !is_named_so && !is_xacro(source.text()) {
-            return match self.xacro_args.first() {
-                None => Ok(source),
-                Some((name, _)) => {
-                    let message = format!("this is a plain URDF, which has no argument \"{name}\"");
-                    Err(source.diagnostic(message).help("leave --xacro-arg out").into())
-                }
-            };
-        }
-        let settings = Settings { arguments: self.xacro_args.clone(), read: read_bounded };
-        match expand(&self.path, &settings) {
-            Ok(expansion) => Ok(source.expanded(expansion)),
-            Err(error) => Err(diagnostic(error).into()),
+        let converted = self.conversion.and_then(|convert| convert(&source, &self.arguments));
+        match (converted, self.arguments.first()) {
+            (Some(converted), _) => converted,
+            (None, None) => Ok(source),
+            (None, Some((name, _))) => {
+                let message = format!("this is a plain URDF, which has no argument \"{name}\"");
+                Err(source.diagnostic(message).help("leave --xacro-arg out").into())
+            }
         }
     }
-}
-
-/// Converts the error to a diagnostic with its line.
-fn diagnostic(error: cplan_xacro::Error) -> Diagnostic {
-    let diagnostic = match error.place {
-        None => Diagnostic::new(error.path.display().to_string(), error.message),
-        Some(place) => {
-            let (file, place) = *place;
-            Source::in_memory(file.path, &*file.text).diagnostic_at(place.range, error.message)
-        }
-    };
-    diagnostic.help(error.hint.unwrap_or_else(|| "correct it, or expand the file with ROS's own xacro".into()))
 }

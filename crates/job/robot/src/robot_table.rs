@@ -1,5 +1,6 @@
 //! The world file's `[robot]` table.
 
+use crate::Spanned;
 use crate::drives::DrivesValue;
 use crate::quantity::{Number, Numbers, PerJoint, Written};
 #[cfg(feature = "schema")]
@@ -7,7 +8,6 @@ use crate::schema::*;
 use crate::stroke::{ArchValue, StrokeTable};
 use crate::toml_table;
 use crate::wrist::WristTable;
-use toml::Spanned;
 
 toml_table! {
     /// Settings that complete or override the URDF. All keys are optional.
@@ -18,13 +18,11 @@ toml_table! {
         #[cfg_attr(feature = "schema", schemars(with = "Option<NumberPair>"))]
         pub at: Option<Numbers>,
         /// Angle of its root frame, rad; by default 0.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<AngleOrLength>"))]
         pub angle: Option<Written>,
         /// The two joints that move, from the base to the tip; needed only if the URDF has more than two that can.
         #[cfg_attr(feature = "schema", schemars(with = "Option<[String; 2]>"))]
         pub joints: Option<Spanned<Vec<Spanned<String>>>>,
         /// Link whose origin is the tip; by default the end of the chain.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
         pub tip: Option<Spanned<String>>,
         /// Values of the other movable joints, by name, rad or m; by default 0, clamped into their limits.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, AngleOrLength>"))]
@@ -39,7 +37,6 @@ toml_table! {
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
         pub acceleration: PerJoint<Number>,
         /// Motors of two joints that turn, with their limits: a table, "standard_scara" or "direct".
-        #[cfg_attr(feature = "schema", schemars(with = "Option<DrivesValue>"))]
         pub drives: Option<Spanned<DrivesValue>>,
         /// Greatest jerk of a joint, by name, rad/s3 or m/s3; a joint without has no such limit.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
@@ -64,10 +61,8 @@ toml_table! {
         /// The wrist that keeps or changes the orientation of objects carried with payload "level".
         pub wrist: Option<WristTable>,
         /// Motion of the tool down and up at picks and places; by default it does not move.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<StrokeTable>"))]
         pub stroke: Option<StrokeTable>,
         /// Overlap of strokes and turns of the wrist with motions of the arm.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<ArchValue>"))]
         pub(crate) arch: Option<Spanned<ArchValue>>,
         /// How objects are held unless they say otherwise; by default "rigid".
         #[cfg_attr(feature = "schema", schemars(with = "Option<HeldAs>"))]

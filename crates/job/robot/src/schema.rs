@@ -1,10 +1,12 @@
 //! JSON schemas of files in TOML, derived from the types that read them, and their files in `docs`. Only tests need them.
 
+use super::spanned::Spanned;
 pub use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use schemars::{Schema, SchemaGenerator};
 use serde_json::Value;
+use std::borrow::Cow;
 pub use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -57,6 +59,25 @@ impl Transform for TomlSchema {
                 object.extend(only);
             }
         }
+    }
+}
+
+/// Has the schema of its value.
+impl<T: JsonSchema> JsonSchema for Spanned<T> {
+    fn inline_schema() -> bool {
+        T::inline_schema()
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        T::schema_name()
+    }
+
+    fn schema_id() -> Cow<'static, str> {
+        T::schema_id()
+    }
+
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        T::json_schema(generator)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Text files, and positions in them.
 
 use super::error::{Diagnostic, InputError};
-use cplan_xacro::Expansion;
 use serde::{Deserialize, Serialize};
+use std::fmt::Debug;
 use std::fs::File;
 use std::io::{self, Read};
 use std::ops::Range;
@@ -27,13 +27,21 @@ pub struct Source {
     text: String,
     /// True if the file exists. Then the text can refer to other files relative to it.
     is_file: bool,
-    /// The xacro files from which the text was expanded. Positions in the text are reported as positions in these
-    /// files.
+    /// The files from which the text was made. Positions in the text are reported as positions in these files.
     #[serde(skip)]
-    expansion: Option<Arc<Expansion>>,
+    origins: Option<Arc<dyn Origins>>,
     /// Position of every [`LINE_INDEX_INTERVAL`]th byte, computed on first use.
     #[serde(skip)]
     milestones: OnceLock<Vec<Position>>,
+}
+
+/// The files from which a text was made, and the place from which each of its parts comes.
+pub trait Origins: Debug + Send + Sync {
+    /// Returns the paths of all files.
+    fn files(&self) -> Vec<PathBuf>;
+
+    /// Returns the file and the range in it from which the text at a byte offset comes.
+    fn place(&self, offset: usize) -> Option<(Source, Range<usize>)>;
 }
 
 /// Compares sources without the cached positions.
@@ -138,7 +146,7 @@ impl Source {
     /// Creates a source from a text in memory. Messages show `name`, and a world without a name of its own has this
     /// name. The text cannot refer to other files such as meshes and maps.
     pub fn in_memory(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
-        Self { path: name.into(), text: text.into(), is_file: false, expansion: None, milestones: OnceLock::new() }
+        Self { path: name.into(), text: text.into(), is_file: false, origins: None, milestones: OnceLock::new() }
     }
 
     /// Returns the path of the file, or the name of a text in memory.
@@ -146,13 +154,11 @@ impl Source {
         &self.path
     }
 
-    /// Returns the paths of the files from which the text was read: its own, and those of an expansion. Empty for a
-    /// text in memory.
+    /// Returns the paths of the files from which the text was read: its own, and those of a conversion. Empty for a text
+    /// in memory.
     pub fn files(&self) -> Vec<PathBuf> {
-        let own = self.is_file.then(|| self.path.clone());
-        let included = self.expansion.iter().flat_map(|e| e.files.iter().map(|file| &file.path).chain(&e.yaml));
-        let mut files: Vec<PathBuf> = own.into_iter().collect();
-        files.extend(included.filter(|path| **path != self.path).cloned());
+        let mut files: Vec<PathBuf> = self.is_file.then(|| self.path.clone()).into_iter().collect();
+        files.extend(self.origins.iter().flat_map(|origins| origins.files()).filter(|path| *path != self.path));
         files
     }
 
@@ -168,23 +174,21 @@ impl Source {
         Self { is_file: self.is_file, ..Self::in_memory(self.path.clone(), text) }
     }
 
-    /// Returns the source with the URDF to which its xacro expands.
-    pub(crate) fn expanded(&self, expansion: Expansion) -> Self {
-        Self { expansion: Some(Arc::new(expansion.clone())), ..self.with_text(expansion.text) }
+    /// Returns the source with a text that was made from it and from other files.
+    #[must_use]
+    pub fn converted(&self, text: impl Into<String>, origins: Arc<dyn Origins>) -> Self {
+        Self { origins: Some(origins), ..self.with_text(text) }
     }
 
-    /// Returns true if the text is expanded xacro.
-    pub fn is_expanded(&self) -> bool {
-        self.expansion.is_some()
+    /// Returns true if the text was made from others.
+    pub fn is_converted(&self) -> bool {
+        self.origins.is_some()
     }
 
-    /// Returns the xacro file from which a byte of the text comes, and the range of bytes in that file. `None` if the
-    /// text is not expanded xacro.
+    /// Returns the file from which a byte of the text comes, and the range of bytes in that file. `None` if the text is
+    /// the file's own.
     fn origin(&self, offset: usize) -> Option<(Self, Range<usize>)> {
-        let expansion = self.expansion.as_ref()?;
-        let place = expansion.place(offset)?;
-        let file = &expansion.files[place.file];
-        Some((Self::in_memory(file.path.clone(), &*file.text), place.range.clone()))
+        self.origins.as_ref()?.place(offset)
     }
 
     /// Reads a file as UTF-8, without a byte order mark.
@@ -237,7 +241,7 @@ impl Source {
         self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned())
     }
 
-    /// Returns line and column of a byte offset. For expanded xacro, they are those in the original file. `O(1)` after
+    /// Returns line and column of a byte offset. For a converted text, they are those in the original file. `O(1)` after
     /// the first call, which stores positions throughout the text.
     pub fn position(&self, offset: usize) -> Position {
         if let Some((file, range)) = self.origin(offset) {

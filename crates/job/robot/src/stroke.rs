@@ -4,8 +4,8 @@ use super::quantity::Number;
 #[cfg(feature = "schema")]
 use super::schema::*;
 use super::toml_values::{FromToml, TomlError, TomlValue};
+use crate::Spanned;
 use crate::toml_table;
-use toml::Spanned;
 use toml::de::DeValue;
 
 toml_table! {
@@ -15,10 +15,8 @@ toml_table! {
     pub struct StrokeTable {
         /// The joint that lowers the tool: it slides along the plane's normal, beyond the two that move. While the arm moves it stays at
         /// its `fixed` value, except in the overlaps that `arch` allows.
-        #[cfg_attr(feature = "schema", schemars(with = "String"))]
         pub joint: Spanned<String>,
         /// Distance by which it lowers the tool, m; by default the object's lift.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         pub travel: Option<Number>,
         /// Top speed, m/s; by default the joint's.
         #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
@@ -59,10 +57,8 @@ toml_table! {
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "arch"))]
     pub struct ArchTable {
         /// Height that the tool rises before the arm moves, m; by default 0.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         pub rise: Option<Number>,
         /// Height above the lowest position below which the tool moves only while the arm is at rest, m; by default 0.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<f64>"))]
         pub fall: Option<Number>,
     }
 }

@@ -3,6 +3,7 @@
 
 use super::error::Diagnostic;
 use super::source::Source;
+use super::spanned::Spanned;
 use serde::de::value::Error as Message;
 use serde::de::{Error as _, IntoDeserializer, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -10,11 +11,10 @@ use std::collections::BTreeMap;
 use std::convert::Infallible;
 use std::fmt;
 use std::ops::Range;
-use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
 /// A value in a TOML file, with its position.
-pub type TomlValue<'a> = Spanned<DeValue<'a>>;
+pub type TomlValue<'a> = toml::Spanned<DeValue<'a>>;
 
 /// A type of values in TOML files.
 pub trait FromToml: Sized {
@@ -76,7 +76,7 @@ impl Source {
     pub fn toml<T: FromToml>(&self, hint: &dyn Fn(&str, usize) -> &'static str) -> Result<T, Diagnostic> {
         let tree = DeTable::parse(self.text())
             .map_err(|error| TomlError { message: error.message().to_owned(), at: error.span().unwrap_or_default() });
-        let read = tree.and_then(|tree| T::read(&Spanned::new(tree.span(), DeValue::Table(tree.into_inner()))));
+        let read = tree.and_then(|tree| T::read(&toml::Spanned::new(tree.span(), DeValue::Table(tree.into_inner()))));
         read.map_err(|TomlError { message, at }| {
             let hint = hint(&message, at.start);
             self.diagnostic_at(at, in_toml_words(&message)).help(hint)
@@ -136,12 +136,6 @@ macro_rules! scalars {
 }
 
 scalars! { f64: None, i64: None, u64: None, String: None, bool: Some(false), }
-
-impl<T: FromToml> FromToml for Spanned<T> {
-    fn read(value: &TomlValue) -> Result<Self, TomlError> {
-        Ok(Spanned::new(value.span(), T::read(value)?))
-    }
-}
 
 impl<T: FromToml> FromToml for Option<T> {
     fn read(value: &TomlValue) -> Result<Self, TomlError> {

@@ -6,10 +6,10 @@ use super::quantity::{Number, PerJoint, find};
 #[cfg(feature = "schema")]
 use super::schema::*;
 use super::source::Source;
+use crate::Spanned;
 use crate::toml_table;
 use cplan_handling::Wrist;
 use cplan_model::assumed_acceleration;
-use toml::Spanned;
 
 toml_table! {
     /// The wrist's limits. It keeps the orientation of objects that are carried level, and turns them before a place with
@@ -20,7 +20,6 @@ toml_table! {
     pub struct WristTable {
         /// The joint that it is, so that ROS 2 files have its values; without it they hold it still. Lines along which the tool
         /// has an angle need it.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<String>"))]
         pub joint: Option<Spanned<String>>,
         /// Top speed, rad/s.
         #[cfg_attr(feature = "schema", schemars(with = "Positive"))]

@@ -34,7 +34,7 @@ impl Digests {
         }
         others.sort();
         let expanded = robot.read()?;
-        let urdf = match expanded.is_expanded() {
+        let urdf = match expanded.is_converted() {
             true => digest_of(expanded.text().as_bytes()),
             false => digest(&robot.path)?,
         };

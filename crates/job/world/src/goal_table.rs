@@ -2,8 +2,7 @@
 
 #[cfg(test)]
 use super::schema::*;
-use cplan_robot::{Number, Numbers, Written, toml_table};
-use toml::Spanned;
+use cplan_robot::{Number, Numbers, Spanned, Written, toml_table};
 
 toml_table! {
     /// Where the arm is to go: joint values, a place for the tip in whatever IK solution is best, or areas for the tip.
@@ -20,10 +19,8 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<Vec<[NumberPair; 2]>>"))]
         pub areas: Option<Spanned<Vec<Spanned<Vec<Numbers>>>>>,
         /// Value of the joint that lowers the tool, m; by default it is raised. Not in steps.
-        #[cfg_attr(test, schemars(with = "Option<f64>"))]
         pub stroke: Option<Number>,
         /// Value of the wrist's joint, rad; by default that at the start. Not in steps.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         pub wrist: Option<Written>,
     }
 }

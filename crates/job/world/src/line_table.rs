@@ -5,11 +5,12 @@ use super::reader::Reader;
 #[cfg(test)]
 use super::schema::*;
 use cplan_handling::{DEFAULT_TOLERANCE, FollowedLine, MIN_TOLERANCE};
-use cplan_robot::{Diagnostic, InputError, Number, Numbers, Position, Source, Written, read_bytes, toml_table};
+use cplan_robot::{
+    Diagnostic, InputError, Number, Numbers, Position, Source, Spanned, Written, read_bytes, toml_table,
+};
 use cplan_toolpath::{Curve, Error, Format, Leg, Piece, Placement, Toolpath, Unit, arc_through, polyline, spline};
 use std::ops::Range;
 use std::sync::Arc;
-use toml::Spanned;
 
 toml_table! {
     /// A line for the tip: exactly one of file, points, arc and spline. It is scaled, then turned, then moved.
@@ -19,7 +20,6 @@ toml_table! {
     )))]
     pub(super) struct LineTable {
         /// G-code (.gcode, .nc, .ngc, .tap) or a drawing (.svg), named relative to this file.
-        #[cfg_attr(test, schemars(with = "Option<String>"))]
         file: Option<Spanned<String>>,
         /// Points that straight lines join, m.
         #[cfg_attr(test, schemars(with = "Option<Vec<NumberPair>>", length(min = 2)))]
@@ -40,23 +40,19 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]
         tolerance: Option<Number>,
         /// Unit of the file's numbers, such as "mm"; by default the unit that the file states.
-        #[cfg_attr(test, schemars(with = "Option<String>"))]
         unit: Option<Spanned<String>>,
         /// Factor by which the line is scaled about its origin; by default 1.
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]
         scale: Option<Number>,
         /// Angle by which the line is turned about its origin, rad; by default 0.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         turn: Option<Written>,
         /// Position of the line's origin, m; by default [0, 0].
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         r#move: Option<Numbers>,
         /// Angle of the tool along the line.
-        #[cfg_attr(test, schemars(with = "Option<WristValue>"))]
         wrist: Option<Spanned<WristValue>>,
         /// Greatest difference from that angle, rad; by default 0.01. The arm rests at corners where the line turns by more,
         /// while the tool turns.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         wrist_tolerance: Option<Written>,
     }
 }

@@ -4,8 +4,7 @@ use super::reader::Reader;
 #[cfg(test)]
 use super::schema::*;
 use cplan_handling::{DEFAULT_WRIST_TOLERANCE, MAX_WRIST_TOLERANCE, MIN_WRIST_TOLERANCE, ToolAngle, WristGuide};
-use cplan_robot::{Diagnostic, FromToml, Quantity, TomlError, TomlValue, Written, number, toml_table};
-use toml::Spanned;
+use cplan_robot::{Diagnostic, FromToml, Quantity, Spanned, TomlError, TomlValue, Written, number, toml_table};
 use toml::de::DeValue;
 
 /// Angle of the tool, which the wrist keeps along the line: rad from the x axis; "tangent" for the direction of the line; or
@@ -31,7 +30,6 @@ toml_table! {
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "tangent"))]
     pub(super) struct TangentTable {
         /// Angle from the direction of the line to the tool, rad, counter-clockwise.
-        #[cfg_attr(test, schemars(with = "AngleOrLength"))]
         tangent: Written,
     }
 }

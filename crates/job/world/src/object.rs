@@ -10,11 +10,10 @@ use super::schema::*;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{Holding, MovingObstacle, Object, ObstacleTrajectory};
 use cplan_model::{Obstacle, RESTING_TOLERANCE};
-use cplan_robot::{Diagnostic, Number, Numbers, Written, quoted, toml_table};
+use cplan_robot::{Diagnostic, Number, Numbers, Spanned, Written, quoted, toml_table};
 use cplan_text::{length, short};
 use std::collections::BTreeMap;
 use std::ops::Range;
-use toml::Spanned;
 
 toml_table! {
     /// Something that can be picked and placed; an obstacle wherever it lies.
@@ -25,7 +24,6 @@ toml_table! {
     pub(super) struct ObjectTable {
         /// Unique name among objects and obstacles. For objects on a pallet it is the part before row and column: "NAME
         /// 2,3".
-        #[cfg_attr(test, schemars(with = "String"))]
         name: Spanned<String>,
         /// Corners in its own frame, in order round the shape, m; may be non-convex and touch itself in points, but not cross
         /// itself. Or a list of such rings: the outer one, then holes.
@@ -37,10 +35,8 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         at: Option<Numbers>,
         /// Instead of `at`: a pallet that has one such object on each place initially.
-        #[cfg_attr(test, schemars(with = "Option<String>"))]
         pallet: Option<Spanned<String>>,
         /// Initial angle, rad, relative to the pallet if there is one; by default 0.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         angle: Option<Written>,
         /// Its extent along the plane's normal at its resting place, m; by default all heights.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
@@ -58,14 +54,12 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         grasp: Option<Numbers>,
         /// Obstacles and objects that it may touch where it is picked and placed.
-        #[cfg_attr(test, schemars(with = "Option<Vec<String>>"))]
         supports: Option<NameList>,
         /// True if each repetition of the steps that pick it finds a new one at its initial place. The old one disappears
         /// when the arm moves on.
         #[cfg_attr(test, schemars(default))]
         renew: bool,
         /// Its motion from `at`, until it is picked; by default it is static.
-        #[cfg_attr(test, schemars(with = "Option<ObstacleTrajectoryTable>"))]
         motion: Option<Spanned<ObstacleTrajectoryTable>>,
     }
 }

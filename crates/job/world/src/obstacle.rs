@@ -9,8 +9,7 @@ use super::schema::*;
 use cplan_geometry::{Convex, Pose};
 use cplan_handling::MovingObstacle;
 use cplan_model::{Obstacle, Shape};
-use cplan_robot::{Diagnostic, InputError, Number, Numbers, Written, toml_table};
-use toml::Spanned;
+use cplan_robot::{Diagnostic, InputError, Number, Numbers, Spanned, Written, toml_table};
 
 toml_table! {
     /// An obstacle, which the arm must not touch: exactly one of polygon, circle, polyline and image.
@@ -36,7 +35,6 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<Vec<NumberPair>>", length(min = 2)))]
         polyline: Option<Ring>,
         /// An occupancy map: the YAML of ROS's map server, which names a PGM or PNG. Relative to this file.
-        #[cfg_attr(test, schemars(with = "Option<String>"))]
         image: Option<Spanned<String>>,
         /// Kind of the unknown cells of an image; by default "solid".
         #[cfg_attr(test, schemars(with = "Option<UnknownAs>"))]
@@ -45,10 +43,8 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         at: Option<Numbers>,
         /// Angle of its frame, rad; by default 0.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         angle: Option<Written>,
         /// Motion of its frame in time; by default it is static.
-        #[cfg_attr(test, schemars(with = "Option<ObstacleTrajectoryTable>"))]
         motion: Option<Spanned<ObstacleTrajectoryTable>>,
         /// Its extent along the plane's normal, m. Only parts of the arm at these heights can touch it; by default all
         /// heights.

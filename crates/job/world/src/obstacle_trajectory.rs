@@ -5,8 +5,7 @@ use super::reader::Reader;
 use super::schema::*;
 use cplan_geometry::{Pose, Vector};
 use cplan_handling::{ObstacleTrajectory, ObstacleTrajectoryError, Stop};
-use cplan_robot::{Diagnostic, Number, Numbers, Written, toml_table};
-use toml::Spanned;
+use cplan_robot::{Diagnostic, Number, Numbers, Spanned, Written, toml_table};
 
 toml_table! {
     /// The motion of an obstacle: straight and at constant speed from stop to stop, then at a constant velocity. At least
@@ -15,7 +14,7 @@ toml_table! {
     pub(super) struct ObstacleTrajectoryTable {
         /// Positions at increasing times. Before the first the obstacle waits there. By default there is a single stop at
         /// time 0.
-        #[cfg_attr(test, schemars(with = "Option<Vec<StopTable>>", length(min = 1)))]
+        #[cfg_attr(test, schemars(length(min = 1)))]
         stops: Option<Spanned<Vec<Spanned<StopTable>>>>,
         /// Velocity after the last stop, m/s, as on a conveyor. By default the obstacle stays there.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
@@ -33,7 +32,6 @@ toml_table! {
         at: Option<Numbers>,
         /// Angle of its frame at that time, rad; by default the obstacle's `angle`. It turns by the difference, including
         /// whole turns.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         angle: Option<Written>,
     }
 }

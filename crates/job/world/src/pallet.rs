@@ -4,9 +4,8 @@ use super::reader::Reader;
 #[cfg(test)]
 use super::schema::*;
 use cplan_geometry::{Point, Pose};
-use cplan_robot::{Diagnostic, Number, Numbers, Written, quoted, toml_table};
+use cplan_robot::{Diagnostic, Number, Numbers, Spanned, Written, quoted, toml_table};
 use std::collections::BTreeMap;
-use toml::Spanned;
 
 toml_table! {
     /// Places in rows and columns, for objects to lie on and to be placed on: "NAME 1,1", "NAME 1,2", and so on, row and column
@@ -14,13 +13,12 @@ toml_table! {
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "pallet"))]
     pub(super) struct PalletTable {
         /// A name that no other pallet has.
-        #[cfg_attr(test, schemars(with = "String"))]
         name: Spanned<String>,
         /// Number of rows.
-        #[cfg_attr(test, schemars(with = "i64", range(min = 1)))]
+        #[cfg_attr(test, schemars(range(min = 1)))]
         rows: Spanned<i64>,
         /// Number of places per row.
-        #[cfg_attr(test, schemars(with = "i64", range(min = 1)))]
+        #[cfg_attr(test, schemars(range(min = 1)))]
         columns: Spanned<i64>,
         /// Distances between columns, along the pallet's x, and between rows, along its y, m; may be negative.
         #[cfg_attr(test, schemars(with = "NumberPair"))]
@@ -29,11 +27,9 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "NumberPair"))]
         at: Numbers,
         /// Angle of the pallet about that place, rad; by default 0. Objects on it turn with it.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         angle: Option<Written>,
         /// Height of its places along the plane's normal, m: the bottom of an object that is placed there; by default that of
         /// the place where it was picked.
-        #[cfg_attr(test, schemars(with = "Option<f64>"))]
         height: Option<Number>,
     }
 }

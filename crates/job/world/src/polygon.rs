@@ -3,8 +3,7 @@
 use super::reader::Reader;
 use cplan_geometry::{Convex, Point, Polygon, Pose, RingError, SimplePolygon};
 use cplan_model::Shape;
-use cplan_robot::{Diagnostic, FromToml, Number, TomlError, TomlValue, number};
-use toml::Spanned;
+use cplan_robot::{Diagnostic, FromToml, Number, Spanned, TomlError, TomlValue, number};
 
 /// A number, or a list of coordinates. So it can be a point, a ring, or GeoJSON's list of rings.
 pub(super) enum Coordinates {

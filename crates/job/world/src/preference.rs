@@ -6,8 +6,7 @@ use super::reader::Reader;
 use super::schema::*;
 use cplan_geometry::SimplePolygon;
 use cplan_model::{Preference, Region};
-use cplan_robot::{Diagnostic, Number, Numbers, toml_table};
-use toml::Spanned;
+use cplan_robot::{Diagnostic, Number, Numbers, Spanned, toml_table};
 
 toml_table! {
     /// A region that field planners prefer or avoid: where the tip is, or a region in joint space. Where several overlap the last one counts.
@@ -16,7 +15,6 @@ toml_table! {
         /// Name in messages and pictures.
         name: Option<String>,
         /// Strength per grid cell; fields bvp and bvp2 avoid a region above 0 and seek one below.
-        #[cfg_attr(test, schemars(with = "f64"))]
         epsilon: Number,
         /// Direction in joint space, of any length, for the field local.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]

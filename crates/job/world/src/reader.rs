@@ -6,11 +6,10 @@ use super::notes::Corrections;
 use cplan_geometry::{Point, Pose, Vector};
 use cplan_model::space::Configuration;
 use cplan_model::{Goal, Heights};
-use cplan_robot::{Diagnostic, Number, Numbers, Source, Written};
+use cplan_robot::{Diagnostic, Number, Numbers, Source, Spanned, Written};
 use std::cell::RefCell;
 use std::ops::Range;
 use std::path::PathBuf;
-use toml::Spanned;
 
 /// A reader that checks values of a world file. It knows the file, which its messages quote.
 pub(super) struct Reader<'a> {

@@ -4,9 +4,8 @@ use super::reader::Reader;
 #[cfg(test)]
 use super::schema::*;
 use crate::{Mount, Sensor};
-use cplan_robot::{Diagnostic, Number, Written, toml_table};
+use cplan_robot::{Diagnostic, Number, Spanned, Written, toml_table};
 use std::f64::consts::TAU;
-use toml::Spanned;
 
 /// Largest number of rays. No sensor has more.
 const MAX_RAYS: u64 = 100_000;
@@ -25,10 +24,9 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<SensorOn>"))]
         on: Option<Spanned<String>>,
         /// Number of rays; by default 360.
-        #[cfg_attr(test, schemars(with = "Option<u64>", range(min = 1, max = 100_000)))]
+        #[cfg_attr(test, schemars(range(min = 1, max = 100_000)))]
         rays: Option<Spanned<u64>>,
         /// Angle over which they are spread, rad, at most a whole turn, which is the default.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         field_of_view: Option<Written>,
         /// Range, m; by default half the arm's reach.
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]

@@ -12,10 +12,9 @@ use super::table::Table;
 use cplan_geometry::Pose;
 use cplan_handling::{MAX_STOP_TIME, Object, ToolValues};
 use cplan_model::Goal;
-use cplan_robot::{Cursor, Diagnostic, Number, Numbers, Written, toml_table};
+use cplan_robot::{Cursor, Diagnostic, Number, Numbers, Spanned, Written, toml_table};
 use std::collections::BTreeSet;
 use std::ops::Range;
-use toml::Spanned;
 
 toml_table! {
     /// A step or several: exactly one of pick, place, move, follow, transfer and steps.
@@ -30,28 +29,22 @@ toml_table! {
     )))]
     pub(super) struct StepTable {
         /// Name of the object to pick.
-        #[cfg_attr(test, schemars(with = "Option<String>"))]
         pick: Option<Spanned<String>>,
         /// Where to place the carried object.
-        #[cfg_attr(test, schemars(with = "Option<PlaceTable>"))]
         place: Option<Table<PlaceTable>>,
         /// Where to move, with or without an object.
-        #[cfg_attr(test, schemars(with = "Option<GoalTable>"))]
         r#move: Option<Spanned<Table<GoalTable>>>,
         /// A line for the tip, with or without an object. These are two steps: a move to where the line begins, and the line.
-        #[cfg_attr(test, schemars(with = "Option<LineTable>"))]
         follow: Option<Spanned<Table<LineTable>>>,
         /// Picks and places, one after the other: all objects on a pallet, to the places of another.
-        #[cfg_attr(test, schemars(with = "Option<TransferTable>"))]
         transfer: Option<Table<TransferTable>>,
         /// A group; its speed and dwell are the defaults of its steps.
-        #[cfg_attr(test, schemars(with = "Option<Vec<StepTable>>", length(min = 1)))]
+        #[cfg_attr(test, schemars(length(min = 1)))]
         steps: Option<Vec<Spanned<StepTable>>>,
         /// For a pick: the point of the object to which the tip moves, in the object's frame, m; by default the `grasp` of the object.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         grasp: Option<Numbers>,
         /// For a pick: obstacles and objects that the object may touch; by default the `supports` of the object.
-        #[cfg_attr(test, schemars(with = "Option<Vec<String>>"))]
         supports: Option<NameList>,
         /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest one possible.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
@@ -60,7 +53,7 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         window: Option<Numbers>,
         /// For a group: number of repetitions of its steps.
-        #[cfg_attr(test, schemars(with = "Option<i64>", range(min = 1)))]
+        #[cfg_attr(test, schemars(range(min = 1)))]
         repeat: Option<Spanned<i64>>,
         /// For a group: "free" to do pairs of a pick and a place in the fastest order; by default "fixed".
         #[cfg_attr(test, schemars(with = "Option<DoneIn>"))]
@@ -97,17 +90,13 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         at: Option<Numbers>,
         /// The place of a pallet that its origin goes to: "NAME 2,3".
-        #[cfg_attr(test, schemars(with = "Option<String>"))]
         on: Option<Spanned<String>>,
         /// Angle of a level payload there, rad; by default unchanged.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         angle: Option<Written>,
         /// Obstacles and objects that it may touch there; by default those of the object.
-        #[cfg_attr(test, schemars(with = "Option<Vec<String>>"))]
         supports: Option<NameList>,
         /// Height of its bottom there along the plane's normal, m; by default that of the pallet, or of the place where it was
         /// picked.
-        #[cfg_attr(test, schemars(with = "Option<f64>"))]
         height: Option<Number>,
     }
 
@@ -115,16 +104,12 @@ toml_table! {
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "transfer"))]
     struct TransferTable {
         /// Name of the objects, without row and column.
-        #[cfg_attr(test, schemars(with = "String"))]
         objects: Spanned<String>,
         /// Name of the pallet that they go to, which has as many places.
-        #[cfg_attr(test, schemars(with = "String"))]
         to: Spanned<String>,
         /// Angle of level payloads there, rad; by default unchanged.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         angle: Option<Written>,
         /// Obstacles and objects that they may touch there; by default those of the objects.
-        #[cfg_attr(test, schemars(with = "Option<Vec<String>>"))]
         supports: Option<NameList>,
     }
 
@@ -132,7 +117,7 @@ toml_table! {
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "task"))]
     pub(super) struct TaskTable {
         /// Number of repetitions of the steps; by default one.
-        #[cfg_attr(test, schemars(with = "Option<i64>", range(min = 1)))]
+        #[cfg_attr(test, schemars(range(min = 1)))]
         repeat: Option<Spanned<i64>>,
         /// "free" for pairs of a pick and a place in the order that is fastest; by default "fixed".
         #[cfg_attr(test, schemars(with = "Option<DoneIn>"))]

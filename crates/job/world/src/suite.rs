@@ -1,9 +1,8 @@
 //! Many problems: those that a manifest lists, or one robot in all worlds of a folder.
 
 use super::{LoadedProblem, LoadedScene, Overrides, RobotFile, load_scene};
-use cplan_robot::{Diagnostic, InputError, Source, toml_table};
+use cplan_robot::{Diagnostic, InputError, Source, Spanned, toml_table};
 use std::path::{Path, PathBuf};
-use toml::Spanned;
 
 /// Name of the manifest in a folder.
 pub const MANIFEST_NAME: &str = "suite.toml";
@@ -82,10 +81,12 @@ struct Pair {
 /// name = "tray"                # optional; the world's file name without it
 /// ```
 ///
+/// `robot_file` adds the conversion of the robots' files.
+///
 /// # Errors
 /// [`InputError`] for a manifest that cannot be read, and with every diagnostic of all its files if no problem can be
 /// read. If some can, the others are in [`Suite::refused`].
-pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
+pub fn load_suite(place: &Path, robot_file: &dyn Fn(PathBuf) -> RobotFile) -> Result<Suite, InputError> {
     let manifest = if place.is_dir() { place.join(MANIFEST_NAME) } else { place.to_owned() };
     if place.is_dir() && !manifest.is_file() {
         let message = format!("this folder has no {MANIFEST_NAME}, which assigns robots to worlds");
@@ -112,7 +113,7 @@ pub fn load_suite(place: &Path) -> Result<Suite, InputError> {
         let paths = [(&problem.robot, "robot"), (&problem.world, "world")].map(|(name, what)| beside(name, what));
         match paths {
             [Ok(robot), Ok(world)] => {
-                pairs.push(Pair { name: problem.name.map(Spanned::into_inner), robot: robot.into(), world });
+                pairs.push(Pair { name: problem.name.map(Spanned::into_inner), robot: robot_file(robot), world });
             }
             paths => {
                 let name = problem.name.map_or_else(|| stem(Path::new(problem.world.get_ref())), Spanned::into_inner);

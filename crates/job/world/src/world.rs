@@ -19,10 +19,11 @@ use super::world_map::{self, MapTable};
 use cplan_geometry::Pose;
 use cplan_handling::{Holding, Object, TimedWorkspace, Wrist};
 use cplan_model::{Goal, Obstacle, Workspace};
-use cplan_robot::{Diagnostic, InputError, Number, Numbers, RobotSettings, RobotTable, Source, Written, toml_table};
+use cplan_robot::{
+    Diagnostic, InputError, Number, Numbers, RobotSettings, RobotTable, Source, Spanned, Written, toml_table,
+};
 use std::ops::Range;
 use std::path::PathBuf;
-use toml::Spanned;
 
 /// A world file that has been read. Its workspace is valid, but names of joints and links are not checked yet.
 #[derive(Debug, Clone)]
@@ -116,9 +117,7 @@ toml_table! {
         clearance: Option<Number>,
         #[cfg_attr(test, schemars(default, with = "RobotTable"))]
         robot: Option<RobotTable>,
-        #[cfg_attr(test, schemars(with = "Option<StartTable>"))]
         start: Option<Spanned<Table<StartTable>>>,
-        #[cfg_attr(test, schemars(with = "Option<GoalTable>"))]
         goal: Option<Spanned<Table<GoalTable>>>,
         map: Option<MapTable>,
         sensor: Option<SensorTable>,
@@ -137,7 +136,6 @@ toml_table! {
         /// The steps of the task, in order, instead of a goal.
         #[cfg_attr(test, schemars(default, with = "Vec<StepTable>"))]
         step: Vec<Spanned<StepTable>>,
-        #[cfg_attr(test, schemars(with = "Option<TaskTable>"))]
         task: Option<Spanned<TaskTable>>,
     }
 
@@ -151,10 +149,8 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         tip: Option<Numbers>,
         /// Value of the joint that lowers the tool, m; by default it is raised.
-        #[cfg_attr(test, schemars(with = "Option<f64>"))]
         stroke: Option<Number>,
         /// Value of the wrist's joint, rad; by default its `fixed` value.
-        #[cfg_attr(test, schemars(with = "Option<AngleOrLength>"))]
         wrist: Option<Written>,
     }
 }

@@ -8,20 +8,17 @@ use super::reader::Reader;
 use super::schema::*;
 use cplan_geometry::{Convex, Point, SimplePolygon, Vector};
 use cplan_model::{Goal, Obstacle, Preference, Region, Shape};
-use cplan_robot::{InputError, MAX_LENGTH, Number, Numbers, toml_table};
+use cplan_robot::{InputError, MAX_LENGTH, Number, Numbers, Spanned, toml_table};
 use std::ops::Range;
 use std::path::Path;
-use toml::Spanned;
 
 toml_table! {
     /// Walls from a line map as MobileSim draws them. Files are named relative to this one.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "map"))]
     pub(super) struct MapTable {
         /// The line map.
-        #[cfg_attr(test, schemars(with = "String"))]
         file: Spanned<String>,
         /// A preference file: its alternative goals, unless the world has a goal, and rectangles for field planners.
-        #[cfg_attr(test, schemars(with = "Option<String>"))]
         preferences: Option<Spanned<String>>,
         /// Metres a unit, of both files; by default 0.001.
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]

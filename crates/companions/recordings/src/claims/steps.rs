@@ -3,7 +3,7 @@
 use super::{FalseClaim, Ledger, TIME_TOLERANCE};
 use crate::replay::{GripperEvent, PLACE_TOLERANCE, ReplayedStep, angle_between};
 use cplan_geometry::Point;
-use cplan_handling::{Action, Claims, EventClaim, RecordedStep, Recording, Task, TimedScene};
+use cplan_handling::{Action, Claims, EventClaim, PoseClaim, RecordedStep, Recording, Task, TimedScene};
 use cplan_model::space::Configuration;
 use cplan_motion::recorded::turn_resolution;
 
@@ -132,7 +132,7 @@ impl Ledger {
             self.number("time", Some(event.time), is.time, TIME_TOLERANCE);
             self.place("tip", event.tip, is.tip);
             match (event.pose, is.pose) {
-                (Some((at, angle)), Some(pose)) => {
+                (Some(PoseClaim { at, angle }), Some(pose)) => {
                     self.place("pose.at", at, pose.translation);
                     let is = pose.rotation.angle();
                     if angle_between(angle, is) > PLACE_TOLERANCE {

@@ -3,7 +3,6 @@
 use super::document::tag;
 use crate::error::Diagnostic;
 use crate::source::{Position, Source};
-use cplan_xacro::is_xacro;
 use roxmltree::{Document, Error, Node};
 
 /// Namespace of xacro.
@@ -70,18 +69,21 @@ pub(super) fn recognize(source: &Source, root: Node) -> Result<(), Diagnostic> {
             return Err(at(root, &message).help("give the URDF first and the world file second"));
         }
     }
-    match xacro_trace(root.document()).filter(|_| !source.is_expanded() && is_xacro(source.text())) {
+    match xacro_trace(root.document()).filter(|_| !source.is_converted()) {
         Some(node) => Err(xacro(at(node, "this text is xacro, not a plain URDF"))),
         None => Ok(()),
     }
 }
 
-/// Returns the first element that only xacro understands. `None` if there is none.
+/// Returns the first element that only xacro understands. `None` if there is none. A file that just declares the
+/// namespace of xacro is a plain URDF.
 fn xacro_trace<'a, 'i>(document: &'a Document<'i>) -> Option<Node<'a, 'i>> {
     document.descendants().filter(Node::is_element).find(|node| {
-        let foreign =
-            |namespace: Option<&str>| namespace.is_some_and(|n| n.contains(XACRO_NAMESPACE) || n.ends_with("/xacro"));
-        foreign(node.tag_name().namespace())
-            || node.attributes().any(|a| foreign(a.namespace()) || a.value().contains("${") || a.value().contains("$("))
+        let tag = document.input_text()[node.range()].trim_start_matches('<');
+        let has_prefix = tag.find([':', '>', '/']).is_some_and(|end| tag[end..].starts_with(':'))
+            && !tag[..tag.find(':').unwrap_or(0)].contains(char::is_whitespace);
+        let namespace = node.tag_name().namespace().filter(|_| has_prefix);
+        namespace.is_some_and(|name| name.contains(XACRO_NAMESPACE) || name.ends_with("/xacro"))
+            || node.attributes().any(|a| a.value().contains("${") || a.value().contains("$("))
     })
 }

@@ -23,14 +23,14 @@ struct Document {
     length: Option<f64>,
     #[serde(default, deserialize_with = "nullable")]
     clearance: Option<Option<f64>>,
-    blends: Option<BlendsMember>,
+    blends: Option<BlendsClaim>,
     duration: Option<f64>,
-    optimum: Option<OptimumMember>,
+    optimum: Option<OptimumClaim>,
     lower_bound: Option<f64>,
     gap: Option<f64>,
     trajectory: Option<TrajectoryMember>,
     steps: Option<Vec<StepMember>>,
-    events: Option<Vec<EventMember>>,
+    events: Option<Vec<EventClaim>>,
 }
 
 const JUDGED_MEMBERS: [&str; 10] =
@@ -39,21 +39,6 @@ const JUDGED_MEMBERS: [&str; 10] =
 #[derive(Deserialize)]
 struct TrajectoryMember {
     step: Option<Vec<usize>>,
-}
-
-#[derive(Deserialize)]
-struct BlendsMember {
-    count: usize,
-    largest_radius: f64,
-}
-
-#[derive(Deserialize)]
-struct OptimumMember {
-    metric: String,
-    weights: Option<[f64; 2]>,
-    length: f64,
-    lower_bound: f64,
-    gap: Option<f64>,
 }
 
 #[derive(Deserialize)]
@@ -70,7 +55,7 @@ struct StepMember {
     length: Option<f64>,
     #[serde(default, deserialize_with = "nullable")]
     clearance: Option<Option<f64>>,
-    blends: Option<BlendsMember>,
+    blends: Option<BlendsClaim>,
     turn: Option<TurnMember>,
 }
 
@@ -78,23 +63,6 @@ struct StepMember {
 struct TurnMember {
     #[serde(default, deserialize_with = "nullable")]
     clearance: Option<Option<f64>>,
-}
-
-#[derive(Deserialize)]
-struct EventMember {
-    time: f64,
-    event: String,
-    object: String,
-    step: usize,
-    cycle: usize,
-    tip: [f64; 2],
-    pose: Option<PoseMember>,
-}
-
-#[derive(Deserialize)]
-struct PoseMember {
-    at: [f64; 2],
-    angle: f64,
 }
 
 /// Deserialises a member that may be null. So a member that is null differs from one that is missing.
@@ -173,9 +141,6 @@ impl Document {
         let path = |rows: Option<Vec<Vec<f64>>>| {
             rows.map(|rows| rows.into_iter().map(|q| Configuration::new(q[order[0]], q[order[1]])).collect())
         };
-        let blends = |member: Option<BlendsMember>| {
-            member.map(|BlendsMember { count, largest_radius }| BlendsClaim { count, largest_radius })
-        };
         let step = |member: StepMember| StepClaims {
             action: member.action,
             object: member.object,
@@ -186,12 +151,8 @@ impl Document {
             path: path(member.path),
             length: member.length,
             clearance: member.clearance,
-            blends: blends(member.blends),
+            blends: member.blends,
             turn_clearance: member.turn.and_then(|turn| turn.clearance),
-        };
-        let event = |EventMember { time, event, object, step, cycle, tip, pose }: EventMember| {
-            let pose = pose.map(|PoseMember { at, angle }| (at, angle));
-            EventClaim { time, event, object, step, cycle, tip, pose }
         };
         Claims {
             status: self.status,
@@ -203,18 +164,18 @@ impl Document {
             path: path(self.path),
             length: self.length,
             clearance: self.clearance,
-            blends: blends(self.blends),
+            blends: self.blends,
             duration: self.duration,
-            optimum: self.optimum.map(|OptimumMember { metric, weights, length, lower_bound, gap }| {
-                let weights = weights.map(|weights| order.map(|k| weights[k]));
-                OptimumClaim { metric, weights, length, lower_bound, gap }
+            optimum: self.optimum.map(|optimum| OptimumClaim {
+                weights: optimum.weights.map(|weights| order.map(|k| weights[k])),
+                ..optimum
             }),
             task: TaskClaims {
                 lower_bound: self.lower_bound,
                 gap: self.gap,
                 step_of_sample: self.trajectory.and_then(|trajectory| trajectory.step),
                 steps: self.steps.unwrap_or_default().into_iter().map(step).collect(),
-                events: self.events.map(|events| events.into_iter().map(event).collect()),
+                events: self.events,
             },
             unjudged,
         }

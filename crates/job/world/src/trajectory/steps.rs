@@ -28,7 +28,7 @@ struct StepMember {
     turn: Option<TurnMember>,
     raising: Option<StrokeMember>,
     stroke: Option<StrokeMember>,
-    wrist: Option<WristMember>,
+    wrist: Option<RecordedWrist>,
     wrist_motion: Option<WristMotionMember>,
 }
 
@@ -48,15 +48,7 @@ struct StrokeMember {
     after_departure: f64,
 }
 
-#[derive(Deserialize)]
-struct WristMember {
-    from: f64,
-    to: f64,
-    begin: f64,
-    seconds: f64,
-}
-
-#[derive(Deserialize)]
+#[derive(Deserialize, Clone, Copy)]
 struct TurnMember {
     from: f64,
     to: f64,
@@ -89,39 +81,38 @@ pub(super) fn json(source: &Source, samples: &Samples) -> Result<Option<Vec<Reco
 
 impl StepMember {
     fn read(&self, source: &Source, index: usize, count: usize) -> Result<RecordedStep, Diagnostic> {
-        let refuse =
-            |message: String, help: &str| Err(source.diagnostic(format!("steps[{index}]: {message}")).help(help));
+        let wrong = |message: &str, help: &str| source.diagnostic(format!("steps[{index}]: {message}")).help(help);
         let (Some(first), Some(last)) = (self.first_sample, self.last_sample) else {
-            return refuse(
-                "first_sample or last_sample is missing, so the samples of the step are unknown".into(),
-                "verify the result of a whole task, written by cplan",
-            );
+            let message = "first_sample or last_sample is missing, so the samples of the step are unknown";
+            return Err(wrong(message, "verify the result of a whole task, written by cplan"));
         };
         if first > last || last >= count {
             let help = "the first and the last sample of the motion, counted from 0";
-            return refuse(format!("its samples are {first} to {last}, but the trajectory has {count}"), help);
+            return Err(wrong(&format!("its samples are {first} to {last}, but the trajectory has {count}"), help));
         }
         let overlap = |of: &str, before_arrival: f64, after_departure: f64| {
             let parts = [("before_arrival", before_arrival), ("after_departure", after_departure)];
             match parts.into_iter().find(|(_, value)| !(0.0..=MAX_NUMBER).contains(value)) {
-                Some((what, value)) => Err(source
-                    .diagnostic(format!("steps[{index}]: the {of}'s {what} is {value}"))
-                    .help(format!("a {of} overlaps by seconds from 0"))),
+                Some((what, value)) => {
+                    Err(wrong(&format!("the {of}'s {what} is {value}"), &format!("a {of} overlaps by seconds from 0")))
+                }
                 None => Ok(RecordedOverlap { before_arrival, after_departure }),
             }
         };
-        let turn = match &self.turn {
+        let finite = |of: &str, numbers: &[(&str, f64)], help: &str| match numbers
+            .iter()
+            .find(|(_, value)| value.is_nan() || value.abs() > MAX_NUMBER)
+        {
+            Some((what, value)) => Err(wrong(&format!("the {of}'s {what} is {value}"), help)),
+            None => Ok(()),
+        };
+        let turn = match self.turn {
             None => None,
             Some(TurnMember { from, to, seconds, before_arrival, after_departure }) => {
-                let wrong = [("from", *from), ("to", *to), ("seconds", *seconds)];
-                if let Some((what, value)) =
-                    wrong.into_iter().find(|(_, value)| value.is_nan() || value.abs() > MAX_NUMBER)
-                {
-                    let help = "a turn of the wrist has two angles in radians, and takes seconds";
-                    return refuse(format!("the turn's {what} is {value}"), help);
-                }
-                let overlap = overlap("turn", *before_arrival, *after_departure)?;
-                Some(RecordedTurn { from: *from, to: *to, seconds: *seconds, overlap })
+                let help = "a turn of the wrist has two angles in radians, and takes seconds";
+                finite("turn", &[("from", from), ("to", to), ("seconds", seconds)], help)?;
+                let overlap = overlap("turn", before_arrival, after_departure)?;
+                Some(RecordedTurn { from, to, seconds, overlap })
             }
         };
         let raising = match &self.raising {
@@ -134,20 +125,10 @@ impl StepMember {
                 overlap("stroke", *before_arrival, *after_departure)?
             }
         };
-        let wrist = match &self.wrist {
-            None => None,
-            Some(WristMember { from, to, begin, seconds }) => {
-                let numbers = [("from", *from), ("to", *to), ("begin", *begin), ("seconds", *seconds)];
-                if let Some((what, value)) =
-                    numbers.into_iter().find(|(_, value)| value.is_nan() || value.abs() > MAX_NUMBER)
-                {
-                    let help =
-                        "a turn of the wrist has two values of its joint in radians, and begins and takes seconds";
-                    return refuse(format!("the wrist's {what} is {value}"), help);
-                }
-                Some(RecordedWrist { from: *from, to: *to, begin: *begin, seconds: *seconds })
-            }
-        };
+        if let Some(RecordedWrist { from, to, begin, seconds }) = self.wrist {
+            let help = "a turn of the wrist has two values of its joint in radians, and begins and takes seconds";
+            finite("wrist", &[("from", from), ("to", to), ("begin", begin), ("seconds", seconds)], help)?;
+        }
         let wrist_motion = match &self.wrist_motion {
             None => None,
             Some(WristMotionMember { position, velocity, acceleration }) => {
@@ -156,10 +137,10 @@ impl StepMember {
                 if let Some(column) = columns.into_iter().find(|column| column.len() != last - first + 1) {
                     let message =
                         format!("its wrist_motion has {} values for {} samples", column.len(), last - first + 1);
-                    return refuse(message, help);
+                    return Err(wrong(&message, help));
                 }
                 if let Some(value) = columns.into_iter().flatten().find(|x| x.is_nan() || x.abs() > MAX_RATE) {
-                    return refuse(format!("a value of its wrist_motion is {value}"), help);
+                    return Err(wrong(&format!("a value of its wrist_motion is {value}"), help));
                 }
                 Some((0..position.len()).map(|k| columns.map(|column| column[k])).collect())
             }
@@ -173,7 +154,7 @@ impl StepMember {
             overlap,
             raising,
             lowered,
-            wrist,
+            wrist: self.wrist,
             wrist_motion,
         })
     }

@@ -7,7 +7,7 @@ mod stl;
 use crate::quantity::MAX_LENGTH;
 use crate::source::read_bounded;
 use crate::urdf::document::Document;
-use cplan_xacro::packages;
+use cplan_packages::packages;
 use nalgebra::Point3;
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,7 @@
 //! Packages of ROS: folders with a `package.xml` that gives their name.
 
+#![forbid(unsafe_code)]
+
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
