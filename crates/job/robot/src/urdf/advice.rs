@@ -1,7 +1,5 @@
 //! Warnings about properties that are probably unintended, with hints: wrong units, placeholders, missing axes.
 
-use super::chain::Robot;
-use super::document;
 use super::limits::key;
 use super::reduction::Reduction;
 use crate::quantity::find;
@@ -40,8 +38,8 @@ pub(super) fn warnings(reduction: &Reduction, arm: &Arm) -> Vec<String> {
 
 /// Returns the warning about a joint without an axis.
 pub(super) fn missing_axis(reduction: &Reduction, index: usize) -> Option<String> {
-    let document::Joint { name, axis_at, .. } = &reduction.robot.document.joints[index];
-    axis_at.is_none().then(|| {
+    let name = &reduction.document.robot.joints[index].name;
+    reduction.document.joints[index].axis.is_none().then(|| {
         format!(
             "joint \"{name}\" has no <axis>, which means the x axis of its frame: write <axis xyz=\"0 0 1\"/> if its \
              axis is z"
@@ -51,12 +49,12 @@ pub(super) fn missing_axis(reduction: &Reduction, index: usize) -> Option<String
 
 /// Returns the warning about a top speed that no drive reaches.
 fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
-    let Robot { document, settings, .. } = reduction.robot;
+    let Reduction { document, settings, .. } = reduction;
     let name = &joint.name;
-    let velocity = document.joints[index].limit.velocity?;
-    if find(&settings.table.velocity, name).is_some() {
+    if !document.joints[index].has_velocity || find(&settings.table.velocity, name).is_some() {
         return None;
     }
+    let velocity = document.robot.joints[index].limit.velocity;
     let turns = joint.joint_type.is_revolute();
     let (fastest, unit, example) =
         if turns { (MAX_PLAUSIBLE_TURN_SPEED, "rad", "2.0") } else { (MAX_PLAUSIBLE_SLIDE_SPEED, "m", "0.5") };

@@ -1,10 +1,10 @@
 //! Checks of single URDF elements and attributes, with their positions.
 
-use super::document::{Geometry, JointType, Limit, Mimic, isometry, tag};
+use super::document::{escape_attribute, tag};
 use crate::error::Diagnostic;
 use crate::quantity::MAX_LENGTH;
 use crate::source::Source;
-use nalgebra::{Isometry3, Quaternion, Rotation3, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
 /// Attributes of links, joints and their elements whose values are numbers. Those in [`UNLIMITED_ATTRIBUTES`] are
@@ -47,6 +47,9 @@ const UNLIMITED_ATTRIBUTES: [&str; 9] = [
     "soft_upper_limit",
 ];
 
+/// Joint types of the URDF specification.
+const JOINT_TYPES: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
+
 /// Reads attributes of a link or joint and collects their defects.
 pub(super) struct Attributes<'a> {
     pub source: &'a Source,
@@ -64,8 +67,9 @@ pub(super) fn children<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterat
 
 /// Returns roll, pitch and yaw of a quaternion (x, y, z, w) of any length. `None` if its length is zero. The angles are
 /// extracted one after the other, so that they reproduce the rotation even if the pitch is a right angle and the other
-/// two turn about the same axis.
-fn roll_pitch_yaw([x, y, z, w]: [f64; 4]) -> Option<[f64; 3]> {
+/// two turn about the same axis. (There, `urdf-rs` is off by 5e-3.)
+fn roll_pitch_yaw(quaternion: &[f64]) -> Option<[f64; 3]> {
+    let &[x, y, z, w] = quaternion else { return None };
     let quaternion = Quaternion::new(w, x, y, z);
     let unit = (1e-9..1e9).contains(&quaternion.norm()).then(|| UnitQuaternion::new_normalize(quaternion))?;
     let turn = unit.to_rotation_matrix();
@@ -77,9 +81,9 @@ fn roll_pitch_yaw([x, y, z, w]: [f64; 4]) -> Option<[f64; 3]> {
 }
 
 impl Attributes<'_> {
-    fn diagnostic(&mut self, node: Node, attribute: Option<&str>, message: impl AsRef<str>, help: &str) {
+    fn diagnostic(&mut self, node: Node, attribute: Option<&str>, message: String, help: &str) {
         let place = attribute.and_then(|a| node.attribute_node(a)).map_or_else(|| tag(node), |a| a.range());
-        let diagnostic = self.source.diagnostic_at(place, format!("{}: {}", self.what, message.as_ref()));
+        let diagnostic = self.source.diagnostic_at(place, format!("{}: {message}", self.what));
         self.diagnostics.push(diagnostic.help(help));
     }
 
@@ -126,101 +130,128 @@ impl Attributes<'_> {
         value
     }
 
-    /// Returns the finite numbers of an attribute. `None` if it is absent or invalid. Another check reports numbers that
-    /// are not finite.
-    fn numbers<const N: usize>(&mut self, node: Node, name: &str) -> Option<[f64; N]> {
+    /// Returns the `count` finite numbers of an attribute. `None` if it is absent or invalid. Another check reports
+    /// numbers that are not finite.
+    fn numbers(&mut self, node: Node, name: &str, count: usize) -> Option<Vec<f64>> {
         let text = node.attribute(name)?;
-        let Ok(values) = text.split_whitespace().map(str::parse).collect::<Result<Vec<f64>, _>>() else {
-            let noun = if N == 1 { "a number".to_owned() } else { format!("{N} numbers") };
-            let message = format!("{name}=\"{text}\" is not {noun}");
-            self.diagnostic(node, Some(name), message, "write numbers, such as 0.5 or -1e-3");
-            return None;
-        };
-        let Ok(values) = <[f64; N]>::try_from(&values[..]) else {
-            let message = format!("{name}=\"{text}\" has {} numbers, not {N}", values.len());
-            self.diagnostic(node, Some(name), message, "separate numbers by blanks, as in \"0.5 0 0\"");
-            return None;
-        };
-        let is_length = ["xyz", "size", "radius", "length"].contains(&name);
-        if let Some(value) = values.iter().find(|x| is_length && x.is_finite() && x.abs() > MAX_LENGTH) {
-            let message = format!("{value:e} in {name}=\"{text}\" is too large (at most {MAX_LENGTH:e})");
-            let help = format!(
-                "lengths are in metres, from -{MAX_LENGTH:e} to {MAX_LENGTH:e}: divide those in millimetres by 1000"
-            );
-            self.diagnostic(node, Some(name), message, &help);
-            return None;
+        let values: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
+        match values {
+            Ok(values) if values.len() == count => {
+                let is_length = ["xyz", "size", "radius", "length"].contains(&name);
+                if let Some(value) = values.iter().find(|x| is_length && x.is_finite() && x.abs() > MAX_LENGTH) {
+                    let message = format!("{value:e} in {name}=\"{text}\" is too large (at most {MAX_LENGTH:e})");
+                    let help = format!(
+                        "lengths are in metres, from -{MAX_LENGTH:e} to {MAX_LENGTH:e}: divide those in millimetres by 1000"
+                    );
+                    self.diagnostic(node, Some(name), message, &help);
+                    return None;
+                }
+                values.iter().all(|x| x.is_finite()).then_some(values)
+            }
+            Ok(values) => {
+                let message = format!("{name}=\"{text}\" has {} numbers, not {count}", values.len());
+                self.diagnostic(node, Some(name), message, "separate numbers by blanks, as in \"0.5 0 0\"");
+                None
+            }
+            Err(_) => {
+                let noun = if count == 1 { "a number".to_owned() } else { format!("{count} numbers") };
+                self.diagnostic(
+                    node,
+                    Some(name),
+                    format!("{name}=\"{text}\" is not {noun}"),
+                    "write numbers, such as 0.5 or -1e-3",
+                );
+                None
+            }
         }
-        values.iter().all(|x| x.is_finite()).then_some(values)
     }
 
     /// Returns the number of an attribute. `None` if it is absent or invalid.
-    fn number(&mut self, node: Node, name: &str) -> Option<f64> {
-        self.numbers(node, name).map(|[number]| number)
+    pub fn number(&mut self, node: Node, name: &str) -> Option<f64> {
+        self.numbers(node, name, 1).map(|v| v[0])
     }
 
-    /// Returns the pose of the `<origin>` in an element. Without one, it is the identity.
-    pub fn origin(&mut self, node: Node) -> Isometry3<f64> {
-        let Some(origin) = self.only(node, "origin", false) else { return Isometry3::identity() };
-        let [xyz, rpy] = ["xyz", "rpy"].map(|name| self.numbers(origin, name).unwrap_or_default());
-        let turned = self.numbers(origin, "quat_xyzw").map(|quaternion| {
-            let angles = roll_pitch_yaw(quaternion);
-            if angles.is_none() {
-                let message = "the quaternion is zero or too large";
-                self.diagnostic(origin, Some("quat_xyzw"), message, "write 0 0 0 1 for no rotation");
+    /// Returns the text of `<origin>` for the copy of the document. Returns an empty text if the element is missing.
+    pub fn origin(&mut self, node: Node) -> String {
+        let Some(origin) = self.only(node, "origin", false) else { return String::new() };
+        let mut copy = "<origin".to_owned();
+        for name in ["xyz", "rpy"] {
+            if self.numbers(origin, name, 3).is_some() {
+                copy += &format!(" {name}=\"{}\"", escape_attribute(origin.attribute(name).unwrap_or("")));
             }
-            angles.unwrap_or_default()
-        });
-        if origin.has_attribute("rpy") && origin.has_attribute("quat_xyzw") {
-            let message = "the origin has both rpy and quat_xyzw";
-            self.diagnostic(origin, Some("quat_xyzw"), message, "keep one of them");
         }
-        isometry(xyz, turned.unwrap_or(rpy))
+        if let Some(quaternion) = self.numbers(origin, "quat_xyzw", 4) {
+            match roll_pitch_yaw(&quaternion) {
+                Some([roll, pitch, yaw]) => copy += &format!(" rpy=\"{roll:?} {pitch:?} {yaw:?}\""),
+                None => {
+                    let message = "the quaternion is zero or too large".to_owned();
+                    self.diagnostic(origin, Some("quat_xyzw"), message, "write 0 0 0 1 for no rotation");
+                }
+            }
+        }
+        if origin.has_attribute("rpy") && origin.has_attribute("quat_xyzw") {
+            self.diagnostic(
+                origin,
+                Some("quat_xyzw"),
+                "the origin has both rpy and quat_xyzw".into(),
+                "keep one of them",
+            );
+        }
+        copy + "/>"
     }
 
-    /// Returns the direction of an axis. `None` if it is invalid.
-    pub fn direction(&mut self, axis: Node) -> Option<Unit<Vector3<f64>>> {
-        let Some(xyz) = self.numbers(axis, "xyz") else {
+    /// Returns true if an axis is valid: three numbers that are not all zero.
+    pub fn direction(&mut self, axis: Node) -> bool {
+        let Some(xyz) = self.numbers(axis, "xyz", 3) else {
             if !axis.has_attribute("xyz") {
-                let help = "write an axis, such as <axis xyz=\"0 0 1\"/>";
-                self.diagnostic(axis, None, "the <axis> has no xyz", help);
+                self.diagnostic(
+                    axis,
+                    None,
+                    "the <axis> has no xyz".into(),
+                    "write an axis, such as <axis xyz=\"0 0 1\"/>",
+                );
             }
-            return None;
+            return false;
         };
         let length = xyz.iter().fold(0.0, |l, x| f64::hypot(l, *x));
         // A shorter axis has too few significant digits for a direction.
         if length < 1e-9 {
             let help = "give the axis a direction, such as xyz=\"0 0 1\"; a joint that does not move is of type fixed";
-            let message = format!("the axis ({}) is zero", axis.attribute("xyz").unwrap_or(""));
-            self.diagnostic(axis, Some("xyz"), message, help);
-            return None;
+            self.diagnostic(
+                axis,
+                Some("xyz"),
+                format!("the axis ({}) is zero", axis.attribute("xyz").unwrap_or("")),
+                help,
+            );
+            return false;
         }
-        Some(Unit::new_normalize(Vector3::from(xyz)))
+        true
     }
 
     /// Returns the type of a joint.
-    pub fn joint_type(&mut self, joint: Node) -> Option<JointType> {
+    pub fn joint_type<'a>(&mut self, joint: Node<'a, '_>) -> Option<&'a str> {
         let kind = self.text(joint, "type")?;
-        let found = JointType::ALL.into_iter().find(|known| known.name() == kind);
-        if found.is_none() {
-            let help = format!("one of {}", JointType::ALL.map(JointType::name).join(", "));
-            self.diagnostic(joint, Some("type"), format!("type \"{kind}\" is unknown"), &help);
+        if JOINT_TYPES.contains(&kind) {
+            return Some(kind);
         }
-        found
+        let help = format!("one of {}", JOINT_TYPES.join(", "));
+        self.diagnostic(joint, Some("type"), format!("type \"{kind}\" is unknown"), &help);
+        None
     }
 
-    /// Returns a `<limit>`. `absent` has the defaults of lower and upper. Lower may exceed upper only if the joint type
-    /// ignores both. If `ranged`, the joint type does not ignore them: this is reported, and both are swapped so that
-    /// further checks work.
-    pub fn limit(&mut self, limit: Node, absent: [f64; 2], ranged: bool) -> Limit {
-        let mut ends = [None; 2];
-        for (end, name) in ends.iter_mut().zip(["lower", "upper"]) {
-            let infinite = || limit.attribute(name)?.trim().parse::<f64>().ok().filter(|x| x.is_infinite());
-            *end = self.number(limit, name).or_else(infinite);
+    /// Returns lower, upper, velocity and acceleration of a `<limit>`. `absent` has the defaults of lower and upper.
+    /// Lower may exceed upper only if the joint type ignores both. If `ranged`, the joint type does not ignore them:
+    /// this is reported, and both are swapped so that further checks work.
+    pub fn limit(&mut self, limit: Node, absent: [f64; 2], ranged: bool) -> [Option<f64>; 4] {
+        let mut values = ["lower", "upper", "velocity", "acceleration"].map(|name| self.number(limit, name));
+        for (value, name) in values.iter_mut().zip(["lower", "upper"]) {
+            let infinite =
+                limit.attribute(name).and_then(|text| text.trim().parse::<f64>().ok()).filter(|x| x.is_infinite());
+            *value = value.or(infinite);
         }
-        let [velocity, acceleration] = ["velocity", "acceleration"].map(|name| self.number(limit, name));
-        let [mut lower, mut upper] = [0, 1].map(|k| ends[k].unwrap_or(absent[k]));
+        let [lower, upper] = [0, 1].map(|k| values[k].unwrap_or(absent[k]));
         if ranged && lower > upper {
-            let missing = ["lower", "upper"].into_iter().zip(ends).find(|(_, end)| end.is_none());
+            let missing = ["lower", "upper"].into_iter().zip(values).find(|(_, value)| value.is_none());
             let message = format!("the limits are reversed: lower {lower} is above upper {upper}");
             match missing {
                 None => self.diagnostic(limit, Some("lower"), message, "swap lower and upper"),
@@ -229,31 +260,21 @@ impl Attributes<'_> {
                     self.diagnostic(limit, None, message, &format!("give {name} as well"));
                 }
             }
-            (lower, upper) = (upper, lower);
+            values[..2].copy_from_slice(&[Some(upper), Some(lower)]);
         }
-        for (name, value) in [("velocity", velocity), ("acceleration", acceleration)] {
+        for (name, value) in [("velocity", values[2]), ("acceleration", values[3])] {
             if value.is_some_and(|v| v < 0.0) {
                 self.diagnostic(limit, Some(name), format!("the {name} limit is negative"), "limits are magnitudes");
             }
         }
-        let effort = limit.attribute("effort").and_then(|text| text.trim().parse().ok()).unwrap_or(0.0);
-        let velocity = limit.has_attribute("velocity").then_some(velocity.unwrap_or(0.0));
-        Limit { lower, upper, effort, velocity, acceleration, at: Some(tag(limit)) }
-    }
-
-    /// Returns the rule of a `<mimic>`. `None` if it names no joint.
-    pub fn mimic(&mut self, mimic: Node) -> Option<Mimic> {
-        let joint = self.text(mimic, "joint");
-        let [multiplier, offset] = ["multiplier", "offset"].map(|name| self.number(mimic, name));
-        let (multiplier, offset) = (multiplier.unwrap_or(1.0), offset.unwrap_or(0.0));
-        Some(Mimic { joint: joint?.to_owned(), multiplier, offset, at: tag(mimic) })
+        values
     }
 
     /// Returns the soft limits. A limit that is not given is 0. Returns `None` if both are 0, because exporters write 0
     /// for missing limits.
     pub fn soft_limits(&mut self, safety: Node) -> Option<[f64; 2]> {
-        let [lower, upper] =
-            ["soft_lower_limit", "soft_upper_limit"].map(|name| self.number(safety, name).unwrap_or(0.0));
+        let [lower, upper] = ["soft_lower_limit", "soft_upper_limit"].map(|name| self.number(safety, name));
+        let [lower, upper] = [lower, upper].map(|limit| limit.unwrap_or(0.0));
         if lower > upper {
             let message = format!("the soft limits are reversed: {lower} is above {upper}");
             self.diagnostic(safety, Some("soft_lower_limit"), message, "swap soft_lower_limit and soft_upper_limit");
@@ -261,53 +282,41 @@ impl Attributes<'_> {
         (lower != 0.0 || upper != 0.0).then_some([lower.min(upper), lower.max(upper)])
     }
 
-    /// Returns a size, which must exist.
-    fn size(&mut self, shape: Node, name: &str) -> Option<f64> {
-        self.text(shape, name)?;
-        self.number(shape, name)
-    }
-
-    /// Returns the shape in a `<geometry>` with its element. Its sizes must be positive, or all zero: exporters write that
-    /// for a missing shape.
-    pub fn geometry<'a, 'i>(&mut self, geometry: Node<'a, 'i>) -> Option<(Node<'a, 'i>, Geometry)> {
+    /// Returns the shape in a `<geometry>`. Its sizes must be positive, or all zero: exporters write that for a missing
+    /// shape.
+    pub fn geometry<'a, 'i>(&mut self, geometry: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
         let mut shapes = geometry.children().filter(Node::is_element);
         let (first, second) = (shapes.next(), shapes.next());
         if let Some(second) = second {
-            let message = "the <geometry> has a second shape";
+            let message = "the <geometry> has a second shape".into();
             self.diagnostic(second, None, message, "put each shape into its own <collision>");
         }
         let Some(shape) = first else {
-            let help = "put a box, cylinder, sphere, capsule or mesh into it";
-            self.diagnostic(geometry, None, "the <geometry> is empty", help);
+            self.diagnostic(
+                geometry,
+                None,
+                "the <geometry> is empty".into(),
+                "put a box, cylinder, sphere, capsule or mesh into it",
+            );
             return None;
         };
-        let kind = shape.tag_name().name();
-        let (sizes, stated, geometry): (Vec<f64>, &str, Geometry) = match kind {
-            "box" => {
-                self.text(shape, "size")?;
-                let size = self.numbers(shape, "size")?;
-                (size.to_vec(), "size", Geometry::Box(size))
-            }
-            "cylinder" | "capsule" => {
-                let (radius, length) = (self.size(shape, "radius")?, self.size(shape, "length")?);
-                let geometry = match kind {
-                    "cylinder" => Geometry::Cylinder { radius, length },
-                    _ => Geometry::Capsule { radius, length },
-                };
-                (vec![radius, length], "radius", geometry)
-            }
-            "sphere" => {
-                let radius = self.size(shape, "radius")?;
-                (vec![radius], "radius", Geometry::Sphere { radius })
-            }
+        let sizes: &[(&str, usize)] = match shape.tag_name().name() {
+            "box" => &[("size", 3)],
+            "cylinder" | "capsule" => &[("radius", 1), ("length", 1)],
+            "sphere" => &[("radius", 1)],
             "mesh" => {
-                let filename = self.text(shape, "filename")?.to_owned();
-                let scale = self.numbers(shape, "scale").unwrap_or([1.0; 3]);
-                if scale.contains(&0.0) {
-                    let help = "use scale=\"1 1 1\" for the original size";
-                    self.diagnostic(shape, Some("scale"), "a scale of 0 flattens the mesh", help);
+                self.text(shape, "filename")?;
+                if let Some(scale) = self.numbers(shape, "scale", 3)
+                    && scale.contains(&0.0)
+                {
+                    self.diagnostic(
+                        shape,
+                        Some("scale"),
+                        "a scale of 0 flattens the mesh".into(),
+                        "use scale=\"1 1 1\" for the original size",
+                    );
                 }
-                return Some((shape, Geometry::Mesh { filename, scale }));
+                return Some(shape);
             }
             other => {
                 let help = "box, cylinder, sphere, capsule or mesh";
@@ -315,11 +324,17 @@ impl Attributes<'_> {
                 return None;
             }
         };
-        if sizes.iter().any(|size| *size != 0.0) && sizes.iter().any(|size| *size <= 0.0) {
-            let message = format!("the sizes of the {kind} must be positive");
-            self.diagnostic(shape, Some(stated), message, "give lengths in metres that are above 0");
+        let mut values = Vec::new();
+        for (name, count) in sizes {
+            self.text(shape, name)?;
+            values.extend(self.numbers(shape, name, *count)?);
         }
-        Some((shape, geometry))
+        let all_zero = values.iter().all(|v| *v == 0.0);
+        if !all_zero && values.iter().any(|v| *v <= 0.0) {
+            let message = format!("the sizes of the {} must be positive", shape.tag_name().name());
+            self.diagnostic(shape, Some(sizes[0].0), message, "give lengths in metres that are above 0");
+        }
+        Some(shape)
     }
 }
 
@@ -335,7 +350,7 @@ mod tests {
             for (roll, yaw) in [(0.0, 0.0), (0.4, -2.0), (-3.0, 1.0)] {
                 let turn = UnitQuaternion::from_euler_angles(roll, pitch, yaw);
                 let [x, y, z, w] = turn.coords.map(|c| 3.0 * c).into();
-                let [r, p, y] = roll_pitch_yaw([x, y, z, w]).unwrap();
+                let [r, p, y] = roll_pitch_yaw(&[x, y, z, w]).unwrap();
                 let off = UnitQuaternion::from_euler_angles(r, p, y).angle_to(&turn);
                 assert!(off < 1e-7, "{roll} {pitch} {yaw}: {off}");
                 let apart = UnitQuaternion::from_euler_angles(r, p, y).to_rotation_matrix().matrix()
@@ -344,7 +359,7 @@ mod tests {
             }
         }
         for none in [[0.0; 4], [0.0, 0.0, 1e-20, 1e-20], [0.0, 0.0, 1e200, 1e200]] {
-            assert_eq!(roll_pitch_yaw(none), None);
+            assert_eq!(roll_pitch_yaw(&none), None);
         }
     }
 }

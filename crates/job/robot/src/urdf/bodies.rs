@@ -1,11 +1,14 @@
 //! The outlines of the two arm links, from the URDF's geometry.
 
-use super::chain::{Chain, Robot};
+use super::chain::Chain;
+use super::document::Document;
 use super::plane::project;
 use super::self_collision::{Group, SelfCollision, group};
 use super::shapes::{GatheredShapes, PlacedShape};
 use super::solid::capsule;
+use super::tree::Tree;
 use crate::error::{Diagnostic, InputError, quoted};
+use crate::settings::RobotSettings;
 use cplan_geometry::{Convex, Point, Pose, separation};
 use cplan_model::{Heights, Link, OutlineSource, Part, Plane, SelfObstacle};
 use cplan_text::counted;
@@ -17,8 +20,10 @@ const MAX_CORNERS: usize = 1024;
 
 /// The data from which outlines are made.
 pub(super) struct Bodies<'a> {
-    pub robot: Robot<'a>,
+    pub document: &'a Document,
+    pub tree: &'a Tree,
     pub chain: &'a Chain,
+    pub settings: RobotSettings<'a>,
     pub plane: &'a Plane,
     /// Poses of all links in the root frame, with the two arm joints at 0.
     pub poses: &'a [Isometry3<f64>],
@@ -84,7 +89,7 @@ impl Bodies<'_> {
         for (index, of_link) in gathered.iter().enumerate().filter(|_| bar.is_some()) {
             let links = self.bodies(index);
             if !of_link.unread.is_empty() || !links.iter().any(|link| solid.contains(link)) {
-                solid.insert(self.robot.tree.child[self.chain.joints[index]]);
+                solid.insert(self.tree.child[self.chain.joints[index]]);
             }
         }
         let own = SelfCollision::new(self, solid)?;
@@ -107,28 +112,28 @@ impl Bodies<'_> {
             );
             let help = "add <collision> geometry to the URDF, or replace the links by bars between the joints, in the \
                         world file: [robot] bar = 0.05 (radius of the bars in metres)";
-            return Err(self.robot.document.source.diagnostic(message).help(help).into());
+            return Err(self.document.source.diagnostic(message).help(help).into());
         }
         let geometry = links.iter().enumerate().map(|(index, link)| self.describe_part(index, link)).collect();
         let self_obstacles = own.obstacles(&all);
-        if self.robot.settings.table.own_body_is_obstacle() {
+        if self.settings.table.own_body_is_obstacle() {
             warnings.extend(fixed.unread.iter().chain(&fixed.unseen).map(describe_unread_mesh));
         }
         Ok(Outlines { links, self_obstacles, geometry, notes, sizeless, warnings })
     }
 
     fn bar(&self) -> Result<Option<f64>, Diagnostic> {
-        let Some(bar) = &self.robot.settings.table.bar else { return Ok(None) };
+        let Some(bar) = &self.settings.table.bar else { return Ok(None) };
         let radius = *bar.get_ref();
         if radius.is_finite() && radius > 0.0 {
             return Ok(Some(radius));
         }
         let message = format!("[robot] bar: the radius must be positive, is {radius}");
-        Err(self.robot.settings.source.diagnostic_at(bar.span(), message).help("bar = 0.05, metres"))
+        Err(self.settings.source.diagnostic_at(bar.span(), message).help("bar = 0.05, metres"))
     }
 
     fn name(&self, index: usize) -> &str {
-        &self.robot.tree.links[self.robot.tree.child[self.chain.joints[index]]]
+        &self.tree.links[self.tree.child[self.chain.joints[index]]]
     }
 
     /// Names the bodies of a link that have shapes of size zero. `None` if there are none.
@@ -208,18 +213,18 @@ impl Bodies<'_> {
     /// Returns the URDF links that form arm link `index`, in the order of the file.
     pub fn bodies(&self, index: usize) -> Vec<usize> {
         let [first, second] = self.chain.joints;
-        (0..self.robot.document.links.len())
+        (0..self.document.robot.links.len())
             .filter(|l| match index {
-                0 => self.robot.tree.carries(first, *l) && !self.robot.tree.carries(second, *l),
-                _ => self.robot.tree.carries(second, *l),
+                0 => self.tree.carries(first, *l) && !self.tree.carries(second, *l),
+                _ => self.tree.carries(second, *l),
             })
             .collect()
     }
 
     /// Iterates over the fixed URDF links, in the order of the file.
     fn fixed_links(&self) -> impl Iterator<Item = usize> + '_ {
-        let is_fixed = |link: &usize| group(self.robot, self.chain, *link) == Some(Group::Fixed);
-        (0..self.robot.document.links.len()).filter(is_fixed)
+        let is_fixed = |link: &usize| group(self.document, self.tree, self.chain, *link) == Some(Group::Fixed);
+        (0..self.document.robot.links.len()).filter(is_fixed)
     }
 
     /// Returns a shape as parts of arm link `index`, in the link's frame. There is one part for each layer between the
@@ -231,7 +236,7 @@ impl Bodies<'_> {
         let PlacedShape { link, number, is_visual, solid, pose, .. } = shape;
         let joint = self.joint_at(index).0;
         let to_link = Pose::translation(-joint);
-        let body = &self.robot.document.links[*link].name;
+        let body = &self.document.robot.links[*link].name;
         let part = |shape, inner, heights| Part {
             shape,
             inner,
@@ -262,7 +267,7 @@ impl Bodies<'_> {
                     "link \"{body}\" turns with the wrist, but its shape is not centred on the wrist's axis, so it covers another area at each angle"
                 );
                 let help = "give it <collision> geometry that covers all angles: a <cylinder> along the axis of the wrist's joint";
-                Err(self.robot.document.diagnostic_at(&shape.at, message).help(help))
+                Err(self.document.diagnostic_at(&shape.at, message).help(help))
             }
         }
     }
@@ -270,14 +275,14 @@ impl Bodies<'_> {
     /// Returns the position in the plane of the wrist's axis, if a link turns about it during motions. Otherwise returns
     /// `None`.
     fn wrist_axis(&self, body: usize) -> Option<Point> {
-        let name = self.robot.settings.table.wrist_joint().filter(|_| self.robot.settings.wrist_turns)?;
-        let joint = self.robot.document.joints.iter().position(|joint| joint.name == *name.get_ref())?;
-        self.robot.tree.carries(joint, body).then(|| self.at(self.robot.tree.child[joint]).0)
+        let name = self.settings.table.wrist_joint().filter(|_| self.settings.wrist_turns)?;
+        let joint = self.document.robot.joints.iter().position(|joint| joint.name == *name.get_ref())?;
+        self.tree.carries(joint, body).then(|| self.at(self.tree.child[joint]).0)
     }
 
     /// Returns the position of a joint in the plane, and its height.
     pub fn joint_at(&self, index: usize) -> (Point, f64) {
-        self.at(self.robot.tree.child[self.chain.joints[index]])
+        self.at(self.tree.child[self.chain.joints[index]])
     }
 
     fn at(&self, link: usize) -> (Point, f64) {

@@ -1,14 +1,13 @@
 //! The choice of the two planned joints, the values of the other joints, and the tip link.
 
-use super::document::{Document, Joint, JointType};
+use super::document::Document;
 use super::held::HeldValues;
-use super::limits::Limits;
 use super::pairing::{self, ImpliedPair};
 use super::tree::Tree;
 use crate::Spanned;
 use crate::error::{Diagnostic, InputError, quoted};
-use crate::robot_table::RobotTable;
 use crate::settings::RobotSettings;
+use urdf_rs::JointType;
 
 /// The choices that reduce a robot to a two-joint arm. Links and joints are given by their indices in the file.
 #[derive(Debug)]
@@ -25,79 +24,81 @@ pub(super) struct Chain {
     pub notes: Vec<String>,
 }
 
-/// A robot with the world's settings for it.
-#[derive(Clone, Copy)]
-pub(super) struct Robot<'a> {
+/// Chooses joints, values and tip.
+///
+/// # Errors
+/// It is not clear which two joints are meant, the first one does not carry the second, or other joints would have to
+/// move with them.
+pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) -> Result<Chain, InputError> {
+    let chooser = Chooser { document, tree, settings };
+    chooser.names_exist()?;
+    let ImpliedPair { joints, reason } = chooser.joints()?;
+    let mut chain = with_joints(document, tree, settings, joints)?;
+    if !reason.is_empty() {
+        let [first, second] = joints.map(|j| document.robot.joints[j].name.as_str());
+        let note = format!("the two joints are \"{first}\" and \"{second}\"{reason}; [robot] joints chooses others");
+        chain.notes.insert(0, note);
+    }
+    Ok(chain)
+}
+
+/// Returns the chain of these two joints, of which the first carries the second.
+///
+/// # Errors
+/// Other joints would have to move with them, or the world's tip or fixed values do not fit them.
+pub(super) fn with_joints(
+    document: &Document,
+    tree: &Tree,
+    settings: RobotSettings,
+    joints: [usize; 2],
+) -> Result<Chain, InputError> {
+    let chooser = Chooser { document, tree, settings };
+    chooser.independent(joints)?;
+    let tip = chooser.tip(joints)?;
+    let HeldValues { values, held, notes } = chooser.values(joints)?;
+    Ok(Chain { joints, tip, values, held, notes })
+}
+
+/// Returns true if the other entries of the world's `[robot]` table fit these two joints.
+pub(super) fn admits(document: &Document, tree: &Tree, settings: RobotSettings, joints: [usize; 2]) -> bool {
+    Chooser { document, tree, settings }.names_exist().is_ok() && with_joints(document, tree, settings, joints).is_ok()
+}
+
+/// Returns the two joints that the world names, or the only two that can move. `None` if neither applies.
+pub(super) fn joints(document: &Document, tree: &Tree, settings: RobotSettings) -> Option<[usize; 2]> {
+    Chooser { document, tree, settings }.joints().ok().map(|evident| evident.joints)
+}
+
+/// Returns all pairs of independent joints whose first joint carries the second; base first.
+pub(super) fn pairs(document: &Document, tree: &Tree) -> Vec<[usize; 2]> {
+    let joints = &document.robot.joints;
+    let mut movable: Vec<usize> =
+        (0..joints.len()).filter(|j| is_movable(&joints[*j]) && joints[*j].mimic.is_none()).collect();
+    movable.sort_by_key(|j| tree.depth(tree.child[*j]));
+    let carried = |a: usize| movable.iter().filter(move |b| tree.carries(a, tree.parent[**b])).map(move |b| [a, *b]);
+    movable.iter().flat_map(|a| carried(*a)).collect()
+}
+
+/// The choice of joints, with checks of its validity.
+pub(super) struct Chooser<'a> {
     pub document: &'a Document,
     pub tree: &'a Tree,
     pub settings: RobotSettings<'a>,
 }
 
-impl<'a> Robot<'a> {
-    /// Chooses joints, values and tip.
-    ///
-    /// # Errors
-    /// It is not clear which two joints are meant, the first one does not carry the second, or other joints would have to
-    /// move with them.
-    pub fn choose(&self) -> Result<Chain, InputError> {
-        self.names_exist()?;
-        let ImpliedPair { joints, reason } = self.joints()?;
-        let mut chain = self.with_joints(joints)?;
-        if !reason.is_empty() {
-            let [first, second] = joints.map(|j| self.all()[j].name.as_str());
-            let note =
-                format!("the two joints are \"{first}\" and \"{second}\"{reason}; [robot] joints chooses others");
-            chain.notes.insert(0, note);
-        }
-        Ok(chain)
-    }
+/// Returns true if a joint has a single value, and the value can change.
+pub(super) fn is_movable(joint: &urdf_rs::Joint) -> bool {
+    matches!(joint.joint_type, JointType::Revolute | JointType::Continuous | JointType::Prismatic)
+}
 
-    /// Returns the chain of these two joints, of which the first carries the second.
-    ///
-    /// # Errors
-    /// Other joints would have to move with them, or the world's tip or fixed values do not fit them.
-    pub fn with_joints(&self, joints: [usize; 2]) -> Result<Chain, InputError> {
-        self.independent(joints)?;
-        let tip = self.tip(joints)?;
-        let HeldValues { values, held, notes } = self.values(joints)?;
-        Ok(Chain { joints, tip, values, held, notes })
-    }
+/// Returns the type as written in the file.
+pub(super) fn type_name(joint: &urdf_rs::Joint) -> String {
+    format!("{:?}", joint.joint_type).to_lowercase()
+}
 
-    /// Returns true if the other entries of the world's `[robot]` table fit these two joints.
-    pub fn admits(&self, joints: [usize; 2]) -> bool {
-        self.names_exist().is_ok() && self.with_joints(joints).is_ok()
-    }
-
-    /// Returns the two joints that the world names, or the only two that can move. `None` if neither applies.
-    pub fn evident_joints(&self) -> Option<[usize; 2]> {
-        self.joints().ok().map(|evident| evident.joints)
-    }
-
-    /// Returns all pairs of independent joints whose first joint carries the second; base first.
-    pub fn pairs(&self) -> Vec<[usize; 2]> {
-        let tree = self.tree;
-        let mut movable = self.candidates();
-        movable.sort_by_key(|j| tree.depth(tree.child[*j]));
-        let carried =
-            |a: usize| movable.iter().filter(move |b| tree.carries(a, tree.parent[**b])).map(move |b| [a, *b]);
-        movable.iter().flat_map(|a| carried(*a)).collect()
-    }
-
-    pub(super) fn all(&self) -> &'a [Joint] {
-        &self.document.joints
-    }
-
-    /// Returns the same robot with another `[robot]` table.
-    pub fn with_table<'t>(&self, table: &'t RobotTable) -> Robot<'t>
-    where
-        'a: 't,
-    {
-        Robot { settings: RobotSettings { table, ..self.settings }, ..*self }
-    }
-
-    /// Returns the limits of the joints.
-    pub fn limits(&self) -> Limits<'a> {
-        Limits { document: self.document, settings: self.settings }
+impl Chooser<'_> {
+    pub(super) fn all(&self) -> &[urdf_rs::Joint] {
+        &self.document.robot.joints
     }
 
     pub(super) fn joint(&self, name: &str) -> Option<usize> {
@@ -110,15 +111,15 @@ impl<'a> Robot<'a> {
 
     /// Returns a movable joint that the world file names.
     pub(super) fn named(&self, name: &Spanned<String>, table: &str) -> Result<usize, Diagnostic> {
-        let movable = || quoted(self.all().iter().filter(|j| j.is_movable()).map(|j| &j.name));
+        let movable = || quoted(self.all().iter().filter(|j| is_movable(j)).map(|j| &j.name));
         let help = || format!("the movable joints are {}", movable());
         let Some(index) = self.joint(name.get_ref()) else {
             let message = format!("[robot] {table}: the robot has no joint \"{}\"", name.get_ref());
             return Err(self.in_world(name, message).help(help()));
         };
         let joint = &self.all()[index];
-        if !joint.is_movable() {
-            let message = format!("[robot] {table}: joint \"{}\" is of type {}", joint.name, joint.joint_type.name());
+        if !is_movable(joint) {
+            let message = format!("[robot] {table}: joint \"{}\" is of type {}", joint.name, type_name(joint));
             return Err(self.in_world(name, message).help(help()));
         }
         Ok(index)
@@ -183,7 +184,7 @@ impl<'a> Robot<'a> {
 
     /// Returns the joints that move independently of others.
     fn candidates(&self) -> Vec<usize> {
-        (0..self.all().len()).filter(|j| self.all()[*j].is_movable() && self.all()[*j].mimic.is_none()).collect()
+        (0..self.all().len()).filter(|j| is_movable(&self.all()[*j]) && self.all()[*j].mimic.is_none()).collect()
     }
 
     fn implied_pair(&self) -> Result<ImpliedPair, Diagnostic> {
@@ -193,7 +194,7 @@ impl<'a> Robot<'a> {
         }
         let list: Vec<String> = candidates
             .iter()
-            .map(|j| format!("\"{}\" ({})", self.all()[*j].name, self.all()[*j].joint_type.name()))
+            .map(|j| format!("\"{}\" ({})", self.all()[*j].name, type_name(&self.all()[*j])))
             .collect();
         let mimics: Vec<String> = self
             .all()
@@ -227,8 +228,8 @@ impl<'a> Robot<'a> {
             let help = "name two of one chain in the world file: [robot] joints = [\"first\", \"second\"]; the others stand still";
             return Err(self.document.source.diagnostic(message).help(help));
         }
-        let planar = self.planar_pairs();
-        if let Some(evident) = self.implied_pair_of(&planar) {
+        let planar = pairing::planar(self.document, self.tree, self.settings);
+        if let Some(evident) = pairing::implied_pair(self.document, self.tree, &planar) {
             return Ok(evident);
         }
         let count = candidates.len();
@@ -245,7 +246,7 @@ impl<'a> Robot<'a> {
         let message = format!("the robot has {count} movable joints; which two should cplan plan for? {list}{coupled}");
         let help = format!(
             "name two of one chain in the world file: {}; the others stand still (at `fixed` values)",
-            self.choices(&planar)
+            pairing::choices(self.document, &planar)
         );
         Err(self.document.source.diagnostic(message).help(help))
     }
@@ -264,10 +265,8 @@ impl<'a> Robot<'a> {
             if matches!(joint.joint_type, JointType::Floating | JointType::Planar | JointType::Spherical)
                 && (carried || self.tree.carries(j, self.tree.child[chosen[1]]))
             {
-                let message = format!(
-                    "is of type {}: one value does not determine the pose of its link",
-                    joint.joint_type.name()
-                );
+                let message =
+                    format!("is of type {}: one value does not determine the pose of its link", type_name(joint));
                 return Err(self
                     .document
                     .joint_diagnostic(j, &message)
@@ -290,15 +289,15 @@ impl<'a> Robot<'a> {
 
     /// Returns true if a joint carries a link with shapes.
     pub(super) fn has_shapes(&self, joint: usize) -> bool {
-        let mut links = self.document.links.iter().enumerate();
-        links.any(|(index, link)| self.tree.carries(joint, index) && link.has_shapes())
+        let links = self.document.robot.links.iter().enumerate().filter(|(link, _)| self.tree.carries(joint, *link));
+        links.map(|(_, link)| link).any(|link| !link.collision.is_empty() || !link.visual.is_empty())
     }
 
     pub(super) fn mimic_diagnostic(&self, joint: usize, message: &str) -> Diagnostic {
-        let joint = &self.all()[joint];
-        let at = joint.mimic.as_ref().map_or(&joint.at, |mimic| &mimic.at);
+        let place = &self.document.joints[joint];
+        let message = format!("joint \"{}\" {message}", self.all()[joint].name);
         self.document
-            .diagnostic_at(at, format!("joint \"{}\" {message}", joint.name))
+            .diagnostic_at(place.mimic.as_ref().unwrap_or(&place.at), message)
             .help("choose joints that no mimic joint depends on; if the coupling does not matter, make the joint fixed in a copy of the file")
     }
 
@@ -325,4 +324,9 @@ impl<'a> Robot<'a> {
         let depth = |l: &usize| (self.tree.depth(*l), std::cmp::Reverse(*l));
         Ok(below.into_iter().max_by_key(depth).unwrap_or(self.tree.child[joints[1]]))
     }
+}
+
+/// Returns the unit of a joint's value.
+pub(super) fn unit(joint: &urdf_rs::Joint) -> &'static str {
+    if joint.joint_type == JointType::Prismatic { "m" } else { "rad" }
 }

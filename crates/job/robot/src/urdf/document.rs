@@ -1,13 +1,17 @@
-//! The URDF as data: links and joints, with their places in the file.
+//! The URDF as a document: read by `roxmltree` for places and diagnostics, and by `urdf-rs` for its contents.
+//!
+//! `urdf-rs` has no line numbers, accepts `NaN` and invalid vectors, and rejects files because of irrelevant elements
+//! (an `<inertial>` without inertia, a `<limit>` without velocity, stray text). So every relevant element is checked
+//! first, with its place, and `urdf-rs` reads a copy of the document with only these elements.
 
 use super::attributes::{Attributes, children};
 use super::foreign;
 use crate::error::{Diagnostic, InputError};
 use crate::source::Source;
-use nalgebra::{Isometry3, Matrix3, Unit, Vector3};
 use roxmltree::Node;
 use std::cell::RefCell;
 use std::collections::{BTreeMap, HashMap};
+use std::fmt::Write;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -18,10 +22,11 @@ pub(super) struct Document {
     pub source: Source,
     /// Paths of the meshes that were read so far.
     pub meshes: RefCell<Vec<PathBuf>>,
-    /// Name of the robot, which can be empty.
-    pub name: String,
-    pub links: Vec<Link>,
-    pub joints: Vec<Joint>,
+    pub robot: urdf_rs::Robot,
+    /// Positions of the links, in the order of `robot.links`.
+    pub links: Vec<LinkPlace>,
+    /// Positions of the joints, in the order of `robot.joints`.
+    pub joints: Vec<JointPlace>,
     /// Number of elements other than links and joints, by name.
     pub others: BTreeMap<String, usize>,
     /// Defects of single elements. A robot with defects can be inspected, but not planned for.
@@ -30,151 +35,39 @@ pub(super) struct Document {
     pub tree_is_sound: bool,
 }
 
-/// A link.
+/// Positions of a link and its shapes in the file.
 #[derive(Debug)]
-pub(super) struct Link {
-    pub name: String,
-    pub visual: Vec<Shape>,
-    pub collision: Vec<Shape>,
-    /// Zero if the file gives no complete one, which is frequent; only torques need it.
-    pub inertial: Inertial,
-    /// Place of the link in the file.
+pub(super) struct LinkPlace {
     pub at: Range<usize>,
+    pub visual: Vec<Range<usize>>,
+    pub collision: Vec<Range<usize>>,
 }
 
-impl Link {
-    /// Returns true if the link has shapes, collision or visual.
-    pub fn has_shapes(&self) -> bool {
-        !self.collision.is_empty() || !self.visual.is_empty()
-    }
-}
-
-/// A shape of a link.
+/// Positions of a joint and its parts in the file, and which of its limits are stated.
 #[derive(Debug)]
-pub(super) struct Shape {
-    /// Pose in the frame of the link.
-    pub pose: Isometry3<f64>,
-    pub geometry: Geometry,
-    /// Place of the geometry in the file.
+pub(super) struct JointPlace {
     pub at: Range<usize>,
-}
-
-/// The geometry of a shape. Its sizes are positive, or all zero.
-#[derive(Debug)]
-pub(super) enum Geometry {
-    Box([f64; 3]),
-    Cylinder { radius: f64, length: f64 },
-    Capsule { radius: f64, length: f64 },
-    Sphere { radius: f64 },
-    Mesh { filename: String, scale: [f64; 3] },
-}
-
-/// Mass and inertia of a link.
-#[derive(Debug, Clone, Copy, Default)]
-pub(super) struct Inertial {
-    /// Pose of the centre of mass in the frame of the link.
-    pub pose: Isometry3<f64>,
-    pub mass: f64,
-    pub inertia: Matrix3<f64>,
-}
-
-/// A type of joints.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum JointType {
-    Revolute,
-    Continuous,
-    Prismatic,
-    Fixed,
-    Floating,
-    Planar,
-    Spherical,
-}
-
-impl JointType {
-    /// All types of the URDF specification.
-    pub const ALL: [Self; 7] =
-        [Self::Revolute, Self::Continuous, Self::Prismatic, Self::Fixed, Self::Floating, Self::Planar, Self::Spherical];
-
-    /// Returns the type as URDF names it.
-    pub fn name(self) -> String {
-        format!("{self:?}").to_lowercase()
-    }
-}
-
-/// A joint.
-#[derive(Debug)]
-pub(super) struct Joint {
-    pub name: String,
-    pub joint_type: JointType,
-    /// Pose at the value 0, in the frame of the parent link.
-    pub pose: Isometry3<f64>,
-    pub parent: LinkName,
-    pub child: LinkName,
-    pub axis: Unit<Vector3<f64>>,
-    /// Place of the axis in the file, if it is given.
-    pub axis_at: Option<Range<usize>>,
-    pub limit: Limit,
-    /// The soft limits with their place. `None` if they are absent, or if both are 0, which exporters write for missing
-    /// limits.
-    pub soft_limits: Option<(Range<usize>, [f64; 2])>,
-    pub mimic: Option<Mimic>,
-    /// Place of the joint in the file.
-    pub at: Range<usize>,
-}
-
-impl Joint {
-    /// Returns true if one value determines the pose of the joint, and can change.
-    pub fn is_movable(&self) -> bool {
-        matches!(self.joint_type, JointType::Revolute | JointType::Continuous | JointType::Prismatic)
-    }
-
-    /// Returns true if the joint slides.
-    pub fn slides(&self) -> bool {
-        self.joint_type == JointType::Prismatic
-    }
-
-    /// Returns the unit of the joint's values.
-    pub fn unit(&self) -> &'static str {
-        if self.slides() { "m" } else { "rad" }
-    }
-}
-
-/// The name of a link at a joint.
-#[derive(Debug)]
-pub(super) struct LinkName {
-    pub link: String,
-    pub at: Range<usize>,
-}
-
-/// The limits of a joint. All are 0 or `None` if the file gives none.
-#[derive(Debug, Default)]
-pub(super) struct Limit {
-    pub lower: f64,
-    pub upper: f64,
-    pub effort: f64,
-    /// 0 if the given one is not a number.
-    pub velocity: Option<f64>,
-    /// Part of URDF 1.2, and also read in older files.
+    pub axis: Option<Range<usize>>,
+    pub parent: Range<usize>,
+    pub child: Range<usize>,
+    pub limit: Option<Range<usize>>,
+    pub mimic: Option<Range<usize>>,
+    /// Position of the `safety_controller`. `None` if it lacks a soft limit, or if both are 0, which exporters write
+    /// for missing limits.
+    pub soft_limits: Option<Range<usize>>,
+    /// True if the limit gives a `velocity`.
+    pub has_velocity: bool,
+    /// The `acceleration` of the limit. It is part of URDF 1.2. This reader also reads it in older files, where
+    /// `urdf-rs` ignores it.
     pub acceleration: Option<f64>,
-    /// Place in the file, if there is a `<limit>`.
-    pub at: Option<Range<usize>>,
-}
-
-/// The rule by which a joint follows another one.
-#[derive(Debug)]
-pub(super) struct Mimic {
-    pub joint: String,
-    pub multiplier: f64,
-    pub offset: f64,
-    pub at: Range<usize>,
 }
 
 impl Document {
     /// Reads a URDF.
     ///
     /// # Errors
-    /// A file that is not XML, or is xacro or SDF. [`Document::diagnostics`] collects all other defects that can be found
-    /// without the tree of links.
+    /// A file that is not XML, is xacro or SDF, or has no valid content. [`Document::diagnostics`] collects all other
+    /// defects that can be found without the tree of links.
     pub fn read(source: Source) -> Result<Self, InputError> {
         foreign::without_entities(&source)?;
         let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
@@ -182,112 +75,33 @@ impl Document {
         let xml = xml.map_err(|error| foreign::malformed(&source, &error))?;
         let root = xml.root_element();
         foreign::recognize(&source, root)?;
-        let mut document = Self {
-            source: source.clone(),
-            meshes: RefCell::default(),
-            name: root.attribute("name").unwrap_or("").to_owned(),
-            links: Vec::new(),
-            joints: Vec::new(),
-            others: BTreeMap::new(),
+
+        let mut reader = Reader {
+            source: &source,
             diagnostics: Vec::new(),
+            copy: String::new(),
+            others: BTreeMap::default(),
             tree_is_sound: true,
         };
-        document.read_elements(root);
-        Ok(document)
-    }
-
-    fn read_elements(&mut self, root: Node) {
-        let unlimited = version(root) >= (1, 2);
-        // The position of the first element with each name.
-        let mut names: HashMap<(&str, &str), usize> = HashMap::new();
-        for node in root.children().filter(|n| is_urdf_element(*n, root)) {
-            let kind = node.tag_name().name();
-            if kind != "link" && kind != "joint" {
-                *self.others.entry(kind.to_owned()).or_default() += 1;
-                continue;
-            }
-            let Some(name) = node.attribute("name").filter(|n| !n.trim().is_empty()) else {
-                self.refuse_element(node, format!("a <{kind}> has no name"), "give it a unique name");
-                continue;
-            };
-            if let Some(&first) = names.get(&(kind, name)) {
-                let first = self.source.position(first).line;
-                let message = format!("a second {kind} is named \"{name}\"; the first is on line {first}");
-                self.refuse_element(node, message, "rename one of them");
-                continue;
-            }
-            names.insert((kind, name), node.range().start);
-            if kind == "link" {
-                let link = self.link(node, name);
-                self.links.push(link);
-            } else {
-                let before = self.diagnostics.len();
-                let joint = self.joint(node, name, unlimited);
-                self.joints.extend(joint);
-                self.tree_is_sound &= self.diagnostics.len() == before;
+        let (links, joints) = reader.robot(root);
+        let Reader { diagnostics, copy, others, tree_is_sound, .. } = reader;
+        match urdf_rs::read_from_string(&copy) {
+            Ok(robot) => Ok(Self {
+                robot,
+                links,
+                joints,
+                others,
+                diagnostics,
+                tree_is_sound,
+                source,
+                meshes: RefCell::default(),
+            }),
+            Err(error) => {
+                InputError::check(diagnostics)?;
+                let diagnostic = source.diagnostic(format!("is not a URDF that can be read: {error}"));
+                Err(diagnostic.help("check_urdf from the package liburdfdom-tools may find more").into())
             }
         }
-        if self.links.is_empty() && self.diagnostics.is_empty() {
-            self.diagnostics.push(
-                self.source
-                    .diagnostic("the robot has no link")
-                    .help("add a <link name=\"...\"> for each body, and the joints between them"),
-            );
-        }
-    }
-
-    fn link(&mut self, link: Node, name: &str) -> Link {
-        self.attributes(&format!("link \"{name}\"")).finite_everywhere(link);
-        let [visual, collision] = ["visual", "collision"]
-            .map(|kind| children(link, kind).filter_map(|node| self.shape(node, kind, name)).collect());
-        let inertial = children(link, "inertial").next().and_then(inertial).unwrap_or_default();
-        Link { name: name.to_owned(), visual, collision, inertial, at: tag(link) }
-    }
-
-    fn shape(&mut self, node: Node, kind: &str, link: &str) -> Option<Shape> {
-        let what = format!("link \"{link}\", {kind}");
-        let mut attributes = self.attributes(&what);
-        let pose = attributes.origin(node);
-        let geometry = attributes.only(node, "geometry", true)?;
-        let (shape, geometry) = attributes.geometry(geometry)?;
-        Some(Shape { pose, geometry, at: tag(shape) })
-    }
-
-    fn joint(&mut self, joint: Node, name: &str, unlimited: bool) -> Option<Joint> {
-        let what = format!("joint \"{name}\"");
-        let mut attributes = self.attributes(&what);
-        attributes.finite_everywhere(joint);
-        let joint_type = attributes.joint_type(joint);
-        let pose = attributes.origin(joint);
-        let [parent, child] = ["parent", "child"].map(|end| attributes.only(joint, end, true));
-        let [parent, child] = [parent, child].map(|end| {
-            let end = end?;
-            Some(LinkName { link: attributes.text(end, "link")?.to_owned(), at: tag(end) })
-        });
-        let moves = joint_type.is_some_and(|kind| kind != JointType::Fixed && kind != JointType::Floating);
-        let axis = attributes.only(joint, "axis", false).filter(|_| moves);
-        let axis = axis.and_then(|axis| Some((attributes.direction(axis)?, tag(axis))));
-        let limit = attributes.only(joint, "limit", false);
-        // From URDF 1.2 on, a missing limit means that there is no limit. Before, it means 0.
-        let absent = if unlimited { [f64::NEG_INFINITY, f64::INFINITY] } else { [0.0; 2] };
-        let is_ranged = matches!(joint_type, Some(JointType::Revolute | JointType::Prismatic));
-        let limit = limit.map_or_else(Limit::default, |limit| attributes.limit(limit, absent, is_ranged));
-        let mimic = attributes.only(joint, "mimic", false).and_then(|mimic| attributes.mimic(mimic));
-        let soft = attributes.only(joint, "safety_controller", false);
-        let soft_limits = soft.and_then(|soft| Some((tag(soft), attributes.soft_limits(soft)?)));
-        let (axis, axis_at) = axis.map_or((Vector3::x_axis(), None), |(axis, at)| (axis, Some(at)));
-        let (name, at) = (name.to_owned(), tag(joint));
-        let (joint_type, parent, child) = (joint_type?, parent?, child?);
-        Some(Joint { name, joint_type, pose, parent, child, axis, axis_at, limit, soft_limits, mimic, at })
-    }
-
-    fn attributes<'s>(&'s mut self, what: &'s str) -> Attributes<'s> {
-        Attributes { source: &self.source, diagnostics: &mut self.diagnostics, what }
-    }
-
-    fn refuse_element(&mut self, node: Node, message: String, help: &str) {
-        self.diagnostics.push(self.source.diagnostic_at(tag(node), message).help(help));
-        self.tree_is_sound = false;
     }
 
     /// Returns the paths of the files that were read so far, which are those of the text and the meshes.
@@ -302,8 +116,7 @@ impl Document {
 
     /// Creates a diagnostic about a joint, with its name before the message.
     pub fn joint_diagnostic(&self, joint: usize, message: &str) -> Diagnostic {
-        let joint = &self.joints[joint];
-        self.diagnostic_at(&joint.at, format!("joint \"{}\" {message}", joint.name))
+        self.diagnostic_at(&self.joints[joint].at, format!("joint \"{}\" {message}", self.robot.joints[joint].name))
     }
 
     /// Returns the line of a joint, for messages.
@@ -312,36 +125,208 @@ impl Document {
     }
 }
 
-/// Returns mass and inertia. `None` if the element is incomplete.
-fn inertial(node: Node) -> Option<Inertial> {
-    let [mass] = numbers(children(node, "mass").next()?, "value")?;
+/// Returns the text of an `<inertial>` element for `urdf-rs`. `None` if the element is incomplete, which is frequent;
+/// only torques need it.
+fn inertial(node: Node) -> Option<String> {
+    const INERTIA_ATTRIBUTES: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
+    let mass = numbers(children(node, "mass").next()?, "value", 1)?;
     let inertia = children(node, "inertia").next()?;
-    let [mut xyz, mut rpy] = [[0.0; 3]; 2];
+    let mut copy = "<inertial>".to_owned();
     if let Some(origin) = children(node, "origin").next() {
-        for (name, values) in [("xyz", &mut xyz), ("rpy", &mut rpy)] {
-            if origin.has_attribute(name) {
-                *values = numbers(origin, name)?;
+        copy += "<origin";
+        for name in ["xyz", "rpy"].into_iter().filter(|name| origin.has_attribute(*name)) {
+            let _ = write!(copy, " {name}=\"{}\"", numbers(origin, name, 3)?);
+        }
+        copy += "/>";
+    }
+    let _ = write!(copy, "<mass value=\"{mass}\"/><inertia");
+    for name in INERTIA_ATTRIBUTES {
+        let moment = if inertia.has_attribute(name) { numbers(inertia, name, 1)? } else { "0" };
+        let _ = write!(copy, " {name}=\"{moment}\"");
+    }
+    copy += "/></inertial>";
+    Some(copy)
+}
+
+/// Returns the text of an attribute that consists of `count` finite numbers. `None` if it does not.
+fn numbers<'a>(node: Node<'a, '_>, name: &str, count: usize) -> Option<&'a str> {
+    let text = node.attribute(name)?;
+    let numbers: Option<Vec<f64>> = text.split_whitespace().map(|word| word.parse().ok()).collect();
+    numbers.filter(|numbers| numbers.len() == count && numbers.iter().all(|x| x.is_finite())).map(|_| text.trim())
+}
+
+struct Reader<'a> {
+    source: &'a Source,
+    diagnostics: Vec<Diagnostic>,
+    copy: String,
+    others: BTreeMap<String, usize>,
+    tree_is_sound: bool,
+}
+
+impl Reader<'_> {
+    fn robot(&mut self, root: Node) -> (Vec<LinkPlace>, Vec<JointPlace>) {
+        // `urdf-rs` validates only from version 1.2 on, and reports no positions. The checks here apply to all
+        // versions. Version 1.1 is the first that knows `quat_xyzw`.
+        let unlimited = version(root) >= (1, 2);
+        let _ = write!(
+            self.copy,
+            "<robot name=\"{}\" version=\"1.1\">",
+            escape_attribute(root.attribute("name").unwrap_or(""))
+        );
+        let mut links = Vec::new();
+        let mut joints = Vec::new();
+        // The position of the first element with each name.
+        let mut names: HashMap<(&str, &str), usize> = HashMap::new();
+        for node in root.children().filter(|n| is_urdf_element(*n, root)) {
+            let kind = node.tag_name().name();
+            if kind != "link" && kind != "joint" {
+                *self.others.entry(kind.to_owned()).or_default() += 1;
+                continue;
+            }
+            let Some(name) = node.attribute("name").filter(|n| !n.trim().is_empty()) else {
+                self.diagnostic(node, format!("a <{kind}> has no name"), "give it a unique name");
+                self.tree_is_sound = false;
+                continue;
+            };
+            if let Some(&first) = names.get(&(kind, name)) {
+                let first = self.source.position(first).line;
+                let message = format!("a second {kind} is named \"{name}\"; the first is on line {first}");
+                self.diagnostic(node, message, "rename one of them");
+                self.tree_is_sound = false;
+                continue;
+            }
+            names.insert((kind, name), node.range().start);
+            if kind == "link" {
+                links.push(self.link(node, name));
+            } else {
+                let before = self.diagnostics.len();
+                joints.extend(self.joint(node, name, unlimited));
+                self.tree_is_sound &= self.diagnostics.len() == before;
             }
         }
+        self.copy.push_str("</robot>");
+        if links.is_empty() && self.diagnostics.is_empty() {
+            self.diagnostics.push(
+                self.source
+                    .diagnostic("the robot has no link")
+                    .help("add a <link name=\"...\"> for each body, and the joints between them"),
+            );
+        }
+        (links, joints)
     }
-    let moment = |name| if inertia.has_attribute(name) { numbers(inertia, name) } else { Some([0.0]) };
-    let [[xx], [xy], [xz]] = [moment("ixx")?, moment("ixy")?, moment("ixz")?];
-    let [[yy], [yz], [zz]] = [moment("iyy")?, moment("iyz")?, moment("izz")?];
-    let inertia = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    Some(Inertial { pose: isometry(xyz, rpy), mass, inertia })
-}
 
-/// Returns the finite numbers of an attribute. `None` if it has others.
-fn numbers<const N: usize>(node: Node, name: &str) -> Option<[f64; N]> {
-    let numbers =
-        node.attribute(name)?.split_whitespace().map(|word| word.parse().ok().filter(|x: &f64| x.is_finite()));
-    numbers.collect::<Option<Vec<f64>>>()?.try_into().ok()
-}
+    fn link(&mut self, link: Node, name: &str) -> LinkPlace {
+        self.attributes(&format!("link \"{name}\"")).finite_everywhere(link);
+        let mut place = LinkPlace { at: tag(link), visual: Vec::new(), collision: Vec::new() };
+        let _ = write!(self.copy, "<link name=\"{}\">", escape_attribute(name));
+        for kind in ["visual", "collision"] {
+            for node in children(link, kind) {
+                if let Some(at) = self.shape(node, kind, name) {
+                    if kind == "visual" { place.visual.push(at) } else { place.collision.push(at) }
+                }
+            }
+        }
+        if let Some(copy) = children(link, "inertial").next().and_then(inertial) {
+            self.copy.push_str(&copy);
+        }
+        self.copy.push_str("</link>");
+        place
+    }
 
-/// Returns the pose of an `<origin>`.
-pub(super) fn isometry([x, y, z]: [f64; 3], [roll, pitch, yaw]: [f64; 3]) -> Isometry3<f64> {
-    let turn = nalgebra::UnitQuaternion::from_euler_angles(roll, pitch, yaw);
-    Isometry3::from_parts(nalgebra::Translation3::new(x, y, z), turn)
+    fn shape(&mut self, node: Node, kind: &str, link: &str) -> Option<Range<usize>> {
+        let what = format!("link \"{link}\", {kind}");
+        let mut attributes = self.attributes(&what);
+        let origin = attributes.origin(node);
+        let geometry = attributes.only(node, "geometry", true)?;
+        let shape = attributes.geometry(geometry)?;
+        let _ = write!(self.copy, "<{kind}>{origin}<geometry>");
+        self.copy_element(shape, &["size", "radius", "length", "filename", "scale"]);
+        let _ = write!(self.copy, "</geometry></{kind}>");
+        Some(tag(shape))
+    }
+
+    fn joint(&mut self, joint: Node, name: &str, unlimited: bool) -> Option<JointPlace> {
+        let what = format!("joint \"{name}\"");
+        let mut attributes = self.attributes(&what);
+        attributes.finite_everywhere(joint);
+        let kind = attributes.joint_type(joint);
+        let origin = attributes.origin(joint);
+        let parent = attributes.only(joint, "parent", true);
+        let child = attributes.only(joint, "child", true);
+        let parent_link = parent.and_then(|n| attributes.text(n, "link"));
+        let child_link = child.and_then(|n| attributes.text(n, "link"));
+        let moves = kind.is_some_and(|k| k != "fixed" && k != "floating");
+        let axis = attributes.only(joint, "axis", false).filter(|axis| moves && attributes.direction(*axis));
+        let limit = attributes.only(joint, "limit", false);
+        // From URDF 1.2 on, a missing limit means that there is no limit. Before, it means 0.
+        let [low, high] = if unlimited { [f64::NEG_INFINITY, f64::INFINITY] } else { [0.0; 2] };
+        let [lower, upper, velocity, acceleration] = match limit {
+            Some(limit) => attributes.limit(limit, [low, high], matches!(kind, Some("revolute" | "prismatic"))),
+            None => [None; 4],
+        };
+        let mimic = attributes.only(joint, "mimic", false);
+        if let Some(mimic) = mimic {
+            attributes.text(mimic, "joint");
+            attributes.number(mimic, "multiplier");
+            attributes.number(mimic, "offset");
+        }
+        let safety = attributes.only(joint, "safety_controller", false);
+        let soft = safety.and_then(|s| attributes.soft_limits(s));
+
+        let (kind, parent, child, parent_link, child_link) = (kind?, parent?, child?, parent_link?, child_link?);
+        let _ = write!(self.copy, "<joint name=\"{}\" type=\"{kind}\">{origin}", escape_attribute(name));
+        let _ = write!(self.copy, "<parent link=\"{}\"/>", escape_attribute(parent_link));
+        let _ = write!(self.copy, "<child link=\"{}\"/>", escape_attribute(child_link));
+        if let Some(axis) = axis {
+            self.copy_element(axis, &["xyz"]);
+        }
+        if limit.is_some() {
+            let _ = write!(
+                self.copy,
+                "<limit lower=\"{}\" upper=\"{}\" velocity=\"{}\" effort=\"{}\"/>",
+                lower.unwrap_or(low),
+                upper.unwrap_or(high),
+                velocity.unwrap_or(0.0),
+                limit.and_then(|limit| limit.attribute("effort")?.trim().parse::<f64>().ok()).unwrap_or(0.0)
+            );
+        }
+        if let Some(mimic) = mimic {
+            self.copy_element(mimic, &["joint", "multiplier", "offset"]);
+        }
+        if let Some([lower, upper]) = soft {
+            let soft = format!("soft_lower_limit=\"{lower}\" soft_upper_limit=\"{upper}\"");
+            let _ = write!(self.copy, "<safety_controller k_velocity=\"0\" {soft}/>");
+        }
+        self.copy.push_str("</joint>");
+        Some(JointPlace {
+            at: tag(joint),
+            axis: axis.map(tag),
+            parent: tag(parent),
+            child: tag(child),
+            limit: limit.map(tag),
+            has_velocity: limit.is_some_and(|limit| limit.has_attribute("velocity")),
+            mimic: mimic.map(tag),
+            soft_limits: soft.and(safety).map(tag),
+            acceleration,
+        })
+    }
+
+    /// Copies an element, with only the attributes that `urdf-rs` should read.
+    fn copy_element(&mut self, node: Node, keep: &[&str]) {
+        let _ = write!(self.copy, "<{}", node.tag_name().name());
+        for attribute in node.attributes().filter(|a| keep.contains(&a.name())) {
+            let _ = write!(self.copy, " {}=\"{}\"", attribute.name(), escape_attribute(attribute.value()));
+        }
+        self.copy.push_str("/>");
+    }
+
+    fn attributes<'s>(&'s mut self, what: &'s str) -> Attributes<'s> {
+        Attributes { source: self.source, diagnostics: &mut self.diagnostics, what }
+    }
+
+    fn diagnostic(&mut self, node: Node, message: String, help: &str) {
+        self.diagnostics.push(self.source.diagnostic_at(tag(node), message).help(help));
+    }
 }
 
 /// Returns the position of the first line of the opening tag, where messages put the caret.
@@ -363,4 +348,9 @@ fn version(root: Node) -> (u32, u32) {
         Some((major.parse().ok()?, minor.parse().ok()?))
     };
     root.attribute("version").and_then(parse).unwrap_or((1, 0))
+}
+
+/// Escapes text for an XML attribute.
+pub(super) fn escape_attribute(text: &str) -> String {
+    text.replace('&', "&amp;").replace('<', "&lt;").replace('"', "&quot;")
 }

@@ -27,7 +27,7 @@ struct MotorLimits {
 impl Reduction<'_> {
     /// Returns the motors that the world file describes.
     pub(super) fn motors(&self) -> Result<Option<Motors>, Diagnostic> {
-        let Some(given) = &self.robot.settings.table.drives else { return Ok(None) };
+        let Some(given) = &self.settings.table.drives else { return Ok(None) };
         let (motors, [_, elbow]) = self.read_drives(given)?;
         if motors.ratio == 0.0 {
             return Ok(Some(motors));
@@ -38,13 +38,13 @@ impl Reduction<'_> {
 
     /// Applies the limits of motors to the joints. The sum of both joint values has the limits in [`Motors`].
     pub(super) fn limit_by_motors(&self, bounds: &mut [Bounds; 2]) -> Result<(), InputError> {
-        let Some(given) = &self.robot.settings.table.drives else { return Ok(()) };
+        let Some(given) = &self.settings.table.drives else { return Ok(()) };
         let (motors, [first, elbow]) = self.read_drives(given)?;
         let refuse = |message: String| -> InputError {
             self.diagnostic(given.span(), message).help("give other limits of motors or joints").into()
         };
         let [one, two] = bounds;
-        let names = self.chain.joints.map(|j| &self.robot.document.joints[j].name);
+        let names = self.chain.joints.map(|j| &self.document.robot.joints[j].name);
         let empty = |name: &str| refuse(format!("the limits of its motor leave joint \"{name}\" no values"));
         one.limit(first).ok_or_else(|| empty(names[0]))?;
         if motors.ratio == 0.0 {
@@ -83,7 +83,7 @@ impl Reduction<'_> {
 
     /// Describes the motors for people.
     pub(super) fn describe_motors(&self, motors: &Motors) -> String {
-        let [first, second] = self.chain.joints.map(|j| &self.robot.document.joints[j].name);
+        let [first, second] = self.chain.joints.map(|j| &self.document.robot.joints[j].name);
         match motors.ratio {
             0.0 => format!("drives: each motor turns its own joint, {first} and {second}"),
             1.0 => format!("drives: the elbow's motor is mounted on the base and turns {first} + {second}"),
@@ -92,7 +92,7 @@ impl Reduction<'_> {
     }
 
     fn diagnostic(&self, at: Range<usize>, message: impl AsRef<str>) -> Diagnostic {
-        self.robot.settings.source.diagnostic_at(at, format!("[robot] drives: {}", message.as_ref()))
+        self.settings.source.diagnostic_at(at, format!("[robot] drives: {}", message.as_ref()))
     }
 
     /// Reads the motors without the limits of the sum, and the limits of what both motors turn.
@@ -140,7 +140,7 @@ impl Reduction<'_> {
     }
 
     fn ratio(&self, table: &DrivesTable) -> Result<f64, Diagnostic> {
-        let ratio = table.ratio.as_ref().map(|ratio| self.robot.settings.source.finite(ratio, "[robot] drives, ratio"));
+        let ratio = table.ratio.as_ref().map(|ratio| self.settings.source.finite(ratio, "[robot] drives, ratio"));
         let ratio = ratio.transpose()?;
         match table.elbow.as_ref().map(|elbow| (elbow, elbow.get_ref().as_str())) {
             None | Some((_, "base")) => Ok(ratio.unwrap_or(1.0)),
@@ -202,7 +202,7 @@ impl Reduction<'_> {
 
     fn pair(&self, numbers: &Numbers, name: &str) -> Result<[f64; 2], Diagnostic> {
         let what = format!("[robot] drives, {name}");
-        let values = numbers.get_ref().iter().map(|number| self.robot.settings.source.finite(number, &what));
+        let values = numbers.get_ref().iter().map(|number| self.settings.source.finite(number, &what));
         let values = values.collect::<Result<Vec<f64>, Diagnostic>>()?;
         self.both(&values, numbers.span(), name)
     }

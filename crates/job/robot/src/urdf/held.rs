@@ -1,11 +1,11 @@
 //! Values of the joints that do not move: the world states them, they are at rest, or a mimic rule determines them.
 
-use super::chain::Robot;
-use super::document::Mimic;
-use super::limits::Range;
+use super::chain::{Chooser, is_movable, unit};
+use super::limits::{Limits, Range};
 use crate::error::{Diagnostic, InputError};
 use crate::quantity::{Quantity, find};
 use cplan_model::space::JointRange;
+use urdf_rs::{JointType, Mimic};
 
 /// Values of all joints, with the list of held joints whose values affect the arm.
 pub(super) struct HeldValues {
@@ -14,7 +14,7 @@ pub(super) struct HeldValues {
     pub notes: Vec<String>,
 }
 
-impl Robot<'_> {
+impl Chooser<'_> {
     fn mimicked_joint(&self, joint: usize, mimic: &Mimic) -> Result<usize, Diagnostic> {
         self.joint(&mimic.joint).ok_or_else(|| {
             let message = format!("mimics joint \"{}\", which does not exist", mimic.joint);
@@ -24,19 +24,27 @@ impl Robot<'_> {
 
     /// Returns the joint at the end of a chain of mimic rules.
     pub(super) fn leader(&self, joint: usize) -> Result<usize, Diagnostic> {
-        self.rule(joint).map(|(leader, ..)| leader)
+        let mut at = joint;
+        for _ in 0..=self.all().len() {
+            match &self.all()[at].mimic {
+                None => return Ok(at),
+                Some(mimic) => at = self.mimicked_joint(at, mimic)?,
+            }
+        }
+        Err(self.mimic_diagnostic(joint, "follows itself: the mimics form a cycle"))
     }
 
     /// Returns the joint that a joint follows, with factor and offset. Without a mimic rule, returns the joint itself,
     /// with 1 and 0.
     pub(super) fn rule(&self, joint: usize) -> Result<(usize, f64, f64), Diagnostic> {
-        let (mut at, mut factor, mut offset) = (joint, 1.0, 0.0);
-        for _ in 0..=self.all().len() {
-            let Some(mimic) = &self.all()[at].mimic else { return Ok((at, factor, offset)) };
-            (factor, offset) = (factor * mimic.multiplier, factor * mimic.offset + offset);
+        let leader = self.leader(joint)?;
+        let mut value = Affine { factor: 1.0, offset: 0.0 };
+        let mut at = joint;
+        while let Some(mimic) = &self.all()[at].mimic {
+            value = value.compose_mimic(mimic);
             at = self.mimicked_joint(at, mimic)?;
         }
-        Err(self.mimic_diagnostic(joint, "follows itself: the mimics form a cycle"))
+        Ok((leader, value.factor, value.offset))
     }
 
     /// Returns the value of every joint, and notes about those that matter to the arm.
@@ -53,16 +61,16 @@ impl Robot<'_> {
         let mut values = vec![0.0; self.all().len()];
         let (mut held, mut notes) = (Vec::new(), Vec::new());
         for (j, joint) in self.all().iter().enumerate() {
-            if chosen.contains(&j) || !joint.is_movable() || joint.mimic.is_some() {
+            if chosen.contains(&j) || !is_movable(joint) || joint.mimic.is_some() {
                 continue;
             }
             values[j] = self.held_at(j)?;
             if self.tree.carries(j, self.tree.child[chosen[1]]) || self.tree.carries(chosen[0], self.tree.child[j]) {
                 held.push(j);
-                notes.push(format!("joint \"{}\" is held at {} {}", joint.name, values[j], joint.unit()));
+                notes.push(format!("joint \"{}\" is held at {} {}", joint.name, values[j], unit(joint)));
             }
         }
-        for (j, joint) in self.all().iter().enumerate().filter(|(_, joint)| joint.is_movable()) {
+        for (j, joint) in self.all().iter().enumerate().filter(|(_, joint)| is_movable(joint)) {
             if joint.mimic.is_none() {
                 continue;
             }
@@ -79,7 +87,7 @@ impl Robot<'_> {
                     "joint \"{}\" follows joint \"{leader}\": held at {} {}",
                     joint.name,
                     values[j],
-                    joint.unit()
+                    unit(joint)
                 ));
             }
         }
@@ -90,7 +98,7 @@ impl Robot<'_> {
     /// limit nearest to 0.
     fn held_at(&self, index: usize) -> Result<f64, Diagnostic> {
         let joint = &self.all()[index];
-        let range = self.limits().range(index)?;
+        let range = Limits { document: self.document, settings: self.settings }.range(index)?;
         let Some(value) = find(&self.settings.table.fixed, &joint.name) else {
             return Ok(match range {
                 Range::Known(JointRange::Interval { lower, upper })
@@ -99,7 +107,7 @@ impl Robot<'_> {
             });
         };
         let Quantity { value: number, in_degrees } = *value.get_ref();
-        if in_degrees && joint.slides() {
+        if in_degrees && joint.joint_type == JointType::Prismatic {
             let message = format!("[robot] fixed: joint \"{}\" slides: its value cannot be in degrees", joint.name);
             return Err(self.in_world(value, message).help("write its value in metres, without \"deg\""));
         }
@@ -108,7 +116,7 @@ impl Robot<'_> {
         }
         match range {
             Range::Known(JointRange::Interval { lower, upper }) if number < lower || number > upper => {
-                let unit = joint.unit();
+                let unit = unit(joint);
                 let message = format!(
                     "[robot] fixed: {number} {unit} is outside the limits of joint \"{}\", [{lower}, {upper}] {unit}",
                     joint.name
@@ -117,5 +125,19 @@ impl Robot<'_> {
             }
             _ => Ok(number),
         }
+    }
+}
+
+/// The map `factor * x + offset`, composed along a chain of mimic rules.
+struct Affine {
+    factor: f64,
+    offset: f64,
+}
+
+impl Affine {
+    /// Returns the composition with the map of a mimic rule, which is applied first.
+    fn compose_mimic(self, mimic: &Mimic) -> Self {
+        let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
+        Affine { factor: self.factor * multiplier, offset: self.factor * offset + self.offset }
     }
 }

@@ -1,17 +1,18 @@
 //! Entries for the world file that make a robot usable.
 
-use super::limits::key;
+use super::limits::{Limits, key};
 use super::reduction::Reduction;
 use cplan_model::Plane;
 
 /// Returns the entries of `[robot]` that make these two joints usable, one per line. They name the joints, and have
 /// placeholders for missing or invalid ranges and for unusable geometry. Returns `None` if no entry is needed.
 pub(super) fn entries(reduction: &Reduction, plane: &Plane) -> Option<String> {
-    let &Reduction { robot, chain, .. } = reduction;
-    let (joints, limits) = (robot.all(), robot.limits());
+    let &Reduction { document, settings, chain, .. } = reduction;
+    let joints = &document.robot.joints;
+    let limits = Limits { document, settings };
     let [first, second] = chain.joints.map(|j| joints[j].name.as_str());
     let mut lines = Vec::new();
-    let chosen = robot.evident_joints();
+    let chosen = super::chain::joints(document, reduction.tree, settings);
     if chosen != Some(chain.joints) {
         lines.push(format!("joints = [{first:?}, {second:?}]"));
     }

@@ -1,6 +1,6 @@
 //! Parts of a URDF that the planner ignores, with reasons.
 
-use super::chain::Robot;
+use super::chain::is_movable;
 use super::document::Document;
 use super::reduction::Reduction;
 use crate::error::quoted;
@@ -18,15 +18,16 @@ pub(super) fn elements(document: &Document) -> Vec<String> {
 
 /// Lists links that do not move, and joints whose values do not affect the arm.
 pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
-    let Reduction { robot: Robot { document, tree, .. }, chain, .. } = reduction;
+    let Reduction { document, tree, chain, .. } = reduction;
     let mut ignored = Vec::new();
-    let solid = document.links.iter().enumerate().filter(|(_, link)| link.has_shapes());
+    let has_shapes = |link: &urdf_rs::Link| link.collision.len() + link.visual.len() > 0;
+    let solid = document.robot.links.iter().enumerate().filter(|(_, link)| has_shapes(link));
     let (still, beside): (Vec<_>, Vec<_>) = solid
         .filter(|(l, _)| !tree.carries(chain.joints[0], *l))
         .map(|(l, link)| (reduction.is_fixed(l), link.name.as_str()))
         .partition(|(is_fixed, _)| *is_fixed);
     let names = |links: Vec<(bool, &str)>| quoted(links.into_iter().map(|(_, name)| name.to_owned()));
-    if !still.is_empty() && !reduction.robot.settings.table.own_body_is_obstacle() {
+    if !still.is_empty() && !reduction.settings.table.own_body_is_obstacle() {
         ignored.push(format!("links that stand still, as [robot] own_body = false asks: {}", names(still)));
     }
     if !beside.is_empty() {
@@ -36,10 +37,11 @@ pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
         ));
     }
     let beside: Vec<&str> = document
+        .robot
         .joints
         .iter()
         .enumerate()
-        .filter(|(j, joint)| joint.is_movable() && !concerns_the_arm(reduction, *j))
+        .filter(|(j, joint)| is_movable(joint) && !concerns_the_arm(reduction, *j))
         .map(|(_, joint)| joint.name.as_str())
         .collect();
     if !beside.is_empty() {
@@ -50,14 +52,14 @@ pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
 
 /// Lists links whose visual geometry is ignored because they have collision geometry.
 pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
-    let Reduction { robot: Robot { document, tree, .. }, chain, .. } = reduction;
+    let Reduction { document, tree, chain, .. } = reduction;
     let mut ignored = Vec::new();
     for (index, link) in links.iter().enumerate().filter(|(_, link)| link.source == OutlineSource::Collision) {
         let mine =
             |l: &usize| tree.carries(chain.joints[index], *l) && (index == 1 || !tree.carries(chain.joints[1], *l));
-        let is_used = |l: &usize| link.parts.iter().any(|p| p.is_visual && p.body == document.links[*l].name);
-        let unused = (0..document.links.len()).filter(|l| mine(l) && !is_used(l));
-        let shapes: usize = unused.map(|l| document.links[l].visual.len()).sum();
+        let is_used = |l: &usize| link.parts.iter().any(|p| p.is_visual && p.body == document.robot.links[*l].name);
+        let unused = (0..document.robot.links.len()).filter(|l| mine(l) && !is_used(l));
+        let shapes: usize = unused.map(|l| document.robot.links[l].visual.len()).sum();
         if shapes > 0 {
             let shapes = counted(shapes, "visual shape");
             ignored.push(format!("{shapes} of link \"{}\": it has collision geometry", link.name));
@@ -68,6 +70,6 @@ pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
 
 /// Returns true if a joint is one of the two arm joints, or carries them, or is carried by them.
 pub(super) fn concerns_the_arm(reduction: &Reduction, joint: usize) -> bool {
-    let Reduction { robot: Robot { tree, .. }, chain, .. } = reduction;
+    let Reduction { tree, chain, .. } = reduction;
     tree.carries(joint, tree.child[chain.joints[1]]) || tree.carries(chain.joints[0], tree.child[joint])
 }

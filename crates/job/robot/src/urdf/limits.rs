@@ -1,13 +1,14 @@
 //! Ranges, top speeds, accelerations and jerks of the joints.
 
-use super::document::{Document, Joint, JointType};
 use crate::Spanned;
+use super::document::Document;
 use crate::error::Diagnostic;
 use crate::quantity::{MAX_LENGTH, PerJoint, Written, find};
 use crate::settings::RobotSettings;
 use cplan_model::space::JointRange;
 use cplan_model::{DEFAULT_SLIDING_SPEED, DEFAULT_TURNING_SPEED, MAX_TURN_RANGE, assumed_acceleration};
 use std::f64::consts::{PI, TAU};
+use urdf_rs::JointType;
 
 /// Longest range of a prismatic joint, in metres. It spans all coordinates that a world may have, so a longer range
 /// would be of no use.
@@ -63,14 +64,14 @@ pub(super) struct Limits<'a> {
 impl Limits<'_> {
     /// Returns the range of a movable joint. The world's range overrides that of the URDF, which soft limits narrow.
     pub fn range(&self, index: usize) -> Result<Range, Diagnostic> {
-        let joint = &self.document.joints[index];
+        let joint = &self.document.robot.joints[index];
         if let Some(limits) = find(&self.settings.table.limits, &joint.name) {
             return self.overridden(joint, limits).map(Range::Known);
         }
         if joint.joint_type == JointType::Continuous {
             return Ok(Range::Known(JointRange::Circle));
         }
-        if joint.limit.at.is_none() {
+        if self.document.joints[index].limit.is_none() {
             return Ok(Range::Unset("has no <limit>".into()));
         }
         let (lower, upper) = (joint.limit.lower, joint.limit.upper);
@@ -78,7 +79,7 @@ impl Limits<'_> {
             return Ok(Range::Unset(format!("has no range: lower and upper are both {lower}, which means unset")));
         }
         let [lower, upper] = self.softened(index, [lower, upper])?;
-        let slides = joint.slides();
+        let slides = joint.joint_type == JointType::Prismatic;
         if !slides && lower <= -UNLIMITED_TURN && upper >= UNLIMITED_TURN {
             let note = format!(
                 "joint \"{}\": limits from {lower} to {upper} are unlimited; the joint counts as continuous",
@@ -110,8 +111,8 @@ impl Limits<'_> {
         match self.range(index)? {
             Range::Known(axis) | Range::Taken(axis, _) => Ok(axis),
             Range::Unset(reason) => {
-                let joint = &self.document.joints[index];
-                let at = joint.limit.at.as_ref().unwrap_or(&joint.at);
+                let joint = &self.document.robot.joints[index];
+                let at = self.document.joints[index].limit.as_ref().unwrap_or(&self.document.joints[index].at);
                 let (key, joint_type) = (key(&joint.name), &joint.joint_type);
                 let mut help = format!("in the world file: [robot] limits = {{ {key} = {} }}", self.example(index));
                 match self.degrees(index) {
@@ -133,19 +134,19 @@ impl Limits<'_> {
     pub fn example(&self, index: usize) -> String {
         match self.degrees(index) {
             Some([lower, upper]) => format!("[\"{lower}deg\", \"{upper}deg\"]"),
-            None if self.document.joints[index].slides() => "[0.0, 0.5]".into(),
+            None if self.document.robot.joints[index].joint_type == JointType::Prismatic => "[0.0, 0.5]".into(),
             None => "[-3.1, 3.1]".into(),
         }
     }
 
     /// Returns the URDF's limits of a revolute joint if they look like degrees.
     fn degrees(&self, index: usize) -> Option<[f64; 2]> {
-        let joint = &self.document.joints[index];
+        let joint = &self.document.robot.joints[index];
         let (lower, upper) = (joint.limit.lower, joint.limit.upper);
         (joint.joint_type == JointType::Revolute && are_degrees(lower, upper)).then_some([lower, upper])
     }
 
-    fn overridden(&self, joint: &Joint, limits: &Spanned<Vec<Written>>) -> Result<JointRange, Diagnostic> {
+    fn overridden(&self, joint: &urdf_rs::Joint, limits: &Spanned<Vec<Written>>) -> Result<JointRange, Diagnostic> {
         let diagnostic = |message: String| {
             let message = format!("[robot] limits of \"{}\": {message}", joint.name);
             self.settings
@@ -153,9 +154,9 @@ impl Limits<'_> {
                 .diagnostic_at(limits.span(), message)
                 .help("limits = { NAME = [lower, upper] }, rad or m")
         };
-        let longest = if joint.slides() { MAX_SLIDE } else { MAX_TURN_RANGE };
+        let longest = if joint.joint_type == JointType::Prismatic { MAX_SLIDE } else { MAX_TURN_RANGE };
         let numbers: Vec<f64> = limits.get_ref().iter().map(|n| n.get_ref().value).collect();
-        if joint.slides() && limits.get_ref().iter().any(|n| n.get_ref().in_degrees) {
+        if joint.joint_type == JointType::Prismatic && limits.get_ref().iter().any(|n| n.get_ref().in_degrees) {
             return Err(diagnostic("the joint slides: its limits cannot be in degrees".into()));
         }
         let [lower, upper] = numbers[..] else {
@@ -175,9 +176,12 @@ impl Limits<'_> {
     }
 
     fn softened(&self, index: usize, [lower, upper]: [f64; 2]) -> Result<[f64; 2], Diagnostic> {
-        let joint = &self.document.joints[index];
-        let Some((at, [soft_lower, soft_upper])) = &joint.soft_limits else { return Ok([lower, upper]) };
-        let narrowed = [lower.max(*soft_lower), upper.min(*soft_upper)];
+        let joint = &self.document.robot.joints[index];
+        let (Some(at), Some(soft)) = (&self.document.joints[index].soft_limits, &joint.safety_controller) else {
+            return Ok([lower, upper]);
+        };
+        let (soft_lower, soft_upper) = (soft.soft_lower_limit, soft.soft_upper_limit);
+        let narrowed = [lower.max(soft_lower), upper.min(soft_upper)];
         if narrowed[0] >= narrowed[1] {
             let message = format!(
                 "joint \"{}\": its soft limits [{soft_lower}, {soft_upper}] do not overlap its limits [{lower}, {upper}]",
@@ -191,18 +195,19 @@ impl Limits<'_> {
 
     /// Returns top speed, acceleration limit and jerk limit of an arm joint.
     pub fn rates(&self, index: usize) -> Result<Rates, Diagnostic> {
-        let joint = &self.document.joints[index];
+        let joint = &self.document.robot.joints[index];
+        let place = &self.document.joints[index];
         let name = &joint.name;
         let mut assumed = MissingRates::default();
-        let slides = joint.slides();
-        let given = joint.limit.velocity.filter(|v| *v > 0.0);
+        let slides = joint.joint_type == JointType::Prismatic;
+        let given = place.limit.is_some().then_some(joint.limit.velocity).filter(|v| *v > 0.0);
         let velocity = self.positive(&self.settings.table.velocity, name, "velocity")?.or(given).unwrap_or_else(|| {
             let default = if slides { DEFAULT_SLIDING_SPEED } else { DEFAULT_TURNING_SPEED };
             assumed.velocity = true;
             default
         });
         let jerk = self.positive(&self.settings.table.jerk, name, "jerk")?;
-        let given = joint.limit.acceleration.filter(|a| *a > 0.0);
+        let given = place.acceleration.filter(|a| *a > 0.0);
         if let Some(acceleration) = self.positive(&self.settings.table.acceleration, name, "acceleration")?.or(given) {
             return Ok(Rates { velocity, acceleration, jerk, assumed });
         }

@@ -1,16 +1,16 @@
 //! Masses of the two arm links, and efforts of their joints.
 
 use super::bodies::Bodies;
-use super::document::Inertial;
 use super::limits::key;
 use super::plane::project;
+use super::tree::isometry;
 use crate::error::Diagnostic;
 use crate::quantity::find;
 use crate::settings::RobotSettings;
 use cplan_dynamics::{Torques, joined};
 use cplan_geometry::Vector;
 use cplan_model::{Arm, Body, Dynamics};
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// Default acceleration of free fall in the root frame, whose z axis points up, in m/s2.
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
@@ -48,7 +48,7 @@ impl Bodies<'_> {
     /// # Errors
     /// Links without mass, joints without effort, and numbers that no rigid body can have.
     pub fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
-        check(self.robot.settings)?;
+        check(self.settings)?;
         let effort = [self.effort(0)?, self.effort(1)?];
         let bodies = [self.body(0)?, self.body(1)?];
         let gravity = self.gravity();
@@ -71,15 +71,16 @@ impl Bodies<'_> {
         } else {
             ("one of the two joints moves no inertia", "give its link an <inertial> with <mass> and <inertia>")
         };
-        Err(self.robot.document.source.diagnostic(message).help(help))
+        Err(self.document.source.diagnostic(message).help(help))
     }
 
     fn effort(&self, index: usize) -> Result<f64, Diagnostic> {
-        let joint = &self.robot.document.joints[self.chain.joints[index]];
-        if let Some(given) = find(&self.robot.settings.table.effort, &joint.name) {
+        let joint = &self.document.robot.joints[self.chain.joints[index]];
+        let place = &self.document.joints[self.chain.joints[index]];
+        if let Some(given) = find(&self.settings.table.effort, &joint.name) {
             return Ok(*given.get_ref());
         }
-        if joint.limit.effort.is_finite() && joint.limit.effort > 0.0 {
+        if joint.limit.effort.is_finite() && joint.limit.effort > 0.0 && place.limit.is_some() {
             return Ok(joint.limit.effort);
         }
         let message = format!("joint \"{}\" has no effort", joint.name);
@@ -87,7 +88,7 @@ impl Bodies<'_> {
             "effort=\"50\" in its <limit>, or in the world file: [robot] effort = {{ {} = 50 }} (N m, or N for a joint that slides)",
             key(&joint.name)
         );
-        Err(self.robot.document.diagnostic_at(joint.limit.at.as_ref().unwrap_or(&joint.at), message).help(help))
+        Err(self.document.diagnostic_at(place.limit.as_ref().unwrap_or(&place.at), message).help(help))
     }
 
     /// Returns the mass properties of an arm link, in its frame.
@@ -95,15 +96,19 @@ impl Bodies<'_> {
         let joint = self.joint_at(index).0;
         let mut whole = Body::NONE;
         for body in self.bodies(index) {
-            let link = &self.robot.document.links[body];
-            let Inertial { pose, mass, inertia } = link.inertial;
-            let pose = self.poses[body] * pose;
+            let link = &self.document.robot.links[body];
+            let inertial = &link.inertial;
+            let mass = inertial.mass.value;
+            let pose = self.poses[body] * isometry(&inertial.origin);
+            let i = &inertial.inertia;
+            let tensor = Matrix3::new(i.ixx, i.ixy, i.ixz, i.ixy, i.iyy, i.iyz, i.ixz, i.iyz, i.izz);
             let normal = pose.inverse_transform_vector(&self.plane.normal);
-            let inertia = normal.dot(&(inertia * normal));
+            let inertia = normal.dot(&(tensor * normal));
             if mass < 0.0 || inertia < 0.0 {
                 let message =
                     format!("link \"{}\" has a mass of {mass} kg and an inertia of {inertia} kg m2", link.name);
-                return Err(self.robot.document.diagnostic_at(&link.at, message).help("neither can be negative"));
+                let at = &self.document.links[body].at;
+                return Err(self.document.diagnostic_at(at, message).help("neither can be negative"));
             }
             let center = project(self.plane, &pose.translation.vector) - joint;
             whole = joined(&whole, &Body { mass, center, inertia });
@@ -111,14 +116,14 @@ impl Bodies<'_> {
         if whole.mass > 0.0 {
             return Ok(whole);
         }
-        let link = self.robot.tree.child[self.chain.joints[index]];
-        let message = format!("link \"{}\" has no mass", self.robot.tree.links[link]);
+        let link = self.tree.child[self.chain.joints[index]];
+        let message = format!("link \"{}\" has no mass", self.tree.links[link]);
         let help = "give it an <inertial> with <origin>, <mass> and <inertia>";
-        Err(self.robot.document.source.diagnostic(message).help(help))
+        Err(self.document.source.diagnostic(message).help(help))
     }
 
     fn gravity(&self) -> Vector3<f64> {
-        let given = self.robot.settings.table.gravity.as_ref();
+        let given = self.settings.table.gravity.as_ref();
         let numbers = given.map(|given| given.get_ref().iter().map(|number| *number.get_ref()));
         numbers.map_or(GRAVITY.into(), Vector3::from_iterator)
     }

@@ -2,13 +2,16 @@
 
 use super::advice;
 use super::bodies::{Bodies, Outlines};
-use super::chain::{Chain, Robot};
-use super::limits::{Range, Rates};
+use super::chain::Chain;
+use super::document::Document;
+use super::limits::{Limits, Range, Rates};
 use super::pairing;
 use super::plane::{self, SpatialAxis, project};
 use super::self_collision::{Group, group, ignore_permanent_contact};
+use super::tree::{self, Tree};
 use crate::RobotReport;
 use crate::error::{Diagnostic, InputError};
+use crate::settings::RobotSettings;
 use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
 use cplan_model::space::JointRange;
@@ -17,7 +20,9 @@ use nalgebra::Isometry3;
 
 /// A chain and the poses of its links.
 pub(super) struct Reduction<'a> {
-    pub robot: Robot<'a>,
+    pub document: &'a Document,
+    pub tree: &'a Tree,
+    pub settings: RobotSettings<'a>,
     pub chain: &'a Chain,
     /// Poses of all links in the root frame, with the two arm joints at 0 and the others at their held values.
     pub poses: Vec<Isometry3<f64>>,
@@ -30,35 +35,36 @@ pub(super) struct Bounds {
 }
 
 impl<'a> Reduction<'a> {
-    pub fn new(robot: Robot<'a>, chain: &'a Chain) -> Self {
-        Self { robot, chain, poses: robot.tree.poses(&robot.document.joints, &chain.values) }
+    pub fn new(document: &'a Document, tree: &'a Tree, settings: RobotSettings<'a>, chain: &'a Chain) -> Self {
+        Self { document, tree, settings, chain, poses: tree.poses(&document.robot, &chain.values) }
     }
 
     /// Returns the two joints' axes in the root frame.
     pub fn axes(&self) -> [SpatialAxis<'a>; 2] {
         self.chain.joints.map(|j| {
-            let joint = &self.robot.document.joints[j];
-            let direction = (self.poses[self.robot.tree.child[j]] * joint.axis).into_inner();
-            SpatialAxis { name: &joint.name, revolute: !joint.slides(), direction }
+            let joint = &self.document.robot.joints[j];
+            let direction = (self.poses[self.tree.child[j]] * tree::axis(joint)).into_inner();
+            SpatialAxis { name: &joint.name, revolute: joint.joint_type != urdf_rs::JointType::Prismatic, direction }
         })
     }
 
     /// Returns the plane of motion.
     pub fn plane(&self) -> Result<Plane, InputError> {
         self.common_plane().map_err(|message| {
-            let place = &self.robot.document.joints[self.chain.joints[1]];
-            let at = place.axis_at.as_ref().unwrap_or(&place.at);
-            let table = pairing::without_joints(self.robot.settings.table);
-            let planar = self.robot.with_table(&table).planar_pairs();
+            let place = &self.document.joints[self.chain.joints[1]];
+            let at = place.axis.as_ref().unwrap_or(&place.at);
+            let table = pairing::without_joints(self.settings.table);
+            let settings = RobotSettings { table: &table, ..self.settings };
+            let planar = pairing::planar(self.document, self.tree, settings);
             let choose = if planar.is_empty() {
                 "the robot has no such pair".to_owned()
             } else {
-                format!("in the world file: {}", self.robot.choices(&planar))
+                format!("in the world file: {}", pairing::choices(self.document, &planar))
             };
             let rule = "cplan plans for two joints that turn about parallel axes or slide in one plane";
             let axes = self.chain.joints.iter().filter_map(|&joint| advice::missing_axis(self, joint));
             let help: Vec<String> = axes.chain([format!("{rule}: {choose}")]).collect();
-            self.robot.document.diagnostic_at(at, message).help(help.join("; ")).into()
+            self.document.diagnostic_at(at, message).help(help.join("; ")).into()
         })
     }
 
@@ -69,7 +75,7 @@ impl<'a> Reduction<'a> {
 
     /// Returns the limits of the two joints. The error reports all missing limits together.
     pub fn bounds(&self) -> Result<[Bounds; 2], InputError> {
-        let limits = self.robot.limits();
+        let limits = Limits { document: self.document, settings: self.settings };
         let mut diagnostics = Vec::new();
         let bounds = self.chain.joints.map(|j| match (limits.planned_range(j), limits.rates(j)) {
             (Ok(range), Ok(rates)) => Some(Bounds { range, rates }),
@@ -86,16 +92,13 @@ impl<'a> Reduction<'a> {
 
     /// Returns true if a URDF link is fixed.
     pub fn is_fixed(&self, link: usize) -> bool {
-        group(self.robot, self.chain, link) == Some(Group::Fixed)
-    }
-
-    fn bodies<'s>(&'s self, plane: &'s Plane) -> Bodies<'s> {
-        Bodies { robot: self.robot, chain: self.chain, plane, poses: &self.poses }
+        group(self.document, self.tree, self.chain, link) == Some(Group::Fixed)
     }
 
     /// Returns both links' outlines.
     pub fn outlines(&self, plane: &Plane) -> Result<Outlines, InputError> {
-        self.bodies(plane).outlines()
+        let &Self { document, tree, settings, chain, ref poses } = self;
+        Bodies { document, tree, chain, settings, plane, poses }.outlines()
     }
 
     /// Returns masses and efforts of an arm.
@@ -103,35 +106,36 @@ impl<'a> Reduction<'a> {
     /// # Errors
     /// The values that the file lacks.
     fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
-        self.bodies(&arm.plane).dynamics(arm, assumed)
+        let &Self { document, tree, settings, chain, ref poses } = self;
+        Bodies { document, tree, chain, settings, plane: &arm.plane, poses }.dynamics(arm, assumed)
     }
 
     /// Assembles the arm. If masses and efforts are unknown, also returns the reason.
     pub fn arm(&self, plane: Plane, bounds: [Bounds; 2], outlines: Outlines) -> (Arm, RobotReport, Option<Diagnostic>) {
         let mut report = RobotReport {
-            geometry: vec![plane::describe(&plane, &self.robot.tree.links[self.robot.tree.root])],
+            geometry: vec![plane::describe(&plane, &self.tree.links[self.tree.root])],
             ..Default::default()
         };
-        if self.robot.tree.implicit_world {
+        if self.tree.implicit_world {
             report.notes.push("link \"world\" is not declared in the URDF; taken as the root".into());
         }
-        report.geometry.push(format!("tip: origin of link \"{}\"", self.robot.tree.links[self.chain.tip]));
+        report.geometry.push(format!("tip: origin of link \"{}\"", self.tree.links[self.chain.tip]));
         report.notes.extend(plane::deviation(&plane, self.axes()));
         report.notes.extend(self.chain.notes.iter().cloned());
-        let held = |&j: &usize| (self.robot.document.joints[j].name.clone(), self.chain.values[j]);
+        let held = |&j: &usize| (self.document.robot.joints[j].name.clone(), self.chain.values[j]);
         report.held = self.chain.held.iter().map(held).collect();
         report.held_joints = self.held_joints(&plane);
-        let limits = self.robot.limits();
+        let limits = Limits { document: self.document, settings: self.settings };
         for (j, bounds) in self.chain.joints.into_iter().zip(&bounds) {
             if let Ok(Range::Taken(_, note)) = limits.range(j) {
                 report.notes.push(note);
             }
-            let name = &self.robot.document.joints[j].name;
+            let name = &self.document.robot.joints[j].name;
             if bounds.rates.assumed.velocity {
                 report.assumed.velocity.insert(name.clone(), bounds.rates.velocity);
             }
             // With efforts, acceleration limits are not needed.
-            if bounds.rates.assumed.acceleration && !self.robot.settings.table.dynamics {
+            if bounds.rates.assumed.acceleration && !self.settings.table.dynamics {
                 report.assumed.acceleration.insert(name.clone(), bounds.rates.acceleration);
             }
         }
@@ -142,7 +146,7 @@ impl<'a> Reduction<'a> {
         report.warnings.extend(outlines.warnings);
 
         let assumed = bounds.each_ref().map(|bounds| bounds.rates.assumed.acceleration);
-        let [base, elbow] = self.chain.joints.map(|j| self.at(&plane, self.robot.tree.child[j]));
+        let [base, elbow] = self.chain.joints.map(|j| self.at(&plane, self.tree.child[j]));
         let [first, second] = self.axes();
         let [a, b] = bounds;
         let joint = |axis: SpatialAxis, bounds: Bounds| Joint {
@@ -154,13 +158,13 @@ impl<'a> Reduction<'a> {
             jerk: bounds.rates.jerk,
         };
         let mut arm = Arm {
-            name: self.robot.document.name.clone(),
+            name: self.document.robot.name.clone(),
             joints: [joint(first, a), joint(second, b)],
             links: outlines.links,
             base,
             offset: elbow - base,
             tip: self.at(&plane, self.chain.tip) - elbow,
-            tip_name: self.robot.tree.links[self.chain.tip].clone(),
+            tip_name: self.tree.links[self.chain.tip].clone(),
             plane,
             dynamics: None,
             motors: self.motors().unwrap_or_default(),
@@ -175,7 +179,7 @@ impl<'a> Reduction<'a> {
             }
             Err(diagnostic) => Some(diagnostic),
         };
-        if self.robot.settings.table.dynamics {
+        if self.settings.table.dynamics {
             keep_efforts(&mut arm);
         }
         let described = |diagnostic: &Diagnostic| {

@@ -4,15 +4,17 @@
 //! allows to meet it, and single shapes that are proven to meet in every configuration, as neighbours do at their joint.
 
 use super::bodies::Bodies;
-use super::chain::{Chain, Robot};
-use super::document::JointType;
+use super::chain::Chain;
+use super::document::Document;
 use super::shapes::PlacedShape;
 use super::solid::MIN_LAYER_THICKNESS;
+use super::tree::Tree;
 use crate::error::{Diagnostic, quoted};
 use cplan_geometry::{Convex, Point, hull};
 use cplan_judge::permanent_contacts;
 use cplan_model::{Arm, Carrier, Obstacle, Pair, Part, Scene, SelfObstacle, Shape, Workspace};
 use std::collections::{BTreeMap, BTreeSet};
+use urdf_rs::JointType;
 
 /// The part of the robot to which a link belongs. The last joint that moves the link determines it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -40,29 +42,30 @@ impl<'a> SelfCollision<'a> {
     /// # Errors
     /// Names of links in the world that the robot does not have.
     pub fn new(bodies: &'a Bodies<'a>, solid: BTreeSet<usize>) -> Result<Self, Diagnostic> {
-        let groups =
-            (0..bodies.robot.document.links.len()).map(|link| group(bodies.robot, bodies.chain, link)).collect();
+        let groups = (0..bodies.document.robot.links.len())
+            .map(|link| group(bodies.document, bodies.tree, bodies.chain, link))
+            .collect();
         let mut allowed = BTreeSet::new();
-        for pair in bodies.robot.settings.table.ignore_contact.iter().flatten() {
+        for pair in bodies.settings.table.ignore_contact.iter().flatten() {
             let names = pair.get_ref();
             let mut found = Vec::new();
             for name in names {
-                match bodies.robot.document.links.iter().position(|link| link.name == *name.get_ref()) {
+                match bodies.document.robot.links.iter().position(|link| link.name == *name.get_ref()) {
                     Some(link) => found.push(link),
                     None => {
                         let message = format!("[robot] ignore_contact: the robot has no link \"{}\"", name.get_ref());
                         let help = format!(
                             "the links are {}",
-                            quoted(bodies.robot.document.links.iter().map(|link| link.name.as_str()))
+                            quoted(bodies.document.robot.links.iter().map(|link| link.name.as_str()))
                         );
-                        return Err(bodies.robot.settings.source.diagnostic_at(name.span(), message).help(help));
+                        return Err(bodies.settings.source.diagnostic_at(name.span(), message).help(help));
                     }
                 }
             }
             let [a, b] = found[..] else {
                 let message = format!("[robot] ignore_contact: a pair of links needs two names, not {}", names.len());
                 let help = "ignore_contact = [[\"base_link\", \"forearm\"]]";
-                return Err(bodies.robot.settings.source.diagnostic_at(pair.span(), message).help(help));
+                return Err(bodies.settings.source.diagnostic_at(pair.span(), message).help(help));
             };
             allowed.extend([(a, b), (b, a)]);
         }
@@ -71,7 +74,7 @@ impl<'a> SelfCollision<'a> {
 
     /// Returns true if the planner keeps two URDF links apart.
     fn keeps_apart(&self, a: usize, b: usize) -> bool {
-        let is_enabled = self.bodies.robot.settings.table.own_body_is_obstacle();
+        let is_enabled = self.bodies.settings.table.own_body_is_obstacle();
         let are_apart = self.groups[a].zip(self.groups[b]).is_some_and(|(a, b)| a != b);
         is_enabled && are_apart && !self.allowed.contains(&(a, b))
     }
@@ -89,7 +92,7 @@ impl<'a> SelfCollision<'a> {
     /// Lists the robot's own links as obstacles for the links further along the chain: one obstacle per layer of a mesh.
     /// Each names the links that may touch it.
     pub fn obstacles(&self, all: &[PlacedShape]) -> Vec<SelfObstacle> {
-        if !self.bodies.robot.settings.table.own_body_is_obstacle() {
+        if !self.bodies.settings.table.own_body_is_obstacle() {
             return Vec::new();
         }
         let mut obstacles = Vec::new();
@@ -103,7 +106,7 @@ impl<'a> SelfCollision<'a> {
                 _ => continue,
             };
             for (piece, heights) in shape.solid.layers(&shape.pose, self.bodies.plane, &self.cuts(link, all)) {
-                let name = self.bodies.robot.document.links[link].name.clone();
+                let name = self.bodies.document.robot.links[link].name.clone();
                 let obstacle = Obstacle { name, shape: Shape::Pieces, pieces: vec![piece], heights };
                 let ignored = self.ignored(link);
                 let permanent = Default::default();
@@ -122,7 +125,7 @@ impl<'a> SelfCollision<'a> {
     fn ignored(&self, link: usize) -> Vec<String> {
         let further = |other: &usize| self.groups[link] < self.groups[*other];
         let ignored = self.solid.iter().copied().filter(|other| further(other) && !self.keeps_apart(link, *other));
-        ignored.map(|other| self.bodies.robot.document.links[other].name.clone()).collect()
+        ignored.map(|other| self.bodies.document.robot.links[other].name.clone()).collect()
     }
 }
 
@@ -225,7 +228,7 @@ fn named(scene: &Scene, permanent: &[Pair]) -> Vec<String> {
 }
 
 /// Returns the group of a URDF link. `None` if the last joint that moves it is outside the arm.
-pub(super) fn group(Robot { document, tree, .. }: Robot, chain: &Chain, link: usize) -> Option<Group> {
+pub(super) fn group(document: &Document, tree: &Tree, chain: &Chain, link: usize) -> Option<Group> {
     let [first, second] = chain.joints;
     if tree.carries(second, link) {
         return Some(Group::Second);
@@ -233,7 +236,7 @@ pub(super) fn group(Robot { document, tree, .. }: Robot, chain: &Chain, link: us
     if tree.carries(first, link) {
         return Some(Group::First);
     }
-    let moves = |joint: usize| document.joints[joint].joint_type != JointType::Fixed;
+    let moves = |joint: usize| document.robot.joints[joint].joint_type != JointType::Fixed;
     let is_beside =
         |&above: &usize| tree.above[above].is_some_and(|joint| moves(joint) && !tree.carries(joint, tree.child[first]));
     (!tree.ancestors(link).iter().any(is_beside)).then_some(Group::Fixed)

@@ -1,13 +1,14 @@
 //! The shapes of URDF links at their poses. They are collision geometry, or visual geometry of links without that.
 
 use super::bodies::Bodies;
-use super::document::{Geometry, Shape};
 use super::mesh;
 use super::solid::Solid;
+use super::tree::isometry;
 use crate::error::Diagnostic;
 use cplan_model::Heights;
 use nalgebra::{Isometry3, Vector3};
 use std::ops::Range;
+use urdf_rs::Geometry;
 
 /// A shape at its pose, with the two arm joints at 0.
 pub(super) struct PlacedShape {
@@ -61,17 +62,19 @@ impl Bodies<'_> {
     }
 
     fn gather_kind(&self, index: usize, kind: Kind, gathered: &mut GatheredShapes) {
-        let link = &self.robot.document.links[index];
-        let shapes = match kind {
-            Kind::Collision => &link.collision,
-            Kind::Visual => &link.visual,
+        let (link, place) = (&self.document.robot.links[index], &self.document.links[index]);
+        let shapes: Vec<(&urdf_rs::Pose, &Geometry, &Range<usize>)> = match kind {
+            Kind::Collision => {
+                link.collision.iter().zip(&place.collision).map(|(c, at)| (&c.origin, &c.geometry, at)).collect()
+            }
+            Kind::Visual => link.visual.iter().zip(&place.visual).map(|(v, at)| (&v.origin, &v.geometry, at)).collect(),
         };
         let mut number = 0;
-        for Shape { pose, geometry, at } in shapes {
+        for (origin, geometry, at) in shapes {
             match self.solid(geometry) {
                 Ok(solid) if solid.has_no_size() => gathered.empty.push(format!("\"{}\"", link.name)),
                 Ok(solid) => {
-                    let pose = self.poses[index] * pose;
+                    let pose = self.poses[index] * isometry(origin);
                     let (heights, is_visual) = (solid.heights(&pose, self.plane), kind == Kind::Visual);
                     let at = at.clone();
                     gathered.shapes.push(PlacedShape { link: index, number, is_visual, solid, pose, heights, at });
@@ -79,7 +82,7 @@ impl Bodies<'_> {
                 }
                 Err(mesh::UnreadableMesh { message, cure }) => {
                     let message = format!("link \"{}\": {message}", link.name);
-                    let diagnostic = self.robot.document.diagnostic_at(at, message).help(cure);
+                    let diagnostic = self.document.diagnostic_at(at, message).help(cure);
                     match kind {
                         Kind::Collision => gathered.unread.push(diagnostic),
                         Kind::Visual => gathered.unseen.push(diagnostic),
@@ -91,11 +94,14 @@ impl Bodies<'_> {
 
     fn solid(&self, geometry: &Geometry) -> Result<Solid, mesh::UnreadableMesh> {
         Ok(match geometry {
-            Geometry::Box(size) => Solid::Box { half: Vector3::from(*size) / 2.0 },
+            Geometry::Box { size } => Solid::Box { half: Vector3::from(size.0) / 2.0 },
             Geometry::Cylinder { radius, length } => Solid::Cylinder { radius: *radius, half: length / 2.0 },
             Geometry::Capsule { radius, length } => Solid::Capsule { radius: *radius, half: length / 2.0 },
             Geometry::Sphere { radius } => Solid::Sphere { radius: *radius },
-            Geometry::Mesh { filename, scale } => Solid::Mesh(mesh::read(filename, *scale, self.robot.document)?),
+            Geometry::Mesh { filename, scale } => {
+                let scale = scale.map_or([1.0; 3], |s| s.0);
+                Solid::Mesh(mesh::read(filename, scale, self.document)?)
+            }
         })
     }
 }

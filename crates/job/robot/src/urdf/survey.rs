@@ -2,12 +2,12 @@
 
 use super::advice;
 use super::bodies::Outlines;
-use super::chain::{Chain, Robot};
-use super::document::{self, Document};
+use super::chain::{self, Chain, is_movable};
+use super::document::Document;
 use super::limits::{Limits, MissingRates, Range, Rates};
 use super::plane;
 use super::reduction::{Bounds, Reduction};
-use super::tree::Tree;
+use super::tree::{self, Tree};
 use super::{help, ignored};
 use crate::error::InputError;
 use crate::inspection::{
@@ -21,6 +21,7 @@ use crate::settings::RobotSettings;
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Arm, Carrier, Link, OutlineSource, Plane, Scene, SelfObstacle, Workspace};
 use nalgebra::Vector3;
+use urdf_rs::JointType;
 
 /// Examines a robot. Does not stop at the first defect. The report's scene contains only the arm, where the URDF places
 /// it.
@@ -35,13 +36,13 @@ pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
         }
     };
     report.errors.extend(InputError::check(document.diagnostics.clone()).err());
-    report.robot = Some(document.name.clone()).filter(|name| !name.is_empty());
+    report.robot = Some(document.robot.name.clone()).filter(|name| !name.is_empty());
     report.ignored = ignored::elements(&document);
-    report.links = document.links.iter().map(link).collect();
+    report.links = document.robot.links.iter().map(link).collect();
     let limits = Limits { document: &document, settings };
-    report.joints = (0..document.joints.len()).map(|j| joint(&limits, j)).collect();
+    report.joints = (0..document.robot.joints.len()).map(|j| joint(&limits, j)).collect();
     match Tree::build(&document) {
-        Ok(tree) => in_tree(&mut report, Robot { document: &document, tree: &tree, settings }),
+        Ok(tree) => in_tree(&mut report, &document, &tree, settings),
         // If elements were left out, the tree may have defects only because of that. They are not reported.
         Err(error) if document.tree_is_sound => report.errors.push(error),
         Err(_) => {}
@@ -51,25 +52,27 @@ pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
 }
 
 /// Examines the tree: the possible pairs of joints, and the reduction of one of them.
-fn in_tree(report: &mut Inspection, robot: Robot) {
-    let Robot { document, tree, settings } = robot;
+fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, settings: RobotSettings) {
     report.root = Some(tree.links[tree.root].clone());
-    let names = |j: usize| document.joints[j].name.clone();
+    let names = |j: usize| document.robot.joints[j].name.clone();
     for (entry, above) in report.links.iter_mut().zip(&tree.above) {
         entry.above = above.map(names);
     }
     if !document.tree_is_sound {
         return;
     }
-    let pairs = robot.pairs();
-    report.pairs = pairs.iter().map(|p| pair(robot, *p)).collect();
+    let pairs = chain::pairs(document, tree);
+    report.pairs = pairs.iter().map(|p| pair(document, tree, settings, *p)).collect();
     let planar: Vec<[usize; 2]> =
         pairs.iter().zip(&report.pairs).filter(|(_, entry)| entry.planar).map(|(p, _)| *p).collect();
     // If the choice of joints fails, entries that choose a planar pair are still useful.
-    let named = robot.evident_joints();
+    let named = chain::joints(document, tree, settings);
     let likely = named.filter(|p| planar.contains(p)).or(planar.first().copied());
-    let trial = |p: [usize; 2]| robot.with_table(&neutral(document, settings.table, p)).with_joints(p).ok();
-    let chain = match robot.choose() {
+    let trial = |p: [usize; 2]| {
+        let table = neutral(document, settings.table, p);
+        chain::with_joints(document, tree, RobotSettings { table: &table, ..settings }, p).ok()
+    };
+    let chain = match chain::choose(document, tree, settings) {
         Ok(chain) => Some(chain),
         Err(error) => {
             report.errors.push(error);
@@ -78,30 +81,30 @@ fn in_tree(report: &mut Inspection, robot: Robot) {
         }
     };
     let directions = match &chain {
-        Some(chain) => tree.poses(&document.joints, &chain.values),
-        None => tree.poses(&document.joints, &vec![0.0; document.joints.len()]),
+        Some(chain) => tree.poses(&document.robot, &chain.values),
+        None => tree.poses(&document.robot, &vec![0.0; document.robot.joints.len()]),
     };
     for (j, entry) in report.joints.iter_mut().enumerate().filter(|(_, entry)| entry.axis.is_some()) {
-        let direction = directions[tree.child[j]] * document.joints[j].axis;
+        let direction = directions[tree.child[j]] * tree::axis(&document.robot.joints[j]);
         entry.direction = Some(array(direction.into_inner()));
     }
     if let Some(chain) = &chain {
-        examine_pair(report, &Reduction::new(robot, chain));
+        examine_pair(report, &Reduction::new(document, tree, settings, chain));
     }
     if !report.is_plannable()
         && document.diagnostics.is_empty()
-        && let Some(pair) = likely.filter(|p| robot.admits(*p))
+        && let Some(pair) = likely.filter(|p| chain::admits(document, tree, settings, *p))
         && let Some(chain) = trial(pair)
     {
-        let reduction = Reduction::new(robot, &chain);
+        let reduction = Reduction::new(document, tree, settings, &chain);
         report.help = reduction.plane().ok().and_then(|plane| help::entries(&reduction, &plane));
     }
 }
 
 /// Examines two joints.
 fn examine_pair(report: &mut Inspection, reduction: &Reduction) {
-    let Reduction { robot: Robot { document, tree, .. }, chain, .. } = reduction;
-    report.chosen = Some(chain.joints.map(|j| document.joints[j].name.clone()));
+    let Reduction { document, tree, chain, .. } = reduction;
+    report.chosen = Some(chain.joints.map(|j| document.robot.joints[j].name.clone()));
     report.tip = Some(tree.links[chain.tip].clone());
     for (j, entry) in report.joints.iter_mut().enumerate() {
         entry.role = role(reduction, j);
@@ -137,7 +140,7 @@ fn examine_pair(report: &mut Inspection, reduction: &Reduction) {
     };
     let sizeless = outlines.sizeless.clone();
     let (arm, _, unknown) = reduction.arm(plane, bounds.unwrap_or_else(|_| unbounded(reduction)), outlines);
-    report.errors.extend(unknown.filter(|_| reduction.robot.settings.table.dynamics).map(InputError::from));
+    report.errors.extend(unknown.filter(|_| reduction.settings.table.dynamics).map(InputError::from));
     report.ignored.extend(sizeless);
     report.self_obstacles = arm.self_obstacles.iter().map(|own| self_obstacle(&arm, own)).collect();
     report.warnings.extend(advice::warnings(reduction, &arm));
@@ -146,24 +149,24 @@ fn examine_pair(report: &mut Inspection, reduction: &Reduction) {
     report.scene = Some(Scene::trusted(arm, Workspace::new([])));
 }
 
-fn link(link: &document::Link) -> LinkEntry {
+fn link(link: &urdf_rs::Link) -> LinkEntry {
     LinkEntry { name: link.name.clone(), above: None, collision: link.collision.len(), visual: link.visual.len() }
 }
 
 fn joint(limits: &Limits, index: usize) -> JointEntry {
-    let joint = &limits.document.joints[index];
-    let movable = joint.is_movable();
+    let joint = &limits.document.robot.joints[index];
+    let movable = is_movable(joint);
     let rates = if movable { limits.rates(index).ok() } else { None };
     let table = limits.settings.table;
     let given = |in_world: bool| if in_world { RateSource::World } else { RateSource::Urdf };
     JointEntry {
         name: joint.name.clone(),
-        kind: joint.joint_type.name(),
-        slides: joint.slides(),
+        kind: chain::type_name(joint),
+        slides: joint.joint_type == JointType::Prismatic,
         line: limits.document.joint_line(index),
         parent: joint.parent.link.clone(),
         child: joint.child.link.clone(),
-        axis: movable.then(|| array(joint.axis.into_inner())),
+        axis: movable.then(|| array(tree::axis(joint).into_inner())),
         direction: None,
         mimics: joint.mimic.as_ref().map(|m| m.joint.clone()),
         role: if movable { Role::Undecided } else { Role::Rigid },
@@ -188,7 +191,7 @@ fn joint(limits: &Limits, index: usize) -> JointEntry {
 }
 
 fn range(limits: &Limits, index: usize) -> LimitEntry {
-    let joint = &limits.document.joints[index];
+    let joint = &limits.document.robot.joints[index];
     let of = |source, range| LimitEntry { source, range };
     match limits.range(index) {
         Ok(Range::Known(JointRange::Circle) | Range::Taken(JointRange::Circle, _)) => of(LimitSource::Continuous, None),
@@ -210,25 +213,23 @@ fn range(limits: &Limits, index: usize) -> LimitEntry {
 /// Returns the table without the entries for joints and tip, and without values for these two joints.
 fn neutral(document: &Document, table: &RobotTable, joints: [usize; 2]) -> RobotTable {
     let mut table = RobotTable { joints: None, tip: None, ..table.clone() };
-    table.fixed.retain(|name, _| joints.iter().all(|j| document.joints[*j].name != *name.get_ref()));
+    table.fixed.retain(|name, _| joints.iter().all(|j| document.robot.joints[*j].name != *name.get_ref()));
     table
 }
 
-fn pair(robot: Robot, joints: [usize; 2]) -> PairEntry {
-    let Robot { document, tree, settings } = robot;
-    let letter = |j: usize| if document.joints[j].slides() { 'P' } else { 'R' };
+fn pair(document: &Document, tree: &Tree, settings: RobotSettings, joints: [usize; 2]) -> PairEntry {
+    let letter = |j: usize| if document.robot.joints[j].joint_type == JointType::Prismatic { 'P' } else { 'R' };
     let table = neutral(document, settings.table, joints);
-    let robot = robot.with_table(&table);
-    let tried = robot
-        .with_joints(joints)
+    let settings = RobotSettings { table: &table, ..settings };
+    let tried = chain::with_joints(document, tree, settings, joints)
         .map_err(|error| error.diagnostics().first().map(|d| d.message.clone()).unwrap_or_default())
-        .and_then(|chain| Reduction::new(robot, &chain).common_plane());
+        .and_then(|chain| Reduction::new(document, tree, settings, &chain).common_plane());
     let (planar, reason) = match &tried {
         Ok(plane) => (true, plane::describe(plane, &tree.links[tree.root])),
         Err(reason) => (false, reason.clone()),
     };
     PairEntry {
-        joints: joints.map(|j| document.joints[j].name.clone()),
+        joints: joints.map(|j| document.robot.joints[j].name.clone()),
         kind: joints.iter().map(|j| letter(*j)).collect(),
         planar,
         reason,
@@ -236,11 +237,11 @@ fn pair(robot: Robot, joints: [usize; 2]) -> PairEntry {
 }
 
 fn role(reduction: &Reduction, index: usize) -> Role {
-    let Reduction { robot: Robot { document, .. }, chain, .. } = reduction;
-    let joint = &document.joints[index];
+    let Reduction { document, chain, .. } = reduction;
+    let joint = &document.robot.joints[index];
     match () {
         () if chain.joints.contains(&index) => Role::Moves,
-        () if !joint.is_movable() => Role::Rigid,
+        () if !is_movable(joint) => Role::Rigid,
         () if !ignored::concerns_the_arm(reduction, index) => Role::Ignored,
         () if joint.mimic.is_some() => Role::Follows,
         () => Role::Held,
@@ -296,7 +297,7 @@ fn reach(arm: &Arm) -> ReachEntry {
 
 /// Returns the frames of the links that the joints carry, named after the joints, and of the tip's link.
 fn frames(reduction: &Reduction, plane: &Plane) -> Vec<Frame> {
-    let Reduction { robot: Robot { document, tree, .. }, chain, poses } = reduction;
+    let Reduction { document, tree, chain, poses, .. } = reduction;
     let frame = |name: &str, link: usize| {
         let seen = |axis: Vector3<f64>| {
             let axis = poses[link] * axis;
@@ -308,29 +309,35 @@ fn frames(reduction: &Reduction, plane: &Plane) -> Vec<Frame> {
             axes: [Vector3::x(), Vector3::y(), Vector3::z()].map(seen),
         }
     };
-    let joints = chain.joints.map(|j| frame(&document.joints[j].name, tree.child[j]));
+    let joints = chain.joints.map(|j| frame(&document.robot.joints[j].name, tree.child[j]));
     joints.into_iter().chain([frame(&tree.links[chain.tip], chain.tip)]).collect()
 }
 
 /// Returns links without outlines, for the picture of an arm whose outlines cannot be made.
 fn links_without_outlines(reduction: &Reduction) -> Outlines {
-    let Reduction { robot: Robot { tree, .. }, chain, .. } = reduction;
+    let Reduction { tree, chain, .. } = reduction;
     let links = chain.joints.map(|j| Link {
         name: tree.links[tree.child[j]].clone(),
         parts: Vec::new(),
         source: OutlineSource::None,
     });
-    let (self_obstacles, geometry, notes, sizeless, warnings) = Default::default();
-    Outlines { links, self_obstacles, geometry, notes, sizeless, warnings }
+    Outlines {
+        links,
+        self_obstacles: Vec::new(),
+        geometry: Vec::new(),
+        notes: Vec::new(),
+        sizeless: Vec::new(),
+        warnings: Vec::new(),
+    }
 }
 
 /// Returns ranges for the picture of an arm. A range that is unknown becomes a whole turn, or zero for a prismatic
 /// joint.
 fn unbounded(reduction: &Reduction) -> [Bounds; 2] {
     let Chain { joints, .. } = reduction.chain;
-    let limits = reduction.robot.limits();
+    let limits = Limits { document: reduction.document, settings: reduction.settings };
     joints.map(|j| {
-        let slides = reduction.robot.document.joints[j].slides();
+        let slides = reduction.document.robot.joints[j].joint_type == JointType::Prismatic;
         let rest = if slides { JointRange::Interval { lower: 0.0, upper: 0.0 } } else { JointRange::Circle };
         Bounds {
             range: limits.planned_range(j).unwrap_or(rest),

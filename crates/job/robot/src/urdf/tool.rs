@@ -1,5 +1,7 @@
 //! The joints of the tool: one that lowers it, and the wrist.
 
+use super::chain::{Chooser, is_movable};
+use super::limits::Limits;
 use super::plane::project;
 use super::reduction::Reduction;
 use crate::Spanned;
@@ -9,6 +11,7 @@ use crate::stroke::{ArchTable, ArchValue, StrokeTable};
 use cplan_handling::{Arch, Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
 use cplan_model::{Plane, assumed_acceleration};
 use nalgebra::Vector3;
+use super::tree;
 
 /// Largest difference between 1 and the cosine of the angle between an axis and the plane's normal, for which the two
 /// count as parallel. It covers rounding.
@@ -45,21 +48,22 @@ impl Reduction<'_> {
     /// # Errors
     /// A stroke or wrist with an unsuitable joint, and mimic rules about joints that do not exist or about themselves.
     pub fn robot_joints(&self, plane: &Plane) -> Result<RobotJoints, Diagnostic> {
-        let (robot, table) = (&self.robot, &self.robot.settings.table);
+        let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
+        let robot = &self.settings.table;
         // A switch also says whether the wrist turns during motions.
         let is_needless = |arch: &&Spanned<ArchValue>| {
             let is_switch = matches!(arch.get_ref(), ArchValue::Switch(_));
-            table.stroke.is_none() && !(is_switch && table.wrist.is_some())
+            robot.stroke.is_none() && !(is_switch && robot.wrist.is_some())
         };
-        if let Some(arch) = table.arch.as_ref().filter(is_needless) {
+        if let Some(arch) = robot.arch.as_ref().filter(is_needless) {
             let message = "[robot] arch needs a joint that lowers the tool";
             let help = "add stroke = { joint = \"NAME\" }, or remove arch";
-            return Err(self.robot.settings.source.diagnostic_at(arch.span(), message).help(help));
+            return Err(self.settings.source.diagnostic_at(arch.span(), message).help(help));
         }
-        let stroke = table.stroke.as_ref().map(|table| self.stroke(table, plane)).transpose()?;
-        let wrist = table.wrist_joint().map(|name| self.tool_joint(name, Tool::Wrist, plane)).transpose()?;
+        let stroke = robot.stroke.as_ref().map(|table| self.stroke(&chooser, table, plane)).transpose()?;
+        let wrist = robot.wrist_joint().map(|name| self.tool_joint(&chooser, name, Tool::Wrist, plane)).transpose()?;
         let driver = |leader: usize| {
-            let is = |joint: Option<&ToolJoint>| joint.is_some_and(|joint| joint.name == robot.all()[leader].name);
+            let is = |joint: Option<&ToolJoint>| joint.is_some_and(|joint| joint.name == chooser.all()[leader].name);
             match self.chain.joints.iter().position(|chosen| *chosen == leader) {
                 Some(k) => Driver::Planned(k),
                 None if is(stroke.as_ref().map(|stroke| &stroke.joint)) => Driver::Stroke,
@@ -67,18 +71,18 @@ impl Reduction<'_> {
                 None => Driver::Held(self.chain.values[leader]),
             }
         };
-        let joints = robot.all().iter().enumerate().filter(|(_, joint)| joint.is_movable());
+        let joints = chooser.all().iter().enumerate().filter(|(_, joint)| is_movable(joint));
         let joints = joints.map(|(index, joint)| {
-            let (leader, factor, offset) = robot.rule(index)?;
-            let slides = joint.slides();
+            let (leader, factor, offset) = chooser.rule(index)?;
+            let slides = joint.joint_type == JointType::Prismatic;
             Ok(RobotJoint { name: joint.name.clone(), driver: driver(leader), factor, offset, slides })
         });
         Ok(RobotJoints { joints: joints.collect::<Result<_, Diagnostic>>()?, stroke, wrist })
     }
 
-    fn stroke(&self, table: &StrokeTable, plane: &Plane) -> Result<Stroke, Diagnostic> {
-        let joint = self.tool_joint(&table.joint, Tool::Stroke, plane)?;
-        let source = self.robot.settings.source;
+    fn stroke(&self, chooser: &Chooser, table: &StrokeTable, plane: &Plane) -> Result<Stroke, Diagnostic> {
+        let joint = self.tool_joint(chooser, &table.joint, Tool::Stroke, plane)?;
+        let source = self.settings.source;
         let given = |number: &Option<Number>, what: &str, allowed: fn(f64) -> bool, how: &str| match number {
             None => Ok(None),
             Some(number) => match source.finite(number, &format!("[robot] stroke, {what}"))? {
@@ -95,15 +99,14 @@ impl Reduction<'_> {
         let velocity = given(&table.velocity, "velocity", |x| x > 0.0, "positive")?;
         let acceleration = given(&table.acceleration, "acceleration", |x| x > 0.0, "positive")?;
         let jerk = given(&table.jerk, "jerk", |x| x > 0.0, "positive")?;
-        let index = self.robot.named(&table.joint, Tool::Stroke.table())?;
-        let rates = self.robot.limits().rates(index)?;
+        let index = chooser.named(&table.joint, Tool::Stroke.table())?;
+        let rates = Limits { document: self.document, settings: self.settings }.rates(index)?;
         let (velocity, own) = match velocity {
             Some(velocity) => (velocity, assumed_acceleration(velocity)),
             None => (rates.velocity, rates.acceleration),
         };
-        let below = |link: &usize| self.robot.tree.carries(index, *link);
-        let bodies =
-            (0..self.robot.tree.links.len()).filter(below).map(|link| self.robot.tree.links[link].clone()).collect();
+        let below = |link: &usize| self.tree.carries(index, *link);
+        let bodies = (0..self.tree.links.len()).filter(below).map(|link| self.tree.links[link].clone()).collect();
         let (acceleration, arch) = (acceleration.unwrap_or(own), self.arch()?);
         Ok(Stroke { joint, travel, velocity, acceleration, jerk: jerk.or(rates.jerk), bodies, arch })
     }
@@ -112,16 +115,16 @@ impl Reduction<'_> {
     fn arch(&self) -> Result<Option<Arch>, Diagnostic> {
         let height = |number: &Option<Number>, what: &str| match number {
             None => Ok(0.0),
-            Some(number) => match self.robot.settings.source.finite(number, &format!("[robot] arch, {what}"))? {
+            Some(number) => match self.settings.source.finite(number, &format!("[robot] arch, {what}"))? {
                 value if value >= 0.0 => Ok(value),
                 value => {
                     let message = format!("[robot] arch: {what} must not be negative, is {value}");
                     let help = "arch = { rise = 0.02, fall = 0.02 }, in metres, or arch = false";
-                    Err(self.robot.settings.source.diagnostic_at(number.span(), message).help(help))
+                    Err(self.settings.source.diagnostic_at(number.span(), message).help(help))
                 }
             },
         };
-        Ok(match self.robot.settings.table.arch.as_ref().map(Spanned::get_ref) {
+        Ok(match self.settings.table.arch.as_ref().map(Spanned::get_ref) {
             Some(ArchValue::Switch(false)) => None,
             None | Some(ArchValue::Switch(true)) => Some(Arch::default()),
             Some(ArchValue::Heights(ArchTable { rise, fall })) => {
@@ -132,11 +135,10 @@ impl Reduction<'_> {
 
     /// Returns the name of a joint that follows a joint of the tool by a mimic rule, and moves the tip or a link that
     /// can collide. `None` if there is none.
-    fn follower_with_shapes(&self, leader: usize) -> Result<Option<String>, Diagnostic> {
-        let robot = &self.robot;
-        for (index, joint) in robot.all().iter().enumerate().filter(|(_, joint)| joint.mimic.is_some()) {
-            let counts = robot.has_shapes(index) || self.robot.tree.carries(index, self.chain.tip);
-            if counts && robot.leader(index)? == leader {
+    fn follower_with_shapes(&self, chooser: &Chooser, leader: usize) -> Result<Option<String>, Diagnostic> {
+        for (index, joint) in chooser.all().iter().enumerate().filter(|(_, joint)| joint.mimic.is_some()) {
+            let counts = chooser.has_shapes(index) || self.tree.carries(index, self.chain.tip);
+            if counts && chooser.leader(index)? == leader {
                 return Ok(Some(joint.name.clone()));
             }
         }
@@ -147,13 +149,19 @@ impl Reduction<'_> {
     ///
     /// # Errors
     /// An unsuitable joint.
-    fn tool_joint(&self, name: &Spanned<String>, tool: Tool, plane: &Plane) -> Result<ToolJoint, Diagnostic> {
-        let (robot, table) = (&self.robot, tool.table());
-        let index = self.robot.named(name, table)?;
-        let joint = &robot.all()[index];
+    fn tool_joint(
+        &self,
+        chooser: &Chooser,
+        name: &Spanned<String>,
+        tool: Tool,
+        plane: &Plane,
+    ) -> Result<ToolJoint, Diagnostic> {
+        let table = tool.table();
+        let index = chooser.named(name, table)?;
+        let joint = &chooser.all()[index];
         let diagnostic = |why: &str, help: &str| {
             let message = format!("[robot] {table}: joint \"{}\" {why}", joint.name);
-            Err(robot.in_world(name, message).help(help))
+            Err(chooser.in_world(name, message).help(help))
         };
         if self.chain.joints.contains(&index) {
             return diagnostic("is one of the two that move", "name another joint, of the tool");
@@ -161,39 +169,39 @@ impl Reduction<'_> {
         if let Some(mimic) = &joint.mimic {
             return diagnostic(&format!("mimics joint \"{}\"", mimic.joint), "name the joint that it mimics");
         }
-        match (tool, joint.slides()) {
+        match (tool, joint.joint_type == JointType::Prismatic) {
             (Tool::Stroke, false) => return diagnostic("turns", "a stroke needs a joint that slides"),
             (Tool::Wrist, true) => return diagnostic("slides", "a wrist needs a joint that turns"),
             _ => {}
         }
         let [_, second] = self.chain.joints;
-        if !self.robot.tree.carries(second, self.robot.tree.child[index]) {
-            let second = &robot.all()[second].name;
+        if !self.tree.carries(second, self.tree.child[index]) {
+            let second = &chooser.all()[second].name;
             return diagnostic(&format!("is not carried by joint \"{second}\""), "name a joint of the tool");
         }
-        if let Some(follower) = self.follower_with_shapes(index)? {
+        if let Some(follower) = self.follower_with_shapes(chooser, index)? {
             let why = format!("is mimicked by joint \"{follower}\", whose links would not move with the tool");
             return diagnostic(&why, "make the other joint fixed in a copy of the file, or remove its links' geometry");
         }
-        let direction = self.poses[self.robot.tree.child[index]] * joint.axis;
+        let direction = self.poses[self.tree.child[index]] * tree::axis(joint);
         let along = direction.dot(&plane.normal);
         if along.abs() < 1.0 - PARALLEL_TOLERANCE {
             let why = "is not parallel to the normal of the plane that the arm moves in";
             return diagnostic(why, "name a joint of the tool whose axis is parallel to the normal");
         }
         let tip = self.chain.tip;
-        let tip_link = &self.robot.tree.links[tip];
-        if !self.robot.tree.carries(index, tip) {
+        let tip_link = &self.tree.links[tip];
+        if !self.tree.carries(index, tip) {
             let why = format!("does not carry the tip \"{tip_link}\"");
             return diagnostic(&why, "name a joint of the tool, or another tip: [robot] tip = \"LINK\"");
         }
-        let to_tip = self.poses[tip].translation.vector - self.poses[self.robot.tree.child[index]].translation.vector;
+        let to_tip = self.poses[tip].translation.vector - self.poses[self.tree.child[index]].translation.vector;
         let off = (to_tip - plane.normal * to_tip.dot(&plane.normal)).norm();
         if tool == Tool::Wrist && off > AXIS_TOLERANCE {
             let why = format!("moves the tip \"{tip_link}\", which is {off:.2e} m off its axis");
             return diagnostic(&why, "name a link on the axis: [robot] tip = \"LINK\"");
         }
-        let axis = self.robot.limits().planned_range(index)?;
+        let axis = Limits { document: self.document, settings: self.settings }.planned_range(index)?;
         let [x, y] = [Vector3::x(), Vector3::y()].map(|axis| project(plane, &(self.poses[tip] * axis)));
         let seen = if x.norm() > LEAST_PROJECTION { x } else { y };
         Ok(ToolJoint {

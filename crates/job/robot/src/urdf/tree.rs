@@ -1,10 +1,11 @@
 //! The tree of links and joints, and the poses of the links.
 
-use super::document::{Document, Joint, JointType, LinkName};
+use super::document::Document;
 use crate::error::{Diagnostic, InputError, quoted};
-use nalgebra::{Isometry3, Translation3, UnitQuaternion};
+use nalgebra::{Isometry3, Translation3, Unit, UnitQuaternion, Vector3};
 use std::collections::HashMap;
 use std::ops::Range;
+use urdf_rs::JointType;
 
 /// The links of a URDF as a tree. Links and joints are given by indices into the file's lists. In Drake's files, the
 /// root may be a link `world` that the file does not declare. Its index then follows those of the other links.
@@ -38,7 +39,7 @@ impl Tree {
     /// # Errors
     /// Missing links, links below two joints, cycles, or several roots. The error has all defects of one kind.
     pub fn build(document: &Document) -> Result<Self, InputError> {
-        let mut links: Vec<String> = document.links.iter().map(|l| l.name.clone()).collect();
+        let mut links: Vec<String> = document.robot.links.iter().map(|l| l.name.clone()).collect();
         let declared = links.len();
         let (parent, child) = endpoints(document, &mut links)?;
         let above = joints_above(document, &links, &child)?;
@@ -90,24 +91,37 @@ impl Tree {
     }
 
     /// Returns the pose of every link in the root frame, for these values of the joints. `O(links)`.
-    pub fn poses(&self, joints: &[Joint], values: &[f64]) -> Vec<Isometry3<f64>> {
+    pub fn poses(&self, robot: &urdf_rs::Robot, values: &[f64]) -> Vec<Isometry3<f64>> {
         let mut poses = vec![Isometry3::identity(); self.links.len()];
         for link in &self.order {
             if let Some(j) = self.above[*link] {
-                poses[*link] = poses[self.parent[j]] * joints[j].pose * motion(&joints[j], values[j]);
+                let joint = &robot.joints[j];
+                poses[*link] = poses[self.parent[j]] * isometry(&joint.origin) * motion(joint, values[j]);
             }
         }
         poses
     }
 }
 
-fn motion(joint: &Joint, value: f64) -> Isometry3<f64> {
+/// Converts a URDF pose: fixed-axis roll, pitch, yaw, then the translation.
+pub(super) fn isometry(pose: &urdf_rs::Pose) -> Isometry3<f64> {
+    let [roll, pitch, yaw] = pose.rpy.0;
+    let [x, y, z] = pose.xyz.0;
+    Isometry3::from_parts(Translation3::new(x, y, z), UnitQuaternion::from_euler_angles(roll, pitch, yaw))
+}
+
+/// Returns the joint's axis in its own frame. The document has refused zero axes.
+pub(super) fn axis(joint: &urdf_rs::Joint) -> Unit<Vector3<f64>> {
+    Unit::new_normalize(Vector3::from(joint.axis.xyz.0))
+}
+
+fn motion(joint: &urdf_rs::Joint, value: f64) -> Isometry3<f64> {
     match joint.joint_type {
         JointType::Revolute | JointType::Continuous => {
-            Isometry3::from_parts(Translation3::identity(), UnitQuaternion::from_axis_angle(&joint.axis, value))
+            Isometry3::from_parts(Translation3::identity(), UnitQuaternion::from_axis_angle(&axis(joint), value))
         }
         JointType::Prismatic => {
-            Isometry3::from_parts((joint.axis.into_inner() * value).into(), UnitQuaternion::identity())
+            Isometry3::from_parts((axis(joint).into_inner() * value).into(), UnitQuaternion::identity())
         }
         // These joints are held at the origins of their frames. Arms that move with one of them are refused elsewhere.
         JointType::Fixed | JointType::Floating | JointType::Planar | JointType::Spherical => Isometry3::identity(),
@@ -115,7 +129,7 @@ fn motion(joint: &Joint, value: f64) -> Isometry3<f64> {
 }
 
 fn endpoints(document: &Document, links: &mut Vec<String>) -> Result<(Vec<usize>, Vec<usize>), InputError> {
-    let joints = &document.joints;
+    let joints = &document.robot.joints;
     let declared = links.len();
     let implicit = !links.iter().any(|l| l == WORLD_LINK)
         && joints.iter().any(|j| j.parent.link == WORLD_LINK)
@@ -128,19 +142,20 @@ fn endpoints(document: &Document, links: &mut Vec<String>) -> Result<(Vec<usize>
         numbers.entry(link.as_str()).or_insert(number);
     }
     let mut diagnostics = Vec::new();
-    let mut find = |joint: &Joint, role: &str, LinkName { link, at }: &LinkName| {
-        numbers.get(link.as_str()).copied().unwrap_or_else(|| {
-            let message = format!("joint \"{}\": its {role} link \"{link}\" does not exist", joint.name);
+    let mut find = |name: &str, j: usize, role: &str, at| {
+        numbers.get(name).copied().unwrap_or_else(|| {
+            let message = format!("joint \"{}\": its {role} link \"{name}\" does not exist", joints[j].name);
             let help = format!(
-                "declare <link name=\"{link}\"/> or correct the name; the links are {}",
+                "declare <link name=\"{name}\"/> or correct the name; the links are {}",
                 quoted(&links[..declared])
             );
             diagnostics.push(document.diagnostic_at(at, message).help(help));
             0
         })
     };
-    let parent = joints.iter().map(|joint| find(joint, "parent", &joint.parent)).collect();
-    let child = joints.iter().map(|joint| find(joint, "child", &joint.child)).collect();
+    let parent =
+        (0..joints.len()).map(|j| find(&joints[j].parent.link, j, "parent", &document.joints[j].parent)).collect();
+    let child = (0..joints.len()).map(|j| find(&joints[j].child.link, j, "child", &document.joints[j].child)).collect();
     InputError::check(diagnostics)?;
     Ok((parent, child))
 }
@@ -152,14 +167,14 @@ fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Resul
         match above[*link] {
             None => above[*link] = Some(j),
             Some(first) => {
-                let other = &document.joints[first].name;
+                let other = &document.robot.joints[first].name;
                 let message = format!(
                     "link \"{}\" is the child of two joints, \"{other}\" (line {}) and this one: the robot is not a tree",
                     links[*link],
                     document.joint_line(first)
                 );
                 let help = "a closed chain (parallelogram, delta) is not a serial arm; otherwise give one joint its own child link";
-                diagnostics.push(document.diagnostic_at(&document.joints[j].child.at, message).help(help));
+                diagnostics.push(document.diagnostic_at(&document.joints[j].child, message).help(help));
             }
         }
     }
@@ -192,7 +207,7 @@ fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[u
         joint = above[parent[j]];
     }
     let from = joint.and_then(|j| seen.iter().position(|s| *s == j)).unwrap_or(0);
-    let ring: Vec<&str> = seen[from..].iter().map(|j| document.joints[*j].name.as_str()).collect();
+    let ring: Vec<&str> = seen[from..].iter().map(|j| document.robot.joints[*j].name.as_str()).collect();
     let message =
         format!("the joints {} form a cycle: the parent link of each one is carried by the next", quoted(&ring));
     document
