@@ -6,10 +6,8 @@
 
 use super::DrawError;
 use super::figure::{Figure, Item, Rect};
-use super::png_writer::{Rasterizer, blank};
-use super::svg_writer;
+use super::rasterizer::{Rasterizer, ground};
 use cplan_interrupt::checkpoint;
-use cplan_theme::{Rgb, WHITE};
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use std::borrow::Cow;
 use std::collections::HashMap;
@@ -64,9 +62,9 @@ pub fn write(
     encode(&patches, size).map_err(|error| DrawError::Gif(error.to_string()))
 }
 
-/// Writes an SVG document as a GIF with a single picture, `width` pixels wide.
-pub fn still(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
-    let picture = Rasterizer::new().rasterize(svg, width)?;
+/// Writes a figure as a GIF with a single picture, `width` pixels wide.
+pub fn still(figure: &Figure, width: f64) -> Result<Vec<u8>, DrawError> {
+    let picture = Rasterizer::new().picture(figure, width / figure.width)?;
     let size = [picture.width(), picture.height()].map(|side| side as usize);
     let pixels = colors(&picture);
     encode(&[cut(&pixels, size, [0, 0, size[0], size[1]], 0)], size).map_err(|error| DrawError::Gif(error.to_string()))
@@ -114,9 +112,7 @@ impl Painter {
     /// Draws the figure on its background.
     fn paint(&mut self, figure: &Figure) -> Result<Pixmap, DrawError> {
         let units = units(figure);
-        let mut picture = blank([figure.width, figure.height], self.width / figure.width)?;
-        let Rgb(red, green, blue) = figure.shown(WHITE);
-        picture.fill(tiny_skia::Color::from_rgba8(red, green, blue, 255));
+        let mut picture = ground(figure, self.width / figure.width)?;
         let mut begin = 0;
         for (end, is_same) in runs(&self.before, &units) {
             let run = &units[begin..end];
@@ -144,7 +140,7 @@ impl Painter {
             chunk[0].within.map_or_else(|| items.clone(), |rect| vec![Item::Clip(rect, items.clone())])
         });
         let part = Figure { items: items.collect(), ..*figure };
-        self.rasteriser.pixels(&svg_writer::layer(&part), self.width / figure.width)
+        self.rasteriser.layer(&part, self.width / figure.width)
     }
 }
 

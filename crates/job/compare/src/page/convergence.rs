@@ -11,7 +11,7 @@ impl Convergence {
         let subtitle = format!("Relaxations on {rows} x {columns} cells, {} of them free", self.free);
         let charts = format!(
             "<figure class=\"picture\" tabindex=\"0\"><img alt=\"Errors and sweeps\" src=\"{}\"/></figure>\n",
-            image_source(&self.to_svg(false))
+            image_source(&self.figure().svg())
         );
         head(&self.title, &subtitle)
             + &section("Charts", &charts)

@@ -19,7 +19,7 @@ pub use axis::Axis;
 pub use frame::{Frame, frame};
 pub use markup::{image_source, number, table};
 pub use overlay::Overlay;
-pub use paths::{PathPictures, SmallPicture};
+pub use paths::PathPictures;
 
 use super::comparison::Comparison;
 use super::measure::Measure;

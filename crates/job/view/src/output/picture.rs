@@ -3,7 +3,7 @@
 use super::motion_summary::{blocking, second_attempt};
 use super::names::blame_in_words;
 use super::summary::facts;
-use crate::{DrawError, KeyFigures, Moments, Picture, TaskPicture, View};
+use crate::{DrawError, Figure, KeyFigures, Moments, Picture, TaskPicture, View};
 use cplan_engine::{Detail, Motion, Plan};
 use cplan_handling::{Task, TimedScene};
 use cplan_legs::TaskAnswer;
@@ -110,22 +110,26 @@ impl PictureFormat {
         match self {
             #[cfg(feature = "png")]
             Self::Gif => crate::gif(view, GIF_WIDTH, progress),
-            _ => self.bytes_of(|| crate::svg(view), || crate::page(view)),
+            _ => self.bytes_of(|| crate::figure(view), || crate::page(view)),
         }
     }
 
-    /// Returns the content of a file that shows anything for which there are an SVG document and a page. A GIF has a
-    /// single picture.
+    /// Returns the content of a file that shows anything for which there are a figure and a page. A GIF has a single
+    /// picture.
     ///
     /// # Errors
     /// A picture that cannot be rendered.
-    pub fn bytes_of(self, svg: impl FnOnce() -> String, page: impl FnOnce() -> String) -> Result<Vec<u8>, DrawError> {
+    pub fn bytes_of(
+        self,
+        figure: impl FnOnce() -> Figure,
+        page: impl FnOnce() -> String,
+    ) -> Result<Vec<u8>, DrawError> {
         Ok(match self {
-            Self::Svg => svg().into_bytes(),
+            Self::Svg => figure().svg().into_bytes(),
             #[cfg(feature = "png")]
-            Self::Png => crate::png(&svg(), PNG_SCALE)?,
+            Self::Png => figure().png(PNG_SCALE)?,
             #[cfg(feature = "png")]
-            Self::Gif => crate::still_gif(&svg(), GIF_WIDTH)?,
+            Self::Gif => figure().gif(GIF_WIDTH)?,
             Self::Html => page().into_bytes(),
         })
     }
