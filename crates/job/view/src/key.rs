@@ -48,9 +48,7 @@ pub fn document(((sign, text), layers): Layered, think: bool) -> Object {
         Sign::Start => of("start"),
         Sign::Goal => of("goal"),
         Sign::Unreached => of("unreached"),
-        Sign::Line(Pen { color, width, dash }) => {
-            colored("line", color).with("width", &width).with("dash", &(!dash.is_empty()).then_some(dash))
-        }
+        Sign::Line(Pen { color, width, dash }) => colored("line", color).with("width", &width).with_any("dash", &dash),
         Sign::Swatch(color) => colored("swatch", color),
         Sign::Shade(part) => of("shade").with("part", &part),
         Sign::Dashed(color) => colored("dashed", color),
@@ -58,6 +56,5 @@ pub fn document(((sign, text), layers): Layered, think: bool) -> Object {
         Sign::Contact => of("contact"),
         Sign::Point { middle } => of(if middle { "middle" } else { "center" }),
     };
-    let shown = shown.with("text", &text).with("layers", &(!layers.is_empty()).then_some(layers));
-    shown.with("think", &think.then_some(true))
+    shown.with("text", &text).with_any("layers", &layers).with_any("think", &think)
 }

@@ -2,7 +2,7 @@
 
 use super::content::{PanelView, StillContent, View};
 use super::extent;
-use super::height::{HeightView, TurnsView};
+use super::height::{TurnsView, height};
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::RoundingSteps;
 use super::picture::Picture;
@@ -10,7 +10,7 @@ use super::states::{PayloadGroup, PayloadState, describe, grouped, hand, payload
 use super::steps::{Order, rounds, rows, words};
 use super::strip::StripView;
 use super::task_picture::TaskPicture;
-use super::tool_angle::ToolAngleView;
+use super::tool_angle;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use cplan_geometry::Pose;
 use cplan_handling::{Object, ObstacleTrajectory, Placement, Task, TimedScene};
@@ -88,9 +88,9 @@ impl View {
             motions,
             clock: (!legs.is_empty()).then(|| Clock::new(&Sequence::of(legs).trajectory, grain)),
             strip,
-            height: HeightView::of_task(task, legs),
+            height: height(task, legs),
             turns: TurnsView::of_task(task, legs),
-            tool: ToolAngleView::of_task(task, legs),
+            tool: tool_angle::of_task(task, legs),
             still,
             ..Self::of_picture(&Picture { title, status, ending, facts, ..Picture::new(&overview, task.start) })
         }
