@@ -25,14 +25,8 @@ impl Rasterizer {
 
     /// Returns the pixels of a figure on its background, `scale` of them for each pixel of the page.
     pub fn picture(&self, figure: &Figure, scale: f64) -> Result<Pixmap, DrawError> {
-        let mut pixels = ground(figure, scale)?;
-        self.paint(&figure.items, figure, Transform::from_scale(scale as f32, scale as f32), &mut pixels);
-        Ok(pixels)
-    }
-
-    /// Returns the pixels of a figure on a transparent background.
-    pub fn layer(&self, figure: &Figure, scale: f64) -> Result<Pixmap, DrawError> {
         let mut pixels = blank(figure, scale)?;
+        pixels.fill(shown(WHITE, figure));
         self.paint(&figure.items, figure, Transform::from_scale(scale as f32, scale as f32), &mut pixels);
         Ok(pixels)
     }
@@ -81,13 +75,6 @@ fn blank(figure: &Figure, scale: f64) -> Result<Pixmap, DrawError> {
     let fits = |side: f64| side.is_finite() && (1.0..=MAX_SIDE).contains(&side);
     let size = (fits(width) && fits(height)).then(|| Pixmap::new(width.round() as u32, height.round() as u32));
     size.flatten().ok_or(DrawError::Scale(scale))
-}
-
-/// Creates the pixels of a figure's background.
-pub fn ground(figure: &Figure, scale: f64) -> Result<Pixmap, DrawError> {
-    let mut pixels = blank(figure, scale)?;
-    pixels.fill(shown(WHITE, figure));
-    Ok(pixels)
 }
 
 /// Returns the colour with which a colour is shown on the background of a figure.
@@ -235,7 +222,9 @@ mod tests {
     /// Paints a page of 20 by 20 pixels without a background.
     fn painted(items: Vec<Item>) -> Pixmap {
         let figure = Figure { width: 20.0, height: 20.0, items, is_dark: false };
-        Rasterizer::new().layer(&figure, 1.0).unwrap()
+        let mut pixels = blank(&figure, 1.0).unwrap();
+        Rasterizer::new().paint(&figure.items, &figure, Transform::identity(), &mut pixels);
+        pixels
     }
 
     /// Returns red, green, blue and alpha of a pixel.
