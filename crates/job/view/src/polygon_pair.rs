@@ -1,6 +1,6 @@
 //! Pictures of two polygons and their Minkowski difference.
 
-use super::axes::{Frame, Unit};
+use super::axes::{Frame, Unit, span};
 use super::figure::{Anchor, Figure, Item, Rect, Style, bold, chain, label};
 use super::key::{Key, Sign};
 use super::page;
@@ -59,12 +59,7 @@ pub fn polygon_pair(pair: &PolygonPair) -> Figure {
 
 /// Returns a frame around all points.
 fn frame(area: Rect, polygons: &[&[Point]]) -> Frame {
-    let all = || polygons.iter().flat_map(|polygon| polygon.iter());
-    let range = |k: usize| {
-        let values = || all().map(|p| p[k]);
-        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
-    };
-    let sides = [range(0), range(1)];
+    let sides = [0, 1].map(|k| span(polygons.iter().flat_map(|polygon| polygon.iter()).map(|p| p[k])));
     let size = sides.iter().map(|side| side.1 - side.0).fold(f64::MIN_POSITIVE, f64::max);
     let [x, y] = sides.map(|(low, high)| (low - MARGIN_SHARE * size, high + MARGIN_SHARE * size));
     Frame::filling(area, x, y)

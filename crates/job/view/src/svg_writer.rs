@@ -24,34 +24,26 @@ pub fn write(figure: &Figure) -> String {
     document(figure, Group::new().add(ground.set("fill", figure.shown(WHITE).to_string())))
 }
 
-/// A drawing within a page, and its colours that have no name in the page's style sheet.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PageDrawing {
-    /// The drawing as an SVG element.
-    pub svg: String,
-    /// Colours on a light background. The variable of `#rrggbb` is `--xrrggbb`.
-    pub colors: Vec<Rgb>,
-}
-
 /// Writes the figure without a background, as an element of a page. Its colours are variables of the page's style sheet,
 /// so that it is light or dark as the page is. `id` distinguishes its names from those of other drawings in the page.
-pub fn write_for_page(figure: &Figure, id: &str) -> PageDrawing {
+/// Adds those that have no name there to `colors`: the variable of `#rrggbb` is `--xrrggbb`.
+pub fn write_for_page(figure: &Figure, id: &str, colors: &mut Vec<Rgb>) -> String {
     let svg = document(figure, Group::new());
     let svg = svg.replace("<clipPath id=\"", &format!("<clipPath id=\"{id}-"));
     let svg = svg.replace("clip-path=\"url(#", &format!("clip-path=\"url(#{id}-"));
-    with_variables(&svg)
+    with_variables(&svg, colors)
 }
 
-/// Writes items without a document around them. They must not be clipped.
-pub fn elements(items: &[Item]) -> String {
+/// Writes items without a document around them, with colours as in [`write_for_page`]. They must not be clipped.
+pub fn elements(items: &[Item], colors: &mut Vec<Rgb>) -> String {
     let figure = Figure { width: 0.0, height: 0.0, items: Vec::new(), is_dark: false };
-    add_all(Group::new(), items, &figure, &mut Vec::new()).set("stroke-linejoin", "round").to_string()
+    let group = add_all(Group::new(), items, &figure, &mut Vec::new()).set("stroke-linejoin", "round");
+    with_variables(&group.to_string(), colors)
 }
 
 /// Replaces the colours in attributes by variables of the page's style sheet.
-pub fn with_variables(svg: &str) -> PageDrawing {
-    let mut colors = Vec::new();
-    let svg = cplan_theme::recolored(svg, |color| {
+fn with_variables(svg: &str, colors: &mut Vec<Rgb>) -> String {
+    cplan_theme::recolored(svg, |color| {
         let name = cplan_theme::variable(color).unwrap_or_else(|| {
             if !colors.contains(&color) {
                 colors.push(color);
@@ -59,8 +51,7 @@ pub fn with_variables(svg: &str) -> PageDrawing {
             format!("x{}", &color.to_string()[1..])
         });
         format!("var(--{name})")
-    });
-    PageDrawing { svg, colors }
+    })
 }
 
 fn document(figure: &Figure, ground: Group) -> String {
@@ -267,14 +258,15 @@ mod tests {
         let rect = Rect { x: 0.0, y: 0.0, width: 5.0, height: 5.0 };
         let disc = |color| Item::Disc([5.0, 5.0], 2.0, Style::fill(color));
         let items = vec![Item::Clip(rect, vec![disc(cplan_theme::INK), Item::OfPath(3, vec![disc(Rgb(1, 2, 3)); 2])])];
-        let drawing = write_for_page(&Figure { width: 10.0, height: 10.0, items, is_dark: false }, "a");
-        assert_eq!(drawing.colors, [Rgb(1, 2, 3)]);
+        let mut colors = Vec::new();
+        let svg = write_for_page(&Figure { width: 10.0, height: 10.0, items, is_dark: false }, "a", &mut colors);
+        assert_eq!(colors, [Rgb(1, 2, 3)]);
         for part in
             ["fill=\"var(--ink)\"", "fill=\"var(--x010203)\"", "id=\"a-clip0\"", "url(#a-clip0)", "data-path=\"3\""]
         {
-            assert!(drawing.svg.contains(part), "no {part} in {}", drawing.svg);
+            assert!(svg.contains(part), "no {part} in {svg}");
         }
-        assert!(!drawing.svg.contains("\"#"), "{}", drawing.svg);
+        assert!(!svg.contains("\"#"), "{svg}");
     }
 
     /// Paints the rectangles and compares the result with the cells.

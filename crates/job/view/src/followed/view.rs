@@ -4,6 +4,7 @@ use super::limits::ActiveLimit;
 use super::played::is_smooth;
 use super::solutions::other_solution;
 use super::{FollowedMotion, LineSettings, SolutionPart, Stretch, solutions};
+use crate::axes::span;
 use crate::view::{Chain, Clock, RoundingSteps};
 use crate::{Object, object};
 use cplan_geometry::Point;
@@ -143,11 +144,7 @@ impl LineView {
     /// Sets the magnified part of a workspace with this visible part. Without a motion, nothing is magnified.
     pub(crate) fn focus_within(&mut self, frame: [[f64; 2]; 2], arm: &Arm) {
         let Some(pose) = self.pose else { return };
-        let points = || self.strokes.iter().flatten();
-        let range = |k: usize| {
-            points().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[k]), high.max(p[k])])
-        };
-        let ranges = [range(0), range(1)];
+        let ranges = [0, 1].map(|k| <[f64; 2]>::from(span(self.strokes.iter().flatten().map(|p| p[k]))));
         let extents = ranges.map(|[low, high]: [f64; 2]| high - low);
         // The axis along which there is more room.
         let free = usize::from(extents[1] < extents[0]);
