@@ -324,16 +324,8 @@ pub fn bold(at: [f64; 2], text: impl Into<String>, size: f64, anchor: Anchor, co
 
 /// Creates a text that reads upwards, centred at its place.
 pub fn upwards(at: [f64; 2], text: impl Into<String>, size: f64, color: Rgb) -> Item {
-    Item::Text(Label {
-        at,
-        text: text.into(),
-        size,
-        anchor: Anchor::Middle,
-        upwards: true,
-        color,
-        has_halo: false,
-        is_bold: false,
-    })
+    let (text, anchor) = (text.into(), Anchor::Middle);
+    Item::Text(Label { at, text, size, anchor, upwards: true, color, has_halo: false, is_bold: false })
 }
 
 /// Returns the outline of a rectangle.
