@@ -5,7 +5,8 @@ use super::answer::refused;
 use super::protocol::AnswerReply;
 use cplan_model::space::{Configuration, Segment};
 use cplan_model::{Goal, Obstruction, Scene, inverse};
-use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
+use cplan_robot::{DiagnosticKind, InputError};
+use cplan_view::output::names::capitalized;
 use cplan_world::LoadedScene;
 use serde_json::{Value, json};
 
@@ -103,12 +104,8 @@ fn millimetres(metres: f64) -> String {
 
 /// Formats the diagnostics without file, line and column, because the user does not see the text.
 pub fn without_places(error: &InputError) -> String {
-    let sentence = |diagnostic: &Diagnostic| {
-        let mut letters = diagnostic.message.chars();
-        let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
-        format!("{first}{}", letters.as_str())
-    };
-    let mut sentences: Vec<String> = error.diagnostics().iter().map(sentence).collect();
+    let mut sentences: Vec<String> =
+        error.diagnostics().iter().map(|diagnostic| capitalized(&diagnostic.message)).collect();
     sentences.dedup();
     sentences.join("\n")
 }

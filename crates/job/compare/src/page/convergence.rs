@@ -13,7 +13,7 @@ impl Convergence {
             "<figure class=\"picture\" tabindex=\"0\"><img alt=\"Errors and sweeps\" src=\"{}\"/></figure>\n",
             image_source(&self.figure().svg())
         );
-        head(&self.title, &subtitle)
+        head(&self.title, &subtitle, "", false)
             + &section("Charts", &charts)
             + &section("Relaxations", &table(&self.table()))
             + &section("Sweeps of SOR by its factor", &table(&self.factor_table()))

@@ -1,10 +1,10 @@
 //! Drawings of the paths of one problem.
 
 use super::markup::number;
-use crate::words::capitalized;
 use cplan_text::markup;
 use cplan_theme::{PlannerPen, Rgb, on_dark};
 use cplan_view::ComparedPaths;
+use cplan_view::output::names::capitalized;
 
 /// Drawings of all paths of one problem.
 #[derive(Debug, Clone, PartialEq)]
