@@ -156,9 +156,9 @@ pub fn items(rows: &[Vec<Key>], middle: f64, top: f64) -> Vec<Item> {
 
 fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
     match sign {
-        Sign::Start => cspace::start_marker([x + SIGN_WIDTH - 9.0, y]),
-        Sign::Goal => cspace::goal_marker([x + SIGN_WIDTH - 9.0, y], true),
-        Sign::Unreached => cspace::goal_marker([x + SIGN_WIDTH - 9.0, y], false),
+        Sign::Start => cspace::start_marker([x + SIGN_WIDTH - 9.0, y], 1.0),
+        Sign::Goal => cspace::goal_marker([x + SIGN_WIDTH - 9.0, y], true, 1.0),
+        Sign::Unreached => cspace::goal_marker([x + SIGN_WIDTH - 9.0, y], false, 1.0),
         Sign::Line(pen) => {
             let style = Style { pen: Some(*pen), ..Style::line(pen.color, pen.width) };
             vec![Item::Outline(vec![Step::Move([x, y]), Step::Line([x + SIGN_WIDTH, y])], style)]
