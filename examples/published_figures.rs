@@ -111,15 +111,15 @@ fn factors() -> Result<(), Box<dyn Error>> {
         println!(
             "Figure 6.4, Gauss-Seidel {order}: published: central differences diverge above 3.4, upwind ones do not"
         );
-        for scan in &measured.strengths {
+        for (difference, scan) in &measured.strengths {
             match scan.divergence_start() {
-                Some(p) => println!("  {}: lost from {:.1} on ({:?})", scan.difference, p.at, p.ending),
-                None => println!("  {}: converge up to 6", scan.difference),
+                Some(p) => println!("  {difference}: lost from {:.1} on ({:?})", p.at, p.ending),
+                None => println!("  {difference}: converge up to 6"),
             }
         }
         if k == 0 {
             std::fs::create_dir_all("target")?;
-            std::fs::write("target/figure_6_1.svg", measured.to_svg(false))?;
+            std::fs::write("target/figure_6_1.svg", measured.figure().svg())?;
         }
     }
     Ok(())

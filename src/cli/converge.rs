@@ -134,7 +134,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
         if let Sink::Picture(format, path) = sink {
             written.push((
                 path.clone(),
-                format.bytes_of(|| measured.to_svg(args.theme.is_dark()), || measured.to_html())?,
+                format.bytes_of(|| measured.figure().on_background(args.theme.is_dark()), || measured.to_html())?,
             ));
         }
     }

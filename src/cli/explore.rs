@@ -170,11 +170,11 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
             },
             Sink::CSpace(..) | Sink::Program(_) | Sink::Certificate(_) => (),
             Sink::Picture(format, path) => {
-                let svg = || view::svg(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
+                let figure = || view::figure(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
                 // The page plays the readings, and needs no times of the motion.
                 let page_view = || view(&world, &done, None);
                 let page = || exploration_page(&page_view(), world.problem.scene(), &sensor, &done, args.timings);
-                files.push((path.clone(), format.bytes_of(svg, page)?));
+                files.push((path.clone(), format.bytes_of(figure, page)?));
             }
         }
     }

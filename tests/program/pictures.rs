@@ -23,12 +23,13 @@ fn pictures_are_up_to_date() {
 #[cfg(feature = "png")]
 #[test]
 fn the_picture_that_moves_is_up_to_date() {
+    use cplan::PlanOutput as _;
     let (name, of) = MOVING;
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/pictures").join(name).with_extension("gif");
     let bytes = fs::read(file).unwrap();
     let (count, kept) = crate::draw::moving::last_picture(&bytes, 960);
     let (_, subject) = PICTURES.iter().find(|(name, _)| *name == of).unwrap();
-    let drawn = cplan::view::png(&subject.svg().unwrap(), 960.0 / 1400.0).unwrap();
+    let drawn = cplan::view::figure(&subject.plan().unwrap().view()).png(960.0 / 1400.0).unwrap();
     let drawn = tiny_skia::Pixmap::decode_png(&drawn).unwrap();
     let near = |(a, b): (&tiny_skia::PremultipliedColorU8, &[u8; 3])| {
         [(a.red(), b[0]), (a.green(), b[1]), (a.blue(), b[2])].iter().all(|(a, b)| a.abs_diff(*b) <= 24)

@@ -6,7 +6,7 @@ use crate::check::CheckedProof;
 use crate::cli::failure::Failure;
 use crate::cli::sinks;
 use crate::cli::theme::ThemeArgs;
-use crate::compare::{Comparison, Overlay, PathPictures, Purpose, SmallPicture, Study, labels};
+use crate::compare::{Comparison, Overlay, PathPictures, Purpose, Study, labels};
 use crate::engine::{Options, Problem, plan};
 use crate::model::{MotionProblem, Scene, Status};
 use crate::output::{self, PictureFormat};
@@ -58,14 +58,7 @@ pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<P
         let top =
             Purpose::ALL.into_iter().filter_map(|purpose| comparison.path_index(comparison.recommended(purpose)?));
         let top: Vec<usize> = top.collect();
-        let view::ComparedPaths { large, small, colors } = view::compared(&view, &format!("problem{problem}"), &top)?;
-        let small = small.map(|view::SmallPicture { size, ground, paths, markers }| SmallPicture {
-            size,
-            ground,
-            paths,
-            markers,
-        });
-        Some(PathPictures { problem, large, small, colors })
+        Some(PathPictures { problem, drawn: view::compared(&view, &format!("problem{problem}"), &top)? })
     });
     drawn.collect()
 }

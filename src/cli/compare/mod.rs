@@ -195,12 +195,8 @@ impl Results<'_> {
 
     /// Returns the tables for a terminal, with an emphasis on the best value of each column.
     fn text(&self, emphasis: Emphasis) -> String {
-        match (self.single(), self.args.wide) {
-            (Some(single), true) => single.to_wide_text_with(emphasis),
-            (Some(single), false) => single.to_text_with(emphasis),
-            (None, true) => self.study.to_wide_text_with(emphasis),
-            (None, false) => self.study.to_text_with(emphasis),
-        }
+        let wide = self.args.wide;
+        self.single().map_or_else(|| self.study.to_text(wide, emphasis), |single| single.to_text(wide, emphasis))
     }
 
     /// Returns the content of a file.

@@ -16,7 +16,7 @@ use crate::input::{self, Diagnostic, Position, Source, World};
 use crate::motion::{check_writable, write_whole_set};
 use crate::output::format_columns;
 use crate::text::{counted, plain_line};
-use crate::view;
+use crate::view::{self, Figure};
 use cplan_drawing::{Drawing, Format, Note, Settings};
 use layers::Layers;
 use obstacles::{ImportedObstacle, Placement};
@@ -110,9 +110,9 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
     for sink in &pictures {
         let Sink::Picture(format, path) = sink else { continue };
-        let svg = |is_dark| picture(args, &world, &taken, is_dark);
-        let page = || view::still_page(&args.title(), &svg(false));
-        files.push((path.clone(), format.bytes_of(|| svg(args.theme.is_dark()), page)?));
+        let figure = || picture(args, &world, &taken);
+        let page = || view::still_page(&args.title(), &figure());
+        files.push((path.clone(), format.bytes_of(|| figure().on_background(args.theme.is_dark()), page)?));
     }
     files.extend(args.output.iter().map(|path| (path.clone(), text.clone().into_bytes())));
     write_whole_set(&files)?;
@@ -138,11 +138,11 @@ fn refused(args: &ImportArgs, diagnostic: Diagnostic) -> Failure {
     Failure::Input(Diagnostic { origin: args.drawing.display().to_string(), ..diagnostic }.into())
 }
 
-fn picture(args: &ImportArgs, world: &World, taken: &[ImportedObstacle], is_dark: bool) -> String {
+fn picture(args: &ImportArgs, world: &World, taken: &[ImportedObstacle]) -> Figure {
     let obstacles = &world.workspace.fixed.obstacles;
     let below = format!("{}: {}", args.drawing.display(), counted(obstacles.len(), "obstacle"));
     let layers: Vec<&str> = taken.iter().map(|taken| taken.shape.layer.as_deref().unwrap_or(&taken.name)).collect();
-    view::obstacles(&[args.title(), below], obstacles, &layers, is_dark)
+    view::obstacles(&[args.title(), below], obstacles, &layers)
 }
 
 /// Prints the result on stdout. If the world goes to stdout, prints the result on stderr.

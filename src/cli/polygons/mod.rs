@@ -77,9 +77,10 @@ pub fn run(args: &PolygonsArgs) -> Result<u8, Failure> {
             b: b.polygon.corners(),
             difference: &findings.parts,
         };
-        let svg = |is_dark| view::polygon_pair(&pair, is_dark);
-        let page = || view::still_page(&pair.title[0], &svg(false));
-        crate::motion::write_whole(path, &format.bytes_of(|| svg(args.theme.is_dark()), page)?)?;
+        let figure = || view::polygon_pair(&pair);
+        let page = || view::still_page(&pair.title[0], &figure());
+        let figure = || figure().on_background(args.theme.is_dark());
+        crate::motion::write_whole(path, &format.bytes_of(figure, page)?)?;
     }
     args.print.report(DONE, || sinks::pretty(&findings), || report::text(&findings))?;
     Ok(DONE)

@@ -31,7 +31,7 @@ fn inspected(name: &str, view: &View) -> String {
         let file = |extension: &str| std::path::Path::new(&folder).join(format!("{name}.{extension}"));
         std::fs::write(file("svg"), &text).unwrap();
         #[cfg(feature = "png")]
-        std::fs::write(file("png"), cplan::view::png(&text, 1.0).unwrap()).unwrap();
+        std::fs::write(file("png"), cplan::view::figure(view).png(1.0).unwrap()).unwrap();
     }
     let tree = roxmltree::Document::parse(&text).expect("well-formed");
     for node in tree.descendants().filter(|n| n.is_element()) {
@@ -329,18 +329,18 @@ fn a_motion_that_stays_where_it_is_is_drawn() {
 #[cfg(feature = "png")]
 mod raster {
     use super::*;
-    use cplan::view::{DrawError, png};
+    use cplan::view::{DrawError, Figure, figure};
     use std::collections::BTreeSet;
 
-    fn drawn(picture: &Picture) -> String {
-        svg(&View::of_picture(picture))
+    fn drawn(picture: &Picture) -> Figure {
+        figure(&View::of_picture(picture))
     }
 
     #[test]
     fn a_png_has_its_size_and_is_not_blank() {
         let scene = planar_scene();
         let goals = [configuration(1.0, 1.0).into()];
-        let bytes = png(&drawn(&plain_picture(&scene, &goals)), 0.5).unwrap();
+        let bytes = drawn(&plain_picture(&scene, &goals)).png(0.5).unwrap();
         assert_eq!(&bytes[..8], b"\x89PNG\r\n\x1a\n");
         let pixels = tiny_skia::Pixmap::decode_png(&bytes).unwrap();
         assert_eq!((pixels.width(), pixels.height()), (700, 360));
@@ -355,7 +355,7 @@ mod raster {
         let dark = |title: &str| {
             let mut picture = plain_picture(&scene, &[]);
             picture.title = vec![title.to_owned()];
-            let pixels = tiny_skia::Pixmap::decode_png(&png(&drawn(&picture), 1.0).unwrap()).unwrap();
+            let pixels = tiny_skia::Pixmap::decode_png(&drawn(&picture).png(1.0).unwrap()).unwrap();
             pixels.pixels()[..1400 * 50].iter().filter(|p| p.red() < 128).count()
         };
         assert!(dark("A title of some length") > dark("") + 300);
@@ -365,7 +365,7 @@ mod raster {
     fn invalid_scales_are_refused() {
         let scene = planar_scene();
         for scale in [0.0, -1.0, 1e-9, 1e3, f64::NAN, f64::INFINITY] {
-            assert!(matches!(png(&drawn(&plain_picture(&scene, &[])), scale), Err(DrawError::Scale(_))), "{scale}");
+            assert!(matches!(drawn(&plain_picture(&scene, &[])).png(scale), Err(DrawError::Scale(_))), "{scale}");
         }
     }
 }

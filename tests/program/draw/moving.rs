@@ -59,7 +59,7 @@ fn the_last_picture_of_a_gif_is_the_still_one() {
     assert!(heard.0 == heard.1 && heard.1 == moving(&view).count());
     let (count, pixels) = last_picture(&bytes, width);
     assert!(count > 40 && bytes.len() < 2_000_000);
-    let still = cplan::view::png(&svg(&view), f64::from(width) / 1400.0).unwrap();
+    let still = cplan::view::figure(&view).png(f64::from(width) / 1400.0).unwrap();
     let still = tiny_skia::Pixmap::decode_png(&still).unwrap();
     assert_eq!(still.pixels().len(), pixels.len());
     // A palette has 255 colours, so shades between two of them differ slightly.

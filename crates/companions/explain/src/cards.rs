@@ -1,6 +1,5 @@
 //! The cards of an explanation: each shows a change and the path that it opens.
 
-use super::page::{CardView, Edit, EditedShape, ExplanationView};
 use super::words::{bounds, evidence, headline, instruction, removal};
 use super::{
     BlockedEnd, Bottleneck, Change, ChangeContext, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach,
@@ -8,13 +7,14 @@ use super::{
 };
 use cplan_blockers::{BlockingSet, Element, End, MotionQuestion, Side};
 use cplan_model::space::{Configuration, Path};
-use cplan_model::{Outcome, Scene};
+use cplan_model::{Outcome, Scene, Shape};
 use cplan_planners::cspace::CObstacle;
 use cplan_text::{headline_length, joined, length};
 use cplan_view::output::contours;
 use cplan_view::output::names::{part_name, subject};
 use cplan_view::{
-    BlockingView, ContourView, ObstacleView, PathView, RoundingSteps, bounding_box, contour_views, listed_number,
+    BlockingView, ContourView, Object, ObstacleView, PathView, RoundingSteps, Section, bounding_box, contour_views,
+    listed_number, object,
 };
 
 /// Largest share of the visible workspace by which it grows on a side to include changed obstacles.
@@ -23,8 +23,13 @@ const MAX_GROWTH: f64 = 0.35;
 /// Distance between a changed obstacle and the border of the workspace, as a share of the visible part.
 const MARGIN: f64 = 0.04;
 
-/// Returns the explanation for a page. `frame` is the visible part of the workspace.
-pub fn explanation_view(explanation: &Explanation, frame: [[f64; 2]; 2]) -> ExplanationView {
+/// A card of the page: a change of the world with the path that it opens, or a configuration to look at. Also the obstacle
+/// after the change.
+type Card = (Object, Option<ObstacleView>);
+
+/// Returns the explanation for a page: the reason in a sentence, a sentence about the proof, and cards. `frame` is the
+/// visible part of the workspace.
+pub fn explanation_section(explanation: &Explanation, frame: [[f64; 2]; 2]) -> Section {
     let question = &explanation.question;
     let maker = CardMaker { question, grain: RoundingSteps::of(question.scene().arm()) };
     let (title, cards) = match &explanation.outcome {
@@ -32,14 +37,16 @@ pub fn explanation_view(explanation: &Explanation, frame: [[f64; 2]; 2]) -> Expl
         Outcome::Found(found) => ("What makes it shorter", maker.of_found(found)),
         Outcome::Unknown(_) => ("", Vec::new()),
     };
-    ExplanationView {
-        headline: headline(explanation),
-        evidence: evidence(explanation),
-        title,
-        frame: extended(frame, &cards),
-        cards,
-        stuck: blocking(explanation),
-    }
+    let document = object!(
+        "headline": headline(explanation),
+        "evidence": evidence(explanation),
+        "title": title,
+        "cards": cards.iter().map(|(card, _)| card).collect::<Vec<_>>(),
+        // The visible part of the workspace, with all changed obstacles.
+        "frame": extended(frame, cards.iter().filter_map(|card| card.1.as_ref())),
+        "stuck": blocking(explanation),
+    );
+    Section::of_data("explanation", &document)
 }
 
 /// Returns the obstacles in the way and the narrowest place. `None` unless there is no path.
@@ -63,7 +70,7 @@ impl CardMaker<'_> {
         self.question.scene()
     }
 
-    fn of_infeasible(&self, closed: &InfeasibleExplanation) -> Vec<CardView> {
+    fn of_infeasible(&self, closed: &InfeasibleExplanation) -> Vec<Card> {
         let is_only = closed.sets.iter().map(|set| set.blockers.len()).sum::<usize>() == 1;
         let changes = closed.sets.iter().zip(&closed.changes);
         let changes = changes.flat_map(|(set, all)| all.iter().map(move |change| self.of_change(set, change, is_only)));
@@ -74,7 +81,7 @@ impl CardMaker<'_> {
     }
 
     /// Makes the card of a change that opens a path.
-    fn of_change(&self, set: &BlockingSet, change: &Change, is_only: bool) -> CardView {
+    fn of_change(&self, set: &BlockingSet, change: &Change, is_only: bool) -> Card {
         let changed = change.apply(self.question, set);
         let obstacle = change.changed_obstacle(self.scene());
         let number = self.listed(change.element);
@@ -84,31 +91,31 @@ impl CardMaker<'_> {
                 set.others(self.question).into_iter().filter_map(|other| self.listed(other)).collect()
             }
         };
-        let view = obstacle.as_ref().zip(number);
+        let view = obstacle.as_ref().zip(number).map(|(obstacle, at)| ObstacleView::new(obstacle, at, self.grain));
         let [opens, closed] = bounds(self.scene(), set, change);
-        CardView {
-            title: instruction(self.scene(), change, is_only),
-            opens,
-            closed,
-            obstacle: number,
-            changed: view.map(|(obstacle, number)| ObstacleView::new(obstacle, number, self.grain)),
-            removed,
-            c_obstacles: self.contours(changed.scene(), change.element),
-            domains: self.domains(changed.scene(), change.element),
-            path: Some(self.path(change.by.path.path())),
-            edit: self.edit(&changed, change),
-            ..CardView::default()
-        }
+        let card = object!("title": instruction(self.scene(), change, is_only))
+            .with_any("opens", &opens)
+            .with_any("closed", &closed)
+            .with("obstacle", &number)
+            .with("changed", &view)
+            .with_any("removed", &removed)
+            .with_any("c_obstacles", &self.contours(changed.scene(), change.element))
+            .with("domains", &self.domains(changed.scene(), change.element))
+            .with("path", &self.path(change.by.path.path()))
+            .with("edit", &self.edit(&changed, change));
+        (card, view)
     }
 
-    fn edit(&self, changed: &MotionQuestion, change: &Change) -> Option<Edit> {
+    /// Returns the change of the world file, for pages that can apply it. Its numbers are not rounded, because the path is
+    /// certified for exactly these.
+    fn edit(&self, changed: &MotionQuestion, change: &Change) -> Option<Object> {
         match change.element {
             Element::Obstacle { number } => {
                 let obstacle = change.changed_obstacle(self.scene())?;
                 if obstacle.pieces.is_empty() {
-                    return Some(Edit::Removal(number));
+                    return Some(object!("removal": number));
                 }
-                EditedShape::new(&obstacle.shape).map(|shape| Edit::Obstacle { number, shape })
+                Some(object!("obstacle": object!("number": number, "shape": edited_shape(&obstacle.shape)?)))
             }
             Element::Link { .. } | Element::Motor => None,
             Element::Limit { joint, side } => {
@@ -116,64 +123,60 @@ impl CardMaker<'_> {
                 let (lower, upper) = self.scene().arm().joints[joint].range.domain();
                 let (least, most) = changed.scene().arm().joints[joint].range.domain();
                 let range = if side == Side::Lower { [least, upper] } else { [lower, most] };
-                Some(Edit::Limits { joint, range })
+                Some(object!("limits": object!("joint": joint, "range": range)))
             }
-            Element::Clearance => Some(Edit::Clearance(changed.scene().workspace().clearance)),
+            Element::Clearance => Some(object!("clearance": changed.scene().workspace().clearance)),
         }
     }
 
     /// Makes the card of an element that makes the path longer.
-    fn of_found(&self, found: &FoundExplanation) -> Vec<CardView> {
+    fn of_found(&self, found: &FoundExplanation) -> Vec<Card> {
         let Some(bound) = found.answer.bound() else { return Vec::new() };
         found.savings.iter().map(|saving| self.of_saving(saving, bound.upper)).collect()
     }
 
-    fn of_saving(&self, saving: &Saving, length: f64) -> CardView {
+    fn of_saving(&self, saving: &Saving, length: f64) -> Card {
         let [title, note] = removal(self.scene(), saving, length);
         let changed = self.question.without_at_clearance(&[saving.element]);
         let is_limit = matches!(saving.element, Element::Limit { .. });
-        CardView {
-            title,
-            note,
-            removed: self.listed(saving.element).into_iter().collect(),
-            c_obstacles: if is_limit { self.contours(changed.scene(), saving.element) } else { Vec::new() },
-            domains: self.domains(changed.scene(), saving.element),
-            path: Some(self.path(&saving.path)),
-            ..CardView::default()
-        }
+        let contours = if is_limit { self.contours(changed.scene(), saving.element) } else { Vec::new() };
+        let card = object!("title": title)
+            .with_any("note", &note)
+            .with_any("removed", &self.listed(saving.element).into_iter().collect::<Vec<_>>())
+            .with_any("c_obstacles", &contours)
+            .with("domains", &self.domains(changed.scene(), saving.element))
+            .with("path", &self.path(&saving.path));
+        (card, None)
+    }
+
+    /// Makes a card that shows a configuration.
+    fn at(&self, title: String, note: String, is_place: bool, at: Configuration) -> Card {
+        let card = object!("title": title).with_any("note", &note).with_any("is_place", &is_place);
+        (card.with("at", &self.grain.configuration(at)), None)
     }
 
     /// Makes the card of the free configuration that is nearest to a blocked start or goal.
-    fn of_end(&self, blocked: &BlockedEnd) -> Option<CardView> {
+    fn of_end(&self, blocked: &BlockedEnd) -> Option<Card> {
         let nearest = blocked.nearest.as_ref()?;
         let end = if blocked.end == End::Start { "start" } else { "goal" };
         let moves = blocked
             .tip_moves(self.scene().arm())
             .map_or_else(String::new, |by| format!("; the tip moves by {}", length(by)));
-        Some(CardView {
-            title: format!("Move the {end} to the nearest free configuration"),
-            note: format!("{}{moves}", self.configuration(nearest.configuration)),
-            at: Some(self.grain.configuration(nearest.configuration)),
-            ..CardView::default()
-        })
+        let title = format!("Move the {end} to the nearest free configuration");
+        let note = format!("{}{moves}", self.configuration(nearest.configuration));
+        Some(self.at(title, note, false, nearest.configuration))
     }
 
     /// Makes the card of the nearest place that the tip can reach.
-    fn of_reach(&self, out: &OutOfReach) -> CardView {
-        let off = (out.tip - out.nearest).norm();
-        CardView {
-            title: format!("Move the goal {} nearer", headline_length(off, true)),
-            note: format!(
-                "the tip comes as near as ({:.3}, {:.3}) m, if there are no obstacles",
-                out.nearest.x, out.nearest.y
-            ),
-            at: Some(self.grain.configuration(out.at)),
-            ..CardView::default()
-        }
+    fn of_reach(&self, out: &OutOfReach) -> Card {
+        let OutOfReach { tip, nearest, at } = *out;
+        let title = format!("Move the goal {} nearer", headline_length((tip - nearest).norm(), true));
+        let place = format!("({:.3}, {:.3}) m", nearest.x, nearest.y);
+        self.at(title, format!("the tip comes as near as {place}, if there are no obstacles"), false, at)
     }
 
     /// Makes the card of the narrowest place.
-    fn of_bottleneck(&self, bottleneck: &Bottleneck) -> CardView {
+    fn of_bottleneck(&self, bottleneck: &Bottleneck) -> Card {
         let scene = self.scene();
         let mut parts: Vec<String> = Vec::new();
         let mut obstacles: Vec<String> = Vec::new();
@@ -196,13 +199,8 @@ impl CardMaker<'_> {
         } else {
             format!(": {} against {}", joined(&parts), joined(&obstacles))
         };
-        CardView {
-            title: "Show the narrowest place".into(),
-            note: format!("too narrow by {lacking}{between}"),
-            is_place: true,
-            at: Some(self.grain.configuration(bottleneck.at)),
-            ..CardView::default()
-        }
+        let note = format!("too narrow by {lacking}{between}");
+        self.at("Show the narrowest place".into(), note, true, bottleneck.at)
     }
 
     /// Returns the index of an obstacle or link in the list of the page.
@@ -253,8 +251,8 @@ impl CardMaker<'_> {
 }
 
 /// Returns the visible part of the workspace, extended to include changed obstacles, unless they are too far away.
-fn extended(frame: [[f64; 2]; 2], cards: &[CardView]) -> [[f64; 2]; 2] {
-    let shapes = cards.iter().filter_map(|card| card.changed.as_ref()).flat_map(ObstacleView::own);
+fn extended<'a>(frame: [[f64; 2]; 2], changed: impl Iterator<Item = &'a ObstacleView>) -> [[f64; 2]; 2] {
+    let shapes = changed.flat_map(ObstacleView::own);
     let size = frame.map(|[lower, upper]| upper - lower).into_iter().fold(0.0, f64::max);
     let bounds = bounding_box(shapes).map(|(lower, upper)| (lower - MARGIN * size, upper + MARGIN * size));
     // Obstacles within the frame need no margin.
@@ -267,4 +265,14 @@ fn extended(frame: [[f64; 2]; 2], cards: &[CardView]) -> [[f64; 2]; 2] {
         let [lower, upper] = frame[k];
         [lower.min(bounds[k].0).max(lower - MAX_GROWTH * size), upper.max(bounds[k].1).min(upper + MAX_GROWTH * size)]
     })
+}
+
+/// Returns a shape in the form that the live page edits. `None` if a world file cannot describe it.
+fn edited_shape(shape: &Shape) -> Option<Object> {
+    match shape {
+        Shape::Polygon(corners) => Some(object!("polygon": corners)),
+        Shape::Circle { center, radius } => Some(object!("circle": object!("center": center, "radius": radius))),
+        Shape::Polyline(points) => Some(object!("polyline": points)),
+        Shape::Pieces => None,
+    }
 }

@@ -6,44 +6,37 @@ use super::{
 };
 use cplan_blockers::{Blocker, Element};
 use cplan_judge::ProofBox;
-use cplan_model::space::Configuration;
 use cplan_model::{Obstruction, Outcome, Scene, Status};
-use serde_json::{Map, Value, json};
+use serde_json::{Value, json};
 
 impl Explanation {
     /// Returns the explanation as a JSON object, in the format that the book describes.
     pub fn to_json(&self) -> Value {
         let scene = self.question.scene();
-        let joints = scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
-        let mut object = json!({ "status": self.status(), "joints": joints, "start": pair(self.question.start()) });
-        let more = match &self.outcome {
+        let mut object = match &self.outcome {
             Outcome::Found(shaped) => of_found(scene, shaped),
             Outcome::Infeasible(closed) => of_closed(scene, closed),
             Outcome::Unknown(reason) => json!({ "reason": reason }),
         };
-        if let (Value::Object(object), Value::Object(more)) = (&mut object, more) {
-            object.extend(more);
-            if let Some(StepFailure { status, reasons, .. }) = &self.failure {
-                object.insert("reasons".into(), json!(reasons));
-                if *status == Status::Unknown {
-                    object.insert("reason".into(), json!(reasons.join("; ")));
-                }
+        object["status"] = json!(self.status());
+        object["joints"] = json!(scene.arm().joints.each_ref().map(|joint| &joint.name));
+        object["start"] = json!(self.question.start());
+        if let Some(StepFailure { status, reasons, .. }) = &self.failure {
+            object["reasons"] = json!(reasons);
+            if *status == Status::Unknown {
+                object["reason"] = json!(reasons.join("; "));
             }
-            if let (true, Some(limit)) = (self.is_stopped, self.question.time_limit()) {
-                object.insert("stopped_after".into(), json!(limit.as_secs_f64()));
-            }
+        }
+        if let (true, Some(limit)) = (self.is_stopped, self.question.time_limit()) {
+            object["stopped_after"] = json!(limit.as_secs_f64());
         }
         object
     }
 }
 
-fn pair(q: Configuration) -> [f64; 2] {
-    [q[0], q[1]]
-}
-
 /// Returns the kind and name of an element. Obstacles are counted from 1 for human readers.
-fn of_element(scene: &Scene, element: Element) -> Map<String, Value> {
-    let value = match element {
+fn of_element(scene: &Scene, element: Element) -> Value {
+    match element {
         Element::Obstacle { number } => {
             json!({ "kind": "obstacle", "name": scene.obstacle(number).name, "number": number + 1 })
         }
@@ -55,56 +48,50 @@ fn of_element(scene: &Scene, element: Element) -> Map<String, Value> {
         }
         Element::Motor => json!({ "kind": "motor" }),
         Element::Clearance => json!({ "kind": "clearance" }),
-    };
-    if let Value::Object(object) = value { object } else { Map::new() }
-}
-
-fn merged(mut object: Map<String, Value>, more: Value) -> Value {
-    if let Value::Object(more) = more {
-        object.extend(more);
     }
-    Value::Object(object)
 }
 
 fn of_found(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplanation) -> Value {
     let saving = |saving: &Saving| {
-        let Saving { element, length, at_least, at_most, .. } = *saving;
-        let more = json!({ "length": length, "shorter_by": { "at_least": at_least, "at_most": at_most } });
-        merged(of_element(scene, element), more)
+        let mut object = of_element(scene, saving.element);
+        object["length"] = json!(saving.length);
+        object["shorter_by"] = json!({ "at_least": saving.at_least, "at_most": saving.at_most });
+        object
     };
-    let mut object = Map::new();
+    let mut object = json!({ "shaped_by": savings.iter().map(saving).collect::<Vec<_>>() });
     if let Some(bound) = answer.bound() {
-        object.insert("length".into(), json!(bound.upper));
-        object.insert("lower_bound".into(), json!(bound.lower));
+        object["length"] = json!(bound.upper);
+        object["lower_bound"] = json!(bound.lower);
     }
-    object.insert("shaped_by".into(), savings.iter().map(saving).collect());
     if let Some(path) = answer.outcome.found().map(|path| &path.certified) {
-        object.insert("path".into(), path.path().waypoints().iter().map(|q| json!(pair(*q))).collect());
+        object["path"] = json!(path.path().waypoints());
         if let Some(nearest) = path.nearest() {
-            let tight = json!({
-                "joints": pair(nearest.at),
+            object["tightest"] = json!({
+                "joints": nearest.at,
                 "clearance": path.clearance(),
                 "between": scene.describe(nearest.contact.pair),
             });
-            object.insert("tightest".into(), tight);
         }
     }
-    Value::Object(object)
+    object
 }
 
 fn of_closed(scene: &Scene, closed: &InfeasibleExplanation) -> Value {
     let InfeasibleExplanation { sets, changes, bottleneck, ends, out_of_reach, .. } = closed;
     let change = |Change { cure, among, by, .. }: &Change| {
-        let mut object = json!({ "opens": by.opens, "closed": by.closed, "among": among });
-        if let (Value::Object(object), Ok(Value::Object(cure))) = (&mut object, serde_json::to_value(cure)) {
-            object.extend(cure);
-        }
+        let mut object = json!(cure);
+        object["opens"] = json!(by.opens);
+        object["closed"] = json!(by.closed);
+        object["among"] = json!(among);
         object
     };
     let blocker = |Blocker { element, without }: &Blocker, changes: &[Change]| {
         let without = if without.is_some() { "found" } else { "unknown" };
         let changes: Vec<Value> = changes.iter().filter(|change| change.element == *element).map(change).collect();
-        merged(of_element(scene, *element), json!({ "without": without, "changes": changes }))
+        let mut object = of_element(scene, *element);
+        object["without"] = json!(without);
+        object["changes"] = json!(changes);
+        object
     };
     let sets: Vec<Value> = sets
         .iter()
@@ -137,11 +124,11 @@ impl InfeasibleExplanation {
 fn of_end(scene: &Scene, blocked: &BlockedEnd) -> Value {
     let nearest = blocked.nearest.map(|nearest| {
         let tip_moves = blocked.tip_moves(scene.arm());
-        json!({ "joints": pair(nearest.configuration), "distance": nearest.distance, "tip_moves": tip_moves })
+        json!({ "joints": nearest.configuration, "distance": nearest.distance, "tip_moves": tip_moves })
     });
     json!({
         "end": blocked.end,
-        "joints": pair(blocked.at),
+        "joints": blocked.at,
         "beyond_limits": blocked.beyond,
         "when": blocked.standing.as_ref().map(|standing| standing.when),
         "hits": blocked.hits.iter().map(|hit| of_hit(blocked.scene(scene), hit)).collect::<Vec<_>>(),
@@ -151,7 +138,7 @@ fn of_end(scene: &Scene, blocked: &BlockedEnd) -> Value {
 
 fn of_out_of_reach(out: &OutOfReach) -> Value {
     let OutOfReach { tip, nearest, at } = *out;
-    json!({ "tip": [tip.x, tip.y], "nearest": [nearest.x, nearest.y], "joints": pair(at), "misses": (tip - nearest).norm() })
+    json!({ "tip": tip, "nearest": nearest, "joints": at, "misses": (tip - nearest).norm() })
 }
 
 fn of_hit(scene: &Scene, hit: &Obstruction) -> Value {
@@ -163,8 +150,8 @@ fn of_bottleneck(scene: &Scene, bottleneck: &Bottleneck) -> Value {
     let clearance = scene.workspace().clearance;
     let hits = bottleneck.hits.iter().map(|hit| of_hit(scene, hit));
     json!({
-        "joints": pair(bottleneck.at),
-        "point": [bottleneck.point.x, bottleneck.point.y],
+        "joints": bottleneck.at,
+        "point": bottleneck.point,
         "too_narrow_by": bottleneck.missing_distance(clearance),
         "gives_way": { "opens": bottleneck.by.opens, "closed": bottleneck.by.closed },
         "hits": hits.collect::<Vec<_>>(),

@@ -31,7 +31,6 @@ mod flood;
 mod json;
 mod motion_tree;
 mod output;
-mod page;
 mod reach;
 mod reach_section;
 mod shaping;

@@ -1,6 +1,6 @@
 //! An explanation for people, in words and as a picture.
 
-use super::cards::{blocking, explanation_view};
+use super::cards::{blocking, explanation_section};
 use super::words::{bounds, headline, instruction};
 use super::{BlockedEnd, Bottleneck, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach};
 use cplan_blockers::{End, TIME_LIMIT, Target};
@@ -34,7 +34,7 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
 /// Returns the content of the explanation's pictures and pages.
 pub fn view(explanation: &Explanation) -> View {
     let view = view_of_question(explanation);
-    let section = explanation_view(explanation, view.frame()).section();
+    let section = explanation_section(explanation, view.frame());
     let view = view.with_section(section);
     match blocking(explanation) {
         Some(stuck) => view.with_blocking(stuck),
@@ -44,7 +44,7 @@ pub fn view(explanation: &Explanation) -> View {
 
 /// Returns the section of a page that shows the explanation.
 pub fn section(explanation: &Explanation) -> Section {
-    explanation_view(explanation, view_of_question(explanation).frame()).section()
+    explanation_section(explanation, view_of_question(explanation).frame())
 }
 
 /// Returns the view of the question and its answer, without the reasons.

@@ -4,8 +4,7 @@
 use super::{Access, Origin, Reach, Solution};
 use cplan_model::Arm;
 use cplan_theme::{OCCUPIED, REACHED, REACHED_TWICE, Rgb, UNKNOWN, UNREACHABLE, role_or_hex};
-use cplan_view::{CellLayer, Chain, RoundingSteps, Section};
-use serde::Serialize;
+use cplan_view::{CellLayer, Object, RoundingSteps, Section, object};
 
 /// Code that shows the section in a page.
 const SCRIPT: &str = include_str!("reach.js");
@@ -41,7 +40,7 @@ pub fn reach_section(reach: &Reach, arm: &Arm) -> Section {
         dots: free(reach).map(|solution| (solution.joints, color(style_index(solution.access, 2)))).collect(),
         legend: kinds.map(|kind| (color(kind), CELL_KINDS[kind].1.to_owned())).collect(),
         layers: &["access"],
-        ..Section::of_data("reach", &ReachView::new(reach, RoundingSteps::of(arm)))
+        ..Section::of_data("reach", &document(reach, RoundingSteps::of(arm)))
     }
 }
 
@@ -59,57 +58,34 @@ fn free(reach: &Reach) -> impl Iterator<Item = &Solution> {
     reach.places.iter().flatten().filter(|solution| solution.access != Access::Blocked)
 }
 
-/// The reachable places, as pages read them.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ReachView {
-    /// Least coordinates of the first cell, in metres.
-    corner: [f64; 2],
-    /// Side of the cells, in metres.
-    cell: f64,
-    /// Number of cells along x and along y.
-    size: [usize; 2],
-    /// Names of the colours of the kinds of cells.
-    colors: [String; 5],
-    /// The kind of each cell as a character, row by row from the lowest row. A dot stands for a cell out of reach.
-    cells: String,
-    /// Number of IK solutions of each cell, as a character.
-    counts: String,
-    /// All IK solutions, cell by cell.
-    solutions: Chain,
-    /// The kind of each solution as a character, as for cells: `1` for a solution that a motion reaches.
-    access: String,
-    /// The beginning of the straight motion to each solution: the index of another solution, `-2 - r` for the end of route
-    /// `r`, or -1 if there is no certified motion.
-    origins: Vec<i64>,
-    /// Planned routes. Each begins at home.
-    routes: Vec<Chain>,
-}
-
-impl ReachView {
-    pub fn new(reach: &Reach, grain: RoundingSteps) -> Self {
-        let letter = |access, count| char::from(b'0' + style_index(access, count) as u8);
-        let mut cells = vec!['.'; reach.places.len()];
-        for (place, access, count) in reach.best() {
-            cells[place] = letter(access, count);
-        }
-        // A solution with a free joint is one of infinitely many; there are never more than a few per cell.
-        let count = |solutions: &Vec<Solution>| char::from(b'0' + solutions.len().min(9) as u8);
-        let origin = |origin: &Option<Origin>| match *origin {
-            None => -1,
-            Some(Origin::Route(route)) => -2 - route as i64,
-            Some(Origin::Solution(number)) => number as i64,
-        };
-        Self {
-            corner: reach.corner,
-            cell: reach.cell,
-            size: reach.size,
-            colors: CELL_KINDS.map(|(color, _)| role_or_hex(color)),
-            cells: cells.into_iter().collect(),
-            counts: reach.places.iter().map(count).collect(),
-            solutions: grain.configurations(reach.solutions().map(|solution| &solution.joints)),
-            access: reach.solutions().map(|solution| letter(solution.access, 2)).collect(),
-            origins: reach.motions.origins.iter().map(origin).collect(),
-            routes: reach.motions.routes.iter().map(|route| grain.configurations(route)).collect(),
-        }
+/// Returns the reachable places for pages. `cells` has the kind of each cell as a character, row by row from the lowest
+/// row; a dot stands for a cell out of reach. `counts` has the number of their IK solutions, as a character. `access` has
+/// the kind of each solution, `1` for one that a motion reaches, and `origins` the beginning of the straight motion to it:
+/// the index of another solution, `-2 - r` for the end of route `r`, or -1 if there is no certified motion. Routes begin at
+/// home.
+fn document(reach: &Reach, grain: RoundingSteps) -> Object {
+    let letter = |access, count| char::from(b'0' + style_index(access, count) as u8);
+    let mut cells = vec!['.'; reach.places.len()];
+    for (place, access, count) in reach.best() {
+        cells[place] = letter(access, count);
     }
+    // A solution with a free joint is one of infinitely many; there are never more than a few per cell.
+    let count = |solutions: &Vec<Solution>| char::from(b'0' + solutions.len().min(9) as u8);
+    let origin = |origin: &Option<Origin>| match *origin {
+        None => -1,
+        Some(Origin::Route(route)) => -2 - route as i64,
+        Some(Origin::Solution(number)) => number as i64,
+    };
+    object!(
+        "corner": reach.corner,
+        "cell": reach.cell,
+        "size": reach.size,
+        "colors": CELL_KINDS.map(|(color, _)| role_or_hex(color)),
+        "cells": cells.into_iter().collect::<String>(),
+        "counts": reach.places.iter().map(count).collect::<String>(),
+        "solutions": grain.configurations(reach.solutions().map(|solution| &solution.joints)),
+        "access": reach.solutions().map(|solution| letter(solution.access, 2)).collect::<String>(),
+        "origins": reach.motions.origins.iter().map(origin).collect::<Vec<_>>(),
+        "routes": reach.motions.routes.iter().map(|route| grain.configurations(route)).collect::<Vec<_>>(),
+    )
 }

@@ -7,7 +7,7 @@ use cplan_blockers::{BlockingSet, Element, End, Side};
 use cplan_model::{Joint, Obstruction, Outcome, Scene};
 use cplan_text::{fixed, headline_length, headline_number, joined, length_down, length_up};
 use cplan_view::output::names::{
-    MAX_NAMED, blame_in_words, body_name, is_or_are, joint_name, obstacle_name, part_name, subject,
+    MAX_NAMED, blame_in_words, body_name, capitalized, is_or_are, joint_name, obstacle_name, part_name, subject,
 };
 
 /// Largest angle, in degrees, between the direction of a move and one of the eight directions that have words.
@@ -32,8 +32,8 @@ fn headline_of_found(scene: &Scene, found: &FoundExplanation, is_stopped: bool) 
     match names.len() {
         0 if is_stopped => "There is a path.".into(),
         0 => "There is a path, and no single thing makes it longer.".into(),
-        1 => sentence(&format!("{} makes the path longer.", names[0])),
-        n if n <= MAX_NAMED => sentence(&format!("{} each make the path longer.", joined(&names))),
+        1 => capitalized(&format!("{} makes the path longer.", names[0])),
+        n if n <= MAX_NAMED => capitalized(&format!("{} each make the path longer.", joined(&names))),
         n => format!("{n} things each make the path longer."),
     }
 }
@@ -62,7 +62,7 @@ fn headline_of_infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Stri
 
 /// Says that the elements of a set are in the way, without the full stop.
 fn blame(scene: &Scene, set: &BlockingSet) -> String {
-    sentence(&blame_in_words(scene, set))
+    capitalized(&blame_in_words(scene, set))
 }
 
 /// Describes the defects of the start and of the first goal.
@@ -101,7 +101,7 @@ fn describe_end(scene: &Scene, blocked: &BlockedEnd) -> String {
 /// Returns a sentence about the proof behind the headline. Empty if there is nothing to add.
 pub fn evidence(explanation: &Explanation) -> String {
     match &explanation.outcome {
-        Outcome::Unknown(reason) => sentence(&format!("{reason}.")),
+        Outcome::Unknown(reason) => capitalized(&format!("{reason}.")),
         Outcome::Found(found) => found.answer.bound().map_or_else(String::new, |bound| {
             let gap = cplan_text::percent(bound.gap());
             format!(
@@ -281,12 +281,6 @@ fn direction_in_words([x, y]: [f64; 2]) -> String {
     }
     // The nearest word and the angle, counter-clockwise from the first coordinate.
     format!("{word}, at {}\u{b0}", fixed(degrees, 0))
-}
-
-/// Begins a sentence with a capital letter.
-fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
 #[cfg(test)]

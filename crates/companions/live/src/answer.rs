@@ -3,7 +3,7 @@
 use super::blocked;
 use super::contours::Contours;
 use super::pace::Pace;
-use super::protocol::{AnswerReply, ErrorSubject, Pair};
+use super::protocol::{AnswerReply, Pair};
 use super::result;
 use cplan_engine::Problem;
 use cplan_handling::TimedScene;
@@ -85,7 +85,7 @@ pub fn time_up(limit: Duration) -> String {
 }
 
 /// Returns the answer to a request for which nothing can be planned, with the reason.
-pub fn refused(about: ErrorSubject, error: String) -> AnswerReply {
+pub fn refused(about: &'static str, error: String) -> AnswerReply {
     AnswerReply { error: Some(error), about: Some(about), ..AnswerReply::default() }
 }
 
@@ -109,7 +109,7 @@ impl Answering<'_> {
         let Self { options, contours, deadlines, think, toml } = self;
         match deadlines.plan.run(|| result::full_answer(problem, options, contours, think)) {
             Ok(Ok(answer)) => Ok(AnswerReply { toml, ..answer }),
-            Ok(Err(error)) => Ok(refused(ErrorSubject::Options, error)),
+            Ok(Err(error)) => Ok(refused("options", error)),
             Err(stopped) => Ok(AnswerReply { toml, ..deadlines.timed_out(stopped)? }),
         }
     }
@@ -144,7 +144,7 @@ impl Answering<'_> {
         let plan = || result::quick_answer(&problem, self.options, self.contours);
         match pace.tries(|| self.deadlines.drag.run(plan)) {
             Some(Ok(Ok(answer))) => Ok(ends.insert_into(answer)),
-            Some(Ok(Err(error))) => Ok(refused(ErrorSubject::Options, error)),
+            Some(Ok(Err(error))) => Ok(refused("options", error)),
             Some(Err(Interrupted::Set)) => Err(Interrupted::Set),
             None | Some(Err(Interrupted::TimeUp)) => {
                 let reason = Some("not decided among moving obstacles".into());
@@ -174,7 +174,7 @@ impl Answering<'_> {
         }
         match deadlines.plan.run(|| result::full_answer(&problem, options, contours, think)) {
             Ok(Ok(answer)) => Ok(AnswerReply { toml: self.toml, ..ends.insert_into(answer) }),
-            Ok(Err(error)) => Ok(refused(ErrorSubject::Options, error)),
+            Ok(Err(error)) => Ok(refused("options", error)),
             Err(stopped) => {
                 let AnswerReply { verdict, reason, .. } = deadlines.timed_out(stopped)?;
                 let shown = self.without_path(problem.timed(), ends.start_and_goals(), "unknown")?;

@@ -1,11 +1,14 @@
 //! Answers about blocked starts and goals: position, obstacles in contact, and a description that does not refer to
 //! files.
 
-use super::protocol::{AnswerReply, BlockedReply, ErrorSubject, HitReply};
+use super::answer::refused;
+use super::protocol::AnswerReply;
 use cplan_model::space::{Configuration, Segment};
 use cplan_model::{Goal, Obstruction, Scene, inverse};
-use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
+use cplan_robot::{DiagnosticKind, InputError};
+use cplan_view::output::names::capitalized;
 use cplan_world::LoadedScene;
+use serde_json::{Value, json};
 
 /// Largest number of blocked configurations that are drawn. More would hide each other.
 const MAX_SHOWN: usize = 4;
@@ -17,26 +20,17 @@ const TOUCHING_DEPTH: f64 = 1e-9;
 pub fn refusal(loaded: &LoadedScene, error: &InputError, near: Configuration) -> AnswerReply {
     let [start, goal] = loaded.stated_ends();
     let kinds = error.diagnostics().iter().map(|diagnostic| diagnostic.kind);
-    let (about, what, place) = match kinds.into_iter().find(|kind| *kind != DiagnosticKind::Input) {
-        Some(DiagnosticKind::Start) => (ErrorSubject::Start, "start", start),
-        Some(DiagnosticKind::Goal) => (ErrorSubject::Goal, "goal", goal),
-        _ => (ErrorSubject::World, "world", None),
+    let (about, place) = match kinds.into_iter().find(|kind| *kind != DiagnosticKind::Input) {
+        Some(DiagnosticKind::Start) => ("start", start),
+        Some(DiagnosticKind::Goal) => ("goal", goal),
+        _ => ("world", None),
     };
     let scene = &loaded.scene;
     let blocked: Vec<_> = place.map_or_else(Vec::new, |place| configurations(scene, place, near).collect());
     let is_hit = !blocked.is_empty() && blocked.iter().all(|(_, hits)| !hits.is_empty());
-    let error = if is_hit { describe_contacts(scene, what, &blocked) } else { without_places(error) };
-    let reply = |(q, hits): &(Configuration, Vec<Obstruction>)| BlockedReply {
-        at: (*q).into(),
-        hits: hits.iter().map(reply).collect(),
-    };
-    let blocked = blocked.iter().take(MAX_SHOWN).map(reply).collect();
-    AnswerReply { error: Some(error), about: Some(about), blocked, ..AnswerReply::default() }
-}
-
-/// Returns the answer about a text from the page that cannot be read.
-pub fn unread(error: &InputError) -> AnswerReply {
-    AnswerReply { error: Some(without_places(error)), about: Some(ErrorSubject::World), ..AnswerReply::default() }
+    let error = if is_hit { describe_contacts(scene, about, &blocked) } else { without_places(error) };
+    let reply = |(q, hits): &(Configuration, Vec<Obstruction>)| json!({ "at": [q[0], q[1]], "hits": hits.iter().map(reply).collect::<Vec<_>>() });
+    AnswerReply { blocked: blocked.iter().take(MAX_SHOWN).map(reply).collect(), ..refused(about, error) }
 }
 
 /// Returns the configurations at a start or goal, each with the obstacles in contact, the deepest first.
@@ -61,15 +55,12 @@ fn configurations(
     })
 }
 
-fn reply(obstruction: &Obstruction) -> HitReply {
+fn reply(obstruction: &Obstruction) -> Value {
     let contact = &obstruction.contact;
     let distance = contact.separation.distance;
-    HitReply {
-        link: contact.pair.link.min(1),
-        obstacle: contact.pair.obstacle,
-        // The exact test may find a contact although the rounded distance is positive.
-        distance: if obstruction.touches { distance.min(0.0) } else { distance },
-    }
+    // The exact test may find a contact although the rounded distance is positive.
+    let distance = if obstruction.touches { distance.min(0.0) } else { distance };
+    json!({ "link": contact.pair.link.min(1), "obstacle": contact.pair.obstacle, "distance": distance })
 }
 
 /// Describes the obstacles in contact.
@@ -107,24 +98,14 @@ fn describe_contact(scene: &Scene, hit: &Obstruction) -> String {
 /// Formats a length with three significant digits.
 fn millimetres(metres: f64) -> String {
     let length = metres * 1e3;
-    let digits = if length >= 100.0 {
-        0
-    } else if length >= 10.0 {
-        1
-    } else {
-        2
-    };
+    let digits = [10.0, 100.0].into_iter().filter(|bound| length < *bound).count();
     if length < 0.01 { format!("{length:.1e} mm") } else { format!("{length:.digits$} mm") }
 }
 
 /// Formats the diagnostics without file, line and column, because the user does not see the text.
 pub fn without_places(error: &InputError) -> String {
-    let sentence = |diagnostic: &Diagnostic| {
-        let mut letters = diagnostic.message.chars();
-        let first = letters.next().map(|letter| letter.to_uppercase().to_string()).unwrap_or_default();
-        format!("{first}{}", letters.as_str())
-    };
-    let mut sentences: Vec<String> = error.diagnostics().iter().map(sentence).collect();
+    let mut sentences: Vec<String> =
+        error.diagnostics().iter().map(|diagnostic| capitalized(&diagnostic.message)).collect();
     sentences.dedup();
     sentences.join("\n")
 }

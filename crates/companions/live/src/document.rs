@@ -2,7 +2,7 @@
 
 use super::protocol::{Begin, End, Form, JointLimits, MAX_CORNERS, MAX_OBSTACLES, Pair, Piece, State};
 use std::collections::BTreeSet;
-use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, Value, value};
+use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
 /// A TOML text and its parsed content, which need not be a valid world.
 #[derive(Debug, Clone)]
@@ -153,7 +153,7 @@ fn renames(table: &Table, piece: &Piece) -> bool {
 }
 
 /// Sets the value of a key. Comments around the old value are preserved.
-fn set_value(table: &mut Table, key: &str, item: Item) {
+fn set_value(table: &mut dyn TableLike, key: &str, item: Item) {
     match (table.get_mut(key).and_then(Item::as_value_mut), item) {
         (Some(old), Item::Value(mut new)) => {
             *new.decor_mut() = old.decor().clone();
@@ -176,16 +176,7 @@ fn change_place(toml: &mut DocumentMut, name: &str, key: &str, [a, b]: Pair) -> 
     match toml.get_mut(name).and_then(Item::as_table_like_mut) {
         Some(table) => {
             table.remove(other);
-            match table.get_mut(key).and_then(Item::as_value_mut) {
-                Some(old) => {
-                    let decor = old.decor().clone();
-                    *old = new;
-                    *old.decor_mut() = decor;
-                }
-                None => {
-                    table.insert(key, Item::Value(new));
-                }
-            }
+            set_value(table, key, Item::Value(new));
         }
         None => {
             let mut table = Table::new();

@@ -22,21 +22,12 @@ struct Choice {
 struct Puzzle {
     text: &'static str,
     verdict: &'static str,
-    free: Free,
+    /// The part of the world that the user may change: the positions of the `obstacles`, or the `clearance`.
+    free: &'static str,
     /// Length that the path of a solution must have, which is a proven lower bound. `None` if length does not matter.
     length: Option<f64>,
     /// Least clearance that the user must set, in metres. `None` if clearance does not matter.
     clearance: Option<f64>,
-}
-
-/// The part of the world that the user may change.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-enum Free {
-    /// Positions of the obstacles.
-    Obstacles,
-    /// The clearance.
-    Clearance,
 }
 
 const ROBOTS: [(&str, &str); 7] = [
@@ -58,66 +49,54 @@ const CHOICES: [Choice; 14] = [
     world("hook", "a bent forearm", "l_forearm", include_str!("../../../../workspaces/l_hook.toml")),
     world("gate", "a gate for a ram", "polar", include_str!("../../../../workspaces/polar_gate.toml")),
     world("no_path", "no path", "planar_2r_continuous", include_str!("../../../../workspaces/no_path.toml")),
-    puzzle(
-        "close",
-        "1: close the gap",
-        "rail_arm",
-        include_str!("puzzles/slot.toml"),
-        Puzzle {
-            text: "Close the gap: move the walls until it is proven that no path exists.",
-            ..Puzzle::of("infeasible")
-        },
-    ),
-    puzzle(
-        "round",
-        "2: the long way round",
-        "planar_2r_continuous",
-        include_str!("puzzles/round.toml"),
-        Puzzle {
-            text: "Block the short route, but not the long one: the shortest path must be proven longer than 5.5.",
+    Choice {
+        puzzle: Some(Puzzle::of("infeasible", "Close the gap: move the walls until it is proven that no path exists.")),
+        ..world("close", "1: close the gap", "rail_arm", include_str!("puzzles/slot.toml"))
+    },
+    Choice {
+        puzzle: Some(Puzzle {
             length: Some(5.5),
-            ..Puzzle::of("found")
-        },
-    ),
-    puzzle(
-        "both",
-        "3: both ways round",
-        "planar_2r_continuous",
-        include_str!("../../../../workspaces/torus_open.toml"),
-        Puzzle {
-            text: "Both joints turn without limits: block both directions with the two posts.",
-            ..Puzzle::of("infeasible")
-        },
-    ),
-    puzzle(
-        "ring",
-        "4: break the ring",
-        "gantry",
-        include_str!("../../../../workspaces/annulus_closed.toml"),
-        Puzzle { text: "It is proven that the head cannot leave the ring: open a path for it.", ..Puzzle::of("found") },
-    ),
-    puzzle(
-        "pole",
-        "5: round the pole",
-        "planar_2r",
-        include_str!("../../../../workspaces/limits_closed.toml"),
-        Puzzle {
-            text: "The elbow's limits keep the arm from passing the pole: move the pole so that the arm can pass it.",
-            ..Puzzle::of("found")
-        },
-    ),
-    puzzle(
-        "berth",
-        "6: a wide berth",
-        "planar_2r",
-        include_str!("../../../../workspaces/narrow_slot.toml"),
-        Puzzle {
-            text: "Move nothing: find the largest clearance with which a path exists, to a tenth of a millimetre.",
-            free: Free::Clearance,
+            ..Puzzle::of(
+                "found",
+                "Block the short route, but not the long one: the shortest path must be proven longer than 5.5.",
+            )
+        }),
+        ..world("round", "2: the long way round", "planar_2r_continuous", include_str!("puzzles/round.toml"))
+    },
+    Choice {
+        puzzle: Some(Puzzle::of(
+            "infeasible",
+            "Both joints turn without limits: block both directions with the two posts.",
+        )),
+        ..world(
+            "both",
+            "3: both ways round",
+            "planar_2r_continuous",
+            include_str!("../../../../workspaces/torus_open.toml"),
+        )
+    },
+    Choice {
+        puzzle: Some(Puzzle::of("found", "It is proven that the head cannot leave the ring: open a path for it.")),
+        ..world("ring", "4: break the ring", "gantry", include_str!("../../../../workspaces/annulus_closed.toml"))
+    },
+    Choice {
+        puzzle: Some(Puzzle::of(
+            "found",
+            "The elbow's limits keep the arm from passing the pole: move the pole so that the arm can pass it.",
+        )),
+        ..world("pole", "5: round the pole", "planar_2r", include_str!("../../../../workspaces/limits_closed.toml"))
+    },
+    Choice {
+        puzzle: Some(Puzzle {
+            free: "clearance",
             clearance: Some(NARROW_SLOT_CLEARANCE),
-            ..Puzzle::of("found")
-        },
-    ),
+            ..Puzzle::of(
+                "found",
+                "Move nothing: find the largest clearance with which a path exists, to a tenth of a millimetre.",
+            )
+        }),
+        ..world("berth", "6: a wide berth", "planar_2r", include_str!("../../../../workspaces/narrow_slot.toml"))
+    },
 ];
 
 /// A value slightly below the largest clearance with a path through the narrow slot, in metres.
@@ -127,19 +106,9 @@ const fn world(name: &'static str, title: &'static str, robot: &'static str, wor
     Choice { name, title, robot, world, puzzle: None }
 }
 
-const fn puzzle(
-    name: &'static str,
-    title: &'static str,
-    robot: &'static str,
-    world: &'static str,
-    puzzle: Puzzle,
-) -> Choice {
-    Choice { name, title, robot, world, puzzle: Some(puzzle) }
-}
-
 impl Puzzle {
-    const fn of(verdict: &'static str) -> Self {
-        Self { text: "", verdict, free: Free::Obstacles, length: None, clearance: None }
+    const fn of(verdict: &'static str, text: &'static str) -> Self {
+        Self { text, verdict, free: "obstacles", length: None, clearance: None }
     }
 }
 

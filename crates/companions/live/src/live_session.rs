@@ -7,10 +7,7 @@ use super::contours::Contours;
 use super::document::Document;
 use super::options::Options;
 use super::pace::Pace;
-use super::protocol::{
-    AnswerReply, Begin, ErrorSubject, Files, JointReply, Message, Pair, PieceReply, PlanRequest, Reply, Request,
-    WorldReply,
-};
+use super::protocol::{AnswerReply, Begin, Files, Form, Message, Pair, PlanRequest, Reply, Request};
 use super::{explain, files, menus};
 use cplan_geometry::Point;
 use cplan_interrupt::{Instant, Interrupt, Interrupted};
@@ -18,6 +15,7 @@ use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Arm, equivalent_values, inverse};
 use cplan_solver::Method;
 use cplan_world::{LoadedScene, Overrides, Rules};
+use serde_json::json;
 use serde_json::value::RawValue;
 use std::sync::Arc;
 
@@ -72,20 +70,21 @@ impl LiveSession {
         send: &mut dyn FnMut(Message),
     ) {
         let mut reply = |reply: Reply| send(Message::from(&reply));
+        let deadlines = Deadlines::new(interrupt, spent, self.host.time);
         match request {
             Request::Open { id, files } => reply(match self.open(files.as_ref(), spent) {
                 Ok(()) => self.world(*id, true),
                 Err(error) => Reply::Failed { id: *id, error },
             }),
-            Request::Plan(ask) => self.plan(ask, interrupt, spent, &mut reply),
-            Request::Explain(ask) => match self.explain(ask, interrupt, spent) {
+            Request::Plan(ask) => self.plan(ask, &deadlines, &mut reply),
+            Request::Explain(ask) => match self.explain(ask, &deadlines) {
                 Ok(Some(explanation)) => reply(Reply::Explanation { id: ask.id, explanation }),
                 // A newer request has arrived.
                 Ok(None) => {}
                 Err(error) => reply(Reply::Failed { id: ask.id, error }),
             },
             Request::Load { id, text, options } => self.load(*id, text, options, (interrupt, spent), &mut reply),
-            Request::Download { ask, format } => match self.download(ask, format, interrupt, spent) {
+            Request::Download { ask, format } => match self.download(ask, format, &deadlines) {
                 Ok((name, content)) => send(Message::file(ask.id, &name, &content)),
                 Err(error) => reply(Reply::Failed { id: ask.id, error }),
             },
@@ -98,31 +97,36 @@ impl LiveSession {
         let arm = self.scene.scene.arm();
         let names = self.scene.scene.workspace().obstacles.iter().map(|obstacle| obstacle.name.clone());
         let pieces = names.zip(self.document.forms());
-        let limits = |axis: &JointRange| match *axis {
-            JointRange::Circle => None,
-            JointRange::Interval { lower, upper } => Some([lower, upper]),
+        let piece = |(name, shape): (String, Option<Form>)| {
+            let mut piece = json!(shape);
+            piece["name"] = json!(name);
+            piece
         };
         let joint = |k: usize| {
             let joint = &arm.joints[k];
-            JointReply { name: joint.name.clone(), unit: joint.unit(), limits: limits(&joint.range) }
+            let limits = match joint.range {
+                JointRange::Circle => None,
+                JointRange::Interval { lower, upper } => Some([lower, upper]),
+            };
+            json!({ "name": joint.name, "unit": joint.unit(), "limits": limits })
         };
-        Reply::World(Box::new(WorldReply {
-            id,
-            base: self.base,
-            name: self.scene.scene.workspace().name.clone(),
-            robot: format!("{} ({})", arm.name, arm.kind()),
-            obstacles: pieces.map(|(name, shape)| PieceReply { name, shape }).collect(),
-            start: self.document.start(),
-            goal: self.document.goal(),
-            clearance: self.scene.scene.workspace().clearance,
-            has_steps: self.scene.is_task(),
-            joints: [0, 1].map(joint),
-            reach: arm.reach(),
-            planners: Method::ALL.iter().map(|method| method.name()).collect(),
-            menus: menus::planners(),
-            options: begins.then(|| self.host.options.clone()),
-            urdf: (begins && self.host.is_whole).then(|| self.host.urdf.text().to_owned()),
-            toml: self.document.text().to_owned(),
+        Reply::World(json!({
+            "id": id,
+            "base": self.base,
+            "name": self.scene.scene.workspace().name,
+            "robot": format!("{} ({})", arm.name, arm.kind()),
+            "obstacles": pieces.map(piece).collect::<Vec<_>>(),
+            "start": self.document.start(),
+            "goal": self.document.goal(),
+            "clearance": self.scene.scene.workspace().clearance,
+            "has_steps": self.scene.is_task(),
+            "joints": ([0, 1].map(joint)),
+            "reach": arm.reach(),
+            "planners": Method::ALL.map(Method::name),
+            "menus": menus::planners(),
+            "options": begins.then_some(&self.host.options),
+            "urdf": (begins && self.host.is_whole).then(|| self.host.urdf.text()),
+            "toml": self.document.text(),
         }))
     }
 
@@ -169,14 +173,14 @@ impl LiveSession {
                     options: options.to_owned(),
                     think: false,
                 };
-                self.plan(&ask, interrupt, spent, send);
+                self.plan(&ask, &Deadlines::new(interrupt, spent, self.host.time), send);
             }
             Err(error) => send(Reply::Failed { id, error }),
         }
     }
 
     /// Plans, and sends the answer. Sends nothing if it was interrupted.
-    fn plan(&self, ask: &PlanRequest, interrupt: &Interrupt, spent: TimeSpent, send: &mut dyn FnMut(Reply)) {
+    fn plan(&self, ask: &PlanRequest, deadlines: &Deadlines, send: &mut dyn FnMut(Reply)) {
         let begun = Instant::now();
         let id = ask.id;
         let mut send = |mut answer: AnswerReply| {
@@ -184,7 +188,7 @@ impl LiveSession {
             answer.figures.milliseconds = begun.elapsed().as_secs_f64() * 1e3;
             send(Reply::Answer(Box::new(answer)));
         };
-        if let Ok(answer) = self.answer(ask, interrupt, spent, &mut send) {
+        if let Ok(answer) = self.answer(ask, deadlines, &mut send) {
             send(AnswerReply { done: true, ..answer });
         }
     }
@@ -194,37 +198,32 @@ impl LiveSession {
     fn answer(
         &self,
         ask: &PlanRequest,
-        interrupt: &Interrupt,
-        spent: TimeSpent,
+        deadlines: &Deadlines,
         send: &mut dyn FnMut(AnswerReply),
     ) -> Result<AnswerReply, Interrupted> {
-        let deadlines = Deadlines::new(interrupt, spent, self.host.time);
-        let options = match Options::parse(&ask.options) {
-            Ok(options) => options,
-            Err(error) => return Ok(refused(ErrorSubject::Options, error)),
-        };
-        let text = match self.text(ask) {
-            Ok(text) => text,
-            Err(error) => return Ok(refused(ErrorSubject::World, error)),
+        let (options, text) = match (Options::parse(&ask.options), self.text(ask)) {
+            (Ok(options), Ok(text)) => (options, text),
+            (Err(error), _) => return Ok(refused("options", error)),
+            (_, Err(error)) => return Ok(refused("world", error)),
         };
         let source = self.host.world.with_text(text.as_str());
         let loaded = match deadlines.show.run(|| self.scene.with_world_text(&self.host.urdf, source)) {
             Ok(Ok(loaded)) => loaded,
-            Ok(Err(error)) => return Ok(blocked::unread(&error)),
+            Ok(Err(error)) => return Ok(refused("world", blocked::without_places(&error))),
             Err(stopped) => return deadlines.timed_out(stopped),
         };
         let options = match options.for_scene(&loaded.scene) {
             Ok(options) => options,
-            Err(error) => return Ok(refused(ErrorSubject::Options, error)),
+            Err(error) => return Ok(refused("options", error)),
         };
         let toml = ask.is_final.then_some(text);
         let (contours, think) = (&self.contours, ask.think);
-        let answering = Answering { options, contours, deadlines: &deadlines, think, toml };
+        let answering = Answering { options, contours, deadlines, think, toml };
         match loaded.clone().resolve(&Overrides::default(), Rules::Plan) {
             Ok(problem) if problem.task.is_some() => answering.task(&problem.into()),
             Ok(problem) if ask.is_final => answering.full_answer(problem, send),
             Ok(problem) => answering.quick_answer(problem, &self.pace),
-            Err(error) if loaded.is_task() => Ok(refused(ErrorSubject::World, error.to_string())),
+            Err(error) if loaded.is_task() => Ok(refused("world", error.to_string())),
             Err(error) => {
                 let start = ask.state.as_ref().and_then(|state| self.begin(state.start));
                 answering.blocked(&loaded, &error, start.or_else(|| self.document.start()))
@@ -236,16 +235,10 @@ impl LiveSession {
     ///
     /// # Errors
     /// The reason why there is no explanation.
-    fn explain(
-        &self,
-        ask: &PlanRequest,
-        interrupt: &Interrupt,
-        spent: TimeSpent,
-    ) -> Result<Option<Box<RawValue>>, String> {
+    fn explain(&self, ask: &PlanRequest, deadlines: &Deadlines) -> Result<Option<Box<RawValue>>, String> {
         let source = self.host.world.with_text(self.text(ask)?.as_str());
         let loaded =
             self.scene.with_world_text(&self.host.urdf, source).map_err(|error| blocked::without_places(&error))?;
-        let deadlines = Deadlines::new(interrupt, spent, self.host.time);
         match deadlines.plan.run(|| explain::explanation(loaded, self.host.time)) {
             Ok(explanation) => explanation.map(Some),
             Err(Interrupted::Set) => Ok(None),
@@ -257,13 +250,7 @@ impl LiveSession {
     ///
     /// # Errors
     /// The reason, for display.
-    fn download(
-        &self,
-        ask: &PlanRequest,
-        format: &str,
-        interrupt: &Interrupt,
-        spent: TimeSpent,
-    ) -> Result<(String, Vec<u8>), String> {
+    fn download(&self, ask: &PlanRequest, format: &str, deadlines: &Deadlines) -> Result<(String, Vec<u8>), String> {
         let text = self.text(ask)?;
         if format == "toml" {
             return Ok(("world.toml".into(), text.into_bytes()));
@@ -271,7 +258,6 @@ impl LiveSession {
         let options = Options::parse(&ask.options)?;
         let source = self.host.world.with_text(text.as_str());
         let loaded = self.scene.with_world_text(&self.host.urdf, source).map_err(|error| error.to_string())?;
-        let deadlines = Deadlines::new(interrupt, spent, self.host.time);
         match deadlines.plan.run(|| files::content(loaded, &options, format)) {
             Ok(content) => Ok((format!("plan.{format}"), content?)),
             Err(Interrupted::Set) => Err("the file is not written: the page has changed since".into()),

@@ -4,13 +4,13 @@
 //! differ from those of the program.
 
 use super::options::Options;
-use super::protocol::{OptionReply, PlannerReply};
 use clap::{Arg, Command};
 use cplan_options::Named;
 use cplan_planners::planner::GridSearch;
 use cplan_planners::waves::Neighborhood;
 use cplan_roadmaps::Prm;
 use cplan_solver::{DEFAULT_CELLS, GridSpace, Method, Planner, Setting};
+use serde_json::{Value, json};
 
 /// An option with its own menu. The user types all other options.
 struct Choice {
@@ -25,59 +25,34 @@ struct Choice {
     is_for: fn(Method) -> bool,
 }
 
+/// An option with the values that the grammar lists, for all planners.
+const fn listed(name: &'static str, label: &'static str, standard: fn(Method) -> Option<String>) -> Choice {
+    Choice { name, label, numbers: &[], standard, is_for: |_| true }
+}
+
 const CHOICES: [Choice; 8] = [
     Choice {
-        name: "gap",
-        label: "gap at most",
         numbers: &[("0.01", "1 %"), ("0.001", "0.1 %"), ("0.0001", "0.01 %")],
-        standard: |_| Some("default".into()),
-        is_for: |_| true,
+        ..listed("gap", "gap at most", |_| Some("default".into()))
     },
-    Choice { name: "metric", label: "length", numbers: &[], standard: |_| None, is_for: |_| true },
+    listed("metric", "length", |_| None),
     Choice {
-        name: "cells",
-        label: "cells",
         numbers: &[("64", "64"), ("128", "128"), ("256", "256"), ("512", "512"), ("1024", "1024")],
-        standard: cells,
         is_for: |planner| planner.reads(Setting::Cells),
+        ..listed("cells", "cells", cells)
     },
+    Choice { is_for: Method::has_own_path, ..listed("path", "path", |planner| Some(planner.path_kind().to_string())) },
+    listed("search", "search", |planner| {
+        word(if planner.reads(Setting::Search) { GridSearch::AStar } else { GridSearch::default() })
+    }),
     Choice {
-        name: "path",
-        label: "path",
-        numbers: &[],
-        standard: |planner| Some(planner.path_kind().to_string()),
-        is_for: Method::has_own_path,
-    },
-    Choice {
-        name: "search",
-        label: "search",
-        numbers: &[],
-        standard: |planner| {
-            word(if planner.reads(Setting::Search) { GridSearch::AStar } else { GridSearch::default() })
-        },
-        is_for: |_| true,
-    },
-    Choice {
-        name: "samples",
-        label: "samples",
         numbers: &[("100", "100"), ("500", "500"), ("2000", "2000"), ("10000", "10000")],
-        standard: |_| Some(Prm::default().samples.to_string()),
-        is_for: |_| true,
+        ..listed("samples", "samples", |_| Some(Prm::default().samples.to_string()))
     },
-    Choice {
-        name: "neighbors",
-        label: "neighbours",
-        numbers: &[],
-        standard: |_| Some(if Neighborhood::default() == Neighborhood::Eight { "8" } else { "4" }.into()),
-        is_for: |_| true,
-    },
-    Choice {
-        name: "space",
-        label: "cells by",
-        numbers: &[],
-        standard: |_| word(GridSpace::default()),
-        is_for: |_| true,
-    },
+    listed("neighbors", "neighbours", |_| {
+        Some(if Neighborhood::default() == Neighborhood::Eight { "8" } else { "4" }.into())
+    }),
+    listed("space", "cells by", |_| word(GridSpace::default())),
 ];
 
 /// Returns the default of `--cells`. By default, the cells of fields are square in joint space.
@@ -93,14 +68,15 @@ fn word(value: impl Named) -> Option<String> {
 }
 
 /// Returns all planners with their menus.
-pub fn planners() -> Vec<PlannerReply> {
+pub fn planners() -> Vec<Value> {
     let grammar = Options::grammar();
-    let menus = |planner: Method| CHOICES.iter().filter_map(|choice| menu(&grammar, planner, choice)).collect();
-    Method::ALL.into_iter().map(|planner| PlannerReply { name: planner.name(), options: menus(planner) }).collect()
+    let menus =
+        |planner: Method| CHOICES.iter().filter_map(|choice| menu(&grammar, planner, choice)).collect::<Vec<_>>();
+    Method::ALL.into_iter().map(|planner| json!({ "name": planner.name(), "options": menus(planner) })).collect()
 }
 
 /// Returns the menu of an option with the values that the planner accepts. `None` if it accepts none.
-fn menu(grammar: &Command, planner: Method, choice: &Choice) -> Option<OptionReply> {
+fn menu(grammar: &Command, planner: Method, choice: &Choice) -> Option<Value> {
     let argument = grammar.get_arguments().find(|argument| argument.get_long() == Some(choice.name))?;
     let name = format!("--{}", choice.name);
     let standard = (choice.standard)(planner).or_else(|| default_of(argument)).unwrap_or_default();
@@ -113,12 +89,8 @@ fn menu(grammar: &Command, planner: Method, choice: &Choice) -> Option<OptionRep
         .filter(|[value, _]| *value != standard && takes(value))
         .map(|[value, text]| if text.is_empty() { [value.clone(), value] } else { [value, text] })
         .collect();
-    ((choice.is_for)(planner) && !values.is_empty()).then_some(OptionReply {
-        name,
-        label: choice.label,
-        standard,
-        values,
-    })
+    let is_shown = (choice.is_for)(planner) && !values.is_empty();
+    is_shown.then(|| json!({ "name": name, "label": choice.label, "standard": standard, "values": values }))
 }
 
 fn default_of(argument: &Arg) -> Option<String> {
@@ -132,8 +104,10 @@ mod tests {
     #[test]
     fn each_planner_has_the_options_that_it_takes() {
         let of = |name: &str| {
-            let planner = planners().into_iter().find(|planner| planner.name == name).unwrap();
-            planner.options.into_iter().map(|option| (option.name, option.standard)).collect::<Vec<_>>()
+            let planner = planners().into_iter().find(|planner| planner["name"] == name).unwrap();
+            let text = |value: &Value| value.as_str().unwrap().to_owned();
+            let options = planner["options"].as_array().unwrap().iter();
+            options.map(|option| (text(&option["name"]), text(&option["standard"]))).collect::<Vec<_>>()
         };
         let pairs = |list: &[(&str, &str)]| list.iter().map(|&(a, b)| (a.into(), b.into())).collect::<Vec<_>>();
         let optimum = pairs(&[("--gap", "default"), ("--metric", "euclidean")]);
@@ -152,9 +126,10 @@ mod tests {
 
     #[test]
     fn the_default_is_not_among_the_other_values() {
-        for option in planners().into_iter().flat_map(|planner| planner.options) {
-            assert!(!option.values.is_empty(), "{}", option.name);
-            assert!(option.values.iter().all(|[value, _]| *value != option.standard), "{}", option.name);
+        let planners = planners();
+        for option in planners.iter().flat_map(|planner| planner["options"].as_array().unwrap()) {
+            let values = option["values"].as_array().unwrap();
+            assert!(!values.is_empty() && values.iter().all(|value| value[0] != option["standard"]), "{option}");
         }
     }
 }

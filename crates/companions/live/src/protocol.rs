@@ -1,6 +1,7 @@
 //! The protocol between page and program: JSON objects, one per message.
 
 use serde::{Deserialize, Serialize};
+use serde_json::Value;
 use serde_json::value::RawValue;
 
 /// Largest number of obstacles in the page's state.
@@ -188,7 +189,7 @@ pub enum End {
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Reply {
     /// A world that was opened or loaded: its editable parts, and the data that the page needs with them.
-    World(Box<WorldReply>),
+    World(Value),
     /// The result of a plan.
     Answer(Box<AnswerReply>),
     /// The reasons why there is no path, with the changes that open one.
@@ -232,87 +233,6 @@ impl Message {
     }
 }
 
-/// A world as the page draws and edits it.
-#[derive(Debug, Serialize)]
-pub struct WorldReply {
-    /// Number of the request that opened or loaded the world.
-    pub id: u64,
-    /// Number of the text. A page's state is a change of the text with this number.
-    pub base: u64,
-    /// The title above the picture.
-    pub name: String,
-    /// The robot's name, and the types of its joints, such as `RR`.
-    pub robot: String,
-    /// Obstacles of the text, in order.
-    pub obstacles: Vec<PieceReply>,
-    /// Start of the arm.
-    pub start: Option<Pair>,
-    /// Goal of the arm.
-    pub goal: Option<End>,
-    /// Least distance to keep from obstacles, in metres.
-    pub clearance: f64,
-    /// True if the world has a task. The page shows the task but cannot change it.
-    pub has_steps: bool,
-    /// The joints, base to tip.
-    pub joints: [JointReply; 2],
-    /// Distance of the tip from the base when the arm is stretched, in metres.
-    pub reach: f64,
-    /// Names of the planners.
-    pub planners: Vec<&'static str>,
-    /// The options of each planner, for the page's menus.
-    pub menus: Vec<PlannerReply>,
-    /// Initial planner and options. `None` for a world that was loaded as a text.
-    pub options: Option<String>,
-    /// The text of the URDF, for links that contain arm and world. `None` for a world that was loaded as a text, and if
-    /// arm or world name other files.
-    pub urdf: Option<String>,
-    /// The current text of the world file.
-    pub toml: String,
-}
-
-/// The menus of a planner.
-#[derive(Debug, Serialize)]
-pub struct PlannerReply {
-    /// Name of the planner on the command line.
-    pub name: &'static str,
-    /// Options with menus, in the order of the menus.
-    pub options: Vec<OptionReply>,
-}
-
-/// An option with the values of its menu.
-#[derive(Debug, Serialize)]
-pub struct OptionReply {
-    /// Name of the option on the command line, such as `--cells`.
-    pub name: String,
-    /// Label of the menu.
-    pub label: &'static str,
-    /// Description of the default.
-    pub standard: String,
-    /// Values of the menu, each with its label.
-    pub values: Vec<[String; 2]>,
-}
-
-/// An obstacle of a world, as the page reads it.
-#[derive(Debug, Serialize)]
-pub struct PieceReply {
-    /// The obstacle's name in the world file.
-    pub name: String,
-    /// Shape of the obstacle. `None` if the page cannot change it, as for a map.
-    #[serde(flatten)]
-    pub shape: Option<Form>,
-}
-
-/// A joint with its unit and limits.
-#[derive(Debug, Serialize)]
-pub struct JointReply {
-    /// Name of the joint in the URDF.
-    pub name: String,
-    /// Unit of the joint's values: `rad` or `m`.
-    pub unit: &'static str,
-    /// Least and greatest value. `None` for a continuous joint.
-    pub limits: Option<Pair>,
-}
-
 /// The result of a plan.
 #[derive(Debug, Default, Serialize)]
 pub struct AnswerReply {
@@ -327,9 +247,9 @@ pub struct AnswerReply {
     /// defect. If there is one, there is no verdict.
     pub error: Option<String>,
     /// Subject of the error.
-    pub about: Option<ErrorSubject>,
+    pub about: Option<&'static str>,
     /// Configurations of the start or the goal that are not free.
-    pub blocked: Vec<BlockedReply>,
+    pub blocked: Vec<Value>,
     /// `found`, `infeasible` or `unknown`. `None` if there is an error, or the plan is not finished.
     pub verdict: Option<&'static str>,
     /// True if the whole motion is proven free.
@@ -346,40 +266,6 @@ pub struct AnswerReply {
     pub toml: Option<String>,
     /// The view of the plan as JSON. `None` if there is no scene.
     pub view: Option<Box<RawValue>>,
-}
-
-/// The subject of an error.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ErrorSubject {
-    /// Planner and options.
-    Options,
-    /// Obstacles, or other parts of the world.
-    World,
-    /// The start.
-    Start,
-    /// The goal.
-    Goal,
-}
-
-/// A configuration that is not free.
-#[derive(Debug, PartialEq, Serialize)]
-pub struct BlockedReply {
-    /// Values of both joints.
-    pub at: Pair,
-    /// Obstacles in contact, the deepest first. Empty if the configuration is outside the joint limits.
-    pub hits: Vec<HitReply>,
-}
-
-/// A link and an obstacle that touch, overlap, or are nearer than the clearance.
-#[derive(Debug, PartialEq, Serialize)]
-pub struct HitReply {
-    /// Index of the link: 0 or 1.
-    pub link: usize,
-    /// Index of the obstacle in the world.
-    pub obstacle: usize,
-    /// Distance in metres; negative if they overlap.
-    pub distance: f64,
 }
 
 /// Figures of a plan.

@@ -38,7 +38,10 @@ pub(super) fn load(
     let study = Source::read(path)?;
     let beside = |which: NamedFile, name: Option<&str>| {
         let missing = || {
-            let (key, example) = which.words();
+            let (key, example) = match which {
+                NamedFile::Robot => ("robot", "arm.urdf"),
+                NamedFile::World => ("world", "world.toml"),
+            };
             study
                 .diagnostic(format!("the study names no {key}"))
                 .help(format!("write {key} = \"{example}\" at its beginning"))
@@ -59,16 +62,6 @@ pub(super) enum NamedFile {
     World,
 }
 
-impl NamedFile {
-    /// Returns the key that names the file, and an example of its value.
-    fn words(self) -> (&'static str, &'static str) {
-        match self {
-            Self::Robot => ("robot", "arm.urdf"),
-            Self::World => ("world", "world.toml"),
-        }
-    }
-}
-
 /// Reads a study from its text. Reads the files that it names with `open`.
 pub(super) fn read(source: &Source, read_options: ReadOptions, open: OpenFile) -> Result<Study, InputError> {
     let reader = Reader { source };
@@ -87,7 +80,7 @@ pub(super) fn read(source: &Source, read_options: ReadOptions, open: OpenFile) -
     if let (Some(why), Some(words)) = (options.error(base.is_task()), &file.options) {
         return Err(reader.wrong(words.span(), format!("options: {why}"), "leave the option out").into());
     }
-    let Goals { measures, conditions, objective } = reader.goals(&file, base.is_task())?;
+    let (measures, conditions, objective) = reader.goals(&file, base.is_task())?;
     let searched =
         file.search.as_ref().map(|table| reader.search(&table.layouts, &parameters, objective)).transpose()?;
     let stem = source.stem().unwrap_or_else(|| "study".to_owned());
@@ -112,12 +105,7 @@ pub(super) fn read(source: &Source, read_options: ReadOptions, open: OpenFile) -
 }
 
 /// Measures, conditions and objective of a study.
-struct Goals {
-    /// The measures of the file, followed by those that only conditions or the objective need.
-    measures: Vec<Measure>,
-    conditions: Vec<Condition>,
-    objective: Option<Objective>,
-}
+type Goals = (Vec<Measure>, Vec<Condition>, Option<Objective>);
 
 /// Returns the objective of a study that states none: duration if it is measured, otherwise length, otherwise the first
 /// measure.
@@ -175,7 +163,7 @@ impl Reader<'_> {
                 measures.push(measure);
             }
         }
-        Ok(Goals { measures, conditions, objective })
+        Ok((measures, conditions, objective))
     }
 
     fn wrong(&self, at: Range<usize>, message: impl Into<String>, help: &str) -> Diagnostic {
@@ -209,84 +197,72 @@ impl Reader<'_> {
 
     fn parameter(&self, table: &ParameterTable, at: Range<usize>) -> Result<Parameter, Diagnostic> {
         let name = table.name.get_ref().clone();
-        let what = format!("parameter \"{name}\"");
+        let wrong = |at, message: String, help: &str| {
+            self.wrong(at, format!("parameter \"{}\"{message}", table.name.get_ref()), help)
+        };
         if name.trim().is_empty() || name.contains(['\n', '\r']) {
             return Err(self.wrong(table.name.span(), "a parameter needs a name on one line", "name = \"base x\""));
         }
-        if table.sets.get_ref().all().is_empty() {
-            return Err(self.wrong(table.sets.span(), format!("{what} sets nothing"), "sets = \"world.clearance\""));
+        let sets = table.sets.get_ref().all();
+        if sets.is_empty() {
+            return Err(wrong(table.sets.span(), " sets nothing".into(), "sets = \"world.clearance\""));
         }
-        if let Some(at) = table.degrees() {
-            let sets = table.sets.get_ref();
-            if let Some((address, ..)) = sets.all().into_iter().find(|(address, ..)| !is_angle(address)) {
-                let message = format!("{what}: {address} is not an angle, so its values cannot be in degrees");
-                return Err(self.wrong(at, message, "write numbers, as in 0.1"));
-            }
+        if let Some(at) = table.degrees()
+            && let Some((address, ..)) = sets.into_iter().find(|(address, ..)| !is_angle(address))
+        {
+            let message = format!(": {address} is not an angle, so its values cannot be in degrees");
+            return Err(wrong(at, message, "write numbers, as in 0.1"));
         }
         let finite = |value: &Spanned<Quantity>| match value.get_ref().value {
             value if value.is_finite() => Ok(value),
-            other => Err(self.wrong(value.span(), format!("{what}: {other} is not finite"), "write a number")),
+            other => Err(wrong(value.span(), format!(": {other} is not finite"), "write a number")),
         };
         let ends = match (&table.from, &table.to) {
-            (Some(from), Some(to)) => Some((finite(from)?, finite(to)?)),
+            (Some(given), Some(to)) => {
+                let (from, to) = (finite(given)?, finite(to)?);
+                if !(to - from).is_finite() {
+                    let message = format!(": the range from {from} to {to} is too wide");
+                    return Err(wrong(given.span(), message, "write a smaller range"));
+                }
+                if from > to {
+                    let message = format!(": {from} is more than {to}");
+                    return Err(wrong(given.span(), message, "write the lesser value as `from`"));
+                }
+                Some((from, to))
+            }
             (None, None) => None,
-            _ => return Err(self.wrong(at, format!("{what} has only one of `from` and `to`"), "give both")),
+            _ => return Err(wrong(at, " has only one of `from` and `to`".into(), "give both")),
         };
-        if let (Some((from, to)), Some(given)) = (ends, &table.from)
-            && !(to - from).is_finite()
-        {
-            return Err(self.wrong(
-                given.span(),
-                format!("{what}: the range from {from} to {to} is too wide"),
-                "write a smaller range",
-            ));
-        }
-        if let (Some((from, to)), Some(given)) = (ends, &table.from)
-            && from > to
-        {
-            return Err(self.wrong(
-                given.span(),
-                format!("{what}: {from} is more than {to}"),
-                "write the lesser value as `from`",
-            ));
-        }
         let values = match (&table.values, ends, &table.steps, &table.draw) {
             (Some(values), None, None, None) => {
                 let given: Vec<f64> = values.get_ref().iter().map(|value| value.value).collect();
                 if given.is_empty() || given.iter().any(|value| !value.is_finite()) {
-                    return Err(self.wrong(
-                        values.span(),
-                        format!("{what} needs values, all finite"),
-                        "values = [0.1, 0.2]",
-                    ));
+                    return Err(wrong(values.span(), " needs values, all finite".into(), "values = [0.1, 0.2]"));
                 }
                 Values::Listed(given)
             }
             (None, Some((from, to)), Some(steps), None) => match *steps.get_ref() {
                 n @ 1..=1_000_000 if n > 1 || from == to => Values::Stepped { from, to, count: n as usize },
                 n => {
-                    let message = format!("{what}: {n} values from {from} to {to} are too few or too many");
-                    return Err(self.wrong(steps.span(), message, "use 2 to a million steps"));
+                    let message = format!(": {n} values from {from} to {to} are too few or too many");
+                    return Err(wrong(steps.span(), message, "use 2 to a million steps"));
                 }
             },
             (None, Some((from, to)), None, Some(draw)) => match draw.get_ref().as_str() {
                 "uniform" | "latin" if from == to => {
-                    let message = format!("{what}: the range from {from} to {to} has only one value to draw");
-                    return Err(self.wrong(
-                        draw.span(),
-                        message,
-                        &format!("write values = [{from}], or a wider range"),
-                    ));
+                    let message = format!(": the range from {from} to {to} has only one value to draw");
+                    let help = format!("write values = [{from}], or a wider range");
+                    return Err(wrong(draw.span(), message, &help));
                 }
                 word @ ("uniform" | "latin") => Values::Drawn { from, to, latin: word == "latin" },
                 other => {
-                    let message = format!("{what}: values are drawn \"uniform\" or \"latin\", not \"{other}\"");
-                    return Err(self.wrong(draw.span(), message, "write draw = \"latin\""));
+                    let message = format!(": values are drawn \"uniform\" or \"latin\", not \"{other}\"");
+                    return Err(wrong(draw.span(), message, "write draw = \"latin\""));
                 }
             },
             _ => {
                 let help = "values = [...]; or from, to and steps; or from, to and draw = \"uniform\" or \"latin\"";
-                return Err(self.wrong(at, format!("{what} does not define its values"), help));
+                return Err(wrong(at, " does not define its values".into(), help));
             }
         };
         let unit = table.unit.clone().or_else(|| table.degrees().map(|_| "rad".into()));

@@ -10,7 +10,7 @@ use super::parameter::{Parameter, Values};
 use super::row::{Ending, Row};
 use super::summary::{Summary, format_value};
 use cplan_compare::page::{
-    Additions, Axis, Frame, collapsible_section, foot, frame, head_with, image_source, number, section, table,
+    Axis, Frame, chart, collapsible_section, figure, foot, frame, head, image_source, number, section, table, text,
 };
 use cplan_compare::{Align, Column, Picture, Table};
 use cplan_text::{counted, markup};
@@ -34,7 +34,7 @@ impl Study {
         let names: Vec<&str> = self.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
         let subtitle = format!("{} over {}", counted(rows.len(), "layout"), names.join(", "));
         let mut linked = BTreeSet::new();
-        let mut html = head_with(&self.name, &subtitle, &Additions { style: STYLE, has_script: true });
+        let mut html = head(&self.name, &subtitle, STYLE, true);
         let is_best = |picture: &&Picture| picture.title.starts_with("best: ") && summary.best().is_some();
         let best = pictures.first().filter(is_best);
         html += &answer::section(self, &summary, rows, best);
@@ -258,8 +258,7 @@ fn scale(objective: Objective, least: f64, greatest: f64) -> String {
     let ends = [values[0].min(values[1]), values[0].max(values[1])];
     let shown = Shown::of(objective.measure, ends);
     let axis = Axis::between(shown.value(ends[0]), shown.value(ends[1]));
-    let mut svg =
-        String::from("<svg class=\"chart\" viewBox=\"0 0 460 52\" role=\"img\" aria-label=\"Scale of colours\">\n");
+    let mut svg = chart([460.0, 52.0], "Scale of colours");
     for k in 0..SCALE_SHADES {
         svg += &format!(
             "<rect x=\"{}\" y=\"2\" width=\"{}\" height=\"12\" fill=\"{}\"/>",
@@ -269,16 +268,12 @@ fn scale(objective: Objective, least: f64, greatest: f64) -> String {
             cplan_theme::scale(1.0 - (k as f64 + 0.5) / SCALE_SHADES as f64)
         );
     }
-    for (value, text) in axis.ticks() {
+    for (value, tick) in axis.ticks() {
         // The best value is on the left, whether it is the least or the greatest.
         let share = if objective.most { 1.0 - axis.place(value) } else { axis.place(value) };
-        svg += &format!("<text class=\"tick\" x=\"{}\" y=\"29\">{text}</text>\n", number(left + width * share));
+        svg += &text("tick", [left + width * share, 29.0], &tick);
     }
-    svg + &format!(
-        "<text class=\"tick\" x=\"{}\" y=\"46\">{}</text>\n</svg>\n",
-        number(left + width / 2.0),
-        markup(&shown.title)
-    )
+    svg + &text("tick", [left + width / 2.0, 46.0], &shown.title) + "</svg>\n"
 }
 
 const OUTCOME_HEADINGS: [&str; 3] = ["outcome", "layouts", "why"];
@@ -297,10 +292,6 @@ const METHOD_NOTE: &str = "Every layout was planned separately. <em>Found</em>: 
                            nothing to plan, because start or goal is not free or out of reach, or a value is not \
                            valid. Reasons are shown without their numbers, so layouts that fail for the same reason \
                            count together.";
-
-fn figure(title: &str, svg: &str) -> String {
-    format!("<figure class=\"card\"><figcaption>{}</figcaption>\n{svg}</figure>\n", markup(title))
-}
 
 /// Returns the section with pictures of layouts, of which the first is unfolded.
 fn pictures_section(pictures: &[Picture]) -> String {

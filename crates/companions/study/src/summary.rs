@@ -5,7 +5,7 @@ use super::answer::{label, measured, with_unit};
 use super::measure::Measure;
 use super::parameter::{Parameter, Values};
 use super::row::{Ending, Row};
-use cplan_compare::{Align, Column, MAX_TABLE_WIDTH, Table};
+use cplan_compare::{Align, Column, MAX_TABLE_WIDTH, PLAIN, Table};
 use cplan_text::counted;
 use serde_json::{Value, json};
 use std::cmp::Reverse;
@@ -169,9 +169,8 @@ impl<'a> Summary<'a> {
             }
         }
         if let (Some(objective), Some(_)) = (study.objective, self.best()) {
-            let table = |table: Table| {
-                if wide { table.to_text() } else { table.to_text_within(MAX_TABLE_WIDTH - INDENT.len()) }
-            };
+            let width = if wide { usize::MAX } else { MAX_TABLE_WIDTH - INDENT.len() };
+            let table = |table: Table| table.to_text_within(width, PLAIN);
             let best = table(self.table(self.ranked.iter().take(LISTED_LAYOUTS)));
             text += &format!("best ({objective}):\n{}", indented(&best));
             self.edges().iter().for_each(|edge| text += &format!("  {edge}\n"));

@@ -2,7 +2,7 @@
 
 use super::best::Better;
 use super::row::Row;
-use super::table::{Align, Column, Emphasis, MAX_TABLE_WIDTH, PLAIN, Table, fixed, quoted};
+use super::table::{Align, Column, Emphasis, MAX_TABLE_WIDTH, Table, fixed, quoted};
 use cplan_model::Status;
 use cplan_model::space::Configuration;
 use cplan_planners::planner::{PathKind, Size};
@@ -81,33 +81,18 @@ impl Comparison {
         })
     }
 
-    /// Returns an aligned table of the most important columns, 80 characters wide. Headers contain the units, and `-`
-    /// stands for a missing value. The planners' notes follow, one per line. The text ends in a newline.
-    pub fn to_text(&self) -> String {
-        self.to_text_with(PLAIN)
-    }
-
-    /// Returns the same text as [`Comparison::to_text`] for a terminal, with an emphasis on the best value of each column.
-    /// Control characters in names are escaped.
-    pub fn to_text_with(&self, emphasis: Emphasis) -> String {
-        let remarks = self.remarks().map(|line| wrapped(&plain(&line), MAX_TABLE_WIDTH, 2) + "\n");
-        let table = self.table().of_columns(&LEADING_COLUMNS);
-        table.to_text_within_with(MAX_TABLE_WIDTH, emphasis) + &remarks.collect::<String>()
-    }
-
-    /// Returns the table with all columns, without a limit on its width.
-    pub fn to_wide_text(&self) -> String {
-        self.to_wide_text_with(PLAIN)
-    }
-
-    /// Returns the same text as [`Comparison::to_wide_text`] for a terminal, as [`Comparison::to_text_with`] does.
-    pub fn to_wide_text_with(&self, emphasis: Emphasis) -> String {
-        self.table().to_text_with(emphasis)
-            + &self.remarks().map(|line| plain(&line).into_owned() + "\n").collect::<String>()
-    }
-
-    fn remarks(&self) -> impl Iterator<Item = String> {
-        self.rows.iter().flat_map(Row::remarks)
+    /// Returns a table for a terminal, with an emphasis on the best value of each column, and below it the planners' remarks.
+    /// Unless it may be of any width, it has only the leading columns. Control characters in names are escaped, and the text
+    /// ends in a newline.
+    pub fn to_text(&self, is_wide: bool, emphasis: Emphasis) -> String {
+        let remarks = self.rows.iter().flat_map(Row::remarks);
+        if is_wide {
+            let remarks = remarks.map(|line| plain(&line).into_owned() + "\n");
+            return self.table().to_text_within(usize::MAX, emphasis) + &remarks.collect::<String>();
+        }
+        let remarks = remarks.map(|line| wrapped(&plain(&line), MAX_TABLE_WIDTH, 2) + "\n");
+        self.table().of_columns(&LEADING_COLUMNS).to_text_within(MAX_TABLE_WIDTH, emphasis)
+            + &remarks.collect::<String>()
     }
 
     /// Returns the table in Markdown.
@@ -274,6 +259,7 @@ fn quotient(a: f64, b: f64) -> Option<f64> {
 mod tests {
     use super::*;
     use crate::Family;
+    use crate::PLAIN;
     use cplan_planners::planner::Note;
 
     fn example() -> Comparison {
@@ -317,24 +303,24 @@ mod tests {
 
     #[test]
     fn text_is_aligned() {
-        assert_eq!(example().to_wide_text(), include_str!("expected/table.txt"));
+        assert_eq!(example().to_text(true, PLAIN), include_str!("expected/table.txt"));
     }
 
     #[test]
     fn the_best_value_of_each_column_stands_out() {
         let mut example = example();
         example.rows[2].total = Some(1e-9);
-        let marked = example.to_text_with(["<", ">"]);
+        let marked = example.to_text(false, ["<", ">"]);
         for best in ["<4.0000>", "<25.00 %>", "<12.500>", "<3.250>"] {
             assert!(marked.contains(best), "no {best} in {marked}");
         }
         assert!(!marked.contains("<0.000>"), "an unknown outcome is never the best: {marked}");
-        assert_eq!(marked.replace(['<', '>'], ""), example.to_text());
+        assert_eq!(marked.replace(['<', '>'], ""), example.to_text(false, PLAIN));
     }
 
     #[test]
     fn leading_columns_fit_a_terminal() {
-        let text = example().to_text();
+        let text = example().to_text(false, PLAIN);
         assert!(text.lines().all(|line| line.chars().count() <= MAX_TABLE_WIDTH), "{text}");
         assert!(text.contains("25.00 %") && !text.contains("65536") && text.ends_with("or \"so\"\n"), "{text}");
     }
@@ -373,7 +359,7 @@ mod tests {
         assert_eq!(ratios, [[None; 2], [Some(1.0); 2], [None; 2]]);
         all.rows.clear();
         assert_eq!(all.best(), None);
-        assert_eq!(all.to_wide_text().lines().count(), 2);
+        assert_eq!(all.to_text(true, PLAIN).lines().count(), 2);
     }
 
     #[test]

@@ -32,11 +32,11 @@ mod words;
 
 pub use best::Better;
 pub use comparison::Comparison;
-pub use convergence::{Convergence, FactorScan, Point, RelaxationRun, Setup, StrengthScan, WeightScan, convergence};
+pub use convergence::{Convergence, ParameterScan, Point, RelaxationRun, Setup, convergence};
 pub use cplan_solver::Family;
 pub use labels::labels;
 pub use measure::Measure;
-pub use page::{Overlay, Page, PathPictures, Picture, SmallPicture};
+pub use page::{Overlay, Page, PathPictures, Picture};
 pub use pens::hue;
 pub use recommendation::Purpose;
 pub use row::{OtherPath, Row};

@@ -38,18 +38,33 @@ impl Measure {
         Measure::Memory,
     ];
 
+    /// Returns key in JSON, heading with unit, factor from SI units and bytes to that unit, and number of decimals.
+    fn facts(self) -> (&'static str, &'static str, f64, usize) {
+        match self {
+            Measure::OverOptimum => ("over_optimum", "length over the proven optimum", 1.0, 4),
+            Measure::Clearance => ("clearance", "clearance [mm]", 1e3, 3),
+            Measure::Duration => ("duration", "motion [s]", 1.0, 3),
+            Measure::Build => ("build", "build [ms]", 1e3, 3),
+            Measure::Query => ("query", "query [ms]", 1e3, 3),
+            Measure::Certify => ("certify", "certify [ms]", 1e3, 3),
+            Measure::Total => ("total", "total [ms]", 1e3, 3),
+            Measure::Memory => ("memory", "memory [MiB]", 1.0 / f64::from(1 << 20), 2),
+        }
+    }
+
+    /// Returns the measure's key in JSON. Values in JSON are in SI units and bytes.
+    pub fn key(self) -> &'static str {
+        self.facts().0
+    }
+
     /// Returns the measure's heading, with the unit of the tables.
     pub fn heading(self) -> &'static str {
-        match self {
-            Measure::OverOptimum => "length over the proven optimum",
-            Measure::Clearance => "clearance [mm]",
-            Measure::Duration => "motion [s]",
-            Measure::Build => "build [ms]",
-            Measure::Query => "query [ms]",
-            Measure::Certify => "certify [ms]",
-            Measure::Total => "total [ms]",
-            Measure::Memory => "memory [MiB]",
-        }
+        self.facts().1
+    }
+
+    /// Returns the factor from SI units to the unit of the heading.
+    pub fn scale(self) -> f64 {
+        self.facts().2
     }
 
     /// Returns which value of the measure is the better one.
@@ -57,37 +72,9 @@ impl Measure {
         if self == Measure::Clearance { Better::More } else { Better::Less }
     }
 
-    /// Returns the measure's key in JSON. Values in JSON are in SI units and bytes.
-    pub fn key(self) -> &'static str {
-        match self {
-            Measure::OverOptimum => "over_optimum",
-            Measure::Clearance => "clearance",
-            Measure::Duration => "duration",
-            Measure::Build => "build",
-            Measure::Query => "query",
-            Measure::Certify => "certify",
-            Measure::Total => "total",
-            Measure::Memory => "memory",
-        }
-    }
-
     /// Formats a value in the unit of the heading.
     pub fn format(self, value: f64) -> String {
-        let decimals = match self {
-            Measure::OverOptimum => 4,
-            Measure::Memory => 2,
-            _ => 3,
-        };
-        format!("{:.decimals$}", value * self.scale())
-    }
-
-    /// Returns the factor from SI units to the unit of the heading.
-    pub fn scale(self) -> f64 {
-        match self {
-            Measure::OverOptimum | Measure::Duration => 1.0,
-            Measure::Memory => 1.0 / f64::from(1 << 20),
-            _ => 1e3,
-        }
+        format!("{:.*}", self.facts().3, value * self.scale())
     }
 
     /// Returns the value of this measure for a run, in SI units and bytes. `None` if the run has none.

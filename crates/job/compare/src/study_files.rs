@@ -4,7 +4,7 @@ use super::comparison::{CSV_HEADER, Comparison};
 use super::measure::Measure;
 use super::row::Row;
 use super::study::{Refusal, Study};
-use super::table::{Align, Column, Emphasis, MAX_TABLE_WIDTH, PLAIN, Table, quoted};
+use super::table::{Align, Column, Emphasis, MAX_TABLE_WIDTH, Table, quoted};
 use super::words::words;
 use cplan_model::Status;
 use cplan_text::{plain, plain_line, wrapped};
@@ -19,30 +19,12 @@ const MAX_REMARKS: usize = 12;
 impl Study {
     /// Returns tables for a terminal: outcomes, the distribution of each measure, and the summary in words. Lists the
     /// problems one by one if they differ in more than start and goal. The text ends in a newline.
-    pub fn to_text(&self) -> String {
-        self.to_text_with(PLAIN)
-    }
-
-    /// Returns the same text as [`Study::to_text`] for a terminal, with an emphasis on the best value of each column.
-    /// Control characters in names are escaped.
-    pub fn to_text_with(&self, emphasis: Emphasis) -> String {
-        self.text(|table| table.to_text_within_with(MAX_TABLE_WIDTH, emphasis))
-    }
-
-    /// Does the same as [`Study::to_text`], with tables of any width.
-    pub fn to_wide_text(&self) -> String {
-        self.to_wide_text_with(PLAIN)
-    }
-
-    /// Returns the same text as [`Study::to_wide_text`] for a terminal, as [`Study::to_text_with`] does.
-    pub fn to_wide_text_with(&self, emphasis: Emphasis) -> String {
-        self.text(|table| table.to_text_with(emphasis))
-    }
-
-    fn text(&self, shown: impl Fn(&Table) -> String) -> String {
+    /// Control characters in names are escaped, and the best value of each column has an emphasis.
+    pub fn to_text(&self, is_wide: bool, emphasis: Emphasis) -> String {
+        let width = if is_wide { usize::MAX } else { MAX_TABLE_WIDTH };
         let mut text = format!("{}\n", plain_line(&self.title));
         for (heading, table) in self.tables() {
-            text += &format!("\n{}\n{}", plain_line(&heading), shown(&table));
+            text += &format!("\n{}\n{}", plain_line(&heading), table.to_text_within(width, emphasis));
         }
         let paragraphs = words(self).into_iter().map(|paragraph| wrapped(&plain(&paragraph), MAX_TABLE_WIDTH, 0));
         text += &format!("\n{}\n", paragraphs.collect::<Vec<_>>().join("\n"));

@@ -62,30 +62,20 @@ pub struct Table {
 }
 
 impl Table {
-    /// Returns the table as text. Columns are two spaces apart, the header is underlined, and there are no trailing
-    /// spaces.
+    /// Returns the table as aligned text. The text ends in a newline. Control characters in cells are escaped.
     pub fn to_text(&self) -> String {
-        self.to_text_with(PLAIN)
+        self.to_text_within(usize::MAX, PLAIN)
     }
 
-    /// Returns the same text as [`Table::to_text`], with an emphasis on the best values, which takes no room.
-    pub fn to_text_with(&self, emphasis: Emphasis) -> String {
+    /// Returns the table as aligned text of at most this width, with an emphasis on the best values, which takes no room.
+    /// If it is too wide, its headings have two lines, and if that does not suffice, it is split: each part begins with the
+    /// first column.
+    pub fn to_text_within(&self, width: usize, emphasis: Emphasis) -> String {
         let table = self.with_cells(|cell| plain_line(cell).into_owned());
-        table.text_under(&[table.header()], emphasis)
-    }
-
-    /// Returns the table in lines of at most `width` characters. If it is too wide, splits headers into two lines. If
-    /// that does not suffice, splits the table into several, one below the other, each with the first column.
-    pub fn to_text_within(&self, width: usize) -> String {
-        self.to_text_within_with(width, PLAIN)
-    }
-
-    /// Returns the same text as [`Table::to_text_within`], with an emphasis on the best values, which takes no room.
-    pub fn to_text_within_with(&self, width: usize, emphasis: Emphasis) -> String {
-        if self.columns.len() < 2 || self.to_text().lines().all(|line| line.chars().count() <= width) {
-            return self.to_text_with(emphasis);
+        let whole = |emphasis| table.text_under(&[table.header()], emphasis);
+        if table.columns.len() < 2 || whole(PLAIN).lines().all(|line| line.chars().count() <= width) {
+            return whole(emphasis);
         }
-        let table = self.with_cells(|cell| plain_line(cell).into_owned());
         let broken = |k: usize| {
             let name = table.columns[k].name.as_str();
             let is_widest = table.rows.iter().all(|row| shown_cells(row)[k].chars().count() < name.chars().count());
@@ -221,10 +211,10 @@ mod tests {
     #[test]
     fn wide_tables_are_split() {
         let table = table(&["planner", "length [rad]", "total [ms]"]);
-        assert_eq!(table.to_text_within(33), table.to_text());
+        assert_eq!(table.to_text_within(33, PLAIN), table.to_text());
         let folded = "planner  length  total\n          [rad]   [ms]\n-------  ------  -----\na          1.25   1.25\nsecond     1.25   1.25\n";
-        assert_eq!(table.to_text_within(32), folded);
-        let parts = table.to_text_within(20);
+        assert_eq!(table.to_text_within(32, PLAIN), folded);
+        let parts = table.to_text_within(20, PLAIN);
         assert_eq!(parts.lines().filter(|line| line.starts_with("planner")).count(), 2, "{parts}");
         assert!(parts.lines().all(|line| line.chars().count() <= 20), "{parts}");
     }
@@ -233,7 +223,7 @@ mod tests {
     fn the_best_values_stand_out_and_keep_the_columns() {
         let mut table = table(&["planner", "total"]);
         table.columns[1] = table.columns[1].clone().with_best(vec![1]);
-        let [plain, marked] = [PLAIN, ["<", ">"]].map(|emphasis| table.to_text_within_with(30, emphasis));
+        let [plain, marked] = [PLAIN, ["<", ">"]].map(|emphasis| table.to_text_within(30, emphasis));
         assert!(marked.ends_with("second    <1.25>\n") && marked.contains("a         1.25\n"), "{marked}");
         assert_eq!(marked.replace(['<', '>'], ""), plain);
         assert!(table.to_markdown().ends_with("| second  | **1.25** |\n"), "{}", table.to_markdown());
@@ -242,9 +232,9 @@ mod tests {
     #[test]
     fn too_wide_cells_are_shown_whole() {
         let table = table(&["planner", "a value"]);
-        assert!(table.to_text_within(3).contains("second"));
+        assert!(table.to_text_within(3, PLAIN).contains("second"));
         let alone =
             Table { columns: vec![Column::new("planner", Align::Left)], rows: vec![vec![Some("a planner".into())]] };
-        assert_eq!(alone.to_text_within(3), alone.to_text());
+        assert_eq!(alone.to_text_within(3, PLAIN), alone.to_text());
     }
 }

@@ -1,6 +1,7 @@
 //! Conclusions of a study in words, stated only if the figures support them.
 
 use super::Family;
+use super::best::Better;
 use super::measure::Measure;
 use super::sign::sign_test;
 use super::spread::Spread;
@@ -8,6 +9,7 @@ use super::study::Study;
 use cplan_model::Status;
 use cplan_planners::planner::PathKind;
 use cplan_text::{counted, percent};
+use cplan_view::output::names::capitalized;
 
 /// Greatest p-value of the sign test with which a side is called better.
 const SIGNIFICANCE_LEVEL: f64 = 0.05;
@@ -21,22 +23,12 @@ const MIN_PROBLEMS: usize = 6;
 
 /// The measures by which planners are compared. An entry has the measure, two phrases (for the better of two sides, and
 /// for the best of several), the measure in words, and a flag that is true if a greater value is better.
-const COMPARED_MEASURES: [(Measure, [&str; 2], &str, bool); 5] = [
-    (
-        Measure::OverOptimum,
-        ["found the shorter paths", "found the shortest paths"],
-        "length over the proven optimum",
-        false,
-    ),
-    (
-        Measure::Clearance,
-        ["kept the greater clearance", "kept the greatest clearance"],
-        "clearance in millimetres",
-        true,
-    ),
-    (Measure::Duration, ["led to the faster motions", "led to the fastest motions"], "motion in seconds", false),
-    (Measure::Total, ["answered sooner", "answered soonest"], "time to the verdict in milliseconds", false),
-    (Measure::Memory, ["needed less memory", "needed the least memory"], "memory in MiB", false),
+const COMPARED_MEASURES: [(Measure, [&str; 2], &str); 5] = [
+    (Measure::OverOptimum, ["found the shorter paths", "found the shortest paths"], "length over the proven optimum"),
+    (Measure::Clearance, ["kept the greater clearance", "kept the greatest clearance"], "clearance in millimetres"),
+    (Measure::Duration, ["led to the faster motions", "led to the fastest motions"], "motion in seconds"),
+    (Measure::Total, ["answered sooner", "answered soonest"], "time to the verdict in milliseconds"),
+    (Measure::Memory, ["needed less memory", "needed the least memory"], "memory in MiB"),
 ];
 
 /// One or several planners that are compared as a group.
@@ -57,11 +49,7 @@ pub fn words(study: &Study) -> Vec<String> {
     words.extend(describe_taut_effect(study));
     let sides = sides(study);
     if sides.len() > 1 {
-        words.extend(
-            COMPARED_MEASURES
-                .iter()
-                .filter_map(|(measure, better, what, more)| aspect(study, &sides, *measure, *better, what, *more)),
-        );
+        words.extend(COMPARED_MEASURES.iter().filter_map(|aspect| describe_aspect(study, &sides, *aspect)));
     }
     words
 }
@@ -128,14 +116,12 @@ fn sides(study: &Study) -> Vec<Side> {
 }
 
 /// Compares sides by one measure. `None` if there is no problem for which all sides have values.
-fn aspect(
+fn describe_aspect(
     study: &Study,
     sides: &[Side],
-    measure: Measure,
-    better: [&str; 2],
-    what: &str,
-    more: bool,
+    (measure, better, what): (Measure, [&str; 2], &str),
 ) -> Option<String> {
+    let more = measure.better() == Better::More;
     let best =
         |values: &mut dyn Iterator<Item = f64>| if more { values.reduce(f64::max) } else { values.reduce(f64::min) };
     // The best value of each side, for each problem in which every side has one. A run that found neither path nor
@@ -195,12 +181,6 @@ fn aspect(
             format!("These problems do not show which side {word}. {figures} {}", scores.join(" "))
         }
     })
-}
-
-/// Returns the text with a capital first letter.
-pub(super) fn capitalized(text: &str) -> String {
-    let mut characters = text.chars();
-    characters.next().map_or_else(String::new, |first| first.to_uppercase().chain(characters).collect())
 }
 
 #[cfg(test)]

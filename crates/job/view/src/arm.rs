@@ -25,9 +25,7 @@ impl ArmStyle {
     pub fn blocks(&self) -> bool {
         self.blocks
     }
-}
 
-impl ArmStyle {
     /// Returns this style for a small drawing, with thin lines and without joints.
     #[must_use]
     pub fn thin(&self) -> Self {

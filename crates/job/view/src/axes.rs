@@ -30,6 +30,12 @@ pub struct Frame {
     pub y: Range,
 }
 
+/// Returns the least and the greatest value.
+pub fn span(values: impl IntoIterator<Item = f64>) -> Range {
+    let all = (f64::INFINITY, f64::NEG_INFINITY);
+    values.into_iter().fold(all, |(least, greatest), value| (least.min(value), greatest.max(value)))
+}
+
 /// Returns a range of positive, finite length. A range that is too short is widened about its middle. A range that is
 /// not finite is replaced.
 fn sound((lower, upper): Range) -> Range {
@@ -84,17 +90,12 @@ impl Frame {
     /// Draws light lines across the frame at the ticks. Callers draw them before everything else, so that they lie
     /// below it.
     pub fn grid(&self, units: [Unit; 2]) -> Vec<Item> {
-        let pen = Style::line(FAINT, 1.0);
+        let line = |from, to| Item::Outline(vec![Step::Move(from), Step::Line(to)], Style::line(FAINT, 1.0));
         let [x, y] = self.ticks(units);
-        let upright = x.into_iter().map(|(value, _)| {
-            let [x, _] = self.at(value, self.y.0);
-            Item::Outline(vec![Step::Move([x, self.rect.y]), Step::Line([x, self.rect.bottom()])], pen)
-        });
-        let level = y.into_iter().map(|(value, _)| {
-            let [_, y] = self.at(self.x.0, value);
-            Item::Outline(vec![Step::Move([self.rect.x, y]), Step::Line([self.rect.right(), y])], pen)
-        });
-        upright.chain(level).collect()
+        let upright = x.into_iter().map(|(value, _)| self.at(value, self.y.0)[0]);
+        let level = y.into_iter().map(|(value, _)| self.at(self.x.0, value)[1]);
+        let upright = upright.map(|x| line([x, self.rect.y], [x, self.rect.bottom()]));
+        upright.chain(level.map(|y| line([self.rect.x, y], [self.rect.right(), y]))).collect()
     }
 
     /// Draws sides, ticks and titles. Callers draw them last, so that they lie above everything else. A side is dashed
@@ -170,22 +171,13 @@ fn ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
 }
 
 fn sparse_ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
-    let factor = match unit {
-        Unit::Meters | Unit::Seconds => 1.0,
-        Unit::Degrees => 180.0 / std::f64::consts::PI,
-        Unit::Percent => 100.0,
-    };
-    let sign = match unit {
-        Unit::Meters | Unit::Seconds => "",
-        Unit::Degrees => "\u{b0}",
-        Unit::Percent => " %",
+    let (factor, sign, round): (f64, &str, fn(f64) -> f64) = match unit {
+        Unit::Meters | Unit::Seconds => (1.0, "", decimal_step),
+        Unit::Degrees => (180.0 / std::f64::consts::PI, "\u{b0}", degree_step),
+        Unit::Percent => (100.0, " %", decimal_step),
     };
     let (lower, upper) = (range.0 * factor, range.1 * factor);
-    let least = (upper - lower) / at_most as f64;
-    let step = match unit {
-        Unit::Meters | Unit::Seconds | Unit::Percent => decimal_step(least),
-        Unit::Degrees => degree_step(least),
-    };
+    let step = round((upper - lower) / at_most as f64);
     // Half a per mille of a step, so that a limit gets its tick although rounding moved it slightly off a round number.
     let slack = 5e-4;
     let (first, last) = ((lower / step - slack).ceil(), (upper / step + slack).floor());

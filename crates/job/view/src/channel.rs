@@ -1,8 +1,10 @@
 //! The channel of a cell decomposition, and the points that paths through its middle visit.
 
+use super::axes::span;
 use super::chart::Chart;
 use super::figure::{Anchor, Item, Rect, Style, label, text_width};
 use super::key::{Key, Sign};
+use super::labels::{centered_rect, is_within, overlap};
 use super::view::Chain;
 use cplan_theme::{CHANNEL, EDGE, INK, WHITE};
 
@@ -36,8 +38,7 @@ pub fn sides(cells: &[Chain], channel: &[usize], chart: &Chart) -> Vec<Item> {
 }
 
 fn is_wide(Chain(corners): &Chain, chart: &Chart) -> bool {
-    let columns = corners.iter().map(|q| chart.frame.at(q[0], q[1])[0]);
-    let (low, high) = columns.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
+    let (low, high) = span(corners.iter().map(|q| chart.frame.at(q[0], q[1])[0]));
     high - low >= NARROW_CELL
 }
 
@@ -64,8 +65,9 @@ pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
                 size,
             )
         };
-        let is_free =
-            |place: &Rect| is_on_page(place, &chart.frame.rect) && !taken.iter().any(|other| meet(place, other));
+        let is_free = |place: &Rect| {
+            is_within(place, &chart.frame.rect) && taken.iter().all(|other| overlap(place, other) == 0.0)
+        };
         let Some(place) = around.map(beside).into_iter().find(is_free) else { continue };
         items.push(label([place.x + 1.0, place.bottom() - 2.0], name, NAME_SIZE, Anchor::Start, INK));
         taken.push(place);
@@ -79,18 +81,6 @@ fn disc(at: [f64; 2]) -> Item {
 
 fn ring(at: [f64; 2]) -> Item {
     Item::Disc(at, POINT_RADIUS, Style::line(INK, 1.4).filled(WHITE))
-}
-
-fn centered_rect([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
-    Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
-}
-
-fn meet(a: &Rect, b: &Rect) -> bool {
-    a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom()
-}
-
-fn is_on_page(place: &Rect, page: &Rect) -> bool {
-    place.x >= page.x && place.right() <= page.right() && place.y >= page.y && place.bottom() <= page.bottom()
 }
 
 /// Returns the sign of the legend for a middle of a portal (`is_middle`) or a centre of a cell.

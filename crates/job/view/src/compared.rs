@@ -4,7 +4,7 @@
 use super::arm::{self, GOAL_LOOK, START_LOOK};
 use super::axes::Frame;
 use super::chart::Chart;
-use super::figure::{Figure, Item, Rect, Step, Style};
+use super::figure::{Figure, Item, Rect, Style};
 use super::view::{View, WorldView};
 use super::{cspace, shapes, svg_writer, workspace};
 use cplan_theme::{INK, Rgb, WHITE};
@@ -54,38 +54,13 @@ pub fn compared(view: &View, id: &str, top: &[usize]) -> Option<ComparedPaths> {
     let [width, height] = [LARGE_SIZE[0] - left - right, LARGE_SIZE[1] - top - bottom];
     let area = Rect { x: left, y: top, width, height };
     let large = [workspace::panel(&view, area), cspace::panel(&view, panel, area)];
-    let mut colors = Vec::new();
-    let mut with_colors = |drawing: svg_writer::PageDrawing| {
-        drawing.colors.into_iter().for_each(|color| {
-            if !colors.contains(&color) {
-                colors.push(color);
-            }
-        });
-        drawing.svg
-    };
-    let mut numbers = 0..;
+    let (mut colors, mut numbers) = (Vec::new(), 0..);
     let large = large.map(|items| {
         let figure = Figure { width: LARGE_SIZE[0], height: LARGE_SIZE[1], items, is_dark: false };
-        with_colors(svg_writer::write_for_page(&figure, &format!("{id}-{}", numbers.next().unwrap_or_default())))
+        svg_writer::write_for_page(&figure, &format!("{id}-{}", numbers.next().unwrap_or_default()), &mut colors)
     });
-    let small = [small_workspace(&view), small_cspace(&view)].map(|drawing| {
-        let mut text = |items: &[Item]| with_colors(svg_writer::with_variables(&svg_writer::elements(items)));
-        SmallPicture {
-            size: drawing.size,
-            ground: text(&drawing.ground),
-            paths: drawing.paths.iter().map(|steps| svg_writer::commands(steps)).collect(),
-            markers: text(&drawing.markers),
-        }
-    });
+    let small = [small_workspace(&view, &mut colors), small_cspace(&view, &mut colors)];
     Some(ComparedPaths { large, small, colors })
-}
-
-/// The parts of a small drawing, not yet as text.
-struct SmallDrawing {
-    size: [f64; 2],
-    ground: Vec<Item>,
-    paths: Vec<Vec<Step>>,
-    markers: Vec<Item>,
 }
 
 /// Returns the part of a small drawing that its contents fill.
@@ -94,7 +69,7 @@ fn small_area() -> Rect {
     Rect { x: SMALL_MARGIN, y: SMALL_MARGIN, width, height }
 }
 
-fn small_workspace(view: &View) -> SmallDrawing {
+fn small_workspace(view: &View, colors: &mut Vec<Rgb>) -> SmallPicture {
     let [x, y] = view.frame;
     let frame = Frame::filling(small_area(), x.into(), y.into());
     let world = view.first_world();
@@ -108,11 +83,12 @@ fn small_workspace(view: &View) -> SmallDrawing {
     for (q, look) in [(view.start, &START_LOOK)].into_iter().chain(goal) {
         ground.extend(arm::items(&frame, &view.arm, None, q.into(), &look.thin()));
     }
-    let paths = view.paths.iter().map(|path| workspace::tip_trace(&frame, &view.arm, path)).collect();
-    SmallDrawing { size: SMALL_SIZE, ground, paths, markers: Vec::new() }
+    let paths = view.paths.iter().map(|path| svg_writer::commands(&workspace::tip_trace(&frame, &view.arm, path)));
+    let [ground, markers] = [&ground[..], &[]].map(|items| svg_writer::elements(items, colors));
+    SmallPicture { size: SMALL_SIZE, ground, paths: paths.collect(), markers }
 }
 
-fn small_cspace(view: &View) -> SmallDrawing {
+fn small_cspace(view: &View, colors: &mut Vec<Rgb>) -> SmallPicture {
     // The picture is as wide as the joint space, without room beside it.
     let Rect { width, height, .. } = Chart::new(&view.arm, small_area()).frame.rect;
     let chart = Chart::new(&view.arm, Rect { width, height, ..small_area() });
@@ -121,7 +97,8 @@ fn small_cspace(view: &View) -> SmallDrawing {
     ground.extend(chart.frame.sides([false; 2]));
     let ring = Item::Disc(chart.place(view.start.into()), 3.6, Style::line(INK, 1.6).filled(WHITE));
     let goals = view.goals.iter().map(|&q| Item::Disc(chart.place(q.into()), 3.6, Style::line(WHITE, 1.0).filled(INK)));
-    let markers = goals.chain([ring]).collect();
-    let paths = view.paths.iter().map(|path| chart.outline(&path.points.0)).collect();
-    SmallDrawing { size: [width, height].map(|side| side + 2.0 * SMALL_MARGIN), ground, paths, markers }
+    let markers: Vec<Item> = goals.chain([ring]).collect();
+    let paths = view.paths.iter().map(|path| svg_writer::commands(&chart.outline(&path.points.0))).collect();
+    let [ground, markers] = [ground, markers].map(|items| svg_writer::elements(&items, colors));
+    SmallPicture { size: [width, height].map(|side| side + 2.0 * SMALL_MARGIN), ground, paths, markers }
 }

@@ -1,6 +1,6 @@
 //! Copies of shapes and paths by whole turns, cut to the visible part of joint space.
 
-use super::axes::Range;
+use super::axes::{Range, span};
 use cplan_model::space::Configuration;
 use std::f64::consts::TAU;
 
@@ -19,14 +19,8 @@ pub struct Window {
 
 impl Window {
     /// Returns all shifts by whole turns that bring a part of the box around `points` into the window.
-    pub fn shifts<'a>(&self, points: impl IntoIterator<Item = &'a Configuration>) -> Vec<Configuration> {
-        let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
-        for p in points {
-            for k in 0..2 {
-                bounds[k] = (bounds[k].0.min(p[k]), bounds[k].1.max(p[k]));
-            }
-        }
-        let [first, second] = [0, 1].map(|k| self.shifts_along(k, bounds[k]));
+    pub fn shifts(&self, points: &[Configuration]) -> Vec<Configuration> {
+        let [first, second] = [0, 1].map(|k| self.shifts_along(k, span(points.iter().map(|p| p[k]))));
         first.iter().flat_map(|&a| second.iter().map(move |&b| Configuration::new(a, b))).collect()
     }
 

@@ -55,13 +55,11 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     let size = marker_size(panel) * if view.still.line.is_some() { SMALL_MARKER } else { 1.0 };
     // If there are paths, the marker of a goal that no path reached is hollow.
     for (q, _, reached) in view.ends(panel) {
-        items.extend(goal_marker_of_size(chart.place(q), reached, size));
+        items.extend(goal_marker(chart.place(q), reached, size));
     }
     // Crosses mark the configurations of a line that cannot be followed.
     let has_start = view.still.line.as_ref().is_none_or(|line| line.motion.is_some());
-    items.extend(
-        panel.starts.iter().filter(|_| has_start).flat_map(|&q| start_marker_of_size(chart.place(q.into()), size)),
-    );
+    items.extend(panel.starts.iter().filter(|_| has_start).flat_map(|&q| start_marker(chart.place(q.into()), size)));
     if let Some((q, world)) = view.still.now
         && panel.worlds.contains(&world)
     {
@@ -177,21 +175,13 @@ fn marker_size(panel: &PanelView) -> f64 {
 }
 
 /// Draws the start of a motion: a ring, which leaves room for the arm's current configuration.
-pub fn start_marker(at: [f64; 2]) -> Vec<Item> {
-    start_marker_of_size(at, 1.0)
-}
-
-fn start_marker_of_size(at: [f64; 2], size: f64) -> Vec<Item> {
+pub fn start_marker(at: [f64; 2], size: f64) -> Vec<Item> {
     let ring = Style::line(INK, 2.2 * size.sqrt()).filled(WHITE);
     vec![Item::Disc(at, 9.5 * size, Style::fill(WHITE).faded(0.85)), Item::Disc(at, 7.0 * size, ring)]
 }
 
 /// Draws the goal of a motion: a diamond, hollow if no path ended there.
-pub fn goal_marker(at: [f64; 2], reached: bool) -> Vec<Item> {
-    goal_marker_of_size(at, reached, 1.0)
-}
-
-fn goal_marker_of_size([x, y]: [f64; 2], reached: bool, size: f64) -> Vec<Item> {
+pub fn goal_marker([x, y]: [f64; 2], reached: bool, size: f64) -> Vec<Item> {
     let diamond = |r: f64| {
         vec![
             Step::Move([x, y - r]),

@@ -1,5 +1,7 @@
 //! The neutral figure: items and their places on the page, without a file format.
 
+#[cfg(feature = "png")]
+use super::DrawError;
 use super::letter_widths::letter_width;
 use cplan_theme::{Rgb, WHITE, on_dark};
 
@@ -154,6 +156,8 @@ pub enum Item {
     Raster(Raster),
     /// Items that belong to the path with this index, which a page can light up.
     OfPath(usize, Vec<Item>),
+    /// Items with a name, which viewers show beside the pointer.
+    Titled(String, Vec<Item>),
 }
 
 /// Cells in columns from left to right, each from the bottom up.
@@ -167,6 +171,39 @@ pub struct Raster {
     pub palette: Vec<Rgb>,
     /// Index into the palette for each cell, or `None` for no colour.
     pub levels: Vec<Option<usize>>,
+}
+
+impl Raster {
+    /// Divides the cells into rectangles for each colour: the first column, the rows between the lower side and the bottom
+    /// of the raster, the width and the height of each, in cells. Consecutive cells of one colour in a column form a
+    /// rectangle. Equal rectangles in the next columns extend it.
+    pub(crate) fn rectangles(&self) -> Vec<Vec<[usize; 4]>> {
+        let [columns, rows] = self.cells;
+        let mut rectangles = vec![Vec::new(); self.palette.len()];
+        let mut taken = vec![false; self.levels.len()];
+        for i in 0..columns {
+            let mut j = 0;
+            while j < rows {
+                let level = self.levels[i * rows + j];
+                let begin = j;
+                j += 1;
+                let Some(level) = level.filter(|_| !taken[i * rows + begin]) else { continue };
+                let free = |i: usize, j: usize| self.levels[i * rows + j] == Some(level) && !taken[i * rows + j];
+                while j < rows && free(i, j) {
+                    j += 1;
+                }
+                let mut end = i + 1;
+                while end < columns && (begin..j).all(|j| free(end, j)) {
+                    end += 1;
+                }
+                for i in i..end {
+                    taken[i * rows + begin..i * rows + j].fill(true);
+                }
+                rectangles[level].push([i, begin, end - i, j - begin]);
+            }
+        }
+        rectangles
+    }
 }
 
 /// A page. Items that are added later cover earlier ones.
@@ -183,6 +220,36 @@ pub struct Figure {
 }
 
 impl Figure {
+    /// Returns the figure for a dark background, or for a light one.
+    #[must_use]
+    pub fn on_background(self, is_dark: bool) -> Self {
+        Self { is_dark, ..self }
+    }
+
+    /// Returns the figure as an SVG document.
+    pub fn svg(&self) -> String {
+        super::svg_writer::write(self)
+    }
+
+    /// Returns the figure as a PNG file with `scale` pixels for each of its own.
+    ///
+    /// # Errors
+    /// [`DrawError::Scale`] if the scale is not a positive number of a sensible size.
+    #[cfg(feature = "png")]
+    pub fn png(&self, scale: f64) -> Result<Vec<u8>, DrawError> {
+        let pixels = super::rasterizer::Rasterizer::new().picture(self, scale)?;
+        pixels.encode_png().map_err(|error| DrawError::Png(error.to_string()))
+    }
+
+    /// Returns the figure as a GIF with a single picture of this width.
+    ///
+    /// # Errors
+    /// The errors of [`Figure::png`].
+    #[cfg(feature = "png")]
+    pub fn gif(&self, width: f64) -> Result<Vec<u8>, DrawError> {
+        super::gif_writer::still(self, width)
+    }
+
     /// Returns the colour with which a colour is shown on the background of this figure.
     pub fn shown(&self, color: Rgb) -> Rgb {
         if self.is_dark { on_dark(color) } else { color }
@@ -257,16 +324,8 @@ pub fn bold(at: [f64; 2], text: impl Into<String>, size: f64, anchor: Anchor, co
 
 /// Creates a text that reads upwards, centred at its place.
 pub fn upwards(at: [f64; 2], text: impl Into<String>, size: f64, color: Rgb) -> Item {
-    Item::Text(Label {
-        at,
-        text: text.into(),
-        size,
-        anchor: Anchor::Middle,
-        upwards: true,
-        color,
-        has_halo: false,
-        is_bold: false,
-    })
+    let (text, anchor) = (text.into(), Anchor::Middle);
+    Item::Text(Label { at, text, size, anchor, upwards: true, color, has_halo: false, is_bold: false })
 }
 
 /// Returns the outline of a rectangle.

@@ -308,7 +308,8 @@ fn moved_into_page(place: Rect, page: &Rect) -> Rect {
     Rect { x, y, ..place }
 }
 
-fn is_within(place: &Rect, page: &Rect) -> bool {
+/// Returns true if a box lies in the page.
+pub fn is_within(place: &Rect, page: &Rect) -> bool {
     place.x >= page.x && place.y >= page.y && place.right() <= page.right() && place.bottom() <= page.bottom()
 }
 

@@ -1,8 +1,9 @@
 //! The legend: the signs of a picture, with their meanings.
 
+use super::Object;
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
 use super::flow::FieldLines;
-use super::key::{Key, KeyView, Layered, Sign};
+use super::key::{Key, Layered, Sign, document};
 use super::section::Section;
 use super::view::{MAX_NAMED_OBSTACLES, ObstacleView, PathView, TraceView, View};
 use super::{blocking, boxes, channel, checked, cspace, followed, preferences, shapes, trace};
@@ -20,16 +21,14 @@ pub fn keys(view: &View) -> Vec<Key> {
 }
 
 /// Returns the legend of a page. A page shows one world at a time, and fewer items than a picture does.
-pub fn on_pages(view: &View) -> Vec<KeyView> {
-    let mut keys: Vec<KeyView> = layered_keys(view, false).into_iter().map(|key| KeyView::new(key, false)).collect();
-    for key in
-        view.traces_of_steps().flat_map(|seen| of_trace(seen, FieldLines::default())).map(|key| KeyView::new(key, true))
-    {
+pub fn on_pages(view: &View) -> Vec<Object> {
+    let mut keys: Vec<(Layered, bool)> = layered_keys(view, false).into_iter().map(|key| (key, false)).collect();
+    for key in view.traces_of_steps().flat_map(|seen| of_trace(seen, FieldLines::default())).map(|key| (key, true)) {
         if !keys.contains(&key) {
             keys.push(key);
         }
     }
-    keys
+    keys.into_iter().map(|(key, think)| document(key, think)).collect()
 }
 
 /// Returns the legend of a planner's trace.
@@ -157,9 +156,9 @@ pub fn items(rows: &[Vec<Key>], middle: f64, top: f64) -> Vec<Item> {
 
 fn sign(sign: &Sign, x: f64, y: f64) -> Vec<Item> {
     match sign {
-        Sign::Start => cspace::start_marker([x + SIGN_WIDTH - 9.0, y]),
-        Sign::Goal => cspace::goal_marker([x + SIGN_WIDTH - 9.0, y], true),
-        Sign::Unreached => cspace::goal_marker([x + SIGN_WIDTH - 9.0, y], false),
+        Sign::Start => cspace::start_marker([x + SIGN_WIDTH - 9.0, y], 1.0),
+        Sign::Goal => cspace::goal_marker([x + SIGN_WIDTH - 9.0, y], true, 1.0),
+        Sign::Unreached => cspace::goal_marker([x + SIGN_WIDTH - 9.0, y], false, 1.0),
         Sign::Line(pen) => {
             let style = Style { pen: Some(*pen), ..Style::line(pen.color, pen.width) };
             vec![Item::Outline(vec![Step::Move([x, y]), Step::Line([x + SIGN_WIDTH, y])], style)]

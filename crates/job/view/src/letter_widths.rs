@@ -1,97 +1,27 @@
-//! Widths of letters in the built-in font Inter, so that layouts are the same with and without it.
+//! Widths of letters in the built-in font Inter, so that layouts are the same with and without it: ASCII, letters up to
+//! U+017F, dashes, apostrophe, bullet, ellipsis, minus sign, and arrow.
+
+use std::collections::HashMap;
+use std::sync::LazyLock;
 
 /// Units of the font per its height.
 const UNITS_PER_EM: f64 = 2048.0;
 
-/// Further letters with known widths: dashes, apostrophe, bullet, ellipsis, minus sign, arrow.
-const SIGNS: [char; 7] = ['\u{2013}', '\u{2014}', '\u{2019}', '\u{2022}', '\u{2026}', '\u{2212}', '\u{2192}'];
+/// Widths of letters in Inter Regular and in Inter SemiBold, as fractions of the font's height. Each line of the file has
+/// the number of a letter, and its widths in units of the font.
+static WIDTHS: LazyLock<HashMap<char, [f64; 2]>> = LazyLock::new(|| {
+    let width = |text: &str| text.parse::<f64>().ok().map(|units| units / UNITS_PER_EM);
+    let known = include_str!("letter_widths.txt").lines().filter_map(|line| {
+        let mut words = line.split(' ');
+        let letter = char::from_u32(u32::from_str_radix(words.next()?, 16).ok()?)?;
+        Some((letter, [width(words.next()?)?, width(words.next()?)?]))
+    });
+    known.collect()
+});
 
-/// Widths of the letters from space to tilde in Inter Regular, in units of the font.
-#[rustfmt::skip]
-const REGULAR_ASCII: [u16; 95] = [
-    576, 589, 954, 1297, 1314, 2011, 1319, 614, 747, 747, 1026, 1355, 590, 942, 590, 738,
-    1292, 833, 1249, 1265, 1323, 1215, 1270, 1159, 1267, 1270, 590, 618, 1355, 1355, 1355, 1047,
-    1978, 1413, 1340, 1496, 1478, 1231, 1209, 1528, 1522, 550, 1169, 1376, 1158, 1850, 1543, 1566,
-    1308, 1566, 1318, 1314, 1322, 1524, 1413, 2018, 1397, 1390, 1288, 747, 738, 747, 965, 934,
-    661, 1150, 1254, 1170, 1254, 1194, 758, 1256, 1211, 496, 496, 1124, 496, 1794, 1210, 1228,
-    1254, 1254, 771, 1081, 670, 1211, 1151, 1676, 1118, 1151, 1131, 873, 681, 873, 1355,
-];
-
-/// Widths of the letters from no-break space to U+017F in Inter Regular, in units of the font.
-#[rustfmt::skip]
-const REGULAR_LATIN: [u16; 224] = [
-    576, 589, 1170, 1251, 1484, 1126, 553, 1164, 1210, 1872, 929, 1193, 1355, 0, 1364, 978,
-    933, 1355, 905, 913, 661, 1200, 1234, 590, 549, 623, 988, 1193, 1643, 1735, 1806, 1047,
-    1413, 1413, 1413, 1413, 1413, 1413, 2035, 1496, 1231, 1231, 1231, 1231, 550, 550, 550, 550,
-    1505, 1543, 1566, 1566, 1566, 1566, 1566, 1355, 1566, 1524, 1524, 1524, 1524, 1390, 1302, 1262,
-    1150, 1150, 1150, 1150, 1150, 1150, 1879, 1170, 1194, 1194, 1194, 1194, 496, 496, 496, 496,
-    1193, 1210, 1228, 1228, 1228, 1228, 1228, 1355, 1228, 1211, 1211, 1211, 1211, 1151, 1254, 1151,
-    1413, 1150, 1413, 1150, 1413, 1150, 1496, 1170, 1496, 1170, 1496, 1170, 1496, 1170, 1478, 1454,
-    1505, 1254, 1231, 1194, 1231, 1194, 1231, 1194, 1231, 1194, 1231, 1194, 1528, 1256, 1528, 1256,
-    1528, 1256, 1528, 1256, 1522, 1211, 1590, 1211, 550, 496, 550, 496, 550, 496, 550, 496,
-    550, 496, 1719, 992, 1169, 496, 1376, 1124, 1076, 1158, 496, 1158, 496, 1158, 696, 1152,
-    736, 1218, 496, 1543, 1210, 1543, 1210, 1543, 1210, 0, 1543, 1210, 1566, 1228, 1566, 1228,
-    1566, 1228, 2058, 2047, 1318, 771, 1318, 771, 1318, 771, 1314, 1081, 1314, 1081, 1314, 1081,
-    1314, 1081, 1322, 670, 1322, 770, 1322, 670, 1524, 1211, 1524, 1211, 1524, 1211, 1524, 1211,
-    1524, 1211, 1524, 1211, 2018, 1676, 1390, 1151, 1390, 1288, 1131, 1288, 1131, 1288, 1131, 644,
-];
-
-/// Widths of [`SIGNS`] in Inter Regular, in units of the font.
-#[rustfmt::skip]
-const REGULAR_SIGNS: [u16; 7] = [
-    1024, 2048, 534, 1152, 1770, 1355, 1954,
-];
-
-/// Widths of the letters from space to tilde in Inter SemiBold, in units of the font.
-#[rustfmt::skip]
-const BOLD_ASCII: [u16; 95] = [
-    516, 658, 1071, 1318, 1332, 2057, 1357, 667, 764, 764, 1105, 1378, 653, 953, 653, 776,
-    1351, 866, 1276, 1303, 1364, 1254, 1310, 1180, 1311, 1310, 653, 674, 1378, 1378, 1378, 1113,
-    2046, 1490, 1350, 1509, 1479, 1240, 1204, 1534, 1527, 567, 1187, 1440, 1158, 1889, 1555, 1574,
-    1321, 1583, 1336, 1332, 1352, 1507, 1490, 2089, 1474, 1461, 1336, 764, 776, 764, 986, 961,
-    719, 1176, 1278, 1193, 1278, 1211, 796, 1281, 1254, 536, 536, 1166, 536, 1844, 1253, 1247,
-    1278, 1278, 813, 1125, 723, 1254, 1202, 1719, 1165, 1205, 1159, 931, 735, 931, 1378,
-];
-
-/// Widths of the letters from no-break space to U+017F in Inter SemiBold, in units of the font.
-#[rustfmt::skip]
-const BOLD_LATIN: [u16; 224] = [
-    516, 658, 1193, 1289, 1534, 1154, 647, 1164, 1253, 1872, 943, 1299, 1378, 0, 1359, 925,
-    938, 1378, 929, 949, 719, 1258, 1229, 653, 680, 663, 998, 1299, 1702, 1781, 1858, 1113,
-    1490, 1490, 1490, 1490, 1490, 1490, 2075, 1509, 1240, 1240, 1240, 1240, 567, 567, 567, 567,
-    1539, 1555, 1574, 1574, 1574, 1574, 1574, 1378, 1574, 1507, 1507, 1507, 1507, 1461, 1347, 1318,
-    1176, 1176, 1176, 1176, 1176, 1176, 1869, 1193, 1211, 1211, 1211, 1211, 536, 536, 536, 536,
-    1216, 1253, 1247, 1247, 1247, 1247, 1247, 1378, 1247, 1254, 1254, 1254, 1254, 1205, 1278, 1205,
-    1490, 1176, 1490, 1176, 1490, 1176, 1509, 1193, 1509, 1193, 1509, 1193, 1509, 1193, 1479, 1514,
-    1539, 1278, 1240, 1211, 1240, 1211, 1240, 1211, 1240, 1211, 1240, 1211, 1534, 1281, 1534, 1281,
-    1534, 1281, 1534, 1281, 1527, 1254, 1632, 1254, 567, 536, 567, 536, 567, 536, 567, 536,
-    567, 536, 1754, 1071, 1187, 536, 1440, 1166, 1160, 1158, 536, 1158, 536, 1158, 772, 1173,
-    858, 1232, 536, 1555, 1253, 1555, 1253, 1555, 1253, 0, 1555, 1253, 1574, 1247, 1574, 1247,
-    1574, 1247, 2076, 2031, 1336, 813, 1336, 813, 1336, 813, 1332, 1125, 1332, 1125, 1332, 1125,
-    1332, 1125, 1352, 723, 1352, 859, 1352, 723, 1507, 1254, 1507, 1254, 1507, 1254, 1507, 1254,
-    1507, 1254, 1507, 1254, 2089, 1719, 1461, 1205, 1461, 1336, 1159, 1336, 1159, 1336, 1159, 685,
-];
-
-/// Widths of [`SIGNS`] in Inter SemiBold, in units of the font.
-#[rustfmt::skip]
-const BOLD_SIGNS: [u16; 7] = [
-    1024, 2048, 602, 1031, 1958, 1378, 1954,
-];
-
-/// Returns the width of a letter as a fraction of the font's height. `None` if the letter is not listed here.
+/// Returns the width of a letter as a fraction of the font's height. `None` if the letter is not listed.
 pub fn letter_width(letter: char, is_bold: bool) -> Option<f64> {
-    let (ascii, latin, signs) = match is_bold {
-        false => (&REGULAR_ASCII, &REGULAR_LATIN, &REGULAR_SIGNS),
-        true => (&BOLD_ASCII, &BOLD_LATIN, &BOLD_SIGNS),
-    };
-    let code = letter as usize;
-    let units = match letter {
-        ' '..='~' => ascii[code - 0x20],
-        '\u{a0}'..='\u{17f}' => latin[code - 0xa0],
-        _ => signs[SIGNS.iter().position(|sign| *sign == letter)?],
-    };
-    // The font lacks two of the Latin letters.
-    (units > 0).then(|| f64::from(units) / UNITS_PER_EM)
+    Some(WIDTHS.get(&letter)?[usize::from(is_bold)])
 }
 
 #[cfg(all(test, feature = "png"))]
@@ -109,7 +39,7 @@ mod tests {
                 assert_eq!(letter_width(letter, is_bold), fonts.of(is_bold).letter_width(letter), "{letter}");
                 count += 1;
             }
-            assert_eq!(count, 95 + 222 + SIGNS.len());
+            assert_eq!(count, 95 + 222 + 7);
         }
     }
 }

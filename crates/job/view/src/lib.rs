@@ -1,7 +1,7 @@
 //! Pictures and pages: pure functions of results, via one common description of the content.
 //!
 //! ```text
-//! Picture (one motion), TaskPicture -> View -> Figure -> SVG -> PNG
+//! Picture (one motion), TaskPicture -> View -> Figure -> SVG, PNG
 //!                                     |    \-> one a moment -> GIF
 //!                                     \-> JSON -> HTML
 //! ```
@@ -25,7 +25,7 @@ mod compared;
 mod checked;
 mod copies;
 mod cspace;
-mod figure;
+pub mod figure;
 mod flow;
 mod followed;
 mod frames;
@@ -38,20 +38,19 @@ mod legend;
 mod letter_widths;
 #[cfg(feature = "png")]
 mod letters;
+mod object;
 mod obstacles;
 mod page;
-#[cfg(feature = "png")]
-mod png_writer;
 mod polygon_pair;
 mod preferences;
+#[cfg(feature = "png")]
+mod rasterizer;
 mod regions;
 mod section;
 mod shapes;
 mod steps;
 mod strip;
 mod blocking;
-#[cfg(feature = "png")]
-mod svg_painter;
 mod svg_writer;
 mod tags;
 mod trace;
@@ -62,8 +61,10 @@ mod workspace;
 pub use blocking::BlockingView;
 pub use checked::CheckedView;
 pub use compared::{ComparedPaths, SmallPicture, compared};
+pub use figure::Figure;
 pub use flow::FieldLines;
 pub use followed::{LineSettings, LineView};
+pub use object::Object;
 pub use obstacles::{extent, obstacles, still_page};
 pub use polygon_pair::{PolygonPair, polygon_pair};
 pub use section::{CellLayer, Section};
@@ -78,9 +79,6 @@ pub enum DrawError {
     /// The scale or the size of the picture is not usable.
     #[error("a picture at {0} pixels a unit would be empty, or more than 16384 pixels wide")]
     Scale(f64),
-    /// The SVG document cannot be read, or has elements that this crate does not write.
-    #[error("cannot rasterise the picture: {0}")]
-    Svg(String),
     /// The pixels could not be compressed.
     #[error("cannot write the picture as PNG: {0}")]
     Png(String),
@@ -89,14 +87,19 @@ pub enum DrawError {
     Gif(String),
 }
 
-/// Returns the view as an SVG document, 1400 pixels wide and 720 high; pictures of tasks can be higher.
+/// Returns the picture of a view, 1400 pixels wide and 720 high; pictures of tasks can be higher.
+pub fn figure(view: &View) -> Figure {
+    page::compose(view)
+}
+
+/// Returns the picture of a view as an SVG document.
 pub fn svg(view: &View) -> String {
-    svg_writer::write(&page::compose(view))
+    figure(view).svg()
 }
 
 /// Returns the workspace alone as a small SVG document, whose texts are legible on a phone.
 pub fn workspace_svg(view: &View) -> String {
-    svg_writer::write(&page::workspace_figure(view))
+    page::workspace_figure(view).svg()
 }
 
 /// Returns the animation of a view: SVG documents, each with the time for which it is shown, in hundredths of a second.
@@ -104,17 +107,7 @@ pub fn workspace_svg(view: &View) -> String {
 /// of the arm. The last document is [`svg()`].
 pub fn moving(view: &View) -> impl Iterator<Item = (String, u16)> {
     let moments = animation::moments(view).into_iter();
-    moments.map(|moment| (svg_writer::write(&animation::figure(view, moment)), moment.delay))
-}
-
-/// Returns an SVG document as a PNG file of its size times `scale`. The document must be from this crate, or have only
-/// the same elements.
-///
-/// # Errors
-/// [`DrawError::Scale`] if the scale is not a positive number of a sensible size, [`DrawError::Svg`] if the document has other elements.
-#[cfg(feature = "png")]
-pub fn png(svg: &str, scale: f64) -> Result<Vec<u8>, DrawError> {
-    png_writer::write(svg, scale)
+    moments.map(|moment| (animation::figure(view, moment).svg(), moment.delay))
 }
 
 /// Returns the animation of a view as a GIF of this width. If the view contains a replay, the animation first shows how
@@ -132,13 +125,4 @@ pub fn gif(view: &View, width: f64, progress: &mut dyn FnMut(usize, usize)) -> R
         done += 1;
         progress(done, moments.len());
     })
-}
-
-/// Returns an SVG document from this crate as a GIF with a single picture of this width.
-///
-/// # Errors
-/// The errors of [`png()`].
-#[cfg(feature = "png")]
-pub fn still_gif(svg: &str, width: f64) -> Result<Vec<u8>, DrawError> {
-    gif_writer::still(svg, width)
 }

@@ -1,22 +1,20 @@
 //! Pictures of obstacles alone, without an arm.
 
 use super::axes::{Frame, Range, Unit};
-
 use super::figure::{Figure, Item};
 use super::key::{Key, Sign};
 use super::labels::{self, Placer};
 use super::view::{ObstacleView, RoundingSteps, bounding_box};
-use super::{page, shapes, svg_writer};
+use super::{page, shapes};
 use cplan_model::Obstacle;
 use cplan_text::markup;
 
 /// Margin on each side of the obstacles, as a fraction of their extent.
 const MARGIN_SHARE: f64 = 0.04;
 
-/// Draws obstacles as an SVG document, the largest first. Each has its name if there is room. Obstacles of the same
-/// group have the same colour; `groups` has the group of each. The first line of `title` is the title. The background is
-/// dark if `is_dark`.
-pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str], is_dark: bool) -> String {
+/// Draws obstacles, the largest first. Each has its name if there is room. Obstacles of the same group have the same
+/// colour; `groups` has the group of each. The first line of `title` is the title.
+pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> Figure {
     let mut known: Vec<&str> = Vec::new();
     let mut colors = Vec::with_capacity(obstacles.len());
     for group in groups {
@@ -35,7 +33,7 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str], is_d
     order.sort_by(|&i, &j| areas[j].total_cmp(&areas[i]));
     let keys = known.iter().enumerate().map(|(i, name)| (Sign::Swatch(cplan_theme::obstacle(i)), (*name).to_owned()));
     let keys: Vec<Key> = keys.take(MAX_KEYS).collect();
-    let figure = page::single_panel_page(title, keys, (y.1 - y.0) / (x.1 - x.0), |area| {
+    page::single_panel_page(title, keys, (y.1 - y.0) / (x.1 - x.0), |area| {
         let frame = Frame::filling(area, x, y);
         let view = |&i: &usize| ObstacleView::new(&obstacles[i], colors[i], RoundingSteps::within(size));
         let mut items = frame.grid([Unit::Meters; 2]);
@@ -44,8 +42,7 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str], is_d
         let mut items = vec![Item::Clip(frame.rect, items)];
         items.extend(frame.border([Unit::Meters; 2], ["x (m)", "y (m)"].map(str::to_owned), [false; 2]));
         items
-    });
-    svg_writer::write(&Figure { is_dark, ..figure })
+    })
 }
 
 /// Largest number of colours for which there is a legend.
@@ -68,9 +65,9 @@ pub fn extent(obstacles: &[Obstacle]) -> [Range; 2] {
     bounding_box(obstacles.iter().flat_map(|obstacle| &obstacle.pieces))
 }
 
-/// Returns a page that shows an SVG document.
-pub fn still_page(title: &str, svg: &str) -> String {
-    let title = markup(title);
+/// Returns a page that shows a figure.
+pub fn still_page(title: &str, figure: &Figure) -> String {
+    let (title, svg) = (markup(title), figure.svg());
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>{title}</title>\n</head>\n\
          <body>\n{svg}\n</body>\n</html>\n"

@@ -1,9 +1,9 @@
 //! Pictures of two polygons and their Minkowski difference.
 
-use super::axes::{Frame, Unit};
+use super::axes::{Frame, Unit, span};
 use super::figure::{Anchor, Figure, Item, Rect, Style, bold, chain, label};
 use super::key::{Key, Sign};
-use super::{page, svg_writer};
+use super::page;
 use cplan_geometry::Point;
 use cplan_theme::{INK, Rgb, obstacle};
 
@@ -31,14 +31,13 @@ pub struct PolygonPair<'a> {
     pub difference: &'a [Vec<Point>],
 }
 
-/// Draws two polygons, and beside them their difference with the origin, as an SVG document. The background is dark if
-/// `is_dark`.
-pub fn polygon_pair(pair: &PolygonPair, is_dark: bool) -> String {
+/// Draws two polygons, and beside them their difference with the origin.
+pub fn polygon_pair(pair: &PolygonPair) -> Figure {
     let [a, b, difference] = [0, 1, 2].map(obstacle);
     let keys: Vec<Key> = [(a, "A"), (b, "B"), (difference, "B \u{2212} A")]
         .map(|(color, name)| (Sign::Swatch(color), name.to_owned()))
         .to_vec();
-    let figure = page::single_panel_page(&pair.title, keys, PROPORTION, |area| {
+    page::single_panel_page(&pair.title, keys, PROPORTION, |area| {
         let area = Rect { y: area.y + TITLE_HEIGHT, height: area.height - TITLE_HEIGHT, ..area };
         let width = (area.width - PANEL_GAP) / 2.0;
         let [left, right] = [area.x, area.x + width + PANEL_GAP].map(|x| Rect { x, width, ..area });
@@ -55,18 +54,12 @@ pub fn polygon_pair(pair: &PolygonPair, is_dark: bool) -> String {
             &[Point::zeros()],
         ));
         items
-    });
-    svg_writer::write(&Figure { is_dark, ..figure })
+    })
 }
 
 /// Returns a frame around all points.
 fn frame(area: Rect, polygons: &[&[Point]]) -> Frame {
-    let all = || polygons.iter().flat_map(|polygon| polygon.iter());
-    let range = |k: usize| {
-        let values = || all().map(|p| p[k]);
-        (values().fold(f64::INFINITY, f64::min), values().fold(f64::NEG_INFINITY, f64::max))
-    };
-    let sides = [range(0), range(1)];
+    let sides = [0, 1].map(|k| span(polygons.iter().flat_map(|polygon| polygon.iter()).map(|p| p[k])));
     let size = sides.iter().map(|side| side.1 - side.0).fold(f64::MIN_POSITIVE, f64::max);
     let [x, y] = sides.map(|(low, high)| (low - MARGIN_SHARE * size, high + MARGIN_SHARE * size));
     Frame::filling(area, x, y)

@@ -3,19 +3,19 @@
 use super::figure::{Anchor, Figure, Item, Label, Raster, Rect, Step, Style};
 use super::letter_widths::letter_width;
 use ::svg::Document;
-use ::svg::node::element::{Circle, ClipPath, Definitions, Group, Path, Rectangle, Text};
+use ::svg::node::element::{Circle, ClipPath, Definitions, Group, Path, Rectangle, Text, Title};
 use cplan_theme::{PICTURE_FONTS, Rgb, WHITE};
 use std::fmt::Write;
 
 /// Weight of bold texts.
-pub const BOLD_WEIGHT: &str = "600";
+const BOLD_WEIGHT: &str = "600";
 
 /// Greatest absolute value of coordinates, in pixels. Places beyond it are invisible. Up to here, viewers that compute
 /// in single precision are exact to a tenth of a pixel.
-const MAX_COORDINATE: f64 = 1e6;
+pub const MAX_COORDINATE: f64 = 1e6;
 
 /// Width of the pale line around letters, in pixels. Half of it shows.
-const HALO_WIDTH: f64 = 3.5;
+pub const HALO_WIDTH: f64 = 3.5;
 
 /// Writes the figure as an SVG document without a size of its own: it fills the width that its reader gives it. Texts have
 /// the widths of the built-in font in any other font, too. The result is deterministic to the byte; coordinates have two decimals.
@@ -24,35 +24,26 @@ pub fn write(figure: &Figure) -> String {
     document(figure, Group::new().add(ground.set("fill", figure.shown(WHITE).to_string())))
 }
 
-/// A drawing within a page, and its colours that have no name in the page's style sheet.
-#[derive(Debug, Clone, PartialEq)]
-pub struct PageDrawing {
-    /// The drawing as an SVG element.
-    pub svg: String,
-    /// Colours on a light background. The variable of `#rrggbb` is `--xrrggbb`.
-    pub colors: Vec<Rgb>,
-}
-
 /// Writes the figure without a background, as an element of a page. Its colours are variables of the page's style sheet,
 /// so that it is light or dark as the page is. `id` distinguishes its names from those of other drawings in the page.
-pub fn write_for_page(figure: &Figure, id: &str) -> PageDrawing {
+/// Adds those that have no name there to `colors`: the variable of `#rrggbb` is `--xrrggbb`.
+pub fn write_for_page(figure: &Figure, id: &str, colors: &mut Vec<Rgb>) -> String {
     let svg = document(figure, Group::new());
     let svg = svg.replace("<clipPath id=\"", &format!("<clipPath id=\"{id}-"));
     let svg = svg.replace("clip-path=\"url(#", &format!("clip-path=\"url(#{id}-"));
-    with_variables(&svg)
+    with_variables(&svg, colors)
 }
 
-/// Writes items without a document around them. They must not be clipped.
-pub fn elements(items: &[Item]) -> String {
+/// Writes items without a document around them, with colours as in [`write_for_page`]. They must not be clipped.
+pub fn elements(items: &[Item], colors: &mut Vec<Rgb>) -> String {
     let figure = Figure { width: 0.0, height: 0.0, items: Vec::new(), is_dark: false };
-    let group = items.iter().fold(Group::new(), |group, item| add(group, item, &figure, &mut Vec::new()));
-    group.set("stroke-linejoin", "round").to_string()
+    let group = add_all(Group::new(), items, &figure, &mut Vec::new()).set("stroke-linejoin", "round");
+    with_variables(&group.to_string(), colors)
 }
 
 /// Replaces the colours in attributes by variables of the page's style sheet.
-pub fn with_variables(svg: &str) -> PageDrawing {
-    let mut colors = Vec::new();
-    let svg = cplan_theme::recolored(svg, |color| {
+fn with_variables(svg: &str, colors: &mut Vec<Rgb>) -> String {
+    cplan_theme::recolored(svg, |color| {
         let name = cplan_theme::variable(color).unwrap_or_else(|| {
             if !colors.contains(&color) {
                 colors.push(color);
@@ -60,22 +51,13 @@ pub fn with_variables(svg: &str) -> PageDrawing {
             format!("x{}", &color.to_string()[1..])
         });
         format!("var(--{name})")
-    });
-    PageDrawing { svg, colors }
-}
-
-/// Writes the figure without a background.
-#[cfg(feature = "png")]
-pub fn layer(figure: &Figure) -> String {
-    document(figure, Group::new())
+    })
 }
 
 fn document(figure: &Figure, ground: Group) -> String {
     let mut clips = Vec::new();
-    let mut page = ground.set("font-family", PICTURE_FONTS).set("stroke-linejoin", "round");
-    for item in &figure.items {
-        page = add(page, item, figure, &mut clips);
-    }
+    let page = ground.set("font-family", PICTURE_FONTS).set("stroke-linejoin", "round");
+    let page = add_all(page, &figure.items, figure, &mut clips);
     let mut definitions = Definitions::new();
     for (i, rect) in clips.iter().enumerate() {
         definitions = definitions.add(ClipPath::new().set("id", clip_id(i)).add(rectangle(rect)));
@@ -103,15 +85,20 @@ fn add(group: Group, item: &Item, figure: &Figure, clips: &mut Vec<Rect>) -> Gro
         Item::Clip(rect, items) => {
             let id = clip_id(clips.len());
             clips.push(*rect);
-            let inner = Group::new().set("clip-path", format!("url(#{id})"));
-            group.add(items.iter().fold(inner, |g, item| add(g, item, figure, clips)))
+            group.add(add_all(Group::new().set("clip-path", format!("url(#{id})")), items, figure, clips))
         }
         Item::Raster(raster) => group.add(cells(raster, figure)),
         Item::OfPath(index, items) => {
-            let inner = Group::new().set("data-path", index.to_string());
-            group.add(items.iter().fold(inner, |g, item| add(g, item, figure, clips)))
+            group.add(add_all(Group::new().set("data-path", index.to_string()), items, figure, clips))
+        }
+        Item::Titled(title, items) => {
+            group.add(add_all(Group::new().add(Title::new(title.as_str())), items, figure, clips))
         }
     }
+}
+
+fn add_all(group: Group, items: &[Item], figure: &Figure, clips: &mut Vec<Rect>) -> Group {
+    items.iter().fold(group, |group, item| add(group, item, figure, clips))
 }
 
 fn clip_id(index: usize) -> String {
@@ -204,45 +191,23 @@ fn is_xml(c: char) -> bool {
     !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')
 }
 
-/// Writes the cells as one path of rectangles per colour, in units of cells. Consecutive cells of one colour in a
-/// column form a rectangle. Equal rectangles in the next columns extend it. Smoothing is off, because it would show
+/// Writes the cells as one path of rectangles per colour, in units of cells. Smoothing is off, because it would show
 /// seams between rectangles.
 fn cells(raster: &Raster, figure: &Figure) -> Group {
     let [columns, rows] = raster.cells;
-    let mut paths = vec![String::new(); raster.palette.len()];
-    let mut taken = vec![false; raster.levels.len()];
-    for i in 0..columns {
-        let mut j = 0;
-        while j < rows {
-            let level = raster.levels[i * rows + j];
-            let begin = j;
-            j += 1;
-            let Some(level) = level.filter(|_| !taken[i * rows + begin]) else { continue };
-            let free = |i: usize, j: usize| raster.levels[i * rows + j] == Some(level) && !taken[i * rows + j];
-            while j < rows && free(i, j) {
-                j += 1;
-            }
-            let mut end = i + 1;
-            while end < columns && (begin..j).all(|j| free(end, j)) {
-                end += 1;
-            }
-            for i in i..end {
-                taken[i * rows + begin..i * rows + j].fill(true);
-            }
-            let (w, h) = (end - i, j - begin);
-            // Cells are numbered upwards, but y points down on pages: row j begins at rows - j from the top.
-            let _ = write!(paths[level], "M{i} {}h{w}v-{h}h-{w}z", rows - begin);
-        }
-    }
     let Rect { x, y, width, height } = raster.rect;
     let (sx, sy) = (width / columns.max(1) as f64, height / rows.max(1) as f64);
     let place = format!("translate({} {}) scale({sx:.5} {sy:.5})", number(x), number(y));
-    let group = Group::new().set("transform", place).set("shape-rendering", "crispEdges");
-    paths
-        .into_iter()
-        .zip(&raster.palette)
-        .filter(|(d, _)| !d.is_empty())
-        .fold(group, |g, (d, color)| g.add(Path::new().set("fill", figure.shown(*color).to_string()).set("d", d)))
+    let mut group = Group::new().set("transform", place).set("shape-rendering", "crispEdges");
+    for (rectangles, color) in raster.rectangles().iter().zip(&raster.palette).filter(|(all, _)| !all.is_empty()) {
+        let mut d = String::new();
+        for [i, j, w, h] in rectangles {
+            // Cells are numbered upwards, but y points down on pages: row j begins at rows - j from the top.
+            let _ = write!(d, "M{i} {}h{w}v-{h}h-{w}z", rows - j);
+        }
+        group = group.add(Path::new().set("fill", figure.shown(*color).to_string()).set("d", d));
+    }
+    group
 }
 
 #[cfg(test)]
@@ -293,14 +258,15 @@ mod tests {
         let rect = Rect { x: 0.0, y: 0.0, width: 5.0, height: 5.0 };
         let disc = |color| Item::Disc([5.0, 5.0], 2.0, Style::fill(color));
         let items = vec![Item::Clip(rect, vec![disc(cplan_theme::INK), Item::OfPath(3, vec![disc(Rgb(1, 2, 3)); 2])])];
-        let drawing = write_for_page(&Figure { width: 10.0, height: 10.0, items, is_dark: false }, "a");
-        assert_eq!(drawing.colors, [Rgb(1, 2, 3)]);
+        let mut colors = Vec::new();
+        let svg = write_for_page(&Figure { width: 10.0, height: 10.0, items, is_dark: false }, "a", &mut colors);
+        assert_eq!(colors, [Rgb(1, 2, 3)]);
         for part in
             ["fill=\"var(--ink)\"", "fill=\"var(--x010203)\"", "id=\"a-clip0\"", "url(#a-clip0)", "data-path=\"3\""]
         {
-            assert!(drawing.svg.contains(part), "no {part} in {}", drawing.svg);
+            assert!(svg.contains(part), "no {part} in {svg}");
         }
-        assert!(!drawing.svg.contains("\"#"), "{}", drawing.svg);
+        assert!(!svg.contains("\"#"), "{svg}");
     }
 
     /// Paints the rectangles and compares the result with the cells.

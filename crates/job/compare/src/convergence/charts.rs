@@ -1,11 +1,10 @@
 //! The charts: one for each equation, one for the factor of SOR, one for the strength of the drift.
 
 use super::lines::{self, CHART_SIZE, Line, LineChart};
-use super::{Convergence, FactorScan, Point, RelaxationRun, StrengthScan, WeightScan, files};
-use crate::page::number;
+use super::{Convergence, ParameterScan, Point, RelaxationRun};
 use cplan_fields::{Factor, Order, Sample, Scheme};
-use cplan_text::markup;
-use cplan_theme::{INK, PICTURE_FONTS, WHITE, on_dark, recolored};
+use cplan_theme::INK;
+use cplan_view::figure::{Anchor, Figure, label};
 
 /// Number of charts side by side.
 const CHARTS_PER_ROW: usize = 2;
@@ -13,93 +12,51 @@ const CHARTS_PER_ROW: usize = 2;
 const TITLE_HEIGHT: f64 = 44.0;
 
 impl Convergence {
-    /// Draws all charts as one SVG document, on a dark background if `is_dark`. The same data give the same bytes.
-    pub fn to_svg(&self, is_dark: bool) -> String {
-        let light = self.light_svg();
-        if is_dark { recolored(&light, |color| on_dark(color).to_string()) } else { light }
-    }
-
-    fn light_svg(&self) -> String {
+    /// Draws all charts. The same data give the same figure.
+    pub fn figure(&self) -> Figure {
         let charts = self.charts();
-        let [width, height] = [
-            CHART_SIZE[0] * CHARTS_PER_ROW as f64,
-            TITLE_HEIGHT + CHART_SIZE[1] * charts.len().div_ceil(CHARTS_PER_ROW) as f64,
-        ];
-        let mut svg = format!(
-            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {0} {1}\">\n\
-             <rect width=\"{0}\" height=\"{1}\" fill=\"{WHITE}\"/>\n\
-             <g font-family=\"{PICTURE_FONTS}\" font-size=\"12\" fill=\"{INK}\">\n",
-            number(width),
-            number(height)
-        );
+        let [width, height] = CHART_SIZE;
         let [rows, columns] = self.cells;
         let title = format!("{}: {rows} x {columns} cells, {} free", self.title, self.free);
-        svg += &format!("<text x=\"20\" y=\"28\" font-size=\"17\">{}</text>\n", markup(&title));
+        let mut items = vec![label([20.0, 28.0], title, 17.0, Anchor::Start, INK)];
         for (k, chart) in charts.iter().enumerate() {
-            svg += &chart.svg([
-                CHART_SIZE[0] * (k % CHARTS_PER_ROW) as f64,
-                TITLE_HEIGHT + CHART_SIZE[1] * (k / CHARTS_PER_ROW) as f64,
-            ]);
+            let row = (k / CHARTS_PER_ROW) as f64;
+            items.extend(chart.items([width * (k % CHARTS_PER_ROW) as f64, TITLE_HEIGHT + height * row]));
         }
-        svg + "</g>\n</svg>\n"
+        let height = TITLE_HEIGHT + height * charts.len().div_ceil(CHARTS_PER_ROW) as f64;
+        Figure { width: width * CHARTS_PER_ROW as f64, height, items, is_dark: false }
     }
 
     fn charts(&self) -> Vec<LineChart> {
-        let of_equations = self.runs.chunk_by(|a, b| a.equation == b.equation).map(errors);
-        of_equations.chain([self.by_factor(), self.by_weight(), self.by_strength()]).collect()
-    }
-
-    fn by_factor(&self) -> LineChart {
-        let line = |(k, scan): (usize, &FactorScan)| {
-            let marked = [&scan.formula].into_iter().chain(&scan.by_rate);
-            let mut points: Vec<Point> = scan.points.iter().chain(marked).copied().collect();
-            points.sort_by(|a, b| a.at.total_cmp(&b.at));
-            Line { name: scan.equation.clone(), pen: lines::pen(k), points: converged_points(&points), dots: true }
-        };
-        LineChart {
-            title: format!("Sweeps of SOR ({}) by its factor", self.order),
-            axes: ["factor", "sweeps until it converges"],
-            lines: self.factors.iter().enumerate().map(line).collect(),
-            marks: vec![(Factor::Formula.value(self.cells), "formula")],
-        }
-    }
-
-    fn by_weight(&self) -> LineChart {
-        let line = |(k, scan): (usize, &WeightScan)| Line {
-            name: scan.equation.clone(),
-            pen: lines::pen(k),
-            points: converged_points(&scan.points),
-            dots: true,
-        };
-        LineChart {
-            title: "Sweeps of weighted Jacobi by its factor".to_owned(),
-            axes: ["factor", "sweeps until it converges"],
-            lines: self.weights.iter().enumerate().map(line).collect(),
-            marks: vec![(1.0, "Jacobi")],
-        }
-    }
-
-    fn by_strength(&self) -> LineChart {
-        let line = |(k, scan): (usize, &StrengthScan)| Line {
-            name: files::oriented_name(scan.difference),
-            pen: lines::pen(k),
-            points: converged_points(&scan.points),
-            dots: true,
-        };
         let [a, b] = self.direction;
-        LineChart {
-            title: format!("Sweeps of Gauss-Seidel ({}), drift along ({a:.2}, {b:.2})", self.order),
-            axes: ["epsilon (per cell)", "sweeps until it converges"],
-            lines: self.strengths.iter().enumerate().map(line).collect(),
-            // Central differences are monotone below this strength.
-            marks: vec![(2.0 / a.abs().max(b.abs()), "monotone")],
-        }
+        let scans = [
+            (format!("Sweeps of SOR ({}) by its factor", self.order), &self.factors.iter().collect::<Vec<_>>()),
+            ("Sweeps of weighted Jacobi by its factor".to_owned(), &self.weights.iter().collect()),
+            (
+                format!("Sweeps of Gauss-Seidel ({}), drift along ({a:.2}, {b:.2})", self.order),
+                &self.strengths.iter().map(|(_, scan)| scan).collect(),
+            ),
+        ];
+        // Central differences are monotone below a strength.
+        let monotone = 2.0 / a.abs().max(b.abs());
+        let marks = [(Factor::Formula.value(self.cells), "formula"), (1.0, "Jacobi"), (monotone, "monotone")];
+        let axes = ["factor", "factor", "epsilon (per cell)"].into_iter().zip(marks);
+        let of_scans = scans.into_iter().zip(axes).map(|((title, scans), (axis, mark))| LineChart {
+            title,
+            axes: [axis, "sweeps until it converges"],
+            lines: scans.iter().enumerate().map(line).collect(),
+            marks: vec![mark],
+        });
+        self.runs.chunk_by(|a, b| a.equation == b.equation).map(errors).chain(of_scans).collect()
     }
 }
 
-/// Returns the points of converged relaxations.
-fn converged_points(points: &[Point]) -> Vec<[f64; 2]> {
-    points.iter().filter_map(|point| Some([point.at, point.converged()? as f64])).collect()
+/// Returns the line of a scan: the points of converged relaxations.
+fn line((k, scan): (usize, &&ParameterScan)) -> Line {
+    let mut points: Vec<Point> = scan.all_points().copied().collect();
+    points.sort_by(|a, b| a.at.total_cmp(&b.at));
+    let points = points.iter().filter_map(|point| Some([point.at, point.converged()? as f64])).collect();
+    Line { name: scan.equation.clone(), pen: lines::pen(k), points, dots: true }
 }
 
 /// Charts the relaxations of one equation: the error if it is known, otherwise the sum of squared changes of a sweep.
@@ -126,11 +83,10 @@ fn errors(runs: &[RelaxationRun]) -> LineChart {
     }
 }
 
-/// Returns indices of the colour and of the dashes of a relaxation. Each relaxation has its own colour, and each order
-/// its own dashes.
-fn pen(scheme: Scheme) -> [usize; 2] {
+/// Returns the pen of a relaxation. Each relaxation has its own colour, and each order its own dashes.
+fn pen(scheme: Scheme) -> cplan_view::figure::Pen {
     match scheme {
-        Scheme::Simultaneous { factor } => [0, usize::from(factor != 1.0)],
+        Scheme::Simultaneous { factor } => lines::pen_of(0, usize::from(factor != 1.0)),
         Scheme::Successive { factor, order } => {
             let dashes = match order {
                 Order::Lines(_) => 0,
@@ -138,7 +94,7 @@ fn pen(scheme: Scheme) -> [usize; 2] {
                 Order::RedBlack => 2,
                 Order::FourColors => 3,
             };
-            [1 + usize::from(factor == Factor::Formula), dashes]
+            lines::pen_of(1 + usize::from(factor == Factor::Formula), dashes)
         }
     }
 }

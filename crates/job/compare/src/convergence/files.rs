@@ -1,8 +1,8 @@
 //! Convergence as text, CSV and JSON.
 
-use super::{Convergence, FactorScan, Point, RelaxationRun, StrengthScan, WeightScan};
+use super::{Convergence, ParameterScan, Point, RelaxationRun};
 use crate::table::{Align, Column, Table, fixed, quoted};
-use cplan_fields::{Difference, Ending, Factor, Measure, Relaxation, Sample, Scheme};
+use cplan_fields::{Ending, Factor, Measure, Relaxation, Sample, Scheme};
 use cplan_text::plain_line;
 use serde_json::{Value, json};
 
@@ -40,7 +40,11 @@ impl Convergence {
         text +=
             &format!("\nsweeps of Gauss-Seidel ({}) by epsilon, drift along ({a:.3}, {b:.3}) in cells\n", self.order);
         text += &self.strength_table().to_text();
-        text + &self.strengths.iter().map(|scan| describe_divergence(scan) + "\n").collect::<String>()
+        text + &self
+            .strengths
+            .iter()
+            .map(|(difference, scan)| describe_divergence(&difference.to_string(), scan))
+            .collect::<String>()
     }
 
     /// Returns a table with one row per relaxation.
@@ -64,8 +68,8 @@ impl Convergence {
     pub fn factor_table(&self) -> Table {
         let cells =
             |point: Option<Point>| [point.map(|p| format!("{:.3}", p.at)), point.map(|p| sweeps(p.sweeps, p.ending))];
-        let row = |scan: &FactorScan| {
-            let points = [scan.best(), Some(scan.formula), scan.by_rate];
+        let row = |scan: &ParameterScan| {
+            let points = [scan.best(), scan.formula, scan.by_rate];
             [Some(scan.equation.clone())].into_iter().chain(points.into_iter().flat_map(cells)).collect()
         };
         let columns = columns(&["equation", "best", "sweeps", "formula", "sweeps", "by rate", "sweeps"], 1);
@@ -75,7 +79,7 @@ impl Convergence {
     /// Returns a table with one row per equation: the best factor of weighted Jacobi, Jacobi itself (factor 1), and the
     /// first factor that does not converge.
     pub fn weight_table(&self) -> Table {
-        let row = |scan: &WeightScan| {
+        let row = |scan: &ParameterScan| {
             let best = scan.best();
             let jacobi = scan.points.iter().find(|point| point.at == 1.0);
             vec![
@@ -105,15 +109,15 @@ impl Convergence {
 
     /// Returns a table with one row for every fifth strength of the scan.
     pub fn strength_table(&self) -> Table {
-        let names: Vec<String> = self.strengths.iter().map(|scan| scan.difference.to_string()).collect();
-        let columns = columns(&[&["epsilon"], &names.iter().map(String::as_str).collect::<Vec<_>>()[..]].concat(), 0);
-        let count = self.strengths.first().map_or(0, |scan| scan.points.len());
+        let names = self.strengths.iter().map(|(difference, _)| difference.to_string());
+        let columns = std::iter::once("epsilon".to_owned()).chain(names).map(|name| Column::new(&name, Align::Right));
+        let count = self.strengths.first().map_or(0, |(_, scan)| scan.points.len());
         let row = |k: usize| {
-            let epsilon = self.strengths.first().map(|scan| format!("{:.1}", scan.points[k].at));
-            let points = self.strengths.iter().map(|scan| scan.points[k]);
+            let epsilon = self.strengths.first().map(|(_, scan)| format!("{:.1}", scan.points[k].at));
+            let points = self.strengths.iter().map(|(_, scan)| scan.points[k]);
             [epsilon].into_iter().chain(points.map(|p| Some(sweeps(p.sweeps, p.ending)))).collect()
         };
-        Table { columns, rows: (0..count).step_by(5).map(row).collect() }
+        Table { columns: columns.collect(), rows: (0..count).step_by(5).map(row).collect() }
     }
 
     /// Returns CSV with one line per sample, in full precision. Samples are taken after sweeps (`error`), for each
@@ -134,24 +138,18 @@ impl Convergence {
                 text += &format!("{head},,,{},,,,{}\n", trace.sweeps, word(trace.ending));
             }
         }
-        for FactorScan { equation, points, formula, by_rate } in &self.factors {
-            for Point { at, sweeps, ending } in points.iter().chain([formula]).chain(by_rate) {
-                let head = format!("factor,{},sor,{},{at}", quoted(equation), self.order);
-                text += &format!("{head},,,{sweeps},,,,{}\n", word(*ending));
+        // The columns of a point: factor and epsilon, of which the scan varies one.
+        let mut add = |series: &str, relaxation: &str, scan: &ParameterScan, columns: fn(f64) -> String| {
+            for point in scan.all_points() {
+                let (equation, columns, ending) = (quoted(&scan.equation), columns(point.at), word(point.ending));
+                text += &format!("{series},{equation},{relaxation},{columns},,{},,,,{ending}\n", point.sweeps);
             }
-        }
-        for WeightScan { equation, points } in &self.weights {
-            for Point { at, sweeps, ending } in points {
-                let head = format!("weight,{},weighted-jacobi,,{at}", quoted(equation));
-                text += &format!("{head},,,{sweeps},,,,{}\n", word(*ending));
-            }
-        }
-        for StrengthScan { difference, points } in &self.strengths {
-            for Point { at, sweeps, ending } in points {
-                let head =
-                    format!("epsilon,{},gauss-seidel,{},1,{at}", quoted(&oriented_name(*difference)), self.order);
-                text += &format!("{head},,{sweeps},,,,{}\n", word(*ending));
-            }
+        };
+        let factor = |at: f64| format!("{at},");
+        self.factors.iter().for_each(|scan| add("factor", &format!("sor,{}", self.order), scan, factor));
+        self.weights.iter().for_each(|scan| add("weight", "weighted-jacobi,", scan, factor));
+        for (_, scan) in &self.strengths {
+            add("epsilon", &format!("gauss-seidel,{}", self.order), scan, |at| format!("1,{at}"));
         }
         text
     }
@@ -182,27 +180,20 @@ impl Convergence {
                 },
             })
         };
-        let factor = |scan: &FactorScan| {
-            json!({
-                "equation": scan.equation,
-                "best": scan.best().map(|p| point("factor", &p)),
-                "formula": point("factor", &scan.formula),
-                "by_rate": scan.by_rate.map(|p| point("factor", &p)),
-                "points": scan.points.iter().map(|p| point("factor", p)).collect::<Vec<_>>(),
-            })
+        let scan = |name: &str, scan: &ParameterScan| {
+            let points: Vec<Value> = scan.points.iter().map(|p| point(name, p)).collect();
+            json!({ "equation": scan.equation, "points": points })
         };
-        let weight = |scan: &WeightScan| {
-            json!({
-                "equation": scan.equation,
-                "best": scan.best().map(|p| point("factor", &p)),
-                "points": scan.points.iter().map(|p| point("factor", p)).collect::<Vec<_>>(),
-            })
+        let with_best = |of: &ParameterScan| {
+            let mut object = scan("factor", of);
+            object["best"] = of.best().map(|p| point("factor", &p)).into();
+            object
         };
-        let strength = |scan: &StrengthScan| {
-            json!({
-                "equation": oriented_name(scan.difference),
-                "points": scan.points.iter().map(|p| point("epsilon", p)).collect::<Vec<_>>(),
-            })
+        let factor = |of: &ParameterScan| {
+            let mut object = with_best(of);
+            object["formula"] = of.formula.map(|p| point("factor", &p)).into();
+            object["by_rate"] = of.by_rate.map(|p| point("factor", &p)).into();
+            object
         };
         json!({
             "title": self.title,
@@ -215,8 +206,8 @@ impl Convergence {
             "direction": self.direction,
             "relaxations": self.runs.iter().map(run).collect::<Vec<_>>(),
             "factors": self.factors.iter().map(factor).collect::<Vec<_>>(),
-            "weights": self.weights.iter().map(weight).collect::<Vec<_>>(),
-            "epsilons": self.strengths.iter().map(strength).collect::<Vec<_>>(),
+            "weights": self.weights.iter().map(with_best).collect::<Vec<_>>(),
+            "epsilons": self.strengths.iter().map(|(_, of)| scan("epsilon", of)).collect::<Vec<_>>(),
         })
     }
 
@@ -239,11 +230,6 @@ impl Convergence {
     }
 }
 
-/// Returns the name of the equation with a drift in the scans over its strength `epsilon`.
-pub(super) fn oriented_name(difference: Difference) -> String {
-    format!("oriented, {}", if difference == Difference::Central { "central" } else { "upwind" })
-}
-
 fn point(name: &str, point: &Point) -> Value {
     json!({ name: point.at, "sweeps": point.sweeps, "ending": word(point.ending) })
 }
@@ -261,12 +247,12 @@ fn sweeps(count: usize, ending: Ending) -> String {
     }
 }
 
-fn describe_divergence(scan: &StrengthScan) -> String {
+fn describe_divergence(name: &str, scan: &ParameterScan) -> String {
     match scan.divergence_start() {
-        None => format!("{}: converge at the last epsilon tried", scan.difference),
+        None => format!("{name}: converge at the last epsilon tried\n"),
         Some(point) => {
             let how = if point.ending == Ending::Diverged { "diverge" } else { "do not converge" };
-            format!("{}: {how} from epsilon {:.1} on", scan.difference, point.at)
+            format!("{name}: {how} from epsilon {:.1} on\n", point.at)
         }
     }
 }

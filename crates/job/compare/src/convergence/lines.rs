@@ -1,8 +1,8 @@
-//! Line charts, as parts of an SVG document.
+//! Line charts.
 
-use crate::page::{Axis, number};
-use cplan_text::markup;
-use cplan_theme::{FAINT, GRAY, PATH_COLORS, Rgb};
+use crate::page::Axis;
+use cplan_theme::{FAINT, GRAY, INK, PATH_COLORS};
+use cplan_view::figure::{Anchor, Item, Pen, Step, Style, bold, chain, label, upwards};
 
 /// Width and height of the plot, in pixels.
 const PLOT_SIZE: [f64; 2] = [400.0, 250.0];
@@ -16,17 +16,24 @@ const RIGHT_MARGIN: f64 = 186.0;
 const BOTTOM_MARGIN: f64 = 52.0;
 /// Distance between the names of two lines, in pixels.
 const NAME_SPACING: f64 = 19.0;
+/// Sizes of names and of values at ticks, in pixels.
+const NAME_SIZE: f64 = 12.0;
+const TICK_SIZE: f64 = 11.0;
 
 /// Width and height of a chart with its margins, in pixels.
 pub const CHART_SIZE: [f64; 2] = [LEFT_MARGIN + PLOT_SIZE[0] + RIGHT_MARGIN, TOP_MARGIN + PLOT_SIZE[1] + BOTTOM_MARGIN];
 
 /// Dashes of lines, in pixels. They distinguish lines of one colour.
-const DASHES: [&str; 4] = ["", "7 3", "2 3", "7 3 2 3"];
+const DASHES: [&[f64]; 4] = [&[], &[7.0, 3.0], &[2.0, 3.0], &[7.0, 3.0, 2.0, 3.0]];
 
-/// Returns indices of the colour and of the dashes of a line, given the line's index. After all colours have been used,
-/// the next dashes follow.
-pub fn pen(line: usize) -> [usize; 2] {
-    [line % PATH_COLORS.len(), line / PATH_COLORS.len()]
+/// Returns the pen of a line, given the line's index. After all colours have been used, the next dashes follow.
+pub fn pen(line: usize) -> Pen {
+    pen_of(line, line / PATH_COLORS.len())
+}
+
+/// Returns the pen with the colour and the dashes of these indices.
+pub fn pen_of(color: usize, dashes: usize) -> Pen {
+    Pen { color: PATH_COLORS[color % PATH_COLORS.len()].0, width: 1.6, dash: DASHES[dashes % DASHES.len()] }
 }
 
 /// Lines over a horizontal axis.
@@ -42,129 +49,76 @@ pub struct LineChart {
 /// A line with its name.
 pub struct Line {
     pub name: String,
-    /// Indices into `PATH_COLORS` and `DASHES`.
-    pub pen: [usize; 2],
+    pub pen: Pen,
     pub points: Vec<[f64; 2]>,
     /// True to draw a dot at each point.
     pub dots: bool,
 }
 
 impl LineChart {
-    /// Draws the chart with its upper left corner at `[left, top]`. Returns an empty text if there are no points. An
-    /// axis is logarithmic if its values differ greatly. Values that a logarithmic axis cannot show are omitted.
-    pub fn svg(&self, [left, top]: [f64; 2]) -> String {
+    /// Draws the chart with its upper left corner at `corner`. Draws nothing if there are no points. An axis is
+    /// logarithmic if its values differ greatly. Values that a logarithmic axis cannot show are omitted.
+    pub fn items(&self, corner: [f64; 2]) -> Vec<Item> {
         let of = |k: usize| self.lines.iter().flat_map(|line| &line.points).map(move |point| point[k]);
         let marks = self.marks.iter().map(|mark| mark.0);
         // An error can be zero, which has no place on a logarithmic axis.
         let positive = of(1).filter(|&value| value > 0.0);
         let (Some(x), Some(y)) = (Axis::over(of(0).chain(marks), None), Axis::over(positive, None)) else {
-            return String::new();
+            return Vec::new();
         };
+        let [left, top] = [corner[0] + LEFT_MARGIN, corner[1] + TOP_MARGIN];
         let [width, height] = PLOT_SIZE;
-        let place = |point: &[f64; 2]| {
-            [LEFT_MARGIN + width * x.place(point[0]), TOP_MARGIN + height * (1.0 - y.place(point[1]))]
-        };
-        let mut svg = format!("<g transform=\"translate({} {})\">\n", number(left), number(top));
-        svg += &text([LEFT_MARGIN, 20.0], "start", " font-size=\"14\" font-weight=\"bold\"", &self.title);
-        let [right, bottom] = [LEFT_MARGIN + width, TOP_MARGIN + height];
+        let [right, bottom] = [left + width, top + height];
+        let column = |value: f64| left + width * x.place(value);
+        let row = |value: f64| top + height * (1.0 - y.place(value));
+        let rule =
+            |from: [f64; 2], to: [f64; 2], style: Style| Item::Outline(vec![Step::Move(from), Step::Line(to)], style);
+        let mut items = vec![bold([left, corner[1] + 20.0], &self.title, 14.0, Anchor::Start, INK)];
         for (value, written) in x.ticks() {
-            let at = place(&[value, 0.0])[0];
-            svg += &rule(&format!("M{} {}V{}", number(at), number(TOP_MARGIN), number(bottom)), FAINT);
-            svg += &text([at, bottom + 17.0], "middle", &tick_style(), &written);
+            let at = column(value);
+            items.push(rule([at, top], [at, bottom], Style::line(FAINT, 1.0)));
+            items.push(label([at, bottom + 17.0], written, TICK_SIZE, Anchor::Middle, GRAY));
         }
         for (value, written) in y.ticks() {
-            let at = TOP_MARGIN + height * (1.0 - y.place(value));
-            svg += &rule(&format!("M{} {}H{}", number(LEFT_MARGIN), number(at), number(right)), FAINT);
-            svg += &text([LEFT_MARGIN - 7.0, at + 4.0], "end", &tick_style(), &written);
+            let at = row(value);
+            items.push(rule([left, at], [right, at], Style::line(FAINT, 1.0)));
+            items.push(label([left - 7.0, at + 4.0], written, TICK_SIZE, Anchor::End, GRAY));
         }
-        svg += &rule(
-            &format!("M{} {}V{}H{}", number(LEFT_MARGIN), number(TOP_MARGIN), number(bottom), number(right)),
-            GRAY,
-        );
-        svg += &text([LEFT_MARGIN + width / 2.0, bottom + 38.0], "middle", "", self.axes[0]);
-        let middle = number(TOP_MARGIN + height / 2.0);
-        svg += &format!(
-            "<text x=\"16\" y=\"{middle}\" text-anchor=\"middle\" transform=\"rotate(-90 16 {middle})\">{}</text>\n",
-            markup(self.axes[1])
-        );
+        let sides = chain([[left, top], [left, bottom], [right, bottom]], false);
+        items.push(Item::Outline(sides, Style::line(GRAY, 1.0)));
+        items.push(label([left + width / 2.0, bottom + 38.0], self.axes[0], NAME_SIZE, Anchor::Middle, INK));
+        items.push(upwards([corner[0] + 16.0, top + height / 2.0], self.axes[1], NAME_SIZE, INK));
         for (value, name) in &self.marks {
-            let at = place(&[*value, 0.0])[0];
-            let path = format!("M{} {}V{}", number(at), number(TOP_MARGIN), number(bottom));
-            svg += &format!("<path d=\"{path}\" stroke=\"{GRAY}\" stroke-dasharray=\"3 3\"/>\n");
-            svg += &text([at - 3.0, TOP_MARGIN + 11.0], "end", &tick_style(), name);
+            let at = column(*value);
+            items.push(rule([at, top], [at, bottom], Style::line(GRAY, 1.0).dashed(&[3.0, 3.0])));
+            items.push(label([at - 3.0, top + 11.0], *name, TICK_SIZE, Anchor::End, GRAY));
         }
         for (k, line) in self.lines.iter().enumerate() {
+            let style = Style { pen: Some(line.pen), ..Style::line(line.pen.color, line.pen.width) };
             let shown = line.points.iter().filter(|point| point[1] > 0.0 || !y.is_logarithmic);
-            svg += &line.svg(&shown.map(place).collect::<Vec<_>>());
-            svg += &line.key([right + 12.0, TOP_MARGIN + 8.0 + NAME_SPACING * k as f64]);
+            let places: Vec<[f64; 2]> = shown.map(|point| [column(point[0]), row(point[1])]).collect();
+            let path = Item::Outline(chain(places.iter().copied(), false), style);
+            items.push(Item::Titled(line.name.clone(), vec![path]));
+            let dots = places.iter().filter(|_| line.dots);
+            items.extend(dots.map(|&at| Item::Disc(at, 2.2, Style::fill(line.pen.color))));
+            let [x, y] = [right + 12.0, top + 8.0 + NAME_SPACING * k as f64];
+            items.push(rule([x, y - 4.0], [x + 22.0, y - 4.0], style));
+            items.push(label([x + 28.0, y], &line.name, NAME_SIZE, Anchor::Start, INK));
         }
-        svg + "</g>\n"
-    }
-}
-
-/// Returns the style of ticks.
-fn tick_style() -> String {
-    format!(" fill=\"{GRAY}\" font-size=\"11\"")
-}
-
-fn rule(path: &str, color: Rgb) -> String {
-    format!("<path fill=\"none\" d=\"{path}\" stroke=\"{color}\"/>\n")
-}
-
-fn text([x, y]: [f64; 2], anchor: &str, style: &str, content: &str) -> String {
-    format!(
-        "<text x=\"{}\" y=\"{}\" text-anchor=\"{anchor}\"{style}>{}</text>\n",
-        number(x),
-        number(y),
-        markup(content)
-    )
-}
-
-impl Line {
-    /// Draws the line through these places.
-    fn svg(&self, places: &[[f64; 2]]) -> String {
-        let mut path = String::new();
-        let mut last = String::new();
-        for [x, y] in places {
-            // Precision of a tenth of a pixel. A point that rounds to the one before is left out.
-            let place = format!("{x:.1} {y:.1}");
-            if place != last {
-                path += &format!("{}{place}", if path.is_empty() { 'M' } else { 'L' });
-            }
-            last = place;
-        }
-        let dots = |[x, y]: &[f64; 2]| {
-            format!("<circle cx=\"{}\" cy=\"{}\" r=\"2.2\" fill=\"{}\"/>\n", number(*x), number(*y), self.color())
-        };
-        let dots: String = if self.dots { places.iter().map(dots).collect() } else { String::new() };
-        format!("<path d=\"{path}\" {}><title>{}</title></path>\n{dots}", self.stroke(), markup(&self.name))
-    }
-
-    /// Draws a sample of the line and its name.
-    fn key(&self, [x, y]: [f64; 2]) -> String {
-        let piece = format!("<path d=\"M{} {}h22\" {}/>\n", number(x), number(y - 4.0), self.stroke());
-        piece + &text([x + 28.0, y], "start", "", &self.name)
-    }
-
-    fn color(&self) -> Rgb {
-        PATH_COLORS[self.pen[0] % PATH_COLORS.len()].0
-    }
-
-    fn stroke(&self) -> String {
-        let dash = DASHES[self.pen[1] % DASHES.len()];
-        let dash = if dash.is_empty() { String::new() } else { format!(" stroke-dasharray=\"{dash}\"") };
-        format!("fill=\"none\" stroke=\"{}\" stroke-width=\"1.6\" stroke-linejoin=\"round\"{dash}", self.color())
+        items
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use cplan_view::Figure;
 
     fn chart(points: &[[f64; 2]]) -> String {
-        let line = Line { name: "<a>".into(), pen: [1, 1], points: points.to_vec(), dots: true };
+        let line = Line { name: "<a>".into(), pen: pen_of(1, 1), points: points.to_vec(), dots: true };
         let axes = ["x", "y"];
-        LineChart { title: "t".into(), axes, lines: vec![line], marks: vec![(1.0, "here")] }.svg([0.0, 0.0])
+        let chart = LineChart { title: "t".into(), axes, lines: vec![line], marks: vec![(1.0, "here")] };
+        Figure { width: 10.0, height: 10.0, items: chart.items([0.0; 2]), is_dark: false }.svg()
     }
 
     /// Returns the centres of the dots.
@@ -182,7 +136,7 @@ mod tests {
             assert!((a[k] + c[k] - 2.0 * b[k]).abs() < 0.02, "{a:?} {b:?} {c:?}");
         }
         assert!(a[0] < c[0] && a[1] < c[1], "sweeps go to the right, small errors lie below");
-        assert!(svg.contains("&lt;a&gt;") && svg.contains("stroke-dasharray=\"7 3\"") && svg.contains(">here<"));
+        assert!(svg.contains("&lt;a&gt;") && svg.contains("stroke-dasharray=\"7 3\"") && svg.contains("here"));
     }
 
     #[test]
@@ -191,6 +145,6 @@ mod tests {
         let svg = chart(&[[1.0, 1.0], [2.0, 1e-3], [3.0, 0.0]]);
         assert_eq!(dots(&svg).len(), 2);
         assert!(!svg.contains("NaN") && !svg.contains("inf"), "{svg}");
-        assert_eq!(chart(&[]), "");
+        assert!(!chart(&[]).contains("<text"));
     }
 }

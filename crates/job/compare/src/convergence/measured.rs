@@ -1,6 +1,6 @@
 //! Measures the convergence of relaxations.
 
-use super::{Convergence, FactorScan, Point, RelaxationRun, StrengthScan, WeightScan};
+use super::{Convergence, ParameterScan, Point, RelaxationRun};
 use cplan_fields::{
     Cell, Difference, Direction, Domain, Ending, Equation, Factor, Lines, Order, RelaxError, Relaxation, Scan,
     Stopping, eliminated, relax, trace,
@@ -83,11 +83,10 @@ pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Conv
             let relaxation = sor(Factor::Given(factor), *order);
             point(factor, domain, equation, &relaxation, stopping)
         };
-        factor_scans.push(FactorScan {
-            equation: name.clone(),
-            formula: at(Factor::Formula.value(domain.cells()))?,
+        factor_scans.push(ParameterScan {
+            formula: Some(at(Factor::Formula.value(domain.cells()))?),
             by_rate: rate.filter(|_| equation.is_monotone()).and_then(best_factor).map(at).transpose()?,
-            points: factors().into_iter().map(at).collect::<Result<_, _>>()?,
+            ..ParameterScan::new(name.clone(), factors().into_iter().map(at).collect::<Result<_, _>>()?)
         });
         progress(&format!("{name}: factors of weighted Jacobi"));
         weight_scans.push(weight_scan(name, domain, equation, stopping)?);
@@ -97,8 +96,9 @@ pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Conv
             let equation = Equation::Oriented { direction: *direction, epsilon, difference };
             point(epsilon, domain, &equation, &Relaxation::gauss_seidel(*order), stopping)
         };
+        let name = format!("oriented, {}", if difference == Difference::Central { "central" } else { "upwind" });
         let points = strengths().into_iter().map(at).collect::<Result<_, _>>()?;
-        Ok(StrengthScan { difference, points })
+        Ok((difference, ParameterScan::new(name, points)))
     };
     progress("strengths of the drift");
     Ok(Convergence {
@@ -122,7 +122,7 @@ fn weight_scan(
     domain: &Domain,
     equation: &Equation,
     stopping: &Stopping,
-) -> Result<WeightScan, RelaxError> {
+) -> Result<ParameterScan, RelaxError> {
     let mut points: Vec<Point> = Vec::new();
     for factor in weights() {
         let point = point(factor, domain, equation, &Relaxation::weighted_jacobi(factor), stopping)?;
@@ -131,7 +131,7 @@ fn weight_scan(
             break;
         }
     }
-    Ok(WeightScan { equation: name.to_owned(), points })
+    Ok(ParameterScan::new(name.to_owned(), points))
 }
 
 /// Returns the best factor of SOR by Young's formula, given Jacobi's rate of convergence. `None` if the rate is not

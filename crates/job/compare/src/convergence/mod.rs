@@ -3,7 +3,7 @@
 //!
 //! ```text
 //! Setup (a domain and equations on it) -> convergence -> Convergence -> table, CSV, JSON
-//!                                                                  \-> charts (SVG) -> page
+//!                                                                  \-> charts -> page
 //! ```
 //!
 //! Measurements come from [`cplan_fields::trace()`], scans from [`cplan_fields::relax()`]. All outputs are pure
@@ -34,14 +34,17 @@ pub struct Convergence {
     /// All relaxations of the first equation, then those of the next one.
     pub runs: Vec<RelaxationRun>,
     /// For each equation, the number of sweeps as a function of the factor of SOR.
-    pub factors: Vec<FactorScan>,
-    /// For each equation, the number of sweeps as a function of the factor of weighted Jacobi.
-    pub weights: Vec<WeightScan>,
+    pub factors: Vec<ParameterScan>,
+    /// For each equation, the number of sweeps as a function of the factor of weighted Jacobi, in steps of 0.05. The scan
+    /// ends at the first factor from 1 on that does not converge, because no greater factor converges. The reason: for each
+    /// eigenvalue `m` of Jacobi's relaxation, a sweep multiplies a part of the error by `1 - w (1 - m)`. Its absolute value
+    /// is convex in the factor `w`, and 1 at `w = 0`.
+    pub weights: Vec<ParameterScan>,
     /// Direction of the drift in the scans over its strength, in grid coordinates; a vector of length 1.
     pub direction: [f64; 2],
-    /// For each discretisation of the drift, the number of sweeps of Gauss-Seidel as a function of the drift's
-    /// strength.
-    pub strengths: Vec<StrengthScan>,
+    /// For each discretisation of the drift, the number of sweeps of Gauss-Seidel as a function of the drift's strength,
+    /// in `epsilon` per cell.
+    pub strengths: Vec<(Difference, ParameterScan)>,
 }
 
 /// A relaxation of an equation, from its start to its end.
@@ -55,43 +58,24 @@ pub struct RelaxationRun {
     pub trace: Trace,
 }
 
-/// Numbers of sweeps for several factors of SOR.
+/// Numbers of sweeps for several values of a parameter.
 #[derive(Debug, Clone, PartialEq)]
-pub struct FactorScan {
+pub struct ParameterScan {
     /// The name of the equation.
     pub equation: String,
+    /// Results for the values of the scan, in ascending order.
+    pub points: Vec<Point>,
     /// The result for the factor `4 / (2 + sqrt(4 - c^2))`, the best one for Laplace's equation in an empty rectangle
-    /// of this many cells. `c` is as in the formula of [`cplan_fields::Factor::Formula`].
-    pub formula: Point,
+    /// of this many cells. `c` is as in the formula of [`cplan_fields::Factor::Formula`]. `None` unless the parameter is the
+    /// factor of SOR.
+    pub formula: Option<Point>,
     /// The result for the factor `2 / (1 + sqrt(1 - r^2))`, where `r` is the measured rate of Jacobi relaxation on this
     /// domain. For consistent orders, such as rows and red-black, this is the best factor if all eigenvalues are real
     /// (Young 1954).
     ///
-    /// `None` if `r` is unknown or not below 1, or the equation is not monotone.
+    /// `None` if `r` is unknown or not below 1, or the equation is not monotone, and unless the parameter is the factor of
+    /// SOR.
     pub by_rate: Option<Point>,
-    /// Results for the factors of the scan, in ascending order.
-    pub points: Vec<Point>,
-}
-
-/// Numbers of sweeps for several factors of weighted Jacobi, in steps of 0.05. The scan ends at the first factor from 1
-/// on that does not converge, because no greater factor converges. The reason: for each eigenvalue `m` of Jacobi's
-/// relaxation, a sweep multiplies a part of the error by `1 - w (1 - m)`. Its absolute value is convex in the factor
-/// `w`, and 1 at `w = 0`.
-#[derive(Debug, Clone, PartialEq)]
-pub struct WeightScan {
-    /// The name of the equation.
-    pub equation: String,
-    /// Results for the factors of the scan, in ascending order.
-    pub points: Vec<Point>,
-}
-
-/// Numbers of sweeps for several strengths of the drift, in `epsilon` per cell.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StrengthScan {
-    /// Discretisation of the drift.
-    pub difference: Difference,
-    /// Results for the strengths of the scan, in ascending order.
-    pub points: Vec<Point>,
 }
 
 /// The result of a relaxation for one value of the varied parameter.
@@ -112,43 +96,27 @@ impl Point {
     }
 }
 
-impl FactorScan {
-    /// Returns the converged point with the fewest sweeps, among the points of the scan, `formula` and `by_rate`. If
-    /// several are equal, returns the one with the least factor.
+impl ParameterScan {
+    fn new(equation: String, points: Vec<Point>) -> Self {
+        Self { equation, points, formula: None, by_rate: None }
+    }
+
+    /// Returns all points: those of the scan, then `formula` and `by_rate`.
+    fn all_points(&self) -> impl Iterator<Item = &Point> {
+        self.points.iter().chain(&self.formula).chain(&self.by_rate)
+    }
+
+    /// Returns the converged point with the fewest sweeps, among all points. If several are equal, returns the one with the
+    /// least value.
     pub fn best(&self) -> Option<Point> {
-        fastest_point(self.points.iter().chain([&self.formula]).chain(&self.by_rate))
-    }
-}
-
-impl WeightScan {
-    /// Returns the converged point with the fewest sweeps. If several are equal, returns the one with the least factor.
-    pub fn best(&self) -> Option<Point> {
-        fastest_point(self.points.iter())
+        let converged = self.all_points().filter(|point| point.converged().is_some()).copied();
+        converged.min_by(|a, b| a.sweeps.cmp(&b.sweeps).then(a.at.total_cmp(&b.at)))
     }
 
-    /// Returns the point with the least factor from which on no relaxation of the scan converges. `None` if the last
-    /// one converges.
+    /// Returns the point with the least value from which on no relaxation of the scan converges. `None` if the last one
+    /// converges.
     pub fn divergence_start(&self) -> Option<Point> {
-        divergence_start(&self.points)
-    }
-}
-
-/// Returns the first point after all converged ones.
-fn divergence_start(points: &[Point]) -> Option<Point> {
-    let after = points.iter().rposition(|point| point.converged().is_some()).map_or(0, |last| last + 1);
-    points.get(after).copied()
-}
-
-/// Returns the converged point with the fewest sweeps. If several are equal, returns the one with the least parameter.
-fn fastest_point<'a>(points: impl Iterator<Item = &'a Point>) -> Option<Point> {
-    let converged = points.filter(|point| point.converged().is_some()).copied();
-    converged.min_by(|a, b| a.sweeps.cmp(&b.sweeps).then(a.at.total_cmp(&b.at)))
-}
-
-impl StrengthScan {
-    /// Returns the point with the least strength from which on no relaxation of the scan converges. `None` if the last
-    /// one converges.
-    pub fn divergence_start(&self) -> Option<Point> {
-        divergence_start(&self.points)
+        let last = self.points.iter().rposition(|point| point.converged().is_some());
+        self.points.get(last.map_or(0, |last| last + 1)).copied()
     }
 }

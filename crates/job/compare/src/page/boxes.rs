@@ -1,7 +1,7 @@
 //! Box plots, one line per planner.
 
 use super::axis::Axis;
-use super::markup::{margin, name_before, number};
+use super::markup::{self, margin, name_before, number};
 use crate::{Comparison, Measure, Spread, Study, labels};
 use cplan_text::{counted, markup};
 
@@ -35,16 +35,10 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     let left = margin(&names.iter().map(String::as_str).collect::<Vec<_>>());
     let x = |value: f64| left + (CHART_WIDTH - left - RIGHT_MARGIN) * axis.place(value);
     let floor = height - AXIS_HEIGHT;
-    let mut svg = format!(
-        "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"Box plots: {}\">\n",
-        number(CHART_WIDTH),
-        number(height),
-        markup(measure.heading())
-    );
+    let mut svg = markup::chart([CHART_WIDTH, height], &format!("Box plots: {}", measure.heading()));
     for (value, text) in axis.ticks() {
-        let at = number(x(value));
-        svg += &format!("<path class=\"grid\" d=\"M{at} {}V{}\"/>", number(TOP_MARGIN), number(floor));
-        svg += &format!("<text class=\"tick\" x=\"{at}\" y=\"{}\">{text}</text>\n", number(floor + 17.0));
+        svg += &format!("<path class=\"grid\" d=\"M{} {}V{}\"/>", number(x(value)), number(TOP_MARGIN), number(floor));
+        svg += &markup::text("tick", [x(value), floor + 17.0], &text);
     }
     let pens = study.comparisons.first().map_or_else(Vec::new, Comparison::pens);
     for (i, (name, values)) in study.planners().into_iter().zip(&values).enumerate() {
@@ -52,8 +46,8 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
         svg += &name_before(&names[i], left - 10.0, middle + 4.0);
         if let Some(spread) = Spread::of(values.iter().copied()) {
             let pen = pens[i].name();
-            svg +=
-                &format!("<g style=\"color: var(--{pen})\"><title>{}</title>", markup(&describe_chart(name, &spread)));
+            let title = markup(&describe_chart(name, &spread));
+            svg += &format!("<g style=\"color: var(--{pen})\"><title>{title}</title>");
             svg += &drawn(&spread, values, middle, &x);
             svg += "</g>\n";
         }

@@ -31,6 +31,7 @@ struct Card {
 
 impl Card {
     fn html(&self) -> String {
+        let [key, title] = purpose_names(self.purpose);
         let path = self.path.map_or_else(String::new, |path| format!(" data-path=\"{path}\""));
         let exact = self
             .exact
@@ -40,10 +41,10 @@ impl Card {
             "<article class=\"card pick\" data-purpose=\"{}\" data-planner=\"{}\"{path} style=\"--pen: var(--{})\">\n<h2>{}</h2>\n\
              <p class=\"planner\">{} {}</p>\n<p class=\"value\"{exact}>{}</p>\n<p class=\"meaning\">{}</p>\n<p class=\"sub\">{}</p>\n{}\
              </article>\n",
-            key(self.purpose),
+            key,
             markup(&self.name),
             self.pen.name(),
-            title(self.purpose),
+            title,
             line_sample(self.pen),
             markup(&self.label),
             markup(&self.value),
@@ -54,21 +55,13 @@ impl Card {
     }
 }
 
-fn title(purpose: Purpose) -> &'static str {
+/// Returns the name of a purpose in attributes, and its title.
+fn purpose_names(purpose: Purpose) -> [&'static str; 2] {
     match purpose {
-        Purpose::Shortest => "Shortest",
-        Purpose::Safest => "Safest",
-        Purpose::Quickest => "Quickest answer",
-        Purpose::FastestMotion => "Quickest motion",
-    }
-}
-
-fn key(purpose: Purpose) -> &'static str {
-    match purpose {
-        Purpose::Shortest => "shortest",
-        Purpose::Safest => "safest",
-        Purpose::Quickest => "quickest",
-        Purpose::FastestMotion => "motion",
+        Purpose::Shortest => ["shortest", "Shortest"],
+        Purpose::Safest => ["safest", "Safest"],
+        Purpose::Quickest => ["quickest", "Quickest answer"],
+        Purpose::FastestMotion => ["motion", "Quickest motion"],
     }
 }
 
@@ -126,7 +119,7 @@ fn fastest_motion(comparison: &Comparison, names: &[String]) -> String {
         let value = row.duration?;
         Some(format!(
             "<p class=\"also\" data-purpose=\"{}\" data-planner=\"{}\" data-value=\"{value}\">Quickest motion: <strong>{}</strong>, {}</p>\n",
-            key(Purpose::FastestMotion),
+            purpose_names(Purpose::FastestMotion)[0],
             markup(&row.planner),
             markup(&names[index]),
             duration(value)

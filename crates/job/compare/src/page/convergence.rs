@@ -11,9 +11,9 @@ impl Convergence {
         let subtitle = format!("Relaxations on {rows} x {columns} cells, {} of them free", self.free);
         let charts = format!(
             "<figure class=\"picture\" tabindex=\"0\"><img alt=\"Errors and sweeps\" src=\"{}\"/></figure>\n",
-            image_source(&self.to_svg(false))
+            image_source(&self.figure().svg())
         );
-        head(&self.title, &subtitle)
+        head(&self.title, &subtitle, "", false)
             + &section("Charts", &charts)
             + &section("Relaxations", &table(&self.table()))
             + &section("Sweeps of SOR by its factor", &table(&self.factor_table()))

@@ -1,7 +1,7 @@
 //! The frame of a chart with two axes.
 
 use super::axis::Axis;
-use super::markup::number;
+use super::markup::{self, number};
 use cplan_text::markup;
 
 /// Width and height of a chart, in pixels.
@@ -22,34 +22,21 @@ pub fn frame(axes: [Axis; 2], titles: [&str; 2], what: &str) -> Frame<impl Fn([f
     let [left, top, right, bottom] = PLOT_MARGINS;
     let [width, height] = [CHART_SIZE[0] - left - right, CHART_SIZE[1] - top - bottom];
     let place = move |[x, y]: [f64; 2]| [left + width * x, top + height * (1.0 - y)];
-    let mut svg = format!(
-        "<svg class=\"chart\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{what}: {} against {}\">\n",
-        number(CHART_SIZE[0]),
-        number(CHART_SIZE[1]),
-        markup(titles[1]),
-        markup(titles[0])
-    );
+    let label = format!("{what}: {} against {}", titles[1], titles[0]);
+    let mut svg = markup::chart(CHART_SIZE, &label);
     let floor = top + height;
     for (value, text) in axes[0].ticks() {
-        let at = number(place([axes[0].place(value), 0.0])[0]);
-        svg += &format!("<path class=\"grid\" d=\"M{at} {}V{}\"/>", number(top), number(floor));
-        svg += &format!("<text class=\"tick\" x=\"{at}\" y=\"{}\">{text}</text>\n", number(floor + 17.0));
+        let x = place([axes[0].place(value), 0.0])[0];
+        svg += &format!("<path class=\"grid\" d=\"M{} {}V{}\"/>", number(x), number(top), number(floor));
+        svg += &markup::text("tick", [x, floor + 17.0], &text);
     }
     for (value, text) in axes[1].ticks() {
         let at = place([0.0, axes[1].place(value)])[1];
         svg += &format!("<path class=\"grid\" d=\"M{} {}H{}\"/>", number(left), number(at), number(left + width));
-        svg += &format!("<text class=\"name\" x=\"{}\" y=\"{}\">{text}</text>\n", number(left - 8.0), number(at + 4.0));
+        svg += &markup::text("name", [left - 8.0, at + 4.0], &text);
     }
-    let middle = number(left + width / 2.0);
-    svg += &format!(
-        "<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>\n",
-        number(CHART_SIZE[1] - 8.0),
-        markup(titles[0])
-    );
-    let beside = number(top + height / 2.0);
-    svg += &format!(
-        "<text class=\"tick\" transform=\"translate(13 {beside}) rotate(-90)\">{}</text>\n",
-        markup(titles[1])
-    );
+    svg += &markup::text("tick", [left + width / 2.0, CHART_SIZE[1] - 8.0], titles[0]);
+    let (beside, title) = (number(top + height / 2.0), markup(titles[1]));
+    svg += &format!("<text class=\"tick\" transform=\"translate(13 {beside}) rotate(-90)\">{title}</text>\n");
     Frame { svg, place }
 }

@@ -14,10 +14,7 @@ const NAME_LINE_HEIGHT: f64 = 13.0;
 pub fn name_before(name: &str, right: f64, middle: f64) -> String {
     let lines = name_lines(name);
     let first = middle - NAME_LINE_HEIGHT * 0.5 * (lines.len() - 1) as f64;
-    let line = |(k, line): (usize, &String)| {
-        let y = number(first + NAME_LINE_HEIGHT * k as f64);
-        format!("<text class=\"name\" x=\"{}\" y=\"{y}\">{}</text>\n", number(right), markup(line))
-    };
+    let line = |(k, line): (usize, &String)| text("name", [right, first + NAME_LINE_HEIGHT * k as f64], line);
     lines.iter().enumerate().map(line).collect()
 }
 
@@ -42,6 +39,17 @@ pub fn margin(names: &[&str]) -> f64 {
     18.0 + 7.4 * longest as f64
 }
 
+/// Writes the beginning of a chart of this size. `label` is for screen readers.
+pub fn chart(size: [f64; 2], label: &str) -> String {
+    let ([width, height], label) = (size.map(number), markup(label));
+    format!("<svg class=\"chart\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{label}\">\n")
+}
+
+/// Writes a text of a chart, which belongs to a class of the style sheet.
+pub fn text(class: &str, [x, y]: [f64; 2], text: &str) -> String {
+    format!("<text class=\"{class}\" x=\"{}\" y=\"{}\">{}</text>\n", number(x), number(y), markup(text))
+}
+
 /// Formats a coordinate with at most two decimals.
 pub fn number(value: f64) -> String {
     let text = format!("{value:.2}");
@@ -56,21 +64,7 @@ pub fn image_source(svg: &str) -> String {
     for byte in svg.bytes() {
         match byte {
             // Characters that are allowed in a URI in double quotes. Blanks and slashes are allowed in data URIs.
-            b'A'..=b'Z'
-            | b'a'..=b'z'
-            | b'0'..=b'9'
-            | b'-'
-            | b'_'
-            | b'.'
-            | b'~'
-            | b' '
-            | b'/'
-            | b':'
-            | b'='
-            | b','
-            | b';'
-            | b'('
-            | b')' => source.push(char::from(byte)),
+            _ if byte.is_ascii_alphanumeric() || b"-_.~ /:=,;()".contains(&byte) => source.push(char::from(byte)),
             _ => source.push_str(&format!("%{byte:02X}")),
         }
     }

@@ -17,9 +17,9 @@ mod ranking;
 
 pub use axis::Axis;
 pub use frame::{Frame, frame};
-pub use markup::{image_source, number, table};
+pub use markup::{chart, image_source, number, table, text};
 pub use overlay::Overlay;
-pub use paths::{PathPictures, SmallPicture};
+pub use paths::PathPictures;
 
 use super::comparison::Comparison;
 use super::measure::Measure;
@@ -53,9 +53,8 @@ impl Page<'_> {
     /// Returns the page. The same data give the same bytes.
     pub fn html(&self) -> String {
         let study = self.study;
-        let additions =
-            Additions { style: &format!("{COMPARISON_STYLE}{}", paths::colors(self.pictures)), has_script: true };
-        let mut html = head_with(&study.title, &self.subtitle(), &additions);
+        let style = format!("{COMPARISON_STYLE}{}", paths::colors(self.pictures));
+        let mut html = head(&study.title, &self.subtitle(), &style, true);
         for alarm in study.alarms() {
             html +=
                 &format!("<p class=\"alarm\" role=\"alert\"><strong>Contradiction.</strong> {}</p>\n", markup(&alarm));
@@ -101,10 +100,7 @@ impl Page<'_> {
         }
         let chart = |measure: Measure| {
             let chart = boxes::chart(self.study, measure)?;
-            Some(format!(
-                "<figure class=\"card\"><figcaption>{}</figcaption>\n{chart}</figure>\n",
-                markup(measure.heading())
-            ))
+            Some(figure(measure.heading(), &chart))
         };
         let charts: String = Measure::ALL.into_iter().filter_map(chart).collect();
         if charts.is_empty() {
@@ -171,23 +167,10 @@ fn script() -> String {
     format!("<script>\n//<![CDATA[\n{SCRIPT}//]]>\n</script>")
 }
 
-/// Parts of a page in addition to the usual style sheet.
-#[derive(Debug, Clone, Copy)]
-pub struct Additions<'a> {
-    /// Further styles.
-    pub style: &'a str,
-    /// True if the page has a script of its own.
-    pub has_script: bool,
-}
-
-/// Returns the head of a page without scripts.
-pub fn head(title: &str, subtitle: &str) -> String {
-    head_with(title, subtitle, &Additions { style: "", has_script: false })
-}
-
-/// Returns the head of a page with further styles, and with a script if it is allowed.
-pub fn head_with(title: &str, subtitle: &str, additions: &Additions) -> String {
-    let scripts = if additions.has_script { "; script-src 'unsafe-inline'" } else { "" };
+/// Returns the beginning of a page, up to its title. `style` is added to the style sheet; the page has scripts if
+/// `has_script` is true.
+pub fn head(title: &str, subtitle: &str, style: &str, has_script: bool) -> String {
+    let scripts = if has_script { "; script-src 'unsafe-inline'" } else { "" };
     format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
@@ -198,7 +181,7 @@ pub fn head_with(title: &str, subtitle: &str, additions: &Additions) -> String {
         markup(subtitle),
         cplan_theme::css(),
         scripts,
-        additions.style
+        style
     )
 }
 
@@ -243,4 +226,9 @@ pub fn section(heading: &str, content: &str) -> String {
 /// Formats a part of a page that is hidden until its heading is clicked.
 pub fn collapsible_section(heading: &str, content: &str) -> String {
     format!("<details><summary>{}</summary>\n{content}</details>\n", markup(heading))
+}
+
+/// Returns a chart with its title.
+pub fn figure(title: &str, chart: &str) -> String {
+    format!("<figure class=\"card\"><figcaption>{}</figcaption>\n{chart}</figure>\n", markup(title))
 }

@@ -1,35 +1,18 @@
 //! Drawings of the paths of one problem.
 
 use super::markup::number;
-use crate::words::capitalized;
 use cplan_text::markup;
 use cplan_theme::{PlannerPen, Rgb, on_dark};
+use cplan_view::ComparedPaths;
+use cplan_view::output::names::capitalized;
 
-/// Drawings of all paths of one problem. Their colours are variables of the page's style sheet.
+/// Drawings of all paths of one problem.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PathPictures {
     /// Index of the problem in the study.
     pub problem: usize,
-    /// Workspace and configuration space as SVG elements. Parts with `data-path` belong to the path with this index,
-    /// counted among the rows that have a path.
-    pub large: [String; 2],
-    /// Workspace and configuration space in small.
-    pub small: [SmallPicture; 2],
-    /// Colours on a light background that the style sheet must define. The variable of `#rrggbb` is `--xrrggbb`.
-    pub colors: Vec<Rgb>,
-}
-
-/// The parts of a small drawing.
-#[derive(Debug, Clone, PartialEq)]
-pub struct SmallPicture {
-    /// Width and height, in pixels.
-    pub size: [f64; 2],
-    /// Everything below the paths, as SVG elements.
-    pub ground: String,
-    /// Data of each path.
-    pub paths: Vec<String>,
-    /// Everything above the paths, as SVG elements.
-    pub markers: String,
+    /// The drawings. Their paths are counted among the rows that have a path.
+    pub drawn: ComparedPaths,
 }
 
 /// Names of the two drawings, for screen readers.
@@ -39,7 +22,7 @@ impl PathPictures {
     /// Returns the parts that all small pictures of this problem share. The page must have them once.
     pub fn shared_parts(&self) -> String {
         let mut html = String::from("<svg class=\"shared\" width=\"0\" height=\"0\" aria-hidden=\"true\">\n");
-        for (panel, small) in self.small.iter().enumerate() {
+        for (panel, small) in self.drawn.small.iter().enumerate() {
             let [width, height] = small.size.map(number);
             for (part, content) in [("ground", &small.ground), ("markers", &small.markers)] {
                 html += &format!(
@@ -53,7 +36,7 @@ impl PathPictures {
 
     /// Draws a path in small, in the workspace (0) or in the configuration space (1).
     pub fn small(&self, panel: usize, path: usize, pen: PlannerPen, label: &str) -> String {
-        let small = &self.small[panel];
+        let small = &self.drawn.small[panel];
         let Some(data) = small.paths.get(path) else { return String::new() };
         let [width, height] = small.size.map(number);
         let name = if label.is_empty() {
@@ -82,7 +65,7 @@ impl PathPictures {
         };
         format!(
             "<div class=\"spaces\">\n{}</div>\n",
-            self.large.iter().zip(PANEL_NAMES).map(figure).collect::<String>()
+            self.drawn.large.iter().zip(PANEL_NAMES).map(figure).collect::<String>()
         )
     }
 }
@@ -90,7 +73,7 @@ impl PathPictures {
 /// Returns the style sheet that defines the colours of drawings, light or dark as the page is.
 pub fn colors(pictures: &[PathPictures]) -> String {
     let mut all: Vec<Rgb> = Vec::new();
-    for &color in pictures.iter().flat_map(|picture| &picture.colors) {
+    for &color in pictures.iter().flat_map(|picture| &picture.drawn.colors) {
         if !all.contains(&color) {
             all.push(color);
         }

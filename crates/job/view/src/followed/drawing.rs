@@ -3,7 +3,7 @@
 use super::LineView;
 use super::view::color;
 use crate::arm::{self, GHOST_LOOK, UNREACHED_LOOK};
-use crate::axes::Frame;
+use crate::axes::{Frame, span};
 use crate::blocking::cross;
 use crate::chart::Chart;
 use crate::figure::{Item, Pen, Rect, Step, Style, chain, lines, rectangle};
@@ -164,16 +164,11 @@ pub fn solution_names(line: &LineView, chart: &Chart) -> Vec<Named> {
         .filter_map(|solution| {
             let own = line.solutions.iter().filter(|part| part.solution == solution);
             let spots: Vec<[f64; 2]> = own.flat_map(|part| &part.points).map(|q| chart.place(*q)).collect();
-            Some((line.solution_name(solution), bounding_rect(&spots)?))
+            let [(x, right), (y, bottom)] = [0, 1].map(|k| span(spots.iter().map(|spot| spot[k])));
+            let rect = Rect { x, y, width: right - x, height: bottom - y };
+            (!spots.is_empty()).then(|| (line.solution_name(solution), rect))
         })
         .collect()
-}
-
-/// Returns the box around places on the page.
-fn bounding_rect(spots: &[[f64; 2]]) -> Option<Rect> {
-    let end = |k: usize, pick: fn(f64, f64) -> f64| spots.iter().map(|spot| spot[k]).reduce(pick);
-    let [x, y] = [end(0, f64::min)?, end(1, f64::min)?];
-    Some(Rect { x, y, width: end(0, f64::max)? - x, height: end(1, f64::max)? - y })
 }
 
 /// Returns the legend of the line.

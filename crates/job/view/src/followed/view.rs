@@ -3,8 +3,10 @@
 use super::limits::ActiveLimit;
 use super::played::is_smooth;
 use super::solutions::other_solution;
-use super::{FollowedMotion, LineSettings, SolutionPart, solutions};
+use super::{FollowedMotion, LineSettings, SolutionPart, Stretch, solutions};
+use crate::axes::span;
 use crate::view::{Chain, Clock, RoundingSteps};
+use crate::{Object, object};
 use cplan_geometry::Point;
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Scene};
@@ -142,11 +144,7 @@ impl LineView {
     /// Sets the magnified part of a workspace with this visible part. Without a motion, nothing is magnified.
     pub(crate) fn focus_within(&mut self, frame: [[f64; 2]; 2], arm: &Arm) {
         let Some(pose) = self.pose else { return };
-        let points = || self.strokes.iter().flatten();
-        let range = |k: usize| {
-            points().fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], p| [low.min(p[k]), high.max(p[k])])
-        };
-        let ranges = [range(0), range(1)];
+        let ranges = [0, 1].map(|k| <[f64; 2]>::from(span(self.strokes.iter().flatten().map(|p| p[k]))));
         let extents = ranges.map(|[low, high]: [f64; 2]| high - low);
         // The axis along which there is more room.
         let free = usize::from(extents[1] < extents[0]);
@@ -227,112 +225,62 @@ pub fn color(limit: ActiveLimit) -> Rgb {
     }
 }
 
-/// The line as pages read it.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct LineDocument {
-    strokes: Vec<Chain>,
-    /// The exact curves: two ends; centre, radius, direction and angle; or four control points.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    curves: Vec<Vec<f64>>,
-    tolerance: f64,
-    /// Radius of the lens, metres.
-    lens: f64,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    at: Option<[f64; 2]>,
-    excluded: Vec<[f64; 2]>,
-    solutions: Vec<SolutionDocument>,
-    /// Names of the IK solutions.
-    names: Vec<String>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    motion: Option<MotionDocument>,
-    #[serde(skip_serializing_if = "Option::is_none")]
-    focus: Option<Focus>,
-    /// True if the motion between samples has degree five.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
-    smooth: bool,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct SolutionDocument {
-    solution: usize,
-    excluded: bool,
-    points: Chain,
-}
-
-#[derive(Debug, Clone, PartialEq, Serialize)]
-struct MotionDocument {
-    /// Proven bound on the distance from the line, metres.
-    deviation: f64,
-    /// Time and distance of the place that is farthest from the line.
-    farthest: [f64; 2],
-    /// Names and colours of the limits.
-    limits: Vec<(String, String)>,
-    /// Ends of stretches in seconds, each with the index of its limit.
-    stretches: Vec<(f64, usize)>,
-    stops: Vec<f64>,
-    /// Least and greatest distance to the left of the line in equal intervals of time, in thousandths of the tolerance.
-    deviations: Vec<[i64; 2]>,
-    /// Times and speeds of the tip.
-    speeds: Chain,
-}
-
 /// Rounds to nanometres, or to nanoseconds.
 fn fine(value: f64) -> f64 {
     (value * 1e9).round() / 1e9 + 0.0
 }
 
-impl LineDocument {
-    pub fn new(line: &LineView, grain: RoundingSteps) -> Self {
-        let flat = |curve: &Curve| -> Vec<f64> {
-            match *curve {
-                Curve::Line { from, to } => [from, to].concat(),
-                Curve::Arc { center, radius, from, by, growth: 0.0 } => vec![center[0], center[1], radius, from, by],
-                Curve::Arc { center, radius, from, by, growth } => vec![center[0], center[1], radius, from, by, growth],
-                Curve::Cubic(points) => points.concat(),
-            }
-        };
-        let has_curves = line.motion.is_some() && line.curves.len() <= MAX_EXACT_PIECES;
-        let shown = if has_curves { &line.curves[..] } else { &[] };
-        let count = line.solutions.iter().map(|part| part.solution + 1).max().unwrap_or(0);
-        Self {
-            strokes: line.strokes.iter().map(|stroke| Chain(grain.points(stroke))).collect(),
-            curves: shown.iter().map(|curve| flat(curve).into_iter().map(fine).collect()).collect(),
-            tolerance: line.tolerance,
-            lens: LENS_TOLERANCES * line.tolerance,
-            at: line.place.map(|at| grain.point(at).into()),
-            excluded: line.excluded.iter().map(|&q| grain.configuration(q)).collect(),
-            solutions: line
-                .solutions
-                .iter()
-                .map(|part| SolutionDocument {
-                    solution: part.solution,
-                    excluded: part.is_excluded,
-                    points: grain.configurations(&part.points),
-                })
-                .collect(),
-            names: (0..count).map(|solution| line.solution_name(solution)).collect(),
-            motion: line.motion.as_ref().map(|(motion, deviation)| MotionDocument::new(line, motion, *deviation)),
-            focus: line.focus,
-            smooth: line.is_smooth,
+/// Returns the line for pages. `curves` has the exact curves: two ends; centre, radius, direction and angle; or four control
+/// points. `lens` is the radius of the lens, and `smooth` is true if the motion between samples has degree five.
+pub fn document(line: &LineView, grain: RoundingSteps) -> Object {
+    let flat = |curve: &Curve| -> Vec<f64> {
+        match *curve {
+            Curve::Line { from, to } => [from, to].concat(),
+            Curve::Arc { center, radius, from, by, growth: 0.0 } => vec![center[0], center[1], radius, from, by],
+            Curve::Arc { center, radius, from, by, growth } => vec![center[0], center[1], radius, from, by, growth],
+            Curve::Cubic(points) => points.concat(),
         }
-    }
+    };
+    let exact = |curve| flat(curve).into_iter().map(fine).collect();
+    let curves: Vec<Vec<f64>> = line.curves.iter().map(exact).collect();
+    let has_curves = line.motion.is_some() && (1..=MAX_EXACT_PIECES).contains(&curves.len());
+    let count = line.solutions.iter().map(|part| part.solution + 1).max().unwrap_or(0);
+    let solution = |part: &SolutionPart| {
+        let points = grain.configurations(&part.points);
+        object!("solution": part.solution, "excluded": part.is_excluded, "points": points)
+    };
+    object!(
+        "strokes": line.strokes.iter().map(|stroke| Chain(grain.points(stroke))).collect::<Vec<_>>(),
+        "curves": has_curves.then_some(curves),
+        "tolerance": line.tolerance,
+        "lens": LENS_TOLERANCES * line.tolerance,
+        "at": line.place.map(|at| grain.point(at)),
+        "excluded": line.excluded.iter().map(|&q| grain.configuration(q)).collect::<Vec<_>>(),
+        "solutions": line.solutions.iter().map(solution).collect::<Vec<_>>(),
+        "names": (0..count).map(|solution| line.solution_name(solution)).collect::<Vec<_>>(),
+        "motion": line.motion.as_ref().map(|(motion, deviation)| motion_document(line, motion, *deviation)),
+        "focus": line.focus,
+        "smooth": line.is_smooth.then_some(true),
+    )
 }
 
-impl MotionDocument {
-    fn new(line: &LineView, motion: &FollowedMotion, deviation: f64) -> Self {
-        let limits = line.limits();
-        let index = |limit: ActiveLimit| limits.iter().position(|(known, ..)| *known == limit).unwrap_or_default();
-        let share = |offset: f64| (1000.0 * offset / line.tolerance).round() as i64;
-        let point =
-            |&[time, speed]: &[f64; 2]| Configuration::new((time * 1e4).round() / 1e4, (speed * 1e5).round() / 1e5);
-        Self {
-            deviation,
-            farthest: [motion.farthest.time, motion.farthest.offset].map(fine),
-            stretches: motion.stretches.iter().map(|s| ((s.to * 1e5).round() / 1e5, index(s.limit))).collect(),
-            stops: motion.stops.iter().map(|time| fine(*time)).collect(),
-            deviations: motion.deviations.iter().map(|ends| ends.map(share)).collect(),
-            speeds: Chain(motion.speeds.iter().map(point).collect()),
-            limits: limits.into_iter().map(|(_, name, color)| (name, color.to_string())).collect(),
-        }
-    }
+/// Returns the motion for pages: `deviation` is the proven bound on its distance from the line, `farthest` has time and
+/// distance of the place that is farthest from the line, `stretches` has their ends, each with the index of its limit, and
+/// `deviations` the least and greatest distance to the left of the line in equal intervals of time, in thousandths of the
+/// tolerance.
+fn motion_document(line: &LineView, motion: &FollowedMotion, deviation: f64) -> Object {
+    let limits = line.limits();
+    let index = |limit: ActiveLimit| limits.iter().position(|(known, ..)| *known == limit).unwrap_or_default();
+    let share = |offset: f64| (1000.0 * offset / line.tolerance).round() as i64;
+    let point = |&[time, speed]: &[f64; 2]| Configuration::new((time * 1e4).round() / 1e4, (speed * 1e5).round() / 1e5);
+    let stretch = |stretch: &Stretch| ((stretch.to * 1e5).round() / 1e5, index(stretch.limit));
+    object!(
+        "deviation": deviation,
+        "farthest": [motion.farthest.time, motion.farthest.offset].map(fine),
+        "limits": limits.iter().map(|(_, name, color)| (name, color.to_string())).collect::<Vec<_>>(),
+        "stretches": motion.stretches.iter().map(stretch).collect::<Vec<_>>(),
+        "stops": motion.stops.iter().map(|time| fine(*time)).collect::<Vec<_>>(),
+        "deviations": motion.deviations.iter().map(|ends| ends.map(share)).collect::<Vec<_>>(),
+        "speeds": Chain(motion.speeds.iter().map(point).collect()),
+    )
 }

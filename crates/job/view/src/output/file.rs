@@ -1,12 +1,9 @@
 //! Files of a plan.
 
-use super::cspace::{CSpaceFormat, cspaces};
-use super::picture::{PictureFormat, PictureFormatError, view, view_with_replay};
-#[cfg(feature = "mcap")]
-use super::stage::stage;
+use super::cspace::CSpaceFormat;
+use super::picture::{PictureFormat, PictureFormatError};
 use crate::DrawError;
-use cplan_engine::Plan;
-use cplan_motion::{Format, FormatError, WriteError, write_whole};
+use cplan_motion::{Format, FormatError, WriteError};
 use std::path::Path;
 use thiserror::Error;
 
@@ -62,34 +59,4 @@ impl FileFormat {
             Err(PictureFormatError::Unknown { .. }) => Ok(Self::Result(Format::from_path(path)?)),
         }
     }
-}
-
-/// Returns the plan as a file of this format. Returns `None` if the format contains only a trajectory or a grid, and
-/// the plan has neither. All formats except MCAP, PNG and GIF are text in UTF-8.
-///
-/// # Errors
-/// A picture that cannot be rendered.
-pub fn bytes(plan: &Plan, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
-    match format {
-        #[cfg(feature = "mcap")]
-        FileFormat::Result(Format::Mcap) => Ok(stage(plan).and_then(|stage| plan.recording(Some(&stage)))),
-        FileFormat::Result(format) => Ok(plan.encoded(format)),
-        FileFormat::CSpace(format) => Ok(format.text(&cspaces(plan)).map(String::into_bytes)),
-        FileFormat::Picture(format) if format.is_animated() => format.bytes(&view_with_replay(plan)).map(Some),
-        FileFormat::Picture(format) => format.bytes(&view(plan)).map(Some),
-    }
-}
-
-/// Writes the plan into a file, completely or not at all. The extension determines the content, see
-/// [`FileFormat::from_path`].
-///
-/// # Errors
-/// An unknown extension, a missing trajectory or grid, a picture that cannot be made, and I/O errors.
-pub fn save(plan: &Plan, path: &Path) -> Result<(), SaveError> {
-    let format = FileFormat::from_path(path)?;
-    let Some(contents) = bytes(plan, format)? else {
-        let content = if let FileFormat::CSpace(_) = format { "grid" } else { "trajectory" };
-        return Err(SaveError::Empty { file: path.display().to_string(), content });
-    };
-    Ok(write_whole(path, &contents)?)
 }

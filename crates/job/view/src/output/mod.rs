@@ -26,6 +26,9 @@ pub use summary::{Line, configuration, format_columns, goal_lines, range, summar
 
 use crate::{DrawError, View};
 use cplan_engine::Plan;
+#[cfg(feature = "mcap")]
+use cplan_motion::Format;
+use cplan_motion::write_whole;
 use std::path::Path;
 
 /// The forms in which a [`Plan`] can be written.
@@ -74,19 +77,38 @@ impl PlanOutput for Plan {
     }
 
     fn bytes(&self, format: FileFormat) -> Result<Option<Vec<u8>>, DrawError> {
-        file::bytes(self, format)
+        match format {
+            #[cfg(feature = "mcap")]
+            FileFormat::Result(Format::Mcap) => Ok(stage::stage(self).and_then(|stage| self.recording(Some(&stage)))),
+            FileFormat::Result(format) => Ok(self.encoded(format)),
+            FileFormat::CSpace(format) => Ok(format.text(&self.cspaces()).map(String::into_bytes)),
+            FileFormat::Picture(format) if format.is_animated() => format.bytes(&self.view_with_replay()).map(Some),
+            FileFormat::Picture(format) => format.bytes(&self.view()).map(Some),
+        }
     }
 
     fn save(&self, path: impl AsRef<Path>) -> Result<(), SaveError> {
-        file::save(self, path.as_ref())
+        let path = path.as_ref();
+        let format = FileFormat::from_path(path)?;
+        let Some(contents) = self.bytes(format)? else {
+            let content = if let FileFormat::CSpace(_) = format { "grid" } else { "trajectory" };
+            return Err(SaveError::Empty { file: path.display().to_string(), content });
+        };
+        Ok(write_whole(path, &contents)?)
     }
 
     fn view(&self) -> View {
-        picture::view(self)
+        let mut view = view_with(self, picture::contours_of(self.options()));
+        if let Some((problem, answer)) = self.motion()
+            && let Some(set) = motion_summary::blocking(problem, answer)
+        {
+            view.title.insert(0, format!("No path: {}", names::blame_in_words(problem.scene(), &set)));
+        }
+        view
     }
 
     fn view_with_replay(&self) -> View {
-        picture::view_with_replay(self)
+        replayed(self, self.view())
     }
 
     fn svg(&self) -> String {

@@ -106,6 +106,12 @@ pub fn noun(kind: &str, name: &str) -> String {
     }
 }
 
+/// Returns the text with a capital first letter.
+pub fn capitalized(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 /// Returns the verb for a number of subjects.
 pub fn is_or_are(count: usize) -> &'static str {
     if count == 1 { "is" } else { "are" }

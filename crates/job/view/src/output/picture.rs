@@ -1,9 +1,8 @@
 //! Pictures and pages of a plan.
 
-use super::motion_summary::{blocking, second_attempt};
-use super::names::blame_in_words;
+use super::motion_summary::second_attempt;
 use super::summary::facts;
-use crate::{DrawError, KeyFigures, Moments, Picture, TaskPicture, View};
+use crate::{DrawError, Figure, KeyFigures, Moments, Picture, TaskPicture, View};
 use cplan_engine::{Detail, Motion, Plan};
 use cplan_handling::{Task, TimedScene};
 use cplan_legs::TaskAnswer;
@@ -82,14 +81,11 @@ impl PictureFormat {
     /// Returns true if the format can show how the planner found its answer. A view for it should have a replay
     /// (`PlanOutput::view_with_replay`).
     pub fn is_animated(self) -> bool {
-        match self {
-            Self::Svg => false,
-            #[cfg(feature = "png")]
-            Self::Png => false,
-            #[cfg(feature = "png")]
-            Self::Gif => true,
-            Self::Html => true,
-        }
+        #[cfg(feature = "png")]
+        let is_still = matches!(self, Self::Svg | Self::Png);
+        #[cfg(not(feature = "png"))]
+        let is_still = self == Self::Svg;
+        !is_still
     }
 
     /// Returns the file's content.
@@ -110,41 +106,29 @@ impl PictureFormat {
         match self {
             #[cfg(feature = "png")]
             Self::Gif => crate::gif(view, GIF_WIDTH, progress),
-            _ => self.bytes_of(|| crate::svg(view), || crate::page(view)),
+            _ => self.bytes_of(|| crate::figure(view), || crate::page(view)),
         }
     }
 
-    /// Returns the content of a file that shows anything for which there are an SVG document and a page. A GIF has a
-    /// single picture.
+    /// Returns the content of a file that shows anything for which there are a figure and a page. A GIF has a single
+    /// picture.
     ///
     /// # Errors
     /// A picture that cannot be rendered.
-    pub fn bytes_of(self, svg: impl FnOnce() -> String, page: impl FnOnce() -> String) -> Result<Vec<u8>, DrawError> {
+    pub fn bytes_of(
+        self,
+        figure: impl FnOnce() -> Figure,
+        page: impl FnOnce() -> String,
+    ) -> Result<Vec<u8>, DrawError> {
         Ok(match self {
-            Self::Svg => svg().into_bytes(),
+            Self::Svg => figure().svg().into_bytes(),
             #[cfg(feature = "png")]
-            Self::Png => crate::png(&svg(), PNG_SCALE)?,
+            Self::Png => figure().png(PNG_SCALE)?,
             #[cfg(feature = "png")]
-            Self::Gif => crate::still_gif(&svg(), GIF_WIDTH)?,
+            Self::Gif => figure().gif(GIF_WIDTH)?,
             Self::Html => page().into_bytes(),
         })
     }
-}
-
-/// Returns the content of its pictures and pages.
-pub fn view(plan: &Plan) -> View {
-    let mut view = view_with(plan, contours_of(plan.options()));
-    if let Some((problem, answer)) = plan.motion()
-        && let Some(set) = blocking(problem, answer)
-    {
-        view.title.insert(0, format!("No path: {}", blame_in_words(problem.scene(), &set)));
-    }
-    view
-}
-
-/// Returns the view with a replay of the planner, for pictures and pages that play.
-pub fn view_with_replay(plan: &Plan) -> View {
-    replayed(plan, view(plan))
 }
 
 /// Adds a replay of the planner to a view.
@@ -286,7 +270,7 @@ fn contours_in_time(TimedScene { scene, trajectories }: TimedScene, [from, to]: 
 }
 
 /// Returns the function that traces the C-obstacles of a plan for its pictures.
-fn contours_of(options: &Options) -> fn(&Scene) -> Vec<CObstacle> {
+pub(super) fn contours_of(options: &Options) -> fn(&Scene) -> Vec<CObstacle> {
     if options.planner.is_exact() { exact_contours } else { contours }
 }
 

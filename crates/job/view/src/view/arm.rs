@@ -1,65 +1,12 @@
 //! The arm in the document: all data needed to place it in any configuration.
 
-use super::numbers::{RoundingSteps, ShapeView};
-use crate::chart;
+use super::numbers::{RoundingSteps, with_shape};
+use crate::{Object, chart, object};
 use cplan_geometry::{Convex, cross};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, JointType, Part, Plane, Scene};
 use nalgebra::Vector3;
 use serde::{Serialize, Serializer};
-
-#[derive(Serialize)]
-struct JointView<'a> {
-    name: &'a str,
-    /// Unit: `rad` or `m`.
-    unit: &'static str,
-    /// Sign of a revolute joint: +1 or -1. `None` for a prismatic joint.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    sign: Option<f64>,
-    /// Direction of a prismatic joint. `None` for a revolute joint.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    direction: Option<[f64; 2]>,
-    /// Least and greatest value on the axis.
-    domain: [f64; 2],
-    /// True if the joint is a circle, so that both ends of the domain are the same position.
-    circle: bool,
-    velocity: f64,
-    acceleration: f64,
-    /// Effort limit. `None` if motions need not respect it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    torque: Option<f64>,
-}
-
-#[derive(Serialize)]
-struct LinkView<'a> {
-    name: &'a str,
-    parts: Vec<PartView<'a>>,
-}
-
-#[derive(Serialize)]
-struct PartView<'a> {
-    body: &'a str,
-    #[serde(flatten)]
-    shape: ShapeView,
-}
-
-/// The arm as pages read it; see [`Arm`] for the kinematics.
-#[derive(Serialize)]
-struct ArmView<'a> {
-    name: &'a str,
-    kind: &'static str,
-    joints: [JointView<'a>; 2],
-    /// True if both axes of the configuration space have the same scale.
-    one_scale: bool,
-    links: [LinkView<'a>; 2],
-    base: [f64; 2],
-    offset: [f64; 2],
-    tip: [f64; 2],
-    /// Region that the tip can never leave.
-    reach: ShapeView,
-    /// Names of the plane's coordinates.
-    plane: [String; 2],
-}
 
 /// Returns a scene's arm without its payload.
 pub fn empty_handed(scene: &Scene, grain: RoundingSteps) -> Arm {
@@ -71,45 +18,47 @@ pub fn empty_handed(scene: &Scene, grain: RoundingSteps) -> Arm {
     arm
 }
 
-/// Serialises an arm for pages.
-pub fn document<'a, S: Serializer>(arm: &'a Arm, serializer: S) -> Result<S::Ok, S::Error> {
+/// Serialises an arm for pages. Of a joint, `sign` is +1 or -1 if it is revolute, and `direction` is that of a prismatic
+/// one; `torque` is its effort limit, if motions respect it. Its numbers are not rounded, because pages multiply and add
+/// them.
+pub fn document<S: Serializer>(arm: &Arm, serializer: S) -> Result<S::Ok, S::Error> {
+    let part = |part: &Part| with_shape(object!("body": part.body), &part.shape);
     let link = |k: usize| {
-        let part = |part: &'a Part| PartView { body: &part.body, shape: ShapeView(part.shape.clone()) };
-        LinkView { name: &arm.links[k].name, parts: arm.links[k].parts.iter().map(part).collect() }
+        let link = &arm.links[k];
+        object!("name": link.name, "parts": link.parts.iter().map(part).collect::<Vec<_>>())
     };
-    let document = ArmView {
-        name: &arm.name,
-        kind: arm.kind(),
-        joints: [0, 1].map(|k| joint(arm, k)),
-        one_scale: chart::one_scale(arm).is_some(),
-        links: [link(0), link(1)],
-        base: [arm.base.x, arm.base.y],
-        offset: [arm.offset.x, arm.offset.y],
-        tip: [arm.tip.x, arm.tip.y],
-        reach: ShapeView(reach_shape(arm)),
-        plane: titles(&arm.plane),
+    let joint = |k: usize| {
+        let joint = &arm.joints[k];
+        let (sign, direction) = match joint.joint_type {
+            JointType::Revolute { sign } => (Some(sign), None),
+            JointType::Prismatic { direction } => (None, Some(direction)),
+        };
+        object!(
+            "name": joint.name,
+            "unit": joint.unit(),
+            "sign": sign,
+            "direction": direction,
+            "domain": joint.range.domain(),
+            "circle": joint.range.is_circle(),
+            "velocity": joint.velocity,
+            "acceleration": joint.acceleration,
+            "torque": arm.dynamics.filter(|dynamics| dynamics.limits).map(|dynamics| dynamics.effort[k]),
+        )
     };
+    let document = object!(
+        "name": arm.name,
+        "kind": arm.kind(),
+        "joints": [joint(0), joint(1)],
+        "one_scale": chart::one_scale(arm).is_some(),
+        "links": [link(0), link(1)],
+        "base": arm.base,
+        "offset": arm.offset,
+        "tip": arm.tip,
+        // The region that the tip can never leave.
+        "reach": with_shape(Object::default(), &reach_shape(arm)),
+        "plane": titles(&arm.plane),
+    );
     document.serialize(serializer)
-}
-
-/// Returns a joint for pages. Its numbers are not rounded, because pages multiply and add them.
-fn joint(arm: &Arm, k: usize) -> JointView<'_> {
-    let joint = &arm.joints[k];
-    let (sign, direction) = match joint.joint_type {
-        JointType::Revolute { sign } => (Some(sign), None),
-        JointType::Prismatic { direction } => (None, Some([direction.x, direction.y])),
-    };
-    JointView {
-        name: &joint.name,
-        unit: joint.unit(),
-        sign,
-        direction,
-        domain: joint.range.domain().into(),
-        circle: joint.range.is_circle(),
-        velocity: joint.velocity,
-        acceleration: joint.acceleration,
-        torque: arm.dynamics.filter(|dynamics| dynamics.limits).map(|dynamics| dynamics.effort[k]),
-    }
 }
 
 /// Returns the names of the plane's coordinates: those of the root frame's axes if they are parallel to them.

@@ -1,15 +1,16 @@
 //! The content of pictures and pages.
 
 use super::arm;
-use super::height::{HeightView, TurnsView};
+use super::height::TurnsView;
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::Chain;
 use super::phase::{MotionReplayView, PhaseView};
 use super::steps::Row;
 use super::strip::StripView;
-use super::tool_angle::ToolAngleView;
+use super::tool_angle;
 use super::trace::TraceView;
 use super::world::{ObstacleView, WorldView};
+use crate::Object;
 use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
 use crate::flow::FieldLines;
@@ -88,13 +89,13 @@ pub struct View {
     pub(crate) strip: Option<StripView>,
     /// The strip of the tool's height. `None` unless the tool is lowered.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) height: Option<HeightView>,
+    pub(super) height: Option<Object>,
     /// The strip of the wrist's turns. `None` unless it turns.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) turns: Option<TurnsView>,
     /// The strip of the tool's angle along lines. `None` unless a wrist turns the tool there.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub(super) tool: Option<ToolAngleView>,
+    pub(super) tool: Option<Object>,
     /// The phases of the planner's search, in order.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub(crate) replay: Vec<PhaseView>,
@@ -228,7 +229,7 @@ impl View {
     /// Returns the view with the angle of a tool that this joint turns during a motion.
     #[must_use]
     pub fn with_tool(mut self, arm: &Arm, joint: &WristJoint, trajectory: &Trajectory) -> Self {
-        self.tool = ToolAngleView::of_line(arm, joint, trajectory);
+        self.tool = tool_angle::of_line(arm, joint, trajectory);
         self
     }
 

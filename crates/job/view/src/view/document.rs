@@ -4,10 +4,8 @@ use super::content::{StillContent, View};
 use super::numbers::RoundingSteps;
 use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
-use crate::followed::LineDocument;
-use crate::key::KeyView;
-use crate::legend;
 use crate::section::{self, Section};
+use crate::{Object, followed, legend};
 use serde::Serialize;
 
 /// The data of a page: a view, its legend, the obstacles that block the motion, the sections of companions, the findings
@@ -16,7 +14,7 @@ use serde::Serialize;
 struct Document<'a> {
     #[serde(flatten)]
     view: &'a View,
-    legend: Vec<KeyView>,
+    legend: Vec<Object>,
     #[serde(skip_serializing_if = "Option::is_none")]
     stuck: Option<&'a BlockingView>,
     #[serde(flatten, serialize_with = "section::by_name")]
@@ -24,7 +22,7 @@ struct Document<'a> {
     #[serde(skip_serializing_if = "Option::is_none")]
     checked: Option<&'a CheckedView>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    line: Option<LineDocument>,
+    line: Option<Object>,
 }
 
 impl View {
@@ -33,7 +31,7 @@ impl View {
     /// # Panics
     /// Never: all keys are strings.
     pub fn json(&self) -> String {
-        let line = self.still.line.as_ref().map(|line| LineDocument::new(line, RoundingSteps::of(&self.arm)));
+        let line = self.still.line.as_ref().map(|line| followed::document(line, RoundingSteps::of(&self.arm)));
         let StillContent { stuck, sections, checked, .. } = &self.still;
         let (stuck, checked) = (stuck.as_ref(), checked.as_ref());
         let document = Document { view: self, legend: legend::on_pages(self), stuck, sections, checked, line };

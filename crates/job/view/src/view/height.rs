@@ -1,6 +1,7 @@
 //! The strips of the tool's height and of the wrist's turns against time.
 
 use super::numbers::{Chain, number};
+use crate::{Object, object};
 use cplan_handling::Task;
 use cplan_legs::{Event, Leg, TimedTurn};
 use cplan_model::space::Configuration;
@@ -11,44 +12,33 @@ use serde::Serialize;
 /// Number of lines that show a phase of constant jerk.
 const LINES_PER_PHASE: u32 = 8;
 
-/// The height of the tool against time.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct HeightView {
-    /// Name of the joint that lowers the tool.
-    pub joint: String,
-    /// Duration of the task, in seconds.
-    pub duration: f64,
-    /// Times in seconds and values of the joint in millimetres.
-    pub motion: Chain,
+/// Returns times that divide each phase of constant jerk into equal parts, with the ends of their phase. `first` is 0 to
+/// include the beginning of each phase, otherwise 1.
+fn divided(phases: &[[f64; 3]], first: u32) -> impl Iterator<Item = (f64, [[f64; 3]; 2])> {
+    phases.windows(2).flat_map(move |phase| {
+        let ends @ [[since, ..], [until, ..]] = [phase[0], phase[1]];
+        let time = move |line| since + (until - since) * f64::from(line) / f64::from(LINES_PER_PHASE);
+        (first..=LINES_PER_PHASE).map(move |line| (time(line), ends))
+    })
 }
 
-impl HeightView {
-    /// Creates the strip of a task. `None` if the tool is never lowered.
-    pub fn of_task(task: &Task, legs: &[Leg]) -> Option<Self> {
-        let tool = task.stroke.as_ref()?;
-        let duration = legs.last()?.end();
-        let mut corners = vec![[0.0, tool.lowered(task.start_tool.depth)]];
-        for leg in legs {
-            for (begin, [from, to]) in leg.strokes() {
-                let sign = (to - from).signum();
-                let phases = single((to - from).abs(), &tool.limits());
-                corners.push([begin, from]);
-                for phase in phases.windows(2) {
-                    let [since, until] = [phase[0][0], phase[1][0]];
-                    corners.extend((1..=LINES_PER_PHASE).map(|line| {
-                        let time = since + (until - since) * f64::from(line) / f64::from(LINES_PER_PHASE);
-                        [begin + time, from + sign * phase_at([phase[0], phase[1]], time)[0]]
-                    }));
-                }
-            }
-        }
-        let last = corners.last().map_or(tool.joint.rest, |[_, value]| *value);
-        corners.push([duration, last]);
-        let rounded =
-            |[time, value]: [f64; 2]| Configuration::new((time * 1e4).round() / 1e4, (value * 1e6).round() / 1e3);
-        let motion = Chain(corners.into_iter().map(rounded).collect());
-        (motion.0.len() > 2).then(|| Self { joint: tool.joint.name.clone(), duration: number(duration), motion })
+/// Returns the height of the tool against time, for pages: the name of the joint that lowers it, and its values in
+/// millimetres. `None` if the tool is never lowered.
+pub fn height(task: &Task, legs: &[Leg]) -> Option<Object> {
+    let tool = task.stroke.as_ref()?;
+    let duration = legs.last()?.end();
+    let mut corners = vec![[0.0, tool.lowered(task.start_tool.depth)]];
+    for (begin, [from, to]) in legs.iter().flat_map(Leg::strokes) {
+        corners.push([begin, from]);
+        let phases = single((to - from).abs(), &tool.limits());
+        let value = |(time, ends)| [begin + time, from + (to - from).signum() * phase_at(ends, time)[0]];
+        corners.extend(divided(&phases, 1).map(value));
     }
+    let last = corners.last().map_or(tool.joint.rest, |[_, value]| *value);
+    corners.push([duration, last]);
+    let rounded = |[time, value]: [f64; 2]| Configuration::new((time * 1e4).round() / 1e4, (value * 1e6).round() / 1e3);
+    let motion = Chain(corners.into_iter().map(rounded).collect());
+    (motion.0.len() > 2).then(|| object!("joint": tool.joint.name, "duration": number(duration), "motion": motion))
 }
 
 /// The turns of the wrist against time.
@@ -77,12 +67,8 @@ impl TurnsView {
         let (mut motion, mut turns) = (vec![[0.0, 0.0]], Vec::new());
         for turn in &all {
             let mut corners = vec![[turn.span[0], turn.ends[0]]];
-            for phase in turn.phases.windows(2) {
-                let [since, until] = [phase[0][0], phase[1][0]];
-                let time =
-                    |line: u32| turn.begin + since + (until - since) * f64::from(line) / f64::from(LINES_PER_PHASE);
-                corners.extend((0..=LINES_PER_PHASE).map(time).map(|time| [time, turn.angle(time)]));
-            }
+            let times = divided(&turn.phases, 0).map(|(since, _)| turn.begin + since);
+            corners.extend(times.map(|time| [time, turn.angle(time)]));
             corners.push([turn.span[1], turn.ends[1]]);
             let released = legs.iter().find_map(|leg| {
                 let places = matches!(leg.event, Some(Event::Release { object, .. }) if object == turn.object);
@@ -104,12 +90,8 @@ impl TurnsView {
         let (from, wrist) = (task.start_tool.wrist?, task.wrist?);
         let phases = turn_profile(&wrist, turn.angle.abs(), turn.seconds);
         let mut corners = vec![[0.0, from]];
-        for phase in phases.windows(2) {
-            let [since, until] = [phase[0][0], phase[1][0]];
-            let time = |line: u32| since + (until - since) * f64::from(line) / f64::from(LINES_PER_PHASE);
-            let angle = |since: f64| turn_angle(&phases, [from, from + turn.angle], since);
-            corners.extend((0..=LINES_PER_PHASE).map(time).map(|since| [turn.begin + since, angle(since)]));
-        }
+        let angle = |since: f64| turn_angle(&phases, [from, from + turn.angle], since);
+        corners.extend(divided(&phases, 0).map(|(since, _)| [turn.begin + since, angle(since)]));
         corners.push([duration, from + turn.angle]);
         let degrees: Vec<[f64; 2]> = corners.iter().map(|[time, angle]| [*time, angle.to_degrees()]).collect();
         let motion = rounded(&degrees, 1e2);

@@ -1,10 +1,10 @@
 //! Numbers rounded to visible precision, and their form in a document, where a list of places is a flat list of
 //! coordinates.
 
+use crate::Object;
 use cplan_geometry::{Convex, Point};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Shape};
-use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 
 /// Number of decimal digits of a length after the first digit of the arm's reach. On a picture as wide as a screen, the
@@ -126,11 +126,13 @@ pub struct ShapeView(pub Convex);
 
 impl Serialize for ShapeView {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let mut shape = serializer.serialize_struct("Shape", 2)?;
-        shape.serialize_field("core", &flat(self.0.core()))?;
-        shape.serialize_field("radius", &self.0.radius())?;
-        shape.end()
+        with_shape(Object::default(), &self.0).serialize(serializer)
     }
+}
+
+/// Returns an object with a shape.
+pub fn with_shape(object: Object, shape: &Convex) -> Object {
+    object.with("core", &flat(shape.core())).with("radius", &shape.radius())
 }
 
 /// Serialises a shape of the world file with its kind. A shape that is the union of its pieces becomes a single word.

@@ -59,56 +59,41 @@ fn same_motion(a: &Leg, b: &Leg, topology: &Topology) -> bool {
     a.step.number == b.step.number && (Arc::ptr_eq(&a.timed, &b.timed) || same())
 }
 
-/// Payload states that look the same: with the same payload state, and the same C-obstacles.
-#[derive(Debug, Clone)]
-pub struct PayloadGroup<'a> {
-    /// The states, in the order of their first occurrence.
-    pub states: Vec<PayloadState<'a>>,
-}
-
-/// Groups the states for which `is_alike` holds, in the order of their first occurrence.
+/// Returns groups of payload states that are alike, in the order of their first states.
 pub fn grouped<'a>(
     states: Vec<PayloadState<'a>>,
     is_alike: impl Fn(&PayloadState, &PayloadState) -> bool,
-) -> Vec<PayloadGroup<'a>> {
-    let mut groups: Vec<PayloadGroup> = Vec::new();
+) -> Vec<Vec<PayloadState<'a>>> {
+    let mut groups: Vec<Vec<PayloadState>> = Vec::new();
     for state in states {
-        match groups.iter_mut().find(|group| is_alike(&group.states[0], &state)) {
-            Some(group) => group.states.push(state),
-            None => groups.push(PayloadGroup { states: vec![state] }),
+        match groups.iter_mut().find(|group| is_alike(&group[0], &state)) {
+            Some(group) => group.push(state),
+            None => groups.push(vec![state]),
         }
     }
     groups
 }
-
-impl PayloadGroup<'_> {
-    /// Returns the motions, each with its index among all motions of the task.
-    pub fn motions(&self) -> impl Iterator<Item = (usize, &Leg)> {
-        self.states.iter().flat_map(|state| &state.motions).map(|&(index, leg)| (index, leg))
+/// Returns a title with the payload, such as `Carrying part`, and one with steps and repetitions, such as `steps 1–2, 5`
+/// or `step 3 (×100)`. In a task of several `rounds`, the second can also be `step 4, round 2`.
+pub fn titles(group: &[PayloadState], rounds: usize, order: &Order) -> [String; 2] {
+    let mut payloads: Vec<&str> = Vec::new();
+    // The number of executions of each step.
+    let mut times: BTreeMap<usize, usize> = BTreeMap::new();
+    for state in group {
+        let numbers: BTreeSet<usize> = state.motions.iter().map(|(_, leg)| order.number(&leg.step)).collect();
+        numbers.into_iter().for_each(|number| *times.entry(number).or_default() += state.times);
+        let payload = state.motions.first().and_then(|(_, leg)| leg.scene.attachment());
+        let name = payload.map(|payload| payload.name.as_str()).filter(|name| !payloads.contains(name));
+        payloads.extend(name);
     }
-
-    /// Returns a title with the payload, such as `Carrying part`, and one with steps and repetitions, such as `steps 1–2, 5`
-    /// or `step 3 (×100)`. In a task of several `rounds`, the second can also be `step 4, round 2`.
-    pub fn titles(&self, rounds: usize, order: &Order) -> [String; 2] {
-        let mut payloads: Vec<&str> = Vec::new();
-        // The number of executions of each step.
-        let mut times: BTreeMap<usize, usize> = BTreeMap::new();
-        for state in &self.states {
-            let numbers: BTreeSet<usize> = state.motions.iter().map(|(_, leg)| order.number(&leg.step)).collect();
-            numbers.into_iter().for_each(|number| *times.entry(number).or_default() += state.times);
-            let payload = state.motions.first().and_then(|(_, leg)| leg.scene.attachment());
-            let name = payload.map(|payload| payload.name.as_str()).filter(|name| !payloads.contains(name));
-            payloads.extend(name);
-        }
-        let numbers: Vec<usize> = times.keys().copied().collect();
-        let steps = format!("step{} {}", if numbers.len() == 1 { "" } else { "s" }, ranges(&numbers));
-        let repeated = match (times.values().max(), self.motions().next()) {
-            (Some(&times), _) if times > 1 => format!(" (\u{d7}{times})"),
-            (_, Some((_, leg))) if rounds > 1 => format!(", round {}", leg.step.cycle),
-            _ => String::new(),
-        };
-        [hand(&payloads), steps + &repeated]
-    }
+    let numbers: Vec<usize> = times.keys().copied().collect();
+    let steps = format!("step{} {}", if numbers.len() == 1 { "" } else { "s" }, ranges(&numbers));
+    let repeated = match (times.values().max(), group[0].motions.first()) {
+        (Some(&times), _) if times > 1 => format!(" (\u{d7}{times})"),
+        (_, Some((_, leg))) if rounds > 1 => format!(", round {}", leg.step.cycle),
+        _ => String::new(),
+    };
+    [hand(&payloads), steps + &repeated]
 }
 
 /// Returns the state of the hand in words, as a title. `payloads` are the names of the objects that it carries in turn.

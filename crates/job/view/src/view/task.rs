@@ -2,15 +2,15 @@
 
 use super::content::{PanelView, StillContent, View};
 use super::extent;
-use super::height::{HeightView, TurnsView};
+use super::height::{TurnsView, height};
 use super::motion::{Clock, MotionView, PathView};
 use super::numbers::RoundingSteps;
 use super::picture::Picture;
-use super::states::{PayloadGroup, PayloadState, describe, grouped, hand, payload_states};
+use super::states::{PayloadState, describe, grouped, hand, payload_states, titles};
 use super::steps::{Order, rounds, rows, words};
 use super::strip::StripView;
 use super::task_picture::TaskPicture;
-use super::tool_angle::ToolAngleView;
+use super::tool_angle;
 use super::world::{ContourView, ObstacleView, WorldView, contours};
 use cplan_geometry::Pose;
 use cplan_handling::{Object, ObstacleTrajectory, Placement, Task, TimedScene};
@@ -88,9 +88,9 @@ impl View {
             motions,
             clock: (!legs.is_empty()).then(|| Clock::new(&Sequence::of(legs).trajectory, grain)),
             strip,
-            height: HeightView::of_task(task, legs),
+            height: height(task, legs),
             turns: TurnsView::of_task(task, legs),
-            tool: ToolAngleView::of_task(task, legs),
+            tool: tool_angle::of_task(task, legs),
             still,
             ..Self::of_picture(&Picture { title, status, ending, facts, ..Picture::new(&overview, task.start) })
         }
@@ -123,11 +123,11 @@ fn panels(
     let effect = |state: &PayloadState| Effect::of(worlds, &worlds_of(state));
     let is_alike = |a: &PayloadState, b: &PayloadState| effect(a).is_same_as(&effect(b));
     let groups = grouped(payload_states(legs, &task.arm.topology()), is_alike);
-    let panel = |group: &PayloadGroup| {
-        let numbers: Vec<usize> = group.motions().map(|(index, _)| index).collect();
+    let panel = |group: &Vec<PayloadState>| {
+        let numbers: Vec<usize> = group.iter().flat_map(|state| &state.motions).map(|(index, _)| *index).collect();
         let starts = free_starts(numbers.iter().map(|&index| &paths[index]));
-        let worlds = group.states.iter().flat_map(worlds_of).collect();
-        let [title, subtitle] = group.titles(rounds, order);
+        let worlds = group.iter().flat_map(worlds_of).collect();
+        let [title, subtitle] = titles(group, rounds, order);
         PanelView { title, subtitle, worlds, paths: numbers, starts, fails: None }
     };
     let mut panels: Vec<PanelView> = groups.iter().map(panel).collect();

@@ -1,51 +1,39 @@
 //! The strip of the tool's angle along lines against time.
 
 use super::numbers::{Chain, number};
+use crate::{Object, object};
 use cplan_handling::{Task, WristJoint};
 use cplan_legs::Leg;
 use cplan_model::Arm;
 use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
-use serde::Serialize;
 
 /// Number of points of a line's strip. Points at which the tool turns at rest do not count.
 const POINTS: f64 = 1000.0;
 
-/// The angle of the tool against time.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-pub struct ToolAngleView {
-    /// Duration of the whole motion, in seconds.
-    pub duration: f64,
-    /// Times in seconds and angles in degrees from the x axis, of all lines.
-    pub motion: Chain,
-    /// Times and angles of each line by itself.
-    pub lines: Vec<Chain>,
+/// Returns the angle of the tool in a motion along a line against time, for pages: times in seconds and angles in degrees
+/// from the x axis, of all lines together and of each line by itself. `None` if no wrist turns the tool.
+pub fn of_line(arm: &Arm, joint: &WristJoint, trajectory: &Trajectory) -> Option<Object> {
+    of_lines(arm, joint, trajectory.duration(), [(0.0, trajectory)].into_iter())
 }
 
-impl ToolAngleView {
-    /// Creates the strip of a motion along a line. `None` if no wrist turns the tool.
-    pub fn of_line(arm: &Arm, joint: &WristJoint, trajectory: &Trajectory) -> Option<Self> {
-        Self::of_lines(arm, joint, trajectory.duration(), [(0.0, trajectory)].into_iter())
-    }
+/// Returns the same for a task. `None` if no wrist turns the tool along a line.
+pub fn of_task(task: &Task, legs: &[Leg]) -> Option<Object> {
+    let joint = task.wrist?.joint?;
+    let motions = legs.iter().map(|leg| (leg.begin, &leg.timed.trajectory));
+    of_lines(&task.arm, &joint, legs.last()?.end(), motions)
+}
 
-    /// Creates the strip of a task. `None` if no wrist turns the tool along a line.
-    pub fn of_task(task: &Task, legs: &[Leg]) -> Option<Self> {
-        let joint = task.wrist?.joint?;
-        let duration = legs.last()?.end();
-        Self::of_lines(&task.arm, &joint, duration, legs.iter().map(|leg| (leg.begin, &leg.timed.trajectory)))
-    }
-
-    fn of_lines<'a>(
-        arm: &Arm,
-        joint: &WristJoint,
-        duration: f64,
-        motions: impl Iterator<Item = (f64, &'a Trajectory)>,
-    ) -> Option<Self> {
-        let turning = motions.filter(|(_, trajectory)| !trajectory.wrist.is_empty());
-        let lines: Vec<Chain> = turning.map(|(begin, trajectory)| angles(arm, joint, begin, trajectory)).collect();
-        let motion = Chain(lines.iter().flat_map(|line| line.0.iter().copied()).collect());
-        (!lines.is_empty()).then(|| Self { duration: number(duration), motion, lines })
-    }
+fn of_lines<'a>(
+    arm: &Arm,
+    joint: &WristJoint,
+    duration: f64,
+    motions: impl Iterator<Item = (f64, &'a Trajectory)>,
+) -> Option<Object> {
+    let turning = motions.filter(|(_, trajectory)| !trajectory.wrist.is_empty());
+    let lines: Vec<Chain> = turning.map(|(begin, trajectory)| angles(arm, joint, begin, trajectory)).collect();
+    let motion = Chain(lines.iter().flat_map(|line| line.0.iter().copied()).collect());
+    (!lines.is_empty()).then(|| object!("duration": number(duration), "motion": motion, "lines": lines))
 }
 
 /// Returns times and angles in degrees, at samples about evenly spaced in time and at all samples at rest.

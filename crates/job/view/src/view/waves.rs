@@ -15,7 +15,7 @@ const MAX_NUMBERED_CELLS: usize = 32;
 pub const LEVELS: usize = 64;
 
 /// Distances to the goal, one per block of cells, in columns of joint 1 from the least value of joint 2 upwards.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Waves {
     /// Number of blocks of cells along each axis.
     pub blocks: [usize; 2],
@@ -80,15 +80,7 @@ impl Waves {
 
     /// Returns blocks with these levels, written as letters, over the whole of both axes.
     pub fn of_levels(blocks: [usize; 2], levels: String) -> Self {
-        Self {
-            blocks,
-            extent: [1.0; 2],
-            levels,
-            order: String::new(),
-            farthest: 0,
-            from_start: false,
-            numbers: Vec::new(),
-        }
+        Self { blocks, extent: [1.0; 2], levels, ..Self::default() }
     }
 
     /// Returns the wavefront at the time when the fraction `part` (0 to 1) of the cells have been expanded. If there is

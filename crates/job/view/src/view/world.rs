@@ -184,7 +184,7 @@ pub struct RegionView {
 }
 
 /// The content of a world in pictures and pages.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct WorldView {
     /// Description in a word or two.
     pub label: String,
@@ -244,13 +244,8 @@ impl WorldView {
             pairs: ranges(scene, &links),
             obstacles,
             c_obstacles: contours,
-            moments: Vec::new(),
-            open: Vec::new(),
             regions: scene.workspace().preferences.iter().map(|preference| region(preference, grain)).collect(),
-            trace: None,
-            scale: None,
-            proof: Chain::default(),
-            unreached: Vec::new(),
+            ..Self::default()
         }
     }
 

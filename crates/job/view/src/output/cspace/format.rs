@@ -1,6 +1,7 @@
 //! Formats of the configuration space, by file name.
 
-use super::CSpaces;
+use super::{CSpaces, FieldGrid, geojson};
+use cplan_motion::field_per_line;
 use std::path::Path;
 
 /// A format of configuration spaces as data.
@@ -40,12 +41,13 @@ impl CSpaceFormat {
 
     /// Returns the text of the file. `None` for a matrix if there is no grid with such values.
     pub fn text(self, spaces: &CSpaces) -> Option<String> {
+        let grid = || spaces.spaces.iter().find_map(|space| space.grid.as_ref());
         match self {
-            Self::Json => Some(spaces.json()),
-            Self::GeoJson => Some(spaces.geojson()),
-            Self::Csv => spaces.csv(),
-            Self::PotentialCsv => spaces.potential_csv(),
-            Self::HeuristicCsv => spaces.heuristic_csv(),
+            Self::Json => Some(field_per_line(spaces)),
+            Self::GeoJson => Some(geojson::text(spaces)),
+            Self::Csv => grid().map(FieldGrid::matrix),
+            Self::PotentialCsv => grid()?.potential_matrix(),
+            Self::HeuristicCsv => grid()?.estimate_matrix(),
         }
     }
 }

@@ -18,11 +18,10 @@ pub fn text(spaces: &CSpaces) -> String {
 
 fn features(number: usize, space: &CSpace) -> Vec<Value> {
     let feature = |kind: &str, geometry: Value, more: Value| {
-        let mut properties = json!({ "kind": kind, "space": number });
-        if let (Some(properties), Value::Object(more)) = (properties.as_object_mut(), more) {
-            properties.extend(more);
-        }
-        json!({ "type": "Feature", "properties": properties, "geometry": geometry })
+        let mut feature = json!({ "type": "Feature", "properties": more, "geometry": geometry });
+        feature["properties"]["kind"] = json!(kind);
+        feature["properties"]["space"] = json!(number);
+        feature
     };
     let none = || json!({});
     let obstacle = |region: &super::ObstacleRegion| {
@@ -53,11 +52,8 @@ fn features(number: usize, space: &CSpace) -> Vec<Value> {
     if let Some(roadmap) = &space.roadmap {
         let ends = roadmap.edges.iter().map(|edge| edge.map(|vertex| roadmap.vertices[vertex]));
         let lines = geometry("MultiLineString", ends.collect::<Vec<_>>());
-        let kind = roadmap.visibility.map_or_else(none, |graph| json!({ "visibility": graph }));
         let mut more = json!({ "whole": roadmap.whole });
-        if let (Some(more), Value::Object(kind)) = (more.as_object_mut(), kind) {
-            more.extend(kind);
-        }
+        roadmap.visibility.iter().for_each(|graph| more["visibility"] = json!(graph));
         features.push(feature("roadmap", lines, more));
     }
     let lists = [

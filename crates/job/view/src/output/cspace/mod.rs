@@ -16,7 +16,7 @@ use cplan_judge::CheckedProof;
 use cplan_legs::TaskAnswer;
 use cplan_model::space::{Configuration, Path};
 use cplan_model::{Joint, MotionProblem, Scene, Status};
-use cplan_motion::{CertifiedCurve, field_per_line};
+use cplan_motion::CertifiedCurve;
 use cplan_planners::cspace::{self, PolygonWithHoles, Proves};
 use cplan_planners::planner::{FieldQuantity, Trace, VisibilityGraph};
 use cplan_planners::waves::FreeCells;
@@ -167,41 +167,11 @@ pub fn cspaces(plan: &Plan) -> CSpaces {
 }
 
 impl CSpaces {
-    /// Returns a JSON object, with one line per field.
-    pub fn json(&self) -> String {
-        field_per_line(self)
-    }
-
-    /// Returns the values of the first grid as a matrix in CSV, if there is a grid.
-    pub fn csv(&self) -> Option<String> {
-        self.grid().map(FieldGrid::matrix)
-    }
-
-    /// Returns the potential of the first grid as a matrix in CSV: 0 at the goals, 1 at obstacles. `None` if the grid
-    /// has no such field.
-    pub fn potential_csv(&self) -> Option<String> {
-        self.grid()?.potential_matrix()
-    }
-
-    /// Returns the estimates of the search of the first grid as a matrix in CSV. `None` if the search uses none.
-    pub fn heuristic_csv(&self) -> Option<String> {
-        self.grid()?.estimate_matrix()
-    }
-
-    fn grid(&self) -> Option<&FieldGrid> {
-        self.spaces.iter().find_map(|space| space.grid.as_ref())
-    }
-
     /// Adds a number to the labels of all grids, whose first label is 0 otherwise.
     #[must_use]
     pub fn with_labels_from(mut self, first: u32) -> Self {
         self.spaces.iter_mut().filter_map(|space| space.grid.as_mut()).for_each(|grid| grid.shift_labels(first));
         self
-    }
-
-    /// Returns a GeoJSON `FeatureCollection`, with joint values as coordinates.
-    pub fn geojson(&self) -> String {
-        geojson::text(self)
     }
 }
 
