@@ -11,10 +11,10 @@ use super::theme::ThemeArgs;
 use crate::compare::{Setup, convergence};
 use crate::cspace::ZonedGrid;
 use crate::engine::{CellCounts, Problem, field_on_cells};
-use crate::field::{Difference, Direction, Domain, Equation, Initial, Limits, Measure, Stencil, Stopping};
+use crate::field::{Difference, Direction, Domain, Equation, Initial, Limits, Measure, Order, Stencil, Stopping};
 use crate::input;
 use crate::motion::write_whole_set;
-use crate::options::{OrderName, direction, finite, positive, word};
+use crate::options::{INITIALS, LIMITS, MEASURES, ORDERS, direction, finite, positive, word};
 use crate::output::title_of;
 use crate::planner::EquationChoice;
 use clap::{Args, ValueHint};
@@ -63,18 +63,18 @@ pub struct ConvergeArgs {
     #[arg(help_heading = RELAXATION)]
     pub direction: Direction,
     /// Order of the cells in the scans over factor and epsilon.
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = OrderName::Rows, help_heading = RELAXATION)]
-    pub order: OrderName,
+    #[arg(long, value_parser = word(ORDERS), value_name = "NAME", default_value = "rows", help_heading = RELAXATION)]
+    pub order: Order,
     /// Effect of the joint limits on the field.
-    #[arg(long, value_parser = word::<Limits>(), value_name = "NAME", default_value = "high")]
+    #[arg(long, value_parser = word(LIMITS), value_name = "NAME", default_value = "high")]
     #[arg(help_heading = RELAXATION)]
     pub limits: Limits,
     /// Value of free cells before the first sweep.
-    #[arg(long, value_parser = word::<Initial>(), value_name = "NAME", default_value = "high")]
+    #[arg(long, value_parser = word(INITIALS), value_name = "NAME", default_value = "high")]
     #[arg(help_heading = RELAXATION)]
     pub initial: Initial,
     /// Measure of a sweep's changes, which must fall below the tolerance.
-    #[arg(long, value_parser = word::<Measure>(), value_name = "NAME", default_value = "relative")]
+    #[arg(long, value_parser = word(MEASURES), value_name = "NAME", default_value = "relative")]
     #[arg(help_heading = RELAXATION)]
     pub measure: Measure,
     /// Relax until the measure is below this.
@@ -184,7 +184,7 @@ impl ConvergeArgs {
             domain,
             equations,
             direction: in_cells.unwrap_or(self.direction),
-            order: self.order.into(),
+            order: self.order,
             stopping,
         })
     }

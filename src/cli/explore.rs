@@ -15,12 +15,12 @@ use crate::explore::{
 use crate::input::{self, LoadedProblem, OccupancyMap, Rules};
 use crate::model::{Scene, Status};
 use crate::motion::{Format, JointMotion, Trajectory, check_writable, csv, ros_yaml, write_whole_set};
-use crate::options::{PlannerArgs, positive, word};
+use crate::options::{PlannerArgs, Word, planners, positive, word};
 use crate::output::{Line, contours, format_columns, title_of};
 use crate::space::{Configuration, Path as JointPath};
 use crate::text::{chosen_length, counted};
 use crate::view::{self, Picture, View};
-use clap::{Args, ValueEnum, ValueHint};
+use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
 
 /// Plan in an unknown world that a range sensor reveals.
@@ -52,8 +52,8 @@ pub struct ExploreArgs {
     #[command(flatten)]
     pub files: Files,
     /// Choice of the next motion [default: goal if the world has a goal, otherwise view].
-    #[arg(long, value_enum, value_name = "NAME", help_heading = EXPLORATION)]
-    pub strategy: Option<StrategyName>,
+    #[arg(long, value_parser = word(STRATEGIES), value_name = "NAME", help_heading = EXPLORATION)]
+    pub strategy: Option<Strategy>,
 
     #[command(flatten)]
     pub query: QueryArgs,
@@ -88,7 +88,7 @@ pub struct ExploreArgs {
     #[arg(long, help_heading = OUTPUT)]
     pub timings: bool,
     /// Planner for the optimistic paths of strategy "goal", which treat unknown space as free.
-    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word(planners()), value_name = "NAME", default_value_t = Method::Shortest)]
     #[arg(help_heading = PLANNER)]
     pub planner: Method,
     #[command(flatten)]
@@ -96,31 +96,13 @@ pub struct ExploreArgs {
 }
 
 /// Strategies in the order of the help.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum StrategyName {
-    /// Toward the goal, as far as the path is known.
-    Goal,
-    /// To a configuration that shows all that the nearest one shows, and more.
-    View,
-    /// To the nearest configuration that shows something new.
-    Nearest,
-    /// Up the harmonic potential of all configurations that show something new.
-    Harmonic,
-    /// To the first configuration along the wall on the right that shows something new.
-    Wall,
-}
-
-impl From<StrategyName> for Strategy {
-    fn from(name: StrategyName) -> Self {
-        match name {
-            StrategyName::Goal => Self::Goal,
-            StrategyName::View => Self::View,
-            StrategyName::Nearest => Self::Nearest,
-            StrategyName::Harmonic => Self::Harmonic,
-            StrategyName::Wall => Self::Wall,
-        }
-    }
-}
+const STRATEGIES: [Word<Strategy>; 5] = [
+    (Strategy::Goal, "goal", "Toward the goal, as far as the path is known"),
+    (Strategy::View, "view", "To a configuration that shows all that the nearest one shows, and more"),
+    (Strategy::Nearest, "nearest", "To the nearest configuration that shows something new"),
+    (Strategy::Harmonic, "harmonic", "Up the harmonic potential of all configurations that show something new"),
+    (Strategy::Wall, "wall", "To the first configuration along the wall on the right that shows something new"),
+];
 
 /// Explores, and prints the result.
 ///
@@ -140,7 +122,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     let sensor = loaded.sensor();
     let world = loaded.resolve(&args.query.overrides(), Rules::Exploration)?;
     world.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
-    args.options.ignored(args.planner).iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
+    args.options.effort.ignored(args.planner).iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let goals = Some(world.problem.goals()).filter(|goals| !goals.is_empty());
     let settings = args.settings(goals.is_some())?;
     inputs.extend(args.known.clone());
@@ -209,9 +191,9 @@ impl ExploreArgs {
 
     fn settings(&self, has_goal: bool) -> Result<Settings, Failure> {
         let usual = Settings::default();
-        let strategy = self.strategy.map_or(if has_goal { Strategy::Goal } else { Strategy::View }, Strategy::from);
+        let strategy = self.strategy.unwrap_or(if has_goal { Strategy::Goal } else { Strategy::View });
         let planner = self.options.planner(self.planner).map_err(Failure::Usage)?;
-        self.options.missing().map_or(Ok(()), |missing| Err(Failure::Refused(missing)))?;
+        self.options.field.missing().map_or(Ok(()), |missing| Err(Failure::Refused(missing)))?;
         if let Some(error) = self.grid.error() {
             return Err(Failure::Usage(format!("--grid: {error}")));
         }
@@ -221,7 +203,7 @@ impl ExploreArgs {
             surveyed: self.surveyed,
             known: self.known.as_deref().map(OccupancyMap::read).transpose()?,
             decisions: self.decisions as usize,
-            options: Options { levels: self.options.levels(&planner), planner, ..usual.options },
+            options: Options { levels: self.options.effort.levels(&planner), planner, ..usual.options },
         })
     }
 }

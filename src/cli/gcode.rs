@@ -10,9 +10,10 @@ use super::values::{clearance, displacement, tolerance};
 use crate::input::{self, LoadedScene, line_diagnostic};
 use crate::model::Status;
 use crate::motion::{check_writable, write_whole};
+use crate::options::word;
 use crate::output::{format_columns, title_of};
 use crate::text::{chosen_length, counted};
-use clap::{Args, ValueEnum, ValueHint, builder::PossibleValue};
+use clap::{Args, ValueHint};
 use cplan_gcode::{Answer, Dialect, Elbow, Failed, GcodeError, Job, Pen, PenWords, Settings, Setup, judge};
 use serde_json::{Value, json};
 use std::path::PathBuf;
@@ -47,11 +48,11 @@ pub struct GcodeArgs {
     #[arg(long, conflicts_with = "output", required_unless_present = "output")]
     check: bool,
     /// Firmware of the machine.
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = DialectName(Dialect::default()))]
-    dialect: DialectName,
+    #[arg(long, value_name = "NAME", value_parser = word(Dialect::ALL.map(|own| (own, own.name(), ""))), default_value_t)]
+    dialect: Dialect,
     /// Side of the elbow, seen from joint 1 towards the tip, if the machine's is fixed. By default both are tried.
-    #[arg(long, value_name = "SIDE", value_enum)]
-    elbow: Option<ElbowName>,
+    #[arg(long, value_name = "SIDE", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
+    elbow: Option<Elbow>,
     /// Place of the tip at the beginning and after homing (G28), metres. Without it, the moves from there are not judged.
     #[arg(long, value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
     home: Option<[f64; 2]>,
@@ -78,38 +79,6 @@ pub struct GcodeArgs {
     print: PrintArgs,
 }
 
-/// The name of a dialect.
-#[derive(Debug, Clone, Copy)]
-struct DialectName(Dialect);
-
-impl ValueEnum for DialectName {
-    fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [DialectName; 6] = {
-            let [a, b, c, d, e, f] = Dialect::ALL;
-            [DialectName(a), DialectName(b), DialectName(c), DialectName(d), DialectName(e), DialectName(f)]
-        };
-        &ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.0.name()))
-    }
-}
-
-/// The name of a side.
-#[derive(Debug, Clone, Copy)]
-struct ElbowName(Elbow);
-
-impl ValueEnum for ElbowName {
-    fn value_variants<'a>() -> &'a [Self] {
-        &[ElbowName(Elbow::Left), ElbowName(Elbow::Right)]
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.0.name()))
-    }
-}
-
 /// Judges a program, and writes it with safe travels.
 ///
 /// # Errors
@@ -129,8 +98,8 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let settings = Settings {
         tolerance: args.tolerance,
         segment: args.segment,
-        elbow: args.elbow.map(|name| name.0),
-        dialect: args.dialect.0,
+        elbow: args.elbow,
+        dialect: args.dialect,
         repairs: !args.check,
     };
     let answer = judge(&loaded.scene, &job, &settings).map_err(|error| match error {
@@ -169,7 +138,7 @@ impl Answered<'_> {
         json!({
             "status": self.answer.status().name(),
             "file": self.args.job.display().to_string(),
-            "dialect": self.args.dialect.0.name(),
+            "dialect": self.args.dialect.name(),
             "elbow": side(elbow),
             "tolerance": self.args.tolerance,
             "segment": self.args.segment,
@@ -202,7 +171,7 @@ impl Answered<'_> {
         let [drawing, travels] = self.job.counts();
         let tolerance = chosen_length(self.args.tolerance);
         let moves = format!("{}, {}", counted(drawing, "drawing move"), counted(travels, "travel"));
-        lines.push(("program", format!("{moves}; tolerance {tolerance}; dialect {}", self.args.dialect.0)));
+        lines.push(("program", format!("{moves}; tolerance {tolerance}; dialect {}", self.args.dialect)));
         lines.extend(
             elbow.map(|elbow| ("elbow", format!("to the {} of the line from joint 1 to the tip", elbow.name()))),
         );

@@ -172,7 +172,7 @@ impl TemplateMarks {
         let motors =
             "\n# Where the elbow's motor is mounted: \"standard_scara\" for the base, \"direct\" for the upper arm.\n";
         let drives = match (kind.turns(), numbers.drives) {
-            ([true, true], Some(drives)) => format!("{motors}drives = \"{}\"", drives.name()),
+            ([true, true], Some(drives)) => format!("{motors}drives = \"{}\"", drives),
             ([true, true], None) => format!("{motors}#drives = \"standard_scara\""),
             _ => String::new(),
         };

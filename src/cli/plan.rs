@@ -17,11 +17,11 @@ use crate::engine::{Method, Options, Plan, Planner, Problem, plan_with};
 use crate::input::{self, DiagnosticKind, Digests, InputError, JointValues, LoadedScene, Overrides};
 use crate::model::{MotionProblem, Status};
 use crate::motion::write_whole;
-use crate::options::{MotionArgs, PlannerArgs, word};
+use crate::options::{MotionArgs, PlannerArgs, Word, planners, word};
 use crate::output::{CSpaceFormat, Line, PlanOutput as _, format_columns, summary_with};
 use crate::space::Configuration;
 use crate::view::FieldLines;
-use clap::{Args, ValueEnum, ValueHint};
+use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -83,9 +83,9 @@ pub struct PlanArgs {
     #[command(flatten, next_help_heading = OUTPUT)]
     pub theme: ThemeArgs,
     /// Lines in pictures of a field (.svg, .png, .gif). Pages can show and hide both kinds.
-    #[arg(long, value_enum, value_name = "LINES", default_value_t = FieldLinesName::Equipotentials)]
+    #[arg(long, value_parser = word(FIELD_LINES), value_name = "LINES", default_value = "equipotentials")]
     #[arg(help_heading = OUTPUT)]
-    pub field_lines: FieldLinesName,
+    pub field_lines: FieldLines,
     /// First label of a wavefront, or of another search of a grid, in pictures and files. Textbooks begin at 0, some at 1
     /// or 2.
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = OUTPUT)]
@@ -104,7 +104,7 @@ pub struct PlanArgs {
     #[arg(long, help_heading = OUTPUT)]
     pub timings: bool,
     /// Planner.
-    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word(planners()), value_name = "NAME", default_value_t = Method::Shortest)]
     #[arg(help_heading = PLANNER)]
     pub planner: Method,
     #[command(flatten)]
@@ -112,25 +112,11 @@ pub struct PlanArgs {
 }
 
 /// Kinds of field lines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FieldLinesName {
-    /// Lines of equal potential.
-    Equipotentials,
-    /// Lines of steepest ascent, with arrows.
-    Flow,
-    /// Both kinds of lines.
-    Both,
-}
-
-impl From<FieldLinesName> for FieldLines {
-    fn from(name: FieldLinesName) -> Self {
-        match name {
-            FieldLinesName::Equipotentials => Self::Equipotentials,
-            FieldLinesName::Flow => Self::Flow,
-            FieldLinesName::Both => Self::Both,
-        }
-    }
-}
+const FIELD_LINES: [Word<FieldLines>; 3] = [
+    (FieldLines::Equipotentials, "equipotentials", "Lines of equal potential"),
+    (FieldLines::Flow, "flow", "Lines of steepest ascent, with arrows"),
+    (FieldLines::Both, "both", "Both kinds of lines"),
+];
 
 /// Plans, writes the requested files, and returns the exit code.
 ///
@@ -173,7 +159,7 @@ pub fn answer(
     let mut asked = args.query.overrides();
     let stated_ends = loaded.resolved_ends();
     // Warnings come first, because they may explain why start or goal is refused.
-    let ignored = args.options.ignored(args.planner);
+    let ignored = args.options.effort.ignored(args.planner);
     loaded.robot.warnings.iter().chain(&ignored).for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let problem = match &mut program {
         None => Problem::of_scene(loaded, &asked).map_err(Failure::Input),
@@ -285,7 +271,7 @@ fn written(
     let seen = || {
         let mut view = if plays { plan.view_with_replay() } else { plan.view() };
         view.facts.extend(hint.iter().map(|hint| ["hint".to_owned(), (*hint).to_owned()]));
-        args.theme.apply(view).with_field_lines(args.field_lines.into()).with_labels_from(args.labels_from)
+        args.theme.apply(view).with_field_lines(args.field_lines).with_labels_from(args.labels_from)
     };
     let labeled = || plan.cspaces().with_labels_from(args.labels_from);
     let (mut view, mut spaces) = (None, None);
@@ -337,12 +323,12 @@ pub fn options(
     message: &MessageArgs,
 ) -> Result<Options, Failure> {
     let planner = options.planner(planner).map_err(Failure::Usage)?;
-    options.missing().map_or(Ok(()), |missing| Err(Failure::Refused(missing)))?;
+    options.field.missing().map_or(Ok(()), |missing| Err(Failure::Refused(missing)))?;
     Ok(Options {
-        levels: options.levels(&planner),
+        levels: options.effort.levels(&planner),
         planner,
         drive: motion.drive(),
-        jerk: motion.jerk(),
+        jerk: motion.jerk,
         joints: message.joints,
         accelerations: message.accelerations,
         ..Options::default()

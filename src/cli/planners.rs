@@ -5,7 +5,7 @@ use super::failure::Failure;
 use super::program::Program;
 use super::sinks;
 use crate::engine::Method;
-use crate::options::{PlannerArgs, word};
+use crate::options::{PlannerArgs, planners, word};
 use clap::Args;
 
 /// List the options of each planner.
@@ -28,7 +28,7 @@ Examples:
 Exit codes: 0 the options are printed, 2 wrong command line.")]
 pub struct PlannersArgs {
     /// Planner. Each option below names the planners that read it.
-    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word(planners()), value_name = "NAME", default_value_t = Method::Shortest)]
     pub planner: Method,
     #[command(flatten)]
     pub options: PlannerArgs,

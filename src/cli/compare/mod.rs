@@ -174,7 +174,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
 /// whose path depends on its bound computes its own: `shortest`, and planners for which a gap is required.
 fn options(args: &CompareArgs, planner: Planner, levels: usize) -> Options {
     let bounded = planner.method() == Method::Shortest || planner.gap().is_some();
-    let (drive, jerk) = (args.motion.drive(), args.motion.jerk());
+    let (drive, jerk) = (args.motion.drive(), args.motion.jerk);
     Options { planner, levels, bounded, drive, jerk, ..Options::default() }
 }
 

@@ -6,7 +6,6 @@
 use super::options::Options;
 use super::protocol::{OptionReply, PlannerReply};
 use clap::{Arg, Command};
-use cplan_options::Named;
 use cplan_planners::planner::GridSearch;
 use cplan_planners::waves::Neighborhood;
 use cplan_roadmaps::Prm;
@@ -53,7 +52,8 @@ const CHOICES: [Choice; 8] = [
         label: "search",
         numbers: &[],
         standard: |planner| {
-            word(if planner.reads(Setting::Search) { GridSearch::AStar } else { GridSearch::default() })
+            let search = if planner.reads(Setting::Search) { GridSearch::AStar } else { GridSearch::default() };
+            Some(search.name().to_owned())
         },
         is_for: |_| true,
     },
@@ -75,7 +75,7 @@ const CHOICES: [Choice; 8] = [
         name: "space",
         label: "cells by",
         numbers: &[],
-        standard: |_| word(GridSpace::default()),
+        standard: |_| Some(GridSpace::default().name().to_owned()),
         is_for: |_| true,
     },
 ];
@@ -86,10 +86,6 @@ fn cells(planner: Method) -> Option<String> {
         Some(cells) => cells.to_string(),
         None => format!("{DEFAULT_CELLS}, square"),
     })
-}
-
-fn word(value: impl Named) -> Option<String> {
-    Some(value.word().to_owned())
 }
 
 /// Returns all planners with their menus.
