@@ -1,9 +1,10 @@
 //! `cplan gcode`: judges G-code for a machine with its own kinematics, and replaces unsafe travels.
 
-use super::exit::{DONE, INFEASIBLE, UNKNOWN};
+use super::exit::code_of;
 use super::failure::Failure;
 use super::files::Files;
 use super::headings::OUTPUT;
+use super::outputs::refuse_to_overwrite_inputs;
 use super::print_args::PrintArgs;
 use super::sinks;
 use super::values::{clearance, displacement, tolerance};
@@ -93,7 +94,7 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
     loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();
-    sinks::refuse_to_overwrite_inputs(args.output.iter().map(PathBuf::as_path), &read)?;
+    refuse_to_overwrite_inputs(args.output.iter().map(PathBuf::as_path), &read)?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.print_status(&format!("warning: {warning}")));
     let settings = Settings {
         tolerance: args.tolerance,
@@ -111,11 +112,7 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
         (Some(path), None) => sinks::warn_unwritten(path, "safe program"),
         (None, _) => {}
     }
-    let code = match answer.status() {
-        Status::Found => DONE,
-        Status::Infeasible => INFEASIBLE,
-        Status::Unknown => UNKNOWN,
-    };
+    let code = code_of(answer.status());
     let answered = Answered { args, loaded: &loaded, job: &job, answer: &answer };
     args.print.report(code, || sinks::pretty(&answered.json()), || answered.summary())?;
     Ok(code)

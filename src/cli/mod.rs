@@ -26,6 +26,7 @@ mod inspect_text;
 mod man;
 mod memory;
 mod message_args;
+mod outputs;
 mod plan;
 mod planners;
 mod polygons;
