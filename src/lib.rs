@@ -79,13 +79,7 @@ pub use space::Configuration;
 /// torques, and a sensor.
 pub mod model {
     pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
-    pub use cplan_handling::{
-        Action, Arch, BlendsClaim, Claims, Driver, Drives, EventClaim, FollowedLine, HeldEffect, HeldJoint, HeldMotion,
-        Holding, Item, Leg, MAX_STOP_TIME, MovingObstacle, Object, ObstacleTrajectory, ObstacleTrajectoryError,
-        OptimumClaim, Payload, Placement, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist, RobotJoint,
-        RobotJoints, Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene, TimedWorkspace,
-        ToolAngle, ToolJoint, ToolValues, Wrist, WristGuide, WristJoint,
-    };
+    pub use cplan_handling::*;
     pub use cplan_model::*;
     pub use cplan_robot::AssumedLimits;
     pub use cplan_world::{Mount, Sensor};
@@ -110,11 +104,7 @@ pub mod check {
 
 /// Input: reads robots, worlds, maps and recordings, and returns problems, or errors with file, line and help.
 pub mod input {
-    pub use cplan_robot::{
-        BodyEntry, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry, LimitEntry,
-        LimitSource, LinkEntry, MAX_LENGTH, OutlineEntry, PairEntry, PlaneEntry, Position, Quantity, RateEntry,
-        RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source, meshes_elsewhere, read_bytes,
-    };
+    pub use cplan_robot::*;
     pub use cplan_world::*;
 }
 
@@ -130,10 +120,8 @@ pub mod engine {
     /// Verdicts on configurations, and on recorded motions and tasks, as data.
     pub mod findings {
         pub use cplan_engine::findings::*;
-        pub use cplan_recordings::{
-            CollisionFinding, EncounterFinding, FarthestFinding, Judgement, LimitFinding, MomentFinding,
-            MotionFindings, PlanFinding, StepFinding, TurnContactFinding, TurnFinding, verify,
-        };
+        pub use cplan_recordings::*;
+    };
     }
 
     /// Plans tasks as sequences of certified motions.
@@ -154,11 +142,7 @@ pub mod planner {
 /// Waves over the cells of a grid, and potential fields on a grid.
 pub mod field {
     pub use cplan_fields::*;
-    pub use cplan_harmonic::{
-        Component, Field, Guide, Lattice, LatticePoint, LocalMaximum, Place, Potential, PotentialGuide, Room,
-        STEP_LENGTH, Streamline, UNREACHED, Wave, advance, direction, estimated_harmonic, follow, harmonic,
-        harmonic_path, residual,
-    };
+    pub use cplan_harmonic::*;
     pub use cplan_multigrid as multigrid;
     pub use cplan_planners::waves::{FreeCells, Move, Neighborhood, StepLabels, search};
 }
