@@ -105,6 +105,7 @@ pub mod check {
 /// Input: reads robots, worlds, maps and recordings, and returns problems, or errors with file, line and help.
 pub mod input {
     pub use cplan_robot::*;
+    pub use cplan_world::load;
     pub use cplan_world::*;
 }
 
@@ -121,7 +122,6 @@ pub mod engine {
     pub mod findings {
         pub use cplan_engine::findings::*;
         pub use cplan_recordings::*;
-    };
     }
 
     /// Plans tasks as sequences of certified motions.
