@@ -2,9 +2,8 @@
 
 use crate::cli::failure::Failure;
 use crate::parallel::run_in_order;
-use std::collections::BTreeMap;
 use std::io::{BufRead, ErrorKind, Read, Write};
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Condvar, Mutex, PoisonError};
 
 /// Longest line, in bytes. With this limit, endless input ends with an error.
 const MAX_LINE_BYTES: u64 = 64 << 20;
@@ -33,18 +32,17 @@ pub struct Input<R> {
     /// Name of the input in messages.
     name: String,
     /// Number of lines that have been read, including blank ones.
-    read: usize,
-    /// Number of lines that are not blank and have been read.
+    count: usize,
+    /// Number of lines that have been passed to jobs.
     lines: usize,
-    /// Lines that wait for their job.
-    waiting: BTreeMap<usize, Line>,
+    /// True if there are no further lines, or the last one could not be read.
     is_over: bool,
 }
 
 impl<R: BufRead + Send> Input<R> {
     /// Creates the state before any line is read.
     pub fn new(reader: R, name: &str) -> Self {
-        Self { reader, name: name.to_owned(), read: 0, lines: 0, waiting: BTreeMap::new(), is_over: false }
+        Self { reader, name: name.to_owned(), count: 0, lines: 0, is_over: false }
     }
 
     /// Answers all lines with this number of jobs. `answer` returns the answer, and true if the line was a JSON object. The
@@ -58,44 +56,48 @@ impl<R: BufRead + Send> Input<R> {
         jobs: usize,
         answer: impl Fn(&Line) -> (String, bool) + Sync,
     ) -> Result<Count, Failure> {
-        let input = Mutex::new(self);
+        let (shared, turn_changed) = (Mutex::new(self), Condvar::new());
+        let input = || shared.lock().unwrap_or_else(PoisonError::into_inner);
         let work = |turn| {
-            let line = input.lock().unwrap_or_else(PoisonError::into_inner).line(turn);
+            // Each job waits until all lines before its own are read.
+            let is_early = |input: &mut Self| input.lines != turn && !input.is_over;
+            let line = turn_changed.wait_while(input(), is_early).unwrap_or_else(PoisonError::into_inner).next();
+            turn_changed.notify_all();
             line.map(|line| line.map(|line| answer(&line)))
         };
         let mut count = Count::default();
-        // The work ends with `None` if nothing failed.
-        let ended = run_in_order(usize::MAX, jobs, work, |answered| {
-            let (text, is_object) = answered?.ok_or(None)?;
+        let mut write = |(text, is_object): (String, bool)| {
             count.lines += 1;
             count.objects += usize::from(is_object);
             writer.write_all(text.as_bytes()).and_then(|()| writer.flush()).map_err(|error| {
                 (error.kind() != ErrorKind::BrokenPipe).then(|| Failure::Io(format!("stdout: {error}")))
             })
+        };
+        // The work ends with `None` if nothing failed.
+        let ended = run_in_order(usize::MAX, jobs, work, |answered| {
+            answered.map_err(Some).and_then(|answered| answered.ok_or(None)).and_then(&mut write).inspect_err(|_| {
+                // Jobs must not wait for lines that nobody reads.
+                input().is_over = true;
+                turn_changed.notify_all();
+            })
         });
         ended.or_else(|failure: Option<Failure>| failure.map_or(Ok(()), Err)).map(|()| count)
     }
 
-    /// Returns the line with this number among those that are not blank, from 0. `None` if there are fewer.
-    fn line(&mut self, number: usize) -> Result<Option<Line>, Failure> {
-        while self.lines <= number && !self.is_over {
-            let next = self.next();
-            self.is_over = !matches!(next, Ok(Some(_)));
-            if let Some(line) = next? {
-                self.waiting.insert(self.lines, line);
-                self.lines += 1;
-            }
-        }
-        Ok(self.waiting.remove(&number))
+    /// Returns the next line that is not blank. `None` if there are no more.
+    fn next(&mut self) -> Result<Option<Line>, Failure> {
+        let line = if self.is_over { Ok(None) } else { self.read() };
+        self.is_over = !matches!(line, Ok(Some(_)));
+        self.lines += 1;
+        line
     }
 
-    /// Returns the next line that is not blank.
-    fn next(&mut self) -> Result<Option<Line>, Failure> {
+    fn read(&mut self) -> Result<Option<Line>, Failure> {
         loop {
             let mut text = Vec::new();
             let read = (&mut self.reader).take(MAX_LINE_BYTES + 1).read_until(b'\n', &mut text);
-            self.read += 1;
-            let number = self.read;
+            self.count += 1;
+            let number = self.count;
             if number == 1 && text.starts_with(BYTE_ORDER_MARK) {
                 text.drain(..BYTE_ORDER_MARK.len());
             }
