@@ -2,8 +2,7 @@
 
 use super::exit::DONE;
 use super::failure::Failure;
-use super::program::Program;
-use super::sinks;
+use super::{grammar, sinks};
 use crate::engine::Method;
 use crate::options::{PlannerArgs, planners, word};
 use clap::Args;
@@ -38,8 +37,8 @@ pub struct PlannersArgs {
 ///
 /// # Errors
 /// I/O.
-pub fn run(_: &PlannersArgs, program: &Program) -> Result<u8, Failure> {
-    let mut grammar = (program.grammar)();
+pub fn run(_: &PlannersArgs) -> Result<u8, Failure> {
+    let mut grammar = grammar();
     // Subcommands get their full names, and the width of the help.
     grammar.build();
     let help = grammar.find_subcommand_mut("planners").map(|command| command.render_long_help().to_string());

@@ -61,7 +61,7 @@ pub fn overlays(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<O
 }
 
 fn overlay(first: &Case, study: &Study, paths: &[Vec<Option<Path>>]) -> Overlay {
-    let scene = first.base().scene();
+    let scene = first.base.scene();
     let shown = &paths[..paths.len().min(MAX_OVERLAID_PATHS)];
     let of = |planner: usize| {
         let found = shown.iter().filter_map(|row| row.get(planner)?.as_ref());

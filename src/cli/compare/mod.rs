@@ -19,7 +19,6 @@ use super::exit::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
 use super::memory::MemoryMeter;
 use super::outputs::{Outputs, by_extension, drawn, refuse_to_overwrite_inputs};
-use super::program::Program;
 use super::progress::Progress;
 use super::sinks;
 use super::terminal::BEST_VALUE;
@@ -61,7 +60,7 @@ const REPORT_FORMATS: [(&str, ReportFormat); 5] = [
 ///
 /// # Errors
 /// Bad input and I/O.
-pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
+pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure> {
     let expected = "a comparison's name must end in .md, .csv, .json, .html or .log";
     let outputs = Outputs::new(&args.output, by_extension(&REPORT_FORMATS, expected), &args.picture, [])?;
     let cases = Cases::load(args)?;
@@ -75,7 +74,7 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
         cases.left_out.iter().for_each(|line| sinks::print_status(&format!("note: {line}")));
     }
     let started = started::current_time();
-    let (study, done) = run_planners(args, &cases, program.meter)?;
+    let (study, done) = run_planners(args, &cases, meter)?;
     let results = Results { args, cases: &cases, study: &study, done: &done, started };
     let paths = || drawings::view(&cases.cases[0], &study.comparisons[0], &done.paths[0]);
     let report = |_: &Path, format| Ok(Some(results.content(format)?.into_bytes()));
@@ -173,7 +172,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     let of = |case: &Case| {
         let mut entries = plain.clone();
         for variant in &args.with {
-            let preferences = &case.base().scene().workspace().preferences;
+            let preferences = &case.base.scene().workspace().preferences;
             let (planner, levels) = variant.completed_by(&args.effort);
             if let Some(lack) = planner.missing_preference(preferences) {
                 return Err(Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) }));
