@@ -80,13 +80,7 @@ pub use space::Configuration;
 /// torques, and a sensor.
 pub mod model {
     pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
-    pub use cplan_handling::{
-        Action, Arch, BlendsClaim, Claims, Driver, Drives, EventClaim, FollowedLine, HeldEffect, HeldJoint, HeldMotion,
-        Holding, Item, MAX_STOP_TIME, MovingObstacle, Object, ObstacleTrajectory, ObstacleTrajectoryError,
-        OptimumClaim, Payload, Placement, PoseClaim, RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist, RobotJoint,
-        RobotJoints, Step, StepClaims, Stop, Stroke, Task, TaskClaims, TaskError, TimedScene, TimedWorkspace,
-        ToolAngle, ToolJoint, ToolValues, TrajectoryLeg as Leg, Wrist, WristGuide, WristJoint,
-    };
+    pub use cplan_handling::*;
     pub use cplan_model::*;
     pub use cplan_robot::AssumedLimits;
     pub use cplan_world::{Mount, Sensor};
@@ -112,12 +106,8 @@ pub mod check {
 /// Input: reads robots, worlds, maps and recordings, and returns problems, or errors with file, line and help.
 pub mod input {
     pub use super::robots::robot;
-    pub use cplan_robot::{
-        BodyEntry, Conversion, Diagnostic, DiagnosticKind, FileIdentity, Frame, InputError, Inspection, JointEntry,
-        LimitEntry, LimitSource, LinkEntry, MAX_LENGTH, Origins, OutlineEntry, PairEntry, PlaneEntry, Position,
-        Quantity, RateEntry, RateSource, ReachEntry, RobotFile, RobotReport, Role, SelfObstacleEntry, Source,
-        meshes_elsewhere, read_bytes,
-    };
+    pub use cplan_robot::*;
+    pub use cplan_world::load;
     pub use cplan_world::*;
 
     /// Lets worlds name SVG drawings as lines, in the whole process. The program does this when it begins.
@@ -139,10 +129,7 @@ pub mod engine {
     /// Verdicts on configurations, and on recorded motions and tasks, as data.
     pub mod findings {
         pub use cplan_engine::findings::*;
-        pub use cplan_recordings::{
-            CollisionFinding, EncounterFinding, FarthestFinding, Judgement, LimitFinding, MomentFinding,
-            MotionFindings, PlanFinding, StepFinding, TurnContactFinding, TurnFinding, verify,
-        };
+        pub use cplan_recordings::*;
     }
 
     /// Plans tasks as sequences of certified motions.
@@ -165,10 +152,7 @@ pub mod planner {
 pub mod field {
     pub use cplan_fields::*;
     pub use cplan_harmonic::follow::*;
-    pub use cplan_harmonic::{
-        Component, Field, Lattice, LocalMaximum, Potential, PotentialGuide, Room, Wave, estimated_harmonic, harmonic,
-        harmonic_path, residual,
-    };
+    pub use cplan_harmonic::*;
     pub use cplan_multigrid as multigrid;
     pub use cplan_planners::planner::grid_path::Place;
     pub use cplan_planners::waves::{FreeCells, Move, Neighborhood, StepLabels, UNREACHED, search};

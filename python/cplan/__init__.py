@@ -21,9 +21,7 @@ from cplan._cplan import (
     InputError,
     Options,
     Plan,
-    PolygonTest,
     Problem,
-    Trajectory,
     Unknown,
     World,
     __version__,
@@ -32,6 +30,7 @@ from cplan._cplan import (
     polygon_test,
     slices,
 )
+from cplan._frames import PolygonTest, Trajectory
 from cplan.explaining import Explanation, explain
 from cplan.findings import Check, Comparison, Comparisons, Verification, check, compare, verify
 from cplan.planning import plan

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 from typing_extensions import Self, disjoint_base
 
+from cplan._frames import PolygonTest, Trajectory
 from cplan.cspace import CSpace
 
 __all__ = [
@@ -16,11 +17,9 @@ __all__ = [
     "Journal",
     "Options",
     "Plan",
-    "PolygonTest",
     "Problem",
     "Rows",
     "Study",
-    "Trajectory",
     "Unknown",
     "World",
     "__version__",
@@ -147,51 +146,6 @@ class Infeasible(Plan):
 @final
 class Unknown(Plan):
     __match_args__: ClassVar[tuple[str, ...]]
-
-@final
-class Trajectory:
-    @property
-    def time(self) -> NDArray[np.float64]: ...
-    @property
-    def position(self) -> NDArray[np.float64]: ...
-    @property
-    def velocity(self) -> NDArray[np.float64]: ...
-    @property
-    def acceleration(self) -> NDArray[np.float64]: ...
-    @property
-    def joints(self) -> list[str]: ...
-    @property
-    def units(self) -> list[str]: ...
-    @property
-    def interpolation(self) -> str | None: ...
-    def to_dict(self) -> dict[str, NDArray[np.float64]]: ...
-    def to_pandas(self) -> Any: ...
-    @staticmethod
-    def restored(
-        time: NDArray[np.float64],
-        rows: Sequence[NDArray[np.float64]],
-        joints: Sequence[str],
-        units: Sequence[str],
-        interpolation: str | None,
-    ) -> Trajectory: ...
-    def __len__(self) -> int: ...
-
-@final
-class PolygonTest:
-    @property
-    def meet(self) -> bool: ...
-    @property
-    def a_inside(self) -> list[int]: ...
-    @property
-    def b_inside(self) -> list[int]: ...
-    @property
-    def crossings(self) -> list[tuple[int, int]]: ...
-    @staticmethod
-    def restored(
-        meet: bool, a_inside: Sequence[int], b_inside: Sequence[int], crossings: Sequence[tuple[int, int]]
-    ) -> PolygonTest: ...
-    def __eq__(self, other: object, /) -> bool: ...
-    def __ne__(self, other: object, /) -> bool: ...
 
 def plan(
     problem: Problem, options: Options | None = None, progress: Callable[[str], object] | None = None

@@ -17,10 +17,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cplan import _frames
-from cplan._cplan import Arm, Plan, Trajectory, World
+from cplan._cplan import Arm, Plan, World
 from cplan._cplan import check as _check
 from cplan._cplan import compare as _compare
 from cplan._cplan import verify as _verify
+from cplan._frames import Trajectory
 from cplan.planning import options, words
 
 Pair = tuple[float, float]

@@ -39,59 +39,19 @@ pub fn penetration_depth(a: PyReadonlyArray2<'_, f64>, b: PyReadonlyArray2<'_, f
     Ok(geometry::penetration_depth(&polygon("a", &a)?, &polygon("b", &b)?))
 }
 
-/// The result of the polygon penetration test.
-#[pyclass(frozen, get_all, eq, module = "cplan")]
-#[derive(PartialEq)]
-pub struct PolygonTest {
-    /// True if the polygons have a point in common: exact, touching counts.
-    meet: bool,
-    /// Numbers of the corners of a in b.
-    a_inside: Vec<usize>,
-    /// Numbers of the corners of b in a.
-    b_inside: Vec<usize>,
-    /// Sides of a and of b that cross properly.
-    crossings: Vec<(usize, usize)>,
-}
-
-#[pymethods]
-impl PolygonTest {
-    fn __repr__(&self) -> String {
-        let Self { meet, a_inside, b_inside, crossings } = self;
-        let meet = if *meet { "True" } else { "False" };
-        format!(
-            "<cplan.PolygonTest: meet={meet}, a_inside={a_inside:?}, b_inside={b_inside:?}, crossings={crossings:?}>"
-        )
-    }
-
-    /// Restores a pickled result.
-    #[staticmethod]
-    fn restored(meet: bool, a_inside: Vec<usize>, b_inside: Vec<usize>, crossings: Vec<(usize, usize)>) -> Self {
-        Self { meet, a_inside, b_inside, crossings }
-    }
-
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, PolygonTestParts)> {
-        let Self { meet, a_inside, b_inside, crossings } = slf.get();
-        let parts = (*meet, a_inside.clone(), b_inside.clone(), crossings.clone());
-        Ok((slf.get_type().getattr("restored")?, parts))
-    }
-}
-
-/// The parts of a [`PolygonTest`].
-type PolygonTestParts = (bool, Vec<usize>, Vec<usize>, Vec<(usize, usize)>);
-
 /// Finds the corners of each convex polygon in the other, and sides that cross. Exact.
 ///
 /// Corners are arrays of shape (n, 2), counter-clockwise.
 #[pyfunction]
-pub fn polygon_test(a: PyReadonlyArray2<'_, f64>, b: PyReadonlyArray2<'_, f64>) -> PyResult<PolygonTest> {
+pub fn polygon_test<'py>(
+    py: Python<'py>,
+    a: PyReadonlyArray2<'_, f64>,
+    b: PyReadonlyArray2<'_, f64>,
+) -> PyResult<Bound<'py, PyAny>> {
     let test = geometry::polygon_test(&polygon("a", &a)?, &polygon("b", &b)?);
-    let corners = |inside: &[geometry::CornerInside]| inside.iter().map(|corner| corner.corner).collect();
-    Ok(PolygonTest {
-        meet: test.meet,
-        a_inside: corners(&test.a_inside),
-        b_inside: corners(&test.b_inside),
-        crossings: test.crossings,
-    })
+    let corners = |inside: &[geometry::CornerInside]| inside.iter().map(|c| c.corner).collect::<Vec<usize>>();
+    let parts = (test.meet, corners(&test.a_inside), corners(&test.b_inside), test.crossings);
+    py.import("cplan._frames")?.call_method1("PolygonTest", parts)
 }
 
 /// Returns the Minkowski difference: the translations of `b` with which it meets `a`, which is its C-obstacle. The

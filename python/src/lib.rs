@@ -26,11 +26,9 @@ fn _cplan(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<plan::Found>()?;
     module.add_class::<plan::Infeasible>()?;
     module.add_class::<plan::Unknown>()?;
-    module.add_class::<plan::Trajectory>()?;
     module.add_class::<study::Study>()?;
     module.add_class::<study::Rows>()?;
     module.add_class::<study::Journal>()?;
-    module.add_class::<geometry::PolygonTest>()?;
     module.add_function(wrap_pyfunction!(plan::plan, module)?)?;
     module.add_function(wrap_pyfunction!(plan::restored, module)?)?;
     module.add_function(wrap_pyfunction!(study::rows_restored, module)?)?;

@@ -5,7 +5,7 @@ use crate::geometry::array;
 use crate::problem::{Options, Problem, noted};
 use crate::signals::interruptible;
 use cplan::{PlanOutput as _, Status};
-use numpy::{PyArray1, PyArray2, PyArrayMethods};
+use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::PyBytes;
@@ -18,7 +18,7 @@ use std::time::Instant;
 pub struct Plan {
     plan: cplan::Plan,
     /// Computed at the first use, which takes as long as the rest of a call.
-    trajectory: PyOnceLock<Option<Py<Trajectory>>>,
+    trajectory: PyOnceLock<Option<Py<PyAny>>>,
     path: PyOnceLock<Option<Py<PyArray2<f64>>>>,
 }
 
@@ -34,91 +34,20 @@ pub struct Infeasible;
 #[pyclass(frozen, extends = Plan, module = "cplan")]
 pub struct Unknown;
 
-/// A motion in time. Arrays are read-only: n samples, two joints, base to tip.
-#[pyclass(frozen, get_all, module = "cplan")]
-pub struct Trajectory {
-    /// Seconds from the start, shape (n,).
-    time: Py<PyArray1<f64>>,
-    /// Joint values, shape (n, 2), radians or metres.
-    position: Py<PyArray2<f64>>,
-    /// Joint velocities, shape (n, 2), rad/s or m/s.
-    velocity: Py<PyArray2<f64>>,
-    /// Joint accelerations at the beginning of each interval, shape (n, 2), rad/s2 or m/s2.
-    acceleration: Py<PyArray2<f64>>,
-    /// Names of the joints, base to tip.
-    joints: [String; 2],
-    /// Units of the joints' values: rad or m.
-    units: [String; 2],
-    /// Description of the motion between samples.
-    interpolation: Option<String>,
-}
-
-impl Trajectory {
-    fn new(py: Python<'_>, plan: &cplan::Plan) -> PyResult<Option<Self>> {
-        let Some(motion) = plan.trajectory().cloned() else { return Ok(None) };
-        let joints = &plan.arm().joints;
-        Ok(Some(Self {
-            time: series(py, motion.time),
-            position: array(py, motion.position)?,
-            velocity: array(py, motion.velocity)?,
-            acceleration: array(py, motion.acceleration)?,
-            joints: joints.each_ref().map(|joint| joint.name.clone()),
-            units: joints.each_ref().map(|joint| joint.unit().to_owned()),
-            interpolation: Some(cplan::motion::interpolation(joints).to_owned()),
-        }))
-    }
-}
-
-#[pymethods]
-impl Trajectory {
-    fn __len__(&self, py: Python<'_>) -> usize {
-        self.time.bind(py).len().unwrap_or(0)
-    }
-
-    fn __repr__(&self, py: Python<'_>) -> String {
-        format!("<cplan.Trajectory: {} samples of {}>", self.__len__(py), self.joints.join(", "))
-    }
-
-    /// Returns the columns by name with joint and unit, such as "time [s]" and "elbow velocity [rad/s]", as
-    /// `pandas.DataFrame` and `polars.DataFrame` accept them.
-    fn to_dict<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("cplan._frames")?.call_method1("of_trajectory", (slf,))
-    }
-
-    /// Returns the trajectory as a pandas DataFrame; needs pandas.
-    fn to_pandas<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        slf.py().import("cplan._frames")?.call_method1("pandas", (Self::to_dict(slf)?,))
-    }
-
-    /// Restores a pickled trajectory.
-    #[staticmethod]
-    fn restored(
-        py: Python<'_>,
-        time: Vec<f64>,
-        rows: [Vec<[f64; 2]>; 3],
-        joints: [String; 2],
-        units: [String; 2],
-        interpolation: Option<String>,
-    ) -> PyResult<Self> {
-        if rows.iter().any(|rows| rows.len() != time.len()) {
-            return Err(refused("a trajectory has as many positions, velocities and accelerations as times"));
-        }
-        let [position, velocity, acceleration] = rows.map(|rows| array(py, rows));
-        let (position, velocity, acceleration) = (position?, velocity?, acceleration?);
-        Ok(Self { time: series(py, time), position, velocity, acceleration, joints, units, interpolation })
-    }
-
-    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Bound<'py, PyAny>)> {
-        let restored = slf.get_type().getattr("restored")?;
-        Ok((restored, slf.py().import("cplan._frames")?.call_method1("parts", (slf,))?))
-    }
-}
-
-/// Returns numbers as a read-only array.
-fn series(py: Python<'_>, numbers: Vec<f64>) -> Py<PyArray1<f64>> {
-    let array = PyArray1::from_vec(py, numbers);
-    array.readwrite().make_nonwriteable();
-    array.unbind()
+/// Returns the motion of a plan as a `cplan.Trajectory`.
+fn trajectory(py: Python<'_>, plan: &cplan::Plan) -> PyResult<Option<Py<PyAny>>> {
+    let Some(motion) = plan.trajectory().cloned() else { return Ok(None) };
+    let joints = &plan.arm().joints;
+    let parts = (
+        PyArray1::from_vec(py, motion.time),
+        array(py, motion.position)?,
+        array(py, motion.velocity)?,
+        array(py, motion.acceleration)?,
+        joints.each_ref().map(|joint| joint.name.clone()),
+        joints.each_ref().map(|joint| joint.unit()),
+        cplan::motion::interpolation(joints),
+    );
+    Ok(Some(py.import("cplan._frames")?.call_method1("Trajectory", parts)?.unbind()))
 }
 
 /// Returns a plan as an object of the class of its outcome.
@@ -284,11 +213,10 @@ impl Found {
 
     /// The whole motion in time.
     #[getter]
-    fn trajectory(slf: PyRef<'_, Self>) -> PyResult<Option<Py<Trajectory>>> {
+    fn trajectory(slf: PyRef<'_, Self>) -> PyResult<Option<Py<PyAny>>> {
         let py = slf.py();
-        let Plan { plan, trajectory, .. } = &**slf.as_super();
-        let made = trajectory
-            .get_or_try_init(py, || Trajectory::new(py, plan)?.map(|trajectory| Py::new(py, trajectory)).transpose())?;
+        let Plan { plan, trajectory: motion, .. } = &**slf.as_super();
+        let made = motion.get_or_try_init(py, || trajectory(py, plan))?;
         Ok(made.as_ref().map(|trajectory| trajectory.clone_ref(py)))
     }
 

@@ -1,6 +1,5 @@
 //! The numbers of an arm that `cplan init` writes: its URDF, and its size beside that of the arm to begin with.
 
-use super::data_sheet::DrivesName;
 use super::init::Kind;
 
 /// The numbers of an arm. Lengths are in metres, angles in radians.
@@ -15,7 +14,7 @@ pub struct ArmNumbers {
     /// Top speeds.
     pub speeds: [f64; 2],
     /// Mounting of the motors.
-    pub drives: Option<DrivesName>,
+    pub drives: Option<&'static str>,
 }
 
 impl ArmNumbers {

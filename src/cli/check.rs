@@ -3,7 +3,8 @@
 use super::exit::{DONE, REFUTED};
 use super::failure::Failure;
 use super::files::Files;
-use super::sinks::{self, Sink};
+use super::outputs::{Outputs, drawn, refuse_to_overwrite_inputs};
+use super::sinks;
 use super::theme::ThemeArgs;
 use super::values::clearance;
 use crate::engine::findings::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
@@ -63,19 +64,15 @@ fn time(text: &str) -> Result<f64, String> {
 /// # Errors
 /// Bad input and I/O. A configuration that is not free is no error, because the report states it.
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
-    let sinks = sinks::sinks(&[], &args.picture)?;
+    let outputs = Outputs::of_pictures(&args.picture, [])?;
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
     loaded.scene = loaded.timed().frozen(args.time);
-    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &loaded.files())?;
+    refuse_to_overwrite_inputs(outputs.paths(), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
     let scene = &loaded.scene;
     let q = args.at.resolve(&scene.arm().joints, "--at").map_err(input::InputError::from)?;
     let findings = check(scene, q);
-    for sink in &sinks {
-        if let Sink::Picture(format, path) = sink {
-            sinks::save_picture(*format, path, &args.theme.apply(view(args, &loaded, q, &findings)))?;
-        }
-    }
+    outputs.write_pictures(vec![], drawn(|| args.theme.apply(view(args, &loaded, q, &findings))))?;
     if args.json {
         sinks::print_json(&sinks::pretty(&findings)?)?;
     } else {

@@ -5,11 +5,10 @@ use std::fmt::Write as _;
 
 /// Defines `Command`, clap's enum of the subcommands, `Command::read_alone`, and `Command::run`, which calls the
 /// `run` of a subcommand's file.
-/// The input consists of groups of lines `Name(file::Args)`. If `run` also takes the
-/// [`Program`](super::program::Program), the line is `Name(file::Args, program)`. `GROUPS` lists the names in each
-/// group.
+/// The input consists of groups of lines `Name(file::Args)`. If `run` also takes the counter of the process's memory, the
+/// line is `Name(file::Args, meter)`. `GROUPS` lists the names in each group.
 macro_rules! commands {
-    ($program:ident: $($group:literal {
+    ($meter:ident: $($group:literal {
         $($(#[$cfg:meta])? $name:ident($file:ident::$args:ident $(, $context:ident)?),)+
     })+) => {
         /// The subcommands.
@@ -34,7 +33,7 @@ macro_rules! commands {
             }
 
             /// Runs the subcommand, and returns the exit code.
-            fn run(&mut self, $program: &Program) -> Result<u8, Failure> {
+            fn run(&mut self, $meter: Option<MemoryMeter>) -> Result<u8, Failure> {
                 match self {
                     $($($(#[$cfg])? Self::$name(args) => $file::run(args $(, $context)?),)+)+
                 }

@@ -2,8 +2,7 @@
 
 use super::exit::DONE;
 use super::failure::Failure;
-use super::program::Program;
-use super::sinks;
+use super::{grammar, sinks};
 use clap::{Arg, Args, Command};
 use clap_complete::Shell;
 
@@ -31,12 +30,12 @@ pub struct CompletionsArgs {
 ///
 /// # Errors
 /// I/O.
-pub fn run(args: &CompletionsArgs, program: &Program) -> Result<u8, Failure> {
+pub fn run(args: &CompletionsArgs) -> Result<u8, Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(args.shell, &mut (program.grammar)(), "cplan", &mut script);
+    clap_complete::generate(args.shell, &mut grammar(), "cplan", &mut script);
     let script = String::from_utf8_lossy(&script);
     // The generator would add a subcommand `help` of its own.
-    let script = if args.shell == Shell::Fish { for_fish(&script, &(program.grammar)()) } else { script.into_owned() };
+    let script = if args.shell == Shell::Fish { for_fish(&script, &grammar()) } else { script.into_owned() };
     sinks::print(&script)?;
     Ok(DONE)
 }

@@ -4,21 +4,21 @@ use super::exit::DONE;
 use super::failure::Failure;
 use super::files::Files;
 use super::headings::{OUTPUT, RELAXATION};
+use super::outputs::{Outputs, by_extension, refuse_to_overwrite_inputs};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
-use super::sinks::{self, Sink};
+use super::sinks;
 use super::theme::ThemeArgs;
 use crate::compare::{Setup, convergence};
 use crate::cspace::ZonedGrid;
 use crate::engine::{CellCounts, Problem, field_on_cells};
-use crate::field::{Difference, Direction, Domain, Equation, Initial, Limits, Measure, Stencil, Stopping};
+use crate::field::{Difference, Direction, Domain, Equation, Initial, Limits, Measure, Order, Stencil, Stopping};
 use crate::input;
-use crate::motion::write_whole_set;
-use crate::options::{OrderName, direction, finite, positive, word};
-use crate::output::title_of;
+use crate::options::{INITIALS, LIMITS, MEASURES, ORDERS, direction, finite, positive, word};
+use crate::output::{PictureFormat, title_of};
 use crate::planner::EquationChoice;
 use clap::{Args, ValueHint};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Report how relaxations of the harmonic planner's fields converge.
 ///
@@ -63,18 +63,18 @@ pub struct ConvergeArgs {
     #[arg(help_heading = RELAXATION)]
     pub direction: Direction,
     /// Order of the cells in the scans over factor and epsilon.
-    #[arg(long, value_enum, value_name = "NAME", default_value_t = OrderName::Rows, help_heading = RELAXATION)]
-    pub order: OrderName,
+    #[arg(long, value_parser = word(ORDERS), value_name = "NAME", default_value = "rows", help_heading = RELAXATION)]
+    pub order: Order,
     /// Effect of the joint limits on the field.
-    #[arg(long, value_parser = word::<Limits>(), value_name = "NAME", default_value = "high")]
+    #[arg(long, value_parser = word(LIMITS), value_name = "NAME", default_value = "high")]
     #[arg(help_heading = RELAXATION)]
     pub limits: Limits,
     /// Value of free cells before the first sweep.
-    #[arg(long, value_parser = word::<Initial>(), value_name = "NAME", default_value = "high")]
+    #[arg(long, value_parser = word(INITIALS), value_name = "NAME", default_value = "high")]
     #[arg(help_heading = RELAXATION)]
     pub initial: Initial,
     /// Measure of a sweep's changes, which must fall below the tolerance.
-    #[arg(long, value_parser = word::<Measure>(), value_name = "NAME", default_value = "relative")]
+    #[arg(long, value_parser = word(MEASURES), value_name = "NAME", default_value = "relative")]
     #[arg(help_heading = RELAXATION)]
     pub measure: Measure,
     /// Relax until the measure is below this.
@@ -103,12 +103,10 @@ pub struct ConvergeArgs {
 /// Bad input and I/O.
 pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let description = "the name of a file of measurements must end in .csv or .json";
-    let outputs = sinks::outputs(&args.output, &[("csv", true), ("json", false)], description)?;
-    let pictures = sinks::sinks(&[], &args.picture)?;
-    let files = || outputs.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
-    sinks::distinct(files())?;
+    let content = by_extension(&[("csv", true), ("json", false)], description);
+    let outputs = Outputs::new(&args.output, content, &args.picture, [])?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
-    sinks::refuse_to_overwrite_inputs(files(), &loaded.files())?;
+    refuse_to_overwrite_inputs(outputs.paths(), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
     loaded.require_static_obstacles("fields are for worlds without moving obstacles")?;
     let problem = Problem::of_scene(loaded, &args.query.overrides())?;
@@ -125,20 +123,10 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let measured = convergence(&setup, &mut |text| args.print.print_status(&format!("{text} ...")))
         .map_err(|error| Failure::Refused(error.to_string()))?;
     let json = || sinks::pretty(&measured.to_json());
-    let mut written = Vec::new();
-    for (path, is_csv) in &outputs {
-        let text = if *is_csv { measured.to_csv() } else { json()? };
-        written.push((path.clone(), text.into_bytes()));
-    }
-    for sink in &pictures {
-        if let Sink::Picture(format, path) = sink {
-            written.push((
-                path.clone(),
-                format.bytes_of(|| measured.figure().on_background(args.theme.is_dark()), || measured.to_html())?,
-            ));
-        }
-    }
-    write_whole_set(&written)?;
+    let table = |_: &Path, is_csv| Ok(Some(if is_csv { measured.to_csv() } else { json()? }.into_bytes()));
+    let figure = || measured.figure().on_background(args.theme.is_dark());
+    let chart = |format: PictureFormat| Ok(format.bytes_of(figure, || measured.to_html())?);
+    outputs.write(vec![], table, chart)?;
     args.print.report(DONE, json, || measured.to_text())?;
     Ok(DONE)
 }
@@ -184,7 +172,7 @@ impl ConvergeArgs {
             domain,
             equations,
             direction: in_cells.unwrap_or(self.direction),
-            order: self.order.into(),
+            order: self.order,
             stopping,
         })
     }

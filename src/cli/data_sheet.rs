@@ -4,8 +4,8 @@ use super::arm_numbers::ArmNumbers;
 use super::failure::Failure;
 use super::headings::DATA_SHEET;
 use super::init::Kind;
-use crate::options::positive;
-use clap::{Args, ValueEnum};
+use crate::options::{Word, positive, word};
+use clap::Args;
 
 /// Numbers that data sheets state.
 #[derive(Debug, Clone, Args)]
@@ -24,29 +24,15 @@ pub struct DataSheet {
     #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive, help_heading = DATA_SHEET)]
     pub speeds: Vec<f64>,
     /// Mounting of the motors (rr, scara).
-    #[arg(long, value_enum, value_name = "NAME", help_heading = DATA_SHEET)]
-    pub drives: Option<DrivesName>,
+    #[arg(long, value_parser = word(DRIVES), value_name = "NAME", help_heading = DATA_SHEET)]
+    pub drives: Option<&'static str>,
 }
 
 /// Motors of two joints that turn, by the names of the key `drives` in world files.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum DrivesName {
-    /// The elbow's motor is mounted on the base, and a belt leads to the elbow.
-    #[value(name = "standard_scara")]
-    StandardScara,
-    /// The elbow's motor is mounted on the upper arm.
-    Direct,
-}
-
-impl DrivesName {
-    /// Returns the name in world files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::StandardScara => "standard_scara",
-            Self::Direct => "direct",
-        }
-    }
-}
+const DRIVES: [Word<&str>; 2] = [
+    ("standard_scara", "standard_scara", "The elbow's motor is mounted on the base, and a belt leads to the elbow"),
+    ("direct", "direct", "The elbow's motor is mounted on the upper arm"),
+];
 
 /// Least and largest lengths in metres, ranges in degrees, and speeds in metres or degrees per second. Other numbers are
 /// mistakes, such as millimetres for metres.

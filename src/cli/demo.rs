@@ -9,9 +9,10 @@ use super::print_args::PrintArgs;
 use super::{plan, sinks};
 use crate::input::{LoadedScene, Source, scene_from};
 use crate::output::format_columns;
-use clap::{Args, Parser, ValueEnum, ValueHint};
+use clap::{Args, ValueEnum, ValueHint};
 use cplan_handling::FollowedLine;
 use cplan_toolpath::{Format, Placement, read};
+use std::ffi::OsString;
 use std::mem::take;
 use std::path::{Path, PathBuf};
 
@@ -112,28 +113,14 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
-/// The command line of `cplan follow`.
-#[derive(Debug, Parser)]
-struct FollowLine {
-    #[command(flatten)]
-    follow: FollowArgs,
-}
-
-/// The options of `cplan demo` for a plan.
-#[derive(Debug, Parser)]
-struct PlanLine {
-    #[command(flatten)]
-    plan: PlanArgs,
-}
-
 /// Moves the options for outputs, clearance and printed text to those of `cplan follow`.
 ///
 /// # Errors
 /// Options that `cplan follow` does not have.
 fn follow_args(plan: &mut PlanArgs) -> Result<FollowArgs, Failure> {
-    let FollowLine { mut follow } =
-        FollowLine::parse_from(["follow"].into_iter().chain(FOLLOW_FILES.map(|file| file[0])));
-    let PlanLine { plan: mut unset } = PlanLine::parse_from(["demo"]);
+    let follow_words = ["follow"].into_iter().chain(FOLLOW_FILES.map(|file| file[0]));
+    let mut follow: FollowArgs = of_words(follow_words)?;
+    let mut unset: PlanArgs = of_words(["demo"])?;
     (follow.output, follow.picture) = (take(&mut plan.output), take(&mut plan.picture));
     (follow.verbose, follow.clearance) = (take(&mut plan.verbose), plan.query.clearance.take());
     let PrintArgs { json, quiet } = plan.print;
@@ -146,6 +133,12 @@ fn follow_args(plan: &mut PlanArgs) -> Result<FollowArgs, Failure> {
     }
     let all = "--kind follow takes only --output, --picture, --clearance, --theme, --json, --quiet and --verbose";
     Err(Failure::Usage(format!("{all}; for more, call `cplan follow` with files")))
+}
+
+/// Returns the arguments of a command line.
+fn of_words<A: Args>(words: impl IntoIterator<Item = &'static str>) -> Result<A, Failure> {
+    let words: Vec<OsString> = words.into_iter().map(OsString::from).collect();
+    super::read(&words).ok_or_else(|| Failure::Usage("the options of the demonstration have no defaults".into()))
 }
 
 /// Reads the line of the demonstration.

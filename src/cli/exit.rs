@@ -1,5 +1,7 @@
 //! Exit codes.
 
+use crate::model::Status;
+
 /// Exit code: a certified path was found, or another command is done.
 pub const DONE: u8 = 0;
 /// Exit code: bad input or I/O.
@@ -15,3 +17,12 @@ pub const UNKNOWN: u8 = 4;
 /// Exit code of a study that Ctrl-C ends, the same as in shells.
 #[cfg(feature = "study")]
 pub const INTERRUPTED: u8 = 130;
+
+/// Returns the exit code for an answer.
+pub fn code_of(status: Status) -> u8 {
+    match status {
+        Status::Found => DONE,
+        Status::Infeasible => INFEASIBLE,
+        Status::Unknown => UNKNOWN,
+    }
+}

@@ -1,13 +1,14 @@
 //! `cplan explain`: the reasons why there is no motion, and changes that open a path. If there is a motion, the
 //! obstacles that make it longer.
 
-use super::exit::{DONE, INFEASIBLE, UNKNOWN};
+use super::exit::code_of;
 use super::failure::Failure;
 use super::files::Files;
 use super::headings::{OUTPUT, QUERY};
+use super::outputs::{Outputs, drawn, refuse_to_overwrite_inputs};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
-use super::sinks::{self, Sink};
+use super::sinks;
 use super::theme::ThemeArgs;
 use super::values::time_limit;
 use crate::engine::explain::{self, Explanation, MotionQuestion, StepFailure, TIME_LIMIT, explain, explain_step};
@@ -76,20 +77,13 @@ pub struct ExplainArgs {
 /// # Errors
 /// Bad input and I/O. A missing motion is no error, because the command explains it.
 pub fn run(args: &ExplainArgs) -> Result<u8, Failure> {
-    let sinks = sinks::sinks(&[], &args.picture)?;
+    let outputs = Outputs::of_pictures(&args.picture, [])?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
-    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &loaded.files())?;
+    refuse_to_overwrite_inputs(outputs.paths(), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.print_status(&format!("warning: {warning}")));
     let explained = ExplanationResult::of(loaded, &args.query.overrides(), Duration::from_secs_f64(args.time))?;
-    if !sinks.is_empty() {
-        let view = args.theme.apply(explained.view());
-        for sink in &sinks {
-            if let Sink::Picture(format, path) = sink {
-                sinks::save_picture(*format, path, &view)?;
-            }
-        }
-    }
-    let code = exit_code(explained.status());
+    outputs.write_pictures(vec![], drawn(|| args.theme.apply(explained.view())))?;
+    let code = code_of(explained.status());
     args.print.report(code, || sinks::pretty(&explained.to_json()), || explained.summary())?;
     Ok(code)
 }
@@ -219,12 +213,4 @@ fn failed_step(plan: &Plan, limit: Duration, options: &Options) -> Option<(Expla
         _ => format!("step {number} fails, and this explanation is about its motion: {what} ({place})"),
     };
     Some((explanation, note))
-}
-
-fn exit_code(status: Status) -> u8 {
-    match status {
-        Status::Found => DONE,
-        Status::Infeasible => INFEASIBLE,
-        Status::Unknown => UNKNOWN,
-    }
 }

@@ -1,12 +1,13 @@
 //! `cplan explore`: planning in a world that is discovered step by step.
 
-use super::exit::{DONE, INFEASIBLE, UNKNOWN};
+use super::exit::code_of;
 use super::failure::Failure;
 use super::files::Files;
 use super::headings::{EXPLORATION, OUTPUT, PLANNER};
+use super::outputs::{Outputs, refuse_to_overwrite_inputs};
 use super::print_args::PrintArgs;
 use super::query_args::QueryArgs;
-use super::sinks::{self, Sink};
+use super::sinks;
 use super::theme::ThemeArgs;
 use crate::engine::{CellCounts, Method, Options};
 use crate::explore::{
@@ -14,13 +15,13 @@ use crate::explore::{
 };
 use crate::input::{self, LoadedProblem, OccupancyMap, Rules};
 use crate::model::{Scene, Status};
-use crate::motion::{Format, JointMotion, Trajectory, check_writable, csv, ros_yaml, write_whole_set};
-use crate::options::{PlannerArgs, positive, word};
-use crate::output::{Line, contours, format_columns, title_of};
+use crate::motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
+use crate::options::{PlannerArgs, Word, planners, positive, word};
+use crate::output::{CSpaceFormat, Line, PictureFormat, contours, format_columns, title_of};
 use crate::space::{Configuration, Path as JointPath};
 use crate::text::{chosen_length, counted};
 use crate::view::{self, Picture, View};
-use clap::{Args, ValueEnum, ValueHint};
+use clap::{Args, ValueHint};
 use std::path::{Path, PathBuf};
 
 /// Plan in an unknown world that a range sensor reveals.
@@ -52,8 +53,8 @@ pub struct ExploreArgs {
     #[command(flatten)]
     pub files: Files,
     /// Choice of the next motion [default: goal if the world has a goal, otherwise view].
-    #[arg(long, value_enum, value_name = "NAME", help_heading = EXPLORATION)]
-    pub strategy: Option<StrategyName>,
+    #[arg(long, value_parser = word(STRATEGIES), value_name = "NAME", help_heading = EXPLORATION)]
+    pub strategy: Option<Strategy>,
 
     #[command(flatten)]
     pub query: QueryArgs,
@@ -88,7 +89,7 @@ pub struct ExploreArgs {
     #[arg(long, help_heading = OUTPUT)]
     pub timings: bool,
     /// Planner for the optimistic paths of strategy "goal", which treat unknown space as free.
-    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word(planners()), value_name = "NAME", default_value_t = Method::Shortest)]
     #[arg(help_heading = PLANNER)]
     pub planner: Method,
     #[command(flatten)]
@@ -96,99 +97,67 @@ pub struct ExploreArgs {
 }
 
 /// Strategies in the order of the help.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum StrategyName {
-    /// Toward the goal, as far as the path is known.
-    Goal,
-    /// To a configuration that shows all that the nearest one shows, and more.
-    View,
-    /// To the nearest configuration that shows something new.
-    Nearest,
-    /// Up the harmonic potential of all configurations that show something new.
-    Harmonic,
-    /// To the first configuration along the wall on the right that shows something new.
-    Wall,
-}
-
-impl From<StrategyName> for Strategy {
-    fn from(name: StrategyName) -> Self {
-        match name {
-            StrategyName::Goal => Self::Goal,
-            StrategyName::View => Self::View,
-            StrategyName::Nearest => Self::Nearest,
-            StrategyName::Harmonic => Self::Harmonic,
-            StrategyName::Wall => Self::Wall,
-        }
-    }
-}
+const STRATEGIES: [Word<Strategy>; 5] = [
+    (Strategy::Goal, "goal", "Toward the goal, as far as the path is known"),
+    (Strategy::View, "view", "To a configuration that shows all that the nearest one shows, and more"),
+    (Strategy::Nearest, "nearest", "To the nearest configuration that shows something new"),
+    (Strategy::Harmonic, "harmonic", "Up the harmonic potential of all configurations that show something new"),
+    (Strategy::Wall, "wall", "To the first configuration along the wall on the right that shows something new"),
+];
 
 /// Explores, and prints the result.
 ///
 /// # Errors
 /// Bad input and I/O.
 pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
-    let sinks = sinks::sinks(&args.output, &args.picture)?;
-    if let Some(sink) = sinks.iter().find(|sink| !is_known(sink)) {
-        let path = sink.path().display();
-        return Err(Failure::Usage(format!("{path}: an exploration can only be written as .json, .csv or .yaml")));
-    }
     let map = args.map.as_deref().map(map_files).transpose()?;
-    let files = || sinks.iter().map(Sink::path).chain(map.iter().flatten().map(PathBuf::as_path));
-    sinks::distinct(files())?;
+    let outputs = Outputs::new(&args.output, motion_format, &args.picture, map.iter().flatten().cloned())?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     let mut inputs = loaded.files();
     let sensor = loaded.sensor();
     let world = loaded.resolve(&args.query.overrides(), Rules::Exploration)?;
     world.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
-    args.options.ignored(args.planner).iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
+    args.options.effort.ignored(args.planner).iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let goals = Some(world.problem.goals()).filter(|goals| !goals.is_empty());
     let settings = args.settings(goals.is_some())?;
     inputs.extend(args.known.clone());
     inputs.extend(settings.known.as_ref().and_then(|map| map.picture.clone()));
-    sinks::refuse_to_overwrite_inputs(files(), &inputs)?;
+    refuse_to_overwrite_inputs(outputs.paths(), &inputs)?;
     let mut print_status = |text: &str| args.print.print_status(&format!("{text} ..."));
     let done = explore(world.problem.scene(), &sensor, world.problem.start(), goals, &settings, &mut print_status)
         .map_err(|error| args.refused(&error))?;
     let joints = world.problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
     let json = || done.to_json(joints.each_ref().map(String::as_str), &sensor, args.timings).to_string() + "\n";
-    let mut files = Vec::new();
-    for sink in &sinks {
-        match sink {
-            Sink::Result(Format::Json, path) => files.push((path.clone(), json().into_bytes())),
-            Sink::Result(format, path) => match &done.trajectory {
-                None => sinks::warn_unwritten(path, "trajectory"),
-                Some(trajectory) => {
-                    let text = match format {
-                        Format::Csv => {
-                            let motors = world.problem.scene().arm().motor_angles(&trajectory.position);
-                            csv(&joints, trajectory, &motors, false, None)
-                        }
-                        _ => ros_yaml(&JointMotion::new(&world.robot.joints, trajectory, false)),
-                    };
-                    files.push((path.clone(), text.into_bytes()));
-                }
-            },
-            Sink::CSpace(..) | Sink::Program(_) | Sink::Certificate(_) => (),
-            Sink::Picture(format, path) => {
-                let figure = || view::figure(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
-                // The page plays the readings, and needs no times of the motion.
-                let page_view = || view(&world, &done, None);
-                let page = || exploration_page(&page_view(), world.problem.scene(), &sensor, &done, args.timings);
-                files.push((path.clone(), format.bytes_of(figure, page)?));
-            }
-        }
-    }
+    let mut maps = Vec::new();
     if let Some([description, picture]) = &map {
         let name = picture.file_name().unwrap_or_default().to_string_lossy();
-        files.push((picture.clone(), map_picture(&done.survey)));
-        files.push((description.clone(), map_description(&done.survey, &name).into_bytes()));
+        maps.push((picture.clone(), map_picture(&done.survey)));
+        maps.push((description.clone(), map_description(&done.survey, &name).into_bytes()));
     }
-    write_whole_set(&files)?;
-    let code = match done.ending {
-        Ending::Reached | Ending::Explored { .. } => DONE,
-        Ending::Unreachable(_) => INFEASIBLE,
-        Ending::Unknown(_) => UNKNOWN,
+    let result = |path: &Path, format| {
+        let text = match (format, &done.trajectory) {
+            (Format::Json, _) => Some(json()),
+            (_, None) => {
+                sinks::warn_unwritten(path, "trajectory");
+                None
+            }
+            (Format::Csv, Some(trajectory)) => {
+                let motors = world.problem.scene().arm().motor_angles(&trajectory.position);
+                Some(csv(&joints, trajectory, &motors, false, None))
+            }
+            (_, Some(trajectory)) => Some(ros_yaml(&JointMotion::new(&world.robot.joints, trajectory, false))),
+        };
+        Ok(text.map(String::into_bytes))
     };
+    let picture = |format: PictureFormat| {
+        let figure = || view::figure(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
+        // The page plays the readings, and needs no times of the motion.
+        let page_view = || view(&world, &done, None);
+        let page = || exploration_page(&page_view(), world.problem.scene(), &sensor, &done, args.timings);
+        Ok(format.bytes_of(figure, page)?)
+    };
+    outputs.write(maps, result, picture)?;
+    let code = code_of(status(&done.ending));
     args.print.report(code, || Ok(json()), || summary(&world, &done, args.timings))?;
     Ok(code)
 }
@@ -209,9 +178,9 @@ impl ExploreArgs {
 
     fn settings(&self, has_goal: bool) -> Result<Settings, Failure> {
         let usual = Settings::default();
-        let strategy = self.strategy.map_or(if has_goal { Strategy::Goal } else { Strategy::View }, Strategy::from);
+        let strategy = self.strategy.unwrap_or(if has_goal { Strategy::Goal } else { Strategy::View });
         let planner = self.options.planner(self.planner).map_err(Failure::Usage)?;
-        self.options.missing().map_or(Ok(()), |missing| Err(Failure::Refused(missing)))?;
+        self.options.field.missing().map_or(Ok(()), |missing| Err(Failure::Refused(missing)))?;
         if let Some(error) = self.grid.error() {
             return Err(Failure::Usage(format!("--grid: {error}")));
         }
@@ -221,14 +190,29 @@ impl ExploreArgs {
             surveyed: self.surveyed,
             known: self.known.as_deref().map(OccupancyMap::read).transpose()?,
             decisions: self.decisions as usize,
-            options: Options { levels: self.options.levels(&planner), planner, ..usual.options },
+            options: Options { levels: self.options.effort.levels(&planner), planner, ..usual.options },
         })
     }
 }
 
-/// Returns true if a format can represent an exploration.
-fn is_known(sink: &Sink) -> bool {
-    matches!(sink, Sink::Result(Format::Json | Format::Csv | Format::Yaml, _) | Sink::Picture(..))
+/// Returns the format of an exploration in this file.
+fn motion_format(path: &Path) -> Result<Format, Failure> {
+    match Format::from_path(path)? {
+        format @ (Format::Json | Format::Csv | Format::Yaml) if CSpaceFormat::from_path(path).is_none() => Ok(format),
+        _ => {
+            let path = path.display();
+            Err(Failure::Usage(format!("{path}: an exploration can only be written as .json, .csv or .yaml")))
+        }
+    }
+}
+
+/// Returns the status of an exploration that ended so.
+fn status(ending: &Ending) -> Status {
+    match ending {
+        Ending::Reached | Ending::Explored { .. } => Status::Found,
+        Ending::Unreachable(_) => Status::Infeasible,
+        Ending::Unknown(_) => Status::Unknown,
+    }
 }
 
 /// Returns the paths of the description and of the picture of a map.
@@ -236,9 +220,7 @@ fn map_files(description: &Path) -> Result<[PathBuf; 2], Failure> {
     if !matches!(description.extension().and_then(|e| e.to_str()), Some("yaml" | "yml")) {
         return Err(Failure::Usage(format!("{}: a map's name must end in .yaml", description.display())));
     }
-    let files = [description.to_path_buf(), description.with_extension("pgm")];
-    files.iter().try_for_each(|file| check_writable(file))?;
-    Ok(files)
+    Ok([description.to_path_buf(), description.with_extension("pgm")])
 }
 
 /// Returns the path of all legs together.
@@ -250,11 +232,7 @@ fn explored_path(done: &Exploration, start: Configuration) -> JointPath {
 fn view(world: &LoadedProblem, done: &Exploration, trajectory: Option<&Trajectory>) -> View {
     let scene: &Scene = world.problem.scene();
     let explored_path = explored_path(done, world.problem.start());
-    let status = match done.ending {
-        Ending::Reached | Ending::Explored { .. } => Status::Found,
-        Ending::Unreachable(_) => Status::Infeasible,
-        Ending::Unknown(_) => Status::Unknown,
-    };
+    let status = status(&done.ending);
     let verdict = match status {
         Status::Unknown => status.name().to_owned(),
         Status::Found => done.ending.name().to_owned(),

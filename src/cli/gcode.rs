@@ -1,18 +1,20 @@
 //! `cplan gcode`: judges G-code for a machine with its own kinematics, and replaces unsafe travels.
 
-use super::exit::{DONE, INFEASIBLE, UNKNOWN};
+use super::exit::code_of;
 use super::failure::Failure;
 use super::files::Files;
 use super::headings::OUTPUT;
+use super::outputs::refuse_to_overwrite_inputs;
 use super::print_args::PrintArgs;
 use super::sinks;
 use super::values::{clearance, displacement, tolerance};
 use crate::input::{self, LoadedScene, line_diagnostic};
 use crate::model::Status;
 use crate::motion::{check_writable, write_whole};
+use crate::options::word;
 use crate::output::{format_columns, title_of};
 use crate::text::{chosen_length, counted};
-use clap::{Args, ValueEnum, ValueHint, builder::PossibleValue};
+use clap::{Args, ValueHint};
 use cplan_gcode::{Answer, Dialect, Elbow, Failed, GcodeError, Job, Pen, PenWords, Settings, Setup, judge};
 use cplan_toolpath::Source;
 use serde_json::{Value, json};
@@ -48,11 +50,11 @@ pub struct GcodeArgs {
     #[arg(long, conflicts_with = "output", required_unless_present = "output")]
     check: bool,
     /// Firmware of the machine.
-    #[arg(long, value_name = "NAME", value_enum, default_value_t = DialectName(Dialect::default()))]
-    dialect: DialectName,
+    #[arg(long, value_name = "NAME", value_parser = word(Dialect::ALL.map(|own| (own, own.name(), ""))), default_value_t)]
+    dialect: Dialect,
     /// Side of the elbow, seen from joint 1 towards the tip, if the machine's is fixed. By default both are tried.
-    #[arg(long, value_name = "SIDE", value_enum)]
-    elbow: Option<ElbowName>,
+    #[arg(long, value_name = "SIDE", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
+    elbow: Option<Elbow>,
     /// Place of the tip at the beginning and after homing (G28), metres. Without it, the moves from there are not judged.
     #[arg(long, value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
     home: Option<[f64; 2]>,
@@ -79,38 +81,6 @@ pub struct GcodeArgs {
     print: PrintArgs,
 }
 
-/// The name of a dialect.
-#[derive(Debug, Clone, Copy)]
-struct DialectName(Dialect);
-
-impl ValueEnum for DialectName {
-    fn value_variants<'a>() -> &'a [Self] {
-        const ALL: [DialectName; 6] = {
-            let [a, b, c, d, e, f] = Dialect::ALL;
-            [DialectName(a), DialectName(b), DialectName(c), DialectName(d), DialectName(e), DialectName(f)]
-        };
-        &ALL
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.0.name()))
-    }
-}
-
-/// The name of a side.
-#[derive(Debug, Clone, Copy)]
-struct ElbowName(Elbow);
-
-impl ValueEnum for ElbowName {
-    fn value_variants<'a>() -> &'a [Self] {
-        &[ElbowName(Elbow::Left), ElbowName(Elbow::Right)]
-    }
-
-    fn to_possible_value(&self) -> Option<PossibleValue> {
-        Some(PossibleValue::new(self.0.name()))
-    }
-}
-
 /// Judges a program, and writes it with safe travels.
 ///
 /// # Errors
@@ -120,17 +90,17 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let bytes = input::read_bytes(&args.job)?;
     let file = args.job.display().to_string();
     let pen = args.pen_up.clone().zip(args.pen_down.clone()).map(|(up, down)| Pen { up, down });
-    let setup = Setup { dialect: args.dialect.0, pen, home: args.home };
+    let setup = Setup { dialect: args.dialect, pen, home: args.home };
     let job = Job::read(&bytes, &setup).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
     loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();
-    sinks::refuse_to_overwrite_inputs(args.output.iter().map(PathBuf::as_path), &read)?;
+    refuse_to_overwrite_inputs(args.output.iter().map(PathBuf::as_path), &read)?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.print_status(&format!("warning: {warning}")));
     let settings = Settings {
         tolerance: args.tolerance,
         segment: args.segment,
-        elbow: args.elbow.map(|name| name.0),
+        elbow: args.elbow,
         repairs: !args.check,
     };
     let answer = judge(&loaded.scene, &job, &settings).map_err(|error| match error {
@@ -142,11 +112,7 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
         (Some(path), None) => sinks::warn_unwritten(path, "safe program"),
         (None, _) => {}
     }
-    let code = match answer.status() {
-        Status::Found => DONE,
-        Status::Infeasible => INFEASIBLE,
-        Status::Unknown => UNKNOWN,
-    };
+    let code = code_of(answer.status());
     let answered = Answered { args, loaded: &loaded, job: &job, answer: &answer };
     args.print.report(code, || sinks::pretty(&answered.json()), || answered.summary())?;
     Ok(code)
@@ -169,7 +135,7 @@ impl Answered<'_> {
         json!({
             "status": self.answer.status().name(),
             "file": self.args.job.display().to_string(),
-            "dialect": self.args.dialect.0.name(),
+            "dialect": self.args.dialect.name(),
             "elbow": side(elbow),
             "tolerance": self.args.tolerance,
             "segment": self.args.segment,
@@ -202,7 +168,7 @@ impl Answered<'_> {
         let [drawing, travels] = self.job.counts();
         let tolerance = chosen_length(self.args.tolerance);
         let moves = format!("{}, {}", counted(drawing, "drawing move"), counted(travels, "travel"));
-        lines.push(("program", format!("{moves}; tolerance {tolerance}; dialect {}", self.args.dialect.0)));
+        lines.push(("program", format!("{moves}; tolerance {tolerance}; dialect {}", self.args.dialect)));
         lines.extend(
             elbow.map(|elbow| ("elbow", format!("to the {} of the line from joint 1 to the tip", elbow.name()))),
         );

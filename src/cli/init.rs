@@ -14,6 +14,7 @@ use crate::model::Status;
 use crate::motion::write_whole_set;
 use crate::output::format_columns;
 use clap::{Args, ValueEnum, ValueHint};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 /// Names of the files that `cplan init` writes.
@@ -23,6 +24,13 @@ const SCHEMA_FILE: &str = "world.schema.json";
 
 /// Text of the world file, in which `{{marks}}` stand where worlds of different arms differ.
 const WORLD_TEMPLATE: &str = include_str!("starter/world.toml");
+
+/// Texts for the marks, in a table for each kind of arm.
+const MARKS: &str = include_str!("starter/marks.toml");
+
+/// Explanation of the key `drives` in world files.
+const MOTORS: &str =
+    "\n# Where the elbow's motor is mounted: \"standard_scara\" for the base, \"direct\" for the upper arm.\n";
 
 /// Write a robot and a world with comments, as a start.
 #[derive(Debug, Args)]
@@ -70,139 +78,32 @@ pub enum Kind {
     Arch,
 }
 
-/// Texts that replace the marks of the template.
-struct TemplateMarks {
-    name: &'static str,
-    joints: [&'static str; 2],
-    units: [&'static str; 2],
-    /// A range of the second joint that is narrower than the URDF's.
-    limits: &'static str,
-    start: &'static str,
-    goal: &'static str,
-    tip: &'static str,
-    /// Name and corners of the polygon.
-    polygon: [&'static str; 2],
-    /// Name of the disc, and its centre and radius.
-    disc: [&'static str; 2],
-    wall: &'static str,
-    region: &'static str,
-    /// True if objects on the table need heights, because a part of the arm moves above all of them.
-    is_above: bool,
-}
-
-const RR_MARKS: TemplateMarks = TemplateMarks {
-    name: "my cell",
-    joints: ["shoulder", "elbow"],
-    units: ["rad", "rad"],
-    limits: "[-2.0, 2.0]",
-    start: "[-0.9, 0.5]",
-    goal: "[1.5, -0.4]",
-    tip: "[0.3, 0.6]",
-    polygon: ["shelf", "[[0.6, 0.1], [0.9, 0.1], [0.9, 0.2], [0.6, 0.2]]"],
-    disc: ["post", "{ center = [0.1, -0.7], radius = 0.05 }"],
-    wall: "[[-0.5, -0.8], [-0.5, 0.8]]",
-    region: "[[0.2, 0.3], [0.5, 0.3], [0.5, 0.6]]",
-    is_above: false,
-};
-
-const RP_MARKS: TemplateMarks = TemplateMarks {
-    name: "my cell",
-    joints: ["turret", "ram_slide"],
-    units: ["rad", "m"],
-    limits: "[0.0, 0.5]",
-    start: "[-0.9, 0.4]",
-    goal: "[1.2, 0.4]",
-    tip: "[0.3, 0.7]",
-    polygon: ["shelf", "[[0.65, 0.1], [0.95, 0.1], [0.95, 0.2], [0.65, 0.2]]"],
-    disc: ["post", "{ center = [0.1, -0.8], radius = 0.05 }"],
-    wall: "[[-0.5, -0.8], [-0.5, 0.8]]",
-    region: "[[0.2, 0.3], [0.5, 0.3], [0.5, 0.6]]",
-    is_above: false,
-};
-
-const PR_MARKS: TemplateMarks = TemplateMarks {
-    name: "my cell",
-    joints: ["rail", "pivot"],
-    units: ["m", "rad"],
-    limits: "[-2.5, 2.5]",
-    start: "[-0.6, 1.2]",
-    goal: "[0.6, 1.9]",
-    tip: "[0.5, 0.4]",
-    polygon: ["machine", "[[-0.15, 0.2], [0.15, 0.2], [0.15, 0.4], [-0.15, 0.4]]"],
-    disc: ["post", "{ center = [0.7, -0.35], radius = 0.05 }"],
-    wall: "[[-0.9, -0.6], [0.9, -0.6]]",
-    region: "[[-0.4, 0.2], [-0.2, 0.2], [-0.2, 0.4]]",
-    is_above: false,
-};
-
-const PP_MARKS: TemplateMarks = TemplateMarks {
-    name: "my table",
-    joints: ["bridge_slide", "head_slide"],
-    units: ["m", "m"],
-    limits: "[0.0, 0.85]",
-    start: "[0.1, 0.1]",
-    goal: "[1.1, 0.8]",
-    tip: "[1.0, 0.2]",
-    polygon: ["machine", "[[0.4, 0.2], [0.8, 0.2], [0.8, 0.4], [0.6, 0.4], [0.6, 0.7], [0.4, 0.7]]"],
-    disc: ["post", "{ center = [0.9, 0.7], radius = 0.05 }"],
-    wall: "[[0.25, 0.5], [0.25, 1.0]]",
-    region: "[[0.8, 0.1], [1.0, 0.1], [1.0, 0.3]]",
-    is_above: true,
-};
-
-const SCARA_MARKS: TemplateMarks = TemplateMarks { joints: ["axis_1", "axis_2"], ..RR_MARKS };
-
-impl TemplateMarks {
-    /// Returns the text of the world of an arm with these numbers. Obstacles are `distance` times as far as in the template.
-    fn world(&self, kind: Kind, numbers: &ArmNumbers, distance: f64) -> String {
-        let scale = numbers.scale(kind).map(|scale| scale * distance);
-        let usual = ArmNumbers::of(kind);
-        let ratio = [0, 1].map(|k| numbers.limits[k] / usual.limits[k]);
-        let points = |text: &str| scaled(text, &scale);
-        let disc = |text: &str| scaled(text, &[scale[0], scale[1], scale[0].min(scale[1])]);
-        let joints = |text: &str| {
-            // Angles change only if the ranges are narrower than usual.
-            let turns = kind.turns();
-            scaled(text, &[0, 1].map(|k| if turns[k] { ratio[k].min(1.0) } else { ratio[k] }))
+/// Returns the text of the world of an arm with these numbers. `marks` is the name of its table in [`MARKS`]. Obstacles are
+/// `distance` times as far as in the template.
+fn world(kind: Kind, marks: &str, numbers: &ArmNumbers, distance: f64) -> String {
+    let all: BTreeMap<String, BTreeMap<String, String>> = toml::from_str(MARKS).expect("a table of texts for each arm");
+    let [x, y] = numbers.scale(kind).map(|scale| scale * distance);
+    let usual = ArmNumbers::of(kind);
+    let ratio = [0, 1].map(|k| numbers.limits[k] / usual.limits[k]);
+    // Angles change only if the ranges are narrower than usual.
+    let joints = [0, 1].map(|k| if kind.turns()[k] { ratio[k].min(1.0) } else { ratio[k] });
+    let filled = |world: String, (mark, text): (&String, &String)| {
+        let text = match mark.as_str() {
+            "limits2" => scaled(text, &ratio[1..]),
+            "start" | "goal" => scaled(text, &joints),
+            "tip" | "polygon" | "wall" | "region" => scaled(text, &[x, y]),
+            "disc" => scaled(text, &[x, y, x.min(y)]),
+            _ => text.clone(),
         };
-        let [joint1, joint2] = self.joints;
-        let [unit1, unit2] = self.units;
-        let height = "height = [0.0, 0.3]";
-        let above = |text: &str| if self.is_above { text.to_owned() } else { String::new() };
-        let motors =
-            "\n# Where the elbow's motor is mounted: \"standard_scara\" for the base, \"direct\" for the upper arm.\n";
-        let drives = match (kind.turns(), numbers.drives) {
-            ([true, true], Some(drives)) => format!("{motors}drives = \"{}\"", drives.name()),
-            ([true, true], None) => format!("{motors}#drives = \"standard_scara\""),
-            _ => String::new(),
-        };
-        let marks: [(&str, &str); 21] = [
-            ("arm", ROBOT_FILE),
-            ("world", WORLD_FILE),
-            ("name", self.name),
-            ("joint1", joint1),
-            ("joint2", joint2),
-            ("unit1", unit1),
-            ("unit2", unit2),
-            ("limits2", &scaled(self.limits, &[ratio[1]])),
-            ("start", &joints(self.start)),
-            ("goal", &joints(self.goal)),
-            ("tip", &points(self.tip)),
-            ("polygon_name", self.polygon[0]),
-            ("polygon", &points(self.polygon[1])),
-            ("height", &if self.is_above { height.to_owned() } else { format!("#{height}") }),
-            ("disc_name", self.disc[0]),
-            ("disc", &disc(self.disc[1])),
-            ("more_height", &above(&format!("\n{height}"))),
-            ("wall", &points(self.wall)),
-            ("wall_height", &above(&format!("\n#{height}"))),
-            ("region", &points(self.region)),
-            ("drives", &drives),
-        ];
-        marks
-            .iter()
-            .fold(WORLD_TEMPLATE.to_owned(), |text, (mark, with)| text.replace(&format!("{{{{{mark}}}}}"), with))
-    }
+        world.replace(&format!("{{{{{mark}}}}}"), &text)
+    };
+    let drives = match (kind.turns(), numbers.drives) {
+        ([true, true], Some(drives)) => format!("{MOTORS}drives = \"{drives}\""),
+        ([true, true], None) => format!("{MOTORS}#drives = \"standard_scara\""),
+        _ => String::new(),
+    };
+    let world = WORLD_TEMPLATE.replace("{{arm}}", ROBOT_FILE).replace("{{world}}", WORLD_FILE);
+    all[marks].iter().fold(world.replace("{{drives}}", &drives), filled)
 }
 
 impl Kind {
@@ -241,13 +142,13 @@ impl Kind {
     /// multiple of their usual distances.
     fn files_by(self, numbers: &ArmNumbers, distance: f64) -> [String; 2] {
         let (template, marks) = match self {
-            Kind::Rr => (include_str!("starter/rr.urdf"), RR_MARKS),
-            Kind::Rp => (include_str!("starter/rp.urdf"), RP_MARKS),
-            Kind::Pr => (include_str!("starter/pr.urdf"), PR_MARKS),
-            Kind::Pp => (include_str!("starter/pp.urdf"), PP_MARKS),
-            Kind::Scara | Kind::Arch => (include_str!("starter/scara.urdf"), SCARA_MARKS),
+            Kind::Rr => (include_str!("starter/rr.urdf"), "rr"),
+            Kind::Rp => (include_str!("starter/rp.urdf"), "rp"),
+            Kind::Pr => (include_str!("starter/pr.urdf"), "pr"),
+            Kind::Pp => (include_str!("starter/pp.urdf"), "pp"),
+            Kind::Scara | Kind::Arch => (include_str!("starter/scara.urdf"), "scara"),
         };
-        let mut world = marks.world(self, numbers, distance);
+        let mut world = world(self, marks, numbers, distance);
         if numbers.stroke > 0.0 {
             let joints = "joints = [\"axis_1\", \"axis_2\"]\n";
             let tool = "tip = \"flange\"\n# The quill and the wrist, for tasks: `stroke` and `wrist` in [start], [goal] and [[step]].\n\

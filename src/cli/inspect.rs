@@ -4,7 +4,8 @@ use super::exit::{DONE, REFUTED};
 use super::failure::Failure;
 use super::files::XacroArgs;
 use super::inspect_text::text;
-use super::sinks::{self, Sink};
+use super::outputs::{Outputs, refuse_to_overwrite_inputs};
+use super::sinks;
 use super::theme::ThemeArgs;
 use crate::input::{self, Diagnostic, InputError, Inspection, RobotFile};
 use crate::model::TimedScene;
@@ -107,19 +108,18 @@ pub struct InspectArgs {
 /// # Errors
 /// I/O, and, after the report, the first defect of a robot that cannot be planned for.
 pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
-    let sinks = sinks::sinks(&[], &args.picture)?;
+    let outputs = Outputs::of_pictures(&args.picture, args.expanded.clone())?;
     let robot = args.xacro.robot(&args.urdf);
     let inspection = input::inspect(&robot, args.world.as_deref());
-    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path).chain(args.expanded.as_deref()), &inspection.files)?;
+    refuse_to_overwrite_inputs(outputs.paths(), &inspection.files)?;
     if let Some(path) = &args.expanded {
         write_expanded(&robot, path)?;
     }
-    for sink in &sinks {
-        let Sink::Picture(format, path) = sink else { continue };
-        let view = view(&inspection).map(|view| args.theme.apply(view));
+    let view = (!args.picture.is_empty()).then(|| view(&inspection)).flatten().map(|view| args.theme.apply(view));
+    for (path, format) in &outputs.pictures {
         match (*format, &view) {
             (PictureFormat::Html, _) => write_whole(path, page(&inspection, view.as_ref())?.as_bytes())?,
-            (_, Some(view)) => sinks::save_picture(*format, path, view)?,
+            (_, Some(view)) => write_whole(path, &format.bytes(view)?)?,
             (_, None) => sinks::print_status(&format!(
                 "warning: {} is not written: there is no planar arm to draw",
                 path.display()

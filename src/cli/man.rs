@@ -3,8 +3,7 @@
 use super::exit::DONE;
 use super::failure::Failure;
 use super::fresh::folder;
-use super::program::Program;
-use super::sinks;
+use super::{grammar, sinks};
 use crate::motion::write_whole_set;
 use clap::{Args, Command, ValueHint};
 use clap_mangen::Man;
@@ -32,8 +31,8 @@ pub struct ManArgs {
 ///
 /// # Errors
 /// I/O.
-pub fn run(args: &ManArgs, program: &Program) -> Result<u8, Failure> {
-    let mut command = (program.grammar)().disable_help_subcommand(true);
+pub fn run(args: &ManArgs) -> Result<u8, Failure> {
+    let mut command = grammar().disable_help_subcommand(true);
     // This gives the subcommands their full names.
     command.build();
     let failed = |error: io::Error| Failure::Io(format!("manual page: {error}"));

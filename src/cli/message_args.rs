@@ -2,7 +2,7 @@
 
 use super::headings::OUTPUT;
 use crate::engine::NamedJoints;
-use crate::options::word;
+use crate::options::{JOINTS, word};
 use clap::Args;
 
 /// Content of tables and messages.
@@ -10,7 +10,7 @@ use clap::Args;
 #[command(next_help_heading = OUTPUT)]
 pub struct MessageArgs {
     /// Joints in ROS 2 files (.yaml, .mcap).
-    #[arg(long, value_parser = word::<NamedJoints>(), value_name = "WHICH", default_value = "all")]
+    #[arg(long, value_parser = word(JOINTS), value_name = "WHICH", default_value = "all")]
     pub joints: NamedJoints,
     /// Also write accelerations into .csv, .yaml and .mcap: controllers then join points by quintics instead of cubics.
     /// Refused if the acceleration jumps; limits on the jerk of both joints (--jerk) prevent jumps.

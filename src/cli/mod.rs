@@ -26,11 +26,11 @@ mod inspect_text;
 mod man;
 mod memory;
 mod message_args;
+mod outputs;
 mod plan;
 mod planners;
 mod polygons;
 mod print_args;
-mod program;
 mod program_args;
 mod progress;
 mod query_args;
@@ -67,13 +67,12 @@ use error_json::ErrorJson;
 use exit::USAGE;
 use files::Files;
 use plan::{PlanArgs, PlanCommand};
-use program::Program;
 use std::collections::BTreeSet;
 use std::ffi::OsString;
 use std::path::Path;
 use std::process::ExitCode;
 
-commands! { program:
+commands! { meter:
     "Start" {
         Demo(demo::DemoArgs),
         Init(init::InitArgs),
@@ -102,13 +101,13 @@ commands! { program:
         Recheck(recheck::RecheckArgs),
     }
     "Research" {
-        Compare(compare::CompareArgs, program),
+        Compare(compare::CompareArgs, meter),
         Converge(converge::ConvergeArgs),
     }
     "Shell and reference" {
-        Completions(completions::CompletionsArgs, program),
-        Man(man::ManArgs, program),
-        Planners(planners::PlannersArgs, program),
+        Completions(completions::CompletionsArgs),
+        Man(man::ManArgs),
+        Planners(planners::PlannersArgs),
         Schema(schema::SchemaArgs),
     }
 }
@@ -181,6 +180,11 @@ impl Cli {
     }
 }
 
+/// Returns the grammar of the whole command line, from which manual pages and scripts are generated.
+fn grammar() -> clap::Command {
+    Cli::command()
+}
+
 /// Hides the planners' options in the help of a command, which refers to `cplan planners` instead.
 fn without_planner_options(command: clap::Command) -> clap::Command {
     let planners: BTreeSet<String> =
@@ -218,7 +222,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
             return unread(&misspelled.unwrap_or(error), in_json);
         }
     };
-    command.run(&Program { grammar: Cli::command, meter }).unwrap_or_else(|failure: Failure| {
+    command.run(meter).unwrap_or_else(|failure: Failure| {
         if in_json && !failure.is_reported() {
             // If stdout is closed, the error cannot be reported there.
             let _ = sinks::print(&ErrorJson::of_failure(&failure).text());

@@ -1,27 +1,29 @@
 //! `cplan plan`, the main command: from two files to a certified motion, a proof, or neither.
 
-use super::exit::{DONE, INFEASIBLE, UNKNOWN};
+use super::exit::code_of;
 use super::explain;
 use super::failure::Failure;
 use super::files::Files;
 use super::headings::{OUTPUT, PLANNER};
 use super::message_args::MessageArgs;
+use super::outputs::{Outputs, refuse_to_overwrite_inputs};
 use super::print_args::PrintArgs;
 use super::program_args::{ProgramArgs, ProgramWriter};
 use super::progress;
 use super::query_args::QueryArgs;
-use super::result_files::ResultFiles;
-use super::sinks::{self, Sink};
+use super::result_files::{PlanContent, ResultFiles};
+use super::sinks;
 use super::theme::ThemeArgs;
 use crate::engine::{Method, Options, Plan, Planner, Problem, plan_with};
 use crate::input::{self, DiagnosticKind, Digests, InputError, JointValues, LoadedScene, Overrides};
 use crate::model::{MotionProblem, Status};
-use crate::motion::write_whole;
-use crate::options::{MotionArgs, PlannerArgs, word};
+use crate::motion::{Format, write_whole};
+use crate::options::{MotionArgs, PlannerArgs, Word, planners, word};
 use crate::output::{CSpaceFormat, Line, PlanOutput as _, format_columns, summary_with};
 use crate::space::Configuration;
 use crate::view::FieldLines;
-use clap::{Args, ValueEnum, ValueHint};
+use clap::{Args, ValueHint};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -83,9 +85,9 @@ pub struct PlanArgs {
     #[command(flatten, next_help_heading = OUTPUT)]
     pub theme: ThemeArgs,
     /// Lines in pictures of a field (.svg, .png, .gif). Pages can show and hide both kinds.
-    #[arg(long, value_enum, value_name = "LINES", default_value_t = FieldLinesName::Equipotentials)]
+    #[arg(long, value_parser = word(FIELD_LINES), value_name = "LINES", default_value = "equipotentials")]
     #[arg(help_heading = OUTPUT)]
-    pub field_lines: FieldLinesName,
+    pub field_lines: FieldLines,
     /// First label of a wavefront, or of another search of a grid, in pictures and files. Textbooks begin at 0, some at 1
     /// or 2.
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = OUTPUT)]
@@ -104,7 +106,7 @@ pub struct PlanArgs {
     #[arg(long, help_heading = OUTPUT)]
     pub timings: bool,
     /// Planner.
-    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word(planners()), value_name = "NAME", default_value_t = Method::Shortest)]
     #[arg(help_heading = PLANNER)]
     pub planner: Method,
     #[command(flatten)]
@@ -112,25 +114,11 @@ pub struct PlanArgs {
 }
 
 /// Kinds of field lines.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum FieldLinesName {
-    /// Lines of equal potential.
-    Equipotentials,
-    /// Lines of steepest ascent, with arrows.
-    Flow,
-    /// Both kinds of lines.
-    Both,
-}
-
-impl From<FieldLinesName> for FieldLines {
-    fn from(name: FieldLinesName) -> Self {
-        match name {
-            FieldLinesName::Equipotentials => Self::Equipotentials,
-            FieldLinesName::Flow => Self::Flow,
-            FieldLinesName::Both => Self::Both,
-        }
-    }
-}
+const FIELD_LINES: [Word<FieldLines>; 3] = [
+    (FieldLines::Equipotentials, "equipotentials", "Lines of equal potential"),
+    (FieldLines::Flow, "flow", "Lines of steepest ascent, with arrows"),
+    (FieldLines::Both, "both", "Both kinds of lines"),
+];
 
 /// Plans, writes the requested files, and returns the exit code.
 ///
@@ -149,31 +137,30 @@ pub fn answer(
     given: Option<&Files>,
     load: impl FnOnce() -> Result<LoadedScene, InputError>,
 ) -> Result<u8, Failure> {
-    let certificate = args.certificate.as_deref();
-    let within = certificate.filter(|path| sinks::is_json_among(path, &args.output));
-    let own_file = certificate.filter(|_| within.is_none());
-    let sinks = sinks::sinks_with(&args.output, &args.picture, own_file, |error, path| args.program.sink(error, path))?;
-    let mut program = args.program.writer(&sinks, args.motion.blend)?;
+    let own_file = args.certificate.clone().filter(|path| !is_member(path, &args.output));
+    let content = |path: &Path| PlanContent::of(path, &args.program);
+    let outputs = Outputs::new(&args.output, content, &args.picture, own_file)?;
+    let mut program = args.program.writer(&outputs, args.motion.blend)?;
     let options = options(args.planner, &args.options, &args.motion, &args.message)?;
     let mut options = Options { timings: args.timings, ..options };
     if program.is_some() {
         options.drive.blend = 0.0;
     }
-    require_grid(args, &sinks, &options.planner)?;
+    require_grid(args, &outputs, &options.planner)?;
     let begun = Instant::now();
     let loaded = load()?;
     let inputs = loaded.files();
-    let certified = given.filter(|_| certificate.is_some() || program.is_some());
+    let certified = given.filter(|_| args.certificate.is_some() || program.is_some());
     let about = certified.map(|files| Digests::of(&files.robot(), &files.world, &inputs)).transpose()?;
     let read: Vec<PathBuf> = inputs.iter().cloned().chain(program.iter().flat_map(ProgramWriter::files)).collect();
-    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &read)?;
+    refuse_to_overwrite_inputs(outputs.paths(), &read)?;
     if args.per_step && !loaded.is_task() {
         return Err(Failure::Usage("--per-step needs a world with steps ([[step]])".into()));
     }
     let mut asked = args.query.overrides();
     let stated_ends = loaded.resolved_ends();
     // Warnings come first, because they may explain why start or goal is refused.
-    let ignored = args.options.ignored(args.planner);
+    let ignored = args.options.effort.ignored(args.planner);
     loaded.robot.warnings.iter().chain(&ignored).for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let problem = match &mut program {
         None => Problem::of_scene(loaded, &asked).map_err(Failure::Input),
@@ -186,7 +173,7 @@ pub fn answer(
         return Err(Failure::Usage(lack));
     }
     let steps = problem.task().map_or(1, |task| task.steps().count());
-    let files = ResultFiles::new(&sinks, &inputs, args.per_step, steps)?;
+    let files = ResultFiles::new(&outputs, &inputs, args.per_step, steps)?;
     let plan = plan_with(&problem, &options, &mut |text| args.print.print_status(text))?;
     let begun = Instant::now();
     let program = program.map(|program| program.write(&plan, given.zip(about.as_ref()))).transpose()?;
@@ -195,13 +182,9 @@ pub fn answer(
     let asked = with_ends(asked, stated_ends, problem.query());
     let hint = if plan.status() == Status::Infeasible { explanation() } else { None };
     let text = program.as_ref().and_then(|program| program.text.as_deref());
-    let written = written(&plan, &sinks, &files, (&asked, about.as_ref()), (hint.as_deref(), text), args)?;
+    let written = written(&plan, &outputs, &files, (&asked, about.as_ref()), (hint.as_deref(), text), args)?;
     let after = [("write", begun.elapsed())];
-    let code = match plan.status() {
-        Status::Found => DONE,
-        Status::Infeasible => INFEASIBLE,
-        Status::Unknown => UNKNOWN,
-    };
+    let code = code_of(plan.status());
     let summary = || {
         let program = program.iter().map(|program| ("program", program.summary.clone()));
         let last: Vec<Line> = program.chain(hint.into_iter().map(|hint| ("hint", hint))).collect();
@@ -236,12 +219,12 @@ pub fn with_ends(asked: Overrides, stated_ends: [Option<Configuration>; 2], quer
 
 /// Refuses to write the values of a grid, its potential or its estimates if the planner has none, and to count labels
 /// that it does not have.
-fn require_grid(args: &PlanArgs, sinks: &[Sink], planner: &Planner) -> Result<(), Failure> {
+fn require_grid(args: &PlanArgs, outputs: &Outputs<PlanContent>, planner: &Planner) -> Result<(), Failure> {
     if args.labels_from > 0 && planner.method() != Method::Wavefront {
         return Err(Failure::Usage("--labels-from needs --planner wavefront: other planners label no cells".into()));
     }
-    for sink in sinks {
-        let Sink::CSpace(format, path) = sink else { continue };
+    for (path, content) in &outputs.results {
+        let PlanContent::CSpace(format) = content else { continue };
         let needed = match format {
             CSpaceFormat::Csv if planner.space().is_none() => {
                 "holds the values of a grid and needs --planner wavefront or harmonic"
@@ -266,64 +249,61 @@ fn require_grid(args: &PlanArgs, sinks: &[Sink], planner: &Planner) -> Result<()
 /// I/O, or a picture that cannot be rendered.
 fn written(
     plan: &Plan,
-    sinks: &[Sink],
+    outputs: &Outputs<PlanContent>,
     files: &ResultFiles,
     (asked, about): (&Overrides, Option<&Digests>),
     (hint, program): (Option<&str>, Option<&str>),
     args: &PlanArgs,
 ) -> Result<Vec<String>, Failure> {
+    let is_member = |path: &Path| is_member(path, &args.output);
     let certificate = args.certificate.as_deref().and_then(|path| match plan.certificate(asked, about) {
         Ok(certificate) => Some((path, certificate)),
         Err(why) => {
-            sinks::print_status(&format!("warning: {} is not written: {why}", describe_sink(path, sinks)));
+            let place = if is_member(path) { "the certificate in " } else { "" };
+            sinks::print_status(&format!("warning: {place}{} is not written: {why}", path.display()));
             None
         }
     });
     let member = certificate.as_ref().and_then(|(path, text)| Some((*path, serde_json::from_str(text).ok()?)));
     let mut written = files.write(plan, member)?;
-    let plays = sinks.iter().any(|sink| matches!(sink, Sink::Picture(format, _) if format.is_animated()));
+    let plays = outputs.pictures.iter().any(|(_, format)| format.is_animated());
     let seen = || {
         let mut view = if plays { plan.view_with_replay() } else { plan.view() };
         view.facts.extend(hint.iter().map(|hint| ["hint".to_owned(), (*hint).to_owned()]));
-        args.theme.apply(view).with_field_lines(args.field_lines.into()).with_labels_from(args.labels_from)
+        args.theme.apply(view).with_field_lines(args.field_lines).with_labels_from(args.labels_from)
     };
     let labeled = || plan.cspaces().with_labels_from(args.labels_from);
-    let (mut view, mut spaces) = (None, None);
-    for sink in sinks {
-        match sink {
-            Sink::Result(..) => continue,
-            Sink::Program(path) => match program {
-                Some(text) => write_whole(path, text.as_bytes())?,
-                None => {
-                    sinks::warn_unwritten(path, "motion");
-                    continue;
-                }
-            },
-            Sink::CSpace(format, path) => match format.text(spaces.get_or_insert_with(labeled)) {
-                Some(text) => write_whole(path, text.as_bytes())?,
-                None => {
-                    sinks::warn_unwritten(path, "grid");
-                    continue;
-                }
-            },
-            Sink::Picture(format, path) => {
-                let mut progress = progress::pictures_done(path, &args.print);
-                write_whole(path, &format.bytes_with(view.get_or_insert_with(seen), &mut progress)?)?;
-            }
-            Sink::Certificate(path) => match &certificate {
-                Some((_, certificate)) => write_whole(path, certificate.as_bytes())?,
-                None => continue,
-            },
+    let mut write = |path: &Path, bytes: &[u8]| {
+        written.push(path.display().to_string());
+        write_whole(path, bytes)
+    };
+    if let Some((path, certificate)) = certificate.as_ref().filter(|(path, _)| !is_member(path)) {
+        write(path, certificate.as_bytes())?;
+    }
+    let mut spaces = None;
+    for (path, content) in &outputs.results {
+        let (text, lacks) = match content {
+            PlanContent::Result(_) => continue,
+            PlanContent::Program => (program.map(Cow::Borrowed), "motion"),
+            PlanContent::CSpace(format) => (format.text(spaces.get_or_insert_with(labeled)).map(Cow::Owned), "grid"),
+        };
+        match text {
+            Some(text) => write(path, text.as_bytes())?,
+            None => sinks::warn_unwritten(path, lacks),
         }
-        written.push(sink.path().display().to_string());
+    }
+    let mut view = None;
+    for (path, format) in &outputs.pictures {
+        let mut progress = progress::pictures_done(path, &args.print);
+        write(path, &format.bytes_with(view.get_or_insert_with(seen), &mut progress)?)?;
     }
     Ok(written)
 }
 
-/// Describes the place of a certificate: a file of its own, or a member of another file.
-fn describe_sink(path: &Path, sinks: &[Sink]) -> String {
-    let is_file = sinks.iter().any(|sink| matches!(sink, Sink::Certificate(own) if own == path));
-    if is_file { path.display().to_string() } else { format!("the certificate in {}", path.display()) }
+/// Returns true if the certificate in this file is a member of a JSON result.
+fn is_member(path: &Path, results: &[PathBuf]) -> bool {
+    let is_json = CSpaceFormat::from_path(path).is_none() && matches!(Format::from_path(path), Ok(Format::Json));
+    is_json && results.iter().any(|result| result == path)
 }
 
 /// Returns the planning options from the command line.
@@ -337,12 +317,12 @@ pub fn options(
     message: &MessageArgs,
 ) -> Result<Options, Failure> {
     let planner = options.planner(planner).map_err(Failure::Usage)?;
-    options.missing().map_or(Ok(()), |missing| Err(Failure::Refused(missing)))?;
+    options.field.missing().map_or(Ok(()), |missing| Err(Failure::Refused(missing)))?;
     Ok(Options {
-        levels: options.levels(&planner),
+        levels: options.effort.levels(&planner),
         planner,
         drive: motion.drive(),
-        jerk: motion.jerk(),
+        jerk: motion.jerk,
         joints: message.joints,
         accelerations: message.accelerations,
         ..Options::default()

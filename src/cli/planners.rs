@@ -2,10 +2,9 @@
 
 use super::exit::DONE;
 use super::failure::Failure;
-use super::program::Program;
-use super::sinks;
+use super::{grammar, sinks};
 use crate::engine::Method;
-use crate::options::{PlannerArgs, word};
+use crate::options::{PlannerArgs, planners, word};
 use clap::Args;
 
 /// List the options of each planner.
@@ -28,7 +27,7 @@ Examples:
 Exit codes: 0 the options are printed, 2 wrong command line.")]
 pub struct PlannersArgs {
     /// Planner. Each option below names the planners that read it.
-    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word(planners()), value_name = "NAME", default_value_t = Method::Shortest)]
     pub planner: Method,
     #[command(flatten)]
     pub options: PlannerArgs,
@@ -38,8 +37,8 @@ pub struct PlannersArgs {
 ///
 /// # Errors
 /// I/O.
-pub fn run(_: &PlannersArgs, program: &Program) -> Result<u8, Failure> {
-    let mut grammar = (program.grammar)();
+pub fn run(_: &PlannersArgs) -> Result<u8, Failure> {
+    let mut grammar = grammar();
     // Subcommands get their full names, and the width of the help.
     grammar.build();
     let help = grammar.find_subcommand_mut("planners").map(|command| command.render_long_help().to_string());

@@ -3,7 +3,8 @@
 use super::failure::Failure;
 use super::files::Files;
 use super::headings::OUTPUT;
-use super::sinks::Sink;
+use super::outputs::Outputs;
+use super::result_files::PlanContent;
 use crate::engine::{Plan, Problem};
 use crate::input::{Diagnostic, Digests, InputError, LoadedScene, Overrides};
 use crate::model::Status;
@@ -46,13 +47,13 @@ pub struct WrittenProgram {
 }
 
 impl ProgramArgs {
-    /// Returns the output for a file whose extension is of no known format.
+    /// Returns the content of a file whose extension is of no known format.
     ///
     /// # Errors
     /// The error about the format, unless a template writes the file.
-    pub fn sink(&self, error: FormatError, path: &Path) -> Result<Sink, Failure> {
+    pub fn content(&self, error: FormatError) -> Result<PlanContent, Failure> {
         match (&error, &self.template) {
-            (FormatError::Unknown { .. }, Some(_)) => Ok(Sink::Program(path.to_owned())),
+            (FormatError::Unknown { .. }, Some(_)) => Ok(PlanContent::Program),
             (FormatError::Unknown { .. }, None) => {
                 let hint = "with --template, files with other extensions are programs for a controller";
                 Err(Failure::Usage(format!("{error}\n  hint: {hint}")))
@@ -65,9 +66,9 @@ impl ProgramArgs {
     ///
     /// # Errors
     /// A template without a file to write, corners that must be rounded, and a defect of the template.
-    pub fn writer(&self, sinks: &[Sink], blend: f64) -> Result<Option<ProgramWriter>, Failure> {
+    pub fn writer(&self, outputs: &Outputs<PlanContent>, blend: f64) -> Result<Option<ProgramWriter>, Failure> {
         let Some(name) = &self.template else { return Ok(None) };
-        if !sinks.iter().any(|sink| matches!(sink, Sink::Program(_))) {
+        if !outputs.results.iter().any(|(_, content)| *content == PlanContent::Program) {
             let message =
                 "--template needs an --output file with an extension of its own, such as --output program.prg";
             return Err(Failure::Usage(message.into()));

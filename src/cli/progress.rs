@@ -69,16 +69,14 @@ impl Progress {
 
     /// Shows the beginning of a run.
     pub fn begin(&self, problem: &str, planner: &str) {
-        match self.mode {
-            ProgressMode::Silent | ProgressMode::Lines | ProgressMode::LongLines => {}
-            ProgressMode::Bar => {
-                let mut state = self.state();
-                state.now = format!("{planner} on {problem}");
-                if state.done == 0 || state.shown.elapsed() >= REDRAW_INTERVAL {
-                    state.shown = Instant::now();
-                    self.draw(&state);
-                }
-            }
+        if self.mode != ProgressMode::Bar {
+            return;
+        }
+        let mut state = self.state();
+        state.now = format!("{planner} on {problem}");
+        if state.done == 0 || state.shown.elapsed() >= REDRAW_INTERVAL {
+            state.shown = Instant::now();
+            print_on_stderr(&format!("\r{}", bar(state.done, self.total, self.started.elapsed(), &state.now)));
         }
     }
 
@@ -86,14 +84,11 @@ impl Progress {
     pub fn done(&self) {
         let mut state = self.state();
         state.done += 1;
-        match self.mode {
-            // The bar is drawn when the next run begins.
-            ProgressMode::Silent | ProgressMode::Bar => {}
-            ProgressMode::Lines | ProgressMode::LongLines if state.shown.elapsed() >= LINE_INTERVAL => {
-                state.shown = Instant::now();
-                sinks::print_status(&line(state.done, self.total, self.noun, self.started.elapsed()));
-            }
-            ProgressMode::Lines | ProgressMode::LongLines => {}
+        // The bar is drawn when the next run begins.
+        let prints_lines = matches!(self.mode, ProgressMode::Lines | ProgressMode::LongLines);
+        if prints_lines && state.shown.elapsed() >= LINE_INTERVAL {
+            state.shown = Instant::now();
+            sinks::print_status(&line(state.done, self.total, self.noun, self.started.elapsed()));
         }
     }
 
@@ -108,10 +103,6 @@ impl Progress {
                 sinks::print_status(&line(done, done, self.noun, self.started.elapsed()));
             }
         }
-    }
-
-    fn draw(&self, state: &State) {
-        print_on_stderr(&format!("\r{}", bar(state.done, self.total, self.started.elapsed(), &state.now)));
     }
 
     fn state(&self) -> MutexGuard<'_, State> {

@@ -4,6 +4,7 @@ use super::exit::DONE;
 use super::failure::Failure;
 use super::files::Files;
 use super::headings::OUTPUT;
+use super::outputs::{Outputs, by_extension, drawn, refuse_to_overwrite_inputs};
 use super::print_args::PrintArgs;
 use super::sinks;
 use super::theme::ThemeArgs;
@@ -11,14 +12,13 @@ use super::values::clearance;
 use crate::engine::{Access, MAX_PLACES, Reach, reach, reach_section};
 use crate::input::{self, JointValues, LoadedProblem, Overrides, Rules};
 use crate::model::Status;
-use crate::motion::{check_writable, write_whole_set};
 use crate::options::positive;
-use crate::output::{PictureFormat, contours, format_columns, title_of};
+use crate::output::{contours, format_columns, title_of};
 use crate::text::{counted, fixed, length, percent};
 use crate::view::{Picture, View};
 use clap::{Args, ValueHint};
 use serde_json::{Value, json};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Default number of cells along a length that equals the arm's reach.
 const DEFAULT_CELLS: f64 = 60.0;
@@ -69,24 +69,11 @@ pub struct ReachArgs {
 /// # Errors
 /// Bad input and I/O.
 pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
-    let tables = sinks::outputs(
-        &args.output,
-        &[("json", true), ("csv", false)],
-        "the name of a reach file must end in .json or .csv",
-    )?;
-    let pictures = args.picture.iter().map(|path| match PictureFormat::from_path(path)? {
-        format if format.is_animated() && format != PictureFormat::Html => {
-            Err(Failure::Usage(format!("{}: a reach is drawn as .svg, .png or .html", path.display())))
-        }
-        format => Ok((path.clone(), format)),
-    });
-    let pictures = pictures.collect::<Result<Vec<_>, Failure>>()?;
-    let files = || tables.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(|(path, _)| path.as_path()));
-    pictures.iter().try_for_each(|(path, _)| check_writable(path))?;
-    sinks::distinct(files())?;
+    let content = by_extension(&[("json", true), ("csv", false)], "the name of a reach file must end in .json or .csv");
+    let outputs = Outputs::new(&args.output, content, &args.picture, [])?.without_animation("a reach")?;
     let overrides = Overrides { start: args.home, clearance: args.clearance, ..Overrides::default() };
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
-    sinks::refuse_to_overwrite_inputs(files(), &loaded.files())?;
+    refuse_to_overwrite_inputs(outputs.paths(), &loaded.files())?;
     let world = loaded.resolve(&overrides, Rules::Exploration);
     let world = world.map_err(|error| error.with_option("--start", "--home"))?;
     world.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
@@ -94,16 +81,10 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     let reach = reach(world.problem.scene(), world.problem.start(), cell).ok_or_else(|| {
         Failure::Refused(format!("--cell {cell} gives more than {MAX_PLACES} cells: choose a larger size"))
     })?;
-    let mut written = Vec::new();
-    for (path, is_json) in &tables {
-        let text = if *is_json { sinks::pretty(&object(&world, &reach))? } else { csv(&world, &reach) };
-        written.push((path.clone(), text.into_bytes()));
-    }
-    for (path, format) in &pictures {
-        written.push((path.clone(), format.bytes(&args.theme.apply(view(&world, &reach)))?));
-    }
-    write_whole_set(&written)?;
-    args.print.report(DONE, || sinks::pretty(&object(&world, &reach)), || summary(&world, &reach))?;
+    let json = || sinks::pretty(&object(&world, &reach));
+    let table = |_: &Path, is_json| Ok(Some(if is_json { json()? } else { csv(&world, &reach) }.into_bytes()));
+    outputs.write(vec![], table, drawn(|| args.theme.apply(view(&world, &reach))))?;
+    args.print.report(DONE, json, || summary(&world, &reach))?;
     Ok(DONE)
 }
 

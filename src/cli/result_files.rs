@@ -1,16 +1,42 @@
 //! Writes the files of a result.
 
 use super::failure::Failure;
-use super::sinks::{self, Sink};
+use super::outputs::{Outputs, distinct, refuse_to_overwrite_inputs};
+use super::program_args::ProgramArgs;
+use super::sinks;
 use crate::engine::Plan;
 use crate::motion::{Format, check_writable, write_whole_set};
-use crate::output::{FileFormat, PlanOutput as _};
+use crate::output::{CSpaceFormat, FileFormat, PlanOutput as _};
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
 /// Least number of digits of a step's number in a file name. Numbers are padded with zeros, so that names sort in the
 /// order of the steps.
 const MIN_STEP_DIGITS: usize = 3;
+
+/// The content of a file that `cplan plan` writes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum PlanContent {
+    /// The result.
+    Result(Format),
+    /// The configuration space as data.
+    CSpace(CSpaceFormat),
+    /// A program for a controller.
+    Program,
+}
+
+impl PlanContent {
+    /// Returns the content of a file by its name.
+    ///
+    /// # Errors
+    /// An extension of no known format, unless a template writes the file.
+    pub fn of(path: &Path, program: &ProgramArgs) -> Result<Self, Failure> {
+        match CSpaceFormat::from_path(path) {
+            Some(format) => Ok(Self::CSpace(format)),
+            None => Format::from_path(path).map(Self::Result).or_else(|error| program.content(error)),
+        }
+    }
+}
 
 /// The result files that are requested.
 pub struct ResultFiles {
@@ -26,10 +52,15 @@ impl ResultFiles {
     ///
     /// # Errors
     /// Files per step without a suitable format, and files that cannot be written.
-    pub fn new(sinks: &[Sink], inputs: &[PathBuf], per_step: bool, steps: usize) -> Result<Self, Failure> {
-        let results = sinks.iter().filter_map(|sink| match sink {
-            Sink::Result(format, path) => Some((*format, path.clone())),
-            Sink::CSpace(..) | Sink::Program(_) | Sink::Picture(..) | Sink::Certificate(_) => None,
+    pub fn new(
+        outputs: &Outputs<PlanContent>,
+        inputs: &[PathBuf],
+        per_step: bool,
+        steps: usize,
+    ) -> Result<Self, Failure> {
+        let results = outputs.results.iter().filter_map(|(path, content)| match content {
+            PlanContent::Result(format) => Some((*format, path.clone())),
+            PlanContent::CSpace(_) | PlanContent::Program => None,
         });
         let files = Self { results: results.collect(), per_step, steps };
         let parted: Vec<&Path> =
@@ -41,9 +72,9 @@ impl ResultFiles {
         let parts: Vec<PathBuf> =
             parted.iter().flat_map(|path| (1..=steps).map(|number| files.part(path, number))).collect();
         parts.iter().try_for_each(|part| check_writable(part))?;
-        let others = sinks.iter().map(Sink::path).filter(|path| !per_step || !parted.contains(path));
-        sinks::distinct(others.chain(parts.iter().map(PathBuf::as_path)))?;
-        sinks::refuse_to_overwrite_inputs(parts.iter().map(PathBuf::as_path), inputs)?;
+        let others = outputs.paths().filter(|path| !per_step || !parted.contains(path));
+        distinct(others.chain(parts.iter().map(PathBuf::as_path)))?;
+        refuse_to_overwrite_inputs(parts.iter().map(PathBuf::as_path), inputs)?;
         Ok(files)
     }
 

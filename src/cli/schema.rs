@@ -3,7 +3,8 @@
 use super::exit::DONE;
 use super::failure::Failure;
 use super::sinks;
-use clap::{Args, ValueEnum};
+use crate::options::{Word, word};
+use clap::Args;
 
 /// The schema of world files. Like the others, a test of the crate with the types writes it.
 pub const WORLD_SCHEMA: &str = include_str!("../../docs/world.schema.json");
@@ -25,32 +26,27 @@ Examples:
 Exit codes: 0 printed, 1 I/O, 2 wrong command line.")]
 pub struct SchemaArgs {
     /// Kind of file.
-    #[arg(value_name = "FILES", default_value = "world")]
-    of: SchemaKind,
+    #[arg(value_name = "FILES", value_parser = word(SCHEMAS), default_value = "world")]
+    schema: &'static str,
 }
 
-/// Files that have a schema.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum SchemaKind {
-    /// World files (TOML).
-    World,
-    /// Study files (TOML).
+/// The schemas, with the names of the files that have them.
+const SCHEMAS: &[Word<&str>] = &[
+    (WORLD_SCHEMA, "world", "World files (TOML)"),
     #[cfg(feature = "study")]
-    Study,
-    /// Configuration spaces, written by `--output cspace.json`.
-    Cspace,
-}
+    (include_str!("../../docs/study.schema.json"), "study", "Study files (TOML)"),
+    (
+        include_str!("../../docs/cspace.schema.json"),
+        "cspace",
+        "Configuration spaces, written by `--output cspace.json`",
+    ),
+];
 
 /// Prints the schema.
 ///
 /// # Errors
 /// I/O.
 pub fn run(args: &SchemaArgs) -> Result<u8, Failure> {
-    sinks::print(match args.of {
-        SchemaKind::World => WORLD_SCHEMA,
-        #[cfg(feature = "study")]
-        SchemaKind::Study => include_str!("../../docs/study.schema.json"),
-        SchemaKind::Cspace => include_str!("../../docs/cspace.schema.json"),
-    })?;
+    sinks::print(args.schema)?;
     Ok(DONE)
 }

@@ -3,11 +3,11 @@
 use super::exit::{DONE, INTERRUPTED};
 use super::failure::Failure;
 use super::headings::OUTPUT;
+use super::outputs::{Outputs, by_extension, refuse_to_overwrite_inputs};
 use super::print_args::PrintArgs;
 use super::progress::Progress;
 use super::{signals, sinks};
 use crate::input;
-use crate::motion::write_whole_set;
 use crate::study::{Journal, JournalError, Row, Study, Summary, pictures};
 use crate::text::{counted, for_a_shell};
 use clap::{Args, ValueHint};
@@ -91,15 +91,16 @@ enum Content {
 /// # Errors
 /// Bad input and I/O.
 pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
-    let files = contents(&args.output, args.layout.is_some())?;
+    let outputs = contents(&args.output, args.layout.is_some())?;
+    let files = &outputs.results;
     let study = Study::load(&args.study, &|words| super::read_words(words), &input::robot)?;
     let inputs = study.files();
-    sinks::refuse_to_overwrite_inputs(files.iter().map(|(path, _)| path.as_path()), &inputs)?;
+    refuse_to_overwrite_inputs(outputs.paths(), &inputs)?;
     if let Some(layout) = args.layout {
-        return write_layout(&study, layout, &files);
+        return write_layout(&study, layout, &outputs);
     }
     let journal = files.first().map(|(path, _)| part(path));
-    sinks::refuse_to_overwrite_inputs(journal.iter().map(PathBuf::as_path), &inputs)?;
+    refuse_to_overwrite_inputs(journal.iter().map(PathBuf::as_path), &inputs)?;
     let opened = journal.map(|path| Journal::open(&path, &study, args.fresh)).transpose()?;
     study.remarks().iter().for_each(|remark| args.print.print_status(remark));
     let (journal, mut rows) = opened.map_or((None, Vec::new()), |(journal, rows)| (Some(journal), rows));
@@ -140,27 +141,25 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     rows.append(&mut found);
     progress.end();
     let summary = Summary::new(&study, &rows);
-    let mut written = Vec::new();
-    for (path, content) in &files {
-        match bytes(&study, &rows, &summary, *content, &files)? {
-            Some(bytes) => written.push((path.clone(), bytes)),
-            None => sinks::print_status(&format!(
-                "warning: {} is not written: no layout meets the requirements",
-                path.display()
-            )),
+    let result = |path: &Path, content| {
+        let bytes = bytes(&study, &rows, &summary, content, files)?;
+        if bytes.is_none() {
+            let path = path.display();
+            sinks::print_status(&format!("warning: {path} is not written: no layout meets the requirements"));
         }
-    }
-    write_whole_set(&written)?;
-    note_robot(&study, &files);
+        Ok(bytes)
+    };
+    outputs.write_results(result)?;
+    note_robot(&study, files);
     kept.remove()?;
-    let planned = summary.best().and_then(|best| Some((best.layout, command(&study, &files)?)));
+    let planned = summary.best().and_then(|best| Some((best.layout, command(&study, files)?)));
     let planned = planned.map_or_else(String::new, |(best, command)| format!("to plan layout {best}: {command}\n"));
     args.print.report(DONE, || sinks::pretty(&summary.to_json()), || summary.to_text(args.wide) + &planned)?;
     Ok(DONE)
 }
 
-/// Returns each output with its content, which the file name determines. Names are checked before any work is done.
-fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Content)>, Failure> {
+/// Checks the names of the outputs, which determine their contents.
+fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Outputs<Content>, Failure> {
     let layout = [("toml", Content::World), ("urdf", Content::Robot)];
     let whole = [
         ("csv", Content::Csv),
@@ -169,17 +168,14 @@ fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Vec<(PathBuf, Conten
         ("html", Content::Page),
         ("json", Content::Summary),
     ];
-    let contents = match is_layout {
-        true => sinks::outputs(outputs, &layout, "a layout is written as .toml (world) or .urdf")?,
-        false => {
-            #[cfg(not(feature = "parquet"))]
-            refuse_parquet(outputs)?;
-            let description = "the name must end in .csv, .parquet, .html or .json for the study, or .toml or .urdf for the best layout";
-            sinks::outputs(outputs, &[&whole[..], &layout].concat(), description)?
-        }
-    };
-    sinks::distinct(contents.iter().map(|(path, _)| path.as_path()))?;
-    Ok(contents)
+    if is_layout {
+        return Outputs::new(outputs, by_extension(&layout, "a layout is written as .toml (world) or .urdf"), &[], []);
+    }
+    #[cfg(not(feature = "parquet"))]
+    refuse_parquet(outputs)?;
+    let expected =
+        "the name must end in .csv, .parquet, .html or .json for the study, or .toml or .urdf for the best layout";
+    Outputs::new(outputs, by_extension(&[&whole[..], &layout].concat(), expected), &[], [])
 }
 
 /// Refuses names of Parquet files if this build of the program cannot write them.
@@ -199,7 +195,8 @@ fn part(path: &Path) -> PathBuf {
     name.into()
 }
 
-fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> Result<u8, Failure> {
+fn write_layout(study: &Study, layout: usize, outputs: &Outputs<Content>) -> Result<u8, Failure> {
+    let files = &outputs.results;
     if layout >= study.count() {
         let count = counted(study.count(), "layout");
         let message = format!(
@@ -212,7 +209,7 @@ fn write_layout(study: &Study, layout: usize, files: &[(PathBuf, Content)]) -> R
         sinks::print(&world)?;
     }
     let text = |content| if content == Content::Robot { &urdf } else { &world };
-    write_whole_set(&files.iter().map(|(path, content)| (path.clone(), text(*content))).collect::<Vec<_>>())?;
+    outputs.write_results(|_, content| Ok(Some(text(content).clone().into_bytes())))?;
     note_robot(study, files);
     Ok(DONE)
 }

@@ -1,29 +1,23 @@
 //! The option for the background of pictures.
 
+use crate::options::{Word, word};
 use crate::view::View;
-use clap::{Args, ValueEnum};
-
-/// Backgrounds of pictures.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum Theme {
-    /// Dark on light.
-    Light,
-    /// Light on dark.
-    Dark,
-}
+use clap::{ArgAction, Args};
 
 /// The background of pictures.
 #[derive(Debug, PartialEq, Args)]
 pub struct ThemeArgs {
     /// Background of pictures (.svg, .png, .gif). Pages follow the reader's system.
-    #[arg(long, value_enum, value_name = "THEME", default_value_t = Theme::Light)]
-    theme: Theme,
+    #[arg(long = "theme", action = ArgAction::Set, value_parser = word(THEMES), value_name = "THEME", default_value = "light")]
+    is_dark: bool,
 }
+
+const THEMES: [Word<bool>; 2] = [(false, "light", "Dark on light"), (true, "dark", "Light on dark")];
 
 impl ThemeArgs {
     /// Returns true for a dark background.
     pub fn is_dark(&self) -> bool {
-        self.theme == Theme::Dark
+        self.is_dark
     }
 
     /// Returns the view for pictures on this background.

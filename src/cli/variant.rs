@@ -45,12 +45,12 @@ impl Variant {
 
     /// Returns a warning for each option that the planner ignores.
     pub fn ignored(&self) -> Vec<String> {
-        self.options.ignored(self.planner.method())
+        self.options.effort.ignored(self.planner.method())
     }
 
     /// Returns the reason why the device that the options select is not available, with a hint. Returns `None` if it is
     /// available.
     pub fn missing(&self) -> Option<String> {
-        self.options.missing()
+        self.options.field.missing()
     }
 }

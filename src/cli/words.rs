@@ -7,7 +7,7 @@ use super::plan::{self, PlanArgs};
 use super::query_args::QueryArgs;
 use crate::engine::{Method, Options};
 use crate::input::Overrides;
-use crate::options::{MotionArgs, PlannerArgs, word};
+use crate::options::{MotionArgs, PlannerArgs, planners, word};
 use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, Command, Parser};
 
@@ -15,7 +15,7 @@ use clap::{Args, Command, Parser};
 #[derive(Debug, Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 struct Words {
-    #[arg(long, value_parser = word::<Method>(), default_value_t = Method::Shortest)]
+    #[arg(long, value_parser = word(planners()), default_value_t = Method::Shortest)]
     planner: Method,
     #[command(flatten)]
     query: QueryArgs,

@@ -1,7 +1,7 @@
 //! `cplan batch`: reads problems as JSON lines, and writes one result per line. A single process plans for thousands.
 
+mod lines;
 mod reader;
-mod turns;
 
 use super::error_json::ErrorJson;
 use super::exit::DONE;
@@ -13,6 +13,7 @@ use crate::model::Status;
 use crate::text::plain_json;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueHint};
+use lines::Input;
 use reader::{Answer, ProblemOutcome, Reader};
 use serde::Serialize;
 use serde_json::value::RawValue;
@@ -20,9 +21,8 @@ use std::collections::BTreeSet;
 use std::fs::File;
 use std::io::{self, BufReader, Read};
 use std::path::PathBuf;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
-use turns::Turns;
 
 /// Plan for many problems: JSON lines in, JSON lines out.
 #[derive(Debug, Args)]
@@ -91,32 +91,30 @@ struct Stopped {
 /// Input that cannot be read or that contains no JSON objects, and output that cannot be written.
 pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
     let input = args.problems.as_ref().map_or_else(|| "stdin".into(), |path| path.display().to_string());
-    let turns = Turns::new(BufReader::new(open_input(args)?), &input, io::stdout(), args.jobs.into());
     let warnings = Mutex::new(BTreeSet::new());
-    let work = || {
-        let mut reader = Reader::default();
-        turns.work(|line| {
-            let answer = reader.answer(line, &input, args.time.map(Duration::from_secs_f64));
-            if let Ok(ProblemOutcome::Done(plan)) = &answer.plan {
-                let stated = plan.problem().robot().warnings.iter().cloned();
-                warnings.lock().unwrap_or_else(PoisonError::into_inner).extend(stated);
-            }
-            row(answer, &args.fields)
-        });
-    };
-    std::thread::scope(|scope| {
-        (1..args.jobs).for_each(|_| drop(scope.spawn(work)));
-        work();
+    let readers = Mutex::new(Vec::<Reader>::new());
+    let lines = Input::new(BufReader::new(open_input(args)?), &input);
+    let count = lines.answer_all(io::stdout(), args.jobs.into(), |line| {
+        let mut reader = locked(&readers).pop().unwrap_or_default();
+        let answer = reader.answer(line, &input, args.time.map(Duration::from_secs_f64));
+        locked(&readers).push(reader);
+        if let Ok(ProblemOutcome::Done(plan)) = &answer.plan {
+            locked(&warnings).extend(plan.problem().robot().warnings.iter().cloned());
+        }
+        row(answer, &args.fields)
     });
     // Each warning is printed once, in an order that does not depend on the number of jobs.
-    let warnings = warnings.into_inner().unwrap_or_else(PoisonError::into_inner);
-    warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
-    let count = turns.end()?;
+    locked(&warnings).iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
+    let count = count?;
     if count.lines > 0 && count.objects == 0 {
         let cure = r#"write one problem per line, such as {"urdf": "arm.urdf", "world": "world.toml"}"#;
         return Err(Failure::Refused(format!("{input}: no line is a JSON object\n  hint: {cure}")));
     }
     Ok(DONE)
+}
+
+fn locked<T>(shared: &Mutex<T>) -> MutexGuard<'_, T> {
+    shared.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn open_input(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {

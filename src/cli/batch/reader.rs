@@ -1,6 +1,6 @@
 //! Converts lines to problems. Reads robots, worlds and option lists that several lines have only once.
 
-use super::turns::Line;
+use super::lines::Line;
 use crate::cli::failure::Failure;
 use crate::cli::words::{self, ParsedWords};
 use crate::engine::{Plan, Problem, plan};

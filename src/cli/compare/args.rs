@@ -6,7 +6,7 @@ use crate::cli::query_args::QueryArgs;
 use crate::cli::theme::ThemeArgs;
 use crate::cli::variant::Variant;
 use crate::engine::Method;
-use crate::options::{EffortArgs, MotionArgs, word};
+use crate::options::{EffortArgs, MotionArgs, planners, word};
 use clap::{ArgGroup, Args, ValueHint};
 use std::path::PathBuf;
 
@@ -72,7 +72,7 @@ pub struct CompareArgs {
     pub jobs: u16,
     /// Run only this planner; can be repeated. Each row is about the planner's default path. For planners with two kinds of
     /// paths (see --path in `cplan help planners`), length and clearance of both are listed.
-    #[arg(long, value_parser = word::<Method>(), value_name = "NAME", help_heading = COMPARISON)]
+    #[arg(long, value_parser = word(planners()), value_name = "NAME", help_heading = COMPARISON)]
     pub planner: Vec<Method>,
     /// Add a row for a planner with its own options, such as --with "harmonic --field oriented --epsilon 0.5
     /// --direction 0,-1" or --with "trapezoid --path own"; can be repeated.

@@ -37,7 +37,7 @@ pub struct Case {
     /// Index of the case's world, from 0.
     pub world: usize,
     /// The problem with the world's own start and goal. For random queries, start and goal have no meaning.
-    base: Arc<MotionProblem>,
+    pub base: Arc<MotionProblem>,
     /// Start and goal of a random query. `None` for the world's own query.
     pub query: Option<[Configuration; 2]>,
 }
@@ -48,18 +48,9 @@ impl Case {
     pub fn problem(&self) -> Cow<'_, MotionProblem> {
         match self.query {
             None => Cow::Borrowed(&self.base),
-            Some([start, goal]) => Cow::Owned(with_query(&self.base, start, goal)),
+            Some([start, goal]) => Cow::Owned(MotionProblem::trusted(self.base.scene().clone(), start, goal)),
         }
     }
-
-    /// Returns the problem whose scene the case uses, before a random query is set.
-    pub fn base(&self) -> &MotionProblem {
-        &self.base
-    }
-}
-
-fn with_query(base: &MotionProblem, start: Configuration, goal: Configuration) -> MotionProblem {
-    MotionProblem::trusted(base.scene().clone(), start, goal)
 }
 
 impl Cases {

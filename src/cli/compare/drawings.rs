@@ -3,13 +3,11 @@
 use super::cases::{Case, Cases};
 use super::runner::ComparisonResults;
 use crate::check::CheckedProof;
-use crate::cli::failure::Failure;
-use crate::cli::sinks;
 use crate::cli::theme::ThemeArgs;
 use crate::compare::{Comparison, Overlay, PathPictures, Purpose, Study, labels};
 use crate::engine::{Options, Problem, plan};
 use crate::model::{MotionProblem, Scene, Status};
-use crate::output::{self, PictureFormat};
+use crate::output;
 use crate::space::Path;
 use crate::view::{self, Picture, View};
 
@@ -24,20 +22,6 @@ const MAX_OVERLAID_PATHS: usize = 300;
 
 /// Largest deviation of contours in a page's small pictures, as a fraction of the arm's reach.
 const CONTOUR_TOLERANCE: f64 = 4e-3;
-
-/// Draws the paths of one problem into a file.
-///
-/// # Errors
-/// I/O.
-pub fn save(
-    case: &Case,
-    comparison: &Comparison,
-    paths: &[Option<Path>],
-    theme: &ThemeArgs,
-    (format, file): (PictureFormat, &std::path::Path),
-) -> Result<(), Failure> {
-    sinks::save_picture(format, file, &theme.apply(view(case, comparison, paths)))
-}
 
 /// Returns the page's drawings of workspace and configuration space, one per problem. Among random queries, it chooses
 /// those for which the planners' path lengths differ most.
@@ -71,7 +55,7 @@ pub fn overlays(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<O
 }
 
 fn overlay(first: &Case, study: &Study, paths: &[Vec<Option<Path>>]) -> Overlay {
-    let scene = first.base().scene();
+    let scene = first.base.scene();
     let shown = &paths[..paths.len().min(MAX_OVERLAID_PATHS)];
     let of = |planner: usize| {
         let found = shown.iter().filter_map(|row| row.get(planner)?.as_ref());
@@ -99,7 +83,8 @@ fn blocked(scene: &Scene) -> Vec<Vec<[f64; 2]>> {
     contours.into_iter().map(|c| c.contour.iter().map(|p| [p.x, p.y]).collect()).collect()
 }
 
-fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> View {
+/// Returns the view of the paths of one problem.
+pub fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> View {
     let problem = case.problem();
     let planners: Vec<&str> = comparison.rows.iter().map(|row| row.planner.as_str()).collect();
     let named = labels(&planners).into_iter().zip(paths).filter_map(|(name, path)| Some((name, path.as_ref()?)));

@@ -11,7 +11,6 @@ mod cases;
 mod drawings;
 mod pairs;
 mod runner;
-mod sink;
 mod started;
 
 pub use args::CompareArgs;
@@ -19,33 +18,53 @@ pub use args::CompareArgs;
 use super::exit::{BAD_INPUT, DONE, INFEASIBLE, UNKNOWN};
 use super::failure::Failure;
 use super::memory::MemoryMeter;
-use super::program::Program;
+use super::outputs::{Outputs, by_extension, drawn, refuse_to_overwrite_inputs};
 use super::progress::Progress;
-use super::sinks::{self, Sink};
+use super::sinks;
 use super::terminal::BEST_VALUE;
 use super::variant::Variant;
 use super::words::message;
 use crate::compare::{Comparison, Emphasis, Page, Refusal, Study};
 use crate::engine::{Method, Options, Planner};
 use crate::input::LoadedScene;
-use crate::motion::write_whole_set;
 use cases::{Case, Cases};
 use clap::Parser;
 use runner::{ComparisonResults, Entry, Runner};
-use sink::{ReportFormat, report_sinks};
+use std::path::Path;
+
+/// A format of results.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum ReportFormat {
+    /// Tables in Markdown.
+    Markdown,
+    /// One line per run.
+    Csv,
+    /// All data.
+    Json,
+    /// A page with charts and paths.
+    Html,
+    /// A benchmark log for OMPL's Planner Arena.
+    Arena,
+}
+
+const REPORT_FORMATS: [(&str, ReportFormat); 5] = [
+    ("md", ReportFormat::Markdown),
+    ("csv", ReportFormat::Csv),
+    ("json", ReportFormat::Json),
+    ("html", ReportFormat::Html),
+    ("log", ReportFormat::Arena),
+];
 
 /// Compares planners, and returns the exit code. For a single problem it is that of the best answer. It is 1 if
 /// planners contradict each other.
 ///
 /// # Errors
 /// Bad input and I/O.
-pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
-    let sinks = report_sinks(&args.output)?;
-    let pictures = sinks::sinks(&[], &args.picture)?;
-    let files = || sinks.iter().map(|(path, _)| path.as_path()).chain(pictures.iter().map(Sink::path));
-    sinks::distinct(files())?;
+pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure> {
+    let expected = "a comparison's name must end in .md, .csv, .json, .html or .log";
+    let outputs = Outputs::new(&args.output, by_extension(&REPORT_FORMATS, expected), &args.picture, [])?;
     let cases = Cases::load(args)?;
-    sinks::refuse_to_overwrite_inputs(files(), &cases.files)?;
+    refuse_to_overwrite_inputs(outputs.paths(), &cases.files)?;
     let ignored = args.with.iter().flat_map(Variant::ignored);
     cases.warnings.iter().cloned().chain(ignored).for_each(|w| sinks::print_status(&format!("warning: {w}")));
     for Refusal { problem, reason, .. } in &cases.refused {
@@ -55,16 +74,11 @@ pub fn run(args: &CompareArgs, program: &Program) -> Result<u8, Failure> {
         cases.left_out.iter().for_each(|line| sinks::print_status(&format!("note: {line}")));
     }
     let started = started::current_time();
-    let (study, done) = run_planners(args, &cases, program.meter)?;
-    for sink in &pictures {
-        if let (Sink::Picture(format, path), [comparison]) = (sink, &study.comparisons[..]) {
-            drawings::save(&cases.cases[0], comparison, &done.paths[0], &args.theme, (*format, path))?;
-        }
-    }
+    let (study, done) = run_planners(args, &cases, meter)?;
     let results = Results { args, cases: &cases, study: &study, done: &done, started };
-    let written: Result<Vec<_>, Failure> =
-        sinks.iter().map(|(path, format)| Ok((path.clone(), results.content(*format)?))).collect();
-    write_whole_set(&written?)?;
+    let paths = || drawings::view(&cases.cases[0], &study.comparisons[0], &done.paths[0]);
+    let report = |_: &Path, format| Ok(Some(results.content(format)?.into_bytes()));
+    outputs.write(vec![], report, drawn(|| args.theme.apply(paths())))?;
     match (args.json, args.csv, args.markdown) {
         (true, ..) => sinks::print_json(&results.content(ReportFormat::Json)?)?,
         (_, true, _) => sinks::print(&results.content(ReportFormat::Csv)?)?,
@@ -158,7 +172,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     let of = |case: &Case| {
         let mut entries = plain.clone();
         for variant in &args.with {
-            let preferences = &case.base().scene().workspace().preferences;
+            let preferences = &case.base.scene().workspace().preferences;
             let (planner, levels) = variant.completed_by(&args.effort);
             if let Some(lack) = planner.missing_preference(preferences) {
                 return Err(Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) }));
@@ -174,7 +188,7 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
 /// whose path depends on its bound computes its own: `shortest`, and planners for which a gap is required.
 fn options(args: &CompareArgs, planner: Planner, levels: usize) -> Options {
     let bounded = planner.method() == Method::Shortest || planner.gap().is_some();
-    let (drive, jerk) = (args.motion.drive(), args.motion.jerk());
+    let (drive, jerk) = (args.motion.drive(), args.motion.jerk);
     Options { planner, levels, bounded, drive, jerk, ..Options::default() }
 }
 

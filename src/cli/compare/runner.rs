@@ -77,7 +77,7 @@ impl Runner<'_> {
             let (rows, found): (Vec<Row>, Vec<Option<Path>>) = of_case.into_iter().unzip();
             comparisons.push(Comparison {
                 problem: case.name.clone(),
-                length_unit: length_unit(case.base()),
+                length_unit: length_unit(&case.base),
                 query: case.query,
                 bound: None,
                 rows,

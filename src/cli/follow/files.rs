@@ -2,90 +2,56 @@
 
 use super::{Answered, FollowArgs, certificate, json, picture};
 use crate::cli::failure::Failure;
+use crate::cli::outputs::{Outputs, by_extension, drawn};
 use crate::cli::sinks;
 use crate::model::Outcome;
-use crate::motion::{JointMotion, check_writable, csv, csv_of_joints, ros_yaml, write_whole_set};
-use crate::output::PictureFormat;
+use crate::motion::{JointMotion, csv, csv_of_joints, ros_yaml};
 use serde_json::Value;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// The contents of an output.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Content {
+#[derive(Clone, Copy)]
+pub enum Content {
     Json,
     Csv,
     Yaml,
 }
 
-/// The outputs that are requested.
-pub struct Outputs {
-    results: Vec<(PathBuf, Content)>,
-    /// The file of the certificate, if it is requested.
-    certificate: Option<PathBuf>,
-    pictures: Vec<(PathBuf, PictureFormat)>,
+/// Checks the names of the outputs before any work is done.
+///
+/// # Errors
+/// Unknown extensions, outputs that are the same file, and files that cannot be written.
+pub fn outputs(args: &FollowArgs) -> Result<Outputs<Content>, Failure> {
+    let ends = [("json", Content::Json), ("csv", Content::Csv), ("yaml", Content::Yaml), ("yml", Content::Yaml)];
+    let content = by_extension(&ends, "the name of a motion must end in .json, .csv, .yaml or .yml");
+    let certificate = args.certificate.clone().filter(|path| !is_member(args, path));
+    Outputs::new(&args.output, content, &args.picture, certificate)?.without_animation("a line")
 }
 
-impl Outputs {
-    /// Checks the names of the outputs before any work is done.
-    ///
-    /// # Errors
-    /// Unknown extensions, outputs that are the same file, and files that cannot be written.
-    pub fn new(args: &FollowArgs) -> Result<Self, Failure> {
-        let ends = [("json", Content::Json), ("csv", Content::Csv), ("yaml", Content::Yaml), ("yml", Content::Yaml)];
-        let expected = "the name of a motion must end in .json, .csv, .yaml or .yml";
-        let results = sinks::outputs(&args.output, &ends, expected)?;
-        let pictures = args.picture.iter().map(|path| match PictureFormat::from_path(path)? {
-            format if format.is_animated() && format != PictureFormat::Html => {
-                Err(Failure::Usage(format!("{}: a line is drawn as .svg, .png or .html", path.display())))
-            }
-            format => Ok((path.clone(), format)),
-        });
-        let pictures = pictures.collect::<Result<Vec<_>, Failure>>()?;
-        pictures.iter().try_for_each(|(path, _)| check_writable(path))?;
-        let certificate = args.certificate.clone();
-        certificate.iter().try_for_each(|path| check_writable(path))?;
-        let outputs = Self { results, certificate, pictures };
-        sinks::distinct(outputs.paths())?;
-        Ok(outputs)
-    }
+/// Returns true if the certificate in this file is a member of a result.
+fn is_member(args: &FollowArgs, path: &Path) -> bool {
+    let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
+    is_json && args.output.iter().any(|result| result == path)
+}
 
-    /// Returns the names of all files.
-    pub fn paths(&self) -> impl Iterator<Item = &Path> {
-        let results = self.results.iter().map(|(path, _)| path.as_path());
-        let certificate = self.certificate.iter().filter(|path| !self.is_member(path)).map(PathBuf::as_path);
-        results.chain(certificate).chain(self.pictures.iter().map(|(path, _)| path.as_path()))
-    }
-
-    /// Returns true if the certificate in this file is a member of a result.
-    fn is_member(&self, path: &Path) -> bool {
-        self.results.iter().any(|(result, content)| result == path && *content == Content::Json)
-    }
-
-    /// Writes all files. Without a motion, warns about those that can only contain one.
-    ///
-    /// # Errors
-    /// I/O, and pictures that cannot be drawn.
-    pub fn write(&self, answered: &Answered) -> Result<(), Failure> {
-        let mut files = Vec::new();
-        let certificate = self.certificate.as_deref().and_then(|path| Some((path, certificate::text(answered, path)?)));
-        if let Some((path, text)) = certificate.as_ref().filter(|(path, _)| !self.is_member(path)) {
-            files.push((path.to_path_buf(), text.clone().into_bytes()));
+/// Writes all files. Without a motion, warns about those that can only contain one.
+///
+/// # Errors
+/// I/O, and pictures that cannot be drawn.
+pub fn write(outputs: &Outputs<Content>, answered: &Answered) -> Result<(), Failure> {
+    let args = answered.args;
+    let certificate = args.certificate.as_deref().and_then(|path| Some((path, certificate::text(answered, path)?)));
+    let own = certificate.iter().filter(|(path, _)| !is_member(args, path));
+    let own = own.map(|(path, text)| (path.to_path_buf(), text.clone().into_bytes())).collect();
+    let result = |path: &Path, content| {
+        let member = certificate.as_ref().filter(|(own, _)| *own == path).map(|(_, text)| text.as_str());
+        let text = text(answered, content, member)?;
+        if text.is_none() {
+            sinks::warn_unwritten(path, "trajectory");
         }
-        for (path, content) in &self.results {
-            let member = certificate.as_ref().filter(|(own, _)| own == path).map(|(_, text)| text.as_str());
-            match text(answered, *content, member)? {
-                Some(text) => files.push((path.clone(), text.into_bytes())),
-                None => sinks::warn_unwritten(path, "trajectory"),
-            }
-        }
-        if !self.pictures.is_empty() {
-            let view = answered.args.theme.apply(picture::view(answered));
-            for (path, format) in &self.pictures {
-                files.push((path.clone(), format.bytes(&view)?));
-            }
-        }
-        Ok(write_whole_set(&files)?)
-    }
+        Ok(text.map(String::into_bytes))
+    };
+    outputs.write(own, result, drawn(|| args.theme.apply(picture::view(answered))))
 }
 
 /// Returns the text of a file; `None` if it can only contain a motion and the answer has no motion. A certificate becomes

@@ -11,11 +11,11 @@ mod wrist;
 
 pub use args::FollowArgs;
 
-use super::exit::{DONE, INFEASIBLE, UNKNOWN};
+use super::exit::code_of;
 use super::failure::Failure;
+use super::outputs::refuse_to_overwrite_inputs;
 use super::sinks;
 use crate::input::{self, Digests, InputError, LoadedScene};
-use crate::model::Status;
 use cplan_follow::{FollowError, Followed, Settings, follow};
 use cplan_handling::FollowedLine;
 use cplan_toolpath::Toolpath;
@@ -60,12 +60,12 @@ pub fn answer(
     load: impl FnOnce(bool) -> Result<LoadedScene, InputError>,
     read_line: impl FnOnce(&FollowArgs) -> Result<FollowedLine, Failure>,
 ) -> Result<u8, Failure> {
-    let outputs = files::Outputs::new(args)?;
+    let outputs = files::outputs(args)?;
     let line = read_line(args)?;
     let loaded = load(line.wrist.is_some())?.with_clearance(args.clearance)?;
     loaded.require_static_obstacles("a line is followed among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.path.clone()]).collect();
-    sinks::refuse_to_overwrite_inputs(outputs.paths(), &read)?;
+    refuse_to_overwrite_inputs(outputs.paths(), &read)?;
     let digests = || Digests::of(&args.files.robot(), &args.files.world, &loaded.files());
     let digests = args.certificate.as_ref().map(|_| digests()).transpose()?;
     let wrist = FollowingWrist::new(&line, &loaded)?;
@@ -82,12 +82,8 @@ pub fn answer(
     let tool = found.map_or_else(Vec::new, |found| found.tool(loaded.scene.arm(), &path, tolerance));
     let answered =
         Answered { tool, args, loaded: &loaded, line: &path, tolerance, speed, wrist, answer: &answer, digests };
-    outputs.write(&answered)?;
-    let code = match answer.status() {
-        Status::Found => DONE,
-        Status::Infeasible => INFEASIBLE,
-        Status::Unknown => UNKNOWN,
-    };
+    files::write(&outputs, &answered)?;
+    let code = code_of(answer.status());
     args.print.report(code, || sinks::pretty(&json::object(&answered)), || words::summary(&answered))?;
     Ok(code)
 }

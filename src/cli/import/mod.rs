@@ -11,9 +11,9 @@ pub use args::ImportArgs;
 use super::exit::DONE;
 use super::failure::Failure;
 use super::fresh::word;
-use super::sinks::{self, Sink};
+use super::outputs::{Outputs, refuse_to_overwrite_inputs};
+use super::sinks;
 use crate::input::{self, Diagnostic, Position, Source, World};
-use crate::motion::{check_writable, write_whole_set};
 use crate::output::format_columns;
 use crate::text::{counted, plain_line};
 use crate::view::{self, Figure};
@@ -65,12 +65,9 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
         let file = args.drawing.display();
         Failure::Usage(format!("{file}: a drawing's name must end in .dxf, .svg, .geojson or .json"))
     })?;
-    let pictures = sinks(args)?;
+    let outputs = outputs(args)?;
     let bytes = input::read_bytes(&args.drawing)?;
-    sinks::refuse_to_overwrite_inputs(
-        pictures.iter().map(Sink::path).chain(args.output.as_deref()),
-        std::slice::from_ref(&args.drawing),
-    )?;
+    refuse_to_overwrite_inputs(outputs.paths(), std::slice::from_ref(&args.drawing))?;
     let settings = Settings { tolerance: args.tolerance, unit: args.unit, scale: args.scale };
     let drawing = cplan_drawing::read(&bytes, format, &settings).map_err(|error| {
         let position = error.line.map(|line| Position { line, column: 1 });
@@ -107,30 +104,22 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let name = args.output.clone().unwrap_or_else(|| "the imported world".into());
     // The text is read back. So the written world is valid, and the picture shows it as it will be read.
     let world = input::world_from(Source::in_memory(name, text.as_str()))?;
-    let mut files: Vec<(PathBuf, Vec<u8>)> = Vec::new();
-    for sink in &pictures {
-        let Sink::Picture(format, path) = sink else { continue };
-        let figure = || picture(args, &world, &taken);
-        let page = || view::still_page(&args.title(), &figure());
-        files.push((path.clone(), format.bytes_of(|| figure().on_background(args.theme.is_dark()), page)?));
-    }
-    files.extend(args.output.iter().map(|path| (path.clone(), text.clone().into_bytes())));
-    write_whole_set(&files)?;
+    let figure = || picture(args, &world, &taken);
+    let page = || view::still_page(&args.title(), &figure());
+    let file = args.output.iter().map(|path| (path.clone(), text.clone().into_bytes())).collect();
+    let drawn = || figure().on_background(args.theme.is_dark());
+    outputs.write_pictures(file, |format| Ok(format.bytes_of(drawn, page)?))?;
     report(args, &taken, &notes, &world, &text)?;
     Ok(DONE)
 }
 
-/// Returns the requested pictures. Checks that all outputs are different files.
-fn sinks(args: &ImportArgs) -> Result<Vec<Sink>, Failure> {
-    if let Some(path) = &args.output {
-        if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("toml")) {
-            return Err(Failure::Usage(format!("{}: a world's name must end in .toml", path.display())));
-        }
-        check_writable(path)?;
+/// Checks the names of the outputs.
+fn outputs(args: &ImportArgs) -> Result<Outputs, Failure> {
+    let is_world = |path: &PathBuf| path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("toml"));
+    if let Some(path) = args.output.as_ref().filter(|path| !is_world(path)) {
+        return Err(Failure::Usage(format!("{}: a world's name must end in .toml", path.display())));
     }
-    let pictures = sinks::sinks(&[], &args.picture)?;
-    sinks::distinct(pictures.iter().map(Sink::path).chain(args.output.as_deref()))?;
-    Ok(pictures)
+    Outputs::of_pictures(&args.picture, args.output.clone())
 }
 
 /// Returns the failure for a diagnostic about the drawing, with the drawing's file name.

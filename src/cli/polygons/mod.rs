@@ -7,8 +7,9 @@ mod report;
 use super::exit::DONE;
 use super::failure::Failure;
 use super::headings::OUTPUT;
+use super::outputs::{Outputs, refuse_to_overwrite_inputs};
 use super::print_args::PrintArgs;
-use super::sinks::{self, Sink};
+use super::sinks;
 use super::theme::ThemeArgs;
 use super::values::turn;
 use crate::view::{self, PolygonPair};
@@ -59,29 +60,25 @@ pub struct PolygonsArgs {
 /// # Errors
 /// Bad input and I/O. Polygons that are apart are no error.
 pub fn run(args: &PolygonsArgs) -> Result<u8, Failure> {
-    let pictures = sinks::sinks(&[], &args.picture)?;
+    let outputs = Outputs::of_pictures(&args.picture, [])?;
     let a = reader::read(&args.a, "A")?;
     let b = reader::read(&args.b, "B")?;
     let inputs: Vec<PathBuf> = [&a, &b].into_iter().filter_map(|given| given.file.clone()).collect();
-    sinks::refuse_to_overwrite_inputs(pictures.iter().map(Sink::path), &inputs)?;
+    refuse_to_overwrite_inputs(outputs.paths(), &inputs)?;
     let a = match args.turn {
         Some(angle) => a.turned(angle)?,
         None => a,
     };
     let findings = Findings::new(&a, &b);
-    for sink in &pictures {
-        let Sink::Picture(format, path) = sink else { continue };
-        let pair = PolygonPair {
-            title: vec!["Two polygons and their Minkowski difference".to_owned(), report::verdict(&findings)],
-            a: a.polygon.corners(),
-            b: b.polygon.corners(),
-            difference: &findings.parts,
-        };
-        let figure = || view::polygon_pair(&pair);
-        let page = || view::still_page(&pair.title[0], &figure());
-        let figure = || figure().on_background(args.theme.is_dark());
-        crate::motion::write_whole(path, &format.bytes_of(figure, page)?)?;
-    }
+    let pair = PolygonPair {
+        title: vec!["Two polygons and their Minkowski difference".to_owned(), report::verdict(&findings)],
+        a: a.polygon.corners(),
+        b: b.polygon.corners(),
+        difference: &findings.parts,
+    };
+    let page = || view::still_page(&pair.title[0], &view::polygon_pair(&pair));
+    let figure = || view::polygon_pair(&pair).on_background(args.theme.is_dark());
+    outputs.write_pictures(vec![], |format| Ok(format.bytes_of(figure, page)?))?;
     args.print.report(DONE, || sinks::pretty(&findings), || report::text(&findings))?;
     Ok(DONE)
 }

@@ -7,14 +7,14 @@ use super::exit::{DONE, REFUTED, UNKNOWN};
 use super::failure::Failure;
 use super::files::Files;
 use super::headings::OUTPUT;
+use super::outputs::{Outputs, drawn, refuse_to_overwrite_inputs};
 use super::print_args::PrintArgs;
-use super::sinks::{self, Sink};
+use super::sinks;
 use super::theme::ThemeArgs;
 use crate::engine::certificate_of_recording;
 use crate::engine::findings::{Judgement, MotionFindings, PlanFinding, verify};
-use crate::input::{self, Digests, JointValues, Overrides, Rules, TipPoint};
+use crate::input::{self, Digests, JointValues, LoadedRecording, LoadedScene, Overrides, Rules, TipPoint};
 use crate::model::TimedScene;
-use crate::motion::write_whole;
 use crate::output::{contours, title_of};
 use crate::space::Recording;
 use crate::view::{Picture, View};
@@ -109,9 +109,8 @@ pub struct VerifyArgs {
 /// Bad input and I/O, and options that do not fit the recording. A collision is no error, because it is a result of the
 /// check.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
-    let sinks = sinks::sinks_with(&[], &args.picture, args.certificate.as_deref(), |error, _| Err(error.into()))?;
+    let outputs = Outputs::of_pictures(&args.picture, args.certificate.clone())?;
     let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
-    let about = Digests::of(&args.files.robot(), &args.files.world, &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let mut recorded = match &args.topic {
         None => input::load_recording(&args.trajectory, &loaded)?,
@@ -121,7 +120,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         loaded = loaded.keeping_efforts()?;
     }
     let inputs: Vec<_> = loaded.files().into_iter().chain([args.trajectory.clone()]).chain(args.plan.clone()).collect();
-    sinks::refuse_to_overwrite_inputs(sinks.iter().map(Sink::path), &inputs)?;
+    refuse_to_overwrite_inputs(outputs.paths(), &inputs)?;
     let scene = &loaded.scene;
     if args.unwrap {
         recorded.recording = recorded.recording.unwrapped(&scene.arm().topology());
@@ -139,38 +138,14 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
         let plan = input::load_recording(plan, &loaded)?.recording;
         findings.plan = Some(PlanFinding::new(scene.arm(), recording, &plan));
     }
-    for sink in &sinks {
-        match sink {
-            Sink::Picture(format, path) => {
-                let view = args.theme.apply(view(loaded.timed(), recording, &findings));
-                sinks::save_picture(*format, path, &view)?;
-            }
-            Sink::Certificate(path) if !recorded.held.is_empty() => {
-                let joint = &recorded.held[0].joint.name;
-                let why = format!("joint \"{joint}\" moves, but certificates cover only the arm's two joints");
-                sinks::print_status(&format!("warning: {} is not written: {why}", path.display()));
-            }
-            Sink::Certificate(path) if recorded.steps.is_none() && loaded.is_task() && !loaded.has_steps() => {
-                let why =
-                    "the world gives values of the tool's joints, and only a result in .json has the steps for them";
-                sinks::print_status(&format!("warning: {} is not written: {why}", path.display()));
-            }
-            Sink::Certificate(path) if matches!(findings.verdict, Judgement::Free) => {
-                let (start, goals) = if args.anywhere { (None, Vec::new()) } else { loaded.ends(&overrides(args))? };
-                let (steps, asked) = (recorded.steps.as_deref(), (&overrides(args), &about));
-                let task = steps.map(|_| loaded.clone().resolve(&overrides(args), Rules::Plan)).transpose()?;
-                let steps = task.as_ref().and_then(|loaded| loaded.task.as_ref()).zip(steps);
-                match certificate_of_recording(scene, recording, steps, asked, [start, goals.first().copied()]) {
-                    Ok(certificate) => write_whole(path, certificate.as_bytes())?,
-                    Err(why) => sinks::print_status(&format!("warning: {} is not written: {why}", path.display())),
-                }
-            }
-            Sink::Certificate(path) => {
-                sinks::print_status(&format!("warning: {} is not written: the motion is not accepted", path.display()));
-            }
-            Sink::Result(..) | Sink::Program(_) | Sink::CSpace(..) => {}
+    let mut files = Vec::new();
+    if let Some(path) = &args.certificate {
+        match certificate(args, &loaded, &recorded, findings.verdict)? {
+            Ok(certificate) => files.push((path.clone(), certificate.into_bytes())),
+            Err(why) => sinks::print_status(&format!("warning: {} is not written: {why}", path.display())),
         }
     }
+    outputs.write_pictures(files, drawn(|| args.theme.apply(view(loaded.timed(), recording, &findings))))?;
     let code = match findings.verdict {
         Judgement::Free => DONE,
         Judgement::Undecided => UNKNOWN,
@@ -178,6 +153,35 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     };
     args.print.report(code, || sinks::pretty(&findings), || text::summary(scene.arm(), recording, &findings))?;
     Ok(code)
+}
+
+/// Returns the certificate of a motion, or the reason why it has none.
+fn certificate(
+    args: &VerifyArgs,
+    loaded: &LoadedScene,
+    recorded: &LoadedRecording,
+    verdict: Judgement,
+) -> Result<Result<String, String>, Failure> {
+    if let Some(held) = recorded.held.first() {
+        let joint = &held.joint.name;
+        return Ok(Err(format!("joint \"{joint}\" moves, but certificates cover only the arm's two joints")));
+    }
+    if recorded.steps.is_none() && loaded.is_task() && !loaded.has_steps() {
+        let why = "the world gives values of the tool's joints, and only a result in .json has the steps for them";
+        return Ok(Err(why.into()));
+    }
+    if verdict != Judgement::Free {
+        return Ok(Err("the motion is not accepted".into()));
+    }
+    let asked = overrides(args);
+    let about = Digests::of(&args.files.robot(), &args.files.world, &loaded.files())?;
+    let (start, goals) = if args.anywhere { (None, Vec::new()) } else { loaded.ends(&asked)? };
+    let steps = recorded.steps.as_deref();
+    let task = steps.map(|_| loaded.clone().resolve(&asked, Rules::Plan)).transpose()?;
+    let steps = task.as_ref().and_then(|loaded| loaded.task.as_ref()).zip(steps);
+    let (ends, recording) = ([start, goals.first().copied()], &recorded.recording);
+    let certificate = certificate_of_recording(&loaded.scene, recording, steps, (&asked, &about), ends);
+    Ok(certificate.map_err(|why| why.to_string()))
 }
 
 fn overrides(args: &VerifyArgs) -> Overrides {

@@ -5,7 +5,6 @@
 
 use super::options::Options;
 use clap::{Arg, Command};
-use cplan_options::Named;
 use cplan_planners::planner::GridSearch;
 use cplan_planners::waves::Neighborhood;
 use cplan_roadmaps::Prm;
@@ -43,7 +42,8 @@ const CHOICES: [Choice; 8] = [
     },
     Choice { is_for: Method::has_own_path, ..listed("path", "path", |planner| Some(planner.path_kind().to_string())) },
     listed("search", "search", |planner| {
-        word(if planner.reads(Setting::Search) { GridSearch::AStar } else { GridSearch::default() })
+        let search = if planner.reads(Setting::Search) { GridSearch::AStar } else { GridSearch::default() };
+        Some(search.name().to_owned())
     }),
     Choice {
         numbers: &[("100", "100"), ("500", "500"), ("2000", "2000"), ("10000", "10000")],
@@ -52,7 +52,7 @@ const CHOICES: [Choice; 8] = [
     listed("neighbors", "neighbours", |_| {
         Some(if Neighborhood::default() == Neighborhood::Eight { "8" } else { "4" }.into())
     }),
-    listed("space", "cells by", |_| word(GridSpace::default())),
+    listed("space", "cells by", |_| Some(GridSpace::default().name().to_owned())),
 ];
 
 /// Returns the default of `--cells`. By default, the cells of fields are square in joint space.
@@ -61,10 +61,6 @@ fn cells(planner: Method) -> Option<String> {
         Some(cells) => cells.to_string(),
         None => format!("{DEFAULT_CELLS}, square"),
     })
-}
-
-fn word(value: impl Named) -> Option<String> {
-    Some(value.word().to_owned())
 }
 
 /// Returns all planners with their menus.

@@ -2,7 +2,7 @@
 
 use clap::{Command, CommandFactory, Parser};
 use cplan_model::Scene;
-use cplan_options::{MotionArgs, PlannerArgs, word};
+use cplan_options::{MotionArgs, PlannerArgs, planners, word};
 use cplan_solver::Method;
 
 /// Shortest time between samples that a page may request, in seconds. The trajectory is drawn and sent to a browser, so
@@ -18,7 +18,7 @@ pub struct Options {
 #[derive(Debug, Parser)]
 #[command(no_binary_name = true, disable_help_flag = true)]
 struct Grammar {
-    #[arg(value_parser = word::<Method>())]
+    #[arg(value_parser = word(planners()))]
     planner: Method,
     #[command(flatten)]
     motion: MotionArgs,
@@ -48,12 +48,12 @@ impl Options {
             return Err(format!("--period: the live page takes at least {MIN_PERIOD} s"));
         }
         let planner = grammar.options.planner(grammar.planner)?;
-        grammar.options.missing().map_or(Ok(()), Err)?;
+        grammar.options.field.missing().map_or(Ok(()), Err)?;
         let options = cplan_solver::Options {
-            levels: grammar.options.levels(&planner),
+            levels: grammar.options.effort.levels(&planner),
             planner,
             drive: grammar.motion.drive(),
-            jerk: grammar.motion.jerk(),
+            jerk: grammar.motion.jerk,
             ..cplan_solver::Options::default()
         };
         Ok(Self { options })

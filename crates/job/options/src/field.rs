@@ -1,13 +1,13 @@
 //! Options for fields.
 
-use super::names::word;
+use super::names::{DEVICES, DIFFERENCES, INITIALS, LIMITS, MEASURES, ORDERS, STENCILS, word};
 use super::number::{finite, positive};
 use super::readers::{listed, require};
 use clap::builder::PossibleValue;
 use clap::{Args, ValueEnum};
 use cplan_fields::{
     Attraction, Device, Difference, Direction, Escape, Factor, Initial, Khatib, Limits, Lines, Measure, Order,
-    RELATIVE_TOLERANCE, Relaxation, Repulsion, Scan, Stencil,
+    RELATIVE_TOLERANCE, Relaxation, Repulsion, Stencil,
 };
 use cplan_fields::{EquationChoice, FieldChoice, FieldPlanner};
 use cplan_planners::planner::PathKind;
@@ -43,32 +43,12 @@ pub enum RelaxationName {
     Sor,
 }
 
-/// Orders of a sweep over the cells.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-pub enum OrderName {
-    /// Line by line, joint 2 fastest.
-    Rows,
-    /// Line by line, joint 1 fastest.
-    Columns,
-    /// Line by line, from each of the four corners in turn.
-    Corners,
-    /// First the red, then the black squares of a chessboard.
-    RedBlack,
-    /// In blocks of 2 x 2 cells, one cell of each block after the other.
-    FourColor,
-}
+/// Fields that relaxation computes.
+const RELAXED: [FieldName; 5] =
+    [FieldName::Harmonic, FieldName::Oriented, FieldName::Local, FieldName::Bvp, FieldName::Bvp2];
 
-impl From<OrderName> for Order {
-    fn from(name: OrderName) -> Self {
-        match name {
-            OrderName::Rows => Self::Lines(Scan::ROWS),
-            OrderName::Columns => Self::Lines(Scan { lines: Lines::Columns, ..Scan::ROWS }),
-            OrderName::Corners => Self::Corners(Lines::Rows),
-            OrderName::RedBlack => Self::RedBlack,
-            OrderName::FourColor => Self::FourColors,
-        }
-    }
-}
+/// An option, and the fields to which it applies.
+type Stated = (&'static str, &'static [FieldName]);
 
 /// Options for the field of the harmonic planner.
 #[derive(Debug, Clone, Default, PartialEq, Args)]
@@ -86,15 +66,15 @@ pub struct FieldArgs {
     #[arg(long, value_name = "v1,v2", value_parser = direction, allow_hyphen_values = true)]
     pub direction: Option<Direction>,
     /// Differences that replace slopes (oriented, local, bvp) [default: central].
-    #[arg(long, value_parser = word::<Difference>(), value_name = "NAME")]
+    #[arg(long, value_parser = word(DIFFERENCES), value_name = "NAME")]
     pub difference: Option<Difference>,
     /// Relaxation of the equation, such as --relaxation sor --order corners [default: gauss-seidel, except for the plain
     /// harmonic field, which has a faster solver].
     #[arg(long, value_enum, value_name = "NAME")]
     pub relaxation: Option<RelaxationName>,
     /// Order of the cells in a sweep (gauss-seidel, sor) [default: corners; on a GPU red-black].
-    #[arg(long, value_enum, value_name = "NAME")]
-    pub order: Option<OrderName>,
+    #[arg(long, value_parser = word(ORDERS), value_name = "NAME")]
+    pub order: Option<Order>,
     /// Relaxation factor (weighted-jacobi, sor) [default of sor: the best factor for Laplace's equation in an empty
     /// rectangle].
     #[arg(long, value_name = "W", value_parser = positive, allow_hyphen_values = true)]
@@ -105,18 +85,18 @@ pub struct FieldArgs {
     #[arg(long)]
     pub relax_preferences: bool,
     /// Value of free cells before the first sweep [default: high].
-    #[arg(long, value_parser = word::<Initial>(), value_name = "NAME")]
+    #[arg(long, value_parser = word(INITIALS), value_name = "NAME")]
     pub initial: Option<Initial>,
     /// Weights of a cell's neighbours: as for square cells, or by the cells' real shape [default: square].
-    #[arg(long, value_parser = word::<Stencil>(), value_name = "NAME")]
+    #[arg(long, value_parser = word(STENCILS), value_name = "NAME")]
     pub stencil: Option<Stencil>,
     /// Effect of the joint limits on the field [default: high].
-    #[arg(long, value_parser = word::<Limits>(), value_name = "NAME")]
+    #[arg(long, value_parser = word(LIMITS), value_name = "NAME")]
     pub limits: Option<Limits>,
     /// Measure of a sweep's changes, which must fall below the tolerance. Only the relative measure notices the small
     /// values far from the goal. If a path gets stuck there under another measure, sweeps continue under the relative one,
     /// and the result reports it [default: relative; for sor on a CPU absolute].
-    #[arg(long, value_parser = word::<Measure>(), value_name = "NAME")]
+    #[arg(long, value_parser = word(MEASURES), value_name = "NAME")]
     pub measure: Option<Measure>,
     /// Relax until the measure is below this [default: 1e-6; of absolute and sums 0.01, of squares 0.0001].
     #[arg(long, value_name = "SIZE", value_parser = positive, allow_hyphen_values = true)]
@@ -125,7 +105,7 @@ pub struct FieldArgs {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub max_sweeps: Option<u32>,
     /// Device for the relaxation [default: cpu].
-    #[arg(long, value_parser = word::<Device>(), value_name = "DEVICE")]
+    #[arg(long, value_parser = word(DEVICES), value_name = "DEVICE")]
     pub on: Option<Device>,
     /// Attraction by the goal (khatib): constant:C, or linear:K for K times the distance [default: linear:1].
     #[arg(long, value_name = "LAW", value_parser = attraction)]
@@ -158,17 +138,13 @@ impl FieldArgs {
     /// The reason, if options contradict each other or the planner.
     pub fn planner(&self, method: Method) -> Result<Option<FieldPlanner>, String> {
         let given = self.stated_options();
-        let Some(first) = given.first() else { return Ok(None) };
+        let Some((first, _)) = given.first() else { return Ok(None) };
         require(first, &[Setting::Field], method, "does not follow a field")?;
         let name = self.field.unwrap_or(FieldName::Harmonic);
-        for option in &given {
-            if let Some(fields) = needed_field(option)
-                && !fields.contains(&name)
-            {
-                return Err(format!("{option} needs --field {}", names(fields)));
-            }
+        if let Some((option, fields)) = given.iter().find(|(_, fields)| !fields.contains(&name)) {
+            return Err(format!("{option} needs --field {}", names(fields)));
         }
-        let is_plain = |option: &&str| *option == "--field" || (*option == "--on" && self.device().is_cpu());
+        let is_plain = |(option, _): &Stated| *option == "--field" || (*option == "--on" && self.device().is_cpu());
         if given.iter().all(is_plain) && name == FieldName::Harmonic {
             return Ok(None);
         }
@@ -207,7 +183,7 @@ impl FieldArgs {
 
     /// Returns the device for the relaxation.
     fn device(&self) -> Device {
-        self.on.map_or(Device::Cpu, Device::from)
+        self.on.unwrap_or(Device::Cpu)
     }
 
     /// Returns the reason why the device is not available, with a hint. `None` if it is available.
@@ -215,30 +191,31 @@ impl FieldArgs {
         self.device().adapter().err().map(|reason| format!("--on gpu: {reason}"))
     }
 
-    /// Returns the names of the stated options, in the order of the help.
-    fn stated_options(&self) -> Vec<&'static str> {
-        let options = [
-            ("--field", self.field.is_some()),
-            ("--epsilon", self.epsilon.is_some()),
-            ("--direction", self.direction.is_some()),
-            ("--difference", self.difference.is_some()),
-            ("--relaxation", self.relaxation.is_some()),
-            ("--order", self.order.is_some()),
-            ("--factor", self.factor.is_some()),
-            ("--relax-preferences", self.relax_preferences),
-            ("--initial", self.initial.is_some()),
-            ("--stencil", self.stencil.is_some()),
-            ("--limits", self.limits.is_some()),
-            ("--measure", self.measure.is_some()),
-            ("--tolerance", self.tolerance.is_some()),
-            ("--max-sweeps", self.max_sweeps.is_some()),
-            ("--on", self.on.is_some()),
-            ("--attraction", self.attraction.is_some()),
-            ("--repulsion", self.repulsion.is_some()),
-            ("--saturated", self.saturated),
-            ("--escape", self.escape.is_some()),
+    /// Returns the stated options in the order of the help, each with the fields to which it applies.
+    fn stated_options(&self) -> Vec<Stated> {
+        use FieldName::{Bvp, Bvp2, Khatib, Local, Oriented};
+        let options: [(bool, &str, &[FieldName]); 19] = [
+            (self.field.is_some(), "--field", FieldName::value_variants()),
+            (self.epsilon.is_some(), "--epsilon", &[Oriented, Bvp, Bvp2]),
+            (self.direction.is_some(), "--direction", &[Oriented, Local]),
+            (self.difference.is_some(), "--difference", &[Oriented, Local, Bvp]),
+            (self.relaxation.is_some(), "--relaxation", &RELAXED),
+            (self.order.is_some(), "--order", &RELAXED),
+            (self.factor.is_some(), "--factor", &RELAXED),
+            (self.relax_preferences, "--relax-preferences", &[Bvp, Bvp2]),
+            (self.initial.is_some(), "--initial", &RELAXED),
+            (self.stencil.is_some(), "--stencil", &RELAXED),
+            (self.limits.is_some(), "--limits", FieldName::value_variants()),
+            (self.measure.is_some(), "--measure", &RELAXED),
+            (self.tolerance.is_some(), "--tolerance", &RELAXED),
+            (self.max_sweeps.is_some(), "--max-sweeps", &RELAXED),
+            (self.on.is_some(), "--on", &RELAXED),
+            (self.attraction.is_some(), "--attraction", &[Khatib]),
+            (self.repulsion.is_some(), "--repulsion", &[Khatib]),
+            (self.saturated, "--saturated", &[Khatib]),
+            (self.escape.is_some(), "--escape", &[Khatib]),
         ];
-        options.into_iter().filter(|option| option.1).map(|option| option.0).collect()
+        options.into_iter().filter(|option| option.0).map(|(_, name, fields)| (name, fields)).collect()
     }
 
     fn equation(&self, name: FieldName) -> Result<EquationChoice, String> {
@@ -258,12 +235,11 @@ impl FieldArgs {
 
     fn relaxation(&self) -> Result<Relaxation, String> {
         let name = self.relaxation.unwrap_or(RelaxationName::GaussSeidel);
-        let usual = if self.device().is_cpu() { OrderName::Corners } else { OrderName::RedBlack };
+        let usual = if self.device().is_cpu() { Order::Corners(Lines::Rows) } else { Order::RedBlack };
         let order = self.order.unwrap_or(usual);
-        if !self.device().is_cpu() && order != OrderName::RedBlack {
+        if !self.device().is_cpu() && order != Order::RedBlack {
             return Err("--on gpu needs --order red-black: other orders need --on cpu".into());
         }
-        let order = order.into();
         let jacobi = matches!(name, RelaxationName::Jacobi | RelaxationName::WeightedJacobi);
         if jacobi && self.order.is_some() {
             return Err(
@@ -308,21 +284,6 @@ fn usual_tolerance(measure: Measure) -> f64 {
     }
 }
 
-/// Returns the fields to which an option applies. `None` if it applies to all.
-fn needed_field(option: &str) -> Option<&'static [FieldName]> {
-    use FieldName::{Bvp, Bvp2, Harmonic, Khatib, Local, Oriented};
-    match option {
-        "--epsilon" => Some(&[Oriented, Bvp, Bvp2]),
-        "--direction" => Some(&[Oriented, Local]),
-        "--difference" => Some(&[Oriented, Local, Bvp]),
-        "--relax-preferences" => Some(&[Bvp, Bvp2]),
-        "--relaxation" | "--order" | "--factor" | "--initial" | "--stencil" | "--measure" | "--tolerance"
-        | "--max-sweeps" | "--on" => Some(&[Harmonic, Oriented, Local, Bvp, Bvp2]),
-        "--attraction" | "--repulsion" | "--saturated" | "--escape" => Some(&[Khatib]),
-        _ => None,
-    }
-}
-
 /// Lists names of fields, such as `oriented, bvp or bvp2`.
 fn names(fields: &[FieldName]) -> String {
     let values: Vec<_> = fields.iter().filter_map(ValueEnum::to_possible_value).collect();
@@ -330,7 +291,7 @@ fn names(fields: &[FieldName]) -> String {
 }
 
 /// Parses numbers separated by commas. A text that is not a number becomes NaN.
-fn numbers(text: &str) -> Vec<f64> {
+pub(super) fn numbers(text: &str) -> Vec<f64> {
     text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect()
 }
 

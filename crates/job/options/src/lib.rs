@@ -8,8 +8,8 @@ mod planner;
 mod readers;
 mod roadmap;
 
-pub use field::{OrderName, direction};
+pub use field::direction;
 pub use motion::MotionArgs;
-pub use names::{Named, word};
+pub use names::{INITIALS, JOINTS, LIMITS, MEASURES, ORDERS, Word, planners, word};
 pub use number::{finite, number_in, positive};
 pub use planner::{EffortArgs, PlannerArgs, PlannerWords};

@@ -1,6 +1,6 @@
 //! Options for the motion along a path.
 
-use super::names::word;
+use super::names::{OBJECTIVES, word};
 use super::number::{number_in, seconds};
 use clap::Args;
 use cplan_motion::{Drive, Objective};
@@ -10,7 +10,7 @@ use cplan_motion::{Drive, Objective};
 #[command(next_help_heading = "Motion limits")]
 pub struct MotionArgs {
     /// Quantity to minimise: the length of the path, or the time of the motion, which reshapes the path.
-    #[arg(long, value_parser = word::<Objective>(), value_name = "WHAT", default_value = "length")]
+    #[arg(long, value_parser = word(OBJECTIVES), value_name = "WHAT", default_value = "length")]
     pub optimize: Objective,
     /// Time between two samples of the trajectory, seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]
@@ -28,12 +28,8 @@ pub struct MotionArgs {
     pub torque: bool,
     /// Greatest jerk of each joint instead of the world's, such as 200,none: rad/s3 or m/s3, or "none" for no limit.
     #[arg(long, value_name = "j1,j2", value_parser = jerk, allow_hyphen_values = true)]
-    pub jerk: Option<Jerk>,
+    pub jerk: Option<[Option<f64>; 2]>,
 }
-
-/// Greatest jerk of each joint; `None` for a joint without a limit.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Jerk(pub [Option<f64>; 2]);
 
 /// Parses the radius of blends, as in [`Drive::blend`].
 fn radius(text: &str) -> Result<f64, String> {
@@ -49,24 +45,19 @@ fn tip_speed(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x > 0.0, "greater than 0 (metres per second)")
 }
 
-fn jerk(text: &str) -> Result<Jerk, String> {
+fn jerk(text: &str) -> Result<[Option<f64>; 2], String> {
     let one = |part: &str| match (part.trim(), part.trim().parse::<f64>()) {
         ("none", _) => Some(None),
         (_, Ok(jerk)) if jerk.is_finite() && jerk > 0.0 => Some(Some(jerk)),
         _ => None,
     };
     match text.split(',').map(one).collect::<Vec<_>>()[..] {
-        [Some(first), Some(second)] => Ok(Jerk([first, second])),
+        [Some(first), Some(second)] => Ok([first, second]),
         _ => Err("must be two values, each a number greater than 0 (rad/s3 or m/s3) or none, such as 200,none".into()),
     }
 }
 
 impl MotionArgs {
-    /// Returns the jerk limits that replace the world's, if given.
-    pub fn jerk(&self) -> Option<[Option<f64>; 2]> {
-        self.jerk.map(|Jerk(jerk)| jerk)
-    }
-
     /// Returns the options in the form of the motion layer.
     pub fn drive(&self) -> Drive {
         let Self { period, blend, tip_speed, torque, .. } = *self;

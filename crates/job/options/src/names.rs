@@ -1,47 +1,27 @@
-//! Names of planners, paths, searches and other choices, so that help and shells can list them.
+//! Words for planners, paths, searches and other choices, so that help and shells can list them.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
-use cplan_fields::{Device, Difference, Initial, Limits, Measure, Stencil};
+use cplan_fields::{Device, Difference, Initial, Limits, Lines, Measure, Order, Scan, Stencil};
 use cplan_motion::Objective;
 use cplan_planners::planner::{GridSearch, PathKind, VisibilityGraph};
 use cplan_planners::waves::search::Ties;
 use cplan_solver::{GridSpace, Method, NamedJoints};
 use std::ffi::OsStr;
-use std::marker::PhantomData;
 
-/// A type whose values have words on the command line.
-pub trait Named: Copy + Send + Sync + 'static {
-    /// All values, in the order of the help.
-    const VALUES: &'static [Self];
+/// A value, its word on the command line, and its line in the help, which may be empty. After a bar, the word has an alias,
+/// which the help does not list.
+pub type Word<T> = (T, &'static str, &'static str);
 
-    /// Returns its word.
-    fn word(self) -> &'static str;
+/// Parses one of these words; help and shells list them.
+#[derive(Debug, Clone)]
+pub struct WordParser<T>(Vec<Word<T>>);
 
-    /// Returns another word for it, which the help does not list.
-    fn alias(self) -> Option<&'static str> {
-        None
-    }
-
-    /// Returns its line in the help; may be empty.
-    fn help(self) -> &'static str;
+/// Returns the parser of these words.
+pub fn word<T>(words: impl Into<Vec<Word<T>>>) -> WordParser<T> {
+    WordParser(words.into())
 }
 
-/// Parses one of the words of `T`; help and shells list them.
-#[derive(Debug)]
-pub struct WordParser<T>(PhantomData<T>);
-
-impl<T> Clone for WordParser<T> {
-    fn clone(&self) -> Self {
-        Self(PhantomData)
-    }
-}
-
-/// Returns the parser of the words of `T`.
-pub fn word<T: Named>() -> WordParser<T> {
-    WordParser(PhantomData)
-}
-
-impl<T: Named> TypedValueParser for WordParser<T> {
+impl<T: Copy + Send + Sync + 'static> TypedValueParser for WordParser<T> {
     type Value = T;
 
     fn parse_ref(
@@ -50,168 +30,140 @@ impl<T: Named> TypedValueParser for WordParser<T> {
         argument: Option<&clap::Arg>,
         value: &OsStr,
     ) -> Result<Self::Value, clap::Error> {
-        let known = PossibleValuesParser::new(T::VALUES.iter().copied().map(possible_value));
+        let known = PossibleValuesParser::new(self.0.iter().map(possible_value));
         let word = known.parse_ref(command, argument, value)?;
-        let is_meant = |value: &T| value.word() == word || value.alias() == Some(&word);
-        Ok(T::VALUES.iter().copied().find(is_meant).expect("the word is one of its values"))
+        let is_meant = |(_, words, _): &&Word<T>| words.split('|').any(|own| own == word);
+        Ok(self.0.iter().find(is_meant).expect("the word is one of its values").0)
     }
 
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
-        Some(Box::new(T::VALUES.iter().copied().map(possible_value)))
+        Some(Box::new(self.0.iter().map(possible_value)))
     }
 }
 
-fn possible_value<T: Named>(value: T) -> PossibleValue {
-    let possible = PossibleValue::new(value.word()).aliases(value.alias());
-    if value.help().is_empty() { possible } else { possible.help(value.help()) }
+fn possible_value<T>(&(_, words, help): &Word<T>) -> PossibleValue {
+    let mut words = words.split('|');
+    let possible = PossibleValue::new(words.next().unwrap_or_default()).aliases(words);
+    if help.is_empty() { possible } else { possible.help(help) }
 }
 
-impl Named for Method {
-    const VALUES: &'static [Self] = &Method::ALL;
-
-    fn word(self) -> &'static str {
-        self.name()
-    }
-
-    fn help(self) -> &'static str {
-        self.descriptor().summary
-    }
+/// Returns the words of planners.
+pub fn planners() -> Vec<Word<Method>> {
+    Method::ALL.map(|method| (method, method.name(), method.descriptor().summary)).into()
 }
 
-impl Named for PathKind {
-    const VALUES: &'static [Self] = &PathKind::CHOICES;
-
-    fn word(self) -> &'static str {
-        self.name()
-    }
-
-    fn help(self) -> &'static str {
-        match self {
-            PathKind::Own => "The path of the planner's method",
-            PathKind::Taut => "The same path pulled taut: shorter, nearer to obstacles",
-            PathKind::Middles => {
-                "For trapezoid: through the middles of portals; through a cell's centre only between portals on one \
-                 vertical"
-            }
-        }
-    }
+pub(super) fn path_kinds() -> [Word<PathKind>; 3] {
+    let middles = "For trapezoid: through the middles of portals; through a cell's centre only between portals on one \
+                   vertical";
+    [
+        (PathKind::Own, "The path of the planner's method"),
+        (PathKind::Taut, "The same path pulled taut: shorter, nearer to obstacles"),
+        (PathKind::Middles, middles),
+    ]
+    .map(|(kind, help)| (kind, kind.name(), help))
 }
 
-impl Named for VisibilityGraph {
-    const VALUES: &'static [Self] = &VisibilityGraph::ALL;
-
-    fn word(self) -> &'static str {
-        self.name()
-    }
-
-    fn help(self) -> &'static str {
-        match self {
-            VisibilityGraph::Reduced => "Only arcs that a shortest path can use: tangent to the obstacles at both ends",
-            VisibilityGraph::Full => {
-                "The textbook definition: an arc between any two corners that see each other, and every side"
-            }
-        }
-    }
+pub(super) fn visibility_graphs() -> [Word<VisibilityGraph>; 2] {
+    let full = "The textbook definition: an arc between any two corners that see each other, and every side";
+    [
+        (VisibilityGraph::Reduced, "Only arcs that a shortest path can use: tangent to the obstacles at both ends"),
+        (VisibilityGraph::Full, full),
+    ]
+    .map(|(graph, help)| (graph, graph.name(), help))
 }
 
-impl Named for GridSearch {
-    const VALUES: &'static [Self] = &GridSearch::ALL;
-
-    fn word(self) -> &'static str {
-        self.name()
-    }
-
-    fn help(self) -> &'static str {
-        match self {
-            GridSearch::Wave => "For grids: labels all cells, beginning at the goal; fewest moves",
-            GridSearch::BreadthFirst => {
-                "Breadth first from one end (start or goal) to the other; fewest moves or edges"
-            }
-            GridSearch::DepthFirst => "Depth first from one end to the other; any path",
-            GridSearch::Dijkstra => "Least cost first: length, or on grids moves, where a diagonal move costs 1.414",
-            GridSearch::AStar => {
-                "Least cost so far plus straight distance left first; the same path length, found sooner"
-            }
-            GridSearch::Greedy => "Least straight distance left first; any path, found quickly",
-            GridSearch::IterativeDeepening => {
-                "For grids: depth first within a limit of moves, which grows by one each round; fewest moves"
-            }
-        }
-    }
+pub(super) fn searches() -> [Word<GridSearch>; 7] {
+    use GridSearch::{AStar, BreadthFirst, DepthFirst, Dijkstra, Greedy, IterativeDeepening, Wave};
+    [
+        (Wave, "For grids: labels all cells, beginning at the goal; fewest moves"),
+        (BreadthFirst, "Breadth first from one end (start or goal) to the other; fewest moves or edges"),
+        (DepthFirst, "Depth first from one end to the other; any path"),
+        (Dijkstra, "Least cost first: length, or on grids moves, where a diagonal move costs 1.414"),
+        (AStar, "Least cost so far plus straight distance left first; the same path length, found sooner"),
+        (Greedy, "Least straight distance left first; any path, found quickly"),
+        (
+            IterativeDeepening,
+            "For grids: depth first within a limit of moves, which grows by one each round; fewest moves",
+        ),
+    ]
+    .map(|(search, help)| (search, search.name(), help))
 }
 
-impl Named for GridSpace {
-    const VALUES: &'static [Self] = &GridSpace::ALL;
-
-    fn word(self) -> &'static str {
-        self.name()
-    }
-
-    fn help(self) -> &'static str {
-        match self {
-            GridSpace::Rows => "By exact slices: first only wholly free cells, then also cells with a free centre",
-            GridSpace::Whole => "By exact slices: only wholly free cells, in every attempt",
-            GridSpace::Centers => "By exact slices: cells with a free centre, in every attempt",
-            GridSpace::Sampled => "By parry2d's collision checks at the cells' centres",
-        }
-    }
+pub(super) fn grid_spaces() -> [Word<GridSpace>; 4] {
+    [
+        (GridSpace::Rows, "By exact slices: first only wholly free cells, then also cells with a free centre"),
+        (GridSpace::Whole, "By exact slices: only wholly free cells, in every attempt"),
+        (GridSpace::Centers, "By exact slices: cells with a free centre, in every attempt"),
+        (GridSpace::Sampled, "By parry2d's collision checks at the cells' centres"),
+    ]
+    .map(|(space, help)| (space, space.name(), help))
 }
 
-/// Implements [`Named`] for a type: for each variant its name, an alias after a bar, and its help, which may be empty.
-macro_rules! named {
-    (@alias) => {
-        None
-    };
-    (@alias $alias:literal) => {
-        Some($alias)
-    };
-    ($of:ty: $($variant:ident $name:literal $(| $alias:literal)? $help:literal),+) => {
-        impl Named for $of {
-            const VALUES: &'static [Self] = &[$(Self::$variant),+];
+pub(super) const DIFFERENCES: [Word<Difference>; 2] = [
+    (Difference::Central, "central", "Central differences: monotone only for an epsilon below 2"),
+    (Difference::Upwind, "upwind", "Upwind differences: monotone for every epsilon"),
+];
 
-            fn word(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $name),+
-                }
-            }
+pub(super) const DEVICES: [Word<Device>; 2] = [
+    (Device::Cpu, "cpu", "Double precision"),
+    (
+        Device::Gpu,
+        "gpu",
+        "Single precision, cells red-black or all at once; needs a program built with the feature gpu",
+    ),
+];
 
-            fn alias(self) -> Option<&'static str> {
-                match self {
-                    $(Self::$variant => named!(@alias $($alias)?)),+
-                }
-            }
+/// Orders of a sweep over the cells.
+pub const ORDERS: [Word<Order>; 5] = [
+    (Order::Lines(Scan::ROWS), "rows", "Line by line, joint 2 fastest"),
+    (Order::Lines(Scan { lines: Lines::Columns, ..Scan::ROWS }), "columns", "Line by line, joint 1 fastest"),
+    (Order::Corners(Lines::Rows), "corners", "Line by line, from each of the four corners in turn"),
+    (Order::RedBlack, "red-black", "First the red, then the black squares of a chessboard"),
+    (Order::FourColors, "four-color", "In blocks of 2 x 2 cells, one cell of each block after the other"),
+];
 
-            fn help(self) -> &'static str {
-                match self {
-                    $(Self::$variant => $help),+
-                }
-            }
-        }
-    };
-}
+const ANISOTROPIC: &str = "Neighbours along joint 2 have the weight beta^2, where beta is a cell's width along joint 1 over \
+                           that along joint 2";
 
-named!(Difference: Central "central" "Central differences: monotone only for an epsilon below 2",
-    Upwind "upwind" "Upwind differences: monotone for every epsilon");
+pub(super) const STENCILS: [Word<Stencil>; 2] = [
+    (Stencil::Square, "square", "All four neighbours have the same weight"),
+    (Stencil::Anisotropic, "anisotropic", ANISOTROPIC),
+];
 
-named!(Device: Cpu "cpu" "Double precision",
-    Gpu "gpu" "Single precision, cells red-black or all at once; needs a program built with the feature gpu");
+/// Effects of joint limits on a field.
+pub const LIMITS: [Word<Limits>; 2] = [
+    (Limits::High, "high", "Limits repel, like obstacles"),
+    (Limits::Reflecting, "reflecting", "Limits neither attract nor repel"),
+];
 
-named!(Stencil: Square "square" "All four neighbours have the same weight",
-    Anisotropic "anisotropic" "Neighbours along joint 2 have the weight beta^2, where beta is a cell's width along joint 1 over that along joint 2");
+/// Values of free cells before the first sweep.
+pub const INITIALS: [Word<Initial>; 2] = [
+    (Initial::High, "high", "The value of obstacles"),
+    (Initial::Low, "low", "The value of goals, as in published counts of sweeps"),
+];
 
-named!(Limits: High "high" "Limits repel, like obstacles",
-    Reflecting "reflecting" "Limits neither attract nor repel");
+/// Measures of a sweep's changes.
+pub const MEASURES: [Word<Measure>; 5] = [
+    (Measure::GreatestRelativeChange, "relative", "Greatest change relative to the cell's value"),
+    (Measure::GreatestChange, "greatest", "Greatest change"),
+    (Measure::SumOfChange, "absolute|sum", "Sum of changes; alias: sum"),
+    (Measure::SumOfSquares, "squares", "Sum of squared changes"),
+    (Measure::DifferenceOfSums, "sums", "Difference between the sums of changes of this and the previous sweep"),
+];
 
-named!(Initial: High "high" "The value of obstacles", Low "low" "The value of goals, as in published counts of sweeps");
+const FARTHEST: &str = "The cell farthest from the beginning of the search, and of these the one found last: goes straight \
+                        ahead";
 
-named!(Measure: GreatestRelativeChange "relative" "Greatest change relative to the cell's value", GreatestChange "greatest" "Greatest change",
-    SumOfChange "absolute" | "sum" "Sum of changes; alias: sum", SumOfSquares "squares" "Sum of squared changes",
-    DifferenceOfSums "sums" "Difference between the sums of changes of this and the previous sweep");
+pub(super) const TIES: [Word<Ties>; 2] = [
+    (Ties::Farthest, "farthest", FARTHEST),
+    (Ties::First, "first", "The cell found first: advances along all equally good routes together"),
+];
 
-named!(Ties: Farthest "farthest" "The cell farthest from the beginning of the search, and of these the one found last: \
-                                  goes straight ahead",
-    First "first" "The cell found first: advances along all equally good routes together");
+/// Joints in messages.
+pub const JOINTS: [Word<NamedJoints>; 2] = [
+    (NamedJoints::All, "all", "Every movable joint of the robot"),
+    (NamedJoints::Planned, "planned", "The two joints of the plan"),
+];
 
-named!(NamedJoints: All "all" "Every movable joint of the robot", Planned "planned" "The two joints of the plan");
-
-named!(Objective: Length "length" "The length of the path", Time "time" "The time of the motion");
+pub(super) const OBJECTIVES: [Word<Objective>; 2] =
+    [(Objective::Length, "length", "The length of the path"), (Objective::Time, "time", "The time of the motion")];

@@ -1,11 +1,10 @@
 //! A planner and its options.
 
-use super::field::FieldArgs;
-use super::names::word;
+use super::field::{FieldArgs, numbers};
+use super::names::{TIES, Word, grid_spaces, path_kinds, planners, searches, word};
 use super::number::number_in;
 use super::readers::{listed, readers, require};
 use super::roadmap::RoadmapArgs;
-use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Args, Parser, ValueEnum};
 use cplan_fields::FieldPlanner;
 use cplan_planners::planner::{GridSearch, PathKind};
@@ -53,8 +52,9 @@ impl EffortArgs {
         self.levels.map_or(usual, usize::from)
     }
 
-    /// Returns a warning for each stated option that the planner does not use.
-    fn ignored(&self, planner: Method) -> Vec<String> {
+    /// Returns a warning for each stated option that the planner does not use. Options that contradict the planner are
+    /// errors of [`PlannerArgs::planner`].
+    pub fn ignored(&self, planner: Method) -> Vec<String> {
         let refined = [Setting::Margin, Setting::Cells];
         let options: [(&str, bool, &[Setting]); 3] = [
             ("--cells", self.cells.is_some(), &[Setting::Cells]),
@@ -94,6 +94,9 @@ pub enum MetricName {
     Time,
 }
 
+/// Settings of searches of a grid or a roadmap.
+const SEARCHES: [Setting; 2] = [Setting::GridSearch, Setting::Search];
+
 static OPTIMUM_HEADING: LazyLock<String> =
     LazyLock::new(|| format!("Shortest paths (planners {})", readers(&[Setting::Gap], " and ")));
 
@@ -106,41 +109,37 @@ pub struct OptimumArgs {
     pub metric: MetricName,
     /// Weights of the joints, such as 1,0.5, for --metric weighted.
     #[arg(long, value_name = "w1,w2", value_parser = weights, required_if_eq("metric", "weighted"), allow_hyphen_values = true)]
-    pub weights: Option<Weights>,
+    pub weights: Option<[f64; 2]>,
     /// Refine until the path is proven to exceed the optimum by at most this share, such as 0.001. A larger gap permits
     /// faster motions [default of shortest: 0.0001].
     #[arg(long, value_name = "SHARE", value_parser = gap, allow_hyphen_values = true)]
     pub gap: Option<f64>,
 }
 
-/// Two positive numbers.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Weights(pub [f64; 2]);
-
 /// Options for the kind of path and the search of a grid.
 #[derive(Debug, Clone, PartialEq, Args)]
 #[command(next_help_heading = "Paths and grids")]
 pub struct PathArgs {
     /// Kind of path.
-    #[arg(long, value_parser = word::<PathKind>(), value_name = "KIND", help = path_help())]
+    #[arg(long, value_parser = word(path_kinds()), value_name = "KIND", help = path_help())]
     pub path: Option<PathKind>,
     /// Search of the grid or the roadmap.
-    #[arg(long, value_parser = word::<GridSearch>(), value_name = "NAME", help = search_help())]
+    #[arg(long, value_parser = word(searches()), value_name = "NAME", help = search_help())]
     pub search: Option<GridSearch>,
     /// Neighbours of a cell (planner wavefront): 4 (those that share a side with it) or 8 (also those that share a
     /// corner). No move cuts the corner of a blocked cell. wave and bfs count moves; for dijkstra and astar a diagonal
     /// move costs 1.414 [default: 4].
-    #[arg(long, value_name = "N", value_parser = neighbors())]
+    #[arg(long, value_name = "N", value_parser = word(NEIGHBORHOODS))]
     pub neighbors: Option<Neighborhood>,
     /// Cell that A* expands next if several are equally promising (planner wavefront) [default: farthest].
-    #[arg(long, value_parser = word::<Ties>(), value_name = "NAME")]
+    #[arg(long, value_parser = word(TIES), value_name = "NAME")]
     pub ties: Option<Ties>,
     /// Search from the start to the goals. Planners with a roadmap do so by default; the search `wave` cannot. Labels of
     /// cells then count steps from the start.
     #[arg(long, conflicts_with = "backward")]
     pub forward: bool,
     /// Test of the grid's cells.
-    #[arg(long, value_parser = word::<GridSpace>(), value_name = "NAME", help = space_help())]
+    #[arg(long, value_parser = word(grid_spaces()), value_name = "NAME", help = space_help())]
     pub space: Option<GridSpace>,
 }
 
@@ -200,7 +199,7 @@ pub struct PlannerArgs {
 #[command(no_binary_name = true, disable_help_flag = true)]
 pub struct PlannerWords {
     /// Name of the planner.
-    #[arg(value_parser = word::<Method>())]
+    #[arg(value_parser = word(planners()))]
     pub planner: Method,
     /// Options of the planner.
     #[command(flatten)]
@@ -208,22 +207,13 @@ pub struct PlannerWords {
 }
 
 impl PlannerArgs {
-    /// Returns the number of attempts of a planner.
-    pub fn levels(&self, planner: &Planner) -> usize {
-        self.effort.levels(planner)
-    }
-
     /// Returns the planner with these options.
     ///
     /// # Errors
     /// The reason, if the planner does not have an option, or options contradict each other.
     pub fn planner(&self, method: Method) -> Result<Planner, String> {
         let field = self.field.planner(method)?;
-        self.optimum.check(method)?;
-        self.path.check(method)?;
-        if self.effort.margin == Some(0.0) {
-            require("--margin 0", &[Setting::Margin], method, "does not grow C-obstacles")?;
-        }
+        self.check(method)?;
         let search = self.roadmap.search(method, self.path.search)?;
         if self.optimum.gap.is_some() && !search.order.is_optimal() {
             return Err(format!(
@@ -232,6 +222,33 @@ impl PlannerArgs {
             ));
         }
         Ok(self.apply_to(Planner::named(method).with_search(search), field))
+    }
+
+    /// Checks that the planner has all options that are stated.
+    fn check(&self, planner: Method) -> Result<(), String> {
+        let Self { effort, optimum, path, roadmap, .. } = self;
+        let shortest = "does not look for the shortest path";
+        let samples = "draws no samples";
+        let needs: [(bool, &str, &[Setting], &str); 11] = [
+            (optimum.gap.is_some(), "--gap", &[Setting::Gap], shortest),
+            (optimum.metric != MetricName::Euclidean, "--metric", &[Setting::Gap], shortest),
+            (path.search.is_some(), "--search", &SEARCHES, "searches neither a grid nor a roadmap"),
+            (path.neighbors.is_some(), "--neighbors", &[Setting::Neighborhood], "does not search a grid"),
+            (path.space.is_some(), "--space", &[Setting::Space], "has no grid"),
+            (effort.margin == Some(0.0), "--margin 0", &[Setting::Margin], "does not grow C-obstacles"),
+            (roadmap.samples.is_some(), "--samples", &[Setting::Samples], samples),
+            (roadmap.nearest.is_some(), "--nearest", &[Setting::Samples], samples),
+            (roadmap.seed.is_some(), "--seed", &[Setting::Samples], samples),
+            (roadmap.graph.is_some(), "--graph", &[Setting::Graph], "searches no visibility graph"),
+            (roadmap.backward, "--backward", &[Setting::Search, Setting::GridSearch], "has no roadmap"),
+        ];
+        if optimum.weights.is_some() && optimum.metric != MetricName::Weighted {
+            return Err("--weights needs --metric weighted".into());
+        }
+        for (_, option, settings, why) in needs.into_iter().filter(|need| need.0) {
+            require(option, settings, planner, why)?;
+        }
+        path.check(planner)
     }
 
     fn apply_to(&self, planner: Planner, field: Option<FieldPlanner>) -> Planner {
@@ -249,63 +266,27 @@ impl PlannerArgs {
         let planner = self.path.space.map_or(planner, |space| planner.with_space(space));
         self.path.path.map_or(planner, |kind| planner.with_path(kind))
     }
-
-    /// Returns a warning for each stated option that the planner ignores. Options that contradict the planner are
-    /// errors of [`PlannerArgs::planner`].
-    pub fn ignored(&self, planner: Method) -> Vec<String> {
-        self.effort.ignored(planner)
-    }
-
-    /// Returns the reason why the device for the field's relaxation is not available, with a hint. `None` if it is
-    /// available.
-    pub fn missing(&self) -> Option<String> {
-        self.field.missing()
-    }
 }
 
 impl OptimumArgs {
     fn criterion(&self) -> Criterion {
         match (self.metric, self.weights) {
-            (MetricName::Weighted, Some(Weights(weights))) => Criterion::Weighted(weights),
+            (MetricName::Weighted, Some(weights)) => Criterion::Weighted(weights),
             (MetricName::Time, _) => Criterion::Time,
             _ => Criterion::Euclidean,
         }
     }
-
-    /// Checks that the planner has all options that are stated.
-    fn check(&self, planner: Method) -> Result<(), String> {
-        if self.weights.is_some() && self.metric != MetricName::Weighted {
-            return Err("--weights needs --metric weighted".into());
-        }
-        let asked = if self.gap.is_some() { "--gap" } else { "--metric" };
-        let optimizes = self.gap.is_some() || self.metric != MetricName::Euclidean;
-        if optimizes {
-            require(asked, &[Setting::Gap], planner, "does not look for the shortest path")?;
-        }
-        Ok(())
-    }
 }
 
 impl PathArgs {
-    /// Checks that the planner has all options that are stated.
+    /// Checks that the planner has the ties, the direction and the kind of path that are stated.
     fn check(&self, planner: Method) -> Result<(), String> {
-        if self.search.is_some() {
-            let why = "searches neither a grid nor a roadmap";
-            require("--search", &[Setting::GridSearch, Setting::Search], planner, why)?;
-        }
-        if self.neighbors.is_some() {
-            let why = "does not search a grid";
-            require("--neighbors", &[Setting::Neighborhood], planner, why)?;
-        }
         if self.ties.is_some() && (!planner.reads(Setting::Ties) || self.search != Some(GridSearch::AStar)) {
             let planners = readers(&[Setting::Ties], " or ");
             return Err(format!("--ties needs --planner {planners} --search astar: other searches do not rank cells"));
         }
         if self.forward {
             self.check_forward(planner)?;
-        }
-        if self.space.is_some() {
-            require("--space", &[Setting::Space], planner, "has no grid")?;
         }
         if self.path == Some(PathKind::Middles) && !planner.descriptor().paths.contains(&PathKind::Middles) {
             return Err(format!("--path middles needs --planner trapezoid: {planner} has no vertical portals"));
@@ -335,15 +316,11 @@ impl PathArgs {
     }
 }
 
-fn neighbors() -> impl TypedValueParser<Value = Neighborhood> {
-    PossibleValuesParser::new(["4", "8"])
-        .map(|count| if count == "4" { Neighborhood::Four } else { Neighborhood::Eight })
-}
+const NEIGHBORHOODS: [Word<Neighborhood>; 2] = [(Neighborhood::Four, "4", ""), (Neighborhood::Eight, "8", "")];
 
-fn weights(text: &str) -> Result<Weights, String> {
-    let values: Vec<f64> = text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect();
-    match values[..] {
-        [a, b] if [a, b].iter().all(|w| w.is_finite() && *w > 0.0) => Ok(Weights([a, b])),
+fn weights(text: &str) -> Result<[f64; 2], String> {
+    match numbers(text)[..] {
+        [a, b] if [a, b].iter().all(|w| w.is_finite() && *w > 0.0) => Ok([a, b]),
         _ => Err("must be two positive numbers, such as 1,0.5".into()),
     }
 }

@@ -1,8 +1,8 @@
 //! Options for roadmaps.
 
-use super::names::word;
+use super::names::{visibility_graphs, word};
 use super::planner::to_i64_range;
-use super::readers::{readers, require};
+use super::readers::readers;
 use clap::Args;
 use cplan_planners::planner::{GridSearch, RoadmapSearch, SearchOrder, VisibilityGraph};
 use cplan_solver::{ALLOWED_NEIGHBORS, ALLOWED_SAMPLES, Method, Planner, Setting};
@@ -19,7 +19,7 @@ pub struct RoadmapArgs {
     #[arg(long)]
     pub backward: bool,
     /// Kind of visibility graph (planner visibility) [default: reduced].
-    #[arg(long, value_parser = word::<VisibilityGraph>(), value_name = "KIND")]
+    #[arg(long, value_parser = word(visibility_graphs()), value_name = "KIND")]
     pub graph: Option<VisibilityGraph>,
     /// Number of random free configurations (planner prm); doubled with each attempt [default: 500].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(to_i64_range(&ALLOWED_SAMPLES)))]
@@ -36,31 +36,14 @@ impl RoadmapArgs {
     /// Returns the search of a planner's roadmap, or the default search if it has no roadmap.
     ///
     /// # Errors
-    /// The reason, if the planner does not have an option.
+    /// A search that only grids have.
     pub fn search(&self, planner: Method, search: Option<GridSearch>) -> Result<RoadmapSearch, String> {
-        let given = [
-            ("--samples", self.samples.is_some()),
-            ("--nearest", self.nearest.is_some()),
-            ("--seed", self.seed.is_some()),
-        ];
-        for (name, _) in given.into_iter().filter(|option| option.1) {
-            require(name, &[Setting::Samples], planner, "draws no samples")?;
-        }
-        if self.graph.is_some() {
-            require("--graph", &[Setting::Graph], planner, "searches no visibility graph")?;
-        }
-        if self.backward {
-            require("--backward", &[Setting::Search, Setting::GridSearch], planner, "has no roadmap")?;
-        }
         if !planner.reads(Setting::Search) {
             return Ok(RoadmapSearch::default());
         }
         let order = match search.unwrap_or(GridSearch::AStar) {
-            GridSearch::Wave => {
-                return Err(format!("--search wave needs a planner with a grid: {planner} has a roadmap"));
-            }
-            GridSearch::IterativeDeepening => {
-                return Err(format!("--search deepening needs a planner with a grid: {planner} has a roadmap"));
+            search @ (GridSearch::Wave | GridSearch::IterativeDeepening) => {
+                return Err(format!("--search {} needs a planner with a grid: {planner} has a roadmap", search.name()));
             }
             GridSearch::BreadthFirst => SearchOrder::BreadthFirst,
             GridSearch::DepthFirst => SearchOrder::DepthFirst,

@@ -75,6 +75,8 @@ struct Corner {
     line: Line,
     /// Lower bound on the length of paths from this end to a goal.
     rest: f64,
+    /// Length of the shortest path to this end. Infinite if no path below the limit reaches it.
+    reached: f64,
 }
 
 /// A place from which paths are extended: the start, or an end of a wall.
@@ -100,11 +102,10 @@ impl LeastLength {
     /// Builds the evidence from these walls. `None` if they prove no bound.
     pub(super) fn new(limits: &PathLimits, walls: Vec<ClosedSegment>) -> Option<Self> {
         let mut plane = Plane::new(limits, &walls);
-        let (length, reached) = plane.lengths()?;
-        let length = length - limits.leg_reduction();
+        let length = plane.lengths()? - limits.leg_reduction();
         // With fewer walls there are fewer ends from which paths extend, so that still fewer walls are needed.
         for _ in 0..PRUNING_ROUNDS {
-            let needed = plane.needed_walls(length, &reached);
+            let needed = plane.needed_walls(length);
             plane.copies.retain(|copy| needed.contains(&copy.wall));
             plane.runs = runs(&plane.copies, &walls);
             plane.corners.retain(|corner| needed.contains(&corner.wall));
@@ -112,7 +113,7 @@ impl LeastLength {
         let kept: BTreeSet<usize> = plane.copies.iter().map(|copy| copy.wall).collect();
         let number: BTreeMap<usize, usize> = kept.iter().enumerate().map(|(new, old)| (*old, new)).collect();
         let potentials = plane.corners.iter().filter_map(|corner| {
-            let value = plane.potential(length, &reached, corner)?;
+            let value = plane.potential(length, corner)?;
             Some(Potential { wall: number[&corner.wall], end: corner.end, turns: corner.turns, value })
         });
         let potentials = potentials.collect();
@@ -146,8 +147,6 @@ impl PathLimits<'_> {
         ((from - reach - high) / TAU).floor() as i64..=((from + reach - low) / TAU).ceil() as i64
     }
 }
-
-type ReachedEnds = BTreeMap<(usize, usize, [i64; 2]), f64>;
 
 struct Plane<'a> {
     limits: &'a PathLimits<'a>,
@@ -203,7 +202,8 @@ impl<'a> Plane<'a> {
                     && !is_within
                     && limits.metric.norm(at - limits.start) + rest <= limits.limit
                 {
-                    corners.push(Corner { wall: copy.wall, end, turns: copy.turns, at, line, rest });
+                    let reached = f64::INFINITY;
+                    corners.push(Corner { wall: copy.wall, end, turns: copy.turns, at, line, rest, reached });
                 }
             }
         }
@@ -212,7 +212,7 @@ impl<'a> Plane<'a> {
 
     /// Computes the length of the shortest path to a goal, and the lengths of shorter paths to ends of walls. `None` if
     /// there are too many ends.
-    fn lengths(&self) -> Option<(f64, ReachedEnds)> {
+    fn lengths(&mut self) -> Option<f64> {
         let corners = &self.corners;
         let mut lengths = vec![f64::INFINITY; corners.len()];
         let mut open = OpenList::default();
@@ -238,9 +238,8 @@ impl<'a> Plane<'a> {
             }
             checkpoint();
             let Some((length, number)) = open.pop().filter(|(length, _)| *length < best) else {
-                let name = |corner: &Corner| (corner.wall, corner.end, corner.turns);
-                let reached = corners.iter().zip(lengths).filter(|(_, length)| length.is_finite());
-                return Some((best, reached.map(|(corner, length)| (name(corner), length)).collect()));
+                self.corners.iter_mut().zip(lengths).for_each(|(corner, length)| corner.reached = length);
+                return Some(best);
             };
             next = (length == lengths[number]).then(|| Source {
                 at: corners[number].at,
@@ -253,16 +252,15 @@ impl<'a> Plane<'a> {
 
     /// Returns the potential of a corner: a lower bound on the length of paths to it. `None` if no path through the
     /// corner is shorter than `length`.
-    fn potential(&self, length: f64, reached: &ReachedEnds, corner: &Corner) -> Option<f64> {
-        let potential = *reached.get(&(corner.wall, corner.end, corner.turns))?;
-        (potential + corner.rest < length - self.limits.leg_reduction() / 4.0).then_some(potential)
+    fn potential(&self, length: f64, corner: &Corner) -> Option<f64> {
+        (corner.reached + corner.rest < length - self.limits.leg_reduction() / 4.0).then_some(corner.reached)
     }
 
     /// Returns the walls that are needed for the evidence. A wall is needed if it bars a leg that would make potentials
     /// too small. Walls that contain an end of a needed wall are needed as well.
-    fn needed_walls(&self, length: f64, reached: &ReachedEnds) -> BTreeSet<usize> {
+    fn needed_walls(&self, length: f64) -> BTreeSet<usize> {
         let known = |corner: &Corner| {
-            let potential = self.potential(length, reached, corner)?;
+            let potential = self.potential(length, corner)?;
             Some(Source { at: corner.at, line: Some(corner.line), potential })
         };
         let start = self.start();
@@ -273,7 +271,7 @@ impl<'a> Plane<'a> {
                 self.bar(from, *goal, None, &mut needed);
             }
             for corner in self.corners.iter() {
-                let potential = self.potential(length, reached, corner).unwrap_or(length - corner.rest);
+                let potential = self.potential(length, corner).unwrap_or(length - corner.rest);
                 if grows(self.limits.metric.norm(corner.at - from.at), potential) {
                     self.bar(from, corner.at, Some(corner.line), &mut needed);
                 }

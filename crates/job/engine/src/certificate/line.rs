@@ -1,8 +1,9 @@
 //! Evidence for a motion of the tip along a line, or for the claim that no motion follows it.
 
 use super::contacts::Contacts;
-use super::motion::{motion_member, written_inward};
-use super::{BOX_MARGINS, Evidence, NoCertificate, lines, robot_members, written};
+use super::{
+    BOX_MARGINS, Evidence, Member, NoCertificate, lines, member, motion, robot_members, tip_and_clearance, written,
+};
 use cplan_deviation::{Deviation, Foot, Kinematics, Line, Place};
 use cplan_handling::{FollowedLine, Piece};
 use cplan_judge::{Cell, CollisionBox};
@@ -47,14 +48,9 @@ impl CertifiedLine<'_> {
     /// samples.
     pub fn of_motion(&self, trajectory: &Trajectory) -> String {
         let arm = self.scene.arm();
-        let Trajectory { time, position, velocity, acceleration, torque: _, wrist: _ } = trajectory;
-        let position = &written_inward(&arm.topology(), position);
-        // Readers of motions with limited jerk may also use the accelerations at both ends.
-        let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
-        let readings = if is_smooth { ["cubic", "quintic"] } else { ["cubic", "quartic"] };
-        let motion = motion_member(&readings, time, &[position, velocity, acceleration]);
-        let places =
-            ("places", lines(&places(arm, self.line, self.tolerance, &motion_pieces(trajectory, [0, time.len() - 1]))));
+        let motion = motion::evidence(arm, trajectory, true);
+        let last = trajectory.time.len() - 1;
+        let places = ("places", lines(&places(arm, self.line, self.tolerance, &motion_pieces(trajectory, [0, last]))));
         self.written("found", places, [motion])
     }
 
@@ -72,24 +68,18 @@ impl CertifiedLine<'_> {
         let Some(boxes) = boxes else { return Err(NoCertificate::Line) };
         let mut contacts = Contacts::new(self.scene);
         let boxes = contacts.boxes(&boxes);
-        let stretch = ("stretch", json!(stretch).to_string());
+        let stretch = member("stretch", stretch);
         Ok(self.written("infeasible", stretch, contacts.named().into_iter().chain([boxes])))
     }
 
-    fn written(
-        &self,
-        answer: &str,
-        evidence: (&'static str, String),
-        others: impl IntoIterator<Item = (&'static str, String)>,
-    ) -> String {
-        let clearance = self.asked.clearance.map(|clearance| ("clearance", json!(clearance)));
-        let members = robot_members(self.files, self.scene.arm()).into_iter().chain(clearance).collect();
-        written(answer, members, [self.line_member(evidence)].into_iter().chain(others))
+    fn written(&self, answer: &str, evidence: Member, others: impl IntoIterator<Item = Member>) -> String {
+        let members = robot_members(self.files, self.scene.arm()).into_iter().chain(tip_and_clearance(self.asked));
+        written(answer, members.chain([self.line_member(evidence)]).chain(others))
     }
 
     /// Returns the line as a member of the certificate's JSON, with its part in the evidence.
-    fn line_member(&self, evidence: (&'static str, String)) -> (&'static str, String) {
-        let mut members: Evidence = vec![("tolerance", json!(self.tolerance).to_string())];
+    fn line_member(&self, evidence: Member) -> Member {
+        let mut members: Evidence = vec![member("tolerance", self.tolerance)];
         members.extend(pieces_members(self.line));
         members.push(evidence);
         let members: Vec<String> = members.iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();
@@ -132,7 +122,7 @@ pub(super) fn step_line(arm: &Arm, line: &FollowedLine, motion: &[Piece]) -> Val
 /// Returns the members of a line for its pieces and travels.
 fn pieces_members(line: &Toolpath) -> Evidence {
     let (pieces, travels) = pieces_and_travels(line);
-    let travels = (!travels.is_empty()).then(|| ("travels", json!(travels).to_string()));
+    let travels = (!travels.is_empty()).then(|| member("travels", travels));
     [("pieces", lines(&pieces))].into_iter().chain(travels).collect()
 }
 

@@ -70,8 +70,8 @@ impl Plan {
             Detail::Motion { problem, answer } => evidence_of_motion(problem, answer, asked)?,
             Detail::Task { task, answer } => ("found", evidence_of_task(task, answer, asked)?),
         };
-        let members = [robot_members(files, self.arm()), members(&self.problem().query, asked)].concat();
-        Ok(written(word, members, evidence))
+        let members = [robot_members(files, self.arm()), members(&self.problem().query, asked), evidence];
+        Ok(written(word, members.concat()))
     }
 }
 
@@ -84,7 +84,7 @@ fn evidence_of_motion(
     let mut contacts = Contacts::new(problem.scene());
     let (word, evidence) = match &answer.outcome {
         Outcome::Found(motion) => {
-            let mut evidence = vec![motion::evidence(problem.scene().arm(), &motion.timed.trajectory)];
+            let mut evidence = vec![motion::evidence(problem.scene().arm(), &motion.timed.trajectory, false)];
             let bound = motion.path.bound.and_then(|stated| LowerBound::of(problem, &stated, asked, MAX_BOUND_LOSS));
             evidence.extend(bound.into_iter().flat_map(|bound| bound.evidence(&mut contacts)));
             ("found", evidence)
@@ -110,24 +110,27 @@ fn evidence_of_task(task: &Task, answer: &TaskAnswer, asked: &Overrides) -> Resu
     let Outcome::Found(motion) = &answer.outcome else { return Err(NoCertificate::Answer(Status::Unknown)) };
     let (steps, _) = step_reports(task, answer);
     let trajectory = &motion.sequence.trajectory;
-    Ok(vec![motion::evidence(&task.arm, trajectory), task::steps(task, &steps, trajectory)])
+    Ok(vec![motion::evidence(&task.arm, trajectory, false), task::steps(task, &steps, trajectory)])
 }
 
-/// Members of a certificate's JSON object: names, and values as JSON texts.
-type Evidence = Vec<(&'static str, String)>;
+/// A member of a certificate's JSON object: its name, and its value as JSON text.
+type Member = (&'static str, String);
+
+/// Members of a certificate's JSON object.
+type Evidence = Vec<Member>;
+
+fn member(name: &'static str, value: impl Serialize) -> Member {
+    (name, json!(value).to_string())
+}
 
 /// Formats a certificate as text, one member per line.
-fn written(answer: &str, members: JsonMembers, evidence: impl IntoIterator<Item = (&'static str, String)>) -> String {
+fn written(answer: &str, members: impl IntoIterator<Item = Member>) -> String {
     let mut text = format!("{{\n  \"format\": \"cplan certificate 1\",\n  \"answer\": \"{answer}\"");
-    let members = members.into_iter().map(|(name, value)| (name, value.to_string()));
-    for (name, value) in members.chain(evidence) {
+    for (name, value) in members {
         text += &format!(",\n  \"{name}\": {value}");
     }
     text + "\n}\n"
 }
-
-/// Members of a certificate's JSON object: names and values.
-type JsonMembers = Vec<(&'static str, serde_json::Value)>;
 
 /// Formats a list as JSON, one entry per line.
 fn lines(entries: &[impl Serialize]) -> String {
@@ -135,23 +138,26 @@ fn lines(entries: &[impl Serialize]) -> String {
     format!("[\n{}\n  ]", entries.join(",\n"))
 }
 
-/// Returns the JSON members about the files and the joints.
-fn robot_members(files: Option<&Digests>, arm: &Arm) -> JsonMembers {
-    let joints = ("joints", json!(arm.joints.each_ref().map(|joint| &joint.name)));
+/// Returns the members about the files and the joints.
+fn robot_members(files: Option<&Digests>, arm: &Arm) -> Evidence {
+    let joints = member("joints", arm.joints.each_ref().map(|joint| &joint.name));
     let Some(Digests { urdf, world, others }) = files else { return vec![joints] };
-    let others = (!others.is_empty()).then(|| ("others", json!(others)));
-    [("urdf", json!(urdf)), ("world", json!(world))].into_iter().chain(others).chain([joints]).collect()
+    let others = (!others.is_empty()).then(|| member("others", others));
+    [member("urdf", urdf), member("world", world)].into_iter().chain(others).chain([joints]).collect()
 }
 
-/// Returns the JSON members for values that override the world file.
-fn members(problem: &MotionProblem, asked: &Overrides) -> JsonMembers {
+/// Returns the members for values that override the world file.
+fn members(problem: &MotionProblem, asked: &Overrides) -> Evidence {
     let topology = problem.scene().arm().topology();
-    let written = |q| json!(inward(&topology, q));
-    let start = asked.start.map(|_| ("start", written(problem.start())));
-    let goal = asked.goal.map(|_| ("goal", written(problem.goals().pieces()[0].ends()[0])));
-    let tip = asked.goal_tip.map(|TipPoint(tip)| ("goal_tip", json!([tip.x, tip.y])));
-    let clearance = asked.clearance.map(|clearance| ("clearance", json!(clearance)));
-    start.into_iter().chain(goal).chain(tip).chain(clearance).collect()
+    let start = asked.start.map(|_| member("start", inward(&topology, problem.start())));
+    let goal = asked.goal.map(|_| member("goal", inward(&topology, problem.goals().pieces()[0].ends()[0])));
+    start.into_iter().chain(goal).chain(tip_and_clearance(asked)).collect()
+}
+
+/// Returns the members for a goal of the tip and a clearance that override the world file.
+fn tip_and_clearance(asked: &Overrides) -> impl Iterator<Item = Member> + use<> {
+    let tip = asked.goal_tip.map(|TipPoint(tip)| member("goal_tip", [tip.x, tip.y]));
+    tip.into_iter().chain(asked.clearance.map(|clearance| member("clearance", clearance)))
 }
 
 /// Two values of a joint that differ by less than this count as equal, in radians or metres.

@@ -1,25 +1,25 @@
 //! Evidence for a motion: the curve that programs execute when they read the file. A checker needs nothing else.
 
 use super::task::{checkable, steps_of_recording};
-use super::{NoCertificate, inward, lines, robot_members, written};
+use super::{Member, NoCertificate, inward, lines, member, robot_members, tip_and_clearance, written};
 use cplan_handling::{Interpolation, RecordedStep, Recording, Task};
 use cplan_model::space::{Configuration, Topology};
 use cplan_model::{Arm, Goal, Scene};
 use cplan_motion::Trajectory;
-use cplan_world::{Digests, Overrides, TipPoint};
+use cplan_world::{Digests, Overrides};
 use serde_json::{Value, json};
 
 /// Returns the evidence of a planned motion: its samples, and the interpolations between them. Programs that read
-/// tables and ROS 2 messages join samples by cubics. The JSON defines quartics between them.
-pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory) -> (&'static str, String) {
-    // With limits on jerk, the JSON defines the same cubics.
+/// tables and ROS 2 messages join samples by cubics. The JSON defines quartics between them. With limits on jerk, it
+/// defines the same cubics, and programs may also join samples by quintics, which `has_quintics` includes.
+pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory, has_quintics: bool) -> Member {
     let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
     let Trajectory { time, position, velocity, acceleration, torque: _, wrist: _ } = trajectory;
     let position = &written_inward(&arm.topology(), position);
-    if is_smooth {
-        motion_member(&["cubic"], time, &[position, velocity])
-    } else {
-        motion_member(&["cubic", "quartic"], time, &[position, velocity, acceleration])
+    match (is_smooth, has_quintics) {
+        (true, false) => motion_member(&["cubic"], time, &[position, velocity]),
+        (true, true) => motion_member(&["cubic", "quintic"], time, &[position, velocity, acceleration]),
+        (false, _) => motion_member(&["cubic", "quartic"], time, &[position, velocity, acceleration]),
     }
 }
 
@@ -48,14 +48,13 @@ pub fn recorded(
     for (k, (end, is_asked)) in ends.iter().zip([asked.start.is_some(), asked.goal.is_some()]).enumerate() {
         let name = ["start", "goal"][k];
         match end {
-            Some(Goal::Joints(q)) if is_asked => members.push((name, json!(inward(topology, *q)))),
+            Some(Goal::Joints(q)) if is_asked => members.push(member(name, inward(topology, *q))),
             Some(_) => {}
             None if k == 1 && steps.is_some() => {}
-            None => members.push((name, json!(inward(topology, own[k])))),
+            None => members.push(member(name, inward(topology, own[k]))),
         }
     }
-    members.extend(asked.goal_tip.map(|TipPoint(tip)| ("goal_tip", json!([tip.x, tip.y]))));
-    members.extend(asked.clearance.map(|clearance| ("clearance", json!(clearance))));
+    members.extend(tip_and_clearance(asked));
     let counted: Vec<f64> = (0..q.len()).map(|k| k as f64).collect();
     let rows = |values: &[Configuration]| values.iter().map(|&q| q.into()).collect::<Vec<[f64; 2]>>();
     let positions = written_inward(topology, &rows(q));
@@ -71,7 +70,7 @@ pub fn recorded(
     let motion = motion_member(&[reading], recording.times().unwrap_or(&counted), &all[..columns]);
     let times = recording.times().unwrap_or(&counted);
     let steps = steps.map(|(task, steps)| steps_of_recording(task, steps, (recording, times)));
-    Ok(written("found", members, [motion].into_iter().chain(steps)))
+    Ok(written("found", members.into_iter().chain([motion]).chain(steps)))
 }
 
 /// Returns the values of the joints for a certificate, moved inwards at limits.
@@ -81,7 +80,7 @@ pub(super) fn written_inward(topology: &Topology, positions: &[[f64; 2]]) -> Vec
 
 /// Returns the motion as a member of the certificate's JSON. It consists of knots, each with a time and the values of
 /// the columns at that time. `readings` are the names of the interpolations.
-pub(super) fn motion_member(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> (&'static str, String) {
+pub(super) fn motion_member(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> Member {
     let knot =
         |k: usize| json!([times[k]].into_iter().chain(columns.iter().flat_map(|rows| rows[k])).collect::<Vec<f64>>());
     let knots: Vec<Value> = (0..times.len()).map(knot).collect();

@@ -38,8 +38,8 @@ pub fn certificate_of_boxes(
     }
     let mut contacts = Contacts::new(scene);
     let boxes = contacts.boxes(&[stuck, &blocked_solutions(problem).0].concat());
-    let members = [robot_members(None, scene.arm()), members(problem, asked)].concat();
-    Ok(written("infeasible", members, contacts.named().into_iter().chain([boxes])))
+    let members = [robot_members(None, scene.arm()), members(problem, asked), contacts.named(), vec![boxes]];
+    Ok(written("infeasible", members.concat()))
 }
 
 /// Returns the certificate of a bound. `None` if the goals form a curve, or if a checker could not separate them from
@@ -48,7 +48,7 @@ pub fn certificate_of_bound(problem: &MotionProblem, stated: &Bound, asked: &Ove
     let bound = LowerBound::of(problem, stated, asked, MAX_STATED_BOUND_LOSS)?;
     let mut contacts = Contacts::new(problem.scene());
     let evidence = bound.evidence(&mut contacts);
-    let members = [robot_members(None, problem.scene().arm()), members(problem, asked)].concat();
-    let text = written("no_shorter", members, contacts.named().into_iter().chain(evidence));
+    let members = [robot_members(None, problem.scene().arm()), members(problem, asked), contacts.named(), evidence];
+    let text = written("no_shorter", members.concat());
     Some(BoundCertificate { length: bound.length(), walls: bound.walls(), text })
 }

@@ -5,7 +5,9 @@ use super::line::{motion_pieces, step_line};
 use super::{NoCertificate, lines};
 use crate::result::StepReport;
 use cplan_geometry::can_inset_union;
-use cplan_handling::{Action, FollowedLine, Object, Payload, RecordedStep, Recording, Step, Stroke, Task};
+use cplan_handling::{
+    Action, FollowedLine, Object, Payload, RecordedOverlap, RecordedStep, Recording, Step, Stroke, Task,
+};
 use cplan_motion::recorded::turn_profile;
 use cplan_motion::{Trajectory, single};
 use serde_json::{Value, json};
@@ -15,24 +17,18 @@ use std::collections::BTreeSet;
 /// result; `trajectory` has its samples.
 pub(super) fn steps(task: &Task, steps: &[StepReport], trajectory: &Trajectory) -> (&'static str, String) {
     let step = |step: &StepReport| {
-        let turn = step.turn.as_ref().map(|turn| Turn {
-            by: turn.to - turn.from,
-            seconds: turn.seconds,
-            begin: match (turn.before_arrival > 0.0, turn.after_departure > 0.0) {
-                (true, _) => Some(step.arrival - turn.before_arrival),
-                (_, true) => Some(step.end + turn.after_departure - turn.seconds),
-                _ => None,
-            },
-        });
+        let turn = step.turn.as_ref();
         let knots = [step.first_sample, step.last_sample].map(Option::unwrap_or_default);
-        let overlaps = step.stroke.map(|stroke| Overlaps {
-            lowered: stroke.lowered,
-            lowering: Some(step.arrival - stroke.before_arrival).filter(|_| stroke.before_arrival > 0.0),
-            raised_at: Some(step.end + stroke.after_departure).filter(|_| stroke.after_departure > 0.0),
-        });
-        let first = step.raising.filter(|raising| raising.after_departure > 0.0);
-        let first = first.map(|raising| [raising.lowered, step.begin + raising.after_departure]);
-        let mut done = done(task, (step.step, knots), turn, (first, overlaps));
+        let raising = step.raising.filter(|raising| raising.after_departure > 0.0);
+        let mut done = DoneStep {
+            number: step.step,
+            knots,
+            ends: [step.arrival, step.end],
+            turn: turn.map(|turn| (turn.to - turn.from, turn.seconds, [turn.before_arrival, turn.after_departure])),
+            stroke: step.stroke.map(|stroke| (stroke.lowered, [stroke.before_arrival, stroke.after_departure])),
+            first: raising.map(|raising| [raising.lowered, step.begin + raising.after_departure]),
+        }
+        .entry(task);
         if let Some(line) = followed_line(task, step.step) {
             done["line"] = step_line(&task.arm, line, &motion_pieces(trajectory, knots));
         }
@@ -61,25 +57,18 @@ pub(super) fn steps_of_recording(
             None => asked.and_then(|asked| asked.tool.lowered_by()),
         };
         let departure = steps.get(index + 1).map_or(times.len() - 1, |next| *next.samples.start());
-        let overlap = step.overlap;
-        let overlaps = depth.zip(task.stroke.as_ref()).map(|(depth, stroke)| Overlaps {
-            lowered: stroke.lowered(depth),
-            lowering: Some(times[knots[1]] - overlap.before_arrival).filter(|_| overlap.before_arrival > 0.0),
-            raised_at: Some(times[departure] + overlap.after_departure).filter(|_| overlap.after_departure > 0.0),
-        });
-        let turn = step.turn.map(|turn| Turn {
-            by: turn.to - turn.from,
-            seconds: turn.seconds,
-            begin: match (turn.overlap.before_arrival > 0.0, turn.overlap.after_departure > 0.0) {
-                (true, _) => Some(times[knots[1]] - turn.overlap.before_arrival),
-                (_, true) => Some(times[departure] + turn.overlap.after_departure - turn.seconds),
-                _ => None,
-            },
-        });
-        let lowered =
-            task.start_tool.lowered_by().zip(task.stroke.as_ref()).map(|(depth, stroke)| stroke.lowered(depth));
-        let first = lowered.filter(|_| step.raising > 0.0).map(|lowered| [lowered, times[knots[0]] + step.raising]);
-        let mut done = done(task, (step.number, knots), turn, (first, overlaps));
+        let seconds = |overlap: RecordedOverlap| [overlap.before_arrival, overlap.after_departure];
+        let lowered = |depth: Option<f64>| task.stroke.as_ref().zip(depth).map(|(stroke, depth)| stroke.lowered(depth));
+        let first = lowered(task.start_tool.lowered_by()).filter(|_| step.raising > 0.0);
+        let mut done = DoneStep {
+            number: step.number,
+            knots,
+            ends: [times[knots[1]], times[departure]],
+            turn: step.turn.map(|turn| (turn.to - turn.from, turn.seconds, seconds(turn.overlap))),
+            stroke: lowered(depth).map(|lowered| (lowered, seconds(step.overlap))),
+            first: first.map(|lowered| [lowered, times[knots[0]] + step.raising]),
+        }
+        .entry(task);
         if let Some((line, motion)) = followed_line(task, step.number).zip(recording.part(step.samples.clone())) {
             done["line"] = step_line(&task.arm, line, &motion.pieces());
         }
@@ -96,60 +85,53 @@ fn followed_line(task: &Task, number: usize) -> Option<&FollowedLine> {
     }
 }
 
-/// The strokes of a step that overlap with motions of the arm.
-struct Overlaps {
-    /// The joint's value while the tool is lowered, metres.
-    lowered: f64,
-    /// Time at which the lowering begins, in seconds. `None` if the arm rests while the tool is lowered.
-    lowering: Option<f64>,
-    /// Time at which the tool is raised, in seconds. `None` if the arm rests until then.
-    raised_at: Option<f64>,
+/// A step that was done. Overlaps with motions of the arm are the seconds before its arrival and after its departure.
+struct DoneStep {
+    number: usize,
+    /// First and last sample of the motion.
+    knots: [usize; 2],
+    /// Times of arrival and departure of the arm, in seconds.
+    ends: [f64; 2],
+    /// The turn of the wrist: its signed angle in radians, its duration in seconds, and its overlaps.
+    turn: Option<(f64, f64, [f64; 2])>,
+    /// The joint's value while the tool is lowered, in metres, and the overlaps of the strokes.
+    stroke: Option<(f64, [f64; 2])>,
+    /// The joint's value in metres at which the tool begins to rise before the first step, and the time in seconds at which
+    /// it is raised, if that is during the motion.
+    first: Option<[f64; 2]>,
 }
 
-/// A turn of the wrist.
-struct Turn {
-    /// Signed angle, radians.
-    by: f64,
-    /// Duration, in seconds.
-    seconds: f64,
-    /// Time at which it begins, in seconds. `None` if the arm rests during the whole turn.
-    begin: Option<f64>,
-}
-
-/// Returns a step's entry. `first` is the joint's value in metres at which the tool begins to rise before the first step,
-/// and the time in seconds at which it is raised, if that is during the motion.
-fn done(
-    task: &Task,
-    (step, knots): (usize, [usize; 2]),
-    turn: Option<Turn>,
-    (first, overlaps): (Option<[f64; 2]>, Option<Overlaps>),
-) -> Value {
-    let mut done = json!({ "step": step, "knots": knots });
-    if let Some(Turn { by, seconds, begin }) = turn {
-        done["turn"] = json!(by);
-        if let Some((begin, wrist)) = begin.zip(task.wrist) {
-            let profile = turn_profile(&wrist, by.abs(), seconds);
-            done["turning"] = json!(knots_of(profile, begin, [0.0, by]));
+impl DoneStep {
+    /// Returns the step's entry.
+    fn entry(&self, task: &Task) -> Value {
+        let [arrival, departure] = self.ends;
+        let mut done = json!({ "step": self.number, "knots": self.knots });
+        if let Some((by, seconds, [before, after])) = self.turn {
+            done["turn"] = json!(by);
+            let late = (after > 0.0).then_some(departure + after - seconds);
+            let begin = if before > 0.0 { Some(arrival - before) } else { late };
+            if let Some((begin, wrist)) = begin.zip(task.wrist) {
+                done["turning"] = json!(knots_of(turn_profile(&wrist, by.abs(), seconds), begin, [0.0, by]));
+            }
         }
-    }
-    let Some(stroke) = &task.stroke else { return done };
-    let raised = stroke.joint.rest;
-    let raising = |lowered: f64, end: f64| {
-        let seconds = stroke_knots(stroke, [lowered, raised], 0.0).last().map_or(0.0, |[time, ..]| *time);
-        json!(stroke_knots(stroke, [lowered, raised], end - seconds))
-    };
-    if let Some([lowered, end]) = first {
-        done["raising_first"] = raising(lowered, end);
-    }
-    if let Some(Overlaps { lowered, lowering, raised_at }) = overlaps {
-        if let Some(begin) = lowering {
-            done["lowering"] = json!(stroke_knots(stroke, [raised, lowered], begin));
+        let Some(stroke) = &task.stroke else { return done };
+        let raised = stroke.joint.rest;
+        let raising = |lowered: f64, end: f64| {
+            let seconds = stroke_knots(stroke, [lowered, raised], 0.0).last().map_or(0.0, |[time, ..]| *time);
+            json!(stroke_knots(stroke, [lowered, raised], end - seconds))
+        };
+        if let Some([lowered, end]) = self.first {
+            done["raising_first"] = raising(lowered, end);
         }
-        if let Some(end) = raised_at {
-            done["raising"] = raising(lowered, end);
+        let Some((lowered, [before, after])) = self.stroke else { return done };
+        if before > 0.0 {
+            done["lowering"] = json!(stroke_knots(stroke, [raised, lowered], arrival - before));
         }
+        if after > 0.0 {
+            done["raising"] = raising(lowered, departure + after);
+        }
+        done
     }
-    done
 }
 
 /// Returns the knots of a stroke between two values of its joint: time in seconds, value, and velocity. Cubics join

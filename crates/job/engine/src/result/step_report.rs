@@ -9,28 +9,13 @@ use cplan_motion::recorded::WristTurn;
 use serde::Serialize;
 use std::borrow::Cow;
 
-/// The kind of a step, in one word.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum ActionName {
-    /// Picks an object.
-    Pick,
-    /// Releases an object.
-    Place,
-    /// Moves somewhere without handling an object.
-    Move,
-    /// Follows a line.
-    Follow,
-}
-
-impl From<&Action> for ActionName {
-    fn from(action: &Action) -> Self {
-        match action {
-            Action::Pick { .. } => Self::Pick,
-            Action::Place { .. } => Self::Place,
-            Action::Move(_) => Self::Move,
-            Action::Follow(_) => Self::Follow,
-        }
+/// Returns the kind of a step, in one word.
+fn action_name(action: &Action) -> &'static str {
+    match action {
+        Action::Pick { .. } => "pick",
+        Action::Place { .. } => "place",
+        Action::Move(_) => "move",
+        Action::Follow(_) => "follow",
     }
 }
 
@@ -125,7 +110,7 @@ pub struct StepReport {
     /// The repetition of the step, from 1.
     pub cycle: usize,
     /// The kind of step.
-    pub action: ActionName,
+    pub action: &'static str,
     /// The object that is picked or placed.
     pub object: Option<String>,
     /// The object that is carried during the motion.
@@ -186,7 +171,7 @@ impl StepReport {
         Self {
             step: leg.step.number,
             cycle: leg.step.cycle,
-            action: (&leg.step.action).into(),
+            action: action_name(&leg.step.action),
             object: leg.event.map(|event| name(event.object())),
             carried: leg.carried.map(name),
             begin,
@@ -243,16 +228,6 @@ pub fn step_reports(task: &Task, answer: &TaskAnswer) -> (Vec<StepReport>, Vec<E
     (steps.collect(), events.collect())
 }
 
-/// The kind of a gripper event.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum EventName {
-    /// Grasps an object.
-    Grasp,
-    /// Releases the object.
-    Release,
-}
-
 /// The pose of an object.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct PoseReport {
@@ -268,7 +243,7 @@ pub struct EventReport {
     /// Time of the event, in seconds from the beginning of the task.
     pub time: f64,
     /// The kind of event.
-    pub event: EventName,
+    pub event: &'static str,
     /// Name of the object.
     pub object: String,
     /// Number of the step in the world file, from 1.
@@ -290,10 +265,10 @@ impl EventReport {
         let tip = task.arm.tip_at(leg.timed.curve.curve().path().goal());
         let time = (arrival + leg.event_after()?).min(end);
         let (event, pose) = match happens {
-            Event::Grasp { .. } => (EventName::Grasp, None),
+            Event::Grasp { .. } => ("grasp", None),
             Event::Release { pose, .. } => {
                 let (at, angle) = (pose.translation, pose.rotation.angle());
-                (EventName::Release, Some(PoseReport { at: [at.x, at.y], angle }))
+                ("release", Some(PoseReport { at: [at.x, at.y], angle }))
             }
         };
         Some(Self {
@@ -335,7 +310,7 @@ pub struct FailedStepReport {
     /// The repetition of the step, from 1.
     pub cycle: usize,
     /// The kind of step.
-    pub action: ActionName,
+    pub action: &'static str,
     /// A short description of the step.
     pub description: String,
     /// Position of the step in the world file: file, line and column.
@@ -359,7 +334,7 @@ impl FailedStepReport {
         Self {
             step: step.number,
             cycle: step.cycle,
-            action: (&step.action).into(),
+            action: action_name(&step.action),
             description: step.action.describe(&task.objects),
             place: step.place.clone(),
             reasons: reasons.clone(),
