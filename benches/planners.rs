@@ -2,13 +2,11 @@
 //! the configuration space, the preparation, and one query.
 
 use cplan::cspace::{Grid, Regions, outer_grid, regions};
-use cplan::input::{self, Overrides};
 use cplan::model::MotionProblem;
 use cplan::planner::{Harmonic, Planner, Proposal, Query, Trapezoid, Visibility, Wavefront};
-use cplan_testkit::problems;
+use cplan_testkit::{problems, shipped};
 use criterion::{Criterion, criterion_group, criterion_main};
 use std::hint::black_box;
-use std::path::Path;
 
 /// Returns the polygons with which the program begins. Obstacles are grown by a thousandth of the reach, and the window
 /// extends one turn to either side of the start.
@@ -32,12 +30,6 @@ fn sufficient(problem: &MotionProblem) -> usize {
     [256, 512, 1024, 2048].into_iter().find(finds).expect("a path at the finest resolution")
 }
 
-fn shelf() -> MotionProblem {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let files = ["robots/planar_2r.urdf", "workspaces/shelf.toml"].map(|file| root.join(file));
-    input::load(&files[0], &files[1], &Overrides::default()).expect("a shipped workspace").problem
-}
-
 fn measure<P: Planner>(c: &mut Criterion, name: &str, problem: &MotionProblem, planner: &P, space: &P::Space) {
     let mut group = c.benchmark_group(format!("{name}/{}", P::NAME));
     group.sample_size(10);
@@ -50,7 +42,9 @@ fn measure<P: Planner>(c: &mut Criterion, name: &str, problem: &MotionProblem, p
 }
 
 fn planners(c: &mut Criterion) {
-    for (name, problem) in [("problem A", problems::problem(problems::Benchmark::A)), ("shelf", shelf())] {
+    for (name, problem) in
+        [("problem A", problems::problem(problems::Benchmark::A)), ("shelf", shipped::world("shelf").motion())]
+    {
         let n = sufficient(&problem);
         let mut group = c.benchmark_group(format!("{name}/space"));
         group.bench_function("polygons", |b| b.iter(|| polygons(black_box(&problem))));

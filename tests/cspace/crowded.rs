@@ -2,12 +2,13 @@
 //! are compared with distances between the arm's rectangles and every single piece, which brute force finds.
 
 use cplan::cspace::{Regions, regions, traced_pairs};
-use cplan::geometry::{Point, Pose, SimplePolygon, Vector, cross};
+use cplan::geometry::{Point, Pose, SimplePolygon, Vector};
 use cplan::model::{Arm, Heights, Obstacle, Scene, Shape, Workspace};
 use cplan::space::{Configuration, JointRange};
 use cplan_testkit::arms::rr;
 use cplan_testkit::scenes::{placed, q};
-use cplan_testkit::shapes::wall;
+use cplan_testkit::shapes::{convex, rectangle, wall};
+use cplan_testkit::solid::Solid;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -74,43 +75,20 @@ fn scene(obstacle: Obstacle) -> Scene {
     placed(arm(), Workspace { name: "crowded".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
-fn to_segment(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let along = b - a;
-    let share = (along.dot(&(p - a)) / along.norm_squared().max(f64::MIN_POSITIVE)).clamp(0.0, 1.0);
-    (p - a - along * share).norm()
-}
-
-fn sides(ring: &[Point]) -> impl Iterator<Item = [Point; 2]> + Clone + '_ {
-    (0..ring.len()).map(move |i| [ring[i], ring[(i + 1) % ring.len()]])
-}
-
-/// Returns the distance between two convex outlines from their corners and sides; 0 if they meet.
-fn outline_distance(a: &[Point], b: &[Point]) -> f64 {
-    let holds = |ring: &[Point], p: Point| ring.len() > 2 && sides(ring).all(|[u, v]| cross(v - u, p - u) >= 0.0);
-    // Sides that touch or overlap have an end at distance 0 from the other.
-    let beside = |[u, v]: [Point; 2], [p, q]: [Point; 2]| cross(v - u, p - u) * cross(v - u, q - u) < 0.0;
-    let crossing = sides(a).any(|s| sides(b).any(|t| beside(s, t) && beside(t, s)));
-    if crossing || holds(a, b[0]) || holds(b, a[0]) {
-        return 0.0;
-    }
-    let one_way = |a: &[Point], b: &[Point]| {
-        let to = |p: &Point| sides(b).map(|t| to_segment(*p, t)).fold(f64::INFINITY, f64::min);
-        a.iter().map(to).fold(f64::INFINITY, f64::min)
-    };
-    one_way(a, b).min(one_way(b, a))
-}
-
-/// Returns the least distance of the two bars from all pieces.
+/// Returns the least distance of the two bars from all pieces, or the negative depth.
 fn clearance(scene: &Scene, at: Configuration) -> f64 {
-    let bar = |length: f64| [(0.0, -0.05), (length, -0.05), (length, 0.05), (0.0, 0.05)];
-    let turned = |from: Point, angle: f64, length: f64| {
-        let (sin, cos) = angle.sin_cos();
-        bar(length).map(|(x, y)| from + Vector::new(x * cos - y * sin, x * sin + y * cos))
+    let bar = |length: f64| Solid::new(&rectangle(0.0, length, -0.05, 0.05));
+    let (sin, cos) = at[0].sin_cos();
+    let both = (at[0] + at[1]).sin_cos();
+    let links = [bar(1.0).placed([cos, sin], [0.0; 2]), bar(0.8).placed([both.1, both.0], [cos, sin])];
+    // Pieces may have more corners than a solid, but their triangles do not.
+    let triangles = |core: &[Point]| match core {
+        [first, rest @ ..] if rest.len() > 1 => rest.windows(2).map(|side| vec![*first, side[0], side[1]]).collect(),
+        _ => vec![core.to_vec()],
     };
-    let elbow = Point::new(at[0].cos(), at[0].sin());
-    let links = [turned(Point::zeros(), at[0], 1.0), turned(elbow, at[0] + at[1], 0.8)];
     let pieces = scene.workspace().obstacles.iter().flat_map(|o| &o.pieces);
-    pieces.flat_map(|piece| links.iter().map(|link| outline_distance(link, piece.core()))).fold(f64::INFINITY, f64::min)
+    let solids = pieces.flat_map(|piece| triangles(piece.core())).map(|core| Solid::new(&convex(core, 0.0)));
+    solids.flat_map(|solid| links.map(|link| link.distance(&solid))).fold(f64::INFINITY, f64::min)
 }
 
 fn is_free(regions: &Regions, at: Configuration) -> bool {

@@ -2,8 +2,7 @@
 
 use cplan::cspace::{Proves, outer_grid};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{JointType, Scene};
-use cplan::space::JointRange;
+use cplan::model::Scene;
 use cplan_testkit::shapes::{self, convex};
 use cplan_testkit::{arms, scenes};
 use proptest::prelude::*;
@@ -25,13 +24,9 @@ fn polygon() -> impl Strategy<Value = Convex> {
 
 /// Returns a gantry whose slides make an angle, with one shape on its second link, among obstacles.
 fn gantry(angles: [f64; 2], part: Convex, pieces: Vec<Convex>) -> Scene {
-    let slide = |name, angle: f64| {
-        let direction = Vector::new(angle.cos(), angle.sin());
-        arms::joint(name, JointType::Prismatic { direction }, JointRange::Interval { lower: -1.3, upper: 1.5 })
-    };
-    let joints = [slide("x", angles[0]), slide("y", angles[0] + angles[1])];
-    let links = [arms::link("bridge", vec![]), arms::link("head", vec![part])];
-    scenes::scene(arms::arm(joints, links, Vector::new(0.1, -0.2), Point::zeros()), pieces)
+    let mut arm = arms::slides([angles[0], angles[0] + angles[1]], [-1.3, 1.5], vec![part]);
+    arm.offset = Vector::new(0.1, -0.2);
+    scenes::scene(arm, pieces)
 }
 
 /// Returns the greatest gap between two convex polygons over the directions normal to their sides and between their
@@ -127,10 +122,5 @@ fn a_wall_between_cells_blocks_both() {
 }
 
 fn gantry_along_axes(part: Convex, pieces: Vec<Convex>) -> Scene {
-    let slide = |name, direction| {
-        arms::joint(name, JointType::Prismatic { direction }, JointRange::Interval { lower: -1.0, upper: 1.0 })
-    };
-    let joints = [slide("x", Vector::x()), slide("y", Vector::y())];
-    let links = [arms::link("bridge", vec![]), arms::link("head", vec![part])];
-    scenes::scene(arms::arm(joints, links, Vector::zeros(), Point::zeros()), pieces)
+    scenes::scene(arms::gantry([-1.0, 1.0], vec![part]), pieces)
 }

@@ -2,82 +2,28 @@
 
 use cplan::cspace::{PolygonWithHoles, Proves, Regions, c_obstacles, inner_regions, regions};
 use cplan::geometry::{Convex, Point, Vector, cross};
-use cplan::model::{
-    Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
-};
+use cplan::model::{Arm, Joint, JointType, Scene, Workspace};
 use cplan::space::{Configuration, JointRange};
-use cplan_testkit::scenes::placed;
+use cplan_testkit::arms::{arm, joint, link};
+use cplan_testkit::problems::{Benchmark, benchmark};
+use cplan_testkit::scenes::{self, placed};
 use cplan_testkit::shapes::convex;
-use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 
-fn joint(name: &str, joint_type: JointType, range: JointRange) -> Joint {
-    Joint { name: name.into(), joint_type, range, velocity: 1.0, acceleration: 1.0, jerk: None }
-}
-
-fn link(name: &str, shapes: Vec<Convex>) -> Link {
-    let part =
-        |shape| Part { shape, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: name.into() };
-    Link { name: name.into(), parts: shapes.into_iter().map(part).collect(), source: OutlineSource::Collision }
-}
-
 fn scene(joints: [Joint; 2], offset: Vector, links: [Vec<Convex>; 2], pieces: Vec<Convex>, clearance: f64) -> Scene {
-    let [first, second] = links;
-    let arm = Arm {
-        name: "test".into(),
-        joints,
-        links: [link("upper", first), link("fore", second)],
-        base: Point::new(0.02, -0.01),
-        offset,
-        tip: Point::new(0.8, 0.0),
-        tip_name: "tip".into(),
-        plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
-        dynamics: None,
-        motors: None,
-        self_obstacles: Vec::new(),
-    };
-    let obstacles = pieces
-        .into_iter()
-        .enumerate()
-        .map(|(i, piece)| Obstacle {
-            name: format!("obstacle {}", i + 1),
-            shape: Shape::Polygon(piece.core().to_vec()),
-            pieces: vec![piece],
-            heights: Heights::ALL,
-        })
-        .collect();
-    placed(arm, Workspace { name: "test".into(), obstacles, clearance, preferences: Vec::new() })
+    let arm = arm(joints, links.map(|shapes| link("link", shapes)), offset, Point::new(0.8, 0.0));
+    let arm = Arm { base: Point::new(0.02, -0.01), ..arm };
+    scenes::scene(arm, pieces).with_clearance(clearance).expect("a clearance")
 }
 
 fn polygon(corners: &[(f64, f64)]) -> Convex {
     convex(corners.iter().map(|&(x, y)| Point::new(x, y)).collect(), 0.0)
 }
 
-fn bar(length: f64, half: f64) -> Convex {
-    polygon(&[(0.0, -half), (length, -half), (length, half), (0.0, half)])
-}
-
-/// Returns a scene with two continuous joints, bars of 1.0 and 0.8 m by 0.1 m, and four convex obstacles. The lower
-/// obstacle is moved by `shift`.
-fn torus(shift: f64) -> Scene {
-    let turning = |name| joint(name, JointType::Revolute { sign: 1.0 }, JointRange::Circle);
-    let below = [(-0.21, -0.85), (-0.03, -1.20), (0.22, -1.21), (0.44, -0.93), (0.27, -0.62), (-0.09, -0.65)];
-    let obstacles = vec![
-        polygon(&below.map(|(x, y)| (x + shift, y))),
-        polygon(&[(0.99, -0.17), (1.14, -0.35), (1.38, -0.27), (1.42, -0.16), (1.28, 0.07), (1.04, 0.0)]),
-        polygon(&[(0.11, 1.33), (0.27, 1.12), (0.53, 1.19), (0.51, 1.51), (0.20, 1.53)]),
-        polygon(&[(-1.02, 0.33), (-0.89, 0.12), (-0.63, 0.32), (-0.85, 0.51)]),
-    ];
-    let scene = scene(
-        [turning("shoulder"), turning("elbow")],
-        Vector::new(1.0, 0.0),
-        [vec![bar(1.0, 0.05)], vec![bar(0.8, 0.05)]],
-        obstacles,
-        0.0,
-    );
-    let (arm, workspace) = scene.into_parts();
-    placed(Arm { base: Point::zeros(), ..arm }, workspace)
+/// Returns the scene of a benchmark: two continuous joints, and four convex obstacles.
+fn torus(which: Benchmark) -> Scene {
+    benchmark(which).0
 }
 
 /// Generates corners of a regular polygon, a disc, a thin wall or a point.
@@ -270,7 +216,7 @@ fn a_wall_that_meets_a_point_keeps_its_margin() {
 
 #[test]
 fn copies_on_the_torus_agree() {
-    let regions = regions(&torus(0.0), 1e-3, Configuration::new(-0.7, 0.0), 1);
+    let regions = regions(&torus(Benchmark::A), 1e-3, Configuration::new(-0.7, 0.0), 1);
     let half = [0, 1].map(|k| (regions.window[k].0, regions.window[k].0 + TAU));
     for q in lattice(half, 80) {
         for shift in [(TAU, 0.0), (0.0, TAU), (TAU, TAU)] {
@@ -282,7 +228,7 @@ fn copies_on_the_torus_agree() {
 
 #[test]
 fn free_area_converges_from_below() {
-    let scene = torus(0.0);
+    let scene = torus(Benchmark::A);
     let areas: Vec<f64> = [4e-3, 2e-3, 1e-3, 5e-4]
         .iter()
         .map(|&margin| regions(&scene, margin, Configuration::zeros(), 1).free.iter().map(PolygonWithHoles::area).sum())
@@ -309,21 +255,16 @@ fn connects_start_and_goal(scene: &Scene, margin: f64, goal: Configuration) -> b
 
 #[test]
 fn narrow_passages_stay_open_and_walls_closed() {
-    let goal = Configuration::new(1.75, 0.5);
-    assert!(connects_start_and_goal(&torus(0.0), 1e-3, goal), "a passage 0.070 rad wide");
-    assert!(connects_start_and_goal(&torus(0.04), 1e-3, goal), "a passage 0.022 rad wide");
-    assert!(!connects_start_and_goal(&torus(0.0), 1e-3, Configuration::new(-2.8, 0.4)), "an enclosed goal");
-}
-
-#[test]
-fn a_thin_wall_of_two_bands_is_closed() {
-    let (arm, mut workspace) = torus(0.0).into_parts();
-    let [piece] = &mut workspace.obstacles[1].pieces[..] else { panic!("a convex obstacle") };
-    *piece = convex(piece.core().iter().map(|p| p - Vector::new(0.0036, 0.0)).collect(), 0.0);
-    let scene = placed(arm, workspace);
-    let goal = Configuration::new(1.75, 0.5);
-    for margin in [1e-3, 1e-4, 1e-5] {
-        assert!(!connects_start_and_goal(&scene, margin, goal), "margin {margin}");
+    for (which, margins, connects) in [
+        (Benchmark::A, &[1e-3][..], true),
+        (Benchmark::B, &[1e-3], true),
+        (Benchmark::Inf, &[1e-3], false),
+        (Benchmark::T, &[1e-3, 1e-4, 1e-5], false),
+    ] {
+        let (scene, _, goal) = benchmark(which);
+        for margin in margins {
+            assert_eq!(connects_start_and_goal(&scene, *margin, goal), connects, "{which:?}, margin {margin}");
+        }
     }
 }
 
@@ -350,7 +291,7 @@ fn a_gantry_without_margin_is_exact() {
 
 #[test]
 fn windows_follow_axes() {
-    let (mut arm, workspace) = torus(0.0).into_parts();
+    let (mut arm, workspace) = torus(Benchmark::A).into_parts();
     arm.joints[1].range = JointRange::Interval { lower: -2.0, upper: 2.5 };
     let scene = placed(arm, workspace);
     let regions = regions(&scene, 1e-2, Configuration::new(1.0, 0.0), 2);
@@ -362,7 +303,7 @@ fn windows_follow_axes() {
 
 #[test]
 fn without_obstacles_the_window_is_free() {
-    let (arm, workspace) = torus(0.0).into_parts();
+    let (arm, workspace) = torus(Benchmark::A).into_parts();
     let scene = placed(arm, Workspace { obstacles: Vec::new(), ..workspace });
     let regions = regions(&scene, 1e-3, Configuration::zeros(), 1);
     assert_eq!(regions.free.len(), 1);

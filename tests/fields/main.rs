@@ -5,4 +5,3 @@ mod family;
 mod football;
 mod moving;
 mod planners;
-mod streamlines;

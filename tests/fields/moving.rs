@@ -1,6 +1,6 @@
 //! Fields among moving obstacles, against direct solutions for each moment.
 
-use super::family::direct::solution;
+use super::family::direct::{greatest_difference, solution};
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Disc, Domain, Equation, Factor, Influence, Levels, Measure, Moment,
     MovingField, Order, RelaxError, Relaxation, Scan, Solver, Stopping, by_multigrid, eliminated,
@@ -68,10 +68,6 @@ fn drift(cells: usize, columns: usize, robots: &[Influence]) -> Vec<[f64; 2]> {
         best.filter(|b| distance(cell, columns, b.center) < b.radius).map_or([0.0; 2], |b| b.drift)
     };
     (0..cells).map(of).collect()
-}
-
-fn greatest_difference(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
 }
 
 #[test]

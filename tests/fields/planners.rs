@@ -1,27 +1,12 @@
 //! The field planners, compared with independent methods: direct solutions, Floyd-Warshall, dense sampling and
 //! published tables.
 
-use cplan::cspace::{Grid, Proves};
+use crate::family::planner::{drawn, found, grid, is_free};
+use cplan::cspace::Grid;
 use cplan::field::{Component, Field, Lattice, UNREACHED, harmonic};
 use cplan::planner::{Harmonic, PathKind, Planner, Proposal, Query, Run, Size, Trace, Wavefront};
-use cplan::space::{Configuration, GoalSet, JointRange, Path, Topology};
+use cplan::space::Configuration;
 use proptest::prelude::*;
-
-/// Creates a grid with cells of side 1 along intervals. Along a circle, cells are scaled to its length.
-fn grid(cells: [usize; 2], circles: [bool; 2], blocked: Vec<bool>) -> Grid {
-    let axis = |k: usize| match circles[k] {
-        true => JointRange::Circle,
-        false => JointRange::Interval { lower: 0.0, upper: cells[k] as f64 },
-    };
-    Grid { topology: Topology::new([axis(0), axis(1)]), proves: Proves::Sampled, cells, blocked }
-}
-
-/// Parses a grid without circles: `#` is a blocked cell, and rows of text are rows of the grid.
-fn drawn(text: &str) -> Grid {
-    let rows: Vec<&str> = text.split_whitespace().collect();
-    let blocked = rows.iter().flat_map(|row| row.chars().map(|c| c == '#')).collect();
-    grid([rows.len(), rows[0].len()], [false; 2], blocked)
-}
 
 /// Returns a corridor one cell wide that winds inwards on `n x n` cells, and the cells at its two ends.
 fn spiral(n: i64) -> (Grid, usize, usize) {
@@ -47,16 +32,16 @@ fn spiral(n: i64) -> (Grid, usize, usize) {
     (grid([n as usize; 2], [false; 2], blocked), 0, (i * n + j) as usize)
 }
 
-fn random_grid() -> impl Strategy<Value = Grid> {
-    (1..11_usize, 1..11_usize, any::<[bool; 2]>(), 0.0..0.6_f64).prop_flat_map(|(rows, columns, circles, density)| {
+fn random_grid(most: usize) -> impl Strategy<Value = Grid> {
+    (1..most, 1..most, any::<[bool; 2]>(), 0.0..0.6_f64).prop_flat_map(|(rows, columns, circles, density)| {
         proptest::collection::vec(proptest::bool::weighted(density), rows * columns)
             .prop_map(move |blocked| grid([rows, columns], circles, blocked))
     })
 }
 
-/// Generates a grid and two of its cells, free or not.
-fn random_problem() -> impl Strategy<Value = (Grid, usize, usize)> {
-    random_grid().prop_flat_map(|grid| {
+/// Generates a grid with fewer than `most` cells along each axis, and two of its cells, free or not.
+fn random_problem(most: usize) -> impl Strategy<Value = (Grid, usize, usize)> {
+    random_grid(most).prop_flat_map(|grid| {
         let n = grid.blocked.len();
         (Just(grid), 0..n, 0..n)
     })
@@ -110,13 +95,6 @@ fn query(grid: &Grid, start: usize, goal: usize) -> Query {
     Query { start: grid.center(start), goals: grid.center(goal).into() }
 }
 
-fn found_path(run: &Run) -> Path {
-    match &run.outcome {
-        Proposal::Found(path) => path.clone(),
-        other => panic!("no path: {other:?}"),
-    }
-}
-
 /// Returns the cells that are connected with the goal, and their potential.
 fn field(grid: &Grid, goal: usize) -> (Component, Field) {
     let lattice = Lattice::from(grid);
@@ -149,7 +127,7 @@ fn check_paths_between_cells(grid: &Grid, start: usize, goal: usize) -> Result<(
             prop_assert_eq!(run.outcome, Proposal::NoPath);
             continue;
         }
-        let path = found_path(&run);
+        let path = found(&run);
         prop_assert_eq!(path.start(), grid.center(start));
         prop_assert!(grid.topology.distance(path.goal(), grid.center(goal)) < 1e-12);
         if !planner {
@@ -169,30 +147,14 @@ proptest! {
     #![proptest_config(cplan_cases::cases(150))]
 
     #[test]
-    fn labels_are_the_shortest_numbers_of_steps((grid, start, goal) in random_problem()) {
-        let steps = all_steps(&grid);
-        let lattice = Lattice::from(&grid);
-        let wave = lattice.wave(&[goal]);
-        prop_assert_eq!(&wave.labels(&lattice), &steps[goal]);
-        match wave.descend(&lattice, start) {
-            None => prop_assert_eq!(steps[goal][start], UNREACHED),
-            Some(cells) => {
-                prop_assert_eq!(cells.len() as u32, steps[goal][start] + 1);
-                prop_assert!(cells[0] == start && cells[cells.len() - 1] == goal);
-                prop_assert!(cells.windows(2).all(|w| steps[w[0]][w[1]] == 1));
-            }
-        }
-    }
-
-    #[test]
-    fn harmonic_fields_navigate((grid, _, goal) in random_problem()) {
+    fn harmonic_fields_navigate((grid, _, goal) in random_problem(11)) {
         let (component, field) = field(&grid, goal);
         prop_assert!(field.potential.navigates(&component));
         prop_assert!((0..component.len()).all(|i| field.potential.ln(i).is_finite()));
     }
 
     #[test]
-    fn fields_are_the_direct_solution_within_its_bounds((grid, _, goal) in random_problem()) {
+    fn fields_are_the_direct_solution_within_its_bounds((grid, _, goal) in random_problem(11)) {
         prop_assume!(!grid.blocked[goal]);
         let (component, field) = field(&grid, goal);
         let expected = direct(&grid, goal);
@@ -205,23 +167,20 @@ proptest! {
     }
 
     #[test]
-    fn plain_paths_visit_neighboring_free_cells((grid, start, goal) in random_problem()) {
+    fn plain_paths_visit_neighboring_free_cells((grid, start, goal) in random_problem(11)) {
         prop_assume!(!grid.blocked[start] && !grid.blocked[goal]);
         check_paths_between_cells(&grid, start, goal)?;
     }
 
     #[test]
     fn taut_paths_stay_in_free_cells_and_are_no_detours(
-        (grid, start, goal) in random_problem(),
+        (grid, start, goal) in random_problem(11),
         offsets in any::<[(u8, u8); 2]>(),
     ) {
         prop_assume!(!grid.blocked[start] && !grid.blocked[goal]);
         // The ends are anywhere within the two cells.
-        let [from, to] = [(start, offsets[0]), (goal, offsets[1])].map(|(cell, (a, b))| {
-            let part = [a, b].map(|x| f64::from(x) / 256.0 - 0.498);
-            grid.center(cell) + Configuration::new(part[0] * grid.step()[0], part[1] * grid.step()[1])
-        });
-        let query = Query { start: from, goals: to.into() };
+        let from = within(&grid, start, offsets[0]);
+        let query = Query { start: from, goals: within(&grid, goal, offsets[1]).into() };
         for planner in BOTH {
             let plain = run(planner, &grid, &query, PathKind::Own);
             let short = run(planner, &grid, &query, PathKind::Taut);
@@ -229,7 +188,7 @@ proptest! {
                 prop_assert_eq!(short.outcome, Proposal::NoPath);
                 continue;
             }
-            let (plain, short) = (found_path(&plain), found_path(&short));
+            let (plain, short) = (found(&plain), found(&short));
             prop_assert!(short.length() <= plain.length() + 1e-9);
             prop_assert!(short.start() == plain.start() && short.goal() == plain.goal());
             prop_assert_eq!(short.start(), from);
@@ -243,13 +202,46 @@ proptest! {
     }
 }
 
+/// Returns a place in a cell.
+fn within(grid: &Grid, cell: usize, (a, b): (u8, u8)) -> Configuration {
+    let part = [a, b].map(|x| f64::from(x) / 256.0 - 0.498);
+    grid.center(cell) + Configuration::new(part[0] * grid.step()[0], part[1] * grid.step()[1])
+}
+
+proptest! {
+    #![proptest_config(cplan_cases::cases(300))]
+
+    /// Checks that the harmonic planner's own path stays in free cells and ends at the goal.
+    #[test]
+    fn streamlines_stay_in_free_cells_and_come_to_the_goal(
+        (grid, start, goal) in random_problem(14),
+        offset in any::<(u8, u8)>(),
+    ) {
+        prop_assume!(!grid.blocked[start] && !grid.blocked[goal]);
+        let from = within(&grid, start, offset);
+        let run = run(false, &grid, &Query { start: from, goals: grid.center(goal).into() }, PathKind::Own);
+        if run.outcome == Proposal::NoPath {
+            return Ok(());
+        }
+        let path = found(&run);
+        prop_assert_eq!(path.start(), from);
+        prop_assert!(grid.topology.distance(path.goal(), grid.center(goal)) < 1e-9);
+        for (a, b) in path.segments() {
+            for k in 0..=50 {
+                let q = a + (b - a) * (f64::from(k) / 50.0);
+                prop_assert!(is_free(&grid, q), "{q:?}");
+            }
+        }
+    }
+}
+
 #[test]
 fn a_long_spiral_is_no_flat_field() {
     let (grid, outer, inner) = spiral(143);
     let free = grid.blocked.iter().filter(|&&blocked| !blocked).count();
     assert!(free > 10_000, "only {free} cells");
     let run = run(false, &grid, &query(&grid, outer, inner), PathKind::Own);
-    assert!(found_path(&run).length() > 0.7 * free as f64);
+    assert!(found(&run).length() > 0.7 * free as f64);
     let Trace::Field { values: potential, .. } = &run.trace else { panic!("{:?}", run.trace) };
     // In a corridor one cell wide, each cell has 2 - sqrt 3 times the value of the one before. The few cells at its
     // closed end are an exception.
@@ -277,17 +269,6 @@ fn a_torus_without_walls_navigates() {
 }
 
 #[test]
-fn start_at_the_goal_is_a_path_of_one_point() {
-    let grid = grid([4, 5], [false, true], vec![false; 20]);
-    for planner in BOTH {
-        for path in PathKind::ALL {
-            let path = found_path(&run(planner, &grid, &query(&grid, 7, 7), path));
-            assert_eq!(path.waypoints(), [grid.center(7)]);
-        }
-    }
-}
-
-#[test]
 fn a_wall_means_no_path_and_the_trace_shows_what_was_reached() {
     let grid = drawn("..#.. ..#.. ..#..");
     for planner in BOTH {
@@ -310,13 +291,13 @@ fn circles_are_crossed_at_the_seam_and_paths_stay_continuous() {
     let tau = std::f64::consts::TAU;
     let end = Configuration::new(-3.0 + tau, 2.9 - tau);
     for planner in BOTH {
-        let path = found_path(&run(planner, &open, &query, PathKind::Taut));
+        let path = found(&run(planner, &open, &query, PathKind::Taut)).clone();
         assert_eq!(path.start(), query.start);
         assert!((path.goal() - end).norm() < 1e-14, "{}", path.goal());
         assert!((path.length() - (end - query.start).norm()).abs() < 1e-12);
         // A start that is a turn away remains there.
         let turned = Query { start: query.start + Configuration::new(tau, 0.0), ..query.clone() };
-        let path = found_path(&run(planner, &open, &turned, PathKind::Taut));
+        let path = found(&run(planner, &open, &turned, PathKind::Taut)).clone();
         assert_eq!(path.start(), turned.start);
         assert!((path.goal() - end - Configuration::new(tau, 0.0)).norm() < 1e-12);
     }
@@ -327,33 +308,7 @@ fn a_blocked_start_is_joined_to_a_free_cell_nearby() {
     let grid = drawn("....... .###... .###... .###... .......");
     for planner in BOTH {
         let start = Configuration::new(2.5, 1.2);
-        let path = found_path(&run(planner, &grid, &Query { start, goals: grid.center(6).into() }, PathKind::Taut));
+        let path = found(&run(planner, &grid, &Query { start, goals: grid.center(6).into() }, PathKind::Taut)).clone();
         assert_eq!((path.start(), path.goal()), (start, grid.center(6)));
-    }
-}
-
-#[test]
-fn hopeless_queries_are_given_up_with_the_reason() {
-    let full = grid([9, 9], [false, false], (0..81).map(|cell| cell != 80).collect());
-    let reason = |planner, query: &Query| match run(planner, &full, query, PathKind::Taut).outcome {
-        Proposal::GaveUp(reason) => reason,
-        other => panic!("not given up: {other:?}"),
-    };
-    for planner in BOTH {
-        assert!(reason(planner, &query(&full, 0, 80)).contains("start"));
-        assert!(reason(planner, &query(&full, 80, 0)).contains("goal"));
-        assert!(reason(planner, &Query { start: full.center(80), goals: GoalSet::default() }).contains("no goal"));
-        let outside = Query { start: Configuration::new(-1.0, 3.0), goals: full.center(80).into() };
-        assert!(reason(planner, &outside).contains("outside"));
-    }
-}
-
-#[test]
-fn the_nearest_of_several_goals_is_taken() {
-    let grid = drawn(".......... .......... ..........");
-    let query =
-        Query { start: grid.center(2), goals: [29, 12, 20].map(|cell| grid.center(cell)).into_iter().collect() };
-    for planner in BOTH {
-        assert_eq!(found_path(&run(planner, &grid, &query, PathKind::Taut)).goal(), grid.center(12));
     }
 }

@@ -8,7 +8,7 @@ pub const RADIUS: f64 = 0.25;
 
 /// Returns the distance between a point and a segment: to the foot of the perpendicular if that is on the segment,
 /// otherwise to the nearer end.
-fn to_segment(p: Point, a: Point, b: Point) -> f64 {
+pub fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     let ([dx, dy], [px, py]) = ([b.x - a.x, b.y - a.y], [p.x - a.x, p.y - a.y]);
     let share = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
     (px - share * dx).hypot(py - share * dy)

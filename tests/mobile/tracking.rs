@@ -1,6 +1,6 @@
 //! The controller that follows a moving point: its closed form, and cells of a wave and of A\* that it follows.
 
-use crate::plain::least_gap;
+use crate::plain::{least_gap, to_segment};
 use cplan::engine::{CellCounts, GridSpace, Method, Planner, Setting};
 use cplan::model::{Scene, Workspace};
 use cplan::planner::{GridSearch, PathKind};
@@ -50,12 +50,7 @@ fn the_desired_point_goes_along_the_line_and_rests_at_its_end() {
 
 /// Returns the distance of a point to a line through corners.
 fn distance_to_line(p: Point, corners: &[[f64; 2]]) -> f64 {
-    let side = |w: &[[f64; 2]]| {
-        let ([dx, dy], [px, py]) = ([w[1][0] - w[0][0], w[1][1] - w[0][1]], [p.x - w[0][0], p.y - w[0][1]]);
-        let share = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
-        (px - share * dx).hypot(py - share * dy)
-    };
-    corners.windows(2).map(side).fold(f64::INFINITY, f64::min)
+    corners.windows(2).map(|w| to_segment(p, w[0].into(), w[1].into())).fold(f64::INFINITY, f64::min)
 }
 
 /// Checks the tracking controller on paths of the wave and of A*, in the rooms of the mission, and with the map, cells,

@@ -1,11 +1,12 @@
 //! Motions with a limit on the jerk, compared with closed forms, integrated, and judged by `verify`.
 
-use crate::sampled::{as_vector, recording, state_between};
+use crate::sampled::{as_vector, recording};
 use crate::{curve, empty, waypoints};
 use cplan::check::{Limit, limit_violations};
 use cplan::model::{Joint, Scene};
 use cplan::motion::{Limits, MIN_INTERVAL, TimedMotion, TipSpeed, time};
 use cplan::space::Configuration;
+use cplan_testkit::moving::state_between;
 use cplan_testkit::scenes::{placed, q};
 use proptest::prelude::*;
 

@@ -15,23 +15,19 @@ mod torque;
 mod trajectory;
 
 use cplan::check::{CertifiedCurve, CertifiedPath, blend, certify};
-use cplan::geometry::{Point, Vector};
-use cplan::model::{JointType, Scene};
-use cplan::space::{JointRange, Path};
-use cplan_testkit::arms::{arm, joint, link};
+use cplan::model::Scene;
+use cplan::space::Path;
+use cplan_testkit::arms::gantry;
 use cplan_testkit::scenes::{q, scene};
 use proptest::prelude::*;
 
 /// Returns a gantry in an empty room, where a blend can be as large as requested.
 fn empty(velocity: [f64; 2], acceleration: [f64; 2]) -> Scene {
-    let slide = |k: usize, x, y| {
-        let range = JointRange::Interval { lower: -100.0, upper: 100.0 };
-        let mut joint = joint(["x", "y"][k], JointType::Prismatic { direction: Vector::new(x, y) }, range);
+    let mut arm = gantry([-100.0, 100.0], vec![]);
+    for (k, joint) in arm.joints.iter_mut().enumerate() {
         (joint.velocity, joint.acceleration) = (velocity[k], acceleration[k]);
-        joint
-    };
-    let joints = [slide(0, 1.0, 0.0), slide(1, 0.0, 1.0)];
-    scene(arm(joints, [link("a", vec![]), link("b", vec![])], Vector::zeros(), Point::zeros()), vec![])
+    }
+    scene(arm, vec![])
 }
 
 fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {

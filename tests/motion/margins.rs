@@ -1,16 +1,16 @@
 //! Margins of motions, compared with dense samples by an oracle with its own kinematics and distances.
 
-use crate::sampled::state_between;
 use cplan::engine::plan;
 use cplan::geometry::{Pose, Vector};
 use cplan::model::{Arm, Grip, MotionProblem, Scene, Workspace};
 use cplan::motion::{BodyKind, ErrorKind, Margins, Trajectory};
 use cplan::space::{Configuration, Path};
 use cplan::{Options, Plan, Problem};
+use cplan_testkit::moving::state_between;
 use cplan_testkit::oracle::Oracle;
 use cplan_testkit::problems::shipped_feasible;
 use cplan_testkit::solid::Solid;
-use cplan_testkit::{root, world};
+use cplan_testkit::{shipped, world};
 use std::f64::consts::TAU;
 
 /// Allowance for rounding, as a share of a margin.
@@ -165,8 +165,7 @@ fn tolerances_are_proven_and_tight() {
 
 /// Returns the plan of a shipped world.
 fn shipped(robot: &str, world: &str) -> Plan {
-    let problem = Problem::load(root().join("robots").join(robot), root().join("workspaces").join(world)).unwrap();
-    let plan = plan(&problem, &Options::default()).unwrap();
+    let plan = shipped::plan(robot, world, &Options::default());
     assert!(plan.trajectory().is_some(), "{world} has no motion");
     plan
 }
@@ -207,10 +206,10 @@ fn least_of_payload(scene: &Scene, number: usize, motion: &[Configuration]) -> f
 #[test]
 fn margins_of_tasks_hold_for_all_steps() {
     for (robot, world, is_tight) in [
-        ("rrbot_vertical.urdf", "tasks/tower.toml", true),
-        ("scara.urdf", "tasks/feeder.toml", true),
-        ("scara.urdf", "tasks/kitting_cell.toml", false),
-        ("scara.urdf", "arch/into_the_box.toml", false),
+        ("rrbot_vertical", "tasks/tower", true),
+        ("scara", "tasks/feeder", true),
+        ("scara", "tasks/kitting_cell", false),
+        ("scara", "arch/into_the_box", false),
     ] {
         let plan = shipped(robot, world);
         let (task, answer) = plan.task().unwrap();
@@ -245,10 +244,8 @@ fn margins_of_tasks_hold_for_all_steps() {
 
 #[test]
 fn margins_of_moving_obstacles_hold_at_all_times() {
-    for world in ["moving/crossing.toml", "moving/gate.toml", "moving/swing.toml"] {
-        let text = std::fs::read_to_string(root().join("workspaces").join(world)).unwrap();
-        let robot = text.lines().find_map(|line| line.strip_prefix("# robot:")).unwrap().trim();
-        let plan = shipped(&format!("{robot}.urdf"), world);
+    for world in ["moving/crossing", "moving/gate", "moving/swing"] {
+        let plan = plan(&shipped::world(world).problem(), &Options::default()).unwrap();
         let (timed, margins) = (plan.problem().timed(), plan.margins());
         for (k, loose) in timed.scene.loose_obstacles().iter().enumerate() {
             let static_obstacles = timed.scene.workspace().obstacles.len();

@@ -6,6 +6,7 @@ use cplan::check::{CertifiedCurve, limit_violations};
 use cplan::model::Joint;
 use cplan::motion::{Limits, MIN_INTERVAL, TimedMotion, Trajectory, time};
 use cplan::space::{BLEND_TOLERANCE, Configuration, Recording};
+use cplan_testkit::moving::state_between;
 use cplan_testkit::scenes::q;
 use proptest::prelude::*;
 
@@ -15,21 +16,6 @@ const HALF_A_NANOSECOND: f64 = 0.5e-9;
 
 pub fn as_vector(row: [f64; 2]) -> Configuration {
     q(row[0], row[1])
-}
-
-/// Returns position, velocity and acceleration at `t` in interval `k`, by the polynomial that `INTERPOLATION` states.
-pub fn state_between(trajectory: &Trajectory, k: usize, t: f64) -> [Configuration; 3] {
-    let [p, v, a] =
-        [&trajectory.position, &trajectory.velocity, &trajectory.acceleration].map(|rows| as_vector(rows[k]));
-    let h = trajectory.time[k + 1] - trajectory.time[k];
-    let e = as_vector(trajectory.position[k + 1]) - p - v * h - a * (h * h / 2.0);
-    let f = as_vector(trajectory.velocity[k + 1]) - v - a * h;
-    let (c, d) = ((e * 4.0 - f * h) / h.powi(3), (f * h - e * 3.0) / h.powi(4));
-    [
-        p + v * t + a * (t * t / 2.0) + c * t.powi(3) + d * t.powi(4),
-        v + a * t + c * (3.0 * t * t) + d * (4.0 * t.powi(3)),
-        a + c * (6.0 * t) + d * (12.0 * t * t),
-    ]
 }
 
 /// Returns the samples as a recording, which any program could have written.

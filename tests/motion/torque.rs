@@ -8,11 +8,11 @@ use cplan::model::{
     Arm, Body, Dynamics, Grip, Heights, Holding, JointType, Object, Payload, Scene, Shape, Task, ToolValues, Torques,
 };
 use cplan::motion::{Drive, Objective, TimingError, Trajectory};
-use cplan::space::{Configuration, JointRange, Path};
+use cplan::space::{Configuration, Path};
 use cplan_cases::dice::Dice;
 use cplan_cases::{dice, times};
-use cplan_testkit::arms::{all_kinds, arm, joint, link};
-use cplan_testkit::scenes::scene;
+use cplan_testkit::arms::{self, all_kinds};
+use cplan_testkit::scenes::{anywhere, scene};
 use cplan_testkit::shapes::rectangle;
 
 /// Returns centre and orientation of a body. Computes them with complex numbers, without the arm's own kinematics.
@@ -85,14 +85,6 @@ fn drawn(dice: &mut Dice, mut arm: Arm, strength: f64) -> Arm {
     arm
 }
 
-/// Returns a configuration within the joints' ranges.
-fn random_configuration(dice: &mut Dice, arm: &Arm) -> [f64; 2] {
-    arm.joints.each_ref().map(|joint| {
-        let (lower, upper) = joint.range.domain();
-        dice.within(lower, upper)
-    })
-}
-
 #[test]
 fn torques_move_the_bodies() {
     let mut dice = dice(71);
@@ -100,7 +92,7 @@ fn torques_move_the_bodies() {
     for kind in (0..50).flat_map(|_| all_kinds()) {
         let arm = drawn(&mut dice, kind, 1.0);
         let dynamics = arm.dynamics.expect("drawn");
-        let q = random_configuration(&mut dice, &arm);
+        let q: [f64; 2] = anywhere(&mut dice, &arm).into();
         let [v, a] = [2.0, 5.0].map(|most| [0, 1].map(|_| dice.within(-most, most)));
         let torque = Torques { arm: &arm, dynamics }.torque(q.into(), v.into(), a.into());
         let expected = by_steps(&arm, &dynamics, q, v, a);
@@ -213,7 +205,7 @@ fn straight_motions_are_as_fast_as_the_torques_allow() {
     for kind in (0..6).flat_map(|_| all_kinds()) {
         let arm = drawn(&mut dice, kind, 1.3);
         let dynamics = arm.dynamics.expect("drawn");
-        let [from, to] = [0, 1].map(|_| random_configuration(&mut dice, &arm));
+        let [from, to] = [0, 1].map(|_| <[f64; 2]>::from(anywhere(&mut dice, &arm)));
         let scene = scene(arm.clone(), vec![]);
         let path = certified(&scene, &[from, to]);
         let timed = Drive::default().along(&scene, &path, 1.0).expect("the efforts hold it");
@@ -237,7 +229,7 @@ fn motions_with_corners_keep_the_efforts_as_they_are_played() {
             arm.joints.iter_mut().for_each(|joint| (joint.jerk, joint.acceleration) = (Some(300.0), 30.0));
         }
         let dynamics = arm.dynamics.expect("drawn");
-        let corners: Vec<Configuration> = (0..4).map(|_| random_configuration(&mut dice, &arm).into()).collect();
+        let corners: Vec<Configuration> = (0..4).map(|_| anywhere(&mut dice, &arm)).collect();
         let scene = scene(arm.clone(), vec![]);
         let path = certify(&scene, Path::new(corners)).expect("nothing is in the way");
         let optimize = if n % 3 == 2 { Objective::Time } else { Objective::Length };
@@ -249,14 +241,7 @@ fn motions_with_corners_keep_the_efforts_as_they_are_played() {
 
 /// Returns a gantry with these efforts, masses and gravity.
 fn gantry(effort: [f64; 2], mass: [f64; 2], gravity: Vector) -> Arm {
-    let range = JointRange::Interval { lower: -10.0, upper: 10.0 };
-    let slide = |name, x, y| joint(name, JointType::Prismatic { direction: Vector::new(x, y) }, range);
-    let mut arm = arm(
-        [slide("x", 1.0, 0.0), slide("y", 0.0, 1.0)],
-        [link("a", vec![]), link("b", vec![])],
-        Vector::zeros(),
-        Point::zeros(),
-    );
+    let mut arm = arms::gantry([-10.0, 10.0], vec![]);
     let bodies = mass.map(|mass| Body { mass, center: Point::zeros(), inertia: 0.0 });
     arm.dynamics = Some(Dynamics { bodies, gravity, effort, assumed: [true; 2], limits: true });
     arm.joints.iter_mut().for_each(|joint| (joint.velocity, joint.acceleration) = (100.0, 1e6));

@@ -3,16 +3,13 @@
 use cplan::check::{CertifiedPath, blend, certify};
 use cplan::engine::{GridSpace, Method, Options, Plan, Planner, Problem, plan};
 use cplan::geometry::{Point, Vector};
-use cplan::model::{
-    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, RobotJoints, Scene,
-    Shape, Status, Workspace,
-};
+use cplan::model::{Arm, Joint, JointType, MotionProblem, Obstacle, RobotJoints, Scene, Status, Workspace};
 use cplan::motion::{BlendReport, Format, JointMotion, Limits, TimedMotion, Trajectory, csv, ros_yaml, time};
 use cplan::space::{Configuration, JointRange, Path};
+use cplan_testkit::arms::{arm, joint, link};
 use cplan_testkit::problems::shipped_feasible;
 use cplan_testkit::scenes::placed;
 use cplan_testkit::shapes::disc;
-use nalgebra::Vector3;
 use serde_json::Value;
 
 const NAMES: [&str; 2] = ["shoulder, \"left\"", "no: 1"];
@@ -20,50 +17,19 @@ const NAMES: [&str; 2] = ["shoulder, \"left\"", "no: 1"];
 /// Returns a revolute joint that carries nothing, followed by a prismatic one that carries a disc. With `obstacle`,
 /// there is a distant obstacle.
 fn scene(obstacle: bool) -> Scene {
-    let joint = |name: &str, motion| Joint {
-        name: name.into(),
-        joint_type: motion,
-        range: JointRange::Interval { lower: -3.0, upper: 3.0 },
+    let joint = |name: &str, joint_type| Joint {
         velocity: 1.5,
-        acceleration: 4.0,
-        jerk: None,
+        ..joint(name, joint_type, JointRange::Interval { lower: -3.0, upper: 3.0 })
     };
-    let tool = Part {
-        shape: disc(Point::zeros(), 0.1),
-        inner: None,
-        number: 0,
-        is_visual: false,
-        heights: Heights::ALL,
-        body: "slider".into(),
-    };
-    let arm = Arm {
-        name: "polar".into(),
-        joints: [
-            joint(NAMES[0], JointType::Revolute { sign: 1.0 }),
-            joint(NAMES[1], JointType::Prismatic { direction: Vector::x() }),
-        ],
-        links: [
-            Link { name: "turret".into(), parts: vec![], source: OutlineSource::None },
-            Link { name: "slider".into(), parts: vec![tool], source: OutlineSource::Collision },
-        ],
-        base: Point::zeros(),
-        offset: Vector::zeros(),
-        tip: Point::zeros(),
-        tip_name: "slider".into(),
-        plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
-        dynamics: None,
-        motors: None,
-        self_obstacles: Vec::new(),
-    };
-    let (center, radius) = (Point::new(9.0, 0.0), 0.5);
-    let far = Obstacle {
-        name: "far".into(),
-        shape: Shape::Circle { center, radius },
-        pieces: vec![disc(center, radius)],
-        heights: Heights::ALL,
-    };
+    let joints = [
+        joint(NAMES[0], JointType::Revolute { sign: 1.0 }),
+        joint(NAMES[1], JointType::Prismatic { direction: Vector::x() }),
+    ];
+    let links = [link("turret", vec![]), link("slider", vec![disc(Point::zeros(), 0.1)])];
+    let far = Obstacle::circle("far", [9.0, 0.0], 0.5).expect("a disc");
     let obstacles = if obstacle { vec![far] } else { vec![] };
-    placed(arm, Workspace { name: "room".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
+    let workspace = Workspace { name: "room".into(), ..Workspace::new(obstacles) };
+    placed(arm(joints, links, Vector::zeros(), Point::zeros()), workspace)
 }
 
 fn certified(scene: &Scene, waypoints: &[[f64; 2]]) -> CertifiedPath {

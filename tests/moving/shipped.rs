@@ -1,22 +1,17 @@
 //! The shipped worlds with moving obstacles, each with the outcome that its file states.
 
 use cplan::motion::{Drive, Objective};
-use cplan::{Options, Outcome, Problem, plan};
-use std::path::Path;
+use cplan::{Options, Outcome, plan};
+use cplan_testkit::shipped;
 
 #[test]
 fn shipped_worlds_have_the_stated_outcome() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files: Vec<_> =
-        std::fs::read_dir(root.join("workspaces/moving")).unwrap().map(|e| e.unwrap().path()).collect();
-    files.sort();
-    for file in &files {
-        let text = std::fs::read_to_string(file).unwrap();
-        let report = |key: &str| text.lines().find_map(|line| line.strip_prefix(key)).map(str::trim).expect(key);
-        let problem = Problem::load(root.join(format!("robots/{}.urdf", report("# robot:"))), file).unwrap();
+    let worlds = shipped::worlds("moving");
+    assert!(worlds.len() >= 5);
+    for world in worlds {
+        let (name, problem) = (&world.name, world.problem());
         let plan = plan(&problem, &Options::default()).unwrap();
-        let name = file.file_stem().unwrap().to_string_lossy();
-        match (report("# expect:"), plan.outcome()) {
+        match (world.expect.as_str(), plan.outcome()) {
             ("found", Outcome::Found(_)) => {
                 let timing = plan.timing().expect("something moves");
                 assert!(timing.free_until.is_none() && timing.clearance.is_some_and(|kept| kept > 0.0), "{name}");
@@ -27,15 +22,12 @@ fn shipped_worlds_have_the_stated_outcome() {
             (expected, outcome) => panic!("{name}: {outcome:?} instead of {expected}"),
         }
     }
-    assert!(files.len() >= 5);
 }
 
 /// Checks that the printed duration is that of the whole motion, including waits, if the motion is optimised for time.
 #[test]
 fn the_duration_beside_its_bound_is_that_of_the_motion() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let problem =
-        Problem::load(root.join("robots/planar_2r.urdf"), root.join("workspaces/moving/crossing.toml")).unwrap();
+    let problem = shipped::world("moving/crossing").problem();
     let drive = Drive { optimize: Objective::Time, ..Drive::default() };
     let plan = plan(&problem, &Options { drive, ..Options::default() }).unwrap();
     let (duration, fastest) =

@@ -15,7 +15,7 @@ use cplan::planner::{
     Query, RoadmapSearch, Run, SearchOrder, Size, Trace, Trapezoid, Triangles, Visibility, Voronoi, Wavefront,
 };
 use cplan::space::{Configuration, JointRange, Metric, Path};
-use cplan_testkit::arms::{all_kinds, arm, joint, link, rr};
+use cplan_testkit::arms::{self, all_kinds, arm, joint, link, rr};
 use cplan_testkit::scenes::{q, scene};
 use cplan_testkit::shapes::{disc, rectangle, wall};
 use std::f64::consts::TAU;
@@ -194,10 +194,7 @@ fn range(lower: f64, upper: f64) -> JointRange {
 
 /// Returns a gantry that carries a disc of radius 0.05 m over `[-1, 1]^2`: configurations are the disc's centres.
 fn gantry(obstacles: Vec<Convex>) -> Scene {
-    let slide = |name, x, y| joint(name, JointType::Prismatic { direction: Vector::new(x, y) }, range(-1.0, 1.0));
-    let tool = link("tool", vec![disc(Point::zeros(), 0.05)]);
-    let joints = [slide("x", 1.0, 0.0), slide("y", 0.0, 1.0)];
-    scene(arm(joints, [link("carriage", vec![]), tool], Vector::zeros(), Point::zeros()), obstacles)
+    scene(arms::gantry([-1.0, 1.0], vec![disc(Point::zeros(), 0.05)]), obstacles)
 }
 
 /// Returns a polar arm with a disc of radius 0.05 m at its end, 0.5 to 1.5 m from the joint, and a wall beyond 1 m in

@@ -11,8 +11,8 @@ use cplan_testkit::arms::rr;
 use cplan_testkit::problems::{motion_problem, recheck};
 use cplan_testkit::scenes::{placed, q};
 use cplan_testkit::shapes::wall;
+use cplan_testkit::shipped;
 use std::f64::consts::TAU;
-use std::path::Path;
 
 /// Returns a problem with `count` short walls on a circle around the base. The outstretched arm reaches beyond the
 /// circle between walls in two places, and must move from one to the other. It can do so only if it can fold.
@@ -66,9 +66,7 @@ fn infeasibility_among_20_000_pieces_is_proven_with_original_pairs() {
 /// Slabs show that it is closed, so the search continues beyond the budget for unclear cases.
 #[test]
 fn infeasibility_found_by_slabs_is_proven() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let files = ["robots/rail_arm.urdf", "workspaces/slot_closed.toml"].map(|file| root.join(file));
-    let problem = input::load(&files[0], &files[1], &Overrides::default()).unwrap().problem;
+    let problem = shipped::world("slot_closed").motion();
     let first = solve(&problem, &Options { boxes: 10_000, ..Method::First.into() }, &mut |_| {});
     for proof in [decide(&problem, 20_000).infeasible(), first.outcome.infeasible()] {
         let proof = proof.expect("it is closed");
@@ -81,12 +79,11 @@ fn infeasibility_found_by_slabs_is_proven() {
 /// with its budget.
 #[test]
 fn exceeded_budgets_leave_the_answer_unknown() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let closed = std::fs::read_to_string(root.join("workspaces/slot_closed.toml")).unwrap();
+    let shipped = shipped::world("slot_closed");
     let place = tempfile::tempdir().unwrap();
     let world = place.path().join("touched.toml");
-    std::fs::write(&world, closed.replace("0.03995", "0.04")).unwrap();
-    let problem = input::load(root.join("robots/rail_arm.urdf"), &world, &Overrides::default()).unwrap().problem;
+    std::fs::write(&world, std::fs::read_to_string(shipped.world).unwrap().replace("0.03995", "0.04")).unwrap();
+    let problem = input::load(&shipped.robot, &world, &Overrides::default()).unwrap().problem;
     for allowed in [5_000, 20_000] {
         let Outcome::Unknown(reason) = decide(&problem, allowed) else { panic!("{allowed} boxes do not decide") };
         let boxes: usize = reason.split(' ').next().and_then(|word| word.parse().ok()).expect(&reason);

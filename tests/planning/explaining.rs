@@ -9,13 +9,14 @@
 
 use cplan::engine::explain::{BlockingSet, ChangeKind, Element, MotionQuestion, Side, blocking_set, explain};
 use cplan::engine::{Method, Planner, decide, solve};
-use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{
-    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, Outcome, OutlineSource, Part, Scene, Workspace,
-};
+use cplan::geometry::{Convex, Point};
+use cplan::model::{JointType, MotionProblem, Obstacle, Outcome, Scene, Workspace};
 use cplan::space::{Configuration, GoalSet, JointRange, Segment};
 use cplan::{Options, Status, engine};
 use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::arms;
+use cplan_testkit::scenes::placed;
+use cplan_testkit::shapes::rectangle;
 use cplan_testkit::world::{KINDS, world};
 use std::f64::consts::TAU;
 use std::time::{Duration, Instant};
@@ -149,24 +150,9 @@ const HALF: f64 = 0.1;
 /// Returns a question about a square block that slides along x and y, within 1 m of the origin, from the left to the
 /// right.
 fn gantry(obstacles: Vec<Obstacle>, clearance: f64) -> MotionQuestion {
-    let slide = |name, direction| Joint::sliding(name, direction, -1.0, 1.0);
-    let square = cplan::geometry::Convex::new(
-        [[-HALF, -HALF], [HALF, -HALF], [HALF, HALF], [-HALF, HALF]].map(cplan::Point::from).to_vec(),
-        0.0,
-    )
-    .expect("a square");
-    let part =
-        Part { shape: square, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: "block".into() };
-    let link = |name: &str, parts| Link { name: name.into(), parts, source: OutlineSource::Collision };
-    let arm = Arm::new(
-        [slide("x", Vector::x()), slide("y", Vector::y())],
-        [link("rail", Vec::new()), link("block", vec![part])],
-        [0.0, 0.0],
-    );
-    let workspace = Workspace { clearance, ..Workspace::new(obstacles) };
-    let scene = Scene::new(arm, workspace).expect("a scene");
-    let goal = cplan::space::GoalSet::from(Configuration::new(0.8, 0.0));
-    MotionQuestion::new(scene, Configuration::new(-0.8, 0.0), goal)
+    let arm = arms::gantry([-1.0, 1.0], vec![rectangle(-HALF, HALF, -HALF, HALF)]);
+    let scene = placed(arm, Workspace { clearance, ..Workspace::new(obstacles) });
+    MotionQuestion::new(scene, Configuration::new(-0.8, 0.0), GoalSet::from(Configuration::new(0.8, 0.0)))
 }
 
 fn bar(name: &str, lower: f64, upper: f64) -> Obstacle {

@@ -1,15 +1,16 @@
 //! Tasks with lines for the tip, compared with dense samples of the played motion.
 
-use crate::random_tasks::replay;
+use crate::random_tasks::record;
 use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::engine::{Method, Options};
 use cplan::input::{InputError, Overrides, Rules, Source, scene_from};
-use cplan::model::{Action, FollowedLine, RecordedOverlap, RecordedStep, RecordedTurn, Task, ToolAngle};
+use cplan::model::{Action, FollowedLine, Task, ToolAngle};
 use cplan::motion::Trajectory;
 use cplan::space::{Configuration, Recording};
 use cplan_cases::dice::Dice;
 use cplan_testkit::follow_oracle::{Bars, Point, pass_together, played, points};
+use cplan_testkit::replay;
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
@@ -104,26 +105,6 @@ fn check_lines(task: &Task, answer: &TaskAnswer, seed: u64) -> usize {
         }
     }
     lines
-}
-
-/// Returns the content of a result file.
-fn record(answer: &TaskAnswer) -> (Recording, Vec<RecordedStep>) {
-    let sequence = &answer.outcome.found().expect("a motion").sequence;
-    let rows = |rows: &[[f64; 2]]| rows.iter().map(|q| Configuration::from(*q)).collect::<Vec<_>>();
-    let (position, velocity) = (rows(&sequence.trajectory.position), rows(&sequence.trajectory.velocity));
-    let recording = Recording::new(position, Some(sequence.trajectory.time.clone()), Some(velocity)).unwrap();
-    let steps = answer.legs.iter().zip(&sequence.samples).map(|(leg, samples)| RecordedStep {
-        number: leg.step.number,
-        cycle: leg.step.cycle,
-        samples: samples.clone(),
-        turn: None,
-        overlap: Default::default(),
-        raising: 0.0,
-        lowered: [None; 2],
-        wrist: None,
-        wrist_motion: leg.tool_deviation.map(|_| leg.timed.trajectory.wrist.clone()),
-    });
-    (recording, steps.collect())
 }
 
 #[test]
@@ -332,13 +313,7 @@ fn tools_turn_along_the_lines_of_tasks() {
             continue;
         }
         found += 1;
-        let (recording, mut steps) = record(&answer);
-        for (leg, step) in answer.legs.iter().zip(&mut steps) {
-            if let (Some((turn, seconds)), overlap) = (leg.turn, &leg.overlap) {
-                let overlap = RecordedOverlap { before_arrival: overlap.turn_before_arrival, after_departure: 0.0 };
-                step.turn = Some(RecordedTurn { from: turn.from, to: turn.to, seconds, overlap });
-            }
-        }
+        let (recording, steps) = record(&answer);
         for (step, leg) in cplan::check::replay(&task, &recording, &steps).zip(&answer.legs) {
             let Action::Follow(line) = &leg.step.action else { continue };
             lines += 1;

@@ -1,7 +1,6 @@
 //! Groups in free order for which some orders are infeasible, because objects that are placed, or not picked yet, block
 //! others.
 
-use crate::random_tasks::replay;
 use cplan::engine::Method;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::geometry::{Point, Pose};
@@ -12,6 +11,7 @@ use cplan::{Options, Outcome};
 use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, uses_default_cases};
 use cplan_testkit::judged::{self, Question};
+use cplan_testkit::replay;
 use serde_json::Value;
 use std::fmt::Write;
 use std::path::{Path, PathBuf};

@@ -3,15 +3,13 @@
 
 use cplan::Outcome;
 use cplan::engine::{Method, Planner, solve};
-use cplan::geometry::{Point, Vector};
 use cplan::model::{MotionProblem, Scene};
 use cplan::space::{Configuration, GoalSet, JointRange, Path, Segment};
 use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, uses_default_cases};
 use cplan_testkit::arms::rr;
 use cplan_testkit::problems::motion_problem;
-use cplan_testkit::scenes::scene;
-use cplan_testkit::shapes::{disc, wall};
+use cplan_testkit::scenes::{discs_and_walls, scene};
 use std::f64::consts::PI;
 
 /// Number of single goals of a set for which the test plans one by one.
@@ -75,14 +73,7 @@ fn world(seed: u64) -> Option<(MotionProblem, Segment)> {
         _ => [JointRange::Circle; 2],
     };
     let count = dice.below(6);
-    let piece = |dice: &mut Dice| {
-        let (r, angle) = (dice.within(0.4, 1.8), dice.within(-PI, PI));
-        let at = Point::new(r * angle.cos(), r * angle.sin());
-        let along = dice.within(-PI, PI);
-        let end = at + Vector::new(along.cos(), along.sin()) * dice.within(0.1, 0.9);
-        if dice.below(3) == 0 { disc(at, dice.within(0.02, 0.15)) } else { wall(at, end) }
-    };
-    let pieces = (0..count).map(|_| piece(&mut dice)).collect();
+    let pieces = discs_and_walls(&mut dice, count, [0.4, 1.8]);
     let scene = scene(rr(axes), pieces);
     let anywhere = |dice: &mut Dice| {
         Configuration::from_fn(|k, _| {

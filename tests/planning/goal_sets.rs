@@ -10,9 +10,9 @@ use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, uses_default_cases};
 use cplan_testkit::arms::{arm, joint, link};
 use cplan_testkit::problems::{motion_problem, recheck};
-use cplan_testkit::scenes::scene;
-use cplan_testkit::shapes::{disc, rectangle, wall};
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use cplan_testkit::scenes::{anywhere, discs_and_walls, scene};
+use cplan_testkit::shapes::{rectangle, wall};
+use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Number of values of the free joint for which the test plans one by one.
 const TRIED: usize = 13;
@@ -70,30 +70,15 @@ fn world(seed: u64) -> Option<MotionProblem> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D));
     let (arm, tip) = drawn(&mut dice);
     let count = 2 + dice.below(6);
-    let piece = |dice: &mut Dice| {
-        let (r, angle) = (dice.within(0.25, 1.6), dice.within(-PI, PI));
-        let at = Point::new(r * angle.cos(), r * angle.sin());
-        let along = dice.within(-PI, PI);
-        let end = at + Vector::new(along.cos(), along.sin()) * dice.within(0.1, 0.9);
-        if dice.below(3) == 0 { disc(at, dice.within(0.02, 0.15)) } else { wall(at, end) }
-    };
-    let pieces = (0..count).map(|_| piece(&mut dice)).collect();
+    let pieces = discs_and_walls(&mut dice, count, [0.25, 1.6]);
     let scene: Scene = scene(arm, pieces);
-    let start = (0..50).map(|_| random_configuration(&mut dice, &scene)).find(|&q| scene.clearance(q) > 1e-3)?;
+    let start = (0..50).map(|_| anywhere(&mut dice, scene.arm())).find(|&q| scene.clearance(q) > 1e-3)?;
     let solved = inverse(scene.arm(), tip, start);
     assert!(solved.free.is_some(), "the generator's goals leave a joint free");
     let mut goals = solved.solutions(scene.arm());
     goals.retain(|goals| scene.blocked_along(goals).is_none());
     let goals: GoalSet = goals.into_iter().collect();
     (!goals.is_empty()).then(|| motion_problem(scene, start, goals))
-}
-
-fn random_configuration(dice: &mut Dice, scene: &Scene) -> Configuration {
-    let topology = scene.arm().topology();
-    Configuration::from_fn(|k, _| {
-        let (lower, upper) = topology.ranges[k].domain();
-        dice.within(lower, upper)
-    })
 }
 
 /// Returns free goals at several values of the free joint.

@@ -3,19 +3,11 @@
 use cplan::Outcome;
 use cplan::engine::task::plan;
 use cplan::engine::{Answer, Method, Options, Planner, solve};
-use cplan::input::{Overrides, Rules, load, load_scene};
 use cplan::interrupt::{Interrupt, Interrupted};
-use cplan::model::MotionProblem;
 use cplan::planner::Proposal;
 use cplan::proofs::{connectivity, slab_connectivity};
-use std::path::Path;
+use cplan_testkit::shipped;
 use std::time::{Duration, Instant};
-
-fn problem(world: &str) -> MotionProblem {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let world = root.join("workspaces").join(world);
-    load(root.join("robots/planar_2r.urdf"), &world, &Overrides::default()).unwrap().problem
-}
 
 fn options(method: Method) -> Options {
     Options { levels: 2, ..Planner::named(method).with_cells(64).into() }
@@ -33,7 +25,7 @@ fn report(answer: &Answer) -> (Proposal, String) {
 
 #[test]
 fn every_planner_comes_by_a_checkpoint() {
-    let problem = problem("crowd.toml");
+    let problem = shipped::world("crowd").motion();
     for method in Method::ALL {
         let interrupt = Interrupt::new();
         interrupt.set();
@@ -46,8 +38,8 @@ fn every_planner_comes_by_a_checkpoint() {
 /// affected.
 #[test]
 fn a_stopped_plan_prints_and_writes_nothing() {
-    for world in ["shelf.toml", "crowd.toml", "singular_closed.toml"] {
-        let problem = problem(world);
+    for world in ["shelf", "crowd", "singular_closed"] {
+        let problem = shipped::world(world).motion();
         for method in Method::ALL {
             let begun = Instant::now();
             let expected = report(&solve(&problem, &options(method), &mut |_| ()));
@@ -71,7 +63,7 @@ fn a_stopped_plan_prints_and_writes_nothing() {
 /// Checks that another thread can stop a search for a proof that would take minutes.
 #[test]
 fn proofs_and_tasks_stop_too() {
-    let problem = problem("thin_wall_closed.toml");
+    let problem = shipped::world("thin_wall_closed").motion();
     let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
     let stopped = |work: &mut dyn FnMut()| {
         let interrupt = Interrupt::new();
@@ -90,10 +82,9 @@ fn proofs_and_tasks_stop_too() {
     };
     assert!(stopped(&mut || drop(slab_connectivity(scene, start, goals, 0.0, usize::MAX, usize::MAX))));
     assert!(stopped(&mut || drop(connectivity(scene, start, goals, 0.0, usize::MAX))));
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let (robot, world) = (root.join("robots/scara.urdf"), root.join("workspaces/tasks/kitting_cell.toml"));
-    let task = load_scene(&robot, &world).unwrap().resolve(&Overrides::default(), Rules::Plan).unwrap().task.unwrap();
+    let problem = shipped::world("tasks/kitting_cell").problem();
+    let task = problem.task().expect("a task");
     let drive = cplan::motion::Drive::default();
     let options = Options { drive, ..Method::Visibility.into() };
-    assert!(stopped(&mut || drop(plan(&task, &options, &mut |_| ()))));
+    assert!(stopped(&mut || drop(plan(task, &options, &mut |_| ()))));
 }

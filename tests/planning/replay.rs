@@ -3,15 +3,12 @@
 use cplan::engine::{Method, Phase, Replay, Setting, Shows, SlabBoxes};
 use cplan::planner::{GridSearch, PathKind, Trace};
 use cplan::space::Configuration;
-use cplan::{Options, Plan, Planner, Problem, plan};
+use cplan::{Options, Plan, Planner};
 use cplan_testkit::problems::shipped_feasible;
-use std::path::Path;
+use cplan_testkit::shipped;
 
 fn plan_shipped(robot: &str, world: &str, planner: impl Into<Options>) -> Plan {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let file = |folder: &str, name: &str, extension: &str| root.join(folder).join(name).with_extension(extension);
-    let problem = Problem::load(file("robots", robot, "urdf"), file("workspaces", world, "toml")).unwrap();
-    plan(&problem, &planner.into()).unwrap()
+    shipped::plan(robot, world, &planner.into())
 }
 
 fn replayed(plan: &Plan) -> Vec<Phase> {

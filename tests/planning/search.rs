@@ -118,7 +118,11 @@ fn check_labels(grid: &Grid, sources: &[usize], start: usize) -> Result<(), Test
         }
     }
     let lattice = Lattice::from(grid);
-    prop_assert_eq!(lattice.wave(sources).labels(&lattice), textbook(grid, sources, Neighborhood::Four));
+    let (wave, expected) = (lattice.wave(sources), textbook(grid, sources, Neighborhood::Four));
+    prop_assert_eq!(wave.labels(&lattice), &expected[..]);
+    let cells = wave.descend(&lattice, start).unwrap_or_default();
+    prop_assert_eq!(cells.len() as u32, expected[start].wrapping_add(1));
+    prop_assert!(cells.windows(2).all(|pair| moves(grid, pair[0], Neighborhood::Four).contains(&(pair[1], false))));
     Ok(())
 }
 

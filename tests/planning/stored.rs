@@ -6,28 +6,19 @@ use cplan::geometry::{Convex, Pose};
 use cplan::input::RobotReport;
 use cplan::model::{Heights, MotionProblem, Scene, Task};
 use cplan::{Arm, Obstacle, Options, Outcome, Plan, Planner, Problem, Status, Workspace, plan};
+use cplan_testkit::shipped;
 use serde_json::{Value, json};
-use std::path::Path;
 
 /// Returns every shipped world with the robot that it names, in the order of their names.
 fn shipped_problems() -> Vec<(String, Problem)> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let files = |folder: &str| std::fs::read_dir(root.join(folder)).unwrap().map(|entry| entry.unwrap().path());
-    let mut worlds: Vec<_> = files("workspaces").chain(files("workspaces/tasks")).collect();
-    worlds.sort();
-    let problem = |world: &Path| {
-        let text = std::fs::read_to_string(world).ok()?;
-        let robot = text.lines().find_map(|line| line.strip_prefix("# robot:"))?.trim();
-        let problem = Problem::load(root.join(format!("robots/{robot}.urdf")), world).unwrap();
-        Some((world.file_stem().unwrap().display().to_string(), problem))
-    };
-    let problems: Vec<_> = worlds.iter().filter(|world| world.is_file()).filter_map(|world| problem(world)).collect();
+    let worlds = shipped::worlds("").into_iter().chain(shipped::worlds("tasks"));
+    let problems: Vec<_> = worlds.map(|world| (world.name.clone(), world.problem())).collect();
     assert!(problems.len() >= 40, "only {} worlds", problems.len());
     problems
 }
 
 fn world(name: &str) -> Problem {
-    shipped_problems().into_iter().find(|(other, _)| other == name).unwrap().1
+    shipped::world(name).problem()
 }
 
 /// Returns the data as JSON, as in a file.
@@ -46,11 +37,16 @@ fn refusal_of(stored: Value) -> String {
     read(&stored.to_string()).expect_err("a plan that no planning makes").to_string()
 }
 
+/// Returns data in which the value at `pointer` is replaced.
+fn changed(valid: &Value, pointer: &str, other: Value) -> Value {
+    let mut changed = valid.clone();
+    *changed.pointer_mut(pointer).unwrap_or_else(|| panic!("there is no {pointer}")) = other;
+    changed
+}
+
 /// Returns the error for a plan in which the value at `pointer` is replaced.
 fn refusal(valid: &Value, pointer: &str, other: Value) -> String {
-    let mut tampered = valid.clone();
-    *tampered.pointer_mut(pointer).unwrap_or_else(|| panic!("there is no {pointer}")) = other;
-    refusal_of(tampered)
+    refusal_of(changed(valid, pointer, other))
 }
 
 #[test]
@@ -89,10 +85,8 @@ fn a_program_without_a_search_refuses_its_problems_by_name() {
         stored.planned_again(Searches::NONE).map(|plan| plan.status()).map_err(|error| error.to_string())
     };
     assert_eq!(again(&world("shelf")), Ok(Status::Found));
-    assert_eq!(again(&world("tray")), Err("this program was built without tasks".to_owned()));
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let gate = Problem::load(root.join("robots/planar_2r.urdf"), root.join("workspaces/moving/gate.toml")).unwrap();
-    assert_eq!(again(&gate), Err("this program was built without moving obstacles".to_owned()));
+    assert_eq!(again(&world("tasks/tray")), Err("this program was built without tasks".to_owned()));
+    assert_eq!(again(&world("moving/gate")), Err("this program was built without moving obstacles".to_owned()));
 }
 
 #[test]
@@ -133,21 +127,19 @@ fn changed_results_are_refused_with_their_place() {
     let valid = value(&made);
     // The straight line from start to goal leads through the shelf.
     let ends = json!([valid["result"]["path"][0], valid["result"]["path"].as_array().unwrap().last().unwrap()]);
-    let refused = refusal(&valid, "/result/path", ends);
-    assert!(refused.contains("result.path has 2 entries, and planning gives"), "{refused}");
-    let refused = refusal(&valid, "/result/path/1/0", json!(0.5));
-    assert!(refused.contains("result.path[1][0] is 0.5, and planning gives"), "{refused}");
-    let refused = refusal(&valid, "/result/status", json!("infeasible"));
-    assert!(refused.contains("result.status is \"infeasible\", and planning gives \"found\""), "{refused}");
-    let refused = refusal(&valid, "/result/trajectory/velocity/3/1", json!(9.0));
-    assert!(refused.contains("result.trajectory.velocity[3][1]"), "{refused}");
-    let refused = refusal(&valid, "/result/clearance", json!(0.5));
-    assert!(refused.contains("result.clearance is 0.5"), "{refused}");
-    // With a faster joint, the motion would differ.
-    let refused = refusal(&valid, "/problem/asked/motion/scene/arm/joints/0/velocity", json!(50.0));
-    assert!(refused.contains("result."), "{refused}");
-    let refused = refusal(&valid, "/options/drive/period", json!(0.02));
-    assert!(refused.contains("result."), "{refused}");
+    for (place, other, part) in [
+        ("/result/path", ends, "result.path has 2 entries, and planning gives"),
+        ("/result/path/1/0", json!(0.5), "result.path[1][0] is 0.5, and planning gives"),
+        ("/result/status", json!("infeasible"), "result.status is \"infeasible\", and planning gives \"found\""),
+        ("/result/trajectory/velocity/3/1", json!(9.0), "result.trajectory.velocity[3][1]"),
+        ("/result/clearance", json!(0.5), "result.clearance is 0.5"),
+        // With a faster joint, the motion would differ.
+        ("/problem/asked/motion/scene/arm/joints/0/velocity", json!(50.0), "result."),
+        ("/options/drive/period", json!(0.02), "result."),
+    ] {
+        let refused = refusal(&valid, place, other);
+        assert!(refused.contains(part), "{place}: {refused}");
+    }
     for (place, field) in [("/result", "clearance"), ("/problem/asked/motion", "start"), ("/options", "levels")] {
         let mut tampered = valid.clone();
         tampered.pointer_mut(place).unwrap().as_object_mut().unwrap().remove(field).unwrap();
@@ -209,12 +201,11 @@ fn drawn_shapes_equal_judged_shapes() {
     for (name, shape, other) in [
         ("shelf", "/asked/motion/scene/workspace/obstacles/0", &disc),
         ("shelf", "/asked/motion/scene/workspace/obstacles/0", &far),
-        ("table_mission", "/asked/task/workspace/obstacles/0", &disc),
-        ("table_mission", "/asked/task/objects/0", &disc),
+        ("tasks/table_mission", "/asked/task/workspace/obstacles/0", &disc),
+        ("tasks/table_mission", "/asked/task/objects/0", &disc),
     ] {
         let problem = world(name);
-        let mut output = value(&problem);
-        *output.pointer_mut(&format!("{shape}/shape")).unwrap() = other.clone();
+        let output = changed(&value(&problem), &format!("{shape}/shape"), other.clone());
         let read: Problem = serde_json::from_value(output).unwrap();
         let [honest, read] = [value(&problem), value(&read)].map(|data| data.pointer(shape).unwrap().clone());
         assert_eq!(read["shape"], json!("pieces"), "{name}");
@@ -224,34 +215,39 @@ fn drawn_shapes_equal_judged_shapes() {
 
 #[test]
 fn tasks_that_no_world_can_state_are_refused() {
-    let mission = world("table_mission");
+    let mission = world("tasks/table_mission");
     let valid = value(&mission);
     let first = "/asked/task/items/0";
     let refused = |pointer: &str, other: Value| {
-        let mut tampered = valid.clone();
-        *tampered.pointer_mut(pointer).unwrap_or_else(|| panic!("there is no {pointer}")) = other;
-        serde_json::from_value::<Problem>(tampered).expect_err(pointer).to_string()
+        serde_json::from_value::<Problem>(changed(&valid, pointer, other)).expect_err(pointer).to_string()
     };
     let task: &Task = mission.task().unwrap();
     assert!(task.check().is_ok());
     let place = json!({"step": {"action": {"place": {"at": [0.1, 0.1], "angle": null, "supports": []}}, "number": 1, "cycle": 1,
         "place": "x:1:1", "speed": 1.0, "dwell": 0.0}});
-    assert!(refused(first, place).contains("the tool carries none"));
-    assert!(refused("/asked/task/objects/0/lift", json!(-1.0)).contains("lift"));
-    assert!(refused("/asked/task/objects/0/mass", json!(-1.0)).contains("mass"));
-    assert!(refused("/asked/task/objects/0/at/rotation", json!([2.0, 0.0])).contains("pose must be finite"));
-    assert!(refused("/asked/task/start", json!([100.0, 0.0])).contains("outside the limits"));
-    assert!(refused("/asked/task/items", json!([])).contains("no steps"));
-    let mut items = valid["asked"]["task"]["items"].as_array().unwrap().clone();
-    items.insert(0, json!({"renew": [99]}));
-    assert!(refused("/asked/task/items", json!(items)).contains("renewed"));
-    items[0] = json!({"any_order": []});
-    assert!(refused("/asked/task/items", json!(items)).contains("has no steps"));
-    let mut step = valid.pointer(first).unwrap().clone();
-    step["step"]["dwell"] = json!(1e300);
-    assert!(refused(first, step).contains("its dwell from 0"));
+    let items = |item: Value| {
+        let mut items = valid["asked"]["task"]["items"].as_array().unwrap().clone();
+        items.insert(0, item);
+        json!(items)
+    };
+    let mut long = valid.pointer(first).unwrap().clone();
+    long["step"]["dwell"] = json!(1e300);
     let name = json!(task.workspace.fixed.obstacles[0].name);
-    assert!(refused("/asked/task/objects/0/name", name).contains("has this name"));
+    for (pointer, other, part) in [
+        (first, place, "the tool carries none"),
+        (first, long, "its dwell from 0"),
+        ("/asked/task/objects/0/lift", json!(-1.0), "lift"),
+        ("/asked/task/objects/0/mass", json!(-1.0), "mass"),
+        ("/asked/task/objects/0/at/rotation", json!([2.0, 0.0]), "pose must be finite"),
+        ("/asked/task/objects/0/name", name, "has this name"),
+        ("/asked/task/start", json!([100.0, 0.0]), "outside the limits"),
+        ("/asked/task/items", json!([]), "no steps"),
+        ("/asked/task/items", items(json!({"renew": [99]})), "renewed"),
+        ("/asked/task/items", items(json!({"any_order": []})), "has no steps"),
+    ] {
+        let refused = refused(pointer, other);
+        assert!(refused.contains(part), "{pointer}: {refused}");
+    }
 }
 
 #[test]
@@ -272,7 +268,7 @@ fn corners_that_rounding_has_bent_are_read() {
 
 #[test]
 fn a_scene_with_a_payload_is_data_too() {
-    let made = plan(&world("table_mission"), &Options::default()).unwrap();
+    let made = plan(&world("tasks/table_mission"), &Options::default()).unwrap();
     let legs = &made.task().unwrap().1.legs;
     let leg = legs.iter().find(|leg| leg.carried.is_some()).unwrap();
     let read: Scene = serde_json::from_str(&serde_json::to_string(&*leg.scene).unwrap()).unwrap();
@@ -282,8 +278,7 @@ fn a_scene_with_a_payload_is_data_too() {
     let again: MotionProblem = serde_json::from_str(&serde_json::to_string(&motion).unwrap()).unwrap();
     assert!(again == motion);
     // Otherwise the payload would shrink.
-    let mut halved = serde_json::to_value(&*leg.scene).unwrap();
-    *halved.pointer_mut("/attachment/grip").unwrap() =
-        json!({"rigid": {"rotation": [0.5, 0.0], "translation": [0.0, 0.0]}});
+    let half = json!({"rigid": {"rotation": [0.5, 0.0], "translation": [0.0, 0.0]}});
+    let halved = changed(&serde_json::to_value(&*leg.scene).unwrap(), "/attachment/grip", half);
     assert!(serde_json::from_value::<Scene>(halved).unwrap_err().to_string().contains("its position on link 2"));
 }

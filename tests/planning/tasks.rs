@@ -3,41 +3,28 @@
 //! The first comment of a task's world names its robot (`# robot: scara`) and the outcome (`# expect: done` or `#
 //! expect: infeasible`).
 
-use crate::random_tasks::replay;
 use cplan::Outcome;
 use cplan::engine::task::{TaskAnswer, plan};
 use cplan::engine::{Method, Options};
-use cplan::input::{self, Overrides};
 use cplan::model::{
     Action, Goal, Holding, Item, Object, Step, Task, TimedWorkspace, Workspace, equivalent_values, inverse,
 };
 use cplan::space::Configuration;
 use cplan_testkit::problems::recheck;
-use std::path::{Path, PathBuf};
+use cplan_testkit::replay;
+use cplan_testkit::shipped::{self, Shipped};
 
 fn options() -> Options {
     Method::Visibility.into()
 }
 
-fn folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces/tasks")
-}
-
-/// Loads a shipped task and its stated outcome.
-fn load(file: &Path) -> (Task, String) {
-    let text = std::fs::read_to_string(file).unwrap();
-    let stated = |key: &str| {
-        let line = text.lines().find_map(|l| l.strip_prefix(&format!("# {key}: ")));
-        line.unwrap_or_else(|| panic!("{}: no line \"# {key}: ...\"", file.display())).trim().to_owned()
-    };
-    let urdf = folder().join("../../robots").join(format!("{}.urdf", stated("robot")));
-    let scene = input::load_scene(&urdf, file).unwrap_or_else(|e| panic!("{e}"));
-    let loaded = scene.resolve(&Overrides::default(), input::Rules::Plan).unwrap_or_else(|e| panic!("{e}"));
-    (loaded.task.expect("a world with steps"), stated("expect"))
+/// Returns the task of a shipped world.
+fn task_of(world: &Shipped) -> Task {
+    world.problem().task().expect("a world with steps").clone()
 }
 
 fn shipped_task(name: &str) -> Task {
-    load(&folder().join(format!("{name}.toml"))).0
+    task_of(&shipped::world(&format!("tasks/{name}")))
 }
 
 fn plan_task(task: &Task) -> TaskAnswer {
@@ -46,20 +33,17 @@ fn plan_task(task: &Task) -> TaskAnswer {
 
 #[test]
 fn every_task_gives_its_stated_outcome() {
-    let mut files: Vec<PathBuf> = std::fs::read_dir(folder()).unwrap().map(|e| e.unwrap().path()).collect();
-    files.retain(|f| f.extension().is_some_and(|e| e == "toml"));
-    files.sort();
-    assert!(files.len() >= 8, "only {} tasks", files.len());
-    for file in files {
-        let (task, expect) = load(&file);
-        let name = file.file_stem().unwrap().display().to_string();
+    let worlds = shipped::worlds("tasks");
+    assert!(worlds.len() >= 8, "only {} tasks", worlds.len());
+    for world in worlds {
+        let (task, name) = (task_of(&world), &world.name);
         let answer = plan_task(&task);
         let outcome = match &answer.outcome {
             Outcome::Found(_) => "done",
             Outcome::Infeasible(_) => "infeasible",
             Outcome::Unknown(_) => "unknown",
         };
-        assert_eq!(outcome, expect, "{name}: {:?}", answer.outcome);
+        assert_eq!(outcome, world.expect, "{name}: {:?}", answer.outcome);
         replay::replay(&task, &answer, outcome == "done").unwrap_or_else(|what| panic!("{name}: {what}"));
         if outcome == "done" {
             assert_eq!(answer.legs.len(), task.steps().count(), "{name}");

@@ -1,11 +1,12 @@
 //! Heights of the arm that touch those of an obstacle are a contact, and all commands give this answer.
 
 use cplan::engine::Method;
-use cplan::input::{self, Overrides, Source, load_scene};
+use cplan::input::Overrides;
 use cplan::model::Status;
-use cplan::{Options, Problem, plan};
+use cplan::{Options, plan};
 use cplan_check_files::check;
 use cplan_testkit::judged::{Question, judge};
+use cplan_testkit::problems::problem_of_texts;
 
 /// Middles and thicknesses of link 2, and tops of the obstacle below it. Their heights touch, and few of the sums are exact
 /// in doubles.
@@ -52,9 +53,7 @@ fn touching_heights_are_a_proven_contact() {
     for [middle, thickness, top] in TOUCHING {
         for (gap, status, verdict) in [(0.0, Status::Infeasible, "collision"), (1e-6, Status::Found, "free")] {
             let (urdf, world) = (arm(middle, thickness), world(top - gap));
-            let source = |name: &str, text: &str| Source::in_memory(name, text);
-            let scene = || input::scene_from(source("arm.urdf", &urdf), source("world.toml", &world)).unwrap();
-            let problem = Problem::of_scene(scene(), &Overrides::default()).unwrap();
+            let problem = problem_of_texts(&urdf, &world).unwrap();
             let answer = plan(&problem, &Options::from(Method::First)).unwrap();
             let at = format!("{middle} {thickness} {top} {gap}");
             assert_eq!(answer.status(), status, "{at}");
@@ -69,8 +68,7 @@ fn touching_heights_are_a_proven_contact() {
             std::fs::write(&motion, "time,j1,j2\n0,-1,0.2\n1,0,0.2\n2,1,0.2\n").unwrap();
             let findings = judge(&robot, &file, &motion, &Question::default()).unwrap();
             assert_eq!(findings["verdict"], verdict, "{at}");
-            let loaded = load_scene(&robot, &file).unwrap();
-            let is_free = loaded.scene.obstructions(cplan::Configuration::new(0.0, 0.2)).is_empty();
+            let is_free = problem.scene().obstructions(cplan::Configuration::new(0.0, 0.2)).is_empty();
             assert_eq!(is_free, verdict == "free", "{at}");
         }
     }
@@ -81,9 +79,7 @@ fn touching_heights_are_a_proven_contact() {
 fn proofs_about_touching_heights_fail_for_heights_that_are_apart() {
     for [middle, thickness, top] in TOUCHING {
         let urdf = arm(middle, thickness);
-        let source = |name: &str, text: &str| Source::in_memory(name, text);
-        let scene = input::scene_from(source("arm.urdf", &urdf), source("world.toml", &world(top))).unwrap();
-        let problem = Problem::of_scene(scene, &Overrides::default()).unwrap();
+        let problem = problem_of_texts(&urdf, &world(top)).unwrap();
         let answer = plan(&problem, &Options::from(Method::First)).unwrap();
         let certificate = answer.certificate(&Overrides::default(), None).unwrap();
         let apart = check(&urdf, &world(top - 1e-8), &certificate);

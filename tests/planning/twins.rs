@@ -5,24 +5,25 @@ use cplan::Outcome;
 use cplan::check::{ProofBox, ProofError, read_proof};
 use cplan::engine::{Method, solve};
 use cplan::geometry::Convex;
-use cplan::input::{self, Overrides};
 use cplan::model::{MotionProblem, Scene};
 use cplan::proofs::{Connectivity, connectivity};
 use cplan::space::{Configuration, Path};
 use cplan_testkit::problems::recheck;
+use cplan_testkit::shipped;
 use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::intersection_test;
 use parry2d_f64::shape::{Ball, ConvexPolygon, Segment, Shape};
 
-/// For each pair of workspaces, the name, which states what closes the infeasible one, and the robot.
-const TWINS: [(&str, &str); 6] = [
-    ("limits", "planar_2r"),
-    ("annulus", "gantry"),
-    ("thin_wall", "polar"),
-    ("torus", "planar_2r_continuous"),
-    ("slot", "rail_arm"),
-    ("singular", "planar_2r"),
-];
+/// Names of the pairs of workspaces, which state what closes the infeasible one.
+const TWINS: [&str; 6] = ["limits", "annulus", "thin_wall", "torus", "slot", "singular"];
+
+fn closed(what: &str) -> MotionProblem {
+    shipped::world(&format!("{what}_closed")).motion()
+}
+
+fn open(what: &str) -> MotionProblem {
+    shipped::world(&format!("{what}_open")).motion()
+}
 
 /// Number of boxes that suffices to decide each workspace.
 const BOXES: usize = 200_000;
@@ -30,17 +31,10 @@ const BOXES: usize = 200_000;
 /// Greatest change of a joint between two samples.
 const STEP: f64 = 1e-4;
 
-fn load(name: &str, robot: &str) -> MotionProblem {
-    let root = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
-    let (urdf, world) = (format!("robots/{robot}.urdf"), format!("workspaces/{name}.toml"));
-    let loaded = input::load(root.join(urdf), &root.join(world), &Overrides::default());
-    loaded.unwrap_or_else(|e| panic!("{e}")).problem
-}
-
 #[test]
 fn infeasible_twins_are_proven_and_proofs_can_be_read_back() {
-    for (what, robot) in TWINS {
-        let problem = load(&format!("{what}_closed"), robot);
+    for what in TWINS {
+        let problem = closed(what);
         let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
         let Connectivity::Disconnected(proof) = connectivity(scene, start, goals, 0.0, BOXES) else {
             panic!("{what} is not proven");
@@ -52,7 +46,7 @@ fn infeasible_twins_are_proven_and_proofs_can_be_read_back() {
         assert_eq!(claim, proof.collision_boxes(), "{what}");
         assert_eq!(recheck(claim, scene, start, goals, 0.0), Ok(()), "{what}");
         // The twin has a path, so the proof must not hold there: some box is false.
-        let twin = load(&format!("{what}_open"), robot);
+        let twin = open(what);
         let refused = recheck(claim, twin.scene(), twin.start(), twin.goals(), 0.0);
         let is_false = matches!(
             refused,
@@ -105,37 +99,25 @@ fn first_contact(scene: &Scene, path: &Path) -> Option<Configuration> {
     samples.into_iter().find(|&q| meets(q))
 }
 
-fn check_feasible_twins(method: Method) {
-    for (what, robot) in TWINS {
-        let problem = load(&format!("{what}_open"), robot);
-        let answer = solve(&problem, &method.into(), &mut |_| {});
-        let Outcome::Found(certified) = &answer.outcome else {
-            panic!("{what} by {method}: {:?}", answer.outcome);
-        };
-        assert_eq!(first_contact(problem.scene(), certified.path()), None, "{what} by {method}");
+#[test]
+fn feasible_twins_are_free_by_parry2d() {
+    for what in TWINS {
+        let problem = open(what);
+        for method in [Method::Visibility, Method::Trapezoid, Method::Subdivision] {
+            let answer = solve(&problem, &method.into(), &mut |_| {});
+            let Outcome::Found(certified) = &answer.outcome else {
+                panic!("{what} by {method}: {:?}", answer.outcome);
+            };
+            assert_eq!(first_contact(problem.scene(), certified.path()), None, "{what} by {method}");
+        }
     }
-}
-
-#[test]
-fn feasible_twins_are_solved_by_visibility() {
-    check_feasible_twins(Method::Visibility);
-}
-
-#[test]
-fn feasible_twins_are_solved_by_trapezoids() {
-    check_feasible_twins(Method::Trapezoid);
-}
-
-#[test]
-fn feasible_twins_are_solved_by_subdivision() {
-    check_feasible_twins(Method::Subdivision);
 }
 
 #[test]
 fn the_sweep_sees_contacts() {
     // Tries the twin's path in the closed world.
-    for (what, robot) in TWINS.into_iter().filter(|(what, _)| *what != "limits") {
-        let (open, closed) = (load(&format!("{what}_open"), robot), load(&format!("{what}_closed"), robot));
+    for what in TWINS.into_iter().filter(|what| *what != "limits") {
+        let (open, closed) = (open(what), closed(what));
         let answer = solve(&open, &Method::Visibility.into(), &mut |_| {});
         let Outcome::Found(certified) = &answer.outcome else { panic!("{what}") };
         assert!(first_contact(closed.scene(), certified.path()).is_some(), "{what}");

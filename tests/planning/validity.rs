@@ -4,9 +4,7 @@
 
 use cplan::Outcome;
 use cplan::engine::{Method, solve};
-use cplan::geometry::{
-    Convex, ConvexError, Orientation, Point, Polygon, PolygonError, RingError, SimplePolygon, Vector, orientation,
-};
+use cplan::geometry::{Convex, ConvexError, Orientation, Point, SimplePolygon, Vector, orientation};
 use cplan::model::{
     Additions, Arm, AttachedPart, Attachment, Body, Dynamics, Grip, Heights, JointType, MotionProblem,
     MotionProblemError, Preference, Region, Scene, SceneError, Workspace,
@@ -56,20 +54,6 @@ fn invalid_convex_shapes_are_refused() {
     assert!(matches!(Convex::disc(Point::zeros(), NAN), Err(Radius { .. })));
     assert_eq!(Convex::disc(Point::new(NAN, 0.0), 1.0), Err(NotFinite { corner: 0 }));
     assert_eq!(Convex::segment(Point::zeros(), Point::new(0.0, NAN)), Err(NotFinite { corner: 1 }));
-}
-
-#[test]
-fn invalid_polygons_are_refused() {
-    let bow = points(&[(0., 0.), (2., 2.), (2., 0.), (0., 2.)]);
-    assert_eq!(SimplePolygon::new(bow.clone()), Err(PolygonError::SidesCross { first: 0, second: 2 }));
-    assert_eq!(
-        SimplePolygon::new(points(&[(0., 0.), (1., NAN), (1., 1.)])),
-        Err(PolygonError::NotFinite { corner: 1 })
-    );
-    assert!(matches!(Polygon::new(bow, Vec::new()), Err(RingError::Outer(PolygonError::SidesCross { .. }))));
-    let square = points(&[(0., 0.), (1., 0.), (1., 1.), (0., 1.)]);
-    let outside = points(&[(2., 0.), (3., 0.), (3., 1.)]);
-    assert_eq!(Polygon::new(square, vec![outside]), Err(RingError::Misplaced { hole: 1 }));
 }
 
 /// Returns the usual arm of these tests with a change.

@@ -6,9 +6,8 @@
 
 use cplan::Outcome;
 use cplan::engine::{Method, solve};
-use cplan::input::{self, Overrides};
 use cplan::model::MotionProblem;
-use std::path::{Path, PathBuf};
+use cplan_testkit::shipped;
 
 struct Shipped {
     name: String,
@@ -19,27 +18,12 @@ struct Shipped {
 }
 
 fn shipped() -> Vec<Shipped> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let mut files: Vec<PathBuf> =
-        std::fs::read_dir(root.join("workspaces")).unwrap().map(|e| e.unwrap().path()).collect();
-    files.retain(|f| f.extension().is_some_and(|e| e == "toml") && !f.ends_with("suite.toml"));
-    files.sort();
-    files
-        .iter()
-        .map(|file| {
-            let text = std::fs::read_to_string(file).unwrap();
-            let line = |key: &str| text.lines().find_map(|l| l.strip_prefix(&format!("# {key}: ")));
-            let stated = |key: &str| {
-                line(key).unwrap_or_else(|| panic!("{}: no line \"# {key}: ...\"", file.display())).trim().to_owned()
-            };
-            let urdf = root.join("robots").join(format!("{}.urdf", stated("robot")));
-            let loaded = input::load(&urdf, file, &Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
-            let name = file.file_stem().unwrap().to_str().unwrap().to_owned();
-            let unknown: Vec<String> = line("unknown").unwrap_or("").split_whitespace().map(str::to_owned).collect();
-            assert!(unknown.iter().all(|name| name.parse::<Method>().is_ok()), "{name}: {unknown:?}");
-            Shipped { name, problem: loaded.problem, expect: stated("expect"), unknown }
-        })
-        .collect()
+    let shipped = |world: shipped::Shipped| {
+        let unknown: Vec<String> = world.stated("unknown").split_whitespace().map(str::to_owned).collect();
+        assert!(unknown.iter().all(|name| name.parse::<Method>().is_ok()), "{}: {unknown:?}", world.name);
+        Shipped { problem: world.motion(), name: world.name, expect: world.expect, unknown }
+    };
+    shipped::worlds("").into_iter().map(shipped).collect()
 }
 
 /// Returns the least distance at configurations no farther apart than `step` in joint space.
@@ -56,15 +40,11 @@ fn sampled_clearance(problem: &MotionProblem, path: &cplan::space::Path, step: f
     least
 }
 
-fn check(method: Method) {
-    let all = shipped();
-    assert!(all.len() >= 10, "only {} workspaces", all.len());
-    for kind in ["RR", "RP", "PR", "PP"] {
-        assert!(all.iter().any(|s| s.problem.scene().arm().kind() == kind), "no workspace for an {kind} arm");
-    }
+/// Checks the answers of a planner to all shipped problems.
+fn check(method: Method, all: &[Shipped]) {
     let mut wrong = Vec::new();
     let mut output = [0, 0];
-    for Shipped { name, problem, expect, unknown } in &all {
+    for Shipped { name, problem, expect, unknown } in all {
         let answer = solve(problem, &method.into(), &mut |_| {});
         match (&answer.outcome, expect.as_str()) {
             (Outcome::Found(certified), "found") => {
@@ -95,43 +75,18 @@ fn check(method: Method) {
 }
 
 #[test]
-fn visibility_solves_the_shipped_workspaces() {
-    check(Method::Visibility);
-}
-
-#[test]
-fn trapezoids_solve_the_shipped_workspaces() {
-    check(Method::Trapezoid);
-}
-
-#[test]
-fn triangles_solve_the_shipped_workspaces() {
-    check(Method::Triangles);
-}
-
-#[test]
-fn voronoi_solves_the_shipped_workspaces() {
-    check(Method::Voronoi);
-}
-
-#[test]
-fn prm_solves_the_shipped_workspaces() {
-    check(Method::Prm);
-}
-
-#[test]
-fn the_wavefront_solves_the_shipped_workspaces() {
-    check(Method::Wavefront);
-}
-
-#[test]
-fn the_harmonic_field_solves_the_shipped_workspaces() {
-    check(Method::Harmonic);
-}
-
-#[test]
-fn subdivision_solves_the_shipped_workspaces() {
-    check(Method::Subdivision);
+fn every_planner_solves_the_shipped_workspaces() {
+    let all = shipped();
+    assert!(all.len() >= 10, "only {} workspaces", all.len());
+    for kind in ["RR", "RP", "PR", "PP"] {
+        assert!(all.iter().any(|s| s.problem.scene().arm().kind() == kind), "no workspace for an {kind} arm");
+    }
+    let all = &all;
+    std::thread::scope(|scope| {
+        for method in Method::ALL {
+            scope.spawn(move || check(method, all));
+        }
+    });
 }
 
 #[test]

@@ -2,9 +2,9 @@
 
 use crate::shapes::{convex, disc, rectangle};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Arm, Heights, Joint, JointType, Link, OutlineSource, Part, Plane};
+use cplan::model::{Arm, Heights, Joint, JointType, Link, OutlineSource, Part};
 use cplan::space::JointRange;
-use nalgebra::Vector3;
+use std::f64::consts::FRAC_PI_2;
 
 /// Returns a link with these convex parts, which all have the same heights.
 pub fn link(name: &str, shapes: Vec<Convex>) -> Link {
@@ -29,19 +29,7 @@ pub fn joint(name: &str, joint_type: JointType, range: JointRange) -> Joint {
 
 /// Returns an arm with its base at the origin. The second joint is at `offset` from the first one.
 pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> Arm {
-    Arm {
-        name: "test arm".into(),
-        joints,
-        links,
-        base: Point::zeros(),
-        offset,
-        tip,
-        tip_name: "tip".into(),
-        plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
-        dynamics: None,
-        motors: None,
-        self_obstacles: Vec::new(),
-    }
+    Arm { name: "test arm".into(), offset, tip, ..Arm::new(joints, links, [0.0; 2]) }
 }
 
 /// Returns an arm with two bars, 1.0 and 0.8 m long and 0.1 m wide. Its joints have the ranges `axes`.
@@ -53,6 +41,23 @@ pub fn rr(axes: [JointRange; 2]) -> Arm {
         Vector::new(1.0, 0.0),
         Point::new(0.8, 0.0),
     )
+}
+
+/// Returns an arm with two slides in these directions, given by their angles, with a range. The second one carries the
+/// shapes of a tool.
+pub fn slides(angles: [f64; 2], [lower, upper]: [f64; 2], tool: Vec<Convex>) -> Arm {
+    let slide = |name, angle: f64| {
+        // Right angles have exact directions.
+        let direction = Vector::new(angle.cos(), angle.sin()).map(|c| if c.abs() < 1e-15 { 0.0 } else { c });
+        joint(name, JointType::Prismatic { direction }, JointRange::Interval { lower, upper })
+    };
+    let links = [link("bridge", Vec::new()), link("tool", tool)];
+    arm([slide("x", angles[0]), slide("y", angles[1])], links, Vector::zeros(), Point::zeros())
+}
+
+/// Returns an arm that slides along x and y.
+pub fn gantry(range: [f64; 2], tool: Vec<Convex>) -> Arm {
+    slides([0.0, FRAC_PI_2], range, tool)
 }
 
 /// Returns one arm of every kind. Some axes are reversed or oblique, and outlines are beside the joints.

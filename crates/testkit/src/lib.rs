@@ -6,6 +6,8 @@
 #[cfg(feature = "cplan")]
 pub mod arms;
 #[cfg(feature = "cplan")]
+pub mod flood;
+#[cfg(feature = "cplan")]
 pub mod follow_oracle;
 #[cfg(feature = "cplan")]
 pub mod football;
@@ -27,10 +29,14 @@ pub mod published;
 #[cfg(feature = "cplan")]
 pub mod reference;
 #[cfg(feature = "cplan")]
+pub mod replay;
+#[cfg(feature = "cplan")]
 pub mod roadmap;
 #[cfg(feature = "cplan")]
 pub mod scenes;
 pub mod shapes;
+#[cfg(feature = "cplan")]
+pub mod shipped;
 #[cfg(feature = "cplan")]
 pub mod solid;
 #[cfg(feature = "cplan")]

@@ -174,20 +174,26 @@ pub fn obstacle_at(mover: &MovingObstacle, time: f64) -> Obstacle {
     Obstacle { pieces: pieces.collect(), ..mover.obstacle.clone() }
 }
 
-/// Returns the time and the configuration at a fraction `share` of the interval after a sample. The configuration
-/// follows from the polynomial of the fourth degree that the JSON states.
+/// Returns position, velocity and acceleration some seconds after a sample, by the polynomial of the fourth degree that
+/// the JSON states.
+pub fn state_between(trajectory: &Trajectory, sample: usize, t: f64) -> [Configuration; 3] {
+    let row = |rows: &[[f64; 2]], k: usize| Configuration::from(rows[k]);
+    let (p, v, a) =
+        (row(&trajectory.position, sample), row(&trajectory.velocity, sample), row(&trajectory.acceleration, sample));
+    let h = trajectory.time[sample + 1] - trajectory.time[sample];
+    // At the end of the interval, the terms of the third and fourth degree supply these differences.
+    let e = row(&trajectory.position, sample + 1) - p - v * h - a * (h * h / 2.0);
+    let f = row(&trajectory.velocity, sample + 1) - v - a * h;
+    let (c, d) = ((e * 4.0 - f * h) / h.powi(3), (f * h - e * 3.0) / h.powi(4));
+    [
+        p + v * t + a * (t * t / 2.0) + c * t.powi(3) + d * t.powi(4),
+        v + a * t + c * (3.0 * t * t) + d * (4.0 * t.powi(3)),
+        a + c * (6.0 * t) + d * (12.0 * t * t),
+    ]
+}
+
+/// Returns the time and the configuration at a fraction `share` of the interval after a sample.
 pub fn position(trajectory: &Trajectory, sample: usize, share: f64) -> (f64, Configuration) {
-    let (a, b) = (sample, sample + 1);
-    let h = trajectory.time[b] - trajectory.time[a];
-    let t = share * h;
-    let along = |k: usize| {
-        let (p, v, w) = (trajectory.position[a][k], trajectory.velocity[a][k], trajectory.acceleration[a][k] / 2.0);
-        // At the end of the interval, the terms of the fourth and third degree supply these differences of position and
-        // velocity.
-        let gap = trajectory.position[b][k] - (p + v * h + w * h * h);
-        let rate = trajectory.velocity[b][k] - (v + 2.0 * w * h);
-        let (c3, c4) = ((4.0 * gap - rate * h) / h.powi(3), (rate * h - 3.0 * gap) / h.powi(4));
-        p + v * t + w * t * t + c3 * t.powi(3) + c4 * t.powi(4)
-    };
-    (trajectory.time[a] + t, Configuration::new(along(0), along(1)))
+    let t = share * (trajectory.time[sample + 1] - trajectory.time[sample]);
+    (trajectory.time[sample] + t, state_between(trajectory, sample, t)[0])
 }

@@ -1,18 +1,35 @@
 //! Problems of motions: those of benchmarks, and the shipped ones; and the check of a claim that there is no motion.
 
 use crate::arms::rr;
-use crate::root;
 use crate::scenes::{q, scene};
 use crate::shapes::convex;
+use crate::shipped;
+use cplan::Problem;
 use cplan::check::{CollisionBox, Disconnection, ProofError};
 use cplan::geometry::Point;
-use cplan::input::{self, Overrides};
+use cplan::input::{self, InputError, LoadedScene, Overrides, Source};
 use cplan::model::{MotionProblem, Scene};
 use cplan::space::{Configuration, GoalSet, JointRange};
 
 /// Returns the problem of a motion in a scene. Panics if it is invalid.
 pub fn motion_problem(scene: Scene, start: Configuration, goals: impl Into<GoalSet>) -> MotionProblem {
     MotionProblem::new(scene, start, goals).expect("a problem")
+}
+
+/// Reads a robot and a world from texts.
+///
+/// # Errors
+/// If a text is invalid.
+pub fn scene_of_texts(urdf: &str, world: &str) -> Result<LoadedScene, InputError> {
+    input::scene_from(Source::in_memory("arm.urdf", urdf), Source::in_memory("world.toml", world))
+}
+
+/// Reads a problem from texts.
+///
+/// # Errors
+/// If a text is invalid, or the problem is.
+pub fn problem_of_texts(urdf: &str, world: &str) -> Result<Problem, InputError> {
+    Problem::of_scene(scene_of_texts(urdf, world)?, &Overrides::default())
 }
 
 /// Checks the claim that boxes separate the start from all goals, and returns the verdict.
@@ -68,22 +85,8 @@ pub fn problem(which: Benchmark) -> MotionProblem {
 
 /// Returns the name and problem of each shipped workspace that states that there is a path.
 pub fn shipped_feasible() -> Vec<(String, MotionProblem)> {
-    let mut files: Vec<_> =
-        std::fs::read_dir(root().join("workspaces")).unwrap().map(|entry| entry.unwrap().path()).collect();
-    files.retain(|file| file.extension().is_some_and(|extension| extension == "toml"));
-    files.sort();
-    let problems: Vec<_> = files
-        .iter()
-        .filter_map(|file| {
-            let text = std::fs::read_to_string(file).unwrap();
-            let line = |key: &str| text.lines().find_map(|l| l.strip_prefix(key).map(str::trim).map(str::to_owned));
-            (line("# expect:")? == "found").then(|| {
-                let urdf = root().join("robots").join(format!("{}.urdf", line("# robot:").unwrap()));
-                let loaded = input::load(&urdf, file, &Overrides::default()).unwrap_or_else(|e| panic!("{e}"));
-                (file.file_stem().unwrap().to_str().unwrap().to_owned(), loaded.problem)
-            })
-        })
-        .collect();
+    let feasible = shipped::worlds("").into_iter().filter(|world| world.expect == "found");
+    let problems: Vec<_> = feasible.map(|world| (world.name.clone(), world.motion())).collect();
     assert!(problems.len() >= 15, "only {} feasible workspaces", problems.len());
     problems
 }

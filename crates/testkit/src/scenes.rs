@@ -5,6 +5,8 @@ use crate::shapes::{convex, disc, rectangle, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{Arm, Heights, Obstacle, Scene, Shape, Workspace};
 use cplan::space::{Configuration, JointRange};
+use cplan_cases::dice::Dice;
+use std::f64::consts::PI;
 
 /// Returns the configuration with these joint values.
 pub fn q(a: f64, b: f64) -> Configuration {
@@ -61,6 +63,26 @@ pub fn spiral(count: u8) -> Vec<Convex> {
 /// Returns the benchmark for building configuration spaces, W20: two bars on the torus among 20 polygons on a spiral.
 pub fn w20() -> Scene {
     scene(rr([JointRange::Circle, JointRange::Circle]), spiral(20))
+}
+
+/// Draws a configuration within the ranges of the joints.
+pub fn anywhere(dice: &mut Dice, arm: &Arm) -> Configuration {
+    Configuration::from_fn(|k, _| {
+        let (lower, upper) = arm.joints[k].range.domain();
+        dice.within(lower, upper)
+    })
+}
+
+/// Draws discs and walls around the origin, whose distances from it are from `nearest` to `farthest`.
+pub fn discs_and_walls(dice: &mut Dice, count: u64, [nearest, farthest]: [f64; 2]) -> Vec<Convex> {
+    let mut piece = || {
+        let (r, angle) = (dice.within(nearest, farthest), dice.within(-PI, PI));
+        let at = Point::new(r * angle.cos(), r * angle.sin());
+        let along = dice.within(-PI, PI);
+        let end = at + Vector::new(along.cos(), along.sin()) * dice.within(0.1, 0.9);
+        if dice.below(3) == 0 { disc(at, dice.within(0.02, 0.15)) } else { wall(at, end) }
+    };
+    (0..count).map(|_| piece()).collect()
 }
 
 /// Returns the configuration at these fractions `u` and `v` of the joints' ranges.

@@ -6,12 +6,11 @@ use crate::scenes::placed;
 use crate::shapes::{convex, disc, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
-    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, SelfObstacle,
-    Shape, Workspace,
+    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Scene, SelfObstacle, Shape,
+    Workspace,
 };
 use cplan::space::{Configuration, GoalSet, JointRange};
 use cplan_cases::dice::Dice;
-use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
 /// The four kinds of arms.
@@ -66,19 +65,7 @@ fn arm(dice: &mut Dice, kind: &str) -> Arm {
     let offset = Vector::new(length, if dice.chance(0.5) { 0.0 } else { dice.within(-0.2, 0.2) });
     let links = [link(dice, "first", length), link(dice, "second", length)];
     let base = if dice.chance(0.5) { Point::zeros() } else { Point::new(dice.within(-1.0, 1.0), 0.3) };
-    Arm {
-        name: "random".into(),
-        joints,
-        links,
-        base,
-        offset,
-        tip: Point::new(0.5, 0.0),
-        tip_name: "tip".into(),
-        plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
-        dynamics: None,
-        motors: None,
-        self_obstacles: Vec::new(),
-    }
+    Arm { name: "random".into(), base, offset, tip: Point::new(0.5, 0.0), ..Arm::new(joints, links, [0.0; 2]) }
 }
 
 fn rectangle(x0: f64, x1: f64, y0: f64, y1: f64, radius: f64) -> Convex {

@@ -17,6 +17,12 @@ pub fn drawn(text: &str, boundaries: [Boundary; 2], levels: Levels) -> Domain {
     Domain::new([rows.len(), rows[0].len()], kinds.collect(), boundaries, levels)
 }
 
+/// Returns the greatest difference of two fields; infinity if a value is not a number.
+pub fn greatest_difference(a: &[f64], b: &[f64]) -> f64 {
+    let off = |(a, b): (&f64, &f64)| if (a - b).is_nan() { f64::INFINITY } else { (a - b).abs() };
+    a.iter().zip(b).map(off).fold(0.0, f64::max)
+}
+
 /// The neighbour of a cell in one direction along an axis.
 #[derive(Clone, Copy, PartialEq)]
 enum NeighborCell {

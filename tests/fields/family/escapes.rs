@@ -1,7 +1,7 @@
 //! Escapes from the local minima of attraction and repulsion.
 
 use super::khatib::u_trap;
-use super::planner::{drawn, found, grid, reason, run, scene};
+use super::planner::{drawn, found, grid, is_free, reason, run, scene};
 use cplan::cspace::{Grid, ZonedGrid};
 use cplan::field::{Attraction, Escape, FreeCells, Khatib, Limits, Neighborhood, Repulsion, StepLabels, UNREACHED};
 use cplan::planner::{FieldChoice, FieldPlanner, Note, PathKind, Run};
@@ -23,15 +23,12 @@ fn escape_counts(run: &Run) -> (&'static str, usize, usize) {
     }
 }
 
-/// Samples a path densely, and checks that every point is in a free cell. For a point on the side between two cells, it
-/// suffices that one of them is free.
+/// Samples a path densely, and checks that every point is in a free cell.
 fn check_path_is_free(grid: &Grid, run: &Run) {
     for (a, b) in found(run).segments() {
         for k in 0..=40 {
             let q = a + (b - a) * (f64::from(k) / 40.0);
-            let near = [1e-7, -1e-7].into_iter().flat_map(|x| [1e-7, -1e-7].map(|y| [q[0] + x, q[1] + y]));
-            let is_free = |p: [f64; 2]| grid.topology.contains(p.into()) && !grid.blocked[grid.locate(p.into())];
-            assert!(near.into_iter().any(is_free), "{q:?}");
+            assert!(is_free(grid, q), "{q:?}");
         }
     }
 }

@@ -8,7 +8,7 @@ pub mod direct;
 mod divergence;
 mod escapes;
 mod khatib;
-mod planner;
+pub mod planner;
 mod preferences;
 mod product;
 mod promises;

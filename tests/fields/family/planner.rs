@@ -66,7 +66,7 @@ pub fn found(run: &Run) -> &Path {
 
 /// Returns true if a cell that contains `q` is free. On the side between two cells, it suffices that one of them is
 /// free.
-fn is_free(grid: &Grid, q: Configuration) -> bool {
+pub fn is_free(grid: &Grid, q: Configuration) -> bool {
     let beside = |d: [f64; 2]| {
         let p = q + Configuration::new(d[0] * 1e-7 * grid.step()[0], d[1] * 1e-7 * grid.step()[1]);
         grid.topology.contains(p) && !grid.blocked[grid.locate(p)]

@@ -1,5 +1,6 @@
 //! Over-relaxation with preferences, compared with plain loops of the printed algorithms (L. E. Deicu 2012).
 
+use super::direct::greatest_difference;
 use cplan::engine::{CellCounts, field_on_cells};
 use cplan::field::{
     Boundary, Cell, Difference, Domain, Equation, Factor, Levels, Limits, Lines, Measure, Order, Relaxation, Scan,
@@ -102,12 +103,6 @@ fn equation(is_bvp2: bool, epsilon: Vec<f64>) -> Equation {
 }
 
 const SUMS: Stopping = Stopping { measure: Measure::SumOfChange, below: 0.01, max_sweeps: 3_000 };
-
-fn greatest_difference(a: &[f64], b: &[f64]) -> f64 {
-    a.iter()
-        .zip(b)
-        .fold(0.0, |most, (a, b)| if (a - b).is_nan() { f64::INFINITY } else { f64::max(most, (a - b).abs()) })
-}
 
 #[test]
 fn over_relaxation_adds_preferences_as_the_printed_tables_do() {

@@ -1,6 +1,6 @@
 //! Cells that are not square.
 
-use super::direct::{drawn, solution};
+use super::direct::{drawn, greatest_difference, solution};
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Domain, Equation, Factor, Levels, Lines, Measure, Order, Relaxation,
     Stopping, by_multigrid, eliminated, relax,
@@ -16,10 +16,6 @@ const ROOM: &str = "
     ......##..";
 
 const STOPPING: Stopping = Stopping { measure: Measure::GreatestChange, below: 1e-14, max_sweeps: 20_000 };
-
-fn greatest_difference(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
-}
 
 /// Checks the formula of source 000, section 3.3.2: `(p(-x) + p(+x) + beta^2 (p(-y) + p(+y))) / (2 (1 + beta^2))`.
 #[test]

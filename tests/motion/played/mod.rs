@@ -9,6 +9,8 @@ mod worlds;
 
 use controller::{Message, played, seconds};
 use cplan::model::Joint;
+use cplan::motion::Trajectory;
+use cplan_testkit::moving::state_between;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -74,47 +76,38 @@ impl Run {
 }
 
 /// The motion of a result, interpolated as its `interpolation` states.
-pub struct Certified {
-    time: Vec<f64>,
-    position: Vec<[f64; 2]>,
-    velocity: Vec<[f64; 2]>,
-    acceleration: Vec<[f64; 2]>,
-}
+pub struct Certified(Trajectory);
 
 impl Certified {
     pub fn of(result: &Value) -> Self {
-        let trajectory = &result["trajectory"];
-        let rows = |name: &str| serde_json::from_value(trajectory[name].clone()).unwrap();
-        Self {
-            time: serde_json::from_value(trajectory["time"].clone()).unwrap(),
+        let rows = |name: &str| serde_json::from_value(result["trajectory"][name].clone()).unwrap();
+        Self(Trajectory {
+            time: serde_json::from_value(result["trajectory"]["time"].clone()).unwrap(),
             position: rows("position"),
             velocity: rows("velocity"),
             acceleration: rows("acceleration"),
-        }
+            ..Trajectory::default()
+        })
     }
 
     /// Returns true if both joints are at rest from sample `k` to the next.
     fn is_at_rest(&self, k: usize) -> bool {
-        self.position[k] == self.position[k + 1] && [self.velocity[k], self.velocity[k + 1]] == [[0.0; 2]; 2]
+        let Trajectory { position, velocity, .. } = &self.0;
+        position[k] == position[k + 1] && [velocity[k], velocity[k + 1]] == [[0.0; 2]; 2]
     }
 
     /// Returns the sample at or before a time.
     fn sample_before(&self, time: f64) -> usize {
-        self.time.partition_point(|t| *t <= time + 1e-10).saturating_sub(1).min(self.time.len().saturating_sub(2))
+        let times = &self.0.time;
+        times.partition_point(|t| *t <= time + 1e-10).saturating_sub(1).min(times.len().saturating_sub(2))
     }
 
     fn at(&self, time: f64, joint: usize) -> f64 {
-        if self.time.len() < 2 {
-            return self.position[0][joint];
-        }
         let k = self.sample_before(time);
-        let row = |rows: &[[f64; 2]], k: usize| rows[k][joint];
-        let (p, v, a) = (row(&self.position, k), row(&self.velocity, k), row(&self.acceleration, k));
-        let (h, t) = (self.time[k + 1] - self.time[k], time - self.time[k]);
-        let e = row(&self.position, k + 1) - p - v * h - a * h * h / 2.0;
-        let f = row(&self.velocity, k + 1) - v - a * h;
-        let (c, d) = ((4.0 * e - f * h) / h.powi(3), (f * h - 3.0 * e) / h.powi(4));
-        p + v * t + a * t * t / 2.0 + c * t.powi(3) + d * t.powi(4)
+        match self.0.position[..] {
+            [at] => at[joint],
+            _ => state_between(&self.0, k, time - self.0.time[k])[0][joint],
+        }
     }
 }
 

@@ -5,6 +5,7 @@ use cplan::input::load_scene;
 use cplan::model::Joint;
 use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, uses_default_cases};
+use cplan_testkit::shipped::{self, Shipped};
 use std::path::{Path, PathBuf};
 
 /// Returns the joints of a robot in a world.
@@ -64,20 +65,6 @@ fn objects(world: &Path) -> Vec<String> {
     objects.map(name).collect()
 }
 
-fn tasks() -> Vec<[PathBuf; 2]> {
-    let worlds = std::fs::read_dir(root("workspaces/tasks")).unwrap().map(|entry| entry.unwrap().path());
-    let mut tasks: Vec<_> = worlds
-        .filter(|world| world.extension().is_some_and(|extension| extension == "toml"))
-        .map(|world| {
-            let text = std::fs::read_to_string(&world).unwrap();
-            let robot = text.lines().find_map(|line| line.strip_prefix("# robot: ")).expect("its robot");
-            [root(&format!("robots/{}.urdf", robot.trim())), world]
-        })
-        .collect();
-    tasks.sort();
-    tasks
-}
-
 #[test]
 fn interpolated_motions_of_shipped_worlds_are_certified() {
     let mut found = 0;
@@ -103,8 +90,7 @@ fn interpolated_motions_of_shipped_worlds_are_certified() {
 #[test]
 fn interpolated_motions_of_shipped_tasks_are_certified() {
     let (mut found, mut dwells, mut accepted) = (0, 0, 0);
-    for [robot, world] in tasks() {
-        let name = world.file_stem().unwrap().to_str().unwrap().to_owned();
+    for Shipped { name, robot, world, .. } in shipped::worlds("tasks") {
         let run = Run::of(&robot, &world, &[]);
         if run.code != 0 {
             assert!([3, 4].contains(&run.code), "{name}: {}", run.errors);

@@ -1,6 +1,8 @@
 //! Random arms among a few large obstacles. They are stored as numbers, from which the files are written.
 
+use cplan::model::Scene;
 use cplan_cases::dice::Dice;
+use cplan_testkit::problems::scene_of_texts;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write;
 
@@ -9,6 +11,9 @@ pub type V = [f64; 2];
 /// For each plane, the root axes of its two coordinates and of its normal, and the sign of the normal for which
 /// coordinates and normal form a right-handed system.
 pub const PLANES: [([usize; 3], f64); 3] = [([0, 1, 2], 1.0), ([0, 2, 1], -1.0), ([1, 2, 0], 1.0)];
+
+/// Number of draws until a configuration is free.
+const TRIES: usize = 200;
 
 /// A problem in numbers. Lengths are in metres.
 #[derive(Debug, Clone)]
@@ -129,6 +134,22 @@ impl Drawn {
             goal: Goal::Joints([0.0; 2]),
             scale,
         }
+    }
+
+    /// Returns the scene of the arm among its obstacles. `None` if the arm is impossible: slides along one line, and the like.
+    pub fn scene(&self) -> Option<Scene> {
+        scene_of_texts(&self.urdf(), &self.world(false)).ok().map(|loaded| loaded.scene)
+    }
+
+    /// Draws a configuration that is farther from obstacles than the clearance by this distance.
+    pub fn free(&self, dice: &mut Dice, scene: &Scene, room: f64) -> Option<V> {
+        (0..TRIES).find_map(|_| {
+            let q = self.joints.map(|joint| {
+                let [low, high] = joint.range.unwrap_or([-3.2, 3.2]);
+                dice.within(low, high)
+            });
+            (scene.clearance(q.into()) > scene.workspace().clearance + room).then_some(q)
+        })
     }
 
     pub fn has_oblique_cylinder(&self) -> bool {

@@ -6,11 +6,13 @@
 
 use crate::followed_lines::{aside, world};
 use cplan::engine::Method;
-use cplan::input::{self, Overrides, Source};
+use cplan::input::Overrides;
 use cplan::model::Status;
-use cplan::{Problem, plan};
+use cplan::plan;
 use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
+use cplan_testkit::problems::problem_of_texts;
+use cplan_testkit::shipped;
 use serde_json::{Value, json};
 use std::time::{Duration, Instant};
 
@@ -100,10 +102,8 @@ fn certified(seed: u64, tally: &mut Tally) {
     let mut dice: Dice = cplan_cases::dice(seed);
     let drawn = world(&mut dice);
     let world = if seed.is_multiple_of(2) { without_radius(&drawn) } else { drawn };
-    let urdf = std::fs::read_to_string(format!("{}/robots/planar_2r.urdf", env!("CARGO_MANIFEST_DIR"))).unwrap();
-    let source = |name: &str, text: &str| Source::in_memory(name, text);
-    let loaded = input::scene_from(source("arm.urdf", &urdf), source("world.toml", &world));
-    let Ok(problem) = loaded.and_then(|scene| Problem::of_scene(scene, &Overrides::default())) else { return };
+    let urdf = std::fs::read_to_string(shipped::robot("planar_2r")).unwrap();
+    let Ok(problem) = problem_of_texts(&urdf, &world) else { return };
     let answer = plan(&problem, &Method::Visibility.into()).unwrap();
     if answer.status() != Status::Found {
         return;
@@ -114,14 +114,8 @@ fn certified(seed: u64, tally: &mut Tally) {
     tally.longest = tally.longest.max(begun.elapsed());
     let report = judged.unwrap_or_else(|why| panic!("seed {seed}: {why:?}\n{world}"));
     let certificate: Value = serde_json::from_str(&certificate).unwrap();
-    let lines: Vec<usize> = certificate["steps"]
-        .as_array()
-        .unwrap()
-        .iter()
-        .enumerate()
-        .filter(|(_, step)| step.get("line").is_some())
-        .map(|(index, _)| index)
-        .collect();
+    let steps = certificate["steps"].as_array().unwrap();
+    let lines: Vec<usize> = (0..steps.len()).filter(|index| steps[*index].get("line").is_some()).collect();
     assert_eq!(report.matches("the tip follows").count(), lines.len(), "seed {seed}: {report}");
     tally.found += 1;
     tally.lines += lines.len();

@@ -5,15 +5,15 @@
 //! ```
 
 use super::drawn::{Drawn, Goal};
-use super::{ENDS, KINDS, TRIES};
+use super::{ENDS, KINDS};
 use cplan::engine::Method;
-use cplan::input::{self, Overrides, Source};
+use cplan::input::Overrides;
 use cplan::model::Status;
-use cplan::space::Configuration;
-use cplan::{Options, Problem, plan};
+use cplan::{Options, plan};
 use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, uses_default_cases};
 use cplan_check_files::check;
+use cplan_testkit::problems::problem_of_texts;
 use std::time::{Duration, Instant};
 
 #[derive(Debug, Default)]
@@ -35,28 +35,14 @@ fn check_motions_in_world(seed: u64, tally: &mut Tally) {
     let kind = seed % KINDS;
     let mut drawn = Drawn::new(&mut dice, kind);
     let urdf = drawn.urdf();
-    let source = |name: &str, text: &str| Source::in_memory(name, text);
-    let scene = |world: &str| input::scene_from(source("arm.urdf", &urdf), source("world.toml", world));
-    // Slides along one line, and the like.
-    let Ok(loaded) = scene(&drawn.world(false)) else { return };
+    let Some(scene) = drawn.scene() else { return };
     for turn in 0..ENDS {
-        let mut free = || {
-            (0..TRIES).find_map(|_| {
-                let q = drawn.joints.map(|joint| {
-                    let [low, high] = joint.range.unwrap_or([-3.2, 3.2]);
-                    dice.within(low, high)
-                });
-                let at = Configuration::from(q);
-                (loaded.scene.clearance(at) > loaded.scene.workspace().clearance + 1e-9 * drawn.scale).then_some(q)
-            })
-        };
+        let mut free = || drawn.free(&mut dice, &scene, 1e-9 * drawn.scale);
         let (Some(start), Some(goal)) = (free(), free()) else { continue };
         drawn.start = start;
         drawn.goal = if dice.chance(0.7) { Goal::Joints(goal) } else { Goal::Tip(drawn.tip(goal)) };
         let world = drawn.world(true);
-        let Ok(problem) = scene(&world).and_then(|scene| Problem::of_scene(scene, &Overrides::default())) else {
-            continue;
-        };
+        let Ok(problem) = problem_of_texts(&urdf, &world) else { continue };
         let options = [Options::default(), Method::First.into(), Method::Voronoi.into()][turn % 3];
         let answer = plan(&problem, &options).unwrap();
         if answer.status() != Status::Found {

@@ -2,6 +2,8 @@
 //! projections, distances, inverse kinematics and flood fill.
 
 use super::drawn::{Drawn, Goal, Joint, Kind, Outline, PLANES, Solid, V};
+use cplan_testkit::flood::Cells;
+use cplan_testkit::solid::{add as plus, dot, sub as minus};
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 
@@ -23,20 +25,8 @@ fn turned([x, y]: V, angle: f64) -> V {
     [c * x - s * y, s * x + c * y]
 }
 
-fn plus(a: V, b: V) -> V {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-fn minus(a: V, b: V) -> V {
-    [a[0] - b[0], a[1] - b[1]]
-}
-
 fn cross(a: V, b: V) -> f64 {
     a[0] * b[1] - a[1] * b[0]
-}
-
-fn dot(a: V, b: V) -> f64 {
-    a[0] * b[0] + a[1] * b[1]
 }
 
 impl Joint {
@@ -260,55 +250,6 @@ fn part_of(drawn: &Drawn, part: &Value) -> Result<(Vec<V>, f64), &'static str> {
 
 /// Describes how a path leads past the boxes from the start to a goal. Returns `None` if the boxes block all paths.
 fn connection(drawn: &Drawn, certificate: &Value, boxes: &[[V; 2]]) -> Option<String> {
-    let domain = drawn.joints.map(|joint| joint.domain());
-    let ends = [0, 1].map(|k| {
-        let inside = |x: &f64| domain[k][0] < *x && *x < domain[k][1];
-        let mut ends: Vec<f64> = boxes.iter().flat_map(|b| [b[0][k], b[1][k]]).filter(inside).collect();
-        ends.extend(domain[k]);
-        ends.sort_by(f64::total_cmp);
-        ends.dedup();
-        ends
-    });
-    let counts = ends.each_ref().map(|e| e.len() - 1);
-    let is_free = |[i, j]: [usize; 2]| {
-        let covers = |b: &[V; 2]| {
-            [i, j].into_iter().enumerate().all(|(k, c)| b[0][k] <= ends[k][c] && ends[k][c + 1] <= b[1][k])
-        };
-        !boxes.iter().any(covers)
-    };
-    // Finds the cell that contains a configuration well within, if there is one.
-    let cell = |q: V| {
-        let found = [0, 1].map(|k| {
-            let value = match drawn.joints[k].range {
-                None => (q[k] + PI).rem_euclid(TAU) - PI,
-                Some(_) => q[k],
-            };
-            let at = ends[k].partition_point(|e| *e <= value);
-            let room = INSIDE * (domain[k][1] - domain[k][0]);
-            let is_inside = at > 0 && at <= counts[k] && value - ends[k][at - 1] > room && ends[k][at] - value > room;
-            is_inside.then(|| at - 1)
-        });
-        Some([found[0]?, found[1]?])
-    };
-    let start = cell(pair(&certificate["start"]).unwrap_or(drawn.start))?;
-    let mut seen = vec![false; counts[0] * counts[1]];
-    let mut waiting = vec![start];
-    while let Some([i, j]) = waiting.pop() {
-        if seen[i * counts[1] + j] || !is_free([i, j]) {
-            continue;
-        }
-        seen[i * counts[1] + j] = true;
-        for (k, step) in [(0, 1), (0, -1), (1, 1), (1, -1)] {
-            let mut next = [i as isize, j as isize];
-            next[k] += step;
-            if drawn.joints[k].range.is_none() {
-                next[k] = next[k].rem_euclid(counts[k] as isize);
-            }
-            if next.iter().zip(counts).all(|(n, count)| (0..count as isize).contains(n)) {
-                waiting.push(next.map(|n| n as usize));
-            }
-        }
-    }
     let given = match (pair(&certificate["goal"]), pair(&certificate["goal_tip"])) {
         (Some(goal), _) => Goal::Joints(goal),
         (None, Some(tip)) => Goal::Tip(tip),
@@ -318,8 +259,47 @@ fn connection(drawn: &Drawn, certificate: &Value, boxes: &[[V; 2]]) -> Option<St
         Goal::Joints(goal) => vec![goal],
         Goal::Tip(tip) => reaching(drawn, tip),
     };
-    let reached = goals.into_iter().find(|goal| cell(*goal).is_some_and(|[i, j]| seen[i * counts[1] + j]));
+    let start = pair(&certificate["start"]).unwrap_or(drawn.start);
+    let (domain, circles) = (drawn.joints.map(|joint| joint.domain()), drawn.joints.map(|joint| joint.range.is_none()));
+    let reached = reached_past(boxes, domain, circles, start, &goals);
     reached.map(|goal| format!("the goal {goal:?} is connected with the start"))
+}
+
+/// Returns a goal to which a path leads from the start past boxes of configurations, if there is one: a flood over the
+/// cells between the ends of the boxes. Ends that are not well inside a cell do not count.
+pub fn reached_past(boxes: &[[V; 2]], domain: [V; 2], circles: [bool; 2], start: V, goals: &[V]) -> Option<V> {
+    let ends = [0, 1].map(|k| {
+        let inside = |x: &f64| domain[k][0] < *x && *x < domain[k][1];
+        let mut ends: Vec<f64> = boxes.iter().flat_map(|b| [b[0][k], b[1][k]]).filter(inside).collect();
+        ends.extend(domain[k]);
+        ends.sort_by(f64::total_cmp);
+        ends.dedup();
+        ends
+    });
+    let cells = Cells { count: ends.each_ref().map(|ends| ends.len() - 1), circles };
+    let mut closed = vec![false; cells.count[0] * cells.count[1]];
+    for corners in boxes {
+        let place =
+            |k: usize, corner: usize| ends[k].partition_point(|end| *end < corners[corner][k]).min(cells.count[k]);
+        for i in place(0, 0)..place(0, 1) {
+            (place(1, 0)..place(1, 1)).for_each(|j| closed[i * cells.count[1] + j] = true);
+        }
+    }
+    // Finds the cell that contains a configuration well within, if there is one.
+    let cell = |q: V| {
+        let found = [0, 1].map(|k| {
+            let [low, high] = domain[k];
+            let value = if circles[k] { low + (q[k] - low).rem_euclid(high - low) } else { q[k] };
+            let at = ends[k].partition_point(|e| *e <= value);
+            let is_inside = at > 0 && at <= cells.count[k];
+            let room = INSIDE * (high - low);
+            (is_inside && value - ends[k][at - 1] > room && ends[k][at] - value > room).then(|| at - 1)
+        });
+        Some(found[0]? * cells.count[1] + found[1]?)
+    };
+    let start = cell(start).filter(|&start| !closed[start])?;
+    let reached = cells.flood([start], |_, next| !closed[next]);
+    goals.iter().copied().find(|goal| cell(*goal).is_some_and(|cell| reached[cell]))
 }
 
 /// Returns configurations that put the tip at a place, by Newton's method from many starts, damped where joints have no

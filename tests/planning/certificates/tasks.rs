@@ -4,16 +4,16 @@
 //! CPLAN_TIMES=100 cargo test --profile quick --test planning certificates::tasks -- --nocapture
 //! ```
 
+use super::KINDS;
 use super::drawn::{Drawn, V};
-use super::{KINDS, TRIES};
 use cplan::engine::{Method, NoCertificate};
-use cplan::input::{self, Overrides, Source};
+use cplan::input::Overrides;
 use cplan::model::Status;
-use cplan::space::Configuration;
-use cplan::{Problem, plan};
+use cplan::plan;
 use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, uses_default_cases};
 use cplan_check_files::{CheckError, check};
+use cplan_testkit::problems::problem_of_texts;
 use serde_json::Value;
 use std::fmt::Write;
 use std::time::{Duration, Instant};
@@ -48,22 +48,16 @@ fn world(dice: &mut Dice, drawn: &Drawn, mut free: impl FnMut(&mut Dice) -> Opti
     for number in 0..1 + dice.below(2) {
         let [from, to] = [free(dice)?, free(dice)?].map(|q| drawn.tip(q));
         let size = scale * dice.within(0.01, 0.06);
-        let kind = dice.below(4);
-        let outline = match kind {
+        let polygon = |corners: &[V]| {
+            let corners: Vec<V> = corners.iter().map(|p| p.map(|c| c * size)).collect();
+            format!("polygon = {corners:?}")
+        };
+        let outline = match dice.below(4) {
             0 => format!("circle = {{ center = [0.0, {:?}], radius = {size:?} }}", 0.2 * size),
-            1 => format!(
-                "polygon = {:?}",
-                [[0.0, 0.0], [2.0, 0.3], [1.5, 1.0], [-0.4, 0.9]].map(|p| p.map(|c| c * size))
-            ),
-            2 => format!(
-                "polygon = {:?}",
-                [[-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]].map(|p| p.map(|c| c * size))
-            ),
+            1 => polygon(&[[0.0, 0.0], [2.0, 0.3], [1.5, 1.0], [-0.4, 0.9]]),
+            2 => polygon(&[[-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0], [1.0, 1.0]]),
             // An object in the form of an L.
-            _ => {
-                let corners = [[0.0, 0.0], [3.0, 0.0], [3.0, 1.0], [1.0, 1.0], [1.0, 3.0], [0.0, 3.0]];
-                format!("polygon = {:?}", corners.map(|p| p.map(|c| 0.5 * c * size)))
-            }
+            _ => polygon(&[[0.0, 0.0], [1.5, 0.0], [1.5, 0.5], [0.5, 0.5], [0.5, 1.5], [0.0, 1.5]]),
         };
         let is_level = dice.chance(0.5);
         let _ = writeln!(
@@ -102,25 +96,11 @@ fn tasks(seed: u64, tally: &mut Tally) {
     let kind = seed % KINDS;
     let drawn = Drawn::new(&mut dice, kind);
     let urdf = drawn.urdf();
-    let source = |name: &str, text: &str| Source::in_memory(name, text);
-    let scene = |world: &str| input::scene_from(source("arm.urdf", &urdf), source("world.toml", world));
-    // Slides along one line, and the like.
-    let Ok(loaded) = scene(&drawn.world(false)) else { return };
-    let free = |dice: &mut Dice| {
-        (0..TRIES).find_map(|_| {
-            let q = drawn.joints.map(|joint| {
-                let [low, high] = joint.range.unwrap_or([-3.2, 3.2]);
-                dice.within(low, high)
-            });
-            let at = Configuration::from(q);
-            (loaded.scene.clearance(at) > loaded.scene.workspace().clearance + 0.02 * drawn.scale).then_some(q)
-        })
-    };
+    let Some(scene) = drawn.scene() else { return };
+    let free = |dice: &mut Dice| drawn.free(dice, &scene, 0.02 * drawn.scale);
     for _ in 0..3 {
         let Some(world) = world(&mut dice, &drawn, free) else { continue };
-        let Ok(problem) = scene(&world).and_then(|scene| Problem::of_scene(scene, &Overrides::default())) else {
-            continue;
-        };
+        let Ok(problem) = problem_of_texts(&urdf, &world) else { continue };
         tally.asked += 1;
         let answer = plan(&problem, &Method::First.into()).unwrap();
         if answer.status() == Status::Infeasible {

@@ -2,10 +2,10 @@
 //! known.
 
 use super::{LIMITS, ROUNDING, bound};
-use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{JointType, MotionProblem};
-use cplan::space::{Configuration, GoalSet, JointRange, Metric};
-use cplan_testkit::arms::{arm, joint, link};
+use cplan::geometry::{Convex, Point};
+use cplan::model::MotionProblem;
+use cplan::space::{Configuration, GoalSet, Metric};
+use cplan_testkit::arms::slides;
 use cplan_testkit::problems::motion_problem;
 use cplan_testkit::scenes::{q, scene};
 use cplan_testkit::shapes::{convex, disc, rectangle};
@@ -16,11 +16,7 @@ pub const REACH: f64 = 2.0;
 
 /// Returns a tool without extent whose slides point along `angles`, among `pieces`.
 pub fn gantry(angles: [f64; 2], pieces: Vec<Convex>, start: Configuration, goals: &[Configuration]) -> MotionProblem {
-    let slide = |angle: f64| JointType::Prismatic { direction: Vector::new(angle.cos(), angle.sin()) };
-    let axis = JointRange::Interval { lower: -REACH, upper: REACH };
-    let joints = [joint("x", slide(angles[0]), axis), joint("y", slide(angles[1]), axis)];
-    let links = [link("beam", Vec::new()), link("tool", vec![disc(Point::zeros(), 0.0)])];
-    let arm = arm(joints, links, Vector::zeros(), Point::zeros());
+    let arm = slides(angles, [-REACH, REACH], vec![disc(Point::zeros(), 0.0)]);
     motion_problem(scene(arm, pieces), start, goals.iter().copied().collect::<GoalSet>())
 }
 

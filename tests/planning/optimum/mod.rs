@@ -8,6 +8,8 @@ mod polygons;
 mod shipped;
 mod worlds;
 
+pub use worlds::obstacle;
+
 use cplan::model::MotionProblem;
 use cplan::proofs::{MotionQuery, least_length};
 use cplan::space::Metric;

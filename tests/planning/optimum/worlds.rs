@@ -53,7 +53,7 @@ fn gaps() -> impl Strategy<Value = f64> {
 }
 
 /// Returns a strategy for convex obstacles of any kind.
-fn obstacle() -> impl Strategy<Value = Convex> {
+pub fn obstacle() -> impl Strategy<Value = Convex> {
     let at = (0.2..1.9_f64, -3.2..3.2_f64).prop_map(|(r, t)| Point::new(r * t.cos(), r * t.sin()));
     (at, 0..5_u8, 0.03..0.3_f64, 0.0..TAU).prop_map(|(at, kind, size, turn)| {
         let corner = |k: u8, n: u8| {

@@ -6,14 +6,15 @@
 mod drawn;
 
 use cplan::engine::Method;
-use cplan::input::{self, Overrides, Source};
-use cplan::{Options, Outcome, Problem, plan};
+use cplan::input::Overrides;
+use cplan::{Options, Outcome, plan};
 use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, uses_default_cases};
 use cplan_check_files::check;
+use cplan_testkit::flood::Cells;
+use cplan_testkit::problems::{problem_of_texts, scene_of_texts};
 use cplan_testkit::solid::V;
 use drawn::{ELBOW, Robot, Shape};
-use std::collections::VecDeque;
 
 /// Depths and distances below this count as touching, metres.
 const TOUCHING: f64 = 1e-7;
@@ -86,27 +87,10 @@ impl<'a> Oracle<'a> {
         let size = self.robot.ranges.map(|[low, high]| (high - low) / CELLS as f64);
         // No point of the arm is farther than 1.1 m from joint 1, or 0.6 m from joint 2.
         let moved = 1.1 * size[0] / 2.0 + 0.6 * size[1] / 2.0;
-        let cell = |q: V| [0, 1].map(|k| (((q[k] - self.robot.ranges[k][0]) / size[k]) as usize).min(CELLS - 1));
-        let center = |cell: [usize; 2]| [0, 1].map(|k| self.robot.ranges[k][0] + (cell[k] as f64 + 0.5) * size[k]);
-        let is_free = |cell: [usize; 2]| self.clearance(center(cell)) > moved;
-        let [from, to] = ends.map(cell);
-        let mut seen = vec![false; CELLS * CELLS];
-        let mut waiting = VecDeque::from_iter(is_free(from).then_some(from));
-        while let Some(at) = waiting.pop_front() {
-            if at == to {
-                return true;
-            }
-            for (k, step) in [(0, -1), (0, 1), (1, -1), (1, 1)] {
-                let mut next = at;
-                let Some(value) = at[k].checked_add_signed(step).filter(|value| *value < CELLS) else { continue };
-                next[k] = value;
-                let number = next[0] * CELLS + next[1];
-                if !std::mem::replace(&mut seen[number], true) && is_free(next) {
-                    waiting.push_back(next);
-                }
-            }
-        }
-        false
+        let cells = Cells { count: [CELLS; 2], circles: [false; 2] };
+        let is_free = |cell: usize| self.clearance(cells.middle(self.robot.ranges, cell)) > moved;
+        let [from, to] = ends.map(|q| cells.locate(self.robot.ranges, q));
+        cells.flood(is_free(from).then_some(from), |_, next| is_free(next))[to]
     }
 }
 
@@ -127,7 +111,6 @@ fn attack(seed: u64, tally: &mut Tally) {
     let robot = Robot::drawn(&mut dice);
     let oracle = Oracle::new(&robot);
     tally.permanent += oracle.permanent;
-    let source = |name: &str, text: &str| Source::in_memory(name, text);
     for _ in 0..4 {
         let mut draw = || robot.ranges.map(|[low, high]| dice.within(low, high));
         let mut draw_free = || {
@@ -140,8 +123,8 @@ fn attack(seed: u64, tally: &mut Tally) {
             ends[0], ends[1]
         );
         let case = || format!("seed {seed}, {ends:?}\n{}\n{world}", robot.urdf);
-        let loaded = input::scene_from(source("arm.urdf", &robot.urdf), source("world.toml", &world));
-        let problem = match Problem::of_scene(loaded.unwrap(), &Overrides::default()) {
+        assert!(scene_of_texts(&robot.urdf, &world).is_ok(), "{}", case());
+        let problem = match problem_of_texts(&robot.urdf, &world) {
             Ok(problem) => problem,
             Err(why) => {
                 let least = ends.map(|q| oracle.clearance(q)).into_iter().fold(f64::INFINITY, f64::min);

@@ -1,7 +1,6 @@
 //! Scenes with payloads, compared with a flood fill that computes its own distances. Cells that are entirely free
 //! connect, and cells that are entirely blocked separate.
 
-use super::replay::World;
 use super::task;
 use cplan::Outcome;
 use cplan::engine::{Method, Options, solve};
@@ -10,7 +9,11 @@ use cplan::model::{Grip, Holding, Payload, Task};
 use cplan::space::Configuration;
 use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, times};
+use cplan_testkit::flood::Cells;
 use cplan_testkit::problems::motion_problem;
+use cplan_testkit::replay::World;
+use cplan_testkit::scenes::anywhere;
+use cplan_testkit::solid::V;
 
 /// Cells along each axis.
 const CELLS: usize = 150;
@@ -22,64 +25,33 @@ enum Cell {
     Blocked,
 }
 
+/// The cells of joint space, and what is known of each.
 struct Bitmap {
-    cells: Vec<Cell>,
-    axes: [(f64, f64, bool); 2],
+    cells: Cells,
+    domain: [V; 2],
+    kinds: Vec<Cell>,
 }
 
 impl Bitmap {
     fn new(task: &Task, world: &World) -> Self {
-        let axes = task.arm.topology().ranges.map(|axis| {
-            let (lower, upper) = axis.domain();
-            (lower, upper, axis.is_circle())
-        });
-        let sizes = axes.map(|(lower, upper, _)| (upper - lower) / CELLS as f64);
+        let axes = task.arm.topology().ranges;
+        let cells = Cells { count: [CELLS; 2], circles: axes.map(|axis| axis.is_circle()) };
+        let domain: [V; 2] = axes.map(|axis| axis.domain().into());
         let speeds = world.speeds();
-        let bound = (speeds[0] * sizes[0] + speeds[1] * sizes[1]) / 2.0;
-        let cell = |index: usize| {
-            let at = [index % CELLS, index / CELLS];
-            let q = [0, 1].map(|k| axes[k].0 + sizes[k] * (at[k] as f64 + 0.5));
-            match world.room(q) {
-                [surely, _] if surely > bound => Cell::Free,
-                [_, perhaps] if perhaps < -bound => Cell::Blocked,
-                _ => Cell::Mixed,
-            }
+        let bound: f64 = (0..2).map(|k| speeds[k] * (domain[k][1] - domain[k][0]) / CELLS as f64 / 2.0).sum();
+        let kind = |cell: usize| match world.room(cells.middle(domain, cell)) {
+            [surely, _] if surely > bound => Cell::Free,
+            [_, perhaps] if perhaps < -bound => Cell::Blocked,
+            _ => Cell::Mixed,
         };
-        Self { cells: (0..CELLS * CELLS).map(cell).collect(), axes }
+        Self { cells, domain, kinds: (0..CELLS * CELLS).map(kind).collect() }
     }
 
-    fn locate(&self, q: Configuration) -> usize {
-        let at = [0, 1].map(|k| {
-            let (lower, upper, circle) = self.axes[k];
-            let share = (q[k] - lower) / (upper - lower);
-            let share = if circle { share.rem_euclid(1.0) } else { share };
-            ((share * CELLS as f64) as usize).min(CELLS - 1)
-        });
-        at[1] * CELLS + at[0]
-    }
-
-    /// Returns true if two configurations are connected through cells of some kinds, corners included.
+    /// Returns true if two configurations are connected through cells of some kinds.
     fn connects(&self, from: Configuration, to: Configuration, through: &[Cell]) -> bool {
-        let (from, to) = (self.locate(from), self.locate(to));
-        let mut seen = vec![false; self.cells.len()];
-        let mut open = vec![from];
-        while let Some(cell) = open.pop() {
-            if !through.contains(&self.cells[cell]) || std::mem::replace(&mut seen[cell], true) {
-                continue;
-            }
-            for (dx, dy) in [(1, 0), (-1, 0), (0, 1), (0, -1), (1, 1), (1, -1), (-1, 1), (-1, -1)] {
-                let corner = dx != 0 && dy != 0;
-                if corner && !through.contains(&Cell::Mixed) {
-                    continue;
-                }
-                let at = [(cell % CELLS) as i64 + dx, (cell / CELLS) as i64 + dy];
-                let wrapped = [0, 1].map(|k| if self.axes[k].2 { at[k].rem_euclid(CELLS as i64) } else { at[k] });
-                if wrapped.iter().all(|k| (0..CELLS as i64).contains(k)) {
-                    open.push(wrapped[1] as usize * CELLS + wrapped[0] as usize);
-                }
-            }
-        }
-        seen[to]
+        let [from, to] = [from, to].map(|q| self.cells.locate(self.domain, q.into()));
+        let passes = |cell: usize| through.contains(&self.kinds[cell]);
+        self.cells.flood(passes(from).then_some(from), |_, next| passes(next))[to]
     }
 }
 
@@ -106,15 +78,10 @@ fn payloads_are_judged_like_a_flood_fill() {
         let poses: Vec<_> =
             task.objects.iter().enumerate().map(|(i, o)| (i != object).then_some(o.at.into())).collect();
         let scene = task.scene(&poses, &[], Some(&payload), []);
-        let topology = task.arm.topology();
         let mut free = || {
-            let draw = || {
-                Configuration::from_fn(|k, _| {
-                    let (lower, upper) = topology.ranges[k].domain();
-                    dice.within(lower, upper)
-                })
-            };
-            std::iter::repeat_with(draw).take(100).find(|q| world.room([q[0], q[1]])[0] > 1e-6)
+            std::iter::repeat_with(|| anywhere(&mut dice, &task.arm))
+                .take(100)
+                .find(|q| world.room([q[0], q[1]])[0] > 1e-6)
         };
         let (Some(start), Some(goal)) = (free(), free()) else { continue };
         assert!(scene.obstructions(start).is_empty(), "seed {seed}: {:?} is free", start);

@@ -1,7 +1,8 @@
 //! Checks that an object presses into its support no deeper than allowed, even with its corners.
 
-use super::{options, replay, task};
+use super::{options, task};
 use cplan::engine::task::plan;
+use cplan_testkit::replay;
 
 /// Checks a former defect. With a clearance of 1 cm, a pentagon is picked beside the disc that supports it. Shrinking
 /// the pentagon by the clearance and growing it again used to round off its corners. So one corner was carried through

@@ -8,7 +8,7 @@ use cplan::model::{
 use cplan::space::{Configuration, JointRange};
 use cplan_cases::dice::Dice;
 use cplan_testkit::arms::all_kinds;
-use cplan_testkit::scenes::{clutter, obstacle, placed};
+use cplan_testkit::scenes::{self, clutter, obstacle, placed};
 use cplan_testkit::shapes::{convex, disc};
 use std::f64::consts::{PI, TAU};
 
@@ -26,16 +26,9 @@ pub fn task(seed: u64) -> Task {
     let workspace = Workspace { name: "random".into(), obstacles, clearance, preferences: Vec::new() };
     // Places that the tip can reach: forward kinematics of random configurations, most of them free of static
     // obstacles.
-    let topology = arm.topology();
     let still = placed(arm.clone(), workspace.clone());
     let anywhere = |dice: &mut Dice| {
-        let mut draw = || {
-            Configuration::from_fn(|k, _| {
-                let (lower, upper) = topology.ranges[k].domain();
-                dice.within(lower, upper)
-            })
-        };
-        let tries: Vec<Configuration> = (0..20).map(|_| draw()).collect();
+        let tries: Vec<Configuration> = (0..20).map(|_| scenes::anywhere(dice, still.arm())).collect();
         let free = tries.iter().find(|q| still.obstructions(**q).is_empty());
         *free.filter(|_| dice.chance(0.9)).unwrap_or(&tries[0])
     };

@@ -11,8 +11,9 @@ use cplan::model::{MotionProblem, Mount, Scene, Sensor};
 use cplan::space::{Configuration, Path, Topology};
 use cplan::{Point, engine};
 use cplan_cases::seeds;
+use cplan_testkit::flood::Cells;
 use cplan_testkit::oracle::Oracle;
-use cplan_testkit::solid::Solid;
+use cplan_testkit::solid::{Solid, V};
 use cplan_testkit::world::{KINDS, world};
 use std::f64::consts::TAU;
 
@@ -104,52 +105,25 @@ fn shown_by_ray(map: &OccupancyMap, from: Point, angle: f64, range: f64) -> Opti
     None
 }
 
-fn center(topology: &Topology, at: [usize; 2]) -> Configuration {
-    Configuration::from_fn(|k, _| {
-        let (lower, upper) = topology.ranges[k].domain();
-        lower + (upper - lower) * (at[k] as f64 + 0.5) / GRID[k] as f64
-    })
-}
-
-/// Returns the cells of the grid that can be reached from the end of the exploration, by brute force in the known part
-/// of the world.
-fn reachable(oracle: &Oracle, topology: &Topology, from: Configuration) -> Vec<[usize; 2]> {
-    let mut cells: Vec<[usize; 2]> = (0..GRID[0]).flat_map(|i| (0..GRID[1]).map(move |j| [i, j])).collect();
-    let is_free: Vec<bool> = cells.iter().map(|&at| oracle.room(center(topology, at)) > ROUNDING).collect();
+/// Returns the middles of the grid's cells that can be reached from the end of the exploration, by brute force in the
+/// known part of the world.
+fn reachable(oracle: &Oracle, topology: &Topology, from: Configuration) -> Vec<Configuration> {
+    let cells = Cells { count: GRID, circles: topology.ranges.map(|axis| axis.is_circle()) };
+    let domain: [V; 2] = topology.ranges.map(|axis| axis.domain().into());
+    let middles: Vec<Configuration> = (0..GRID[0] * GRID[1]).map(|cell| cells.middle(domain, cell).into()).collect();
+    let is_free: Vec<bool> = middles.iter().map(|at| oracle.room(*at) > ROUNDING).collect();
     let goes = |from: Configuration, to: Configuration| {
         let way = topology.displacement(from, to);
         oracle.violation(&Path::new(vec![from, from + way]), 0.0, 1e-2).is_none()
     };
-    let mut seen = vec![false; cells.len()];
-    let mut open: Vec<usize> = (0..cells.len())
-        .filter(|&cell| {
-            let way = topology.displacement(from, center(topology, cells[cell]));
-            let step = [0, 1].map(|k| topology.ranges[k].extent() / GRID[k] as f64);
-            is_free[cell] && (0..2).all(|k| way[k].abs() <= 1.01 * step[k]) && goes(from, center(topology, cells[cell]))
-        })
-        .collect();
-    open.iter().for_each(|&cell| seen[cell] = true);
-    while let Some(cell) = open.pop() {
-        for [di, dj] in [[-1, 0], [1, 0], [0, -1], [0, 1]] {
-            let mut next = [0; 2];
-            let inside = [di, dj].into_iter().enumerate().all(|(k, d)| {
-                let (at, n) = (cells[cell][k] as i64 + d, GRID[k] as i64);
-                next[k] = at.rem_euclid(n) as usize;
-                topology.ranges[k].is_circle() || (0..n).contains(&at)
-            });
-            let index = next[0] * GRID[1] + next[1];
-            if inside && is_free[index] && !seen[index] && goes(center(topology, cells[cell]), center(topology, next)) {
-                seen[index] = true;
-                open.push(index);
-            }
-        }
-    }
-    let mut number = 0;
-    cells.retain(|_| {
-        number += 1;
-        seen[number - 1]
-    });
-    cells
+    let is_near = |cell: &usize| {
+        let way = topology.displacement(from, middles[*cell]);
+        let step = [0, 1].map(|k| topology.ranges[k].extent() / GRID[k] as f64);
+        is_free[*cell] && (0..2).all(|k| way[k].abs() <= 1.01 * step[k]) && goes(from, middles[*cell])
+    };
+    let near = (0..middles.len()).filter(is_near);
+    let seen = cells.flood(near, |cell, next| is_free[next] && goes(middles[cell], middles[next]));
+    middles.into_iter().zip(seen).filter_map(|(middle, seen)| seen.then_some(middle)).collect()
 }
 
 /// Checks all claims of an exploration. Returns in a word how it ended.
@@ -180,8 +154,7 @@ fn is_true(problem: &MotionProblem, sensor: &Sensor, done: &Exploration) -> &'st
                 assert!(again.legs.len() < 2 && again.survey.map() == map, "{} legs more", again.legs.len());
             }
             let known = done.survey.scene(arm, clearance, false);
-            for cell in reachable(&Oracle::new(&known), &topology, at) {
-                let q = center(&topology, cell);
+            for q in reachable(&Oracle::new(&known), &topology, at) {
                 let (from, ahead) = sensor.pose(arm, q.into());
                 let new = sensor.rays(ahead).find_map(|angle| shown_by_ray(map, from, angle, sensor.range));
                 // If distances have errors, a reading may have shown nothing there.

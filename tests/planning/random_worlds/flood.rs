@@ -5,6 +5,7 @@
 //! or blocked, so are its parts. So the result is that of the finest lattice, at the cost of the undecided cells.
 
 use cplan::space::Configuration;
+use cplan_testkit::flood::Cells;
 use cplan_testkit::oracle::{Meeting, Oracle};
 use cplan_testkit::solid::V;
 use std::f64::consts::TAU;
@@ -125,14 +126,12 @@ impl<'a> Lattice<'a> {
         }
     }
 
+    fn cells(&self) -> Cells {
+        Cells { count: [self.n; 2], circles: self.oracle.axes.map(|axis| axis.2) }
+    }
+
     fn cell(&self, q: Configuration) -> usize {
-        let [i, j] = [0, 1].map(|k| {
-            let (lower, upper, circle) = self.oracle.axes[k];
-            let t = (q[k] - lower) / (upper - lower);
-            let t = if circle { t.rem_euclid(1.0) } else { t };
-            ((t * self.n as f64) as usize).min(self.n - 1)
-        });
-        i * self.n + j
+        self.cells().locate(self.oracle.axes.map(|(lower, upper, _)| [lower, upper]), q.into())
     }
 
     /// Returns free cells to which a straight motion leads from `q`: the cell that contains `q`, or cells around it if
@@ -171,32 +170,7 @@ impl<'a> Lattice<'a> {
     }
 
     fn flood(&self, from: &[usize], passes: impl Fn(u8) -> bool) -> Vec<bool> {
-        let n = self.n;
-        let mut seen = vec![false; n * n];
-        let mut stack: Vec<usize> = from.iter().copied().filter(|&cell| passes(self.labels[cell])).collect();
-        stack.iter().for_each(|&cell| seen[cell] = true);
-        let circle = self.oracle.axes.map(|axis| axis.2);
-        while let Some(at) = stack.pop() {
-            let (i, j) = (at / n, at % n);
-            let mut visit = |next: usize| {
-                if !seen[next] && passes(self.labels[next]) {
-                    seen[next] = true;
-                    stack.push(next);
-                }
-            };
-            if i > 0 || circle[0] {
-                visit((i + n - 1) % n * n + j);
-            }
-            if i + 1 < n || circle[0] {
-                visit((i + 1) % n * n + j);
-            }
-            if j > 0 || circle[1] {
-                visit(i * n + (j + n - 1) % n);
-            }
-            if j + 1 < n || circle[1] {
-                visit(i * n + (j + 1) % n);
-            }
-        }
-        seen
+        let from = from.iter().copied().filter(|&cell| passes(self.labels[cell]));
+        self.cells().flood(from, |_, next| passes(self.labels[next]))
     }
 }

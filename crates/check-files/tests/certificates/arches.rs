@@ -1,6 +1,7 @@
 //! Certificates of tasks in which the tool is lowered and raised while the arm moves.
 
-use crate::common::gantry::{GANTRY, KNOTS, assert_fails, assert_holds, assert_refused, judge_steps};
+use crate::common::gantry::{GANTRY, KNOTS, judge_steps};
+use crate::common::verdict::{Verdict, fails, holds, refused};
 #[allow(dead_code, reason = "other tests use more of it")]
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
@@ -49,7 +50,7 @@ fn raising(begin: f64) -> String {
 }
 
 /// Checks a certificate for a world. `more` are further members of each step. Returns the exit code and the message.
-fn judge_in(urdf: &str, world: &str, more: &[&str]) -> (i32, String) {
+fn judge_in(urdf: &str, world: &str, more: &[&str]) -> Verdict {
     let step = |k: usize| format!("{{\"step\": {}, \"knots\": [{}, {}]{}}}", k + 1, 2 * k, 2 * k + 1, more[k]);
     let steps: Vec<String> = (0..more.len()).map(step).collect();
     let knots = if more.len() == 2 { KNOTS.split(", [5").next().unwrap() } else { KNOTS };
@@ -57,7 +58,7 @@ fn judge_in(urdf: &str, world: &str, more: &[&str]) -> (i32, String) {
 }
 
 /// Checks a certificate for the low block among obstacles.
-fn judge(content: &str, more: [&str; 3]) -> (i32, String) {
+fn judge(content: &str, more: [&str; 3]) -> Verdict {
     judge_in(GANTRY, &world("", &format!("{}{content}", block(0.05))), &more)
 }
 
@@ -77,7 +78,7 @@ fn strokes_may_overlap_with_motions() {
     let place = format!("{}{}", lowering(2.9), raising(3.7));
     let both = format!("{down}{up}");
     for more in [[&*both, &*place, ""], [&*both, "", ""], [&*down, &*place, ""], ["", &*lowering(2.9), ""]] {
-        assert_holds(judge("", more));
+        holds(judge("", more));
     }
 }
 
@@ -88,13 +89,13 @@ fn the_payload_has_the_heights_of_each_moment() {
     let (behind, before) = (fence([2.6, 2.65], [0.1, 0.2]), fence([1.35, 1.4], [0.1, 0.2]));
     let down = 2.925 - DURATION * share_of_duration(1.0 / 3.0);
     let up = 2.075 - DURATION * share_of_duration(2.0 / 3.0);
-    assert_holds(judge(&behind, ["", &lowering(down + 1e-6), ""]));
-    assert_fails(judge(&behind, ["", &lowering(down - 1e-6), ""]), "during a stroke, ");
-    assert_holds(judge(&before, [&raising(up - 1e-6), "", ""]));
-    assert_fails(judge(&before, [&raising(up + 1e-6), "", ""]), "during a stroke, ");
+    holds(judge(&behind, ["", &lowering(down + 1e-6), ""]));
+    fails(judge(&behind, ["", &lowering(down - 1e-6), ""]), "during a stroke, ");
+    holds(judge(&before, [&raising(up - 1e-6), "", ""]));
+    fails(judge(&before, [&raising(up + 1e-6), "", ""]), "during a stroke, ");
     // A fence below all heights of these moments does not matter.
-    assert_holds(judge(&fence([2.6, 2.65], [0.0, 0.05]), ["", &lowering(2.7), ""]));
-    assert_fails(judge(&fence([2.6, 2.65], [0.0, 0.05]), ["", &lowering(2.6), ""]), "the payload");
+    holds(judge(&fence([2.6, 2.65], [0.0, 0.05]), ["", &lowering(2.7), ""]));
+    fails(judge(&fence([2.6, 2.65], [0.0, 0.05]), ["", &lowering(2.6), ""]), "the payload");
 }
 
 /// Tests obstacles whose borders the block does not touch when it descends.
@@ -105,15 +106,15 @@ fn the_payload_does_not_descend_around_an_obstacle() {
         let block = block(0.05).replace("0.2, ", "0.9, ").replace("-0.1]", "-0.5]").replace("0.1]", "0.5]");
         judge_in(GANTRY, &world("", &format!("{block}{post}")), &["", &lowering(begin), ""])
     };
-    assert_holds(wide(2.05, 2.95));
-    assert_fails(wide(2.05, 2.7), "during a stroke, ");
-    assert_fails(wide(2.5, 2.7), "during a stroke, obstacle 0 is inside the payload");
+    holds(wide(2.05, 2.95));
+    fails(wide(2.05, 2.7), "during a stroke, ");
+    fails(wide(2.5, 2.7), "during a stroke, obstacle 0 is inside the payload");
     let above_plate = |low: f64, high: f64| {
         let plate = format!("[[obstacle]]\nheight = [{low}, {high}]\npolygon = [[2, -3], [6, -3], [6, 5], [2, 5]]\n");
         judge(&plate, ["", &lowering(2.7), ""])
     };
-    assert_holds(above_plate(-0.2, -0.1));
-    assert_fails(above_plate(0.1, 0.2), "during a stroke, the payload is inside obstacle 0");
+    holds(above_plate(-0.2, -0.1));
+    fails(above_plate(0.1, 0.2), "during a stroke, the payload is inside obstacle 0");
 }
 
 #[test]
@@ -121,24 +122,24 @@ fn the_tool_has_the_heights_of_each_moment() {
     // The ball is past the fence at 0.79 s. Its lower end is at 0.49, and 0.09 lower at the top of the fence.
     let fence = fence([0.72, 0.78], [0.3, 0.4]);
     let down = 0.79 - DURATION * share_of_duration(0.09 / DEPTH);
-    assert_holds(judge(&fence, [&lowering(down + 1e-6), "", ""]));
-    assert_fails(judge(&fence, [&lowering(down - 1e-6), "", ""]), "link \"quill\", collision 0");
+    holds(judge(&fence, [&lowering(down + 1e-6), "", ""]));
+    fails(judge(&fence, [&lowering(down - 1e-6), "", ""]), "link \"quill\", collision 0");
     // Upwards is the direction of greater values if the axis says so.
     let upward = GANTRY.replace("0 0 -1", "0 0 1").replace("lower=\"0\" upper=\"1\"", "lower=\"-1\" upper=\"0\"");
     let with = |begin: f64, lowered: f64| {
         let down = format!(", \"lowering\": {}", stroke(begin, [0.0, lowered]));
         judge_in(&upward, &world("", &format!("{}{fence}", block(0.05))), &[&down, "", ""])
     };
-    assert_holds(with(down + 1e-6, -DEPTH));
-    assert_fails(with(down - 1e-6, -DEPTH), "link \"quill\", collision 0");
-    assert_fails(with(down + 1e-6, DEPTH), "the raised to the lowered height");
+    holds(with(down + 1e-6, -DEPTH));
+    fails(with(down - 1e-6, -DEPTH), "link \"quill\", collision 0");
+    fails(with(down + 1e-6, DEPTH), "the raised to the lowered height");
 }
 
 #[test]
 fn strokes_are_smooth_and_lead_from_end_to_end() {
     let with = |knots: &str| judge("", ["", &format!(", \"lowering\": {knots}"), ""]);
-    assert_holds(with("[[2.9, 0, 0], [3.1, 0.15, 1.2], [3.3, 0.3, 0]]"));
-    assert_holds(with("[[2.9, 1e-10, 0], [3.3, 0.2999999999, 0]]"));
+    holds(with("[[2.9, 0, 0], [3.1, 0.15, 1.2], [3.3, 0.3, 0]]"));
+    holds(with("[[2.9, 1e-10, 0], [3.3, 0.2999999999, 0]]"));
     for (knots, part) in [
         ("[[2.9, 0, 0], [3.3, 0.299, 0]]", "the raised to the lowered height"),
         ("[[2.9, 0, 0], [3.3, 0.300000002, 0]]", "the raised to the lowered height"),
@@ -156,10 +157,10 @@ fn strokes_are_smooth_and_lead_from_end_to_end() {
         ("[[2.9, 0, 0]]", "fewer than two knots"),
         ("[]", "fewer than two knots"),
     ] {
-        assert_fails(with(knots), part);
+        fails(with(knots), part);
     }
     for knots in ["[[2.9, 0], [3.3, 0.3]]", "3", "[[2.9, 0, 0, 0], [3.3, 0.3, 0, 0]]"] {
-        assert_refused(with(knots), "this is not a certificate");
+        refused(with(knots), "this is not a certificate");
     }
 }
 
@@ -170,16 +171,16 @@ fn the_tool_is_raised_between_strokes() {
     };
     let with = |up: f64, down: f64| judge("", [&raising(up), &slow("lowering", down, [0.0, DEPTH], 3.1), ""]);
     let part = "not raised completely during its motion";
-    assert_holds(with(2.0, 2.4));
+    holds(with(2.0, 2.4));
     // So much earlier the tool is less than a nanometre below its raised position.
-    assert_holds(with(2.0, 2.399999));
-    assert_fails(with(2.0, 2.3999), part);
-    assert_fails(with(1.9, 2.2), part);
+    holds(with(2.0, 2.399999));
+    fails(with(2.0, 2.3999), part);
+    fails(with(1.9, 2.2), part);
     // The whole stroke is within the motion between the steps.
-    assert_holds(judge("", [&slow("raising", 1.9, [DEPTH, 0.0], 3.0), "", ""]));
-    assert_fails(judge("", [&slow("raising", 1.9, [DEPTH, 0.0], 3.1), "", ""]), part);
-    assert_holds(judge("", ["", &slow("lowering", 2.0, [0.0, DEPTH], 3.1), ""]));
-    assert_fails(judge("", ["", &slow("lowering", 1.9, [0.0, DEPTH], 3.1), ""]), part);
+    holds(judge("", [&slow("raising", 1.9, [DEPTH, 0.0], 3.0), "", ""]));
+    fails(judge("", [&slow("raising", 1.9, [DEPTH, 0.0], 3.1), "", ""]), part);
+    holds(judge("", ["", &slow("lowering", 2.0, [0.0, DEPTH], 3.1), ""]));
+    fails(judge("", ["", &slow("lowering", 1.9, [0.0, DEPTH], 3.1), ""]), part);
 }
 
 #[test]
@@ -190,22 +191,22 @@ fn the_arm_rests_while_the_tool_is_lowered() {
         judge_in(GANTRY, &world, &[&pick, "", ""])
     };
     let both = |down: f64, up: f64| format!("{}{}", lowering(down), raising(up));
-    assert_holds(with("0.5", both(0.9, 1.8)));
-    assert_holds(with("0.5", both(0.9, 1.7999995)));
-    assert_fails(with("0.5", both(0.9, 1.79999)), "the tool is not lowered for 0.5 s");
-    assert_fails(with("0", both(0.9, 1.2)), "the tool is not lowered for 0 s");
-    assert_fails(with("0", raising(0.9)), "the tool is not lowered for 0 s");
-    assert_holds(with("0.7", lowering(0.9)));
-    assert_fails(with("0.71", lowering(0.9)), "the tool is not lowered for 0.71 s");
-    assert_fails(with("0", lowering(0.5)), "its lowering does not end");
-    assert_fails(with("0", raising(2.1)), "its raising does not begin");
+    holds(with("0.5", both(0.9, 1.8)));
+    holds(with("0.5", both(0.9, 1.7999995)));
+    fails(with("0.5", both(0.9, 1.79999)), "the tool is not lowered for 0.5 s");
+    fails(with("0", both(0.9, 1.2)), "the tool is not lowered for 0 s");
+    fails(with("0", raising(0.9)), "the tool is not lowered for 0 s");
+    holds(with("0.7", lowering(0.9)));
+    fails(with("0.71", lowering(0.9)), "the tool is not lowered for 0.71 s");
+    fails(with("0", lowering(0.5)), "its lowering does not end");
+    fails(with("0", raising(2.1)), "its raising does not begin");
     // A double may be off by its last digit.
-    assert_holds(with("0", lowering(0.5999999999)));
-    assert_fails(with("0", lowering(0.59999)), "its lowering does not end");
-    assert_holds(with("0", raising(2.0000000001)));
-    assert_fails(with("0", raising(2.00001)), "its raising does not begin");
+    holds(with("0", lowering(0.5999999999)));
+    fails(with("0", lowering(0.59999)), "its lowering does not end");
+    holds(with("0", raising(2.0000000001)));
+    fails(with("0", raising(2.00001)), "its raising does not begin");
     let late = ", \"lowering\": [[0.9, 0, 0], [2.1, 0.3, 0]]";
-    assert_fails(with("0", late.to_owned()), "the tool is not lowered for 0 s");
+    fails(with("0", late.to_owned()), "the tool is not lowered for 0 s");
 }
 
 #[test]
@@ -213,50 +214,50 @@ fn the_least_heights_of_the_world_are_kept() {
     let with = |arch: &str, more: [&str; 3]| judge_in(GANTRY, &world(arch, &block(0.05)), &more);
     let strokes = ["", &*format!("{}{}", lowering(2.9), raising(3.8)), ""];
     for arch in ["", "arch = true", "arch = {}", "arch = { rise = 0.1, fall = 0.2 }", "arch.rise = 0"] {
-        assert_holds(with(arch, strokes));
+        holds(with(arch, strokes));
     }
-    assert_holds(with("arch = false", [""; 3]));
-    assert_fails(with("arch = false", strokes), "the arm must rest during strokes");
+    holds(with("arch = false", [""; 3]));
+    fails(with("arch = false", strokes), "the arm must rest during strokes");
     // A quarter of its duration after its beginning, the tool is 0.046875 m lower. After half of it, it has risen by half.
-    assert_holds(with("arch = { fall = 0.253125, rise = 0.15 }", strokes));
-    assert_holds(with("arch = { fall = 0.2531250005, rise = 0.1500000005 }", strokes));
-    assert_fails(with("arch = { fall = 0.25312501 }", strokes), "arrives with the tool lower than 0.25312501 m");
-    assert_fails(with("arch = { rise = 0.15000001 }", strokes), "departs before the tool has risen by 0.15000001 m");
-    assert_refused(with("arch = 3", strokes), "expected a table");
-    assert_refused(with("arch = { rise = -0.1 }", strokes), "negative");
-    assert_refused(with("arch = { fall = -1e-9 }", [""; 3]), "negative");
-    assert_refused(with("arch = { height = 0.1 }", strokes), "does not know [robot] arch, height");
+    holds(with("arch = { fall = 0.253125, rise = 0.15 }", strokes));
+    holds(with("arch = { fall = 0.2531250005, rise = 0.1500000005 }", strokes));
+    fails(with("arch = { fall = 0.25312501 }", strokes), "arrives with the tool lower than 0.25312501 m");
+    fails(with("arch = { rise = 0.15000001 }", strokes), "departs before the tool has risen by 0.15000001 m");
+    refused(with("arch = 3", strokes), "expected a table");
+    refused(with("arch = { rise = -0.1 }", strokes), "negative");
+    refused(with("arch = { fall = -1e-9 }", [""; 3]), "negative");
+    refused(with("arch = { height = 0.1 }", strokes), "does not know [robot] arch, height");
     // Without a stroke there are no heights. A switch says whether the wrist turns during motions.
     let without = |arch: &str| {
         let world = world(arch, &block(0.05)).replace("stroke = { joint = \"z\" }\n", "");
         [judge_in(GANTRY, &world, &[""; 3]), judge_in(GANTRY, &world.replace("wrist =", "# "), &[""; 3])]
     };
-    assert_holds(without("arch = true")[0].clone());
-    assert_refused(without("arch = true")[1].clone(), "needs a joint that lowers the tool");
-    assert_refused(without("arch = { rise = 0.1 }")[0].clone(), "needs a joint that lowers the tool");
+    holds(without("arch = true")[0].clone());
+    refused(without("arch = true")[1].clone(), "needs a joint that lowers the tool");
+    refused(without("arch = { rise = 0.1 }")[0].clone(), "needs a joint that lowers the tool");
 }
 
 #[test]
 fn strokes_belong_to_picks_and_places() {
     let plain = world("", &block(0.05));
     let (down, up) = (lowering(2.9), raising(3.7));
-    assert_fails(judge("", ["", "", &*lowering(4.9)]), "neither picks nor places");
-    assert_fails(judge("", ["", "", &*raising(4.9)]), "neither picks nor places");
+    fails(judge("", ["", "", &*lowering(4.9)]), "neither picks nor places");
+    fails(judge("", ["", "", &*raising(4.9)]), "neither picks nor places");
     let without = plain.replace("stroke = { joint = \"z\" }\n", "");
-    assert_fails(judge_in(GANTRY, &without, &["", &down, ""]), "no joint that lowers the tool");
+    fails(judge_in(GANTRY, &without, &["", &down, ""]), "no joint that lowers the tool");
     let two_steps = plain.split("[[step]]\nmove").next().unwrap();
-    assert_holds(judge_in(GANTRY, two_steps, &["", &down]));
-    assert_fails(judge_in(GANTRY, two_steps, &["", &up]), "but the task ends");
+    holds(judge_in(GANTRY, two_steps, &["", &down]));
+    fails(judge_in(GANTRY, two_steps, &["", &up]), "but the task ends");
     // The wrist turns the block before it is lowered, and after it is raised.
     let turned = plain.replace("at = [3, 1] }", "at = [3, 1], angle = 1 }");
     let turn = ", \"turn\": 1";
     let part = "the wrist turns in between";
     let place = |more: &str| judge_in(GANTRY, &turned, &["", &format!("{turn}{more}"), ""]);
-    assert_holds(place(&up));
-    assert_fails(place(&down), part);
+    holds(place(&up));
+    fails(place(&down), part);
     let pick = |more: &str| judge_in(GANTRY, &turned, &[&format!("{turn}{more}"), "", ""]);
-    assert_holds(pick(&lowering(0.9)));
-    assert_fails(pick(&raising(1.7)), part);
+    holds(pick(&lowering(0.9)));
+    fails(pick(&raising(1.7)), part);
 }
 
 /// Tests the ball above a tall block, which it meets only while it is lowered.
@@ -265,16 +266,16 @@ fn the_lowered_tool_touches_objects_only_at_rest() {
     let tall = world("", &block(0.25));
     let with = |urdf: &str, more: [&str; 3]| judge_in(urdf, &tall, &more);
     let early = ", \"lowering\": [[0.6, 0, 0], [1, 0.3, 0]]";
-    assert_holds(with(GANTRY, [&lowering(0.9), "", ""]));
-    assert_fails(with(GANTRY, [early, "", ""]), "during a stroke, link \"quill\", collision 0");
+    holds(with(GANTRY, [&lowering(0.9), "", ""]));
+    fails(with(GANTRY, [early, "", ""]), "during a stroke, link \"quill\", collision 0");
     // At departure, the ball has risen by 0.047 m or by 0.253 m. It is above the block after 0.06 m.
-    assert_holds(with(GANTRY, ["", &raising(3.7), ""]));
+    holds(with(GANTRY, ["", &raising(3.7), ""]));
     let up = 4.0 - DURATION * share_of_duration(0.06 / DEPTH);
-    assert_holds(with(GANTRY, ["", &raising(up - 1e-6), ""]));
-    assert_fails(with(GANTRY, ["", &raising(up + 1e-6), ""]), "link \"quill\", collision 0");
+    holds(with(GANTRY, ["", &raising(up - 1e-6), ""]));
+    fails(with(GANTRY, ["", &raising(up + 1e-6), ""]), "link \"quill\", collision 0");
     // A head at the height of the block touches it while the tool is raised.
     let low_head = GANTRY.replace("0 0 1\"/> <geometry> <box", "0 0 0.1\"/> <geometry> <box");
-    assert_holds(with(&low_head, [early, &raising(3.9), ""]));
+    holds(with(&low_head, [early, &raising(3.9), ""]));
 }
 
 /// Tests a block that is renewed while the tool still rises from its old place.
@@ -294,11 +295,11 @@ fn renewed_objects_count_at_both_places_while_the_tool_rises() {
         let world = world.split("[[step]]\nmove").next().unwrap().replace("[3, 1]", &format!("[{at}, 1]"));
         judge_steps(GANTRY, &world, &knots.replace("3, 1]", &format!("{at}, 1]")), &steps(up))
     };
-    assert_holds(with(3.0, 3.7));
-    assert_fails(with(3.0, 3.9), "link \"quill\", collision 0");
+    holds(with(3.0, 3.7));
+    fails(with(3.0, 3.9), "link \"quill\", collision 0");
     // The new block overlaps the old one, so the tool is above both.
-    assert_holds(with(1.1, 3.7));
-    assert_fails(with(1.1, 3.9), "link \"quill\", collision 0");
+    holds(with(1.1, 3.7));
+    fails(with(1.1, 3.9), "link \"quill\", collision 0");
 }
 
 /// Tests a tool that is lowered less than the block. It is not known where the block is meanwhile, so it counts at all
@@ -312,18 +313,18 @@ fn objects_that_do_not_follow_the_tool_have_all_heights() {
         let down = format!(", \"lowering\": [[{begin}, 0, 0], [{}, {travel}, 0]]", begin + DURATION);
         judge_in(GANTRY, &world, &["", &down, ""])
     };
-    assert_holds(with(0.3, 2.9));
-    assert_holds(with(0.30, 2.9));
-    assert_fails(with(0.2, 2.924), "the payload");
-    assert_holds(with(0.2, 2.926));
-    assert_fails(with(0.1, 2.924), "the payload");
+    holds(with(0.3, 2.9));
+    holds(with(0.30, 2.9));
+    fails(with(0.2, 2.924), "the payload");
+    holds(with(0.2, 2.926));
+    fails(with(0.1, 2.924), "the payload");
 }
 
 #[test]
 fn moving_obstacles_allow_no_arches() {
     let mover =
         "[[obstacle]]\ncircle = { center = [0, 0], radius = 0.1 }\nat = [50, 50]\nmotion = { velocity = [1, 0] }\n";
-    assert_fails(judge(mover, ["", &lowering(2.9), ""]), "among moving obstacles");
+    fails(judge(mover, ["", &lowering(2.9), ""]), "among moving obstacles");
 }
 
 /// Gap between two intervals; negative if they overlap.
@@ -359,7 +360,7 @@ impl Arches {
         Self { lowerings, raising, fences }
     }
 
-    fn judge(&self) -> (i32, String) {
+    fn judge(&self) -> Verdict {
         let fences: String = self.fences.iter().map(|[along, heights]| fence(*along, *heights)).collect();
         let stroke = |name: &str, [begin, duration]: [f64; 2], [from, to]: [f64; 2]| {
             format!(", \"{name}\": [[{begin}, {from}, 0], [{}, {to}, 0]]", begin + duration)

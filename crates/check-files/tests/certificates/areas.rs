@@ -1,26 +1,11 @@
 //! Goals that are areas for the tip.
 
-use crate::common::two_bars::{LIMIT, TWO_BARS};
-use cplan_check_files::{CheckError, check};
+use crate::common::robots::{LIMIT, bars, two_bars};
+use crate::common::verdict::{found, judge};
 
-/// Makes an arm of two bars that slide along x and y. The tip is at `(1.8 + a, b)`.
+/// Returns an arm of two bars that slide along x and y. The tip is at `(1.8 + a, b)`.
 fn sliding() -> String {
-    let [first, second] = [("a", "1 0 0"), ("b", "0 1 0")];
-    let slides = |urdf: &str, (joint, axis): (&str, &str)| {
-        let from = urdf.find(&format!("name=\"{joint}\" type")).expect("a joint");
-        let (before, after) = urdf.split_at(from);
-        before.to_owned() + &after.replacen("revolute", "prismatic", 1).replacen("0 0 1", axis, 1)
-    };
-    slides(&slides(TWO_BARS, first), second)
-}
-
-/// Checks a certificate, and returns the exit code and the message.
-fn judge(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
-    match check(urdf, world, certificate) {
-        Ok(report) => (0, report),
-        Err(CheckError::Fails(why)) => (3, why),
-        Err(CheckError::Input { message, .. }) => (1, message),
-    }
+    bars("prismatic", "prismatic")
 }
 
 fn world(areas: &str) -> String {
@@ -28,9 +13,7 @@ fn world(areas: &str) -> String {
 }
 
 fn motion(last: &str) -> String {
-    format!(
-        r#"{{"format": "cplan certificate 1", "answer": "found", "motion": {{"interpolation": ["linear"], "knots": [[0, -1, 0], [1, {last}]]}}}}"#
-    )
+    found("", r#""linear""#, &format!("[0, -1, 0], [1, {last}]"))
 }
 
 #[test]
@@ -62,7 +45,7 @@ fn for_an_arm_that_turns_an_area_is_its_middle() {
     let angle = 1f64.min(LIMIT);
     let (x, y) = (1.8 * angle.cos(), 1.8 * angle.sin());
     let about = |dx: f64| format!("[[{}, {}], [{}, {}]]", x - 0.1 + dx, y - 0.1, x + 0.1 + dx, y + 0.1);
-    let ends = |areas: &str| judge(TWO_BARS, &world(areas), &motion("1, 0")).0;
+    let ends = |areas: &str| judge(&two_bars(), &world(areas), &motion("1, 0")).0;
     assert_eq!((ends(&about(0.0)), ends(&about(0.05))), (0, 3));
 }
 

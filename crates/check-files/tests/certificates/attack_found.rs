@@ -2,7 +2,9 @@
 //! that shares no code with the checker decides this: it samples the motion by its own power series, and measures
 //! distances of sides and corners.
 
-use crate::common::two_bars::{LIMIT, TWO_BARS};
+use crate::common::plane::{P, bar_at, distance_to_segment, segment_distance};
+use crate::common::robots::{LIMIT, two_bars};
+use crate::common::verdict::found;
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
@@ -15,8 +17,6 @@ const SAMPLES: u32 = 200;
 
 /// Number of samples per piece in tests where the motion between samples matters.
 const FINE: u32 = 4_000;
-
-type P = [f64; 2];
 
 /// A time, followed by values, velocities and accelerations.
 type Knot = [f64; 7];
@@ -102,13 +102,8 @@ impl Claim {
         );
         let columns = [3, 5, 7, 7][self.way];
         let knots: Vec<String> = self.knots.iter().map(|knot| format!("{:?}", &knot[..columns])).collect();
-        let certificate = format!(
-            r#"{{"format": "cplan certificate 1", "answer": "found",
-            "motion": {{"interpolation": ["{}"], "knots": [{}]}}}}"#,
-            WAYS[self.way],
-            knots.join(",")
-        );
-        check(TWO_BARS, &world, &certificate)
+        let certificate = found("", &format!("{:?}", WAYS[self.way]), &knots.join(","));
+        check(&two_bars(), &world, &certificate)
     }
 
     /// Samples the motion.
@@ -162,7 +157,7 @@ impl Claim {
         let mut least = f64::INFINITY;
         for q in self.samples(count) {
             for shape in 0..2 {
-                let bar = bar(q, shape);
+                let bar = bar_at(q, shape);
                 let edges = round(&bar);
                 for edge in &edges {
                     for side in &sides {
@@ -191,38 +186,6 @@ impl Claim {
             && self.keeps_limits(-1e-9)
             && self.distance(SAMPLES) > self.clearance - 1e-9
     }
-}
-
-/// Returns a bar's corners in a configuration, in order.
-fn bar(q: P, shape: usize) -> [P; 4] {
-    let length = [1.0, 0.8][shape];
-    let turned = |[x, y]: P, angle: f64| {
-        let (s, c) = angle.sin_cos();
-        [c * x - s * y, s * x + c * y]
-    };
-    [[0.0, -0.05], [length, -0.05], [length, 0.05], [0.0, 0.05]].map(|corner| {
-        let [x, y] = if shape == 0 { corner } else { turned(corner, q[1]) };
-        turned([x + shape as f64, y], q[0])
-    })
-}
-
-/// Returns the distance of a point from a segment.
-fn distance_to_segment(p: P, [a, b]: [P; 2]) -> f64 {
-    let (u, v) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-    let share = ((u[0] * v[0] + u[1] * v[1]) / (u[0] * u[0] + u[1] * u[1])).clamp(0.0, 1.0);
-    (v[0] - share * u[0]).hypot(v[1] - share * u[1])
-}
-
-/// Returns the distance of two segments; 0 if they cross.
-fn segment_distance(s: [P; 2], t: [P; 2]) -> f64 {
-    let side = |[a, b]: [P; 2], p: P| (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
-    if side(s, t[0]) * side(s, t[1]) < 0.0 && side(t, s[0]) * side(t, s[1]) < 0.0 {
-        return 0.0;
-    }
-    distance_to_segment(s[0], t)
-        .min(distance_to_segment(s[1], t))
-        .min(distance_to_segment(t[0], s))
-        .min(distance_to_segment(t[1], s))
 }
 
 /// Returns true if a ring, which may cross itself, surrounds a point an odd number of times. It counts the sides that a

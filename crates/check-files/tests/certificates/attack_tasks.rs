@@ -3,13 +3,13 @@
 //! be right up to a small margin. A certificate that is right by more than the margin must hold. There are honest
 //! certificates, falsified ones, and arbitrary ones.
 
-use crate::common::two_bars::{LIMIT, TWO_BARS};
+use crate::common::plane::{P, bar, links, minus, plus, tip, turned};
+use crate::common::robots::{LIMIT, two_bars};
+use crate::common::verdict::done;
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
 use std::fmt::Write;
-
-type P = [f64; 2];
 
 /// Number of samples of a motion or a turn.
 const SAMPLES: u32 = 300;
@@ -21,19 +21,6 @@ const HAIR: f64 = 2e-3;
 /// the bar.
 const MISSED: f64 = 1e-5;
 const PRESSED: f64 = 1.8016e-4;
-
-fn turned([x, y]: P, angle: f64) -> P {
-    let (s, c) = angle.sin_cos();
-    [x * c - y * s, x * s + y * c]
-}
-
-fn plus(a: P, b: P) -> P {
-    [a[0] + b[0], a[1] + b[1]]
-}
-
-fn minus(a: P, b: P) -> P {
-    [a[0] - b[0], a[1] - b[1]]
-}
 
 /// A position and an orientation.
 #[derive(Clone, Copy, Debug)]
@@ -206,17 +193,8 @@ struct Claim {
     steps: Vec<(usize, Vec<P>, Option<f64>)>,
 }
 
-fn links(q: P) -> [Pose; 2] {
-    let first = Pose { at: [0.0, 0.0], angle: q[0] };
-    [first, first.compose(Pose { at: [1.0, 0.0], angle: q[1] })]
-}
-
-fn tip(q: P) -> P {
-    links(q)[1].of([0.8, 0.0])
-}
-
-fn bar(length: f64) -> Shape {
-    Shape { corners: vec![[0.0, -0.05], [length, -0.05], [length, 0.05], [0.0, 0.05]], radius: 0.0 }
+fn poses(q: P) -> [Pose; 2] {
+    links(q).map(|(at, angle)| Pose { at, angle })
 }
 
 impl Claim {
@@ -400,12 +378,7 @@ impl Claim {
             let turn = turn.map_or(String::new(), |turn| format!(", \"turn\": {turn:?}"));
             steps.push(format!("{{\"step\": {number}, \"knots\": [{first}, {last}]{turn}}}"));
         }
-        format!(
-            "{{\"format\": \"cplan certificate 1\", \"answer\": \"found\", \"steps\": [{}], \
-             \"motion\": {{\"interpolation\": [\"linear\"], \"knots\": [{}]}}}}",
-            steps.join(", "),
-            knots.join(", ")
-        )
+        done(&knots.join(", "), &steps.join(", "))
     }
 
     /// Returns the least distance in excess of the required one, metres. If it is negative, the claim is false. It is
@@ -422,7 +395,7 @@ impl Claim {
         let mut left: Vec<usize> = (1..=self.actions.len()).collect();
         let pose = |object: usize, grip: Pose, q: P| match self.objects[object].is_level {
             true => Pose { at: tip(q), angle: 0.0 }.compose(grip),
-            false => links(q)[1].compose(grip),
+            false => poses(q)[1].compose(grip),
         };
         // Distance of a payload from things that it must not touch.
         let carried = |object: usize, pose: Pose, time: f64, lies: &[Option<ObstacleTrajectory>]| {
@@ -442,8 +415,8 @@ impl Claim {
                      lies: &[Option<ObstacleTrajectory>],
                      allowed: [Option<usize>; 2]| {
             let mut least = f64::INFINITY;
-            for (link, pose) in links(q).into_iter().enumerate() {
-                let own = bar([1.0, 0.8][link]).at(pose);
+            for (link, pose) in poses(q).into_iter().enumerate() {
+                let own = Shape { corners: bar(link).to_vec(), radius: 0.0 }.at(pose);
                 for obstacle in &self.obstacles {
                     least = least.min(distance(&own, obstacle) - self.clearance);
                 }
@@ -497,7 +470,7 @@ impl Claim {
                 if minus(tip(at), lying.at).iter().fold(0.0, |a: f64, b| a.hypot(*b)) > MISSED {
                     return wrong;
                 }
-                let from = if self.objects[*object].is_level { Pose { at: tip(at), angle: 0.0 } } else { links(at)[1] };
+                let from = if self.objects[*object].is_level { Pose { at: tip(at), angle: 0.0 } } else { poses(at)[1] };
                 held = Some((*object, from.relative_to(lying)));
                 released = None;
             }
@@ -571,7 +544,7 @@ fn check_random_claims(in_time: bool) {
         for round in 0..4 {
             let claim = if round == 0 { honest.clone() } else { honest.falsified(&mut dice) };
             let margin = claim.margin();
-            let judged = check(TWO_BARS, &claim.world(), &claim.certificate());
+            let judged = check(&two_bars(), &claim.world(), &claim.certificate());
             assert!(
                 !matches!(judged, Err(CheckError::Input { .. })),
                 "seed {seed}, {round}: {judged:?}\n{}",

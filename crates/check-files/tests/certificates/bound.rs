@@ -1,23 +1,14 @@
 //! Lower bounds written by hand, and falsified ones.
 
-use crate::common::code::code;
+use crate::common::robots::{gantry, two_bars};
+use crate::common::verdict::{code, fails, holds, judge};
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
-use cplan_check_files::check;
-use std::fmt::Write as _;
 
-/// URDF of a square of 1 m that slides over 10 m by 10 m.
-const GANTRY: &str = r#"<robot name="g">
-  <link name="base"/>
-  <joint name="x" type="prismatic">
-    <parent link="base"/> <child link="bridge"/> <axis xyz="1 0 0"/> <limit lower="0" upper="10"/>
-  </joint>
-  <link name="bridge"/>
-  <joint name="y" type="prismatic">
-    <parent link="bridge"/> <child link="tool"/> <axis xyz="0 1 0"/> <limit lower="0" upper="10"/>
-  </joint>
-  <link name="tool"> <collision> <geometry> <box size="1 1 1"/> </geometry> </collision> </link>
-</robot>"#;
+/// Returns the URDF of a square of 1 m that slides over 10 m by 10 m.
+fn square() -> String {
+    gantry([0, 10], r#"box size="1 1 1""#)
+}
 
 /// World with a wall from below the floor up to y = 7. The square passes it where y >= 7.5, for x from 3.5 to 6.5.
 const WORLD: &str = "start.joints = [1, 1]\ngoal.joints = [9, 1]\n\
@@ -27,18 +18,17 @@ const WORLD: &str = "start.joints = [1, 1]\ngoal.joints = [9, 1]\n\
 type Walls = Vec<([f64; 2], [f64; 2], Option<f64>)>;
 
 fn certificate(length: f64, metric: &str, walls: &Walls) -> String {
-    let (mut closed, mut potentials) = (String::new(), String::new());
-    for (wall, (from, to, potential)) in walls.iter().enumerate() {
-        let comma = if wall == 0 { "" } else { ", " };
-        write!(closed, r#"{comma}{{"from": {from:?}, "to": {to:?}, "shape": 0, "part": 0}}"#).unwrap();
-        if let Some(value) = potential {
-            let comma = if potentials.is_empty() { "" } else { ", " };
-            write!(potentials, r#"{comma}{{"wall": {wall}, "end": 1, "value": {value}}}"#).unwrap();
-        }
-    }
+    let wall = |(from, to, _): &([f64; 2], [f64; 2], Option<f64>)| {
+        format!(r#"{{"from": {from:?}, "to": {to:?}, "shape": 0, "part": 0}}"#)
+    };
+    let potential = |(wall, (.., value)): (usize, &([f64; 2], [f64; 2], Option<f64>))| {
+        value.map(|value| format!(r#"{{"wall": {wall}, "end": 1, "value": {value}}}"#))
+    };
+    let closed = walls.iter().map(wall).collect::<Vec<_>>().join(", ");
+    let potentials = walls.iter().enumerate().filter_map(potential).collect::<Vec<_>>().join(", ");
     format!(
         r#"{{"format": "cplan certificate 1", "answer": "no_shorter",
-             "shapes": [{{"link": "tool", "collision": 0}}],
+             "shapes": [{{"link": "head", "collision": 0}}],
              "parts": [{{"obstacle": 0, "corners": [[4, -1], [6, -1], [6, 7], [4, 7]]}}],
              "bound": {{"to": [9, 1], "length": {length}, "metric": {metric}, "walls": [{closed}], "potentials": [{potentials}]}}}}"#
     )
@@ -57,9 +47,9 @@ fn length_and_walls() -> (f64, Walls) {
 #[test]
 fn paths_around_a_wall_are_bounded_by_its_corners() {
     let (length, walls) = length_and_walls();
-    let of = |length: f64, walls: &Walls| code(GANTRY, WORLD, &certificate(length, EUCLIDEAN, walls));
+    let of = |length: f64, walls: &Walls| code(&square(), WORLD, &certificate(length, EUCLIDEAN, walls));
     assert_eq!(
-        check(GANTRY, WORLD, &certificate(16.5, EUCLIDEAN, &walls)).unwrap(),
+        holds(judge(&square(), WORLD, &certificate(16.5, EUCLIDEAN, &walls))),
         "no motion of \"x\" and \"y\" from the start to (9, 1) with clearance 0 is shorter than 16.5"
     );
     assert_eq!(of(length, &walls), 0);
@@ -82,11 +72,11 @@ fn paths_around_a_wall_are_bounded_by_its_corners() {
     for (k, x, y) in [(0, 3.6, 7.51), (0, 3.49, 7.4), (1, 6.51, 7.4)] {
         let mut other = walls.clone();
         (other[k].0[0], other[k].1) = (x, [x, y]);
-        let message = check(GANTRY, WORLD, &certificate(1.0, EUCLIDEAN, &other)).unwrap_err().to_string();
-        assert_eq!(message, format!("wall {k}: the shape does not touch the part along the whole wall"));
+        let why = format!("wall {k}: the shape does not touch the part along the whole wall");
+        fails(judge(&square(), WORLD, &certificate(1.0, EUCLIDEAN, &other)), &why);
     }
     // Only the limit of y blocks the path below the floor.
-    let higher = GANTRY.replacen(r#"lower="0""#, r#"lower="-9""#, 2);
+    let higher = square().replacen(r#"lower="0""#, r#"lower="-9""#, 2);
     assert_eq!(code(&higher, WORLD, &certificate(length, EUCLIDEAN, &walls)), 3);
 }
 
@@ -96,7 +86,7 @@ fn other_metrics_measure_their_own_lengths() {
     // With half the weight for y: 2.6 and 3.2, and so on.
     let rise = 2.6_f64.hypot(3.2);
     (walls[0].2, walls[1].2) = (Some(rise - 1e-9), Some(rise + 2.8 - 2e-9));
-    let of = |length: f64, metric: &str, walls: &Walls| code(GANTRY, WORLD, &certificate(length, metric, walls));
+    let of = |length: f64, metric: &str, walls: &Walls| code(&square(), WORLD, &certificate(length, metric, walls));
     let length = 2.0 * rise + 2.8 - 3e-9;
     let weights = r#"{"weights": [1, 0.5]}"#;
     assert_eq!((of(length, weights, &walls), of(length + 1e-8, weights, &walls)), (0, 3));
@@ -165,7 +155,7 @@ fn bounds_above_the_optimum_are_refused() {
             *potential =
                 potential.map(|value| value * random.within(0.9, 1.05)).filter(|_| random.within(0.0, 1.0) < 0.9);
         }
-        if code(GANTRY, WORLD, &certificate(length, EUCLIDEAN, &walls)) == 0 {
+        if code(&square(), WORLD, &certificate(length, EUCLIDEAN, &walls)) == 0 {
             assert!(length <= optimum, "{length}: {walls:?}");
             (held, longest) = (held + 1, longest.max(length));
         }
@@ -173,20 +163,11 @@ fn bounds_above_the_optimum_are_refused() {
     assert!(held > random::times(10) && longest > 0.9 * optimum, "{held} {longest}");
 }
 
-/// URDF of two bars of 1 m. The second collides.
-const ARM: &str = r#"<robot name="r">
-  <link name="base"/>
-  <joint name="a" type="revolute">
-    <parent link="base"/> <child link="upper"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="upper"/>
-  <joint name="b" type="revolute">
-    <parent link="upper"/> <child link="fore"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="fore"> <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1 0.1 0.1"/> </geometry> </collision> </link>
-  <joint name="c" type="fixed"> <parent link="fore"/> <child link="tip"/> <origin xyz="1 0 0"/> </joint>
-  <link name="tip"/>
-</robot>"#;
+/// Returns the URDF of two bars of 1 m. The second collides.
+fn arm() -> String {
+    let short = two_bars().replacen("collision", "lamp", 2).replace("size=\"0.8", "size=\"1");
+    short.replace("0.4 0 0", "0.5 0 0").replace("0.8 0 0", "1 0 0")
+}
 
 /// Tests a goal for the tip at (1, 1). The elbow is at (1, 0) or at (0, 1), with the joint values (0, pi/2) or (pi/2,
 /// -pi/2).
@@ -204,7 +185,7 @@ fn bounds_to_a_tip_position_hold_for_all_ik_solutions() {
                  "bound": {{"length": {length}, "walls": [], "potentials": []}}}}"#
         )
     };
-    let of = |place: &str, length: f64, boxes: &str| code(ARM, &world(place), &certificate(length, boxes));
+    let of = |place: &str, length: f64, boxes: &str| code(&arm(), &world(place), &certificate(length, boxes));
     let quarter = std::f64::consts::FRAC_PI_2;
     let (near, far) = (quarter - 1.0, quarter.hypot(quarter + 1.0));
     assert_eq!((of("[1, 1]", near - 1e-9, ""), of("[1, 1]", near + 1e-9, "")), (0, 3));
@@ -221,20 +202,20 @@ fn bounds_to_a_tip_position_hold_for_all_ik_solutions() {
     assert_eq!((of("[1, 1]", far - 1e-9, &stuck), of("[1, 1]", far + 1e-9, &stuck)), (0, 3));
     assert_eq!(of("[1, 1]", near, &about(0.1)), 3, "it comes off the disc there");
     assert_eq!(of("[1, 1]", far - 1e-9, &about(1e-14)), 3, "the box is no larger than what is not known");
-    let report = check(ARM, &world("[1, 1]"), &certificate(3.0, &stuck)).unwrap();
+    let report = holds(judge(&arm(), &world("[1, 1]"), &certificate(3.0, &stuck)));
     assert_eq!(
         report,
-        "no motion of \"a\" and \"b\" from the start to the goal, a position of the tip \"tip\", with clearance 0 is shorter than 3"
+        "no motion of \"a\" and \"b\" from the start to the goal, a position of the tip \"tool\", with clearance 0 is shorter than 3"
     );
     // Stretched out, the two solutions become one, which is known less precisely. Out of reach there is no path at all.
     assert_eq!((of("[2, 0]", 0.8, ""), of("[2, 0]", 1.0 + 1e-9, ""), of("[2.1, 0]", 100.0, "")), (0, 3, 0));
     // With the tip on the first axis, the first joint is free, and the second is at half a turn, outside the limits.
     assert_eq!(of("[0, 0]", 100.0, ""), 0);
-    let wide = ARM.replace("2.9", "3.2");
+    let wide = arm().replace("2.9", "3.2");
     let of = |length: f64| code(&wide, &world("[0, 0]"), &certificate(length, ""));
     let near = 2.0 * quarter - 1.0;
     assert_eq!((of(near - 0.4), of(near + 1e-9)), (0, 3));
     // With an explicit target, boxes are not allowed.
     let report = certificate(1.0, &stuck).replace("\"length\"", "\"to\": [1, 1], \"length\"");
-    assert_eq!(code(ARM, &world("[1, 1]"), &report), 1);
+    assert_eq!(code(&arm(), &world("[1, 1]"), &report), 1);
 }

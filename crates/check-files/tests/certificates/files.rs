@@ -1,46 +1,19 @@
 //! Files that the URDF and the world refer to: pictures, line maps and meshes, compared with equivalent inline
 //! descriptions.
 
+use crate::common::robots::{gantry, two_bars};
+use crate::common::verdict::{Verdict, done, fails, fails_with, found, holds, judge, refused, verdict};
 use cplan_cases as random;
-
 use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, Input, check, check_files};
 use std::path::{Path, PathBuf};
 
-/// URDF of two bars of 1 m and 0.8 m. Their geometry replaces `{upper}` and `{fore}`.
-const ARM: &str = r#"<robot name="r">
-  <link name="base"/>
-  <joint name="a" type="revolute">
-    <parent link="base"/> <child link="upper"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="upper">
-    <collision> <origin xyz="0.5 0 0"/> <geometry> {upper} </geometry> </collision>
-  </link>
-  <joint name="b" type="revolute">
-    <parent link="upper"/> <child link="fore"/> <origin xyz="1 0 0"/> <axis xyz="0 0 1"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="fore">
-    <collision> <origin xyz="0.4 0 0" rpy="0.3 0 0"/> <geometry> {fore} </geometry> </collision>
-  </link>
-</robot>"#;
-
-/// URDF of a gantry with the tip at the joints' values.
-const GANTRY: &str = r#"<robot name="g">
-  <link name="base"/>
-  <joint name="x" type="prismatic">
-    <parent link="base"/> <child link="bridge"/> <axis xyz="1 0 0"/> <limit lower="-9" upper="9"/>
-  </joint>
-  <link name="bridge"/>
-  <joint name="y" type="prismatic">
-    <parent link="bridge"/> <child link="head"/> <axis xyz="0 1 0"/> <limit lower="-9" upper="9"/>
-  </joint>
-  <link name="head"> <collision> <geometry> <sphere radius="0.05"/> </geometry> </collision> </link>
-</robot>"#;
-
 const BOXES: [&str; 2] = [r#"<box size="1.0 0.1 0.1"/>"#, r#"<box size="0.8 0.1 0.2"/>"#];
 
+/// Returns the arm of two bars with these geometries.
 fn arm([upper, fore]: [&str; 2]) -> String {
-    ARM.replace("{upper}", upper).replace("{fore}", fore)
+    let arm = two_bars().replace(r#"<box size="1.0 0.1 0.1"/>"#, upper).replace(r#"<box size="0.8 0.1 0.1"/>"#, fore);
+    arm.replace(r#"xyz="0.4 0 0""#, r#"xyz="0.4 0 0" rpy="0.3 0 0""#)
 }
 
 /// A separate folder for each test.
@@ -59,38 +32,31 @@ impl Place {
         std::fs::write(self.0.join(file), content).unwrap();
     }
 
-    fn judge(&self, world: &str, certificate: &str) -> Result<String, CheckError> {
+    fn judge(&self, world: &str, certificate: &str) -> Verdict {
         self.write("world.toml", world);
         self.write("c.json", certificate);
         let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| self.0.join(file));
-        check_files(&urdf, &world, &certificate)
+        verdict(check_files(&urdf, &world, &certificate))
     }
 
     fn is_free(&self, world: &str, motion: &str) -> bool {
-        match self.judge(world, motion) {
-            Ok(_) => true,
-            Err(CheckError::Fails(_)) => false,
-            Err(why) => panic!("{world}: {why}"),
-        }
+        let (code, why) = self.judge(world, motion);
+        assert_ne!(code, 1, "{world}: {why}");
+        code == 0
     }
 
-    /// Returns the reason why a world is refused.
-    fn refused(&self, world: &str) -> String {
-        let Err(CheckError::Input { message, .. }) = self.judge(world, &straight_certificate([0.0; 2], [1.0; 2]))
-        else {
-            panic!("{world}")
-        };
-        message
+    /// Asserts that a world is refused, with a message that has this part.
+    #[track_caller]
+    fn refuses(&self, world: &str, part: &str) {
+        refused(self.judge(world, &straight_certificate([0.0; 2], [1.0; 2])), part);
     }
 }
 
 /// Returns the certificate of a straight motion.
 fn straight_certificate(from: [f64; 2], to: [f64; 2]) -> String {
     let ([a, b], [c, d]) = (from, to);
-    format!(
-        r#"{{"format": "cplan certificate 1", "answer": "found", "start": [{a}, {b}], "goal": [{c}, {d}],
-            "motion": {{"interpolation": ["linear"], "knots": [[0, {a}, {b}], [1, {c}, {d}]]}}}}"#
-    )
+    let ends = format!(r#""start": [{a}, {b}], "goal": [{c}, {d}],"#);
+    found(&ends, r#""linear""#, &format!("[0, {a}, {b}], [1, {c}, {d}]"))
 }
 
 fn motion(dice: &mut Dice) -> String {
@@ -191,10 +157,10 @@ fn a_part_of_a_picture_is_a_rectangle_of_solid_squares() {
         // Any order, and approximate values.
         "[[1.01, 0.39], [0.21, 0.41], [1.0, -0.4], [0.2, -0.4]]",
     ] {
-        of(held).unwrap();
+        holds(of(held));
     }
     let wrong = "rectangle of solid squares";
-    for (fails, why) in [
+    for (corners, why) in [
         ("[[0.2, -0.4], [1.4, -0.4], [1.4, 0.4], [0.2, 0.4]]", wrong),
         ("[[-0.2, -0.4], [1, -0.4], [1, 0.4], [-0.2, 0.4]]", wrong),
         ("[[0.2, -0.4], [1, -0.4], [1, 0.4]]", wrong),
@@ -203,11 +169,7 @@ fn a_part_of_a_picture_is_a_rectangle_of_solid_squares() {
         ("[[0.2, 1e30], [1, 0], [1, 0], [0.2, 0]]", wrong),
         ("[[0.6, -0.4], [1.4, -0.4], [1.4, 0], [0.6, 0]]", "box 0"),
     ] {
-        assert!(
-            matches!(of(fails), Err(CheckError::Fails(report)) if report.contains(why)),
-            "{fails}: {:?}",
-            of(fails)
-        );
+        fails(of(corners), why);
     }
 }
 
@@ -221,7 +183,7 @@ fn a_line_map_is_its_walls() {
     place.write("room.map", map);
     place.write(
         "wishes.map",
-        "2D-Map\nLineMinPos: 0 0\nLineMaxPos: 9 9\nNumGoal: 1\nGOAL\n-14 -1 -12 3\nNumPoint: 0\nPOINTS\nEND\n",
+        "2D-Map\nLineMinPos: 0 0\nLineMaxPos: 9 9\nNumGoal: 1\nGOAL\n-28 -1 -26 3\nNumPoint: 0\nPOINTS\nEND\n",
     );
     let world = "[map]\nfile = \"room.map\"\npreferences = \"wishes.map\"\nscale = 0.1\noffset = [0.2, -0.1]\n";
     let same = "[[obstacle]]\npolyline = [[0.7, 1.4], [1.2, 1.4], [1.2, 0.4], [2.2, 0.4]]\n\
@@ -243,24 +205,17 @@ fn a_line_map_is_its_walls() {
             r#"{{"format": "cplan certificate 1", "answer": "infeasible", "start": [1, 0],
                 "parts": [{{"obstacle": {obstacle}{part}}}], "shapes": [], "boxes": []}}"#
         );
-        match place.judge(world, &certificate) {
-            Err(CheckError::Fails(why)) => why,
-            other => panic!("{other:?}"),
-        }
+        place.judge(world, &certificate)
     };
-    // The tip, which is the origin of the second bar, is 1 m from the origin. So the goal cannot be reached, and only
-    // the parts are checked.
+    // The tip does not reach as far as the goal, so only the parts are checked.
     let goal = place.judge(world, &straight_certificate([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));
-    assert!(matches!(goal, Err(CheckError::Fails(why)) if why.contains("misses the goal")));
-    assert!(named(4, "").contains("no obstacle 4"));
-    assert!(named(3, ", \"corners\": [[-2.8, -2.6], [3.2, 2.4]]").contains("obstacle 3: its corners"));
+    fails(goal, "misses the goal");
+    fails(named(4, ""), "no obstacle 4");
+    fails(named(3, ", \"corners\": [[-2.8, -2.6], [3.2, 2.4]]"), "obstacle 3: its corners");
     // Steps override the goal of the preferences.
     let moving = format!("{world}[[step]]\nmove = {{ joints = [0, 0] }}\n");
     let goal = place.judge(&moving, &straight_certificate([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));
-    assert!(
-        matches!(&goal, Err(CheckError::Input { message, .. }) if message.contains("there is no goal")),
-        "{goal:?}"
-    );
+    refused(goal, "there is no goal");
     // Walls have names, so that they can support objects.
     for (name, is_one) in [
         ("room, lines 1 to 3", true),
@@ -274,8 +229,8 @@ fn a_line_map_is_its_walls() {
             "[[object]]\nname = \"nut\"\nat = [1, 1]\ncircle = {{ center = [0, 0], radius = 0.1 }}\nsupports = [\"{name}\"]\n\
              [[step]]\npick = \"nut\"\n"
         );
-        let judged = place.judge(&(world.to_owned() + &object), &straight_certificate([0.0; 2], [0.0; 2]));
-        let is_refused = matches!(judged, Err(CheckError::Input { message, .. }) if message.contains("no obstacle and no object of this name"));
+        let (code, why) = place.judge(&(world.to_owned() + &object), &straight_certificate([0.0; 2], [0.0; 2]));
+        let is_refused = code == 1 && why.contains("no obstacle and no object of this name");
         assert_eq!(is_refused, !is_one, "{name}");
     }
     for (broken, part) in [
@@ -286,10 +241,10 @@ fn a_line_map_is_its_walls() {
         (format!("{map}1"), "nothing after DATA"),
     ] {
         place.write("room.map", broken);
-        assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
+        place.refuses(world, part);
     }
-    assert!(place.refused("[map]\nfile = \"none.map\"").contains("none.map cannot be read"));
-    assert!(place.refused("[map]\nscale = 1").contains("the map has no file"));
+    place.refuses("[map]\nfile = \"none.map\"", "none.map cannot be read");
+    place.refuses("[map]\nscale = 1", "the map has no file");
 }
 
 /// Tests the order of indices: the file's own obstacles, the walls of the map, then the objects at their initial poses.
@@ -311,12 +266,12 @@ fn obstacles_are_numbered_before_walls_and_objects() {
         );
         place.judge(world, &certificate)
     };
-    infeasible(0.0, "0, \"corners\": [[0.3, 0.3], [0.3, -0.3]]").unwrap();
-    infeasible(0.0, "2").unwrap();
+    holds(infeasible(0.0, "0, \"corners\": [[0.3, 0.3], [0.3, -0.3]]"));
+    holds(infeasible(0.0, "2"));
     let wall = "\"corners\": [[-0.3, 0.5], [0.3, 0.5]]";
-    infeasible(1.56, &format!("1, {wall}")).unwrap();
+    holds(infeasible(1.56, &format!("1, {wall}")));
     for part in ["1", &format!("0, {wall}"), "3"] {
-        assert!(matches!(infeasible(0.0, part), Err(CheckError::Fails(_))), "{part}");
+        fails(infeasible(0.0, part), "");
     }
 }
 
@@ -324,11 +279,11 @@ fn obstacles_are_numbered_before_walls_and_objects() {
 #[test]
 fn a_picture_is_carried_as_its_squares_are() {
     let place = Place::new("carried");
-    place.write("arm.urdf", GANTRY);
+    place.write("arm.urdf", gantry([-9, 9], "sphere radius=\"0.05\""));
     place.write("map.yaml", YAML.replace("[-1.2, -1, 0.3]", "[-0.4, -0.2, 0]"));
     place.write("map.pgm", "P2 3 2 1 0 0 1 0 1 1");
-    let motion = r#"{"format": "cplan certificate 1", "answer": "found", "motion": {"interpolation": ["linear"],
-        "knots": [[0, 0, 1], [1, 1, 1], [2, 1, 1], [3, 3, 1]]}, "steps": [{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [2, 3]}]}"#;
+    let steps = r#"{"step": 1, "knots": [0, 1]}, {"step": 2, "knots": [2, 3]}"#;
+    let motion = done("[0, 0, 1], [1, 1, 1], [2, 1, 1], [3, 3, 1]", steps);
     let shapes =
         ["image = \"map.yaml\"", "polygon = [[-0.4, -0.2], [0, -0.2], [0, 0.2], [0.4, 0.2], [0.4, 0.6], [-0.4, 0.6]]"];
     let mut free = 0;
@@ -341,7 +296,7 @@ fn a_picture_is_carried_as_its_squares_are() {
                  [[step]]\npick = \"block\"\n[[step]]\nplace = {{ at = [3, 1] }}\n\
                  [[obstacle]]\ncircle = {{ center = [{x}, {y}], radius = 0.02 }}\n"
             );
-            place.is_free(&world, motion)
+            place.is_free(&world, &motion)
         });
         assert_eq!(verdicts[0], verdicts[1], "seed {seed}: {x} {y}");
         free += u64::from(verdicts[0]);
@@ -485,7 +440,7 @@ fn a_mesh_is_its_hull() {
     ] {
         place.write(file, content);
         place.write("arm.urdf", arm([BOXES[0], &format!("<mesh filename=\"{file}\"/>")]));
-        assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
+        place.refuses(world, part);
     }
     for (mesh, part) in [
         ("fore.ply", "reads only meshes in STL, OBJ and Collada"),
@@ -493,7 +448,7 @@ fn a_mesh_is_its_hull() {
         ("package://none/a.stl", "does not exist"),
     ] {
         place.write("arm.urdf", arm([BOXES[0], &format!("<mesh filename=\"{mesh}\"/>")]));
-        assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
+        place.refuses(world, part);
     }
 }
 
@@ -517,7 +472,7 @@ fn invalid_pictures_are_refused() {
         ("negate: 0", "colour: 0", "negate"),
     ] {
         place.write("map.yaml", YAML.replace(from, to));
-        assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
+        place.refuses(world, part);
     }
     place.write("map.yaml", YAML);
     for (picture, part) in [
@@ -536,19 +491,16 @@ fn invalid_pictures_are_refused() {
         (b"P23 3 1", "its header is not valid"),
     ] {
         place.write("map.pgm", picture);
-        assert!(place.refused(world).contains(part), "{part}: {}", place.refused(world));
+        place.refuses(world, part);
     }
     // Texts have no other files beside them. This does not matter if nothing refers to the picture.
-    let one = |certificate: &str| {
-        check(&arm(BOXES), &format!("start.joints = [0, 0]\ngoal.joints = [1, 0]\n{world}"), certificate)
-    };
-    assert!(matches!(
-        one(&straight_certificate([0.0; 2], [1.0, 0.0])),
-        Err(CheckError::Input { input: Input::World, .. })
-    ));
+    let text = format!("start.joints = [0, 0]\ngoal.joints = [1, 0]\n{world}");
+    let one = |certificate: &str| check(&arm(BOXES), &text, certificate);
+    let motion = straight_certificate([0.0; 2], [1.0, 0.0]);
+    assert!(matches!(one(&motion), Err(CheckError::Input { input: Input::World, .. })));
     let nothing =
         r#"{"format": "cplan certificate 1", "answer": "infeasible", "shapes": [], "parts": [], "boxes": []}"#;
-    assert!(matches!(one(nothing), Err(CheckError::Fails(_))));
+    fails(verdict(one(nothing)), "");
 }
 
 /// Tests that digests bind a certificate to its files. The digests here were computed by `sha256sum`.
@@ -556,15 +508,14 @@ fn invalid_pictures_are_refused() {
 fn digests_are_of_the_files_themselves() {
     let of = |digests: &str| {
         let certificate = straight_certificate([0.0; 2], [1.0; 2]).replacen('{', &format!("{{{digests},"), 1);
-        check(&arm(BOXES), "name = \"w\"\n", &certificate)
+        judge(&arm(BOXES), "name = \"w\"\n", &certificate)
     };
     let world = "0b9a8b8a";
-    let Err(CheckError::Fails(why)) = of(&format!("\"world\": \"{world}\"")) else { panic!() };
-    assert!(why.contains("another world") && why.contains(world), "{why}");
-    of(&format!("\"world\": \"{WORLD_DIGEST}\", \"others\": []")).unwrap();
-    of(&format!("\"world\": \"{}\"", WORLD_DIGEST.to_uppercase())).unwrap();
-    assert!(matches!(of(&format!("\"urdf\": \"{WORLD_DIGEST}\"")), Err(CheckError::Fails(_))));
-    assert!(matches!(of("\"world\": 7"), Err(CheckError::Input { input: Input::Certificate, .. })));
+    fails_with(of(&format!("\"world\": \"{world}\"")), &["another world", world]);
+    holds(of(&format!("\"world\": \"{WORLD_DIGEST}\", \"others\": []")));
+    holds(of(&format!("\"world\": \"{}\"", WORLD_DIGEST.to_uppercase())));
+    fails(of(&format!("\"urdf\": \"{WORLD_DIGEST}\"")), "");
+    refused(of("\"world\": 7"), "");
     // If the certificate lists other files, all files in use must be among them.
     let place = Place::new("digests");
     place.write("map.pgm", "P2 1 1 1 1\n");
@@ -574,11 +525,9 @@ fn digests_are_of_the_files_themselves() {
             straight_certificate([0.0; 2], [1.0; 2]).replacen('{', &format!("{{\"others\": {others},"), 1);
         place.judge("obstacle = [{ image = \"map.yaml\" }]", &certificate)
     };
-    let Err(CheckError::Fails(why)) = of("[]") else { panic!() };
-    assert!(why.contains("map.yaml"), "{why}");
-    let Err(CheckError::Fails(why)) = of(&format!("[\"{YAML_DIGEST}\"]")) else { panic!() };
-    assert!(why.contains("map.pgm"), "{why}");
-    of(&format!("[\"{PICTURE_DIGEST}\", \"{YAML_DIGEST}\"]")).unwrap();
+    fails(of("[]"), "map.yaml");
+    fails(of(&format!("[\"{YAML_DIGEST}\"]")), "map.pgm");
+    holds(of(&format!("[\"{PICTURE_DIGEST}\", \"{YAML_DIGEST}\"]")));
 }
 
 const WORLD_DIGEST: &str = "207c0e720147753bd6c80e3fd9dd46384e4d1605d612d2e115c2567d2a3a81b3";

@@ -1,28 +1,13 @@
 //! Certificates of motions, written by hand, and falsified ones.
 
+use crate::common::robots::bars;
+use crate::common::verdict::{Verdict, agrees, fails, fails_with, found, holds, judge};
 use cplan_check_files::{CheckError, Input, check};
 
-/// Returns a robot with a bar of 1 m by 0.1 m about the origin, and one of 0.8 m at its end.
+/// Returns a robot of two bars. Its base has a mesh that nobody can read.
 fn robot(first: &str, second: &str) -> String {
-    format!(
-        r#"<robot name="r">
-  <link name="base"> <visual> <geometry> <mesh filename="m"/> </geometry> </visual> </link>
-  <joint name="a" type="{first}">
-    <parent link="base"/> <child link="upper"/> <axis xyz="{}"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="upper">
-    <collision> <origin xyz="0.5 0 0"/> <geometry> <box size="1.0 0.1 0.1"/> </geometry> </collision>
-  </link>
-  <joint name="b" type="{second}">
-    <parent link="upper"/> <child link="fore"/> <origin xyz="1 0 0"/> <axis xyz="{}"/> <limit lower="-2.9" upper="2.9"/>
-  </joint>
-  <link name="fore">
-    <collision> <origin xyz="0.4 0 0"/> <geometry> <box size="0.8 0.1 0.1"/> </geometry> </collision>
-  </link>
-</robot>"#,
-        if first == "prismatic" { "1 0 0" } else { "0 0 1" },
-        if second == "prismatic" { "0 1 0" } else { "0 0 1" },
-    )
+    let mesh = r#"<link name="base"> <visual> <geometry> <mesh filename="m"/> </geometry> </visual> </link>"#;
+    bars(first, second).replace(r#"<link name="base"/>"#, mesh)
 }
 
 const ENDS: &str = "start.joints = [-1, 0]\ngoal.joints = [1, 0]\n";
@@ -35,37 +20,17 @@ fn world(obstacles: &str) -> String {
     format!("{ENDS}{obstacles}")
 }
 
-fn certificate(extra: &str, interpolation: &str, knots: &str) -> String {
-    format!(
-        r#"{{"format": "cplan certificate 1", "answer": "found", {extra}
-        "motion": {{"interpolation": [{interpolation}], "knots": [{knots}]}}}}"#
-    )
-}
-
 const LINEAR: &str = r#""linear""#;
 
-/// Checks a certificate, and returns the exit code and the message.
-fn judge_certificate(urdf: &str, world: &str, certificate: &str) -> (i32, String) {
-    match check(urdf, world, certificate) {
-        Ok(report) => (0, report),
-        Err(CheckError::Fails(why)) => (3, why),
-        Err(CheckError::Input { message, .. }) => (1, message),
-    }
-}
-
 /// Checks a straight motion from the start to the goal among obstacles.
-fn judge_straight_motion(urdf: &str, obstacles: &str) -> (i32, String) {
-    judge_certificate(urdf, &world(obstacles), &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]"))
+fn judge_straight_motion(urdf: &str, obstacles: &str) -> Verdict {
+    judge(urdf, &world(obstacles), &found("", LINEAR, "[0, -1, 0], [1, 1, 0]"))
 }
 
-fn is_free(urdf: &str, obstacles: &str) {
-    let (code, report) = judge_straight_motion(urdf, obstacles);
-    assert_eq!(code, 0, "{obstacles}: {report}");
-}
-
-fn fails(urdf: &str, obstacles: &str, part: &str) {
-    let (code, report) = judge_straight_motion(urdf, obstacles);
-    assert!(code == 3 && report.contains(part), "{obstacles}: {code} {report}");
+/// Asserts that the straight motion among obstacles is free, or fails with a message that has this part.
+#[track_caller]
+fn passes(obstacles: &str, is_free: bool, part: &str) {
+    agrees(judge_straight_motion(&arm(), obstacles), is_free, part);
 }
 
 /// Tests distances in closed form. Both bars turn about the origin together, up to 1.8 m and sqrt(1.8^2 + 0.05^2) at
@@ -73,50 +38,43 @@ fn fails(urdf: &str, obstacles: &str, part: &str) {
 #[test]
 fn distances_agree_with_the_closed_form() {
     let reach = (1.8f64 * 1.8 + 0.05 * 0.05).sqrt();
-    for (gap, holds) in [(1e-3, true), (1e-6, true), (1e-9, true), (-1e-9, false), (-0.1, false)] {
+    for (gap, is_free) in [(1e-3, true), (1e-6, true), (1e-9, true), (-1e-9, false), (-0.1, false)] {
         let post = format!("[[obstacle]]\ncircle = {{ center = [{}, 0], radius = 0.5 }}\n", reach + 0.5 + gap);
-        if holds {
-            is_free(&arm(), &post)
-        } else {
-            fails(&arm(), &post, "link \"fore\", collision 0")
-        }
+        passes(&post, is_free, "link \"fore\", collision 0");
         // Beyond the reach, the wall is straight, and only its middle is near.
         let wall = reach + gap;
-        let wall = format!("[[obstacle]]\npolyline = [[{wall}, -3], [{wall}, 3]]\n");
-        if holds { is_free(&arm(), &wall) } else { fails(&arm(), &wall, "obstacle 0") }
+        passes(&format!("[[obstacle]]\npolyline = [[{wall}, -3], [{wall}, 3]]\n"), is_free, "obstacle 0");
     }
     // A corner that the long side reaches just where the arm stops turning.
-    for (gap, holds) in [(1e-3, true), (1e-9, true), (-1e-9, false)] {
+    for (gap, is_free) in [(1e-3, true), (1e-9, true), (-1e-9, false)] {
         let (sine, cosine) = 1f64.sin_cos();
         let at = |along: f64, beside: f64| [along * cosine - beside * sine, along * sine + beside * cosine];
         let [x, y] = at(1.5, 0.05 + gap);
         let [u, v] = at(1.7, 0.4);
         let [s, t] = at(1.2, 0.4);
         let block = format!("[[obstacle]]\npolygon = [[{x}, {y}], [{u}, {v}], [{s}, {t}]]\n");
-        if holds { is_free(&arm(), &block) } else { fails(&arm(), &block, "link \"fore\"") }
+        passes(&block, is_free, "link \"fore\"");
     }
 }
 
 #[test]
 fn clearance_counts_and_other_queries_are_described() {
     let post = "[[obstacle]]\ncircle = { center = [2.2, 0], radius = 0.1 }\n";
-    let at =
-        |extra: &str| judge_certificate(&arm(), &world(post), &certificate(extra, LINEAR, "[0, -1, 0], [1, 1, 0]"));
+    let at = |extra: &str| judge(&arm(), &world(post), &found(extra, LINEAR, "[0, -1, 0], [1, 1, 0]"));
     assert_eq!(at("").0, 0);
     // 2.1 - sqrt(1.8^2 + 0.05^2) = 0.299305...
     assert_eq!(at(r#""clearance": 0.2993,"#).0, 0);
-    let (code, why) = at(r#""clearance": 0.2994,"#);
-    assert!(code == 3 && why.contains("farther than 0.2994 from obstacle 0"), "{why}");
+    fails(at(r#""clearance": 0.2994,"#), "farther than 0.2994 from obstacle 0");
     let place = format!("clearance = 0.2994\n{}", world(post));
-    assert_eq!(judge_certificate(&arm(), &place, &certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]")).0, 3);
+    assert_eq!(judge(&arm(), &place, &found("", LINEAR, "[0, -1, 0], [1, 1, 0]")).0, 3);
     let (_, report) = at(r#""clearance": 0.25, "start": [-1.0, 0.0], "goal": [1, 5e-10],"#);
     for part in
         ["start (-1, 0) to", "goal (1, 0.0000000005), within 1e-9,", "clearance 0.25", "2 knots, read as linear"]
     {
         assert!(report.contains(part), "{report}");
     }
-    assert!(at(r#""goal": [1, 0.00002],"#).1.contains("misses the goal by more than 1e-5"));
-    assert!(at(r#""start": [1, 0],"#).1.contains("misses the start"));
+    fails(at(r#""goal": [1, 0.00002],"#), "misses the goal by more than 1e-5");
+    fails(at(r#""start": [1, 0],"#), "misses the start");
 }
 
 /// Moves one knot of a motion. The message must name the problem.
@@ -124,13 +82,12 @@ fn clearance_counts_and_other_queries_are_described() {
 fn falsified_parts_are_named() {
     // Beside the stretched arm, and on the path of the folded arm.
     let post = "[[obstacle]]\ncircle = { center = [0.7, 0.8], radius = 0.15 }\n";
-    let judge = |knots: &str| judge_certificate(&arm(), &world(post), &certificate("", LINEAR, knots));
+    let judged = |knots: &str| judge(&arm(), &world(post), &found("", LINEAR, knots));
     let fold = "[0, -1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0]";
-    let (code, why) = judge(fold);
-    assert!(code == 3 && why.contains("from knot 1") && why.contains("\"fore\""), "{why}");
+    fails_with(judged(fold), &["from knot 1", "\"fore\""]);
     let post = "[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
-    let judge = |knots: &str| judge_certificate(&arm(), &world(post), &certificate("", LINEAR, knots));
-    assert_eq!(judge(fold).0, 0);
+    let judged = |knots: &str| judge(&arm(), &world(post), &found("", LINEAR, knots));
+    assert_eq!(judged(fold).0, 0);
     for (knots, part) in [
         ("[0, -1, 0], [3, 1, 0]", "from knot 0"),
         ("[0, -1, 0], [1, -1, 1], [3, 1, 0]", "from knot 1"),
@@ -142,32 +99,28 @@ fn falsified_parts_are_named() {
         ("[0, -1, 0], [1, -1, 2.9000000000000000000000000000000000001], [2, 1, 2.5], [3, 1, 0]", "limits"),
         ("[0, -1, 0], [1, 1e300, 2.5], [3, 1, 0]", "limits"),
     ] {
-        let (code, why) = judge(knots);
-        assert!(code == 3 && why.contains(part), "{knots}: {code} {why}");
+        fails(judged(knots), part);
     }
     // At the limit itself, and with very long durations.
-    assert_eq!(judge("[-1e9, -1, 0], [1, -1, 2.90], [2, 1, 2.9], [3e9, 1, 0]").0, 0);
+    assert_eq!(judged("[-1e9, -1, 0], [1, -1, 2.90], [2, 1, 2.9], [3e9, 1, 0]").0, 0);
 }
 
 /// Tests an arm inside an obstacle. It does not touch the obstacle's sides, but collides.
 #[test]
 fn an_arm_inside_an_obstacle_collides() {
     let ring = "polygon = [[-9, -9], [9, -9], [9, 9], [-9, 9]]\n";
-    fails(&arm(), &format!("[[obstacle]]\n{ring}"), "link \"upper\", collision 0 is inside obstacle 0");
+    passes(&format!("[[obstacle]]\n{ring}"), false, "link \"upper\", collision 0 is inside obstacle 0");
     // In its hole the arm is free.
-    is_free(&arm(), &format!("[[obstacle]]\n{ring}holes = [[[-3, -3], [3, -3], [3, 3], [-3, 3]]]\n"));
-    fails(&arm(), &format!("[[obstacle]]\n{ring}holes = [[[-3, -3], [1, -3], [1, 3], [-3, 3]]]\n"), "obstacle 0");
+    passes(&format!("[[obstacle]]\n{ring}holes = [[[-3, -3], [3, -3], [3, 3], [-3, 3]]]\n"), true, "");
+    passes(&format!("[[obstacle]]\n{ring}holes = [[[-3, -3], [1, -3], [1, 3], [-3, 3]]]\n"), false, "obstacle 0");
     let turned = format!(
         "[[obstacle]]\nat = [0.1, 0.2]\nangle = \"30deg\"\n{ring}holes = [[[-3, -3], [3, -3], [3, 3], [-3, 3]]]\n"
     );
-    is_free(&arm(), &turned);
+    passes(&turned, true, "");
     // A disc around the whole arm, and one that contains only the second bar.
-    fails(&arm(), "[[obstacle]]\ncircle = { center = [0, 0], radius = 9 }\n", "from knot 0");
-    fails(
-        &arm(),
-        "[[obstacle]]\ncircle = { center = [0, 0.9], radius = 0.1 }\n[[obstacle]]\npolyline = [[1.2, 0], [1.3, 0]]\n",
-        "obstacle 1",
-    );
+    passes("[[obstacle]]\ncircle = { center = [0, 0], radius = 9 }\n", false, "from knot 0");
+    let second = "[[obstacle]]\npolyline = [[1.2, 0], [1.3, 0]]\n";
+    passes(&format!("[[obstacle]]\ncircle = {{ center = [0, 0.9], radius = 0.1 }}\n{second}"), false, "obstacle 1");
 }
 
 /// Tests all combinations of joint types. The tip passes a wall at a distance known in closed form.
@@ -189,11 +142,9 @@ fn distances_are_exact_for_all_joint_types() {
             )
         };
         let knots = "[0, -1, -1], [1, 1, 0], [2, 1, 1]";
-        let (code, why) = judge_certificate(&urdf, &world(1e-6), &certificate("", LINEAR, knots));
-        assert_eq!(code, 0, "{first} {second}: {why}");
+        holds(judge(&urdf, &world(1e-6), &found("", LINEAR, knots)));
         if first == "prismatic" {
-            let (code, _) = judge_certificate(&urdf, &world(-1e-6), &certificate("", LINEAR, knots));
-            assert_eq!(code, 3, "{first} {second}");
+            fails(judge(&urdf, &world(-1e-6), &found("", LINEAR, knots)), "");
         }
     }
 }
@@ -220,14 +171,12 @@ fn the_interpolation_between_knots_matters() {
         format!("start.joints = [0, 1]\ngoal.joints = [0, 1]\nrobot.limits = {{ b = [-2.9, {limit}] }}\n")
     };
     let knots = "[0, 0, 1, 0, 4, 0, -8], [1, 0, 1, 0, -4, 0, -8]";
-    let code = |ways: &str, limit: &str| judge_certificate(&arm(), &world(limit), &certificate("", ways, knots)).0;
+    let code = |ways: &str, limit: &str| judge(&arm(), &world(limit), &found("", ways, knots)).0;
     // All are the parabola 1 + 4 t (1 - t), which reaches 2.
     for way in [r#""cubic", "quartic", "quintic""#, r#""quintic", "linear", "cubic""#] {
         assert_eq!((code(way, "2"), code(way, "1.99999999999999999999")), (0, 3), "{way}");
     }
-    let code = |ways: &str, knots: &str, limit: &str| {
-        judge_certificate(&arm(), &world(limit), &certificate("", ways, knots)).0
-    };
+    let code = |ways: &str, knots: &str, limit: &str| judge(&arm(), &world(limit), &found("", ways, knots)).0;
     let cubic = "[0, 0, 1, 0, 4], [1, 0, 1, 0, 0]";
     // 1 + 4 t (1 - t)^2 is at most 1 + 16 / 27 = 1.5925926 at 1/3.
     assert_eq!((code(r#""cubic""#, cubic, "1.5925926"), code(r#""cubic""#, cubic, "1.5925925")), (0, 3));
@@ -252,8 +201,7 @@ fn whole_turns_of_continuous_joints_do_not_matter_at_the_goal() {
     let post = "[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
     let code = |goal: &str, last: &str| {
         let world = format!("start.joints = [-1, 0]\ngoal.joints = [{goal}, 0]\n{post}");
-        let (code, report) =
-            judge_certificate(&urdf, &world, &certificate("", LINEAR, &format!("[0, -1, 0], [1, {last}, 0]")));
+        let (code, report) = judge(&urdf, &world, &found("", LINEAR, &format!("[0, -1, 0], [1, {last}, 0]")));
         assert!(code == 3 || report.contains("within 1e-15"), "{report}");
         code
     };
@@ -264,24 +212,20 @@ fn whole_turns_of_continuous_joints_do_not_matter_at_the_goal() {
 /// Tests a goal that is a tip position. The message states the distance from it.
 #[test]
 fn the_distance_from_a_tip_goal_is_stated() {
-    let urdf = arm().replace(
-        "</robot>",
-        r#"<joint name="t" type="fixed"> <parent link="fore"/> <child link="tool"/> <origin xyz="0.8 0 0"/> </joint> <link name="tool"/></robot>"#,
-    );
+    let urdf = arm();
     let (x, y) = (1.8 * 1f64.cos(), 1.8 * 1f64.sin());
-    let line = certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]");
+    let line = found("", LINEAR, "[0, -1, 0], [1, 1, 0]");
     let world = |tip: &str| format!("start.tip = [{x}, {}]\n{tip}", -y);
-    let (code, report) = judge_certificate(&urdf, &world(&format!("goal.tip = [{x}, {y}]")), &line);
+    let (code, report) = judge(&urdf, &world(&format!("goal.tip = [{x}, {y}]")), &line);
     assert!(code == 0 && report.contains("the goal, a position of the tip \"tool\", within 1e-1"), "{report}");
-    assert_eq!(judge_certificate(&urdf, &world(&format!("goal.tip = [{x}, {}]", y + 2e-5)), &line).0, 3);
+    assert_eq!(judge(&urdf, &world(&format!("goal.tip = [{x}, {}]", y + 2e-5)), &line).0, 3);
     // Requested at another place, and for another link.
-    let asked = certificate(&format!(r#""goal_tip": [{x}, {y}],"#), LINEAR, "[0, -1, 0], [1, 1, 0]");
-    let (code, report) = judge_certificate(&urdf, ENDS, &asked);
+    let asked = found(&format!(r#""goal_tip": [{x}, {y}],"#), LINEAR, "[0, -1, 0], [1, 1, 0]");
+    let (code, report) = judge(&urdf, ENDS, &asked);
     assert!(code == 0 && report.contains("goal (0.97"), "{report}");
-    let (code, why) = judge_certificate(&urdf, &format!("{ENDS}robot.tip = \"fore\""), &asked);
-    assert!(code == 3 && why.contains("misses the goal"), "{why}");
+    fails(judge(&urdf, &format!("{ENDS}robot.tip = \"fore\""), &asked), "misses the goal");
     let two = asked.replace("\"motion\"", "\"goal\": [1, 0], \"motion\"");
-    assert!(judge_certificate(&urdf, ENDS, &two).1.contains("two goals"));
+    assert!(judge(&urdf, ENDS, &two).1.contains("two goals"));
     // Robot and surroundings are moved and turned by 45 degrees.
     let turn = std::f64::consts::FRAC_PI_4;
     let place =
@@ -292,7 +236,7 @@ fn the_distance_from_a_tip_goal_is_stated() {
             place(1.0, 1.8),
             place(0.5, r)
         );
-        judge_certificate(&urdf, &world, &line).0
+        judge(&urdf, &world, &line).0
     };
     assert_eq!((at(1.901), at(1.899)), (0, 3));
 }
@@ -302,18 +246,15 @@ fn the_distance_from_a_tip_goal_is_stated() {
 fn a_single_knot_is_an_arm_at_rest() {
     let post =
         "start.joints = [-1, 0]\ngoal.joints = [-1, 0]\n[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
-    assert_eq!(judge_certificate(&arm(), post, &certificate("", r#""cubic""#, "[0, -1, 0, 0, 0]")).0, 0);
-    assert_eq!(
-        judge_certificate(&arm(), &post.replace("-1, 0", "0, 0"), &certificate("", r#""cubic""#, "[0, 0, 0, 0, 0]")).0,
-        3
-    );
+    assert_eq!(judge(&arm(), post, &found("", r#""cubic""#, "[0, -1, 0, 0, 0]")).0, 0);
+    assert_eq!(judge(&arm(), &post.replace("-1, 0", "0, 0"), &found("", r#""cubic""#, "[0, 0, 0, 0, 0]")).0, 3);
 }
 
 /// Tests that the checker refuses unknown input, and never ignores it.
 #[test]
 fn unknown_input_is_refused_with_its_place() {
     let place = world("[[obstacle]]\npolyline = [[3, 0], [4, 0]]\n");
-    let good = certificate("", LINEAR, "[0, -1, 0], [1, 1, 0]");
+    let good = found("", LINEAR, "[0, -1, 0], [1, 1, 0]");
     let bad =
         |urdf: &str, world: &str, certificate: &str, file: Input, part: &str| match check(urdf, world, certificate)
             .map(|_| ())
@@ -323,7 +264,7 @@ fn unknown_input_is_refused_with_its_place() {
             }
             other => panic!("{part}: {other:?}"),
         };
-    assert_eq!(judge_certificate(&arm(), &place, &good).0, 0);
+    assert_eq!(judge(&arm(), &place, &good).0, 0);
     let urdf = |from: &str, to: &str, part: &str| {
         assert!(arm().contains(from), "{from}");
         bad(&arm().replace(from, to), &place, &good, Input::Urdf, part);
@@ -343,22 +284,22 @@ fn unknown_input_is_refused_with_its_place() {
     worlds("[[obstacle]]\ncircle = { center = [9, 9], radius = -1 }", "no radius");
     worlds("[map]\nfile = \"m\"", "check_files");
     worlds("[[object]]\nname = \"m\"", "one shape");
-    let bars = arm().replace(
+    let bare = arm().replace(
         "<collision> <origin xyz=\"0.4 0 0\"/> <geometry> <box size=\"0.8 0.1 0.1\"/> </geometry> </collision>",
         "",
     );
-    assert_eq!(judge_certificate(&bars, &place, &good).0, 0);
+    assert_eq!(judge(&bare, &place, &good).0, 0);
     // The bar extends from the second joint to the tip, where the wall is.
     let at = |x: f64| format!("robot.bar = 0.05\n{ENDS}[[obstacle]]\npolyline = [[{x}, 0], [4, 0]]\n");
-    assert_eq!((judge_certificate(&bars, &at(1.051), &good).0, judge_certificate(&bars, &at(1.049), &good).0), (0, 3));
+    assert_eq!((judge(&bare, &at(1.851), &good).0, judge(&bare, &at(1.849), &good).0), (0, 3));
     let certificates = |text: String, part: &str| bad(&arm(), &place, &text, Input::Certificate, part);
-    certificates(certificate("", "", "[0, -1, 0], [1, 1, 0]"), "no interpolation");
-    certificates(certificate("", LINEAR, ""), "no knots");
-    certificates(certificate("", r#""cubic""#, "[0, -1, 0], [1, 1, 0]"), "needs 5");
-    certificates(certificate("", LINEAR, "[0, -1, 0], [1, 1, 0, 2, 3]"), "knot 1 has 5");
-    certificates(certificate("", r#""spline""#, "[0, -1, 0], [1, 1, 0]"), "spline");
-    certificates(certificate("", LINEAR, "[0, -1, NaN], [1, 1, 0]"), "certificate");
-    certificates(certificate(r#""boxes": [],"#, LINEAR, "[0, -1, 0], [1, 1, 0]"), "boxes");
+    certificates(found("", "", "[0, -1, 0], [1, 1, 0]"), "no interpolation");
+    certificates(found("", LINEAR, ""), "no knots");
+    certificates(found("", r#""cubic""#, "[0, -1, 0], [1, 1, 0]"), "needs 5");
+    certificates(found("", LINEAR, "[0, -1, 0], [1, 1, 0, 2, 3]"), "knot 1 has 5");
+    certificates(found("", r#""spline""#, "[0, -1, 0], [1, 1, 0]"), "spline");
+    certificates(found("", LINEAR, "[0, -1, NaN], [1, 1, 0]"), "certificate");
+    certificates(found(r#""boxes": [],"#, LINEAR, "[0, -1, 0], [1, 1, 0]"), "boxes");
     certificates(good.replace("motion", "motions"), "motion");
     certificates(good.replace("certificate 1", "certificate 2"), "certificate 2");
 }

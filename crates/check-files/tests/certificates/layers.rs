@@ -1,6 +1,7 @@
 //! Meshes are cut in layers at the heights of the links that they must not hit.
 
-use crate::common::scara::{LIMITS, QUILL, fails, folded, folding_certificate, holds, output, scara, world};
+use crate::common::scara::{LIMITS, QUILL, folded, folding_certificate, scara, world};
+use crate::common::verdict::{Verdict, fails_with, found, holds, verdict};
 use cplan_check_files::check_files;
 use std::path::{Path, PathBuf};
 
@@ -54,13 +55,13 @@ impl Place {
         std::fs::write(self.0.join(format!("{name}.obj")), vertices + &faces).unwrap();
     }
 
-    fn judge(&self, urdf: &str, world: &str, certificate: &str) -> (i32, String) {
+    fn judge(&self, urdf: &str, world: &str, certificate: &str) -> Verdict {
         let files = [("arm.urdf", urdf), ("world.toml", world), ("c.json", certificate)];
         let [urdf, world, certificate] = files.map(|(file, content)| {
             std::fs::write(self.0.join(file), content).unwrap();
             self.0.join(file)
         });
-        output(check_files(&urdf, &world, &certificate))
+        verdict(check_files(&urdf, &world, &certificate))
     }
 }
 
@@ -70,6 +71,11 @@ const FOOTED: Blocks = &[[[-0.4, -0.4, 0.0], [0.4, 0.4, 0.125]], [[-0.0625, -0.0
 fn of_mesh(lowest: f64, file: &str) -> String {
     let urdf = scara(lowest).replacen("<box size=\"0.4 0.3 0.3\"/>", &format!("<mesh filename=\"{file}\"/>"), 1);
     urdf.replacen("<origin xyz=\"0 0 0.15\"/>", "", 1)
+}
+
+/// Returns a certificate that turns the arm past a post.
+fn turned() -> String {
+    found(r#""start": [-0.5, 0], "goal": [0.5, 0],"#, r#""linear""#, "[0, -0.5, 0], [1, 0.5, 0]")
 }
 
 /// Tests that the quill passes above the foot, beside the column. The convex hull of the whole base would block it.
@@ -82,12 +88,12 @@ fn meshes_are_cut_in_layers() {
         // The base is cut at the lower end of the quill.
         holds(fold(0.2, ""));
         holds(fold(0.13, ""));
-        fails(fold(0.12, ""), &["link \"quill\", collision 0", "link \"base\", collision 0, layer 1"]);
-        fails(fold(0.05, ""), &["layer 1"]);
+        fails_with(fold(0.12, ""), &["link \"quill\", collision 0", "link \"base\", collision 0, layer 1"]);
+        fails_with(fold(0.05, ""), &["layer 1"]);
         // The upper corners of the foot belong to both layers if the cut is at their height.
-        fails(fold(0.125, ""), &["layer 1"]);
+        fails_with(fold(0.125, ""), &["layer 1"]);
         holds(fold(0.05, "own_body = false"));
-        fails(fold(0.05, "ignore_contact = [[\"base\", \"fore\"]]"), &["layer 1"]);
+        fails_with(fold(0.05, "ignore_contact = [[\"base\", \"fore\"]]"), &["layer 1"]);
     }
 }
 
@@ -101,12 +107,12 @@ fn proofs_name_layers() {
     };
     let own = |height: &str| format!(r#"{{"own": "base", "collision": 0{height}}}"#);
     holds(shut(0.05, &own(r#", "height": 0.1"#)));
-    fails(shut(0.05, &own("")), &["has several layers: it needs a height"]);
-    fails(shut(0.05, &own(r#", "height": 0.03"#)), &["passes over or under"]);
-    fails(shut(0.05, &own(r#", "height": 0.3"#)), &["no collision shape number 0"]);
-    fails(shut(0.2, &own(r#", "height": 0.22"#)), &["does not touch"]);
+    fails_with(shut(0.05, &own("")), &["has several layers: it needs a height"]);
+    fails_with(shut(0.05, &own(r#", "height": 0.03"#)), &["passes over or under"]);
+    fails_with(shut(0.05, &own(r#", "height": 0.3"#)), &["no collision shape number 0"]);
+    fails_with(shut(0.2, &own(r#", "height": 0.22"#)), &["does not touch"]);
     // A quill above the base does not cut it.
-    fails(shut(0.3, &own("")), &["passes over or under"]);
+    fails_with(shut(0.3, &own("")), &["passes over or under"]);
     // Neither does one that also reaches below it.
     holds(shut(-0.1, &own("")));
     holds(shut(-0.1, &own(r#", "height": 0.1"#)));
@@ -125,15 +131,13 @@ fn layers_also_apply_to_obstacles() {
     let urdf = format!("{before}<link name=\"fore\">{fore}</link>{after}");
     // The bar passes above the post. The convex hull of bar and quill would hit it.
     let post = "[[obstacle]]\ncircle = { center = [0.7, 0], radius = 0.05 }\nheight = [0, 0.25]\n";
-    let turned = r#"{"format": "cplan certificate 1", "answer": "found", "start": [-0.5, 0], "goal": [0.5, 0],
-        "motion": {"interpolation": ["linear"], "knots": [[0, -0.5, 0], [1, 0.5, 0]]}}"#;
     let low = urdf.replacen("0.4 0.3 0.3", "0.1 0.1 0.3", 1);
-    let among = |robot: &str, post: &str| place.judge(&low, &format!("{}{post}", world(robot)), turned);
+    let among = |robot: &str, post: &str| place.judge(&low, &format!("{}{post}", world(robot)), &turned());
     holds(among("", post));
-    fails(among("", &post.replace("0.7,", "0.9,")), &["link \"fore\", collision 0, layer 0", "obstacle 0"]);
-    fails(among("own_body = false", post), &["link \"fore\", collision 0 is", "obstacle 0"]);
+    fails_with(among("", &post.replace("0.7,", "0.9,")), &["link \"fore\", collision 0, layer 0", "obstacle 0"]);
+    fails_with(among("own_body = false", post), &["link \"fore\", collision 0 is", "obstacle 0"]);
     // Between the base and the upper arm's top, bar and quill are one layer.
-    fails(among("", &post.replace("0.25]", "0.31]")), &["layer", "obstacle 0"]);
+    fails_with(among("", &post.replace("0.25]", "0.31]")), &["layer", "obstacle 0"]);
 }
 
 /// Tests that moving links are also cut at each other's heights: the upper arm at the lower end of the quill.
@@ -147,15 +151,13 @@ fn links_that_move_cut_each_other() {
         urdf.replacen("<origin xyz=\"0.25 0 0\"/>", "", 1)
     };
     let post = "[[obstacle]]\ncircle = { center = [-0.25, 0], radius = 0.05 }\nheight = [0.38, 0.44]\n";
-    let turned = r#"{"format": "cplan certificate 1", "answer": "found", "start": [-0.5, 0], "goal": [0.5, 0],
-        "motion": {"interpolation": ["linear"], "knots": [[0, -0.5, 0], [1, 0.5, 0]]}}"#;
-    let among = |lowest: f64, robot: &str| place.judge(&urdf(lowest), &format!("{}{post}", world(robot)), turned);
+    let among = |lowest: f64, robot: &str| place.judge(&urdf(lowest), &format!("{}{post}", world(robot)), &turned());
     let hit = ["link \"upper\", collision 0", "obstacle 0"];
     holds(among(0.36, ""));
     // Cuts outside the mesh, or none.
-    fails(among(0.2, ""), &hit);
-    fails(among(0.36, "ignore_contact = [[\"quill\", \"upper\"]]"), &hit);
-    fails(among(0.36, "own_body = false"), &hit);
+    fails_with(among(0.2, ""), &hit);
+    fails_with(among(0.36, "ignore_contact = [[\"quill\", \"upper\"]]"), &hit);
+    fails_with(among(0.36, "own_body = false"), &hit);
 }
 
 /// Tests that faces scaled to other units give the same layers.
@@ -167,5 +169,5 @@ fn layers_are_scaled() {
     place.write("base", &scaled);
     let urdf = |lowest: f64| of_mesh(lowest, "base.stl\" scale=\"0.0009765625 0.0009765625 0.0009765625");
     holds(place.judge(&urdf(0.13), &world(""), &folded("")));
-    fails(place.judge(&urdf(0.12), &world(""), &folded("")), &["layer 1"]);
+    fails_with(place.judge(&urdf(0.12), &world(""), &folded("")), &["layer 1"]);
 }

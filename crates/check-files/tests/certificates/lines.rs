@@ -2,31 +2,17 @@
 //! shares no code with the checker: dense samples of motion and line (discrete Fréchet distance), and IK solutions at
 //! samples of a disc.
 
-use crate::common::two_bars::{LIMIT, TWO_BARS};
+use crate::common::plane::{HALF_WIDTH, LENGTHS, P, distance, links, minus, plus, tip, turned};
+use crate::common::robots::{LIMIT, two_bars};
+use crate::common::verdict::{Verdict, fails, holds as is_accepted, judge, refused};
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
-use cplan_check_files::{CheckError, check};
-
-type P = [f64; 2];
-
-const LENGTHS: P = [1.0, 0.8];
-
-/// Half of the width of both bars, metres.
-const HALF_WIDTH: f64 = 0.05;
 
 /// Number of samples of a motion between two knots, and of a piece of a line.
 const SAMPLES: u32 = 200;
 
 fn mix(a: P, b: P, u: f64) -> P {
     [0, 1].map(|k| a[k] + (b[k] - a[k]) * u)
-}
-
-fn distance(a: P, b: P) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
-fn tip([a, b]: P) -> P {
-    [LENGTHS[0] * a.cos() + LENGTHS[1] * (a + b).cos(), LENGTHS[0] * a.sin() + LENGTHS[1] * (a + b).sin()]
 }
 
 /// A piece of a line: straight, a cubic Bezier curve, or an arc with its radius, direction, angle and growth.
@@ -54,7 +40,7 @@ impl Piece {
 
     /// Moves the points of the piece. Arcs move as a whole.
     fn moved(&mut self, first: P, last: P) {
-        let by = |p: &mut P, by: P| *p = [p[0] + by[0], p[1] + by[1]];
+        let by = |p: &mut P, by: P| *p = plus(*p, by);
         match self {
             Self::Straight([a, b]) | Self::Cubic([a, _, _, b]) => {
                 by(a, first);
@@ -271,11 +257,9 @@ impl Followed {
 
 /// Returns true if a certificate holds in a world.
 fn holds(world: &str, text: &str) -> bool {
-    match check(TWO_BARS, world, text) {
-        Ok(_) => true,
-        Err(CheckError::Fails(_)) => false,
-        Err(other) => panic!("{other}: {text}"),
-    }
+    let (code, why) = judge(&two_bars(), world, text);
+    assert_ne!(code, 1, "{why}: {text}");
+    code == 0
 }
 
 #[test]
@@ -324,12 +308,10 @@ fn solutions([x, y]: P) -> Vec<P> {
 
 /// Returns the distance of a disc's centre from each bar.
 fn distances(q: P, center: P) -> P {
-    let elbow = [LENGTHS[0] * q[0].cos(), LENGTHS[0] * q[0].sin()];
-    [([0.0, 0.0], q[0], LENGTHS[0]), (elbow, q[0] + q[1], LENGTHS[1])].map(|(from, angle, length)| {
-        let off = [center[0] - from[0], center[1] - from[1]];
-        let along = off[0] * angle.cos() + off[1] * angle.sin();
-        let across = (off[1] * angle.cos() - off[0] * angle.sin()).abs();
-        (along - along.clamp(0.0, length)).hypot((across - HALF_WIDTH).max(0.0))
+    [0, 1].map(|link| {
+        let (from, angle) = links(q)[link];
+        let [along, across] = turned(minus(center, from), -angle);
+        (along - along.clamp(0.0, LENGTHS[link])).hypot((across.abs() - HALF_WIDTH).max(0.0))
     })
 }
 
@@ -352,10 +334,8 @@ impl Excluded {
         let mut claim = Self { place, tolerance, discs: vec![], boxes: vec![] };
         for q in solutions(place).into_iter().filter(|q| q.iter().all(|v| v.abs() < LIMIT + 0.1)) {
             let (bar, share) = (dice.below(2), dice.within(0.3, 0.9));
-            let [a, b] = [0.0, q[1]].map(|turn| (q[0] + turn).sin_cos());
-            let joint = if bar == 1 { [a.1, a.0] } else { [0.0; 2] };
-            let (sine, cosine) = if bar == 1 { b } else { a };
-            let at = [joint[0] + share * LENGTHS[bar] * cosine, joint[1] + share * LENGTHS[bar] * sine];
+            let (joint, angle) = links(q)[bar];
+            let at = plus(joint, turned([share * LENGTHS[bar], 0.0], angle));
             let half = 10_f64.powf(dice.within(-3.0, -1.3));
             claim.boxes.push((q, [half, half * dice.within(0.5, 1.5)], bar, claim.discs.len()));
             claim.discs.push((at, dice.within(0.01, 0.1)));
@@ -507,7 +487,7 @@ fn places_out_of_reach_need_no_boxes() {
 }
 
 /// Returns the claim about a motion along a short straight line, with some members replaced.
-fn simple(replace: &[(&str, &str)]) -> Result<String, CheckError> {
+fn simple(replace: &[(&str, &str)]) -> Verdict {
     let [a, b] = [solutions([1.2, 0.0])[0], solutions([1.2, 0.001])[0]];
     let mut text = format!(
         r#"{{"format": "cplan certificate 1", "answer": "found",
@@ -520,12 +500,12 @@ fn simple(replace: &[(&str, &str)]) -> Result<String, CheckError> {
         assert!(text.contains(from), "{from}");
         text = text.replace(from, to);
     }
-    check(TWO_BARS, "", &text)
+    judge(&two_bars(), "", &text)
 }
 
 #[test]
 fn malformed_lines_are_refused_with_a_reason() {
-    let proven = simple(&[]).unwrap();
+    let proven = is_accepted(simple(&[]));
     assert!(proven.contains("a line of 1 piece, 1 of them travels, from (1.200000, 0.000000) to"), "{proven}");
     let travel = r#""travels": [0]"#;
     for (from, to, why) in [
@@ -538,8 +518,7 @@ fn malformed_lines_are_refused_with_a_reason() {
         ("straight", "crooked", "unknown variant `crooked`"),
         ("0.0001", "0", "its tolerance must be above 0"),
     ] {
-        let error = simple(&[(from, to)]).unwrap_err();
-        assert!(matches!(&error, CheckError::Input { message, .. } if message.contains(why)), "{to}: {error}");
+        refused(simple(&[(from, to)]), why);
     }
     for (from, to, why) in [
         (r#""motion""#, r#""joints": ["b", "a"], "motion""#, "in reverse order"),
@@ -548,16 +527,11 @@ fn malformed_lines_are_refused_with_a_reason() {
         ("[1, 1]]", "[0.6, 0.5], [0.5, 0.6], [1, 1]]", "places[2] returns"),
         ("[1, 1]]", "[0.5, 0.6], [0.6, 0.5], [1, 1]]", "places[2] returns"),
         ("[1, 1]]", "[0.5, 0], [0.5, 1], [1, 1]]", "not shown to stay within"),
-        (
-            "[1.2, 0.001]]}",
-            "[1.2, 0.001]]}, {\"straight\": [[1.3, 0], [1.2, 0]]}",
-            "piece 1 of the line does not begin",
-        ),
+        ("0.001]]}", "0.001]]}, {\"straight\": [[1.3, 0], [1.2, 0]]}", "piece 1 of the line does not begin"),
     ] {
-        let error = simple(&[(from, to)]).unwrap_err();
-        assert!(matches!(&error, CheckError::Fails(message) if message.contains(why)), "{to}: {error}");
+        fails(simple(&[(from, to)]), why);
     }
-    simple(&[(r#""motion""#, r#""joints": ["a", "b"], "motion""#)]).unwrap();
+    is_accepted(simple(&[(r#""motion""#, r#""joints": ["a", "b"], "motion""#)]));
     // A rest of the tip and one of the line are allowed if both are within the tolerance.
-    simple(&[("0.0001", "0.0006"), ("[1, 1]]", "[0.5, 0], [0.5, 1], [1, 1]]")]).unwrap();
+    is_accepted(simple(&[("0.0001", "0.0006"), ("[1, 1]]", "[0.5, 0], [0.5, 1], [1, 1]]")]));
 }

@@ -4,7 +4,6 @@ mod common;
 
 mod arches;
 mod areas;
-mod attack;
 mod attack_found;
 mod attack_tasks;
 mod bound;

@@ -1,8 +1,8 @@
 //! Robots in space, compared with separate floating-point kinematics: planes along any directions, frames turned by
 //! angles and quaternions, held joints, and joints that mimic these.
 
+use crate::common::verdict::found;
 use cplan_cases as random;
-
 use cplan_cases::dice::Dice;
 use cplan_check_files::{CheckError, check};
 
@@ -189,10 +189,7 @@ fn robots_are_where_their_kinematics_have_them() {
         let (first, second) = (q[0], q[1]);
         let report = |tip: [f64; 2], circle: &str| {
             let world = format!("start.joints = [{first}, {second}]\ngoal.tip = [{}, {}]\n{circle}", tip[0], tip[1]);
-            let certificate = format!(
-                r#"{{"format": "cplan certificate 1", "answer": "found",
-                    "motion": {{"interpolation": ["linear"], "knots": [[0, {first}, {second}]]}}}}"#
-            );
+            let certificate = found("", r#""linear""#, &format!("[0, {first}, {second}]"));
             check(&drawn.urdf, &format!("{world}\n{}", drawn.world), &certificate)
         };
         let circle = format!("obstacle = [{{ circle = {{ center = [{a}, {b}], radius = {radius} }} }}]");
@@ -220,9 +217,8 @@ fn joints_without_a_common_plane_are_refused() {
             <joint name="b" type="{kind}"> <parent link="l1"/> <child link="l2"/> <axis xyz="{second}"/> <limit lower="-1" upper="1"/> </joint>
             <link name="l2"> <collision> <geometry> <sphere radius="0.1"/> </geometry> </collision> </link> </robot>"#
         );
-        let certificate = r#"{"format": "cplan certificate 1", "answer": "found",
-            "motion": {"interpolation": ["linear"], "knots": [[0, 0, 0]]}}"#;
-        check(&urdf, "start.joints = [0, 0]\ngoal.joints = [0, 0]", certificate)
+        let certificate = found("", r#""linear""#, "[0, 0, 0]");
+        check(&urdf, "start.joints = [0, 0]\ngoal.joints = [0, 0]", &certificate)
     };
     for (second, kind, is_one) in [
         ("0 0.00099 1", "revolute", true),

@@ -1,24 +1,11 @@
 //! Certificates of tasks with lines, written by hand, and falsified ones.
 
-use crate::common::gantry::{assert_fails as fails, assert_holds as holds, assert_refused as is_refused};
+use crate::common::robots::gantry;
+use crate::common::verdict::{Verdict, agrees, fails, found, holds, judge as judge_certificate, refused};
 #[allow(dead_code, reason = "other tests use more of it")]
 use cplan_cases::{dice, seeds};
-use cplan_check_files::{CheckError, check};
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::fmt::Write as _;
-
-/// URDF of a gantry with the tip at the joints' values. It has a small head.
-const GANTRY: &str = r#"<robot name="g">
-  <link name="base"/>
-  <joint name="x" type="prismatic">
-    <parent link="base"/> <child link="bridge"/> <axis xyz="1 0 0"/> <limit lower="-9" upper="9"/>
-  </joint>
-  <link name="bridge"/>
-  <joint name="y" type="prismatic">
-    <parent link="bridge"/> <child link="head"/> <axis xyz="0 1 0"/> <limit lower="-9" upper="9"/>
-  </joint>
-  <link name="head"> <collision> <geometry> <box size="0.1 0.1 0.1"/> </geometry> </collision> </link>
-</robot>"#;
 
 /// Robot and start of all worlds.
 const HEAD: &str = "robot.bar = 0.01\nrobot.own_body = false\nstart.joints = [0, 1]\n";
@@ -37,19 +24,12 @@ fn line(step: usize, knots: [usize; 2], pieces: &str, places: &str) -> String {
 }
 
 /// Checks a certificate whose knots are joined in a way. Returns the exit code and the message.
-fn judge_read(world: &str, reading: &str, knots: &str, steps: &str) -> (i32, String) {
-    let certificate = format!(
-        r#"{{"format": "cplan certificate 1", "answer": "found", "steps": [{steps}],
-        "motion": {{"interpolation": ["{reading}"], "knots": [{knots}]}}}}"#
-    );
-    match check(GANTRY, &format!("{HEAD}{world}"), &certificate) {
-        Ok(report) => (0, report),
-        Err(CheckError::Fails(why)) => (3, why),
-        Err(CheckError::Input { message, .. }) => (1, message),
-    }
+fn judge_read(world: &str, reading: &str, knots: &str, steps: &str) -> Verdict {
+    let certificate = found(&format!(r#""steps": [{steps}],"#), &format!("{reading:?}"), knots);
+    judge_certificate(&gantry([-9, 9], r#"box size="0.1 0.1 0.1""#), &format!("{HEAD}{world}"), &certificate)
 }
 
-fn judge(world: &str, knots: &str, steps: &str) -> (i32, String) {
+fn judge(world: &str, knots: &str, steps: &str) -> Verdict {
     judge_read(world, "linear", knots, steps)
 }
 
@@ -90,9 +70,9 @@ fn the_tip_stays_within_the_tolerance_of_the_world() {
     // The certificate cannot replace the tolerance.
     for key in ["\"tolerance\": 1", "\"stretch\": [0, 1]"] {
         let steps = both_steps().replace("\"places\"", &format!("{key}, \"places\""));
-        is_refused(judge(ANGLE, &off(1e-3), &steps), "the \"line\" of a step has no tolerance");
+        refused(judge(ANGLE, &off(1e-3), &steps), "the \"line\" of a step has no tolerance");
     }
-    is_refused(judge(&with("0"), KNOTS, &both_steps()), "must be positive");
+    refused(judge(&with("0"), KNOTS, &both_steps()), "must be positive");
 }
 
 #[test]
@@ -155,7 +135,7 @@ fn other_lines_are_taken_from_the_certificate() {
         ("spline = [[1, 1], [3, 1]], radius = 1", "only a line with points has a radius"),
         ("arc = [[1, 1], [3, 1]]", "an arc needs three points"),
     ] {
-        is_refused(judge(&format!("[[step]]\nfollow = {{ {form} }}\n"), KNOTS, &both_steps()), part);
+        refused(judge(&format!("[[step]]\nfollow = {{ {form} }}\n"), KNOTS, &both_steps()), part);
     }
 }
 
@@ -229,7 +209,7 @@ impl PlacedArc {
     }
 
     /// Judges the motion with an arc in the certificate.
-    fn judge(&self, [x, y, radius, from, by]: [f64; 5]) -> (i32, String) {
+    fn judge(&self, [x, y, radius, from, by]: [f64; 5]) -> Verdict {
         let piece =
             format!(r#"{{"arc": {{"center": [{x:?}, {y:?}], "radius": {radius:?}, "from": {from:?}, "by": {by:?}}}}}"#);
         let along = line(2, [1, CHORDS as usize + 1], &piece, &self.places);
@@ -294,9 +274,9 @@ fn the_arm_rests_at_both_ends_of_the_line() {
 #[test]
 fn only_steps_along_lines_have_lines() {
     let along = line(2, [1, 3], PIECES, PLACES);
-    is_refused(judge(ANGLE, KNOTS, &format!("{MOVE}, {{\"step\": 2, \"knots\": [1, 3]}}")), "has no \"line\"");
+    refused(judge(ANGLE, KNOTS, &format!("{MOVE}, {{\"step\": 2, \"knots\": [1, 3]}}")), "has no \"line\"");
     let first = line(1, [0, 1], PIECES, "[0, 0], [1, 1]");
-    is_refused(judge(ANGLE, KNOTS, &format!("{first}, {along}")), "step 1 follows no line, but has a \"line\"");
+    refused(judge(ANGLE, KNOTS, &format!("{first}, {along}")), "step 1 follows no line, but has a \"line\"");
 }
 
 #[test]
@@ -322,9 +302,7 @@ fn the_arm_and_its_payload_are_free_along_the_line() {
     );
     let post = |y: f64| format!("[[obstacle]]\ncircle = {{ center = [2, {y}], radius = 0.1 }}\n");
     for (y, with_block, alone) in [(1.31, true, true), (1.29, false, true), (1.14, false, false)] {
-        let report = judge(&format!("{}{carried}{ANGLE}", post(y)), KNOTS, &steps);
-        assert_eq!(report.0, if with_block { 0 } else { 3 }, "{y}: {report:?}");
-        let report = judge(&format!("{}{ANGLE}", post(y)), KNOTS, &both_steps());
-        assert_eq!(report.0, if alone { 0 } else { 3 }, "{y}: {report:?}");
+        agrees(judge(&format!("{}{carried}{ANGLE}", post(y)), KNOTS, &steps), with_block, "");
+        agrees(judge(&format!("{}{ANGLE}", post(y)), KNOTS, &both_steps()), alone, "");
     }
 }

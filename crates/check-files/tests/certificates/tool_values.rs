@@ -1,9 +1,9 @@
 //! Certificates of motions that begin and end with a lowered tool.
 
-use crate::common::gantry::{GANTRY, assert_fails, assert_holds, assert_refused, judge_steps};
+use crate::common::gantry::{GANTRY, judge_steps};
+use crate::common::verdict::{Verdict, fails, found, holds, judge as judge_certificate, refused};
 #[allow(dead_code, reason = "other tests use more of it")]
 use cplan_cases as random;
-use cplan_check_files::{CheckError, check};
 
 /// Values of the stroke's joint at the start and the goal, metres. Greater values are lower.
 const ENDS: [f64; 2] = [0.2, 0.3];
@@ -41,7 +41,7 @@ fn lowering(begin: f64) -> String {
     stroke("lowering", begin, [0.0, ENDS[1]])
 }
 
-fn judge(world: &str, more: &str) -> (i32, String) {
+fn judge(world: &str, more: &str) -> Verdict {
     judge_steps(GANTRY, world, KNOTS, &format!("{{\"step\": 1, \"knots\": [1, 2]{more}}}"))
 }
 
@@ -51,7 +51,7 @@ fn the_tool_is_raised_and_lowered_at_rest_or_on_the_way() {
     for more in
         [String::new(), raising(0.8), lowering(2.7), raising(1.0) + &lowering(3.0), raising(0.0) + &lowering(3.6)]
     {
-        assert_holds(judge(&world, &more));
+        holds(judge(&world, &more));
     }
 }
 
@@ -67,44 +67,39 @@ fn wrong_strokes_are_refuted() {
         (stroke("lowering", 2.8, [0.0, 0.2]), "from the raised to the lowered height"),
         (stroke("raising", 2.8, [0.3, 0.0]), "neither picks nor places"),
     ] {
-        assert_fails(judge(&open, &more), part);
+        fails(judge(&open, &more), part);
     }
-    assert_fails(judge(&world("arch = false", ""), &raising(0.8)), "must rest during strokes");
-    assert_holds(judge(&world("arch = false", ""), ""));
-    assert_fails(judge(&world("arch = { rise = 0.19 }", ""), &raising(0.9)), "has risen by");
-    assert_fails(judge(&world("arch = { fall = 0.1 }", ""), &lowering(2.62)), "lower than");
+    fails(judge(&world("arch = false", ""), &raising(0.8)), "must rest during strokes");
+    holds(judge(&world("arch = false", ""), ""));
+    fails(judge(&world("arch = { rise = 0.19 }", ""), &raising(0.9)), "has risen by");
+    fails(judge(&world("arch = { fall = 0.1 }", ""), &lowering(2.62)), "lower than");
     let raised = open.replace("stroke = 0.2\n", "").replace("stroke = 0.3\n", "");
-    assert_holds(judge(&(raised.clone() + "wrist = 1\n"), ""));
-    assert_fails(judge(&(raised.clone() + "wrist = 1\n"), &raising(0.8)), "raised already");
-    assert_fails(judge(&(raised.clone() + "wrist = 1\n"), &lowering(2.8)), "neither picks nor places");
-    assert_refused(judge(&raised, ""), "no steps");
-    assert_refused(judge(&open.replace("stroke = { joint = \"z\" }", ""), ""), "has no stroke");
+    holds(judge(&(raised.clone() + "wrist = 1\n"), ""));
+    fails(judge(&(raised.clone() + "wrist = 1\n"), &raising(0.8)), "raised already");
+    fails(judge(&(raised.clone() + "wrist = 1\n"), &lowering(2.8)), "neither picks nor places");
+    refused(judge(&raised, ""), "no steps");
+    refused(judge(&open.replace("stroke = { joint = \"z\" }", ""), ""), "has no stroke");
 }
 
 #[test]
 fn a_certificate_without_steps_is_refused() {
-    let certificate = format!(
-        r#"{{"format": "cplan certificate 1", "answer": "found",
-        "motion": {{"interpolation": ["linear"], "knots": [{KNOTS}]}}}}"#
-    );
-    let error = check(GANTRY, &world("", ""), &certificate).unwrap_err();
-    assert!(matches!(&error, CheckError::Input { message, .. } if message.contains("needs steps")), "{error:?}");
+    refused(judge_certificate(GANTRY, &world("", ""), &found("", "\"linear\"", KNOTS)), "needs steps");
 }
 
 #[test]
 fn the_lowered_tool_meets_what_is_below() {
     // The ball of the raised quill is from 0.49 to 0.51.
     for (x, height) in [(0.0, 0.31), (4.0, 0.21)] {
-        assert_fails(judge(&world("", &post(x, 0.05, [0.0, height])), ""), "quill");
-        assert_holds(judge(&world("", &post(x, 0.05, [0.0, height - 0.03])), ""));
+        fails(judge(&world("", &post(x, 0.05, [0.0, height])), ""), "quill");
+        holds(judge(&world("", &post(x, 0.05, [0.0, height - 0.03])), ""));
     }
     // Beside the path's ends, a post of a height that only the lowered tool meets.
     for (x, height, early, late) in
         [(0.4, 0.47, raising(1.0), raising(0.6)), (3.6, 0.47, lowering(2.7), lowering(2.95))]
     {
         let world = world("", &post(x, 0.1, [0.0, height]));
-        assert_holds(judge(&world, &late));
-        assert_fails(judge(&world, &early), "during a stroke");
+        holds(judge(&world, &late));
+        fails(judge(&world, &early), "during a stroke");
     }
 }
 

@@ -1,6 +1,7 @@
 //! Certificates of tasks in which the wrist turns the load while the arm moves.
 
-use crate::common::gantry::{GANTRY, KNOTS, assert_fails, assert_holds, judge_steps};
+use crate::common::gantry::{GANTRY, KNOTS, judge_steps};
+use crate::common::verdict::{Verdict, fails, holds};
 #[allow(dead_code, reason = "other tests use more of it")]
 use cplan_cases as random;
 use cplan_cases::dice::Dice;
@@ -30,7 +31,7 @@ fn post([x, y]: [f64; 2], radius: f64) -> String {
     format!("[[obstacle]]\nheight = [0.3, 0.34]\ncircle = {{ center = [{x}, {y}], radius = {radius} }}\n")
 }
 
-fn judge(world: &str, more: [&str; 3]) -> (i32, String) {
+fn judge(world: &str, more: [&str; 3]) -> Verdict {
     let step = |k: usize| format!("{{\"step\": {}, \"knots\": [{}, {}]{}}}", k + 1, 2 * k, 2 * k + 1, more[k]);
     let steps: Vec<String> = (0..3).map(step).collect();
     judge_steps(GANTRY, world, KNOTS, &steps.join(", "))
@@ -45,13 +46,13 @@ fn turning(begin: f64, by: f64) -> String {
 fn turns_may_overlap_with_motions() {
     for robot in ["", STROKE] {
         let world = world(robot, "");
-        assert_holds(judge(&world, ["", ", \"turn\": 1.5707963267948966", ""]));
-        assert_holds(judge(&world, ["", &turning(2.8, FRAC_PI_2), ""]));
-        assert_holds(judge(&world, ["", &turning(2.0, FRAC_PI_2), ""]));
-        assert_holds(judge(&world, [&turning(1.7, FRAC_PI_2), "", ""]));
-        assert_holds(judge(&world, [&turning(2.6, FRAC_PI_2), "", ""]));
+        holds(judge(&world, ["", ", \"turn\": 1.5707963267948966", ""]));
+        holds(judge(&world, ["", &turning(2.8, FRAC_PI_2), ""]));
+        holds(judge(&world, ["", &turning(2.0, FRAC_PI_2), ""]));
+        holds(judge(&world, [&turning(1.7, FRAC_PI_2), "", ""]));
+        holds(judge(&world, [&turning(2.6, FRAC_PI_2), "", ""]));
         // In the other direction, with another end.
-        assert_fails(judge(&world, ["", &turning(2.8, -FRAC_PI_2), ""]), "target");
+        fails(judge(&world, ["", &turning(2.8, -FRAC_PI_2), ""]), "target");
     }
 }
 
@@ -71,7 +72,7 @@ fn a_turn_is_in_the_motion_to_a_place_or_from_a_pick() {
         (["", ", \"turn\": 1.5, \"turning\": [[2.8, 0, 0], [2.9, 1.6, 0], [3.1, 1.5, 0]]", ""], "turns back"),
         (["", ", \"turn\": 8, \"turning\": [[2.8, 0, 0], [3.1, 8, 0]]", ""], "more than one revolution"),
     ] {
-        assert_fails(judge(&world, more), part);
+        fails(judge(&world, more), part);
     }
 }
 
@@ -79,8 +80,8 @@ fn a_turn_is_in_the_motion_to_a_place_or_from_a_pick() {
 fn the_world_can_forbid_turns_on_the_way() {
     for robot in ["arch = false", "stroke = { joint = \"z\" }\narch = false"] {
         let world = world(robot, "");
-        assert_holds(judge(&world, ["", ", \"turn\": 1.5707963267948966", ""]));
-        assert_fails(judge(&world, ["", &turning(2.8, FRAC_PI_2), ""]), "the arm must rest while the wrist turns");
+        holds(judge(&world, ["", ", \"turn\": 1.5707963267948966", ""]));
+        fails(judge(&world, ["", &turning(2.8, FRAC_PI_2), ""]), "the arm must rest while the wrist turns");
     }
 }
 
@@ -91,16 +92,16 @@ fn the_tool_is_raised_during_turns() {
     let raising = |begin: f64| format!(", \"raising\": [[{begin}, 0.3, 0], [{}, 0, 0]]", begin + DURATION);
     let place =
         |turn: f64, down: f64| judge(&world, ["", &format!("{}{}", turning(turn, FRAC_PI_2), lowering(down)), ""]);
-    assert_holds(place(2.4, 2.8));
-    assert_holds(place(2.2, 2.8));
-    assert_fails(place(2.41, 2.8), "while the tool is not raised");
+    holds(place(2.4, 2.8));
+    holds(place(2.2, 2.8));
+    fails(place(2.41, 2.8), "while the tool is not raised");
     let pick = |up: f64, turn: f64| judge(&world, [&format!("{}{}", raising(up), turning(turn, FRAC_PI_2)), "", ""]);
-    assert_holds(pick(1.8, 2.2));
-    assert_fails(pick(1.8, 2.19), "while the tool is not raised");
+    holds(pick(1.8, 2.2));
+    fails(pick(1.8, 2.19), "while the tool is not raised");
     // The turn after the pick ends before the lowering for the place begins.
     let both = |down: f64| judge(&world, [&turning(2.3, FRAC_PI_2), &lowering(down), ""]);
-    assert_holds(both(2.7));
-    assert_fails(both(2.69), "while the tool is not raised");
+    holds(both(2.7));
+    fails(both(2.69), "while the tool is not raised");
 }
 
 /// Tests a post beside the path that the turned block touches, and the block at rest does not.
@@ -108,12 +109,12 @@ fn the_tool_is_raised_during_turns() {
 fn the_load_has_the_angles_of_each_moment() {
     // The long side passes the post below it while the block has not turned far, or once the block is past it.
     let world = world(STROKE, &post([2.5, 0.83], 0.01));
-    assert_holds(judge(&world, ["", ", \"turn\": 1.5707963267948966", ""]));
+    holds(judge(&world, ["", ", \"turn\": 1.5707963267948966", ""]));
     // The block passes the post from 2.65 to 2.85 s, so it must not turn far before it has passed.
-    assert_holds(judge(&world, ["", &turning(2.86, FRAC_PI_2), ""]));
-    assert_fails(judge(&world, ["", &turning(2.5, FRAC_PI_2), ""]), "during a turn of the wrist, ");
+    holds(judge(&world, ["", &turning(2.86, FRAC_PI_2), ""]));
+    fails(judge(&world, ["", &turning(2.5, FRAC_PI_2), ""]), "during a turn of the wrist, ");
     // After the pick, a turn at the beginning of the motion leaves the block turned for the rest of it.
-    assert_fails(judge(&world, [&turning(1.9, FRAC_PI_2), "", ""]), "from knot 2");
+    fails(judge(&world, [&turning(1.9, FRAC_PI_2), "", ""]), "from knot 2");
 }
 
 /// Compares verdicts on random turns past random posts with dense samples.

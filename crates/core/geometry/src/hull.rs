@@ -43,7 +43,6 @@ fn append_chain<'a>(corners: &mut Vec<Point>, points: impl Iterator<Item = &'a P
 #[cfg(test)]
 mod tests {
     use super::*;
-    use proptest::prelude::*;
 
     #[test]
     fn degenerate_sets_give_points_and_segments() {
@@ -54,50 +53,5 @@ mod tests {
         // Negative zero is zero.
         let square = [p(-0.0, 1.0), p(0.0, 0.0), p(1.0, -0.0), p(1.0, 1.0), p(0.0, 0.5), p(-0.0, 0.25)];
         assert_eq!(hull(&square), [p(0.0, 0.0), p(1.0, 0.0), p(1.0, 1.0), p(0.0, 1.0)]);
-    }
-
-    /// Returns the corners of the hull by definition: points that no triangle and no segment of other points contains.
-    fn extreme_points(points: &[(i32, i32)]) -> Vec<(i32, i32)> {
-        let mut distinct = points.to_vec();
-        distinct.sort_unstable();
-        distinct.dedup();
-        let side = |a: (i32, i32), b: (i32, i32), p: (i32, i32)| {
-            ((b.0 - a.0) * (p.1 - a.1) - (b.1 - a.1) * (p.0 - a.0)).signum()
-        };
-        let between = |a: (i32, i32), b: (i32, i32), p: (i32, i32)| {
-            side(a, b, p) == 0 && (a.0 - p.0) * (b.0 - p.0) <= 0 && (a.1 - p.1) * (b.1 - p.1) <= 0
-        };
-        let covered = |p: (i32, i32)| {
-            let others: Vec<_> = distinct.iter().copied().filter(|&q| q != p).collect();
-            others.iter().any(|&a| {
-                others.iter().any(|&b| {
-                    between(a, b, p)
-                        || others.iter().any(|&c| {
-                            let s = [side(a, b, p), side(b, c, p), side(c, a, p)];
-                            side(a, b, c) > 0 && s.iter().all(|&s| s >= 0)
-                        })
-                })
-            })
-        };
-        distinct.iter().copied().filter(|&p| !covered(p)).collect()
-    }
-
-    proptest! {
-        #![proptest_config(cplan_cases::cases(500))]
-
-        #[test]
-        fn corners_are_the_extreme_points(points in prop::collection::vec((-4..=4i32, -4..=4i32), 1..12)) {
-            let input: Vec<Point> = points.iter().map(|&(x, y)| Point::new(x.into(), y.into())).collect();
-            let corners = hull(&input);
-            let mut found: Vec<_> = corners.iter().map(|p| (p.x as i32, p.y as i32)).collect();
-            if found.len() > 2 {
-                for i in 0..found.len() {
-                    let [a, b, c] = [0, 1, 2].map(|k| found[(i + k) % found.len()]);
-                    prop_assert!((b.0 - a.0) * (c.1 - a.1) > (b.1 - a.1) * (c.0 - a.0));
-                }
-            }
-            found.sort_unstable();
-            prop_assert_eq!(found, extreme_points(&points));
-        }
     }
 }

@@ -143,26 +143,6 @@ mod tests {
     }
 
     #[test]
-    fn the_cubic_of_a_quadratic_motion_is_that_motion() {
-        // 1 + 0.5 t - 0.75 t^2 from t = 2 to 2.5.
-        let position = |t: f64| 1.0 + 0.5 * t - 0.75 * t * t;
-        let velocity = |t: f64| 0.5 - 1.5 * t;
-        let ends = [2.0, 2.5].map(|t| [q(position(t), -3.0 * position(t)), q(velocity(t), -3.0 * velocity(t))]);
-        let piece = Piece::hermite(2.0, 2.5, ends[0], ends[1]);
-        for i in 0..=10 {
-            let u = f64::from(i) / 10.0;
-            let t = piece.time(u);
-            for (of, value) in [
-                (Derivative::Position, position(t)),
-                (Derivative::Velocity, velocity(t)),
-                (Derivative::Acceleration, -1.5),
-            ] {
-                assert!((piece.derivative(of, u) - q(value, -3.0 * value)).norm() < 1e-12, "{of:?} at {t}");
-            }
-        }
-    }
-
-    #[test]
     fn a_still_piece_has_no_rates() {
         let piece = Piece::line(1.0, 1.0, q(0.3, 0.4), q(0.3, 0.4));
         assert_eq!(piece.at(0.7), q(0.3, 0.4));

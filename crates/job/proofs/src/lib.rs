@@ -39,6 +39,8 @@ mod separating;
 mod slab;
 mod slabs;
 mod slim;
+#[cfg(test)]
+mod tests;
 mod tiles;
 
 pub use channel::Channel;

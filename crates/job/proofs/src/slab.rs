@@ -227,10 +227,9 @@ pub(super) fn is_collision(scene: &Scene, pair: Pair, cell: &Cell, clearance: f6
 mod tests {
     use super::super::tiles::tile;
     use super::*;
+    use crate::tests::scene;
     use cplan_geometry::hull;
     use cplan_model::space::{Configuration, JointRange};
-    use cplan_model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
-    use nalgebra::Vector3;
     use proptest::prelude::*;
 
     fn shape(spread: f64) -> impl Strategy<Value = Convex> {
@@ -241,41 +240,6 @@ mod tests {
         })
     }
 
-    fn joint(turns: bool, range: JointRange) -> Joint {
-        let motion = if turns {
-            JointType::Revolute { sign: -1.0 }
-        } else {
-            JointType::Prismatic { direction: Vector::new(0.6, 0.8) }
-        };
-        Joint { name: "joint".into(), joint_type: motion, range, velocity: 1.0, acceleration: 1.0, jerk: None }
-    }
-
-    fn scene(kinds: (bool, bool), offset: Vector, part: Convex, piece: Convex) -> Scene {
-        let long = JointRange::Interval { lower: -4.0, upper: 4.0 };
-        let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
-        let part =
-            Part { shape: part, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: "body".into() };
-        let arm = Arm {
-            name: "arm".into(),
-            joints: [joint(kinds.0, long), joint(kinds.1, if kinds.1 { JointRange::Circle } else { long })],
-            links: [link(vec![]), link(vec![part])],
-            base: Point::new(0.1, -0.2),
-            offset,
-            tip: Point::zeros(),
-            tip_name: "tip".into(),
-            plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
-            dynamics: None,
-            motors: None,
-            self_obstacles: Vec::new(),
-        };
-        let shape = Shape::Polygon(piece.core().to_vec());
-        let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };
-        Scene::trusted(
-            arm,
-            Workspace { name: "w".into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() },
-        )
-    }
-
     proptest! {
         #![proptest_config(cplan_cases::cases(600))]
 
@@ -283,14 +247,17 @@ mod tests {
         /// depend on contact angles.
         #[test]
         fn verdicts_hold_all_over_the_slab(
-            kinds in (any::<bool>(), any::<bool>()), offset in (-1.0..1.0f64, -1.0..1.0f64),
+            kinds in any::<[bool; 2]>(), offset in (-1.0..1.0f64, -1.0..1.0f64),
             part in shape(0.8), piece in shape(0.6), at in (-1.2..1.2f64, -1.2..1.2f64),
             middle in -3.0..3.0f64, half in prop_oneof![0.001..0.02f64, 0.02..0.3f64],
             clearance in prop_oneof![Just(0.0), 0.0..0.2f64],
             samples in prop::collection::vec((-1.0..=1.0f64, 0.0..=1.0f64), 40),
         ) {
             let moved = piece.core().iter().map(|p| p + Vector::new(at.0, at.1)).collect();
-            let scene = scene(kinds, Vector::new(offset.0, offset.1), part, Convex::trusted(moved, piece.radius()));
+            let long = JointRange::Interval { lower: -4.0, upper: 4.0 };
+            let ranges = [long, if kinds[1] { JointRange::Circle } else { long }];
+            let piece = Convex::trusted(moved, piece.radius());
+            let scene = scene(kinds, ranges, Vector::new(offset.0, offset.1), part, piece);
             let mut second = SecondLink::new(&scene, clearance);
             let mut verdicts = Verdicts::default();
             let (from, to) = (middle - half, middle + half);

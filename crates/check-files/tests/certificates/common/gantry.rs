@@ -1,6 +1,6 @@
 //! A gantry that lowers its tool, and hand-made certificates of its tasks.
 
-use cplan_check_files::{CheckError, check};
+use super::verdict::{Verdict, done, judge};
 
 /// URDF of a gantry with the tip at the joints' values. Its quill has a ball at height 0.5, and greater values of its
 /// joint are lower. All other shapes are above it.
@@ -24,30 +24,6 @@ pub const GANTRY: &str = r#"<robot name="g">
 pub const KNOTS: &str = "[0, 0, 1], [1, 1, 1], [2, 1, 1], [3, 3, 1], [4, 3, 1], [5, 5, 1]";
 
 /// Checks a certificate with these knots and steps.
-pub fn judge_steps(urdf: &str, world: &str, knots: &str, steps: &str) -> (i32, String) {
-    let certificate = format!(
-        r#"{{"format": "cplan certificate 1", "answer": "found", "steps": [{steps}],
-        "motion": {{"interpolation": ["linear"], "knots": [{knots}]}}}}"#
-    );
-    match check(urdf, world, &certificate) {
-        Ok(report) => (0, report),
-        Err(CheckError::Fails(why)) => (3, why),
-        Err(CheckError::Input { message, .. }) => (1, message),
-    }
-}
-
-#[track_caller]
-pub fn assert_holds((code, report): (i32, String)) -> String {
-    assert_eq!(code, 0, "{report}");
-    report
-}
-
-#[track_caller]
-pub fn assert_fails((code, report): (i32, String), part: &str) {
-    assert!(code == 3 && report.contains(part), "{code} {report}");
-}
-
-#[track_caller]
-pub fn assert_refused((code, report): (i32, String), part: &str) {
-    assert!(code == 1 && report.contains(part), "{code} {report}");
+pub fn judge_steps(urdf: &str, world: &str, knots: &str, steps: &str) -> Verdict {
+    judge(urdf, world, &done(knots, steps))
 }

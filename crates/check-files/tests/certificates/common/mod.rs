@@ -1,6 +1,7 @@
 //! Robots and verdicts that several files use.
 
-pub mod code;
 pub mod gantry;
+pub mod plane;
+pub mod robots;
 pub mod scara;
-pub mod two_bars;
+pub mod verdict;

@@ -1,6 +1,6 @@
 //! A SCARA that can fold its quill into its base.
 
-use cplan_check_files::CheckError;
+use super::verdict::found;
 
 /// Returns the URDF of a SCARA. The base is 0.4 m by 0.3 m and 0.3 m high, and stands at height 0. The quill reaches
 /// down to the height `lowest`.
@@ -33,32 +33,7 @@ pub fn world(robot: &str) -> String {
 
 /// Returns a certificate that folds the arm. The quill ends 0.17 m from the axis of the base.
 pub fn folded(extra: &str) -> String {
-    format!(
-        r#"{{"format": "cplan certificate 1", "answer": "found", {extra}
-            "motion": {{"interpolation": ["linear"], "knots": [[0, -1, 0], [1, -1, 2.8]]}}}}"#
-    )
-}
-
-/// Returns the exit code of `cplan-check` for a verdict, and the message.
-pub fn output(verdict: Result<String, CheckError>) -> (i32, String) {
-    match verdict {
-        Ok(report) => (0, report),
-        Err(CheckError::Fails(why)) => (3, why),
-        Err(CheckError::Input { message, .. }) => (1, message),
-    }
-}
-
-/// Asserts that a certificate holds, and returns the message.
-#[track_caller]
-pub fn holds((code, report): (i32, String)) -> String {
-    assert_eq!(code, 0, "{report}");
-    report
-}
-
-/// Asserts that a certificate fails, with a message that has all of these words.
-#[track_caller]
-pub fn fails((code, report): (i32, String), parts: &[&str]) {
-    assert!(code == 3 && parts.iter().all(|part| report.contains(part)), "{code} {report}");
+    found(extra, r#""linear""#, "[0, -1, 0], [1, -1, 2.8]")
 }
 
 /// Returns a certificate that the elbow cannot fold beyond 2.65 rad. Its evidence: from there on, the shape overlaps

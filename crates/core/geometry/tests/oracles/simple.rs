@@ -1,9 +1,8 @@
 //! The penetration test and the difference of simple polygons, against integer arithmetic and sampled translations.
 
+use crate::lattice::{self, Corner, cross};
 use cplan_geometry::{Point, SimplePolygon, polygon_test, simple_difference, simple_polygon_test};
 use proptest::prelude::*;
-
-type Corner = (i64, i64);
 
 /// Returns simple polygons of the lattice: random points in the order of a random list, if their boundary is simple.
 fn simple() -> impl Strategy<Value = (Vec<Corner>, SimplePolygon)> {
@@ -15,41 +14,31 @@ fn simple() -> impl Strategy<Value = (Vec<Corner>, SimplePolygon)> {
     })
 }
 
-fn turn(a: Corner, b: Corner, c: Corner) -> i64 {
-    ((b.0 - a.0) * (c.1 - a.1) - (b.1 - a.1) * (c.0 - a.0)).signum()
-}
-
 fn sides(polygon: &[Corner]) -> impl Iterator<Item = (Corner, Corner)> + '_ {
     (0..polygon.len()).map(|i| (polygon[i], polygon[(i + 1) % polygon.len()]))
 }
 
-fn is_on(p: Corner, (a, b): (Corner, Corner)) -> bool {
-    let within = |a: i64, b: i64, p: i64| a.min(b) <= p && p <= a.max(b);
-    turn(a, b, p) == 0 && within(a.0, b.0, p.0) && within(a.1, b.1, p.1)
-}
-
 /// Returns 0 outside of the polygon, 1 on its boundary, 2 inside, by the winding number.
 fn location(p: Corner, polygon: &[Corner]) -> u8 {
-    if sides(polygon).any(|side| is_on(p, side)) {
+    if sides(polygon).any(|(a, b)| lattice::meet(&[p], &[a, b])) {
         return 1;
     }
     let winding = |(a, b): (Corner, Corner)| match (a.1 <= p.1, b.1 <= p.1) {
-        (true, false) if turn(a, b, p) > 0 => 1,
-        (false, true) if turn(a, b, p) < 0 => -1,
+        (true, false) if cross(a, b, p) > 0 => 1,
+        (false, true) if cross(a, b, p) < 0 => -1,
         _ => 0,
     };
     if sides(polygon).map(winding).sum::<i64>() == 0 { 0 } else { 2 }
 }
 
 fn crosses((a, b): (Corner, Corner), (c, d): (Corner, Corner)) -> bool {
-    turn(a, b, c) * turn(a, b, d) < 0 && turn(c, d, a) * turn(c, d, b) < 0
+    let parts = |a, b, p, q| cross(a, b, p).signum() * cross(a, b, q).signum() < 0;
+    parts(a, b, c, d) && parts(c, d, a, b)
 }
 
 /// Returns true if two closed polygons have a point in common: their sides meet, or one contains the other.
 fn meet(a: &[Corner], b: &[Corner]) -> bool {
-    let sides_meet = |s: (Corner, Corner), t: (Corner, Corner)| {
-        crosses(s, t) || is_on(s.0, t) || is_on(s.1, t) || is_on(t.0, s) || is_on(t.1, s)
-    };
+    let sides_meet = |(a, b): (Corner, Corner), (c, d): (Corner, Corner)| lattice::meet(&[a, b], &[c, d]);
     sides(a).any(|s| sides(b).any(|t| sides_meet(s, t))) || location(a[0], b) > 0 || location(b[0], a) > 0
 }
 

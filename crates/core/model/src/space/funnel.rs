@@ -142,55 +142,34 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    fn portal(left: (f64, f64), right: (f64, f64)) -> Portal {
-        Portal { left: Point::new(left.0, left.1), right: Point::new(right.0, right.1) }
-    }
-
-    fn points(path: &[(f64, f64)]) -> Vec<Point> {
-        path.iter().map(|&(x, y)| Point::new(x, y)).collect()
-    }
-
     #[test]
-    fn without_portals_the_path_is_straight() {
-        let [a, b] = [Point::new(0.0, 0.0), Point::new(1.0, 2.0)];
-        assert_eq!(funnel_path(a, b, &[]), vec![a, b]);
-        assert_eq!(funnel_path(a, a, &[]), vec![a]);
-    }
-
-    #[test]
-    fn an_open_portal_does_not_bend_the_path() {
-        let open = portal((1.0, 1.0), (1.0, -1.0));
-        let path = funnel_path(Point::new(0.0, 0.0), Point::new(2.0, 0.5), &[open]);
-        assert_eq!(path, points(&[(0.0, 0.0), (2.0, 0.5)]));
-    }
-
-    #[test]
-    fn the_path_turns_at_the_nearer_end_of_an_offset_portal() {
-        let above = [portal((1.0, 3.0), (1.0, 2.0)), portal((2.0, 3.0), (2.0, 1.5))];
-        let path = funnel_path(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &above);
-        assert_eq!(path, points(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.5), (3.0, 0.0)]));
-    }
-
-    #[test]
-    fn a_turn_back_on_one_vertical_avoids_obstacles_between() {
-        // The path passes right of the wall, then left of it. The wall ends at (2, 1) and (2, 1.5).
-        let wall = [portal((2.0, 1.0), (2.0, 0.0)), portal((2.0, 1.5), (2.0, 3.0))];
-        let path = funnel_path(Point::new(0.0, 0.5), Point::new(0.0, 2.0), &wall);
-        assert_eq!(path, points(&[(0.0, 0.5), (2.0, 1.0), (2.0, 1.5), (0.0, 2.0)]));
-    }
-
-    #[test]
-    fn a_start_on_the_line_of_a_portal_follows_it() {
-        let below = [portal((0.0, -1.0), (0.0, -2.0)), portal((1.0, 5.0), (1.0, -5.0))];
-        let path = funnel_path(Point::new(0.0, 0.0), Point::new(2.0, 0.0), &below);
-        assert_eq!(path, points(&[(0.0, 0.0), (0.0, -1.0), (2.0, 0.0)]));
-    }
-
-    #[test]
-    fn collinear_ends_do_not_bend_the_path() {
-        let along = [portal((1.0, 1.0), (1.0, 0.0)), portal((2.0, 1.0), (2.0, 0.0))];
-        let path = funnel_path(Point::new(0.0, 0.0), Point::new(3.0, 0.0), &along);
-        assert_eq!(path, points(&[(0.0, 0.0), (3.0, 0.0)]));
+    fn paths_turn_only_where_portals_make_them() {
+        let point = |(x, y): (f64, f64)| Point::new(x, y);
+        let portal = |[left, right]: &[(f64, f64); 2]| Portal { left: point(*left), right: point(*right) };
+        for (portals, path) in [
+            (vec![], vec![(0.0, 0.0), (1.0, 2.0)]),
+            (vec![], vec![(0.0, 0.0)]),
+            // An open portal.
+            (vec![[(1.0, 1.0), (1.0, -1.0)]], vec![(0.0, 0.0), (2.0, 0.5)]),
+            // Portals to one side: their nearer ends.
+            (
+                vec![[(1.0, 3.0), (1.0, 2.0)], [(2.0, 3.0), (2.0, 1.5)]],
+                vec![(0.0, 0.0), (1.0, 2.0), (2.0, 1.5), (3.0, 0.0)],
+            ),
+            // The path passes right of a wall, then left of it. The wall ends at (2, 1) and (2, 1.5).
+            (
+                vec![[(2.0, 1.0), (2.0, 0.0)], [(2.0, 1.5), (2.0, 3.0)]],
+                vec![(0.0, 0.5), (2.0, 1.0), (2.0, 1.5), (0.0, 2.0)],
+            ),
+            // The start is on the line of a portal.
+            (vec![[(0.0, -1.0), (0.0, -2.0)], [(1.0, 5.0), (1.0, -5.0)]], vec![(0.0, 0.0), (0.0, -1.0), (2.0, 0.0)]),
+            // The ends of portals are on the path.
+            (vec![[(1.0, 1.0), (1.0, 0.0)], [(2.0, 1.0), (2.0, 0.0)]], vec![(0.0, 0.0), (3.0, 0.0)]),
+        ] {
+            let path: Vec<Point> = path.into_iter().map(point).collect();
+            let portals: Vec<Portal> = portals.iter().map(portal).collect();
+            assert_eq!(funnel_path(path[0], path[path.len() - 1], &portals), path);
+        }
     }
 
     proptest! {

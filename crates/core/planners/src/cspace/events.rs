@@ -235,9 +235,8 @@ fn sides(core: &[Point]) -> impl Iterator<Item = (Point, Point)> + '_ {
 mod tests {
     use super::*;
     use cplan_geometry::{Hits, hull, sliding as slid, turning};
+    use cplan_model::Joint;
     use cplan_model::space::JointRange;
-    use cplan_model::{Joint, Link, OutlineSource, Plane};
-    use nalgebra::Vector3;
     use proptest::prelude::*;
 
     fn shape() -> impl Strategy<Value = Convex> {
@@ -249,21 +248,10 @@ mod tests {
 
     /// Returns an arm without outlines.
     fn arm(joints: [Joint; 2], offset: Vector) -> Arm {
-        let link = Link { name: "link".into(), parts: Vec::new(), source: OutlineSource::None };
-        let plane = Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() };
-        Arm {
-            name: "arm".into(),
-            joints,
-            links: [link.clone(), link],
-            base: Point::zeros(),
-            offset,
-            tip: Point::zeros(),
-            tip_name: "tip".into(),
-            plane,
-            dynamics: None,
-            motors: None,
-            self_obstacles: Vec::new(),
-        }
+        let mut arm = Arm::rr([1.0; 2], 0.1).expect("an arm");
+        (arm.joints, arm.offset) = (joints, offset);
+        arm.links.iter_mut().for_each(|link| link.parts.clear());
+        arm
     }
 
     fn motion() -> impl Strategy<Value = JointType> {

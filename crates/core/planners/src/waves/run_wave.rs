@@ -246,17 +246,3 @@ impl Queue {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::prefix;
-
-    #[test]
-    fn a_prefix_is_found_by_doubling_and_bisection() {
-        for length in 0..70 {
-            for expected in 0..=length {
-                assert_eq!(prefix(length, |k| k < expected), expected);
-            }
-        }
-    }
-}

@@ -136,35 +136,3 @@ impl TileWave {
         }
     }
 }
-
-#[cfg(test)]
-mod tests {
-    use super::super::search::{Order, Search};
-    use super::super::{FreeCells, Neighborhood};
-    use super::tile_wave;
-    use crate::cspace::{Grid, Proves};
-    use cplan_model::space::{JointRange, Topology};
-    use proptest::prelude::*;
-
-    proptest! {
-        #![proptest_config(cplan_cases::cases(256))]
-
-        /// Compares the labels with those of a breadth-first search, on grids that do and do not fill their tiles,
-        /// including single rows and columns.
-        #[test]
-        fn labels_equal_those_of_a_search(
-            rows in 1..28_usize, columns in 1..28_usize, circles in any::<[bool; 2]>(), seed in any::<u64>(), density in 0..45_u64,
-        ) {
-            let axes = circles.map(|c| if c { JointRange::Circle } else { JointRange::Interval { lower: 0.0, upper: 1.0 } });
-            let random = |k: usize| (seed ^ k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29) % 100;
-            let blocked: Vec<bool> = (0..rows * columns).map(|k| random(k) < density).collect();
-            let (cells, proves) = ([rows, columns], Proves::Sampled);
-            let free = FreeCells::new(&Grid { topology: Topology::new(axes), proves, cells, blocked });
-            let sources = [0, rows * columns / 2, rows * columns - 1];
-            let sources: Vec<usize> = sources.into_iter().filter(|&source| free.is_free(source)).collect();
-            // The target is never met, so all cells are labelled.
-            let search = Search::new(&free, Neighborhood::Four, Order::BreadthFirst, &sources, usize::MAX);
-            prop_assert_eq!(tile_wave(&free, &sources), search.labels());
-        }
-    }
-}

@@ -224,53 +224,6 @@ fn write_time(cdr: &mut Cdr, nanoseconds: u64) {
 mod tests {
     use super::*;
 
-    fn names() -> [String; 2] {
-        ["a".into(), "bc".into()]
-    }
-
-    /// Converts hexadecimal text to bytes.
-    fn hex(text: &str) -> Vec<u8> {
-        text.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).expect("two hexadecimal digits")).collect()
-    }
-
-    #[test]
-    fn a_joint_state_has_the_bytes_computed_by_hand() {
-        let bytes = joint_state(&names(), 1_500_000_000, &[1.0, -2.0], &[0.5, 0.0]);
-        let expected = hex("00 01 00 00  01 00 00 00  00 65 cd 1d  01 00 00 00 00  00 00 00 \
-             02 00 00 00  02 00 00 00 61 00  00 00  03 00 00 00 62 63 00  00 \
-             02 00 00 00  00 00 00 00 00 00 f0 3f  00 00 00 00 00 00 00 c0 \
-             02 00 00 00  00 00 00 00  00 00 00 00 00 00 e0 3f  00 00 00 00 00 00 00 00 \
-             00 00 00 00");
-        assert_eq!(bytes, expected);
-    }
-
-    #[test]
-    fn a_trajectory_has_the_bytes_computed_by_hand() {
-        let motion = JointMotion {
-            joints: names().to_vec(),
-            time: vec![0.0, 2.000_000_001],
-            position: vec![vec![1.0, 0.0], vec![2.0, 0.0]],
-            velocity: vec![vec![0.0, 0.0]; 2],
-            acceleration: Some(vec![vec![0.0, -2.0], vec![0.0, 0.0]]),
-        };
-        let zero = "00 00 00 00 00 00 00 00";
-        // A length at a multiple of 8, as the first point's at 40, leaves four bytes free before its values; that of
-        // the second point's positions lies at 124, and its values follow at once.
-        let expected = hex(&format!(
-            "00 01 00 00  00 00 00 00  00 00 00 00  01 00 00 00 00  00 00 00 \
-             02 00 00 00  02 00 00 00 61 00  00 00  03 00 00 00 62 63 00  00  02 00 00 00 \
-             02 00 00 00  00 00 00 00  00 00 00 00 00 00 f0 3f  {zero} \
-             02 00 00 00  00 00 00 00  {zero}  {zero} \
-             02 00 00 00  00 00 00 00  {zero}  00 00 00 00 00 00 00 c0 \
-             00 00 00 00  00 00 00 00  00 00 00 00 \
-             02 00 00 00  00 00 00 00 00 00 00 40  {zero} \
-             02 00 00 00  00 00 00 00  {zero}  {zero} \
-             02 00 00 00  00 00 00 00  {zero}  {zero} \
-             00 00 00 00  02 00 00 00  01 00 00 00"
-        ));
-        assert_eq!(joint_trajectory(&motion), expected);
-    }
-
     #[test]
     fn message_definitions_include_all_types_that_they_use() {
         for kind in [JOINT_STATE, JOINT_TRAJECTORY, TRANSFORMS, MARKERS, POINTS] {

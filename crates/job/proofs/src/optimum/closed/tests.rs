@@ -1,10 +1,9 @@
 //! Compares motions that are reported as closed with distances by brute force.
 
 use super::*;
+use crate::tests::scene;
 use cplan_geometry::hull;
 use cplan_model::space::JointRange;
-use cplan_model::{Arm, Heights, Joint, JointType, Link, Obstacle, OutlineSource, Part, Plane, Shape, Workspace};
-use nalgebra::Vector3;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -30,38 +29,6 @@ fn shape(spread: f64) -> impl Strategy<Value = Convex> {
     let polygon = (prop::collection::vec(at(), 3..7), prop_oneof![Just(0.0), 0.0..0.1_f64])
         .prop_map(|(points, radius)| Convex::trusted(hull(&points), radius));
     prop_oneof![thin, capsule, disc, polygon]
-}
-
-fn joint(turns: bool, range: JointRange) -> Joint {
-    let motion = if turns {
-        JointType::Revolute { sign: -1.0 }
-    } else {
-        JointType::Prismatic { direction: Vector::new(0.6, 0.8) }
-    };
-    Joint { name: "joint".into(), joint_type: motion, range, velocity: 1.0, acceleration: 1.0, jerk: None }
-}
-
-fn scene(turns: [bool; 2], ranges: [JointRange; 2], offset: Vector, part: Convex, piece: Convex) -> Scene {
-    let link = |parts| Link { name: "link".into(), parts, source: OutlineSource::Collision };
-    let part =
-        Part { shape: part, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: "body".into() };
-    let arm = Arm {
-        name: "arm".into(),
-        joints: [0, 1].map(|k| joint(turns[k], ranges[k])),
-        links: [link(vec![]), link(vec![part])],
-        base: Point::new(0.1, -0.2),
-        offset,
-        tip: Point::zeros(),
-        tip_name: "tip".into(),
-        plane: Plane { u: Vector3::x(), v: Vector3::y(), normal: Vector3::z() },
-        dynamics: None,
-        motors: None,
-        self_obstacles: Vec::new(),
-    };
-    let shape = Shape::Polygon(piece.core().to_vec());
-    let obstacle = Obstacle { name: "o".into(), shape, pieces: vec![piece], heights: Heights::ALL };
-    let (name, obstacles) = ("w".into(), vec![obstacle]);
-    Scene::trusted(arm, Workspace { name, obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
 /// Generates cases with all kinds of arms, including those with joint 2 on the axis of joint 1.

@@ -1,10 +1,16 @@
 //! Replays a planned task. It shares no code with the library except the types of its input and output. Positions of
 //! objects, the payload and the allowed contacts follow from the task alone.
-#![allow(dead_code, reason = "each test uses some of it")]
 
-use cplan::engine::task::{Leg, TaskAnswer};
-use cplan::model::{Action, Goal, Holding, Item, Joint, JointType, Part, Step, Task};
-use cplan_testkit::solid::{Solid, V, add, norm, rotate, sub};
+use crate::moving::{obstacle_at, state_between};
+use crate::shapes::disc;
+use crate::solid::{Solid, V, add, norm, rotate, sub};
+use cplan::engine::task::{Event, Leg, TaskAnswer};
+use cplan::geometry::Point;
+use cplan::model::{
+    Action, Arm, Goal, Heights, Holding, Item, Joint, JointType, MovingObstacle, Object, Obstacle, Part, Shape, Step,
+    Task,
+};
+use cplan::motion::Trajectory;
 
 /// Tolerance of positions, metres: inverse kinematics is exact to a few nanometres.
 const NEAR: f64 = 1e-7;
@@ -18,10 +24,14 @@ const PENETRATION_ALLOWANCE: f64 = 1e-4;
 /// Heights that overlap by at most this count as resting, as the book states, in metres.
 const RESTING_TOLERANCE: f64 = 1e-6;
 
-/// A frame: cosine and sine of its turn, and its origin.
-type Frame = (V, V);
+/// Number of a moving obstacle, which may never be touched.
+const MOVER: usize = usize::MAX;
 
-fn compose(a: Frame, b: Frame) -> Frame {
+/// A frame: cosine and sine of its turn, and its origin.
+pub type Frame = (V, V);
+
+/// Returns the frame `b`, which is stated in the frame `a`.
+pub fn compose(a: Frame, b: Frame) -> Frame {
     (rotate(b.0, a.0), add(a.1, rotate(b.1, a.0)))
 }
 
@@ -32,6 +42,31 @@ fn inverse(a: Frame) -> Frame {
 
 fn turned(angle: f64, at: V) -> Frame {
     ([angle.cos(), angle.sin()], at)
+}
+
+/// Returns the frames of both links, and the tip.
+pub fn frames(arm: &Arm, q: V) -> ([Frame; 2], V) {
+    let joint = |k: usize| match arm.joints[k].joint_type {
+        JointType::Revolute { sign } => turned(sign * q[k], [0.0; 2]),
+        JointType::Prismatic { direction } => ([1.0, 0.0], [direction.x * q[k], direction.y * q[k]]),
+    };
+    let first = compose(([1.0, 0.0], [arm.base.x, arm.base.y]), joint(0));
+    let second = compose(compose(first, ([1.0, 0.0], [arm.offset.x, arm.offset.y])), joint(1));
+    let tip = compose(second, ([1.0, 0.0], [arm.tip.x, arm.tip.y])).1;
+    ([first, second], tip)
+}
+
+/// Returns the frame of an object on its trajectory, from its stops, or where it lies initially.
+pub fn pose_on_trajectory(object: &Object, time: f64) -> Frame {
+    let Some(trajectory) = object.trajectory.clone() else {
+        return turned(object.at.rotation.angle(), [object.at.translation.x, object.at.translation.y]);
+    };
+    // The object's pose follows from two of its points.
+    let pieces = vec![disc(Point::zeros(), 0.1), disc(Point::new(1.0, 0.0), 0.1)];
+    let points = Obstacle { name: String::new(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
+    let placed = obstacle_at(&MovingObstacle { obstacle: points, trajectory }, time).pieces;
+    let [origin, beside] = [0, 1].map(|k| [placed[k].core()[0].x, placed[k].core()[0].y]);
+    (sub(beside, origin), origin)
 }
 
 /// An object that the gripper holds.
@@ -45,9 +80,14 @@ struct Held {
     grasp: V,
 }
 
+/// The world during a task.
 pub struct World<'a> {
     task: &'a Task,
+    /// Time since the beginning of the task, seconds.
+    time: f64,
     lies: Vec<Option<Frame>>,
+    /// True for each object that is still on its trajectory.
+    moving: Vec<bool>,
     held: Option<Held>,
     released: Option<usize>,
     /// Height of the tool above its raised position, metres; negative while it is lowered.
@@ -71,13 +111,11 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
     let mut turned_before = None;
     for (index, leg) in answer.legs.iter().enumerate() {
         for &object in &renewed[index] {
-            let (sin, cos) = task.objects[object].at.rotation.angle().sin_cos();
-            let at = task.objects[object].at.translation;
-            world.lies[object] = Some(([cos, sin], [at.x, at.y]));
+            world.lies[object] = Some(pose_on_trajectory(&task.objects[object], 0.0));
         }
         let t = &leg.timed.trajectory;
         let say = |what: &str| format!("leg {index}, step {}: {what}", leg.step.number);
-        if t.position[0] != q {
+        if norm(sub(t.position[0], q)) > 1e-12 {
             return Err(say("does not begin where the arm is"));
         }
         let [raising, lowering] = [leg.overlap.raising, leg.overlap.lowering];
@@ -97,9 +135,14 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
         if keep < task.workspace.fixed.clearance {
             return Err(say("keeps less than the clearance"));
         }
-        let moves = t.time.len() > 1;
-        for look in 0..=if moves { LOOKS } else { 0 } {
-            let at = if moves { t.duration() * look as f64 / LOOKS as f64 } else { 0.0 };
+        let looks = match t.time.len() {
+            1 => 0,
+            count if world.anything_moves() => LOOKS.max(2 * count),
+            _ => LOOKS,
+        };
+        for look in 0..=looks {
+            let at = t.duration() * look as f64 / looks.max(1) as f64;
+            world.time = leg.begin + at;
             let (position, velocity) = state(t, at);
             limits(&task.arm.joints, position, velocity, leg.step.speed).map_err(|what| say(&what))?;
             let rises = stroke_height(task, risen_from, stroke_time(task, risen_from) - raising + at);
@@ -132,9 +175,22 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
             .filter(|_| matches!(leg.step.action, Action::Pick { .. }));
         risen_from = sinks_to;
         let then = next_supports(task, answer, index);
+        let before = world.released;
         world
             .finish(q, &leg.step, &then, leg.turn.map(|(turn, _)| [turn.from, turn.to]), keep)
             .map_err(|what| say(&what))?;
+        if let Action::Place { .. } = leg.step.action
+            && !matches!(leg.event, Some(Event::Release { object, .. }) if world.released == Some(object))
+        {
+            return Err(say("releases another object"));
+        }
+        // While the arm rests, other things may come. An arm that cannot continue leaves the world to them.
+        let goes_on = all || index + 1 < answer.legs.len();
+        let looks = if goes_on && world.anything_moves() { 11 } else { 0 };
+        for k in 0..looks {
+            world.time = leg.begin + t.duration() + leg.step.dwell * f64::from(k) / 10.0;
+            world.check(q, before, keep).map_err(|what| say(&format!("at rest at {} s: {what}", world.time)))?;
+        }
     }
     Ok(())
 }
@@ -204,7 +260,7 @@ impl MotionTurns {
     }
 
     /// Checks the limits of the wrist at a time of a turn. The wrist also compensates the rotation of link 2.
-    fn limits(&self, task: &Task, t: &cplan::motion::Trajectory, at: f64) -> Result<(), String> {
+    fn limits(&self, task: &Task, t: &Trajectory, at: f64) -> Result<(), String> {
         const STEP: f64 = 1e-5;
         for (([from, to], seconds), begin) in self.begins() {
             let wrist = task.wrist.ok_or("there is no wrist")?;
@@ -355,24 +411,14 @@ fn order(task: &Task, answer: &TaskAnswer, all: bool) -> Result<Vec<Vec<usize>>,
 }
 
 /// Returns position and velocity between samples, as documented for trajectories.
-fn state(t: &cplan::motion::Trajectory, time: f64) -> (V, V) {
+fn state(t: &Trajectory, time: f64) -> (V, V) {
     // A single sample does not move.
-    if let [at] = &t.position[..] {
-        return ([at[0], at[1]], [0.0; 2]);
+    if let [at] = t.position[..] {
+        return (at, [0.0; 2]);
     }
     let k = t.time.partition_point(|&at| at <= time).clamp(1, t.time.len() - 1) - 1;
-    let (h, s) = (t.time[k + 1] - t.time[k], time - t.time[k]);
-    let mut position = [0.0; 2];
-    let mut velocity = [0.0; 2];
-    for j in 0..2 {
-        let (p, v, a) = (t.position[k][j], t.velocity[k][j], t.acceleration[k][j]);
-        let e = t.position[k + 1][j] - p - v * h - a * h * h / 2.0;
-        let f = t.velocity[k + 1][j] - v - a * h;
-        let (c, d) = ((4.0 * e - f * h) / h.powi(3), (f * h - 3.0 * e) / h.powi(4));
-        position[j] = p + v * s + a * s * s / 2.0 + c * s.powi(3) + d * s.powi(4);
-        velocity[j] = v + a * s + 3.0 * c * s * s + 4.0 * d * s.powi(3);
-    }
-    (position, velocity)
+    let [position, velocity, _] = state_between(t, k, time - t.time[k]);
+    (position.into(), velocity.into())
 }
 
 fn limits(joints: &[Joint; 2], position: V, velocity: V, share: f64) -> Result<(), String> {
@@ -391,16 +437,27 @@ fn limits(joints: &[Joint; 2], position: V, velocity: V, share: f64) -> Result<(
 impl<'a> World<'a> {
     /// Returns the world at the beginning of a task, with all objects at their first places.
     pub fn at_first(task: &'a Task) -> Self {
-        let lies = task.objects.iter().map(|o| {
-            let (sin, cos) = o.at.rotation.angle().sin_cos();
-            Some(([cos, sin], [o.at.translation.x, o.at.translation.y]))
-        });
-        World { task, lies: lies.collect(), held: None, released: None, tool: 0.0, arm_moves: false }
+        let lies = task.objects.iter().map(|object| Some(pose_on_trajectory(object, 0.0))).collect();
+        let moving = task.objects.iter().map(|object| object.trajectory.is_some()).collect();
+        World { task, time: 0.0, lies, moving, held: None, released: None, tool: 0.0, arm_moves: false }
+    }
+
+    /// Returns true if an obstacle or an object moves by itself.
+    fn anything_moves(&self) -> bool {
+        !self.task.workspace.movers.is_empty() || self.moving.contains(&true)
+    }
+
+    /// Returns the frame of an object that nobody holds.
+    fn lying(&self, object: usize) -> Option<Frame> {
+        match self.moving[object] {
+            true => Some(pose_on_trajectory(&self.task.objects[object], self.time)),
+            false => self.lies[object],
+        }
     }
 
     /// Returns the world after an object was gripped by the arm at `q`.
     pub fn carrying(mut self, object: usize, q: V, supports: Vec<usize>) -> Self {
-        let (frames, tip) = self.frames(q);
+        let (frames, tip) = frames(&self.task.arm, q);
         if let Some(lies) = self.lies[object].take() {
             let level = self.task.objects[object].holding == Holding::Level;
             let frame = if level { (lies.0, sub(lies.1, tip)) } else { compose(inverse(frames[1]), lies) };
@@ -409,22 +466,9 @@ impl<'a> World<'a> {
         self
     }
 
-    /// Returns the frames of both links, and the tip.
-    fn frames(&self, q: V) -> ([Frame; 2], V) {
-        let arm = &self.task.arm;
-        let joint = |k: usize| match arm.joints[k].joint_type {
-            JointType::Revolute { sign } => turned(sign * q[k], [0.0; 2]),
-            JointType::Prismatic { direction } => ([1.0, 0.0], [direction.x * q[k], direction.y * q[k]]),
-        };
-        let first = compose(([1.0, 0.0], [arm.base.x, arm.base.y]), joint(0));
-        let second = compose(compose(first, ([1.0, 0.0], [arm.offset.x, arm.offset.y])), joint(1));
-        let tip = compose(second, ([1.0, 0.0], [arm.tip.x, arm.tip.y])).1;
-        ([first, second], tip)
-    }
-
     /// Returns the pose of the carried object.
     fn carried_pose(&self, held: &Held, q: V) -> Frame {
-        let (frames, tip) = self.frames(q);
+        let (frames, tip) = frames(&self.task.arm, q);
         if held.level { compose(([1.0, 0.0], tip), held.frame) } else { compose(frames[1], held.frame) }
     }
 
@@ -435,9 +479,13 @@ impl<'a> World<'a> {
             let heights = [obstacle.heights.lower, obstacle.heights.upper];
             bodies.extend(obstacle.pieces.iter().map(|piece| (number, Solid::new(piece), heights)));
         }
+        for mover in &self.task.workspace.movers {
+            let Obstacle { pieces, heights, .. } = obstacle_at(mover, self.time);
+            bodies.extend(pieces.iter().map(|piece| (MOVER, Solid::new(piece), [heights.lower, heights.upper])));
+        }
         let fixed = self.task.workspace.fixed.obstacles.len();
         for (index, object) in self.task.objects.iter().enumerate() {
-            let Some((turn, place)) = self.lies[index] else { continue };
+            let Some((turn, place)) = self.lying(index) else { continue };
             let heights = [object.heights.lower, object.heights.upper];
             let placed = |piece| (fixed + index, Solid::new(piece).placed(turn, place), heights);
             bodies.extend(object.pieces.iter().map(placed));
@@ -455,7 +503,7 @@ impl<'a> World<'a> {
     /// `f` also gets [`World::pressed`].
     fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, Option<f64>)) {
         let fixed = self.task.workspace.fixed.obstacles.len();
-        let (frames, _) = self.frames(q);
+        let (frames, _) = frames(&self.task.arm, q);
         let bodies = self.task.stroke.iter().flat_map(|stroke| &stroke.bodies).collect::<Vec<_>>();
         let meets_raised = |object: usize| {
             let heights = self.task.objects[object].heights;
@@ -547,7 +595,7 @@ impl<'a> World<'a> {
 
     /// Applies the event at the end of a motion. `then` lists the objects that may be touched at the next target.
     fn finish(&mut self, q: V, step: &Step, then: &[usize], turn: Option<[f64; 2]>, keep: f64) -> Result<(), String> {
-        let (frames, tip) = self.frames(q);
+        let (frames, tip) = frames(&self.task.arm, q);
         let near = |a: V, b: V| norm(sub(a, b)) < NEAR;
         match &step.action {
             Action::Move(Goal::Tip(target)) if !near(tip, [target.x, target.y]) => {
@@ -567,8 +615,13 @@ impl<'a> World<'a> {
                 }
             }
             Action::Move(_) | Action::Follow(_) => {}
-            Action::Pick { object, grasp, supports, .. } => {
-                let lies = self.lies[*object].take().ok_or("what is picked lies nowhere")?;
+            Action::Pick { object, grasp, supports, when } => {
+                let lies = self.lying(*object).ok_or("what is picked lies nowhere")?;
+                let is_in = |[from, to]: &[f64; 2]| (from - 1e-6..=to + 1e-6).contains(&self.time);
+                if self.moving[*object] && !when.is_empty() && !when.iter().any(is_in) {
+                    return Err(format!("picked at {} s", self.time));
+                }
+                (self.lies[*object], self.moving[*object]) = (None, false);
                 let grasp = [grasp.x, grasp.y];
                 if !near(tip, compose(lies, ([1.0, 0.0], grasp)).1) {
                     return Err("the tip is not at the object".into());
