@@ -1,10 +1,8 @@
 //! Certificates for robots as tools export them, and maps as tools write them: the checker accepts the same files as
 //! the program.
 
-use super::Place;
 use super::certificates::without_digests;
-use cplan_check_files::{CheckError, check_files};
-use std::path::PathBuf;
+use super::*;
 
 /// An arm with two bars of 1 m and 0.8 m. The words in braces are placeholders for what differs between cases.
 const ARM: &str = r#"<robot name="r" {version}>
@@ -75,13 +73,11 @@ impl Case<'_> {
         let judged = |world: &str, certificate: &str| {
             place.write("other.toml", world);
             place.write("c.json", certificate);
-            let [urdf, world, certificate] = ["arm.urdf", "other.toml", "c.json"].map(|file| place.path(file));
-            check_files(&urdf, &world, &certificate)
+            place.judged(["arm.urdf", "other.toml", "c.json"])
         };
         let planned = |world: &str, code: i32| {
             place.write("world.toml", world);
-            let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-            assert_eq!(done.code, code, "{}: {}{}", self.what, done.stdout, done.stderr);
+            place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
             place.read("c.json")
         };
         let open = self.world();
@@ -175,8 +171,7 @@ fn missing_limits_and_fixed_joints_are_certified() {
         r#"{"format": "cplan certificate 1", "answer": "found",
             "motion": {"interpolation": ["linear"], "knots": [[0, 0, 0], [1, 0.2, 0.5]]}}"#,
     );
-    let [urdf, world, certificate]: [PathBuf; 3] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-    let report = check_files(&urdf, &world, &certificate);
+    let report = place.judged(["arm.urdf", "world.toml", "c.json"]);
     assert!(matches!(&report, Err(CheckError::Fails(why)) if why.contains("leaves its limits")), "{report:?}");
 }
 
@@ -227,10 +222,8 @@ fn numbers_that_are_no_doubles_are_certified() {
         for (goal, code) in [("[0.2, 0.5]", 0), ("[1.5, 0.5]", 3)] {
             let world = case.world().replace("[0.2, 0.5]", goal).replace(from, to);
             place.write("world.toml", world);
-            let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-            assert_eq!(done.code, code, "{what}: {}{}", done.stdout, done.stderr);
-            let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-            check_files(&urdf, &world, &certificate).unwrap_or_else(|why| panic!("{what}: {why}"));
+            place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
+            place.judged(["arm.urdf", "world.toml", "c.json"]).unwrap_or_else(|why| panic!("{what}: {why}"));
         }
     }
     let place = Place::new();
@@ -245,10 +238,8 @@ fn numbers_that_are_no_doubles_are_certified() {
         let world =
             WORLD.replace("0.0, 0.0", ends[0]).replace("0.2, 0.5", ends[1]).replace("[-0.5, 0.0]", "[-0.5, 0.3]");
         place.write("world.toml", &world);
-        let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-        assert_eq!(done.code, code, "{ends:?}: {}{}", done.stdout, done.stderr);
-        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-        check_files(&urdf, &world, &certificate).unwrap_or_else(|why| panic!("{ends:?}: {why}"));
+        place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
+        place.judged(["arm.urdf", "world.toml", "c.json"]).unwrap_or_else(|why| panic!("{ends:?}: {why}"));
     }
 }
 
@@ -275,15 +266,11 @@ fn other_moving_joints_are_certified() {
         place.write("world.toml", world);
         place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json")
     };
-    let judged = || {
-        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-        check_files(&urdf, &world, &certificate)
-    };
+    let judged = || place.judged(["arm.urdf", "world.toml", "c.json"]);
     // The post is 0.1 m ahead of a gripper whose ends are 0.15 m from the axis, and now at the sides.
     let done = run(&bar("0 0 0"), &task(1.9));
     assert!(done.code == 1 && done.stderr.contains("not free"), "{}{}", done.stdout, done.stderr);
-    let done = run(&bar("0 0 0"), &task(2.0));
-    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    run(&bar("0 0 0"), &task(2.0)).exits(0);
     judged().unwrap();
     place.write("world.toml", task(1.9));
     let certificate = without_digests(&place.read("c.json"));
@@ -422,10 +409,8 @@ fn worlds_in_all_common_notations_are_certified() {
     for (goal, code) in [("[0.2, 0.5]", 0), ("[1.5, 0.5]", 3)] {
         let world = format!("clearance = 0x0\n{}", tip.replace("[0.2, 0.5]", goal).replace("1.8, 0.0", "1.7, 0.3"));
         place.write("world.toml", world);
-        let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-        assert_eq!(done.code, code, "{}{}", done.stdout, done.stderr);
-        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-        let report = check_files(&urdf, &world, &certificate).unwrap();
+        place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
+        let report = place.judged(["arm.urdf", "world.toml", "c.json"]).unwrap();
         assert!(report.contains("from the start ("), "{report}");
     }
 }

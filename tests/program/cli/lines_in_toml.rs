@@ -1,7 +1,6 @@
 //! Lines in TOML from outside: in `cplan follow`, and as steps of tasks.
 
-use super::{Done, Place, shipped};
-use serde_json::Value;
+use super::*;
 use std::f64::consts::PI;
 
 fn follow(place: &Place, line: &str, options: &str) -> Done {
@@ -44,8 +43,7 @@ fn an_arc_is_followed_at_its_own_speed_and_tolerance() {
 
 #[test]
 fn lines_name_files_beside_them() {
-    let place = Place::new();
-    place.write("part.gcode", "G21 G0 X0 Y0\nG1 X100 F6000\n");
+    let place = Place::new().with("part.gcode", "G21 G0 X0 Y0\nG1 X100 F6000\n");
     let result =
         follow(&place, "file = \"part.gcode\"\nscale = 0.5\nturn = \"90deg\"\nmove = [1.2, 0]\n", "--json").json();
     let tips = tips(&result);
@@ -64,9 +62,7 @@ fn defects_have_their_place_and_a_hint() {
     ] {
         let done = follow(&place, line, "");
         assert_eq!((done.code, done.stdout.as_str()), (1, ""), "{line}");
-        for part in parts {
-            assert!(done.stderr.contains(part), "no \"{part}\" in:\n{}", done.stderr);
-        }
+        done.warns(&parts);
     }
     let done = follow(&place, "points = [[1, 0], [1.1, 0]]", "--unit mm");
     assert!(done.code == 2 && done.stderr.contains("leave out --unit"), "{}", done.stderr);
@@ -76,9 +72,8 @@ fn defects_have_their_place_and_a_hint() {
 fn a_task_follows_lines_of_all_kinds() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/badge.toml")];
-    let done = place.run(&[&files[0], &files[1]], "--output badge.json --output badge.yaml --quiet");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let result: Value = serde_json::from_str(&place.read("badge.json")).unwrap();
+    place.run(&[&files[0], &files[1]], "--output badge.json --output badge.yaml --quiet").exits(0);
+    let result = place.json("badge.json");
     let steps = result["steps"].as_array().unwrap();
     let lines: Vec<&Value> = steps.iter().filter(|step| step["action"] == "follow").collect();
     assert_eq!((steps.len(), lines.len()), (9, 4));
@@ -106,23 +101,20 @@ fn a_task_follows_lines_of_all_kinds() {
 fn a_task_with_lines_has_a_certificate() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/badge.toml")];
-    let done = place.run(&[&files[0], &files[1]], "--certificate c.json --output badge.json --quiet");
-    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
-    let verified = place.run(&["verify", &files[0], &files[1], "badge.json"], "--certificate v.json");
-    assert_eq!(verified.code, 0, "{}", verified.stderr);
+    place.run(&[&files[0], &files[1]], "--certificate c.json --output badge.json --quiet").succeeds_silently();
+    place.run(&["verify", &files[0], &files[1], "badge.json"], "--certificate v.json").exits(0);
     for certificate in ["c.json", "v.json"] {
-        let done = place.run(&["recheck", &files[0], &files[1], "--proof", certificate], "");
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        for part in
-            ["does all 9 steps", "in step 4 the tip follows a line of 1 piece from", "within 0.0001 of the line"]
-        {
-            assert!(done.stdout.contains(part), "no \"{part}\" in {}", done.stdout);
-        }
+        let done = place.run(&["recheck", &files[0], &files[1], "--proof", certificate], "").exits(0);
+        done.says(&[
+            "does all 9 steps",
+            "in step 4 the tip follows a line of 1 piece from",
+            "within 0.0001 of the line",
+        ]);
         // The checker reads the arc of step 4 from the world.
         assert_eq!(done.stdout.matches("which is taken from the certificate").count(), 3, "{}", done.stdout);
     }
     // A sample of the last line is moved by a tenth of a millimetre.
-    let mut moved: Value = serde_json::from_str(&place.read("c.json")).unwrap();
+    let mut moved: Value = place.json("c.json");
     let knots = &moved["steps"][7]["knots"];
     let middle = (knots[0].as_u64().unwrap() + knots[1].as_u64().unwrap()) / 2;
     let value = &mut moved["motion"]["knots"][middle as usize][1];
@@ -136,8 +128,7 @@ fn a_task_with_lines_has_a_certificate() {
 fn task(place: &Place, robot: &str, world: &str) -> [String; 2] {
     place.write("world.toml", world);
     let files = [shipped(&format!("robots/{robot}.urdf")), "world.toml".to_owned()];
-    let done = place.run(&files, "--output result.json --quiet");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&files, "--output result.json --quiet").exits(0);
     files
 }
 
@@ -166,16 +157,12 @@ fn a_tip_faster_than_its_line_is_refused() {
 
 #[test]
 fn a_line_that_fails_is_not_explained_as_a_free_motion() {
-    let place = Place::new();
-    place.write(
+    let place = Place::new().with(
         "far.toml",
         "[start]\njoints = [0.3, 1.2]\n[[step]]\nfollow = { arc = [[1.2, -1.2], [1.9, 0], [1.2, 1.2]] }\n",
     );
-    let explained = place.run(&["explain", &shipped("robots/planar_2r.urdf"), "far.toml"], "");
-    assert_eq!(explained.code, 3, "{}", explained.stderr);
-    for part in ["step 2, follow a line", "99.99 mm out of reach", "`cplan follow` names the place"] {
-        assert!(explained.stdout.contains(part), "{}", explained.stdout);
-    }
+    let explained = place.run(&["explain", &shipped("robots/planar_2r.urdf"), "far.toml"], "").exits(3);
+    explained.says(&["step 2, follow a line", "99.99 mm out of reach", "`cplan follow` names the place"]);
 }
 
 #[test]
@@ -184,8 +171,8 @@ fn a_certificate_with_a_negative_tolerance_is_refused() {
     let done = follow(&place, "points = [[1.5, 0], [1.9, 0]]", "--certificate c.json --quiet");
     assert_eq!(done.code, 3, "{}", done.stderr);
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/engraving.toml")];
-    assert_eq!(place.run(&["recheck", &files[0], &files[1]], "--proof c.json").code, 0);
-    let mut certificate: Value = serde_json::from_str(&place.read("c.json")).unwrap();
+    place.run(&["recheck", &files[0], &files[1]], "--proof c.json").exits(0);
+    let mut certificate: Value = place.json("c.json");
     certificate["line"]["tolerance"] = (-0.5).into();
     place.write("negative.json", certificate.to_string());
     let refused = place.run(&["recheck", &files[0], &files[1]], "--proof negative.json");

@@ -68,6 +68,10 @@ fn shipped(file: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
 }
 
+fn read(path: impl AsRef<Path>) -> String {
+    std::fs::read_to_string(path).unwrap()
+}
+
 fn shelf() -> [String; 2] {
     [shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")]
 }

@@ -1,15 +1,13 @@
 //! Passages of a few cells, and walls for which strips of joint 1 are rarely fine enough.
 
-use super::{Place, shipped};
-
+use super::*;
 /// Checks benchmark problem A, which has a passage of 0.070 rad, on cells of 0.025 rad. A grid of cells that are free
 /// as a whole would need 1024 x 1024 cells to contain the passage.
 #[test]
 fn fields_find_a_passage_of_three_cells_without_a_finer_grid() {
     let problem = ["arm.urdf", "a.toml"].map(|file| shipped(&format!("benches/peers/problems/{file}")));
     for planner in ["harmonic", "wavefront"] {
-        let done = Place::new().run(&problem, &format!("--planner {planner} --json"));
-        assert_eq!(done.code, 0, "{planner}: {}", done.stderr);
+        let done = Place::new().run(&problem, &format!("--planner {planner} --json")).exits(0);
         let result = done.json();
         assert_eq!(result["certified"], true, "{planner}");
         let cells = result["size"]["cells"].as_u64().unwrap();
@@ -42,9 +40,8 @@ fn paths_that_lead_through_walls_are_searched_again() {
          polyline = [[513, -13], [987, 889], [-18, 717], [-729, 1447], [-876, 438], [-1790, -13], [-876, -464], [-729, -1473], \
          [-18, -743], [987, -916], [513, -13]]\n",
     );
-    let done = place.run(&["crane.urdf", "w.toml"], "--verbose --output plan.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let plan: serde_json::Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+    let done = place.run(&["crane.urdf", "w.toml"], "--verbose --output plan.json").exits(0);
+    let plan: serde_json::Value = place.json("plan.json");
     assert!(plan["optimum"]["gap"].as_f64().unwrap() <= 1e-4, "{}", done.stdout);
     assert!(done.stdout.contains(" slices"), "{}", done.stdout);
 }

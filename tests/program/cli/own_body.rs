@@ -1,8 +1,6 @@
 //! The robot's own body as an obstacle: static links for both links, and link 1 for the parts that link 2 carries.
 
-use super::{Done, Place};
-use cplan_check_files::check_files;
-
+use super::*;
 /// A SCARA with a reach of 1.05 m. It stands on a pedestal 272 mm high, has arms of 560 and 490 mm above it, and a
 /// quill whose lower end is at the height `{quill}` m. The words in braces are placeholders for what differs between
 /// cases.
@@ -33,9 +31,7 @@ fn scara(quill: f64, more: &str) -> String {
 }
 
 fn run(urdf: &str, world: &str, options: &str) -> (Place, Done) {
-    let place = Place::new();
-    place.write("arm.urdf", urdf);
-    place.write("world.toml", world);
+    let place = Place::new().with("arm.urdf", urdf).with("world.toml", world);
     let done = place.run(&["arm.urdf", "world.toml"], options);
     (place, done)
 }

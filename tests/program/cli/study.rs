@@ -1,7 +1,6 @@
 //! `cplan study` from outside: rows, how to reproduce them, refused input.
 
-use super::{Done, FREE, Place, shelf, shipped};
-use serde_json::Value;
+use super::*;
 use std::collections::BTreeSet;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
@@ -64,8 +63,7 @@ fn each_row_agrees_with_planning_in_the_files_of_its_layout() {
     let place = Place::new();
     // Layouts that the study would refuse can be planned separately.
     study(&place, "draws = 5\nseed = 3\noverlap = true", CRATE);
-    let done = run(&place, "--output t.csv --jobs 2 --json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run(&place, "--output t.csv --jobs 2 --json").exits(0);
     let rows = rows(&place.read("t.csv"));
     assert_eq!(rows.len(), 20);
     let mut endings = [0; 4];
@@ -112,9 +110,7 @@ fn rows_do_not_depend_on_the_number_of_jobs_or_on_measures() {
     let one = bytes(1);
     assert_eq!(one, bytes(3));
     let page = String::from_utf8(one[1].clone()).unwrap();
-    for part in ["Maps", "Trade-offs", "Best layouts", "y by x", "best: layout"] {
-        assert!(page.contains(part), "{part}");
-    }
+    has(&page, &["Maps", "Trade-offs", "Best layouts", "y by x", "best: layout"]);
     // Lengths alone need no trajectory, and are the same.
     study(&place, "draws = 6\nmeasure = [\"length\", \"over_bound\"]", CRATE);
     assert_eq!(run(&place, "--output u.csv --quiet").code, 0);
@@ -159,11 +155,10 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     let kept = lines();
     assert!(kept >= 20 && !place.path("t.csv").exists(), "{kept} lines");
     // The last line is incomplete.
-    let mut text = std::fs::read_to_string(&part).unwrap();
+    let mut text = read(&part);
     text.truncate(text.len() - 7);
     std::fs::write(&part, &text).unwrap();
-    let done = run(&place, "--output t.csv --jobs 2");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run(&place, "--output t.csv --jobs 2").exits(0);
     assert!(done.stderr.contains("layouts of the stopped study"), "{}", done.stderr);
     assert_eq!(place.read("t.csv"), place.read("whole.csv"));
     assert!(!part.exists());
@@ -171,7 +166,7 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     std::fs::write(&part, &text).unwrap();
     study(&place, "draws = 61", CRATE);
     run(&place, "--output t.csv").refused(1, &["t.csv.part has rows of another study", "--fresh"]);
-    assert_eq!(std::fs::read_to_string(&part).unwrap(), text);
+    assert_eq!(read(&part), text);
     assert_eq!(run(&place, "--output t.csv --fresh --quiet").code, 0);
     assert_eq!(rows(&place.read("t.csv")).len(), 244);
     // Another kind of file is not overwritten either.
@@ -189,8 +184,7 @@ fn the_search_finds_better_layouts_and_lists_the_tried_ones() {
                 [[parameter]]\nname = \"y\"\nsets = \"world.robot.at[1]\"\nfrom = -0.3\nto = 0.3\nsteps = 4\n";
     let head = "measure = [\"length\", \"clearance\"]\nobjective = \"least length\"\noptions = [\"--clearance=0.003\"]\nconditions = [\"clearance >= 0.002\"]\n[search]\nlayouts = 60";
     study(&place, head, base);
-    let done = run(&place, "--output t.csv --output best.toml --output best.urdf --json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run(&place, "--output t.csv --output best.toml --output best.urdf --json").exits(0);
     let summary: Value = serde_json::from_str(&done.stdout).unwrap();
     let rows = rows(&place.read("t.csv"));
     // The search does not plan a layout again: of its 60, only the different ones count.
@@ -220,8 +214,13 @@ fn the_search_finds_better_layouts_and_lists_the_tried_ones() {
         serde_json::from_str(&place.run(&command.split(' ').collect::<Vec<_>>(), "--json").stdout).unwrap();
     assert_eq!(alone["length"], summary["best"]["measured"]["length"]);
     let output = run(&place, "--output best.toml").stdout;
-    assert!(output.contains(&format!("to plan layout {}: cplan ", summary["best"]["layout"])), "{output}");
-    assert!(output.contains("planar_2r.urdf best.toml --clearance=0.003\n"), "{output}");
+    has(
+        &output,
+        &[
+            &format!("to plan layout {}: cplan ", summary["best"]["layout"]),
+            "planar_2r.urdf best.toml --clearance=0.003\n",
+        ],
+    );
     assert_eq!(run(&place, "--output u.csv --jobs 1 --quiet").code, 0);
     assert_eq!(place.read("t.csv"), place.read("u.csv"));
 }
@@ -262,8 +261,7 @@ fn failed_layouts_have_rows_and_a_study_may_have_no_best_layout() {
         );
     }
     study(&place, "conditions = [\"duration <= 0.01\"]\ndraws = 3", CRATE);
-    let done = run(&place, "--output t.csv --output best.toml --json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run(&place, "--output t.csv --output best.toml --json").exits(0);
     assert!(done.stderr.contains("best.toml is not written: no layout meets the requirements"), "{}", done.stderr);
     assert!(!place.path("best.toml").exists() && rows(&place.read("t.csv")).len() == 12);
     assert_eq!(done.json()["best"], Value::Null);
@@ -394,22 +392,22 @@ fn the_page_distinguishes_what_colours_mean() {
     let base = CRATE.replace("draw = \"latin\"", "steps = 5");
     let page = |head: &str| {
         study(&place, head, &base);
-        let done = run(&place, "--output t.html");
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        let done = run(&place, "--output t.html").exits(0);
         (place.read("t.html"), done.stdout)
     };
     // Of two measures with equal plots against the objective, one is shown.
     let (html, _) = page("measure = [\"duration\", \"length\", \"lower_bound\"]");
     assert!(html.contains("length against duration") && !html.contains("lower bound against"));
-    for part in [
-        "Scale of colours",
-        ">duration (s)</text>",
-        "<title>best: layout ",
-        "fill=\"var(--undecided)\"",
-        "<table class=\"words\">",
-    ] {
-        assert!(html.contains(part), "{part}");
-    }
+    has(
+        &html,
+        &[
+            "Scale of colours",
+            ">duration (s)</text>",
+            "<title>best: layout ",
+            "fill=\"var(--undecided)\"",
+            "<table class=\"words\">",
+        ],
+    );
     // Cells of layouts with a motion that is too long are neither grey nor in the colour of a proof.
     let unfit = "fill=\"var(--unknown)\" data-layout=";
     assert!(!html.contains(unfit));
@@ -442,8 +440,7 @@ fn a_search_plans_in_no_layout_twice() {
     let listed = CRATE.replace("from = -1.5\nto = 1.5\ndraw = \"latin\"", "values = [-1.45, 1.2]");
     let listed = listed.replace("from = -1.5\nto = 1.5\nsteps = 4", "values = [-1, 0.65, 1]");
     study(&place, "[search]\nlayouts = 40", &listed);
-    let done = run(&place, "--output t.csv");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run(&place, "--output t.csv").exits(0);
     assert_eq!(rows(&place.read("t.csv")).len(), 6);
     assert!(done.stdout.contains("the search found no new layout to try"), "{}", done.stdout);
 }
@@ -491,8 +488,7 @@ fn ctrl_c_reports_the_stored_rows() {
 fn pictures_explain_what_they_show() {
     let place = Place::new();
     let legend = |files: [&str; 2], code: i32| {
-        let done = place.run(&files.map(shipped), "--picture p.svg --quiet");
-        assert_eq!(done.code, code, "{}", done.stderr);
+        place.run(&files.map(shipped), "--picture p.svg --quiet").exits(code);
         place.read("p.svg").contains("slices that the path passes")
     };
     assert!(!legend(["robots/planar_2r_continuous.urdf", "workspaces/no_path.toml"], 3));
@@ -517,8 +513,7 @@ fn layouts_have_rows_where_the_base_has_a_blocked_start_or_goal() {
         );
         place.write("world.toml", world);
         place.write("study.toml", format!("robot = \"{robot}\"\nworld = \"world.toml\"\n{parameter}"));
-        let done = run(&place, "--output t.csv --output t.html --output best.toml");
-        assert_eq!(done.code, 0, "{ends}: {}", done.stderr);
+        run(&place, "--output t.csv --output t.html --output best.toml").exits(0);
         let rows = rows(&place.read("t.csv"));
         assert_eq!(rows.len(), 2, "{ends}");
         assert_eq!((field(&rows[0], "outcome"), field(&rows[1], "outcome")), ("refused", "found"), "{ends}");

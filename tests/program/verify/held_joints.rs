@@ -145,9 +145,9 @@ fn a_small_turn_of_a_bar_keeps_its_distance() {
     };
     let bars = bar("a", 0.3) + &bar("b", 0.2) + &bar("tool", 0.24);
     let joints = joint("j1", "base", "a", 0.0) + &joint("j2", "a", "b", 0.3) + &joint("j3", "b", "tool", 0.2);
-    let place = Place::new();
-    place.write("arm.urdf", format!("<robot name=\"bars\"><link name=\"base\"/>{bars}{joints}</robot>"));
-    place.write("world.toml", "[robot]\njoints = [\"j1\", \"j2\"]\n");
+    let place = Place::new()
+        .with("arm.urdf", format!("<robot name=\"bars\"><link name=\"base\"/>{bars}{joints}</robot>"))
+        .with("world.toml", "[robot]\njoints = [\"j1\", \"j2\"]\n");
     // The tip is 0.2 m from the upper arm's end, which the bar reaches only if it turns back.
     for (turn, code) in [(0.001, 0), (0.01, 0), (-3.12, 3)] {
         place.write("m.csv", format!("time,j1,j2,j3\n0,0,0,0\n1,0.1,-0.1,{turn}\n"));

@@ -20,8 +20,7 @@ fn verify(place: &Place, table: &str, options: &str) -> (i32, Value) {
 /// Compares a plan along one joint with a motion that leaves it by a bump of the other joint.
 #[test]
 fn the_greatest_distances_from_the_plan_are_those_of_the_bump() {
-    let place = Place::new();
-    place.write("plan.csv", "time,shoulder,elbow\n0,-0.9,0.4\n2,-0.5,0.4\n");
+    let place = Place::new().with("plan.csv", "time,shoulder,elbow\n0,-0.9,0.4\n2,-0.5,0.4\n");
     // The motion begins later and moves more slowly, which does not count.
     let bump = "time,shoulder,elbow\n5,-0.9,0.4\n6,-0.8,0.4\n7,-0.7,0.41\n8,-0.6,0.4\n9,-0.5,0.4\n";
     let (code, found) = verify(&place, bump, "--plan plan.csv");

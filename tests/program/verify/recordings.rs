@@ -18,9 +18,9 @@ fn a_recording_is_judged_as_the_message_in_it() {
         let place = Place::new();
         let (robot, world) =
             (repository_file(&format!("robots/{robot}.urdf")), repository_file(&format!("workspaces/{world}.toml")));
-        let planned =
-            place.run(&[robot.to_str().unwrap(), world.to_str().unwrap()], "--output m.yaml --output m.mcap --quiet");
-        assert_eq!(planned.code, 0, "{}", planned.stderr);
+        place
+            .run(&[robot.to_str().unwrap(), world.to_str().unwrap()], "--output m.yaml --output m.mcap --quiet")
+            .exits(0);
         let found = ["m.yaml", "m.mcap"].map(|file| {
             let mut found = judged::judge(&robot, &world, &place.path(file), &Question::default()).unwrap();
             let notes = found.as_object_mut().unwrap().remove("notes").unwrap().to_string();
