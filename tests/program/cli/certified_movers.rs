@@ -123,8 +123,7 @@ fn obstacles_waiting_out_of_reach_stay_out_of_reach() {
                  motion = { stops = [{ time = 1.0, at = [2.5, 0.1] }, { time = 2.0, at = [2.8, 1.0] }] }\n\
                  [[step]]\npick = \"p\"\n[[step]]\nplace = { at = [0.3, 1.35] }\n";
     place.write("w.toml", world);
-    let done = place.run(&[&*urdf, "w.toml"], "").exits(3);
-    assert!(done.stdout.contains("never within the arm's reach"), "{}", done.stdout);
+    place.run(&[&*urdf, "w.toml"], "").exits(3).says(&["never within the arm's reach"]);
 }
 
 /// Checks a pick at the very beginning of its window, which is not a whole nanosecond. The plan uses the first whole

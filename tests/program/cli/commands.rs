@@ -57,7 +57,7 @@ fn wrong_command_lines_end_with_2() {
     place.run(&["check", "no.urdf", "no.toml"], "--at 0,0 --clearance inf").refused(2, &["finite"]);
     let done = place.run(&["compare", "no.urdf", "no.toml"], "--json --csv");
     assert_eq!((done.code, &done.json()["kind"]), (2, &serde_json::json!("usage")));
-    assert!(done.stderr.contains("--csv"), "{}", done.stderr);
+    done.warns(&["--csv"]);
 }
 
 #[test]
@@ -176,7 +176,7 @@ fn limits_of_the_jerk_are_kept_in_every_format() {
     assert_eq!(option.json(), result);
     place.run(&smooth, "--jerk none,none --blend none --output jumps.yaml").exits(0);
     let jumps = verify("jumps.yaml").exits(3);
-    assert!(jumps.stdout.contains("shoulder: acceleration jumps by"), "{}", jumps.stdout);
+    jumps.says(&["shoulder: acceleration jumps by"]);
 }
 
 #[test]
@@ -209,8 +209,7 @@ fn the_least_time_has_a_bound_and_another_shape() {
         assert!(number(&time, "/length") > number(&length, "/length"));
         assert!(number(&time, "/optimum/lower_bound") < number(&time, "/optimum/length"));
     }
-    let corners = place.run(&shelf(), "--optimize time --blend none");
-    assert!(corners.stdout.contains("; stops at"), "{}", corners.stdout);
+    place.run(&shelf(), "--optimize time --blend none").says(&["; stops at"]);
     place.run(&shelf(), "--optimize speed").exits(2);
 }
 
@@ -232,10 +231,8 @@ fn check_states_the_reason() {
     let beyond = corner[1] * angle.cos() - corner[0] * angle.sin();
     let depth = json["contacts"][0]["depth"].as_f64().unwrap();
     assert!((depth - (0.05 + beyond)).abs() < 1e-9, "{depth} {beyond}");
-    let outside = place.run(&files, "--at 9,0").exits(0);
-    assert!(outside.stdout.contains("OUTSIDE") && outside.stdout.contains("not free"), "{}", outside.stdout);
-    let near = place.run(&files, "--at 10deg,45deg --clearance 0.05");
-    assert!(near.stdout.contains("less than the clearance of 50 mm"), "{}", near.stdout);
+    place.run(&files, "--at 9,0").exits(0).says(&["OUTSIDE", "not free"]);
+    place.run(&files, "--at 10deg,45deg --clearance 0.05").says(&["less than the clearance of 50 mm"]);
 }
 
 #[test]

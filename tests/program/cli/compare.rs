@@ -46,8 +46,7 @@ const QUICK: &str = "--planner visibility --planner wavefront --cells 64 --quiet
 fn suites_list_every_problem_with_every_planner() {
     let place = Place::new();
     suite(&place);
-    let done = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK} --json")).succeeds_silently();
-    let json = done.json();
+    let json = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK} --json")).succeeds_silently().json();
     assert_eq!(json["title"], "two worlds");
     let outcomes = |problem: usize| -> Vec<&str> {
         let rows = json["problems"][problem]["planners"].as_array().unwrap();
@@ -69,8 +68,7 @@ fn suites_list_every_problem_with_every_planner() {
         folder["problems"].as_array().unwrap().iter().map(|p| p["problem"].as_str().unwrap()).collect();
     assert_eq!((names, folder["title"].as_str()), (vec!["closed", "open"], Some("worlds")));
     // Reads a manifest by its own name, and writes the tables.
-    let text = place.run(&["compare", "--suite", "worlds/suite.toml"], QUICK).exits(0);
-    text.says(&[
+    place.run(&["compare", "--suite", "worlds/suite.toml"], QUICK).exits(0).says(&[
         "two worlds\n",
         "outcomes\n",
         "total [ms]\n",
@@ -160,17 +158,13 @@ fn worlds_with_steps_are_omitted_with_a_note() {
     place.write("worlds/task.toml", step);
     let robot = shipped("robots/planar_2r.urdf");
     let done = place.run(&["compare", &robot, "--suite", "worlds"], "--planner trapezoid --json").exits(0);
-    assert!(done.stderr.contains("note: worlds/task.toml is left out: it has steps"), "{}", done.stderr);
+    done.warns(&["note: worlds/task.toml is left out: it has steps"]);
     let json = done.json();
     assert_eq!((json["problems"].as_array().unwrap().len(), json["left_out"].as_array().unwrap().len()), (1, 1));
     let moving = "[[obstacle]]\ncircle = { center = [5, 0], radius = 0.1 }\nmotion = { velocity = [1, 0] }\n";
     place.write("worlds/moving.toml", format!("{FREE}{moving}"));
-    let done = place.run(&["compare", &robot, "--suite", "worlds"], "--planner trapezoid --json");
-    assert!(
-        done.code == 0 && done.stderr.contains("moving.toml is left out: it has moving obstacles or objects"),
-        "{}",
-        done.stderr
-    );
+    let done = place.run(&["compare", &robot, "--suite", "worlds"], "--planner trapezoid --json").exits(0);
+    done.warns(&["moving.toml is left out: it has moving obstacles or objects"]);
     std::fs::remove_file(place.path("worlds/moving.toml")).unwrap();
     std::fs::remove_file(place.path("worlds/free.toml")).unwrap();
     place
@@ -186,10 +180,10 @@ fn random_queries_are_free_and_follow_from_the_seed() {
     let place = Place::new();
     let [urdf, world] = shelf();
     let run = |options: &str| {
-        let done = place
+        place
             .run(&["compare", &urdf, &world], &format!("{QUICK} --json --clearance 0.02 {options}"))
-            .succeeds_silently();
-        done.json()
+            .succeeds_silently()
+            .json()
     };
     let six = run("--queries 6 --seed 5");
     assert_eq!((six["queries"].as_u64(), six["seed"].as_u64()), (Some(6), Some(5)));
@@ -299,7 +293,7 @@ fn one_problem_is_reported_in_all_formats() {
         assert!(row["time"]["total"].as_f64().unwrap() >= row["time"]["query"].as_f64().unwrap());
     }
     let parallel = place.run(&["compare", &urdf, &world], "--planner trapezoid --planner wavefront --jobs 2 --json");
-    assert!(parallel.stderr.contains("memory is reported only with --jobs 1"), "{}", parallel.stderr);
+    parallel.warns(&["memory is reported only with --jobs 1"]);
     assert!(parallel.json()["planners"][0]["memory"].is_null());
 }
 

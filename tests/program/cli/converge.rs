@@ -16,7 +16,7 @@ fn the_tables_fit_a_terminal_and_agree_with_the_json() {
     let place = Place::new();
     let done = place.run(&files(), "").exits(0);
     assert!(done.stdout.lines().all(|line| line.chars().count() <= 80), "{}", done.stdout);
-    assert!(done.stderr.contains("harmonic: relaxations ..."), "{}", done.stderr);
+    done.warns(&["harmonic: relaxations ..."]);
     let quiet = place.run(&files(), "--quiet");
     assert_eq!((quiet.code, quiet.stdout.as_str(), quiet.stderr.as_str()), (0, "", ""));
     let json = place.run(&files(), "--json --quiet").json();
@@ -159,8 +159,7 @@ fn regions_of_the_world_are_relaxed_too() {
     let region = "[[preference]]\nname = \"bay\"\nepsilon = 1\nconfigurations = [[0, 0], [1, 0], [0, 1]]\n";
     place.write("world.toml", format!("{FREE}{region}"));
     let urdf = shipped("robots/planar_2r.urdf");
-    let done = place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16 --json --quiet");
-    let json = done.json();
+    let json = place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16 --json --quiet").json();
     let of = |names: &[&str]| -> Vec<&Value> {
         let all = json["relaxations"].as_array().unwrap().iter();
         all.filter(|entry| names.contains(&entry["equation"].as_str().unwrap())).collect()
@@ -189,7 +188,7 @@ fn regions_of_the_world_are_relaxed_too() {
     assert!(local.iter().all(|entry| entry["leap"].is_null() && entry["samples"]["error"][0].is_number()));
     let text = place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16");
     assert!(text.stdout.lines().all(|line| line.chars().count() <= 80), "{}", text.stdout);
-    assert!(text.stdout.contains("where preferences begin: squared changes"), "{}", text.stdout);
+    text.says(&["where preferences begin: squared changes"]);
     let turned =
         place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16 --json --quiet --direction 0,-1").json();
     assert_ne!(turned["relaxations"], json["relaxations"]);

@@ -39,8 +39,7 @@ fn the_demo_needs_no_files() {
 #[test]
 fn the_demo_of_arch_motions_is_a_task() {
     let place = Place::new();
-    let done = place.run(&["demo"], "--kind arch").succeeds_silently();
-    assert!(done.stdout.contains("found and certified: 6 steps"), "{}", done.stdout);
+    place.run(&["demo"], "--kind arch").succeeds_silently().says(&["found and certified: 6 steps"]);
     let result: serde_json::Value = place.json("plan.json");
     let steps = result["steps"].as_array().unwrap();
     assert!(steps.iter().all(|step| step["stroke"]["before_arrival"].as_f64().unwrap() > 0.1), "{steps:?}");
@@ -67,7 +66,7 @@ fn the_demo_of_arch_motions_is_a_task() {
 fn the_demo_of_a_line_follows_it() {
     let place = Place::new();
     let done = place.run(&["demo"], "--kind follow").succeeds_silently();
-    assert!(done.stdout.contains("found and certified: at most 0.008 mm from the line"), "{}", done.stdout);
+    done.says(&["found and certified: at most 0.008 mm from the line"]);
     assert!(place.read("plan.html").contains("The tip follows the line within"));
     let files =
         ["robots/planar_2r.urdf", "workspaces/follow/engraving.toml", "workspaces/follow/plate.gcode"].map(shipped);
@@ -122,14 +121,14 @@ fn the_files_of_init_can_be_planned_at_once() {
             match words[0] {
                 "check" => assert!(ran.stdout.contains("result     "), "{}", ran.stdout),
                 "inspect" => {
-                    assert!(ran.stdout.contains("result     planning with this robot is possible"), "{}", ran.stdout);
+                    ran.says(&["result     planning with this robot is possible"]);
                     assert!(!ran.stdout.contains("warning"), "{}", ran.stdout);
                 }
                 "compare" => {
                     assert_eq!(ran.stdout.matches("found").count(), Method::ALL.len(), "{kind}: {}", ran.stdout)
                 }
                 _ => {
-                    assert!(ran.stdout.contains("found and certified"), "{}", ran.stdout);
+                    ran.says(&["found and certified"]);
                     let verbose = place.run(&words, "--verbose").stdout;
                     assert!(verbose.contains(&format!("({arm})")), "{verbose}");
                 }
@@ -162,8 +161,7 @@ fn robots_of_data_sheets_can_be_planned_at_once() {
         assert!(!place.read(&urdf).contains("{{") && !text.contains("{{"), "{sheet}: a mark is left");
         // Only the arm with small ranges has no way past obstacles, so that they are commented out.
         assert_eq!(text.contains("\n[[obstacle]]"), !sheet.contains("--limits 20,25"), "{sheet}");
-        let ran = place.run(&[&urdf, &world], "--verbose").succeeds_silently();
-        assert!(ran.stdout.contains("found and certified"), "{sheet}: {}", ran.stdout);
+        place.run(&[&urdf, &world], "--verbose").succeeds_silently().says(&["found and certified"]);
         // The reach that the robot has is that of the data sheet.
         let inspected = place.run(&["inspect", &urdf, &world], "--json").json();
         if let Some(reach) = reach {
@@ -181,7 +179,7 @@ fn limits_and_speeds_of_data_sheets_are_those_of_the_joints() {
     let done = place.run(&["init", "cell"], words);
     let numbers = "links 0.225 and 0.225 m, ranges -130 to 130 deg and -145 to 145 deg, top speeds 375 deg/s and 600 deg/s, \
                    stroke 0.2 m; its bodies are simple envelopes";
-    assert!(done.stdout.contains(numbers), "{}", done.stdout);
+    done.says(&[numbers]);
     let problem = cplan::Problem::load(place.path("cell/arm.urdf"), place.path("cell/world.toml")).unwrap();
     for (joint, [degrees, speed]) in problem.scene().arm().joints.iter().zip([[130.0, 375.0], [145.0, 600.0_f64]]) {
         let range = joint.range.domain();
@@ -247,8 +245,7 @@ fn keys_that_are_commented_out_are_valid() {
 #[test]
 fn init_does_not_overwrite_files() {
     let place = Place::new();
-    let done = place.run(&["init"], "").exits(0);
-    assert!(done.stdout.contains("cplan arm.urdf world.toml --picture plan.html"), "{}", done.stdout);
+    place.run(&["init"], "").exits(0).says(&["cplan arm.urdf world.toml --picture plan.html"]);
     place.write("world.toml", "mine");
     fs::remove_file(place.path("world.schema.json")).unwrap();
     place
@@ -263,8 +260,7 @@ fn init_does_not_overwrite_files() {
     place.run(&["init", "world.toml"], "").refused(1, &["cannot make the folder world.toml"]);
     place.run(&["init"], "--kind xyz").refused(2, &["rr, rp, pr, pp, scara"]);
     // Names that a shell would split are printed in quotes.
-    let done = place.run(&["init", "a b"], "");
-    assert!(done.stdout.contains("cplan inspect \"a b/arm.urdf\" \"a b/world.toml\""), "{}", done.stdout);
+    place.run(&["init", "a b"], "").says(&["cplan inspect \"a b/arm.urdf\" \"a b/world.toml\""]);
 }
 
 /// Checks that a folder in which nothing can be created gives one error, and that its contents do not change.

@@ -121,7 +121,7 @@ fn a_path_that_touches_exact_polygons_is_not_certified() {
         assert!(length > exact - 1e-4 && length < exact * (1.0 + 1e-3), "{length} {exact}");
     }
     let own = place.run(&maze(), "--margin 0 --planner trapezoid --path own --verbose");
-    assert!(own.stdout.contains("the path was planned among the exact polygons and touches none"), "{}", own.stdout);
+    own.says(&["the path was planned among the exact polygons and touches none"]);
 }
 
 #[test]
@@ -150,8 +150,7 @@ fn the_full_visibility_graph_of_the_maze_has_all_arcs() {
     assert_eq!(of(""), (11, "reduced".to_owned()));
     assert_eq!(of("--search dijkstra").1, "reduced");
     assert_eq!(of("--graph full"), (46, "full".to_owned()));
-    let done = place.run(&maze(), "--planner visibility --graph full --verbose --picture graph.svg");
-    done.says(&[
+    place.run(&maze(), "--planner visibility --graph full --verbose --picture graph.svg").says(&[
         "visibility (astar, full graph): 22 nodes, 46 edges",
         "the corners of C-obstacles, which are cut off at joint limits",
     ]);

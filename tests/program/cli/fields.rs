@@ -61,8 +61,7 @@ fn options_that_do_not_go_together_end_with_2() {
 fn the_result_names_the_field() {
     let place = Place::new();
     let field = |options: &str| {
-        let done = place.run(&shelf(), &format!("{COARSE} {options}")).exits(0);
-        let result = done.json();
+        let result = place.run(&shelf(), &format!("{COARSE} {options}")).exits(0).json();
         assert_eq!((&result["status"], &result["certified"]), (&json!("found"), &json!(true)));
         (result["field"].clone(), result["size"]["sweeps"].clone())
     };
@@ -153,10 +152,8 @@ fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
     let cup = [shipped("robots/stage_robot.urdf"), shipped("workspaces/published/cup.toml")];
     let forces = "--planner harmonic --field khatib --attraction constant:1 --cells 80 --levels 1 --json";
     let run = |options: &str| place.run(&cup, &format!("{forces} {options}"));
-    let trapped = |charge: &str| {
-        let done = run(&format!("--repulsion sum:{charge}")).exits(4);
-        done.json()["reason"].as_str().unwrap().to_owned()
-    };
+    let trapped =
+        |charge: &str| run(&format!("--repulsion sum:{charge}")).exits(4).json()["reason"].as_str().unwrap().to_owned();
     // The trap is within the cup; with four times the charge, it is beside the goal at (0, -12).
     assert!(trapped("1").contains("local minimum at (0.2500, 3.7500)"), "{}", trapped("1"));
     assert_eq!(run("--repulsion sum:3").code, 0);
@@ -255,8 +252,7 @@ fn no_finer_grid_is_tried_for_a_field_that_does_not_converge() {
 fn on_map(map: &str, options: &str) -> (u64, u64) {
     let place = Place::new();
     let files = [shipped("robots/room_gantry.urdf"), shipped(&format!("workspaces/maps/{map}.toml"))];
-    let done = place.run(&files, &format!("--planner harmonic --cells 100 --json {options}")).exits(0);
-    let result = done.json();
+    let result = place.run(&files, &format!("--planner harmonic --cells 100 --json {options}")).exits(0).json();
     assert_eq!((&result["status"], &result["field"]["converged"]), (&json!("found"), &json!(true)), "{map} {options}");
     let all = result["size"]["sweeps"].as_u64().unwrap();
     let text = place.run(&files, &format!("--planner harmonic --cells 100 --verbose {options}")).stdout;

@@ -116,12 +116,7 @@ fn a_line_out_of_reach_is_infeasible_at_a_place() {
     assert_eq!(result["place"]["line"], 3);
     assert!(place.read("m.svg").contains("x: the tip cannot follow the line here"));
     assert!(!place.path("m.csv").exists() && done.stderr.contains("m.csv is not written"), "{}", done.stderr);
-    let done = follow_program(&place, text, "");
-    assert!(
-        done.stdout.contains("infeasible: the line is") && done.stdout.contains("line 3 of the file"),
-        "{}",
-        done.stdout
-    );
+    follow_program(&place, text, "").says(&["infeasible: the line is", "line 3 of the file"]);
 }
 
 #[test]
@@ -139,8 +134,7 @@ fn obstacles_at_both_solutions_are_named() {
 fn placements_units_and_speeds_apply() {
     let place = Place::new();
     let options = "--unit cm --scale 2 --turn 90deg --move 1.2,-0.2 --speed 0.02 --json";
-    let done = follow_program(&place, "G0 X0 Y0\nG1 X5 F99999\n", options).exits(0);
-    let result = done.json();
+    let result = follow_program(&place, "G0 X0 Y0\nG1 X5 F99999\n", options).exits(0).json();
     let number = |value: &Value| value.as_f64().unwrap();
     assert!((number(&result["line"]["length"]) - 0.1).abs() < 1e-12);
     assert!((5.0..5.1).contains(&number(&result["duration"])));
@@ -162,11 +156,7 @@ fn ros_messages_and_pages_are_written() {
     let place = Place::new();
     let done =
         follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200\n", "--output m.yaml --picture m.html --verbose").exits(0);
-    assert!(
-        done.stdout.contains("found and certified: at most") && done.stdout.contains("line 2: straight of"),
-        "{}",
-        done.stdout
-    );
+    done.says(&["found and certified: at most", "line 2: straight of"]);
     let message = place.read("m.yaml");
     assert!(message.contains("joint_names") && message.contains("elbow") && message.contains("velocities"));
     let page = place.read("m.html");
@@ -182,7 +172,7 @@ fn origins_and_dwells_are_followed_and_other_words_are_noted() {
         G1 X20 Y0\nG4 X2\nM3 S5\nG1 X20 Y20 Z3\n";
     let done = follow_program(&place, text, "--output m.csv").exits(0);
     let note = "read without effect on the line: M3 (1), S (1), SET_VELOCITY_LIMIT (1), Z (1 height)";
-    assert!(done.stdout.contains(note) && done.stdout.contains("1 stop of 2 s in all (G4)"), "{}", done.stdout);
+    done.says(&[note, "1 stop of 2 s in all (G4)"]);
     let csv = place.read("m.csv");
     let rows: Vec<Vec<f64>> =
         csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();

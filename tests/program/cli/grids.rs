@@ -162,8 +162,7 @@ fn the_matrix_is_the_grid_of_the_json_turned() {
 fn every_search_finds_a_path_from_either_end() {
     let place = Place::new();
     let length = |options: &str| {
-        let done = place.run(&map(), &format!("{} {options} --json", MAP.replace("--quiet", ""))).exits(0);
-        let json = done.json();
+        let json = place.run(&map(), &format!("{} {options} --json", MAP.replace("--quiet", ""))).exits(0).json();
         assert_eq!(
             json["search"]["backward"],
             if options.contains("--forward") { false.into() } else { serde_json::Value::Null }
@@ -183,7 +182,7 @@ fn iterative_deepening_reports_the_number_of_rounds() {
     let place = Place::new();
     let done = place.run(&map(), &format!("{} --search deepening --verbose", MAP.replace(" --quiet", "")));
     // 22 moves: rounds of limits 0 to 22.
-    assert!(done.stdout.contains("wavefront (deepening, 4 neighbours), centers: 23 rounds, "), "{}", done.stdout);
+    done.says(&["wavefront (deepening, 4 neighbours), centers: 23 rounds, "]);
     let json = place.run(&map(), &format!("{MAP} --search deepening --json")).json();
     let size = &json["size"];
     assert!(size["rounds"] == 23 && size["expanded"].as_u64() > size["cells"].as_u64(), "{size}");
@@ -271,5 +270,5 @@ fn the_manhattan_navigation_function_is_the_published_one() {
     let published = "2,1,2,3,4,5,inf,inf\n1,0,1,2,3,4,inf,inf\n2,1,2,3,4,5,inf,inf\n3,2,inf,inf,5,6,inf,inf\n\
                      4,3,inf,inf,6,7,8,9\n5,4,inf,inf,7,8,9,10\n6,5,6,7,8,9,10,11\n7,6,7,8,9,10,11,12\n";
     assert_eq!(place.read("cspace.csv"), published);
-    assert!(done.stdout.contains("9 straight pieces, length 2.0625"), "{}", done.stdout);
+    done.says(&["9 straight pieces, length 2.0625"]);
 }

@@ -21,7 +21,7 @@ fn check_hint(changes: &[(&str, &str)], world: &str, parts: &[&str]) {
     let warned: String = planned.stderr.lines().filter(|line| line.starts_with("warning: ")).collect();
     for part in parts {
         assert!(warned.contains(part), "{part:?} is not in: {}", planned.stderr);
-        assert!(inspected.stdout.contains(part), "{part:?} is not in: {}", inspected.stdout);
+        inspected.says(&[part]);
     }
 }
 
@@ -35,7 +35,7 @@ fn limits_that_look_like_degrees_are_refused_with_both_readings() {
     place.run(&["reach", "arm.urdf", "world.toml"], "").refused(1, &parts);
     let inspected = place.run(&["inspect", "arm.urdf"], "");
     let remedy = "limits = { shoulder = [\"-150deg\", \"150deg\"], elbow = [\"-150deg\", \"150deg\"] }";
-    assert!(inspected.stdout.contains(remedy), "{}", inspected.stdout);
+    inspected.says(&[remedy]);
     for range in ["[\"-150deg\", \"150deg\"]", "[-150, 150]"] {
         place.write("world.toml", format!("[robot]\nlimits = {{ shoulder = {range}, elbow = {range} }}\n{TO_A_TIP}"));
         let done = place.run(&["arm.urdf", "world.toml"], "").exits(0);
@@ -131,8 +131,7 @@ fn verify_judges_limits_that_are_given_and_reports_the_others() {
     assert_eq!(verify("--anywhere").code, 3);
     // A speed that no file states does not decide.
     place.write("arm.urdf", arm(&[(" velocity=\"2.0\"", ""), (" velocity=\"3.0\"", "")]));
-    let report = verify("--anywhere").exits(0);
-    assert!(report.stdout.contains("shoulder: velocity 3.000000 rad/s, at most 1.000000"), "{}", report.stdout);
+    verify("--anywhere").exits(0).says(&["shoulder: velocity 3.000000 rad/s, at most 1.000000"]);
 }
 
 #[test]

@@ -64,8 +64,7 @@ fn defects_have_their_place_and_a_hint() {
         assert_eq!((done.code, done.stdout.as_str()), (1, ""), "{line}");
         done.warns(&parts);
     }
-    let done = follow(&place, "points = [[1, 0], [1.1, 0]]", "--unit mm");
-    assert!(done.code == 2 && done.stderr.contains("leave out --unit"), "{}", done.stderr);
+    follow(&place, "points = [[1, 0], [1.1, 0]]", "--unit mm").exits(2).warns(&["leave out --unit"]);
 }
 
 #[test]
@@ -85,8 +84,7 @@ fn a_task_follows_lines_of_all_kinds() {
     // The outline is passed at 0.3 m/s: 1.4 m less what the corners save.
     let seconds = number(&lines[0]["arrival"]) - number(&lines[0]["begin"]);
     assert!((4.4..4.8).contains(&seconds), "{seconds}");
-    let verified = place.run(&["verify", &files[0], &files[1], "badge.json"], "");
-    assert!(verified.code == 0 && verified.stdout.contains("free: the whole task, 9 steps"), "{}", verified.stdout);
+    place.run(&["verify", &files[0], &files[1], "badge.json"], "").exits(0).says(&["free: the whole task, 9 steps"]);
     // A sample of the outline is moved by a tenth of a millimetre.
     let mut moved = result.clone();
     let sample = (steps[1]["first_sample"].as_u64().unwrap() + steps[1]["last_sample"].as_u64().unwrap()) / 2;
@@ -120,8 +118,7 @@ fn a_task_with_lines_has_a_certificate() {
     let value = &mut moved["motion"]["knots"][middle as usize][1];
     *value = (number(value) + 1e-4).into();
     place.write("moved.json", moved.to_string());
-    let refused = place.run(&["recheck", &files[0], &files[1], "--proof", "moved.json"], "");
-    assert!(refused.code == 1 && refused.stderr.contains("step 8: from knot"), "{} {}", refused.code, refused.stderr);
+    place.run(&["recheck", &files[0], &files[1], "--proof", "moved.json"], "").exits(1).warns(&["step 8: from knot"]);
 }
 
 /// Runs a task for a shipped robot, and returns its files.
@@ -139,9 +136,9 @@ fn results_with_limited_jerks_are_verified() {
                  follow = { points = [[-0.6437, -0.5701], [-0.6062, -0.6006], [-0.6348, -0.5798], [-0.6064, -0.5662]], \
                  tolerance = 1e-4, speed = 0.5 }\n";
     let [robot, world] = task(&place, "polar", world);
-    let verified = place.run(&["verify", &robot, &world, "result.json"], "");
-    assert!(verified.code == 0 && verified.stdout.contains("free: the whole task, 2 steps"), "{}", verified.stdout);
-    assert!(verified.stdout.contains("steps[..].deviation"), "{}", verified.stdout);
+    let verified = place.run(&["verify", &robot, &world, "result.json"], "").exits(0);
+    verified.says(&["free: the whole task, 2 steps"]);
+    verified.says(&["steps[..].deviation"]);
 }
 
 #[test]
@@ -175,11 +172,6 @@ fn a_certificate_with_a_negative_tolerance_is_refused() {
     let mut certificate: Value = place.json("c.json");
     certificate["line"]["tolerance"] = (-0.5).into();
     place.write("negative.json", certificate.to_string());
-    let refused = place.run(&["recheck", &files[0], &files[1]], "--proof negative.json");
-    assert!(
-        refused.code == 1 && refused.stderr.contains("tolerance must be above 0"),
-        "{} {}",
-        refused.code,
-        refused.stderr
-    );
+    let refused = place.run(&["recheck", &files[0], &files[1]], "--proof negative.json").exits(1);
+    refused.warns(&["tolerance must be above 0"]);
 }

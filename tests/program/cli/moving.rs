@@ -14,17 +14,17 @@ fn world(motion: &str) -> String {
 fn the_arm_waits_until_the_cart_has_gone() {
     let place = Place::new();
     let [urdf, world] = moving("crossing");
-    let done = place
+    place
         .run(
             &moving("crossing"),
             "--verbose --output m.json --output m.csv --output m.yaml --picture m.html --picture m.svg",
         )
-        .exits(0);
-    done.says(&[
-        "moving     1 obstacle",
-        "waits      1.46 s for cart: from 0.000 to 1.460 s at ",
-        "1 obstacle, 1 moving",
-    ]);
+        .exits(0)
+        .says(&[
+            "moving     1 obstacle",
+            "waits      1.46 s for cart: from 0.000 to 1.460 s at ",
+            "1 obstacle, 1 moving",
+        ]);
     let result = place.json("m.json");
     let output = &result["moving"];
     let number = |value: &Value| value.as_f64().expect("a number");
@@ -53,11 +53,10 @@ fn the_arm_waits_until_the_cart_has_gone() {
     });
     place.write("rushed.csv", [header.to_owned()].into_iter().chain(rushed).collect::<Vec<_>>().join("\n"));
     let judged = place.run(&["verify", &urdf, &world, "rushed.csv"], "--anywhere").exits(3);
-    assert!(judged.stdout.contains("obstacle \"cart\""), "{}", judged.stdout);
+    judged.says(&["obstacle \"cart\""]);
     // Without times, a motion cannot be judged.
     place.write("path.csv", "shoulder,elbow\n-0.9,0.3\n0.9,-0.3\n");
-    let judged = place.run(&["verify", &urdf, &world, "path.csv"], "").exits(4);
-    assert!(judged.stdout.contains("no times"), "{}", judged.stdout);
+    place.run(&["verify", &urdf, &world, "path.csv"], "").exits(4).says(&["no times"]);
 }
 
 /// Checks a goal of the tip. The fastest motion may follow another path than the shortest one, and end at another IK
@@ -81,8 +80,7 @@ fn the_fastest_motion_is_timed_along_its_own_path() {
     let goal = output["path"].as_array().unwrap().last().unwrap().to_string();
     for (time, result) in [(until - 0.01, "result     free"), (until + 0.01, "result     not free")] {
         let at = format!("--at={} --time {time}", goal.trim_matches(['[', ']']));
-        let checked = place.run(&["check", &shipped("robots/planar_2r.urdf"), "w.toml"], &at);
-        assert!(checked.stdout.contains(result), "{at}: {}{}", checked.stdout, checked.stderr);
+        place.run(&["check", &shipped("robots/planar_2r.urdf"), "w.toml"], &at).says(&[result]);
     }
     // The disc blocks only the other solution.
     let output = plan(
@@ -104,8 +102,7 @@ fn a_posture_is_checked_at_a_time() {
 
 #[test]
 fn a_proof_that_no_timing_helps_leaves_the_answer_unknown() {
-    let done = Place::new().run(&moving("parked"), "--json").exits(4);
-    let output = done.json();
+    let output = Place::new().run(&moving("parked"), "--json").exits(4).json();
     assert_eq!((&output["status"], &output["trajectory"]), (&"unknown".into(), &Value::Null));
     let reason = output["reason"].as_str().unwrap();
     assert!(reason.contains("along the one route tried, no timing avoids the moving obstacles (proven)"), "{reason}");
@@ -143,8 +140,7 @@ fn commands_without_time_refuse_moving_obstacles() {
     let place = Place::new();
     let [urdf, world] = moving("crossing");
     for command in ["compare", "explain", "explore", "reach", "converge"] {
-        let done = place.run(&[command, &urdf, &world], "");
-        done.refused(1, &["obstacle \"cart\" moves", "remove its motion"]);
+        place.run(&[command, &urdf, &world], "").refused(1, &["obstacle \"cart\" moves", "remove its motion"]);
     }
     let [urdf, world] = moving("belt_pick");
     for command in ["explain", "explore", "reach"] {
@@ -197,8 +193,7 @@ fn a_falsified_recording_of_a_task_is_found_out() {
     for time in late["trajectory"]["time"].as_array_mut().unwrap().iter_mut().skip(1) {
         *time = (time.as_f64().unwrap() + 0.1).into();
     }
-    let judged = judge("late.json", &late).exits(3);
-    assert!(judged.stdout.contains("step 1 (cycle 1): the tip ends 35.00 mm"), "{}", judged.stdout);
+    judge("late.json", &late).exits(3).says(&["step 1 (cycle 1): the tip ends 35.00 mm"]);
     // All times are faster.
     let mut fast = result.clone();
     for time in fast["trajectory"]["time"].as_array_mut().unwrap() {
@@ -209,8 +204,7 @@ fn a_falsified_recording_of_a_task_is_found_out() {
     let narrow = read(&world);
     let narrow = narrow.replace("pick = \"bottle 1\"", "pick = \"bottle 1\"\nwindow = [2.0, 2.5]");
     place.write("narrow.toml", narrow);
-    let judged = place.run(&["verify", &urdf, "narrow.toml", "as_it_is.json"], "").exits(3);
-    assert!(judged.stdout.contains("outside the required times"), "{}", judged.stdout);
+    place.run(&["verify", &urdf, "narrow.toml", "as_it_is.json"], "").exits(3).says(&["outside the required times"]);
 }
 
 #[test]
@@ -281,10 +275,10 @@ fn objects_never_within_reach_are_proven_and_missed_ones_reported() {
     let place = Place::new();
     let away = belt("at = [2.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "");
     let done = place.plan(away, "--certificate c.json").exits(3);
-    assert!(done.stdout.contains("\"bottle\" is never within the arm's reach"), "{}", done.stdout);
-    assert!(done.stderr.contains("an infeasible task has no certificate"), "{}", done.stderr);
+    done.says(&["\"bottle\" is never within the arm's reach"]);
+    done.warns(&["an infeasible task has no certificate"]);
     assert!(!place.path("c.json").exists());
     let done = place.plan(belt("at = [1.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "window = [0, 0.3]"), "");
     assert_eq!(done.code, 4, "{}", done.stdout);
-    assert!(done.stdout.contains("passes before the arm can arrive"), "{}", done.stdout);
+    done.says(&["passes before the arm can arrive"]);
 }

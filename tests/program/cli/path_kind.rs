@@ -6,10 +6,7 @@ use cplan::engine::Method;
 #[test]
 fn planners_with_two_paths_return_the_requested_one() {
     let place = Place::new();
-    let run = |options: &str| {
-        let done = place.run(&shelf(), &format!("{options} --cells 64 --json")).exits(0);
-        done.json()
-    };
+    let run = |options: &str| place.run(&shelf(), &format!("{options} --cells 64 --json")).exits(0).json();
     for (planner, usual) in [
         ("trapezoid", "taut"),
         ("triangles", "taut"),
@@ -67,8 +64,7 @@ fn a_trapezoids_own_path_has_the_centres_of_its_cells_between_the_middles_of_por
 fn compare_lists_both_paths_of_each_planner() {
     let place = Place::new();
     let [urdf, world] = shelf();
-    let done = place.run(&["compare", &urdf, &world], "--cells 48 --json --quiet").exits(0);
-    let json = done.json();
+    let json = place.run(&["compare", &urdf, &world], "--cells 48 --json --quiet").exits(0).json();
     let rows = json["planners"].as_array().unwrap();
     let names: Vec<&str> = rows.iter().map(|row| row["planner"].as_str().unwrap()).collect();
     assert_eq!(names, Method::ALL.map(Method::name));
@@ -108,8 +104,7 @@ fn where_cells_are_too_coarse_the_answer_says_whether_there_is_a_path() {
             let files = [shipped("robots/planar_2r.urdf"), shipped(world)];
             place.run(&files, &format!("--planner {planner} --cells 16 --levels 1 --json"))
         };
-        let open = on("workspaces/narrow_slot.toml").exits(4);
-        let json = open.json();
+        let json = on("workspaces/narrow_slot.toml").exits(4).json();
         assert_eq!((&json["status"], &json["path_exists"]), (&json!("unknown"), &json!(true)), "{planner}");
         assert!(json["path"].is_null() && json["certified"] == false);
         let reason = json["reason"].as_str().unwrap();

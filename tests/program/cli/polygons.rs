@@ -55,7 +55,7 @@ fn polygons_that_are_not_convex_have_a_difference_in_parts() {
     assert_eq!((&found["a"]["convex"], &found["depth_is_exact"]), (&json!(false), &json!(false)));
     assert!(found["difference"].as_array().unwrap().len() > 1);
     let done = place.run(&["polygons", "0,0 3,0 3,3 2,3 2,1 1,1 1,3 0,3", "1.25,0.5 1.75,0.5 1.75,5 1.25,5"], "");
-    assert!(done.stdout.contains("A and B meet; penetration depth: at least 0.5"), "{}", done.stdout);
+    done.says(&["A and B meet; penetration depth: at least 0.5"]);
 }
 
 #[test]

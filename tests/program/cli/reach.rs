@@ -73,8 +73,7 @@ fn each_solution_has_the_outcome_of_planning_to_it() {
         ("slide_arm", "slide_table"),
     ] {
         let files = [shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml"))];
-        let done = reach(&place, &files, "--output r.csv --json").exits(0);
-        let result = done.json();
+        let result = reach(&place, &files, "--output r.csv --json").exits(0).json();
         let home = [0, 1].map(|k| result["reach"]["home"][k].as_f64().unwrap());
         let all = solutions(&place.read("r.csv"));
         for access in ["reachable", "unreachable", "blocked", "unknown"] {

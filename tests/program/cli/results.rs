@@ -49,7 +49,7 @@ fn a_motion_to_the_start_has_length_zero() {
     let done = Place::new().plan(FREE, "--goal=-0.9,0.4 --json");
     assert_eq!((done.code, done.json()["path"].clone()), (0, json!([[-0.9, 0.4]])));
     // Serialised, -0.0 and 0.0 differ.
-    assert!(done.stdout.contains("\"length\": 0.0"), "{}", done.stdout);
+    done.says(&["\"length\": 0.0"]);
 }
 
 #[test]
@@ -185,8 +185,7 @@ fn a_picture_that_moves_is_written_beside_others() {
 #[test]
 fn a_program_without_mcap_says_so_before_any_work() {
     let place = Place::new();
-    let done = place.run(&shelf(), "--output a.json --output a.mcap");
-    done.refused(1, &["a.mcap", "built without MCAP", ".yaml"]);
+    place.run(&shelf(), "--output a.json --output a.mcap").refused(1, &["a.mcap", "built without MCAP", ".yaml"]);
     assert!(!place.path("a.json").exists());
 }
 
@@ -226,8 +225,7 @@ fn full_devices_are_an_error_and_no_panic() {
 fn paths_come_with_a_bound_on_the_optimum() {
     let here = Place::new();
     let optimum = |options: &str| {
-        let done = here.run(&shelf(), &format!("--json {options}")).exits(0);
-        let result = done.json();
+        let result = here.run(&shelf(), &format!("--json {options}")).exits(0).json();
         let optimum = result["optimum"].clone();
         let [length, lower] = ["length", "lower_bound"].map(|key| optimum[key].as_f64().unwrap());
         assert!(0.0 < lower && lower <= length, "{optimum}");
@@ -255,10 +253,5 @@ fn paths_come_with_a_bound_on_the_optimum() {
 fn an_unreachable_gap_is_reported() {
     let here = Place::new();
     let slot = ["robots/polar.urdf", "workspaces/thin_wall_open.toml"].map(shipped);
-    let done = here.run(&slot, "--gap 1e-9 --levels 1 --json").exits(0);
-    assert!(
-        done.stderr.contains("warning: the requested gap of") && done.stderr.contains("--levels"),
-        "{}",
-        done.stderr
-    );
+    here.run(&slot, "--gap 1e-9 --levels 1 --json").exits(0).warns(&["warning: the requested gap of", "--levels"]);
 }

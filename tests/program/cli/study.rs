@@ -158,8 +158,7 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     let mut text = read(&part);
     text.truncate(text.len() - 7);
     std::fs::write(&part, &text).unwrap();
-    let done = run(&place, "--output t.csv --jobs 2").exits(0);
-    assert!(done.stderr.contains("layouts of the stopped study"), "{}", done.stderr);
+    run(&place, "--output t.csv --jobs 2").exits(0).warns(&["layouts of the stopped study"]);
     assert_eq!(place.read("t.csv"), place.read("whole.csv"));
     assert!(!part.exists());
     // Rows of another study are neither used nor lost.
@@ -262,7 +261,7 @@ fn failed_layouts_have_rows_and_a_study_may_have_no_best_layout() {
     }
     study(&place, "conditions = [\"duration <= 0.01\"]\ndraws = 3", CRATE);
     let done = run(&place, "--output t.csv --output best.toml --json").exits(0);
-    assert!(done.stderr.contains("best.toml is not written: no layout meets the requirements"), "{}", done.stderr);
+    done.warns(&["best.toml is not written: no layout meets the requirements"]);
     assert!(!place.path("best.toml").exists() && rows(&place.read("t.csv")).len() == 12);
     assert_eq!(done.json()["best"], Value::Null);
 }
@@ -374,7 +373,7 @@ fn obstacles_overlap_only_where_the_world_allows_it() {
         count += usize::from(overlaps);
     }
     assert_eq!((inside.len(), count), (24, 4));
-    assert!(done.stdout.contains("         4  refused: \"crate\" overlaps \"shelf\"\n"), "{}", done.stdout);
+    done.says(&["         4  refused: \"crate\" overlaps \"shelf\"\n"]);
     // Low things are below the shelf.
     let low = format!("{FREE}{WORLD}").replace("name = \"crate\"", "name = \"crate\"\nheight = [0.0, 0.1]");
     place.write("world.toml", low.replace("name = \"shelf\"", "name = \"shelf\"\nheight = [0.1, 0.3]"));
@@ -429,8 +428,7 @@ fn a_best_layout_at_the_end_of_a_range_is_noted() {
         run(&place, "")
     };
     let edge = "speed = 1 of at most 1: a wider range may give a better layout\n";
-    let stepped = speed("from = 0.5\nto = 1\nsteps = 3");
-    assert!(stepped.stdout.contains(edge), "{} {}", stepped.stdout, stepped.stderr);
+    speed("from = 0.5\nto = 1\nsteps = 3").says(&[edge]);
     assert!(!speed("values = [0.5, 1]").stdout.contains("a wider range"));
 }
 
@@ -442,7 +440,7 @@ fn a_search_plans_in_no_layout_twice() {
     study(&place, "[search]\nlayouts = 40", &listed);
     let done = run(&place, "--output t.csv").exits(0);
     assert_eq!(rows(&place.read("t.csv")).len(), 6);
-    assert!(done.stdout.contains("the search found no new layout to try"), "{}", done.stdout);
+    done.says(&["the search found no new layout to try"]);
 }
 
 #[test]

@@ -78,8 +78,7 @@ fn pressing_deeper_than_the_tolerance_is_a_contact() {
     let place = Place::new();
     for hand in [Hand::Lifting, Hand::Stroke] {
         let cell = Cell { bottom: 0.049_998, ..Cell::new(hand) };
-        let done = plan_and_check(&place, &cell.set_down()).exits(3);
-        assert!(done.stdout.contains("payload \"part\" hits obstacle \"table\""), "{}", done.stdout);
+        plan_and_check(&place, &cell.set_down()).exits(3).says(&["payload \"part\" hits obstacle \"table\""]);
     }
 }
 
@@ -117,7 +116,7 @@ fn parts_are_stacked_and_taken_off_again() {
         let taken = format!("{upper}{first}[[step]]\npick = \"part\"\n[[step]]\nplace = {{ at = [0.1, 0.4] }}\n");
         let lift = if hand == Hand::Stroke { 0.1 } else { 0.0 };
         let done = plan_and_check(&place, &Cell { lift, ..Cell::new(hand) }.world(&taken)).exits(3);
-        assert!(done.stdout.contains("hits obstacle \"lid\""), "{}", done.stdout);
+        done.says(&["hits obstacle \"lid\""]);
     }
 }
 

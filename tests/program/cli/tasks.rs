@@ -158,8 +158,7 @@ fn consistent(arm: &Arm, result: &Value) {
 #[test]
 fn a_task_is_one_motion_with_steps_and_events() {
     let place = Place::new();
-    let done = place.task(STEPS, "--json").exits(0);
-    let result = done.json();
+    let result = place.task(STEPS, "--json").exits(0).json();
     consistent(&place.arm(), &result);
     let steps = result["steps"].as_array().unwrap();
     let words: Vec<_> = steps.iter().map(|step| [&step["action"], &step["object"], &step["carried"]]).collect();

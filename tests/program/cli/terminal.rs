@@ -92,7 +92,7 @@ fn the_verdict_comes_first_and_assumptions_last() {
         "note",
     ];
     assert_eq!(keys(&verbose), order, "{verbose}");
-    assert!(done.stdout.contains("no acceleration limit given; "), "{}", done.stdout);
+    done.says(&["no acceleration limit given; "]);
     assert!(!done.stdout.contains("heights along"), "{}", done.stdout);
     assert!(
         verbose.contains("\nrobot      plane: coordinates are (x, y)") && verbose.contains("outline from"),

@@ -52,8 +52,7 @@ fn the_option_equals_the_setting_of_the_world() {
     assert!(without["trajectory"]["torque"].is_null() && !without["assumed"]["acceleration"].is_null());
     let verify = |options: &str, file: &str| place.run(&["verify", &urdf, "silent.toml", file], options);
     assert_eq!(verify("", "plain.json").code, 0);
-    let judged = verify("--torque", "plain.json").exits(3);
-    assert!(judged.stdout.contains("torque"), "{}", judged.stdout);
+    verify("--torque", "plain.json").exits(3).says(&["torque"]);
     // A motion with stated torques must have these.
     place.run(&silent, "--torque --output m.json --output m.csv").exits(0);
     for file in ["m.json", "m.csv"] {
@@ -81,8 +80,7 @@ fn motions_with_payloads_and_drives_stay_within_the_efforts() {
     assert!(jerk > laden, "{jerk}");
     // The judge includes the payload: the motion of light blocks needs too much torque for heavy ones.
     place.run(&[&urdf, "light.toml"], "--output light.json").exits(0);
-    let verified = place.run(&["verify", &urdf, &heavy, "light.json"], "");
-    assert!(verified.code == 3 && verified.stdout.contains("torque"), "{}", verified.stdout);
+    place.run(&["verify", &urdf, &heavy, "light.json"], "").exits(3).says(&["torque"]);
 }
 
 #[test]
@@ -143,7 +141,7 @@ fn the_efforts_hold_the_arm_at_the_end() {
     let robot = shipped("robots/rrbot_vertical.urdf");
     place.run(&[&robot, "light.toml"], "--quiet --output held.json").exits(0);
     let heavy = place.run(&[&robot, "heavy.toml"], "").exits(4);
-    assert!(heavy.stdout.contains("after it joint \"shoulder\" has an effort of 45 N m"), "{}", heavy.stdout);
+    heavy.says(&["after it joint \"shoulder\" has an effort of 45 N m"]);
     // The same motion is judged as one with the heavier block.
     for (world, code) in [("light.toml", 0), ("heavy.toml", 3)] {
         let verified = place.run(&["verify", &robot, world, "held.json"], "").exits(code);
@@ -172,7 +170,7 @@ fn torques_of_recordings_without_velocities_are_not_judged() {
     let [urdf, world] = upright();
     place.write("path.csv", "time,shoulder,elbow\n0,1.9,-0.4\n10,1.9,-0.39\n");
     let verified = place.run(&["verify", &urdf, &world, "path.csv"], "--anywhere").exits(4);
-    assert!(verified.stdout.contains("no velocities: torques are unknown"), "{}", verified.stdout);
+    verified.says(&["no velocities: torques are unknown"]);
     place.write("one.csv", "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,1.9,-0.4,0,0\n");
     let weaker = read(&world).replace("shoulder = 36, elbow = 12", "shoulder = 3, elbow = 1");
     place.write("weaker.toml", weaker);

@@ -190,8 +190,8 @@ fn errors_name_the_wrist() {
     // A gantry has no wrist.
     place.write("line.toml", line);
     let gantry = [shipped("robots/gantry.urdf"), shipped("workspaces/annulus_open.toml")];
-    let done = place.run(&["follow", &gantry[0], &gantry[1], "line.toml"], "--wrist tangent");
-    assert!(done.code == 1 && done.stderr.contains("does not name the wrist's joint"), "{}", done.stderr);
+    let done = place.run(&["follow", &gantry[0], &gantry[1], "line.toml"], "--wrist tangent").exits(1);
+    done.warns(&["does not name the wrist's joint"]);
 }
 
 #[test]
@@ -202,8 +202,8 @@ fn a_joint_that_cannot_turn_as_far_makes_the_line_infeasible() {
     place.write("circle.gcode", "G21 G0 X360 Y0\nG3 I-25 F6000\nG3 I-25\n");
     let arguments = ["follow", &shipped("robots/scara.urdf"), "world.toml", "circle.gcode"];
     let done = place.run(&arguments, "--wrist tangent --certificate c.json").exits(3);
-    assert!(done.stdout.contains("the wrist cannot turn as far as the tool needs"), "{}", done.stdout);
-    assert!(done.stderr.contains("certificates of lines do not judge the wrist"), "{}", done.stderr);
+    done.says(&["the wrist cannot turn as far as the tool needs"]);
+    done.warns(&["certificates of lines do not judge the wrist"]);
     // Without the tool's angle, the line can be followed.
     place.run(&arguments, "").exits(0);
 }
@@ -253,8 +253,7 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
         place.write("changed.json", result.to_string());
         place.run(&["verify", &robot, "world.toml", "changed.json"], "")
     };
-    let done = verify(&result);
-    assert!(done.code == 0 && done.stdout.contains("free: the whole task"), "{}", done.stdout);
+    verify(&result).exits(0).says(&["free: the whole task"]);
     // Faults of the wrist are found.
     let index = steps.iter().position(|step| step["action"] == "follow").unwrap();
     let count = steps[index]["wrist_motion"]["position"].as_array().unwrap().len();
@@ -284,8 +283,7 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
     }
     let mut changed = result.clone();
     changed["steps"][index]["wrist_motion"]["position"].as_array_mut().unwrap().pop();
-    let done = verify(&changed);
-    assert!(done.code == 1 && done.stderr.contains("its wrist_motion has"), "{}", done.stderr);
+    verify(&changed).exits(1).warns(&["its wrist_motion has"]);
 }
 
 #[test]
@@ -308,8 +306,7 @@ fn a_payload_must_not_be_turned_along_a_line() {
         (tangent.replace("joint = \"axis_4\", ", ""), "does not name the wrist's joint"),
         (tangent.replace("acceleration = 200.0 }", "jerk = 900.0 }"), "do not keep limits on the jerk of the wrist"),
     ] {
-        let done = plan(&text);
-        assert!(done.code == 1 && done.stderr.contains(message), "{message}: {}", done.stderr);
+        plan(&text).exits(1).warns(&[message]);
     }
     // A level object keeps its angle anyway.
     plan(&task(&format!("{PICK}{}{end}", line("0")))).exits(0);
