@@ -4,9 +4,9 @@
 use cplan::input::{Overrides, load};
 use cplan::model::Scene;
 use cplan::space::Configuration;
+use cplan_testkit::judged::plan_result;
 use serde_json::Value;
 use std::path::Path;
-use std::process::Command;
 
 /// Returns the path of a file of the repository.
 fn repository_file(file: &str) -> String {
@@ -15,12 +15,10 @@ fn repository_file(file: &str) -> String {
 
 /// Returns the program's result in a world. Fails if it is not a path.
 fn plan_path(robot: &str, world: &str, options: &str) -> Value {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
-    command.args([&repository_file(robot), world, "--json", "--planner", "harmonic"]).args(options.split_whitespace());
-    let output = command.output().unwrap();
-    let code = output.status.code();
-    assert_eq!(code, Some(0), "{world} {options}: {}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
+    let robot = repository_file(robot);
+    let result = plan_result(robot.as_ref(), world.as_ref(), &format!("--planner harmonic {options}"));
+    assert_eq!(result["status"], "found", "{world} {options}");
+    result
 }
 
 fn waypoints(result: &Value) -> Vec<[f64; 2]> {

@@ -41,6 +41,22 @@ fn options_that_do_not_go_together_end_with_2() {
         ("--planner harmonic --field khatib --attraction cubic:1", "constant:C or linear:K"),
         ("--planner harmonic --field khatib --attraction linear:-1", "positive"),
         ("--planner harmonic --field khatib --repulsion ranged:1", "ranged:K,P0"),
+        ("--planner harmonic --search dfs", "--search needs --planner wavefront, visibility, trapezoid, triangles"),
+        ("--planner prm --search wave", "--search wave needs a planner with a grid"),
+        (
+            "--backward",
+            "--backward needs --planner visibility, trapezoid, triangles, voronoi, prm or wavefront: shortest has",
+        ),
+        ("--planner triangles --samples 5", "--samples needs --planner prm"),
+        ("--planner prm --samples 0", "0 is not in 1..=100000"),
+        ("--planner visibility --search bfs --gap 0.1", "--gap needs a search for the shortest path"),
+        ("--planner wavefront --cells 128x4", "nor two such numbers, one per joint, such as 128x512"),
+        ("--search astar", "--search needs --planner wavefront, visibility"),
+        ("--planner harmonic --neighbors 8", "--neighbors needs --planner wavefront"),
+        ("--space sampled", "--space needs --planner wavefront or harmonic: shortest has no grid"),
+        ("--planner harmonic --space guessed", "[possible values: rows, whole, centers, sampled]"),
+        ("--planner wavefront --search best", "wave, bfs, dfs, dijkstra, astar, greedy"),
+        ("--planner wavefront --neighbors 6", "possible values: 4, 8"),
     ] {
         // The files do not exist: the command line is checked first.
         place.run(&["no.urdf", "no.toml"], options).refused(2, &[part]);

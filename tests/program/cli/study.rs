@@ -113,7 +113,7 @@ fn rows_do_not_depend_on_the_number_of_jobs_or_on_measures() {
     has(&page, &["Maps", "Trade-offs", "Best layouts", "y by x", "best: layout"]);
     // Lengths alone need no trajectory, and are the same.
     study(&place, "draws = 6\nmeasure = [\"length\", \"over_bound\"]", CRATE);
-    assert_eq!(run(&place, "--output u.csv --quiet").code, 0);
+    run(&place, "--output u.csv --quiet").exits(0);
     let [with, without] = ["t.csv", "u.csv"].map(|file| rows(&place.read(file)));
     for (with, without) in with.iter().zip(&without) {
         for name in ["outcome", "reason", "length", "over_bound"] {
@@ -140,7 +140,7 @@ fn a_program_without_parquet_says_so_before_any_work() {
 fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     let place = Place::new();
     study(&place, "draws = 60\n[search]\nlayouts = 40", CRATE);
-    assert_eq!(run(&place, "--output whole.csv --quiet").code, 0);
+    run(&place, "--output whole.csv --quiet").exits(0);
     let mut killed = place.command();
     killed.args(["study", "study.toml", "--output", "t.csv", "--quiet", "--jobs", "1"]);
     let mut killed = killed.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
@@ -166,7 +166,7 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     study(&place, "draws = 61", CRATE);
     run(&place, "--output t.csv").refused(1, &["t.csv.part has rows of another study", "--fresh"]);
     assert_eq!(read(&part), text);
-    assert_eq!(run(&place, "--output t.csv --fresh --quiet").code, 0);
+    run(&place, "--output t.csv --fresh --quiet").exits(0);
     assert_eq!(rows(&place.read("t.csv")).len(), 244);
     // Another kind of file is not overwritten either.
     place.write("t.csv.part", "somebody's notes");
@@ -220,22 +220,24 @@ fn the_search_finds_better_layouts_and_lists_the_tried_ones() {
             "planar_2r.urdf best.toml --clearance=0.003\n",
         ],
     );
-    assert_eq!(run(&place, "--output u.csv --jobs 1 --quiet").code, 0);
+    run(&place, "--output u.csv --jobs 1 --quiet").exits(0);
     assert_eq!(place.read("t.csv"), place.read("u.csv"));
+}
+
+/// Writes a study of top speeds of the first joint.
+fn speed_study(place: &Place, values: &str) {
+    let [urdf, _] = shelf().map(read);
+    let joint = urdf.split("<joint name=\"").nth(1).unwrap().split('"').next().unwrap();
+    let parameter =
+        format!("[[parameter]]\nname = \"speed\"\nsets = \"urdf.joint.{joint}.limit.velocity\"\n{values}\n");
+    study(place, "measure = [\"duration\"]", &parameter);
 }
 
 #[test]
 fn robots_vary_as_well_as_worlds() {
     let place = Place::new();
-    let [urdf, _] = shelf();
-    let text = std::fs::read_to_string(urdf).unwrap();
-    assert!(text.contains("<limit"), "{text}");
-    let joint = text.split("<joint name=\"").nth(1).unwrap().split('"').next().unwrap();
-    let parameter = format!(
-        "[[parameter]]\nname = \"speed\"\nsets = \"urdf.joint.{joint}.limit.velocity\"\nvalues = [0.5, 1.0, 2.0]\n"
-    );
-    study(&place, "measure = [\"duration\"]", &parameter);
-    assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
+    speed_study(&place, "values = [0.5, 1.0, 2.0]");
+    run(&place, "--output t.csv --quiet").exits(0);
     let times: Vec<f64> =
         rows(&place.read("t.csv")).iter().map(|row| field(row, "duration").parse().unwrap()).collect();
     assert!(times[0] > times[1] && times[1] > times[2], "{times:?}");
@@ -252,7 +254,7 @@ fn failed_layouts_have_rows_and_a_study_may_have_no_best_layout() {
     // The world has no preferred region, and the field needs some.
     let field = "options = [\"--planner=harmonic\", \"--field=bvp\"]\nmeasure = [\"length\"]";
     study(&place, field, &CRATE.replace("draw = \"latin\"", "steps = 2"));
-    assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
+    run(&place, "--output t.csv --quiet").exits(0);
     for row in rows(&place.read("t.csv")) {
         assert_eq!(
             field_of(&row),
@@ -278,7 +280,7 @@ fn two_runs_do_not_share_their_rows() {
     kept.lock().unwrap();
     run(&place, "--output t.csv").refused(1, &["t.csv.part: another process is running this study"]);
     drop(kept);
-    assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
+    run(&place, "--output t.csv --quiet").exits(0);
     // A run does not use its own study as rows either.
     std::fs::rename(place.path("study.toml"), place.path("u.csv.part")).unwrap();
     place.run(&["study", "u.csv.part"], "--output u.csv --fresh").refused(1, &["is the input"]);
@@ -288,60 +290,46 @@ fn two_runs_do_not_share_their_rows() {
 fn errors_in_a_study_have_a_place_and_a_hint() {
     let place = Place::new();
     let x = "[[parameter]]\nname = \"x\"\nsets = \"world.obstacle.crate.at[0]\"\nfrom = 0\nto = 1\n";
+    // Each row has a line of the head, changes to the parameter, lines after it, and the message.
+    let table = r#"
+ =>  => draw = "latin" => does not state how often ... draws = 1000
+ =>  =>  => line 4, column 1 ... parameter "x" does not define its values ... from, to and steps
+ =>  => steps = 1 => line 9 ... 1 values from 0 to 1
+ =>  => steps = 200000000 => 200000000 values
+ =>  => draw = "sobol" => "uniform" or "latin", not "sobol"
+ => to = 1 -> to = 0 => draw = "latin" => the range from 0 to 0 has only one value ... write values = [0]
+ => from = 0 -> from = "9deg" => steps = 2 => world.obstacle.crate.at[0] is not an angle ... line 7
+ => from = 0 -> from = 2 => steps = 2 => 2 is more than 1
+ => crate.at -> box.at => steps = 2 => world.obstacle.box.at[0]: there is no "box" ... shelf, crate ... line 6
+ => world.obstacle.crate.at[0] -> robot.at[0] => steps = 2 => an address must begin with world. or urdf.
+options = ["--planer=first"] =>  => steps = 2
+    => options: unexpected argument '--planer' found; tip: a similar argument exists: '--planner'
+options = ["--picture=x.svg"] =>  => steps = 2
+    => options: --picture is about files or printed output ... give files to `cplan study` itself
+options = ["--planner=nobody"] =>  => steps = 2 => line 3 ... nobody
+draws = 5 =>  => steps = 3 => line 3 ... no parameter is drawn
+measure = ["speed"] =>  => steps = 2 => line 3 ... "speed" is not a measure; measures are length
+conditions = ["length < 3"] =>  => steps = 2 => is not a condition ... clearance >= 0.01
+size = 3 =>  => steps = 2 => line 3 ... unknown key `size`
+"#;
+    let table = table.replace("\n    ", " ");
+    let mut cases: Vec<[String; 3]> = Vec::new();
+    for row in table.lines().skip(1) {
+        let fields: Vec<&str> = row.split(" => ").collect();
+        let [head, change, rest, pattern] = fields[..] else { panic!("{row}") };
+        let (from, to) = change.split_once(" -> ").unwrap_or_default();
+        let parameter = if from.is_empty() { x.to_owned() } else { x.replace(from, to) };
+        cases.push([head.to_owned(), format!("{parameter}{rest}\n"), pattern.to_owned()]);
+    }
     let several = "[[parameter]]\nname = \"x\"\nsets = [\"world.obstacle.crate.at[0]\", \"world.obstacle.shelves.at[0]\"]\nvalues = [1]\n";
-    let cases: [(&str, String, &[&str]); 20] = [
-        ("", several.into(), &["line 6, column 39", "no \"shelves\"", "world.obstacle.shelf.at[0] is a number there"]),
-        (
-            "",
-            x.replace("to = 1", "to = 0") + "draw = \"latin\"\n",
-            &["the range from 0 to 0 has only one value", "write values = [0]"],
-        ),
-        (
-            "",
-            x.replace("from = 0", "from = \"9deg\"") + "steps = 2\n",
-            &["world.obstacle.crate.at[0] is not an angle", "line 7"],
-        ),
-        (
-            "options = [\"--planer=first\"]",
-            format!("{x}steps = 2\n"),
-            &["options: unexpected argument '--planer' found; tip: a similar argument exists: '--planner'\n"],
-        ),
-        (
-            "options = [\"--picture=x.svg\"]",
-            format!("{x}steps = 2\n"),
-            &["options: --picture is about files or printed output", "give files to `cplan study` itself"],
-        ),
-        ("", String::new(), &["the study has no parameters", "[[parameter]]"]),
-        ("", x.into(), &["line 4, column 1", "parameter \"x\" does not define its values", "from, to and steps"]),
-        ("", format!("{x}steps = 1\n"), &["line 9", "1 values from 0 to 1"]),
-        ("", format!("{x}draw = \"latin\"\n"), &["does not state how often", "draws = 1000"]),
-        ("draws = 5", format!("{x}steps = 3\n"), &["line 3", "no parameter is drawn"]),
-        ("", format!("{x}draw = \"sobol\"\n"), &["\"uniform\" or \"latin\", not \"sobol\""]),
-        (
-            "",
-            x.replace("crate.at", "box.at") + "steps = 2\n",
-            &["world.obstacle.box.at[0]: there is no \"box\"", "shelf, crate", "line 6"],
-        ),
-        (
-            "",
-            x.replace("world.obstacle.crate.at[0]", "robot.at[0]") + "steps = 2\n",
-            &["an address must begin with world. or urdf."],
-        ),
-        ("", x.replace("from = 0", "from = 2") + "steps = 2\n", &["2 is more than 1"]),
-        ("", format!("{x}steps = 2\n{x}steps = 2\n"), &["another column \"x\""]),
-        (
-            "measure = [\"speed\"]",
-            format!("{x}steps = 2\n"),
-            &["line 3", "\"speed\" is not a measure; measures are length"],
-        ),
-        ("conditions = [\"length < 3\"]", format!("{x}steps = 2\n"), &["is not a condition", "clearance >= 0.01"]),
-        ("options = [\"--planner=nobody\"]", format!("{x}steps = 2\n"), &["line 3", "nobody"]),
-        ("size = 3", format!("{x}steps = 2\n"), &["line 3", "unknown key `size`"]),
-        ("", format!("{x}steps = 200000000\n"), &["200000000 values"]),
-    ];
-    for (head, parameters, parts) in cases {
-        study(&place, head, &parameters);
-        run(&place, "--output t.csv").refused(1, parts);
+    let shelves = "line 6, column 39 ... no \"shelves\" ... world.obstacle.shelf.at[0] is a number there";
+    let twice = format!("{x}steps = 2\n{x}steps = 2\n");
+    cases.push(["", several, shelves].map(str::to_owned));
+    cases.push(["", &twice, "another column \"x\""].map(str::to_owned));
+    cases.push(["", "", "the study has no parameters ... [[parameter]]"].map(str::to_owned));
+    for [head, parameters, pattern] in cases {
+        study(&place, &head, &parameters);
+        run(&place, "--output t.csv").refused(1, &pattern.split(" ... ").collect::<Vec<_>>());
         assert!(!place.path("t.csv").exists() && !place.path("t.csv.part").exists());
     }
     place.write("study.toml", "robot = \"none.urdf\"\nworld = \"world.toml\"\n");
@@ -377,11 +365,11 @@ fn obstacles_overlap_only_where_the_world_allows_it() {
     // Low things are below the shelf.
     let low = format!("{FREE}{WORLD}").replace("name = \"crate\"", "name = \"crate\"\nheight = [0.0, 0.1]");
     place.write("world.toml", low.replace("name = \"shelf\"", "name = \"shelf\"\nheight = [0.1, 0.3]"));
-    assert_eq!(run(&place, "--output t.csv").code, 0);
+    run(&place, "--output t.csv").exits(0);
     assert!(!place.read("t.csv").contains("overlaps"));
     // A study may want it.
     study(&place, "measure = [\"length\"]\noverlap = true", crate_about);
-    assert_eq!(run(&place, "--output t.csv").code, 0);
+    run(&place, "--output t.csv").exits(0);
     assert!(!place.read("t.csv").contains("overlaps"));
 }
 
@@ -419,12 +407,7 @@ fn the_page_distinguishes_what_colours_mean() {
 fn a_best_layout_at_the_end_of_a_range_is_noted() {
     let place = Place::new();
     let speed = |values: &str| {
-        let [urdf, _] = shelf();
-        let text = std::fs::read_to_string(urdf).unwrap();
-        let joint = text.split("<joint name=\"").nth(1).unwrap().split('"').next().unwrap();
-        let parameter =
-            format!("[[parameter]]\nname = \"speed\"\nsets = \"urdf.joint.{joint}.limit.velocity\"\n{values}\n");
-        study(&place, "measure = [\"duration\"]", &parameter);
+        speed_study(&place, values);
         run(&place, "")
     };
     let edge = "speed = 1 of at most 1: a wider range may give a better layout\n";
@@ -448,7 +431,7 @@ fn angles_may_be_in_degrees() {
     let place = Place::new();
     let angle = "[[parameter]]\nname = \"a\"\nsets = \"world.obstacle.crate.angle\"\nvalues = [0, \"90deg\"]\n";
     study(&place, "", angle);
-    assert_eq!(run(&place, "--output t.csv").code, 0);
+    run(&place, "--output t.csv").exits(0);
     let turned = &rows(&place.read("t.csv"))[1];
     assert_eq!(field(turned, "a").parse::<f64>().unwrap(), std::f64::consts::FRAC_PI_2);
 }
