@@ -286,8 +286,8 @@ fn shortest_paths_past_huge_obstacles_have_valid_certificates() {
         ),
     ];
     for (number, (urdf, world)) in drawn.iter().enumerate() {
-        let place = Place::new().with("a.urdf", urdf).with("w.toml", world);
-        place.run(&["a.urdf", "w.toml"], "--quiet --certificate c.json").exits(0);
+        let place = Place::new().with("a.urdf", urdf).with("world.toml", world);
+        place.run(&["a.urdf", "world.toml"], "--quiet --certificate c.json").exits(0);
         check(urdf, world, &place.read("c.json")).unwrap_or_else(|why| panic!("{number}: {why}"));
     }
 }

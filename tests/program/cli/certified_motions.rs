@@ -149,13 +149,13 @@ fn an_arm_far_from_the_origin_has_certificates() {
     let obstacle =
         "polygon = [[600001.15, 900000.18], [600001.6, 900000.18], [600001.6, 900000.3], [600001.15, 900000.3]]";
     place.write(
-        "w.toml",
+        "world.toml",
         format!(
             "robot.at = [6e5, 9e5]\nstart.joints = [-0.9, 0.4]\ngoal.joints = [1.55, -0.35]\n[[obstacle]]\n{obstacle}\n"
         ),
     );
-    place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json").exits(0);
-    let report = place.judged([&urdf, "w.toml", "c.json"]);
+    place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json").exits(0);
+    let report = place.judged([&urdf, "world.toml", "c.json"]);
     assert!(report.as_ref().is_ok_and(|report| report.contains("is shorter than")), "{report:?}");
 }
 

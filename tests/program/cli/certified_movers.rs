@@ -99,8 +99,7 @@ fn certificates_among_random_moving_obstacles_hold() {
     let (robot, mut found, mut waited) = (shipped("robots/planar_2r.urdf"), 0, 0);
     for seed in seeds(24) {
         let (place, mut dice) = (Place::new(), Dice::new(seed ^ 0x6d6f_7665));
-        place.write("world.toml", drawn(&mut dice));
-        let done = place.run(&[&*robot, "world.toml"], "--certificate c.json");
+        let done = place.run_in(&*robot, drawn(&mut dice), "--certificate c.json");
         // If start or goal is blocked, there is nothing to plan.
         if done.code != 0 {
             continue;
@@ -122,8 +121,7 @@ fn obstacles_waiting_out_of_reach_stay_out_of_reach() {
     let world = "[start]\njoints = [0.4, 1.0]\n[[object]]\nname = \"p\"\ncircle = { center = [0, 0], radius = 0.05 }\nat = [2.5, 0.0]\n\
                  motion = { stops = [{ time = 1.0, at = [2.5, 0.1] }, { time = 2.0, at = [2.8, 1.0] }] }\n\
                  [[step]]\npick = \"p\"\n[[step]]\nplace = { at = [0.3, 1.35] }\n";
-    place.write("w.toml", world);
-    place.run(&[&*urdf, "w.toml"], "").exits(3).says(&["never within the arm's reach"]);
+    place.run_in(&*urdf, world, "").exits(3).says(&["never within the arm's reach"]);
 }
 
 /// Checks a pick at the very beginning of its window, which is not a whole nanosecond. The plan uses the first whole
@@ -137,8 +135,7 @@ fn a_pick_at_the_beginning_of_its_window_is_within_it() {
         let [from, to] = [2.120_956_725_469_559_8 + 0.201_3 * f64::from(k), 6.0];
         let world =
             shipped.replacen("pick = \"bottle 1\"", &format!("pick = \"bottle 1\"\nwindow = [{from:?}, {to:?}]"), 1);
-        place.write("w.toml", &world);
-        let done = place.run(&[&*urdf, "w.toml"], "--json --certificate c.json").exits(0);
+        let done = place.run_in(&*urdf, &world, "--json --certificate c.json").exits(0);
         let result: serde_json::Value = serde_json::from_str(&done.stdout).unwrap();
         let picked = result["steps"][0]["arrival"].as_f64().unwrap_or_else(|| panic!("{}", result["steps"][0]));
         assert!(from <= picked && picked <= to, "{from}: {picked}");

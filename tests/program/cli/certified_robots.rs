@@ -76,8 +76,7 @@ impl Case<'_> {
             place.judged(["arm.urdf", "other.toml", "c.json"])
         };
         let planned = |world: &str, code: i32| {
-            place.write("world.toml", world);
-            place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
+            place.run_in("arm.urdf", world, "--quiet --certificate c.json").exits(code);
             place.read("c.json")
         };
         let open = self.world();
@@ -221,8 +220,7 @@ fn numbers_that_are_no_doubles_are_certified() {
         case.written(&place);
         for (goal, code) in [("[0.2, 0.5]", 0), ("[1.5, 0.5]", 3)] {
             let world = case.world().replace("[0.2, 0.5]", goal).replace(from, to);
-            place.write("world.toml", world);
-            place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
+            place.run_in("arm.urdf", world, "--quiet --certificate c.json").exits(code);
             place.judged(["arm.urdf", "world.toml", "c.json"]).unwrap_or_else(|why| panic!("{what}: {why}"));
         }
     }
@@ -237,8 +235,7 @@ fn numbers_that_are_no_doubles_are_certified() {
         Case { robot: limit, ..Case::default() }.written(&place);
         let world =
             WORLD.replace("0.0, 0.0", ends[0]).replace("0.2, 0.5", ends[1]).replace("[-0.5, 0.0]", "[-0.5, 0.3]");
-        place.write("world.toml", &world);
-        place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
+        place.run_in("arm.urdf", &world, "--quiet --certificate c.json").exits(code);
         place.judged(["arm.urdf", "world.toml", "c.json"]).unwrap_or_else(|why| panic!("{ends:?}: {why}"));
     }
 }
@@ -393,8 +390,7 @@ fn maps_written_by_tools_are_certified() {
     let place = Place::new();
     Case { files: &[("map.yaml", MAP.as_bytes()), ("map.pgm", b"P2 1 1 255 204")], ..Case::default() }.written(&place);
     let on_it = "[start]\njoints = [-0.75, 0.0]\n[goal]\njoints = [0.0, 0.0]\n[[obstacle]]\nimage = \"map.yaml\"\n";
-    place.write("world.toml", on_it);
-    place.run(&["arm.urdf", "world.toml"], "--quiet").exits(1).warns(&["the start"]);
+    place.run_in("arm.urdf", on_it, "--quiet").exits(1).warns(&["the start"]);
 }
 
 /// Checks a world with a start at a place of the tip, and with numbers in other bases.
@@ -405,8 +401,7 @@ fn worlds_in_all_common_notations_are_certified() {
     Case { ..Case::default() }.written(&place);
     for (goal, code) in [("[0.2, 0.5]", 0), ("[1.5, 0.5]", 3)] {
         let world = format!("clearance = 0x0\n{}", tip.replace("[0.2, 0.5]", goal).replace("1.8, 0.0", "1.7, 0.3"));
-        place.write("world.toml", world);
-        place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
+        place.run_in("arm.urdf", world, "--quiet --certificate c.json").exits(code);
         let report = place.judged(["arm.urdf", "world.toml", "c.json"]).unwrap();
         assert!(report.contains("from the start ("), "{report}");
     }

@@ -337,14 +337,14 @@ fn a_new_object_is_an_obstacle() {
         "[[step]]\nrepeat = 2\n[[step.steps]]\npick = \"b\"\n[[step.steps]]\nplace = { at = [0.3, 0.5] }\n".into(),
         "[[step.steps]]\npick = \"a\"\n[[step.steps]]\nplace = { at = [1.7, 0.75] }\n".into(),
     ];
-    place.write("w.toml", world.concat());
+    place.write("world.toml", world.concat());
     let urdf = shipped("robots/gantry.urdf");
-    let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");
+    let done = place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json --output plan.json");
     // Between the walls, the only path leads through the new object.
     assert_eq!(done.code, 3, "{}", done.stderr);
     // If the object is not renewed, there is a path.
-    place.write("w.toml", world.concat().replace("renew = true\n", ""));
-    place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json").exits(0);
+    place.write("world.toml", world.concat().replace("renew = true\n", ""));
+    place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json --output plan.json").exits(0);
 }
 
 /// Checks that a released object may be touched until the next step has ended. After that step, the arm must be free of
@@ -365,9 +365,9 @@ fn renewed_objects_stay_until_the_next_motion() {
         // The move ends on the object, beside it, or high above it.
         let asked = [(0.1, 1.5, 3), (0.1, 1.3, 0), (0.01, 1.5, 0)];
         for (number, (high, x, code)) in asked.into_iter().enumerate() {
-            place.write("w.toml", world(high, x));
+            place.write("world.toml", world(high, x));
             let options = format!("--quiet --certificate c{number}.json --output plan{number}.json");
-            place.run(&[&urdf, "w.toml"], &options).exits(code);
+            place.run(&[&urdf, "world.toml"], &options).exits(code);
             if code == 0 {
                 let report = check(&read(&urdf), &world(high, x), &place.read(&format!("c{number}.json"))).unwrap();
                 assert!(report.contains("does all 6 steps"), "{report}");
@@ -375,9 +375,9 @@ fn renewed_objects_stay_until_the_next_motion() {
         }
         // The motion high above the object does not touch it.
         let verified =
-            |number: usize| place.run(&["verify", &urdf, "w.toml", &format!("plan{number}.json")], "--quiet").code;
+            |number: usize| place.run(&["verify", &urdf, "world.toml", &format!("plan{number}.json")], "--quiet").code;
         assert_eq!(verified(2), 0);
-        place.write("w.toml", world(0.1, 1.5));
+        place.write("world.toml", world(0.1, 1.5));
         assert_eq!(verified(2), 3);
     }
 }
@@ -467,8 +467,7 @@ fn certificates_of_tasks_are_bound_to_their_files_and_can_be_a_part_of_the_resul
                  [start]\njoints = [\"-100deg\", 0.5]\n[[step]]\nmove = { joints = [0.1, 2.5] }\n\
                  [[step]]\nmove = { joints = [\"100deg\", 0.5] }\n\
                  [[obstacle]]\ncircle = { center = [9, 9], radius = 0.1 }\n";
-    place.write("world.toml", world);
-    place.run(&[robot.as_str(), "world.toml"], "--quiet --certificate r.json --output r.json").exits(0);
+    place.run_in(&robot, world, "--quiet --certificate r.json --output r.json").exits(0);
     place.run(&["verify", &robot, "world.toml", "r.json"], "--quiet --certificate v.json").exits(0);
     let judged = |file: &str| check_files(robot.as_ref(), &place.path("world.toml"), &place.path(file));
     for file in ["r.json", "v.json"] {

@@ -17,7 +17,6 @@ fn results_have_the_angles_of_the_shafts() {
     place.write("world.toml", world.replace("ratio = 1.0, ", geared).replace(limits, turned));
     place.run(&[&urdf, "world.toml"], "--output plan.json --output plan.csv").exits(0);
     let result = place.json("plan.json");
-    let number = |value: &Value| value.as_f64().unwrap();
     let trajectory = &result["trajectory"];
     let rows = trajectory["position"].as_array().unwrap().iter().zip(trajectory["motors"].as_array().unwrap());
     let csv = place.read("plan.csv");

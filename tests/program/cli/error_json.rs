@@ -30,8 +30,7 @@ fn errors_have_the_kind_of_the_mistake() {
     place.plan("[start]\njoints = [0, 0]\n", "--json").error(1, "goal", &["there is no goal"]);
     let json = place.plan("[start\n", "--json").error(1, "input", &[]);
     assert_eq!((&json["file"], &json["line"]), (&"world.toml".into(), &1.into()));
-    place.write("world.toml", FREE);
-    place.run(&["none.urdf", "world.toml"], "--json").error(1, "input", &["cannot be read"]);
+    place.run_in("none.urdf", FREE, "--json").error(1, "input", &["cannot be read"]);
     // All errors, if there are several.
     let two = format!("{FREE}[robot]\nvelocity = {{ a = 1, b = 2 }}\n");
     let json = place.plan(two, "--json").error(1, "input", &["no joint \"a\""]);

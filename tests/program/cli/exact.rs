@@ -88,10 +88,7 @@ fn margin_0_does_not_grow_what_the_bridge_hits() {
     let place = Place::new();
     let world = "[start]\njoints = [0.15, 0.15]\n[goal]\njoints = [0.9, 1.35]\n[[obstacle]]\nname = \"column\"\n\
                  polygon = [[1.5, 0.2], [1.6, 0.2], [1.6, 0.3], [1.5, 0.3]]\n";
-    place.write("world.toml", world);
-    place
-        .run(&[shipped("robots/gantry.urdf"), "world.toml".into()], "--margin 0 --quiet --output cspace.json")
-        .exits(0);
+    place.run_in(&shipped("robots/gantry.urdf"), world, "--margin 0 --quiet --output cspace.json").exits(0);
     let spaces = place.json("cspace.json");
     assert_eq!(spaces["spaces"][0]["proves"], json!({ "kind": "exact" }));
     let left = corners(&spaces["spaces"][0], "column")[0][0];

@@ -86,8 +86,7 @@ fn pick_beside_wall(shift: f64, rest: &str) -> String {
 /// Runs `plan` and `explain` in a world of the SCARA. Returns the exit codes and the explanation in JSON and in words.
 fn planned_and_explained(world: &str) -> ([i32; 2], Value, String) {
     let (place, robot) = (Place::new(), shipped("robots/scara.urdf"));
-    place.write("world.toml", world);
-    let plan = place.run(&[robot.as_str(), "world.toml"], "");
+    let plan = place.run_in(&robot, world, "");
     let words = place.run(&["explain", &robot, "world.toml"], "");
     let done = place.run(&["explain", &robot, "world.toml"], "--json");
     assert_eq!(words.code, done.code, "{}", words.stderr);
@@ -267,11 +266,11 @@ circle = { center = [1029.5896, -213.1444], radius = 95.3178 }
 
 #[test]
 fn at_the_time_limit_partial_results_are_reported() {
-    let place = Place::new().with("a.urdf", LONG_ARM).with("w.toml", WIDE_WORLD);
-    let result = json(&place.run(&["explain", "a.urdf", "w.toml"], "--time 0.3 --json"));
+    let place = Place::new().with("a.urdf", LONG_ARM).with("world.toml", WIDE_WORLD);
+    let result = json(&place.run(&["explain", "a.urdf", "world.toml"], "--time 0.3 --json"));
     assert_eq!((&result["status"], &result["stopped_after"]), (&"infeasible".into(), &0.3.into()), "{result}");
     // With hardly any time.
-    let done = place.run(&["explain", "a.urdf", "w.toml"], "--time 0.000001").exits(3);
+    let done = place.run(&["explain", "a.urdf", "world.toml"], "--time 0.000001").exits(3);
     for words in [
         "infeasible: proven; blocked by",
         "collision boxes prove it without anything else; not proven irreducible",
@@ -279,12 +278,12 @@ fn at_the_time_limit_partial_results_are_reported() {
     ] {
         done.says(&[words]);
     }
-    let result = json(&place.run(&["explain", "a.urdf", "w.toml"], "--time 0.000001 --json"));
+    let result = json(&place.run(&["explain", "a.urdf", "world.toml"], "--time 0.000001 --json"));
     assert_eq!(result["sets"][0]["irreducible"], false, "{result}");
     // If there is time, the output does not mention the time limit.
     let usual = json(&explain(&Place::new(), "planar_2r_continuous", "no_path", "--json"));
     assert!(usual["stopped_after"].is_null() && usual["sets"][0]["irreducible"] == true, "{usual}");
     for time in ["0", "-1", "nan", "inf", "1e10"] {
-        assert_eq!(place.run(&["explain", "a.urdf", "w.toml"], &format!("--time {time}")).code, 2, "{time}");
+        assert_eq!(place.run(&["explain", "a.urdf", "world.toml"], &format!("--time {time}")).code, 2, "{time}");
     }
 }

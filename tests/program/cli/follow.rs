@@ -16,19 +16,13 @@ fn follow_program(place: &Place, text: &str, options: &str) -> Done {
     follow(place, "line.gcode", options)
 }
 
-/// Returns the position of the tip of `planar_2r`.
-fn tip([a, b]: [f64; 2]) -> [f64; 2] {
-    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
-}
-
 #[test]
 fn the_shipped_plate_is_engraved_at_its_speeds() {
     let place = Place::new();
     let done = follow(&place, &shipped("workspaces/follow/plate.gcode"), "--output m.csv --picture m.svg --quiet");
     assert_eq!((done.code, done.stdout.as_str()), (0, ""), "{}", done.stderr);
     let csv = place.read("m.csv");
-    let rows: Vec<Vec<f64>> =
-        csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    let rows = place.table("m.csv");
     assert_eq!(csv.lines().next(), Some("time,shoulder,elbow,shoulder_velocity,elbow_velocity,tool"));
     let [first, last] = [&rows[0], &rows[rows.len() - 1]].map(|row| tip([row[1], row[2]]));
     assert!((first[0] - 1.1).hypot(first[1] + 0.15) < 1e-9 && (last[0] - 1.25).hypot(last[1] - 0.06) < 1e-9);
@@ -56,7 +50,6 @@ fn the_answer_is_json_with_a_bound_on_the_distance() {
     let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200 F3000\n", "--json --output m.json").exits(0);
     let result: Value = done.json();
     assert_eq!(result["status"], "found");
-    let number = |value: &Value| value.as_f64().unwrap();
     assert!(number(&result["deviation"]) <= 1e-5 && number(&result["tolerance"]) == 1e-5);
     assert!((number(&result["line"]["length"]) - 0.1).abs() < 1e-12);
     // 100 mm at 50 mm/s.
@@ -75,8 +68,7 @@ fn files_mark_travels_and_the_arm_waits_for_the_pen() {
     let text = "G21 G0 X1100 Y-150\nG1 X1200 F3000\nG0 Y-100\nG1 X1100\n";
     let rows = |options: &str| -> Vec<Vec<f64>> {
         assert_eq!(follow_program(&place, text, &format!("--output m.csv --output m.json --quiet {options}")).code, 0);
-        let csv = place.read("m.csv");
-        csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect()
+        place.table("m.csv")
     };
     let fast = rows("");
     for options in ["", "--pen-time 0.25"] {
@@ -135,7 +127,6 @@ fn placements_units_and_speeds_apply() {
     let place = Place::new();
     let options = "--unit cm --scale 2 --turn 90deg --move 1.2,-0.2 --speed 0.02 --json";
     let result = follow_program(&place, "G0 X0 Y0\nG1 X5 F99999\n", options).exits(0).json();
-    let number = |value: &Value| value.as_f64().unwrap();
     assert!((number(&result["line"]["length"]) - 0.1).abs() < 1e-12);
     assert!((5.0..5.1).contains(&number(&result["duration"])));
     let positions = result["trajectory"]["position"].as_array().unwrap();
@@ -173,9 +164,7 @@ fn origins_and_dwells_are_followed_and_other_words_are_noted() {
     let done = follow_program(&place, text, "--output m.csv").exits(0);
     let note = "read without effect on the line: M3 (1), S (1), SET_VELOCITY_LIMIT (1), Z (1 height)";
     done.says(&[note, "1 stop of 2 s in all (G4)"]);
-    let csv = place.read("m.csv");
-    let rows: Vec<Vec<f64>> =
-        csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    let rows = place.table("m.csv");
     let at = |row: &Vec<f64>| tip([row[1], row[2]]);
     let end = at(&rows[rows.len() - 1]);
     assert!((end[0] - 1.17).hypot(end[1] - 0.02) < 1e-5, "{end:?}");

@@ -11,10 +11,6 @@ fn page(place: &Place, world: &str, text: &str, options: &str, code: i32) -> Val
     serde_json::from_str(data.split("</script>").next().unwrap()).unwrap()
 }
 
-fn tip([a, b]: [f64; 2]) -> [f64; 2] {
-    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
-}
-
 /// Returns the rows of the motion: time, positions and velocities.
 fn rows(place: &Place) -> Vec<[f64; 5]> {
     let csv = place.read("m.csv");

@@ -91,7 +91,6 @@ fn plans_and_proofs_many_turns_from_zero_are_those_at_zero() {
         let start = format!("{:?},{:?}", 2.6 + TAU * turns, FOLDED);
         let done = place.run(&[&robot, "world.toml", "--start", &start, "--json"], "").exits(0);
         let result = done.json();
-        let number = |value: &serde_json::Value| value.as_f64().unwrap();
         assert!((number(&result["path"][0][0]) - (2.6 + TAU * turns)).abs() < 1e-9, "{}", result["path"]);
         assert!(number(&result["clearance"]) > 0.0);
         place.write("plan.json", done.stdout);

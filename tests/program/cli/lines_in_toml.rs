@@ -9,11 +9,6 @@ fn follow(place: &Place, line: &str, options: &str) -> Done {
     place.run(&["follow", &robot, &world, "line.toml"], options)
 }
 
-/// Returns the position of the tip of `planar_2r`.
-fn tip([a, b]: [f64; 2]) -> [f64; 2] {
-    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
-}
-
 fn number(value: &Value) -> f64 {
     value.as_f64().unwrap()
 }

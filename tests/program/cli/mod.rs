@@ -64,7 +64,7 @@ use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// Returns the path of a file of the repository.
-fn shipped(file: &str) -> String {
+pub fn shipped(file: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
 }
 
@@ -78,6 +78,15 @@ fn shelf() -> [String; 2] {
 
 /// Start and goal in free space for `planar_2r`.
 const FREE: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
+
+/// Returns the position of the tip of `planar_2r`.
+fn tip([a, b]: [f64; 2]) -> [f64; 2] {
+    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
+}
 
 /// A folder in which the program runs.
 pub struct Place(TempDir);
@@ -119,6 +128,12 @@ impl Place {
         serde_json::from_str(&self.read(file)).unwrap()
     }
 
+    /// Reads a table of numbers, without its header.
+    pub fn table(&self, file: &str) -> Vec<Vec<f64>> {
+        let row = |line: &str| line.split(',').map(|field| field.parse().unwrap()).collect();
+        self.read(file).lines().skip(1).map(row).collect()
+    }
+
     fn command(&self) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
         command.current_dir(self.0.path()).stdin(Stdio::null());
@@ -133,10 +148,15 @@ impl Place {
         Done { words: words.join(" "), code, stdout: text(stdout), stderr: text(stderr) }
     }
 
+    /// Plans for a robot in the given world.
+    pub fn run_in(&self, robot: &str, world: impl AsRef<[u8]>, options: &str) -> Done {
+        self.write("world.toml", world);
+        self.run(&[robot, "world.toml"], options)
+    }
+
     /// Plans for `planar_2r` in the given world.
     pub fn plan(&self, world: impl AsRef<[u8]>, options: &str) -> Done {
-        self.write("world.toml", world);
-        self.run(&[shipped("robots/planar_2r.urdf"), "world.toml".into()], options)
+        self.run_in(&shipped("robots/planar_2r.urdf"), world, options)
     }
 
     /// Returns the checker's verdict on a robot, a world and a certificate: files here, or shipped ones.

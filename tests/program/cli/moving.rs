@@ -27,7 +27,6 @@ fn the_arm_waits_until_the_cart_has_gone() {
         ]);
     let result = place.json("m.json");
     let output = &result["moving"];
-    let number = |value: &Value| value.as_f64().expect("a number");
     assert_eq!((&output["obstacles"], &output["free_until"]), (&1.into(), &Value::Null));
     assert_eq!(result["closest"], "link \"forearm\" and obstacle \"cart\"");
     assert!(number(&result["clearance"]) <= number(&output["clearance"]) && number(&result["clearance"]) > 0.0);
@@ -70,17 +69,15 @@ fn the_fastest_motion_is_timed_along_its_own_path() {
              [[obstacle]]\ncircle = {{ center = [0, 0], radius = 0.1 }}\nmotion = {{ stops = [{stops}] }}\n"
         )
     };
-    let plan = |stops: &str| {
-        place.write("w.toml", world(stops));
-        place.run(&[&shipped("robots/planar_2r.urdf"), "w.toml"], "--optimize time --json").json()
-    };
+    let plan =
+        |stops: &str| place.run_in(&shipped("robots/planar_2r.urdf"), world(stops), "--optimize time --json").json();
     // The disc arrives at the position of the upper arm.
     let output = plan("{ time = 4, at = [0, 3] }, { time = 6, at = [0.638, 0.77] }");
     let until = output["moving"]["free_until"].as_f64().expect("a time");
     let goal = output["path"].as_array().unwrap().last().unwrap().to_string();
     for (time, result) in [(until - 0.01, "result     free"), (until + 0.01, "result     not free")] {
         let at = format!("--at={} --time {time}", goal.trim_matches(['[', ']']));
-        place.run(&["check", &shipped("robots/planar_2r.urdf"), "w.toml"], &at).says(&[result]);
+        place.run(&["check", &shipped("robots/planar_2r.urdf"), "world.toml"], &at).says(&[result]);
     }
     // The disc blocks only the other solution.
     let output = plan(
@@ -157,7 +154,6 @@ fn bottles_are_picked_from_a_belt() {
     let done = place.run(&moving("belt_pick"), files).exits(0);
     done.says(&["found and certified: 6 steps", "3 objects, 3 moving", "moving     3 obstacles", "pick \"bottle 3\""]);
     let result = place.json("m.json");
-    let number = |value: &Value| value.as_f64().expect("a number");
     assert_eq!(result["moving"]["obstacles"], 3);
     let events = result["events"].as_array().unwrap();
     let grasps: Vec<&Value> = events.iter().filter(|event| event["event"] == "grasp").collect();
@@ -212,8 +208,8 @@ fn a_pick_keeps_to_its_place_and_its_window() {
     let place = Place::new();
     let world = read(&shipped("workspaces/moving/belt_pick.toml"));
     for (keys, window) in [("at = [1.3, 0.15]", [5.0, 5.0]), ("window = [3.0, 4.5]", [3.0, 3.1])] {
-        place.write("w.toml", world.replace("pick = \"bottle 1\"", &format!("pick = \"bottle 1\"\n{keys}")));
-        let done = place.run(&[shipped("robots/planar_2r.urdf"), "w.toml".into()], "--json");
+        place.write("world.toml", world.replace("pick = \"bottle 1\"", &format!("pick = \"bottle 1\"\n{keys}")));
+        let done = place.run(&[shipped("robots/planar_2r.urdf"), "world.toml".into()], "--json");
         let time = done.json()["events"][0]["time"].as_f64().unwrap();
         assert!((window[0] - 1e-9..=window[1] + 1e-9).contains(&time), "{keys}: picked at {time} s");
     }

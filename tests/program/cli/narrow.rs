@@ -34,12 +34,12 @@ fn paths_that_lead_through_walls_are_searched_again() {
         + &joint("slide", "prismatic", ["l1", "l2"], "1 0 0", slide);
     place.write("crane.urdf", format!("<robot name=\"crane\"><link name=\"base\"/>{links}{joints}</robot>"));
     place.write(
-        "w.toml",
+        "world.toml",
         "clearance = 1.0\nrobot.own_body = false\n[start]\njoints = [-0.836678, -785.563]\n[goal]\njoints = [0.983404, -590.242]\n[[obstacle]]\n\
          polyline = [[513, -13], [987, 889], [-18, 717], [-729, 1447], [-876, 438], [-1790, -13], [-876, -464], [-729, -1473], \
          [-18, -743], [987, -916], [513, -13]]\n",
     );
-    let done = place.run(&["crane.urdf", "w.toml"], "--verbose --output plan.json").exits(0);
+    let done = place.run(&["crane.urdf", "world.toml"], "--verbose --output plan.json").exits(0);
     let plan: serde_json::Value = place.json("plan.json");
     assert!(plan["optimum"]["gap"].as_f64().unwrap() <= 1e-4, "{}", done.stdout);
     done.says(&[" slices"]);

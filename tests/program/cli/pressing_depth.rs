@@ -227,11 +227,12 @@ fn outlines_say_the_same_however_they_are_written() {
             false,
         ),
     ] {
-        let place = Place::new().with("w.toml", on_a_table(polygon));
-        let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json").exits(0);
+        let place = Place::new().with("world.toml", on_a_table(polygon));
+        let done = place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json --output plan.json").exits(0);
         assert_eq!(place.path("c.json").exists(), is_certified, "{what}: {}", done.stderr);
         if is_certified {
-            let report = cplan_check_files::check_files(urdf.as_ref(), &place.path("w.toml"), &place.path("c.json"));
+            let report =
+                cplan_check_files::check_files(urdf.as_ref(), &place.path("world.toml"), &place.path("c.json"));
             assert!(report.is_ok_and(|report| report.contains("does all 2 steps")), "{what}");
         } else {
             assert!(
@@ -241,7 +242,7 @@ fn outlines_say_the_same_however_they_are_written() {
                 done.stderr
             );
         }
-        let verified = place.run(&["verify", &urdf, "w.toml", "plan.json"], "--quiet --certificate v.json");
+        let verified = place.run(&["verify", &urdf, "world.toml", "plan.json"], "--quiet --certificate v.json");
         assert_eq!((verified.code, place.path("v.json").exists()), (0, is_certified), "{what}: {}", verified.stderr);
     }
 }
@@ -264,8 +265,8 @@ fn corners_bent_by_rounding_are_ignored() {
     for x in [0.01, 0.02, 0.03, 0.05, 0.06, 0.07] {
         for (deep, code) in [(8e-5, 0), (1.4e-4, 3)] {
             Place::new()
-                .with("w.toml", world(x, deep))
-                .run(&[&shipped("robots/gantry.urdf"), "w.toml"], "--quiet")
+                .with("world.toml", world(x, deep))
+                .run(&[&shipped("robots/gantry.urdf"), "world.toml"], "--quiet")
                 .exits(code);
         }
     }
@@ -296,5 +297,5 @@ supports=["s0"]
 pick="part"
 [[step]]
 place={at=[1.5622, 1.1317]}"#;
-    Place::new().with("w.toml", world).run(&[&shipped("robots/gantry.urdf"), "w.toml"], "--quiet").exits(0);
+    Place::new().with("world.toml", world).run(&[&shipped("robots/gantry.urdf"), "world.toml"], "--quiet").exits(0);
 }

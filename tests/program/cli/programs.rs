@@ -260,7 +260,9 @@ fn options_that_contradict_a_program_are_refused() {
     refuse("--template epson", 2, &["--template needs an --output file"]);
     refuse("--template epson --output a.json", 2, &["--template needs an --output file"]);
     refuse("--template epson --output a.prg --blend 0.1", 2, &["leave out --blend"]);
-    refuse("--template epson --output a.prg --joint-tolerance 20deg", 2, &["0.05deg,0.1mm"]);
+    for tolerance in ["20deg", "-0.1", "0.5m", "nan", "inf", "0.1in", "1mm,"] {
+        refuse(&format!("--template epson --output a.prg --joint-tolerance={tolerance}"), 2, &["0.05deg,0.1mm"]);
+    }
     refuse("--joint-tolerance 0.1deg --output a.json", 2, &["--template"]);
     let done =
         program(&place, "planar_2r", &shipped("workspaces/moving/crossing.toml"), "--template epson --output a.prg");

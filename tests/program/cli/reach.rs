@@ -22,11 +22,6 @@ fn solutions(csv: &str) -> Vec<Solution> {
     csv.lines().skip(1).map(solution).collect()
 }
 
-/// Returns the position of the tip of `planar_2r`.
-fn tip([a, b]: [f64; 2]) -> [f64; 2] {
-    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
-}
-
 #[test]
 fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
     let place = Place::new();
@@ -40,7 +35,6 @@ fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
     // Each cell centre between the least and the greatest reach has two elbow solutions, within the joints' limits.
     let result = place.json("r.json");
     let within = |value: f64| value.abs() <= 2.9;
-    let number = |value: &Value| value.as_f64().unwrap();
     let (cell, corner) = (number(&result["reach"]["cell"]), &result["reach"]["corner"]);
     let size = [0, 1].map(|k| result["reach"]["size"][k].as_u64().unwrap());
     let mut expected = 0;

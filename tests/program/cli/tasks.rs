@@ -75,11 +75,6 @@ fn rows(value: &Value) -> Vec<[f64; 2]> {
     serde_json::from_value(value.clone()).unwrap()
 }
 
-/// Returns the tip of `planar_2r`.
-fn tip([a, b]: [f64; 2]) -> [f64; 2] {
-    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
-}
-
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
@@ -374,14 +369,14 @@ fn supports_that_recede_are_drawn() {
 fn walls_all_round_a_joint_have_no_end() {
     let place = Place::new();
     place.write(
-        "w.toml",
+        "world.toml",
         "[robot]\npayload = \"level\"\n[start]\njoints = [-0.5, 1.0]\n[[obstacle]]\nheight = [-2, -1]\n\
          polyline = [[0.3, 0.7], [0.4, 0.6], [0.6, 0.7], [0.5, 0.8], [0.3, 0.8]]\n[[object]]\nname = \"bar\"\n\
          polygon = [[0.05, -0.001], [-0.043, 0.001], [-0.05, 0.001]]\nat = [0.742, -1.169]\nheight = [-2, -1]\n\
          [[step]]\npick = \"bar\"\n[[step]]\nplace = { at = [0.4, 0.7] }\n",
     );
     let urdf = shipped("robots/planar_2r_continuous.urdf");
-    place.run(&[&urdf, "w.toml"], "--quiet --output plan.json --certificate c.json").exits(0);
-    let checked = cplan_check_files::check_files(urdf.as_ref(), &place.path("w.toml"), &place.path("c.json"));
+    place.run(&[&urdf, "world.toml"], "--quiet --output plan.json --certificate c.json").exits(0);
+    let checked = cplan_check_files::check_files(urdf.as_ref(), &place.path("world.toml"), &place.path("c.json"));
     assert!(checked.is_ok_and(|report| report.contains("does all 2 steps")));
 }

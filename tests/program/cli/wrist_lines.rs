@@ -107,7 +107,6 @@ fn a_knife_turns_along_the_outline() {
     }
     assert!(on_line > 10_000 && at_rest > 0, "{on_line} {at_rest}");
     let result = place.json("m.json");
-    let number = |value: &Value| value.as_f64().unwrap();
     assert_eq!((&result["wrist"]["joint"], number(&result["wrist"]["tangent"])), (&"axis_4".into(), 0.2));
     assert!(number(&result["wrist"]["deviation"]) <= number(&result["wrist"]["tolerance"]));
     let positions = result["trajectory"]["wrist"]["position"].as_array().unwrap();
@@ -243,7 +242,6 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
     let result = place.json("m.json");
     let steps = result["steps"].as_array().unwrap();
     let line = steps.iter().rfind(|step| step["action"] == "follow").unwrap();
-    let number = |value: &Value| value.as_f64().unwrap();
     let [begin, end] = ["begin", "arrival"].map(|key| number(&line[key]));
     let moves = |row: &&[f64; 7]| (begin..=end).contains(&row[0]) && row[4..6] != [0.0, 0.0];
     let moving: Vec<_> = rows.iter().filter(moves).collect();

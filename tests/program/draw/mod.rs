@@ -156,7 +156,10 @@ fn a_comparison_distinguishes_paths() {
     let problem = Problem::from(motion_problem(scene.clone(), configuration(2.6, 0.3), configuration(-2.2, -1.6)));
     let planned = |method: Method| {
         let plan = plan(&problem, &Options::from(method)).unwrap();
-        (method.name().to_owned(), Path::new(plan.waypoints().unwrap().to_vec()))
+        (
+            method.name().to_owned(),
+            Path::new(plan.waypoints().unwrap().iter().copied().map(Configuration::from).collect()),
+        )
     };
     let paths = [Method::Visibility, Method::Trapezoid, Method::Wavefront].map(planned);
     let picture = Picture {
