@@ -2,8 +2,8 @@
 //! forward kinematics.
 
 use cplan::geometry::{Point, separation};
-use cplan::input::{LoadedScene, load_scene};
-use cplan::model::{Arm, Freedom, OutlineSource, inverse};
+use cplan::input::{InputError, LoadedScene, load_scene};
+use cplan::model::{Arm, Freedom, OutlineSource, Part, inverse};
 use cplan::space::{Configuration, JointRange};
 use cplan_testkit::shapes::{convex, disc};
 use nalgebra::{Matrix3, Vector3};
@@ -229,9 +229,24 @@ fn urdf_with(collision: &str) -> String {
     )
 }
 
+/// Reads an arm whose first link is a mesh of this content.
+fn load_mesh(name: &str, content: impl AsRef<[u8]>, scale: &str) -> Result<LoadedScene, InputError> {
+    let folder = tempfile::tempdir().unwrap();
+    let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| folder.path().join(file));
+    fs::write(&world, "").unwrap();
+    fs::write(folder.path().join(name), content).unwrap();
+    let mesh = format!("<geometry><mesh filename=\"{name}\" scale=\"{scale}\"/></geometry>");
+    fs::write(&urdf, urdf_with(&mesh)).unwrap();
+    load_scene(&urdf, &world)
+}
+
+/// Returns the outline of a mesh.
+fn part(mesh: Result<LoadedScene, InputError>) -> Part {
+    mesh.unwrap_or_else(|e| panic!("{e}")).scene.arm().links[0].parts[0].clone()
+}
+
 #[test]
 fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
-    let folder = tempfile::tempdir().unwrap();
     let vertices = [[0.0f32, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 1.0, 0.5]];
     let vertex = |v: &[f32; 3]| format!("vertex {} {} {}\n", v[0], v[1], v[2]);
     let text = format!(
@@ -245,26 +260,14 @@ fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
     binary.extend([0u8; 12]);
     binary.extend(vertices.iter().flatten().flat_map(|c| c.to_le_bytes()));
     binary.extend([0u8; 2]);
-    let package = folder.path().join("my_robot");
-    fs::create_dir_all(package.join("urdf")).unwrap();
-    fs::write(package.join("text.stl"), text).unwrap();
-    fs::write(package.join("binary.STL"), binary).unwrap();
-    let world = folder.path().join("world.toml");
-    fs::write(&world, "").unwrap();
-    for mesh in ["../text.stl", "package://my_robot/binary.STL", "package://my_robot/text.stl"] {
-        let path = package.join("urdf/arm.urdf");
-        fs::write(&path, urdf_with(&format!("<geometry><mesh filename=\"{mesh}\" scale=\"0.1 -0.1 1\"/></geometry>")))
-            .unwrap();
-        let arm = load_scene(&path, &world).unwrap_or_else(|e| panic!("{e}")).scene.into_parts().0;
-        let part = &arm.links[0].parts[0];
-        assert!((part.shape.area() - 0.01).abs() < 1e-8, "{mesh}: {:?}", part.shape);
+    for (name, content) in [("text.stl", text.as_bytes()), ("binary.STL", &binary)] {
+        let part = part(load_mesh(name, content, "0.1 -0.1 1"));
+        assert!((part.shape.area() - 0.01).abs() < 1e-8, "{name}: {:?}", part.shape);
         assert!(part.shape.core().iter().all(|p| p.y <= 0.0));
         assert_eq!((part.heights.lower, part.heights.upper), (0.0, 0.5));
     }
-    fs::write(package.join("short.stl"), [0u8; 90]).unwrap();
-    let path = package.join("urdf/arm.urdf");
-    fs::write(&path, urdf_with("<geometry><mesh filename=\"../short.stl\"/></geometry>")).unwrap();
-    assert!(load_scene(&path, &world).unwrap_err().to_string().contains("does not fit its number of triangles"));
+    let error = load_mesh("short.stl", [0u8; 90], "1 1 1").unwrap_err().to_string();
+    assert!(error.contains("does not fit its number of triangles"), "{error}");
 }
 
 /// A triangle in centimetres. Its node is turned and moved within another node, which maps (x, y, z) to (1 - y, x, z)
@@ -286,19 +289,9 @@ const COLLADA: &str = r##"<?xml version="1.0"?>
 
 #[test]
 fn meshes_of_collada_and_obj_are_those_of_stl() {
-    let folder = tempfile::tempdir().unwrap();
-    let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| folder.path().join(file));
-    fs::write(&world, "").unwrap();
-    let load = |mesh: &str, text: &str| {
-        fs::write(folder.path().join(mesh), text).unwrap();
-        fs::write(&urdf, urdf_with(&format!("<geometry><mesh filename=\"{mesh}\" scale=\"0.1 -0.1 1\"/></geometry>")))
-            .unwrap();
-        load_scene(&urdf, &world)
-    };
     let obj = "# by hand\no triangle\nv 9 9 9\nv 0 0 0\nv 2 0 0 1.0\nvn 0 0 1\nv 0 1 0.5\nf 2/1/1 3//1 -1\n";
     for (mesh, text) in [("t.obj", obj), ("t.dae", COLLADA)] {
-        let arm = load(mesh, text).unwrap_or_else(|e| panic!("{e}")).scene.into_parts().0;
-        let part = &arm.links[0].parts[0];
+        let part = part(load_mesh(mesh, text, "0.1 -0.1 1"));
         assert!((part.shape.area() - 0.01).abs() < 1e-12, "{mesh}: {:?}", part.shape);
         assert!(part.shape.core().iter().all(|p| p.y <= 1e-12 && p.x >= -1e-12), "{mesh}: {:?}", part.shape);
         assert!((part.heights.lower.abs(), part.heights.upper) <= (1e-12, 0.5), "{mesh}: {:?}", part.heights);
@@ -319,7 +312,7 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
         ("t.dae", "<COLLADA/>".to_owned(), "no mesh"),
         ("t.3ds", String::new(), "neither STL, Collada (.dae) nor OBJ"),
     ] {
-        let error = load(mesh, &text).unwrap_err().to_string();
+        let error = load_mesh(mesh, &text, "0.1 -0.1 1").unwrap_err().to_string();
         assert!(error.contains(message) && error.contains("hint: "), "{message}: {error}");
     }
 }
@@ -328,14 +321,7 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
 /// anything. Then geometries keep their coordinates, in centimetres.
 #[test]
 fn collada_without_a_scene_and_with_a_comment_first() {
-    let folder = tempfile::tempdir().unwrap();
-    let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| folder.path().join(file));
-    fs::write(&world, "").unwrap();
-    fs::write(&urdf, urdf_with("<geometry><mesh filename=\"t.dae\"/></geometry>")).unwrap();
-    let area = |text: String| {
-        fs::write(folder.path().join("t.dae"), text).unwrap();
-        load_scene(&urdf, &world).unwrap_or_else(|e| panic!("{e}")).scene.arm().links[0].parts[0].shape.area()
-    };
+    let area = |text: String| part(load_mesh("t.dae", text, "1 1 1")).shape.area();
     let whole = area(COLLADA.to_owned());
     assert!((whole - 1.0).abs() < 1e-12, "{whole}");
     let comment = format!("<!-- made by -->\n<!-- a program -->\n{COLLADA}");
@@ -352,15 +338,6 @@ fn collada_without_a_scene_and_with_a_comment_first() {
 
 #[test]
 fn scaled_meshes_must_be_within_a_range() {
-    let folder = tempfile::tempdir().unwrap();
-    let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| folder.path().join(file));
-    fs::write(&world, "").unwrap();
-    let load = |mesh: &str, text: &str, scale: &str| {
-        fs::write(folder.path().join(mesh), text).unwrap();
-        fs::write(&urdf, urdf_with(&format!("<geometry><mesh filename=\"{mesh}\" scale=\"{scale}\"/></geometry>")))
-            .unwrap();
-        load_scene(&urdf, &world)
-    };
     let stl = "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 2 0 0\nvertex 0 1 0.5\nendloop\nendfacet\nendsolid t\n";
     let obj = "v 0 0 0\nv 2 0 0\nv 0 1 0.5\nf 1 2 3\n";
     let far = obj.replace('2', "1e300").replace("f 1 1e300", "f 1 2");
@@ -374,29 +351,21 @@ fn scaled_meshes_must_be_within_a_range() {
         ("t.dae", COLLADA, "1 1 1e300", "too large"),
         ("t.dae", &spread, "1 1 1", "too large"),
     ] {
-        let error = load(mesh, text, scale).unwrap_err().to_string();
-        let place = format!("{}: line 2, column ", urdf.display());
-        assert!(error.contains(&place) && error.contains(mesh), "{error}");
+        let error = load_mesh(mesh, text, scale).unwrap_err().to_string();
+        assert!(error.contains("arm.urdf: line 2, column ") && error.contains(mesh), "{error}");
         assert!(error.contains(message) && error.contains("hint: give the scale"), "{message}: {error}");
     }
     // The scale brings a distant shape near.
-    assert!(load("t.obj", &far.replace("1e300", "2e9"), "1e-9 1 1").is_ok());
+    assert!(load_mesh("t.obj", far.replace("1e300", "2e9"), "1e-9 1 1").is_ok());
 }
 
 #[test]
 fn lines_of_obj_go_on_after_a_backslash() {
-    let folder = tempfile::tempdir().unwrap();
-    let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| folder.path().join(file));
-    fs::write(&world, "").unwrap();
-    fs::write(&urdf, urdf_with("<geometry><mesh filename=\"t.obj\"/></geometry>")).unwrap();
-    let load = |text: &str| {
-        fs::write(folder.path().join("t.obj"), text).unwrap();
-        load_scene(&urdf, &world).map(|scene| scene.scene.into_parts().0.links[0].parts[0].shape.clone())
-    };
-    let plain = load("v 0 0 0\nv 2 0 0\nv 0 1 0.5\nf 1 2 3\n").unwrap();
+    let shape = |text: &str| part(load_mesh("t.obj", text, "1 1 1")).shape;
+    let plain = shape("v 0 0 0\nv 2 0 0\nv 0 1 0.5\nf 1 2 3\n");
     let folded = "# of C:\\meshes\\\nv 0 \\\n 0 0\nv 2 0 0\nv \\ \r\n0\\\r\n1 0.5\nf 1 2 \\\n\\\n3\\";
-    assert_eq!(load(folded).unwrap(), plain);
-    let error = load("v 0 0 \\\n0\nv 0 \\\nf 1 1 1\n").unwrap_err().to_string();
+    assert_eq!(shape(folded), plain);
+    let error = load_mesh("t.obj", "v 0 0 \\\n0\nv 0 \\\nf 1 1 1\n", "1 1 1").unwrap_err().to_string();
     assert!(error.contains("line 3: a vertex needs three numbers"), "{error}");
 }
 

@@ -1,5 +1,6 @@
 //! Robots with more than two joints that move in one plane.
 
+use crate::fits;
 use cplan::input::{InputError, LoadedScene, Source, scene_from};
 
 /// Returns a chain of joints, each given by its axis. An upright slide has the axis `(0, 0, 1)`, which no arm can use.
@@ -28,19 +29,23 @@ fn chosen(urdf: &str) -> ([String; 2], String) {
 const UP: [f64; 3] = [0.0, 0.0, 1.0];
 const ACROSS: [f64; 3] = [0.0, 1.0, 0.0];
 
+/// Checks that the only planar pair of neighbours is taken, and the first of several that share a plane. A SCARA has two
+/// arms, a quill and a wrist, which suits either arm, but is a neighbour of neither.
 #[test]
-fn of_several_planar_pairs_that_share_a_plane_the_first_is_taken_with_a_note() {
-    for (joints, pairs, first) in [
-        (vec![("revolute", UP); 3], 2, ["j1", "j2"]),
-        (vec![("prismatic", UP), ("revolute", UP), ("revolute", UP), ("revolute", UP)], 2, ["j2", "j3"]),
-        (vec![("revolute", UP), ("revolute", ACROSS), ("revolute", ACROSS), ("revolute", ACROSS)], 2, ["j2", "j3"]),
+fn the_only_planar_pair_or_the_first_in_a_plane_is_taken_with_a_note() {
+    let (turn, lift, pitch) = (("revolute", UP), ("prismatic", UP), ("revolute", ACROSS));
+    let first = "the first of 2 planar pairs of neighbours, which share a plane; [robot] joints chooses others";
+    for (joints, note, names) in [
+        (&[turn, turn, lift, turn][..], "", ["j1", "j2"]),
+        (&[lift, turn, turn], "", ["j2", "j3"]),
+        (&[turn, lift, turn], "", ["j1", "j3"]),
+        (&[turn; 3], first, ["j1", "j2"]),
+        (&[lift, turn, turn, turn], first, ["j2", "j3"]),
+        (&[turn, pitch, pitch, pitch], first, ["j2", "j3"]),
     ] {
-        let (names, notes) = chosen(&chain(&joints));
-        assert_eq!(names, first, "{joints:?}");
-        let note = format!(
-            "the first of {pairs} planar pairs of neighbours, which share a plane; [robot] joints chooses others"
-        );
-        assert!(notes.contains(&note), "{notes}");
+        let (chosen, notes) = chosen(&chain(joints));
+        assert_eq!(chosen, names, "{joints:?}");
+        fits(&notes, &format!("the two joints are \"{}\" and \"{}\" ... {note}", names[0], names[1]));
     }
 }
 
@@ -59,5 +64,22 @@ fn planar_pairs_in_several_planes_or_on_branches_are_refused_with_what_to_write(
         let world = Source::in_memory("world.toml", "[robot]\njoints = [\"j1\", \"j2\"]\n");
         let chosen = scene_from(Source::in_memory("chain.urdf", &*urdf), world).unwrap().scene;
         assert_eq!(chosen.arm().joints.each_ref().map(|joint| joint.name.as_str()), ["j1", "j2"]);
+    }
+}
+
+/// Checks yaw, pitch, yaw: the axes of the yaws are parallel only while the pitch is held. Then checks axes of which no two
+/// suit, and a pair that the world names.
+#[test]
+fn joints_in_no_common_plane_are_refused() {
+    let crooked = [("revolute", UP), ("revolute", ACROSS), ("revolute", UP)];
+    let none = [("revolute", UP), ("revolute", ACROSS), ("revolute", [1.0, 0.0, 0.0])];
+    let scara = [("revolute", UP), ("revolute", UP), ("prismatic", UP), ("revolute", UP)];
+    for (joints, world, pattern) in [
+        (&crooked[..], "", "which two ... [robot] joints = [\"j1\", \"j3\"]"),
+        (&none, "", "no two of the robot's 3 movable joints ... hint"),
+        (&scara, "[robot]\njoints = [\"j2\", \"j3\"]\n", "one common plane ... [robot] joints = [\"j1\", \"j2\"]"),
+    ] {
+        let urdf = Source::in_memory("chain.urdf", chain(joints));
+        fits(&scene_from(urdf, Source::in_memory("world.toml", world)).unwrap_err().to_string(), pattern);
     }
 }

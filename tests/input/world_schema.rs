@@ -28,6 +28,13 @@ fn json(toml: &str) -> Value {
     serde_json::to_value(table).unwrap()
 }
 
+#[track_caller]
+fn is_valid(validator: &jsonschema::Validator, toml: &str) {
+    let world = json(toml);
+    let errors: Vec<String> = validator.iter_errors(&world).map(|e| format!("{}: {e}", e.instance_path())).collect();
+    assert!(errors.is_empty(), "{toml}: {}", errors.join("; "));
+}
+
 fn worlds(folder: &str) -> Vec<PathBuf> {
     let files = std::fs::read_dir(root().join(folder)).unwrap().map(|entry| entry.unwrap().path());
     let mut worlds: Vec<PathBuf> = files.filter(|file| file.extension().is_some_and(|e| e == "toml")).collect();
@@ -42,10 +49,8 @@ fn shipped_worlds_are_valid() {
     let all = [worlds("workspaces"), worlds("workspaces/tasks")].concat();
     assert!(all.len() > 30, "{}", all.len());
     for file in all {
-        let world = json(&std::fs::read_to_string(&file).unwrap());
-        let errors: Vec<String> =
-            validator.iter_errors(&world).map(|e| format!("{}: {e}", e.instance_path())).collect();
-        assert!(errors.is_empty(), "{}: {}", file.display(), errors.join("; "));
+        println!("{}", file.display());
+        is_valid(&validator, &std::fs::read_to_string(&file).unwrap());
     }
 }
 
@@ -55,6 +60,20 @@ const FULL: [&str; 3] = [
     r#"
 name = "full"
 clearance = 0.01
+start = { joints = [0, 0.5], stroke = -0.05, wrist = "10deg" }
+goal = { tip = [0.3, 0.4], stroke = -0.05, wrist = 0.5 }
+map = { file = "room.map", preferences = "wishes.map", scale = 0.001, offset = [0, 0], frame = false, height = [0.0, 3.0] }
+obstacle = [
+  { circle = { center = [0, 0], radius = 0.1 }, motion = { stops = [{ time = 0, at = [3, 3] }, { time = 2, at = [3, 4], angle = "30deg" }], velocity = [0, 0.1] } },
+  { polygon = [[0, 0], [1, 0], [1, 1]], holes = [[[0.1, 0.1], [0.2, 0.1], [0.2, 0.2]]] },
+  { name = "disc", at = [0.1, 0], angle = 0.5, circle = { center = [1, 1], radius = 0.5 }, height = [0, 1] },
+  { polyline = [[0, 0], [1, 0]] },
+  { image = "den.yaml", unknown = "free" },
+]
+preference = [
+  { name = "aisle", epsilon = -0.5, direction = [0, 1], polygon = [[0, 0], [1, 0], [1, 1]] },
+  { epsilon = 1, configurations = [[0, 0], [1, 0], [1, 1]] },
+]
 [robot]
 at = [0.5, -1]
 angle = "30deg"
@@ -76,138 +95,35 @@ payload = "level"
 wrist = { joint = "axis_4", velocity = 6.0, acceleration = 60.0, jerk = 900.0 }
 stroke = { joint = "c", travel = 0.1, velocity = 1.0, acceleration = 4.0, jerk = 50.0 }
 arch = { rise = 0.02, fall = 0.03 }
-[start]
-joints = [0, 0.5]
-stroke = -0.05
-wrist = "10deg"
-[goal]
-tip = [0.3, 0.4]
-stroke = -0.05
-wrist = 0.5
-[map]
-file = "room.map"
-preferences = "wishes.map"
-scale = 0.001
-offset = [0, 0]
-frame = false
-height = [0.0, 3.0]
-[[obstacle]]
-circle = { center = [0, 0], radius = 0.1 }
-motion = { stops = [{ time = 0, at = [3, 3] }, { time = 2, at = [3, 4], angle = "30deg" }], velocity = [0, 0.1] }
-[[obstacle]]
-polygon = [[0, 0], [1, 0], [1, 1]]
-holes = [[[0.1, 0.1], [0.2, 0.1], [0.2, 0.2]]]
-[[obstacle]]
-name = "disc"
-at = [0.1, 0]
-angle = 0.5
-circle = { center = [1, 1], radius = 0.5 }
-height = [0, 1]
-[[obstacle]]
-polyline = [[0, 0], [1, 0]]
-[[obstacle]]
-image = "den.yaml"
-unknown = "free"
-[[preference]]
-name = "aisle"
-epsilon = -0.5
-direction = [0, 1]
-polygon = [[0, 0], [1, 0], [1, 1]]
-[[preference]]
-epsilon = 1
-configurations = [[0, 0], [1, 0], [1, 1]]
 "#,
     r#"
-[start]
-joints = [0, 0.5]
-[[object]]
-name = "part"
-polygon = [[0, 0], [1, 0], [1, 1]]
-at = [0.3, 0.1]
-angle = 1
-height = [0, 0.02]
-lift = 0.05
-mass = 1.5
-payload = "rigid"
-grasp = [0, 0.005]
-supports = ["table"]
-renew = true
-[[pallet]]
-name = "store"
-rows = 2
-columns = 3
-pitch = [0.1, -0.1]
-at = [0.5, 0.5]
-angle = 0.5
-height = 0.1
-[[object]]
-name = "lid"
-circle = { center = [0, 0], radius = 0.01 }
-pallet = "store"
-[[object]]
-name = "coin"
-circle = { center = [0, 0], radius = 0.01 }
-at = [0.3, 0.2]
-motion = { velocity = [0, 0.1] }
-[[step]]
-pick = "part"
-grasp = [0, 0]
-supports = []
-at = [0.3, 0.2]
-window = [1, 2]
-dwell = 0.2
-[[step]]
-place = { at = [0.1, 0.3], angle = 1.57, supports = ["tray"], height = 0.0 }
-speed = 0.5
-[[step]]
-move = { joints = [0, 0.5] }
-[[step]]
-follow = { points = [[0.9, 0], [1, 0], [1, 0.1]], radius = 0.02, speed = 0.1, tolerance = 0.0001 }
-[[step]]
-follow = { arc = [[0.9, 0], [1, 0.1], [0.9, 0.2]], scale = 1.1, turn = "10deg", move = [0.1, 0] }
-[[step]]
-follow = { spline = [[0.9, 0], [1, 0.1]], turn = 0.1 }
-[[step]]
-follow = { file = "plate.gcode", unit = "mm", wrist = "tangent", wrist_tolerance = 0.02 }
-[[step]]
-follow = { spline = [[0.9, 0], [1, 0.1]], wrist = { tangent = "90deg" }, wrist_tolerance = "1deg" }
-[[step]]
-follow = { spline = [[0.9, 0], [1, 0.1]], wrist = 0.3 }
-[[step]]
-follow = { spline = [[0.9, 0], [1, 0.1]], wrist = "-30deg" }
-[[step]]
-repeat = 100
-order = "free"
-speed = 1
-[[step.steps]]
-pick = "coin"
-[[step.steps]]
-place = { at = [0.2, 0.3] }
-[[step]]
-pick = "lid 1,1"
-[[step]]
-place = { on = "store 1,1" }
-[[step]]
-transfer = { objects = "lid", to = "store", angle = 0.5, supports = ["table"] }
-[task]
-repeat = 10
-order = "fixed"
-speed = 0.8
-dwell = 0
-[sensor]
-on = "base"
-rays = 180
-field_of_view = "180deg"
-range = 2
-step = 0.05
-noise = 0.01
-seed = 7
-cell = 0.05
+start = { joints = [0, 0.5] }
+task = { repeat = 10, order = "fixed", speed = 0.8, dwell = 0 }
+sensor = { on = "base", rays = 180, field_of_view = "180deg", range = 2, step = 0.05, noise = 0.01, seed = 7, cell = 0.05 }
+pallet = [{ name = "store", rows = 2, columns = 3, pitch = [0.1, -0.1], at = [0.5, 0.5], angle = 0.5, height = 0.1 }]
+object = [
+  { name = "lid", circle = { center = [0, 0], radius = 0.01 }, pallet = "store" },
+  { name = "coin", circle = { center = [0, 0], radius = 0.01 }, at = [0.3, 0.2], motion = { velocity = [0, 0.1] } },
+  { name = "part", polygon = [[0, 0], [1, 0], [1, 1]], at = [0.3, 0.1], angle = 1, height = [0, 0.02], lift = 0.05, mass = 1.5, payload = "rigid", grasp = [0, 0.005], supports = ["table"], renew = true },
+]
+step = [
+  { pick = "part", grasp = [0, 0], supports = [], at = [0.3, 0.2], window = [1, 2], dwell = 0.2 },
+  { place = { at = [0.1, 0.3], angle = 1.57, supports = ["tray"], height = 0.0 }, speed = 0.5 },
+  { move = { joints = [0, 0.5] } },
+  { follow = { points = [[0.9, 0], [1, 0], [1, 0.1]], radius = 0.02, speed = 0.1, tolerance = 0.0001 } },
+  { follow = { arc = [[0.9, 0], [1, 0.1], [0.9, 0.2]], scale = 1.1, turn = "10deg", move = [0.1, 0] } },
+  { follow = { spline = [[0.9, 0], [1, 0.1]], turn = 0.1 } },
+  { follow = { file = "plate.gcode", unit = "mm", wrist = "tangent", wrist_tolerance = 0.02 } },
+  { follow = { spline = [[0.9, 0], [1, 0.1]], wrist = { tangent = "90deg" }, wrist_tolerance = "1deg" } },
+  { follow = { spline = [[0.9, 0], [1, 0.1]], wrist = 0.3 } },
+  { follow = { spline = [[0.9, 0], [1, 0.1]], wrist = "-30deg" } },
+  { repeat = 100, order = "free", speed = 1, steps = [{ pick = "coin" }, { place = { at = [0.2, 0.3] } }] },
+  { pick = "lid 1,1" },
+  { place = { on = "store 1,1" } },
+  { transfer = { objects = "lid", to = "store", angle = 0.5, supports = ["table"] } },
+]
 "#,
-    r#"
-[goal]
-areas = [[[0.3, 0.4], [0.5, 0.6]]]
-"#,
+    "goal.areas = [[[0.3, 0.4], [0.5, 0.6]]]",
 ];
 
 /// Returns every key of every table of the schema.
@@ -227,10 +143,7 @@ fn worlds_with_every_key_are_valid() {
     let validator = validator();
     let schema = world_schema();
     for full in FULL {
-        let world = json(full);
-        let errors: Vec<String> =
-            validator.iter_errors(&world).map(|e| format!("{}: {e}", e.instance_path())).collect();
-        assert!(errors.is_empty(), "{}", errors.join("; "));
+        is_valid(&validator, full);
     }
     for key in keys(&schema) {
         assert!(FULL.iter().any(|full| full.contains(&key)), "no world has the key {key}");
@@ -256,11 +169,7 @@ fn worlds_and_studies_that_the_book_shows_are_valid() {
         let text = std::fs::read_to_string(&file).unwrap();
         for block in text.split("```toml\n").skip(1) {
             let block = block.split("```").next().unwrap_or_default();
-            let world = json(block);
-            let validator = if block.contains("[[parameter]]") { &of_studies } else { &of_worlds };
-            let errors: Vec<String> =
-                validator.iter_errors(&world).map(|e| format!("{}: {e}", e.instance_path())).collect();
-            assert!(errors.is_empty(), "{}: {}", file.display(), errors.join("; "));
+            is_valid(if block.contains("[[parameter]]") { &of_studies } else { &of_worlds }, block);
             seen += 1;
         }
     }

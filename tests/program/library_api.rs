@@ -1,6 +1,7 @@
 //! The library's entry point: the output of `plan` equals that of the program, byte for byte.
 
 use crate::cli::Place;
+use crate::cli::shipped;
 use cplan::PlanOutput as _;
 use cplan::engine::Method;
 use cplan::geometry::{Convex, SimplePolygon, penetration_depth, polygon_test};
@@ -8,11 +9,6 @@ use cplan::{
     Arm, Configuration, Criterion, Obstacle, Options, Outcome, Plan, PlanError, Planner, Point, Problem, Refutation,
     Status, Workspace, plan,
 };
-use std::path::Path;
-
-fn repository_file(file: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
-}
 
 /// Robots, worlds, and the expected status of each: motions, a proof, tasks.
 const WORLDS: [(&str, &str, Status); 5] = [
@@ -26,7 +22,7 @@ const WORLDS: [(&str, &str, Status); 5] = [
 #[test]
 fn the_program_writes_what_the_library_gives() {
     for (robot, world, status) in WORLDS {
-        let (robot, world) = (repository_file(robot), repository_file(world));
+        let (robot, world) = (shipped(robot), shipped(world));
         let place = Place::new();
         let outputs = "--quiet --output a.json --output a.csv --output a.yaml --picture a.svg --picture a.html";
         let done = place.run(&[&robot, &world], outputs);
@@ -62,7 +58,7 @@ fn the_program_writes_what_the_library_gives() {
 
 #[test]
 fn options_are_those_of_the_command_line() {
-    let (robot, world) = (repository_file("robots/planar_2r.urdf"), repository_file("workspaces/shelf.toml"));
+    let (robot, world) = (shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml"));
     let problem = Problem::load(&robot, &world).unwrap();
     let named = |name: &str| Planner::named(name.parse().unwrap());
     let criterion = Criterion::Weighted([1.0, 0.5]);
@@ -89,7 +85,7 @@ fn a_plan_is_a_value() {
 
 #[test]
 fn an_outcome_is_one_of_three() {
-    let load = |world: &str| Problem::load(repository_file("robots/planar_2r.urdf"), repository_file(world)).unwrap();
+    let load = |world: &str| Problem::load(shipped("robots/planar_2r.urdf"), shipped(world)).unwrap();
     let found = plan(&load("workspaces/shelf.toml"), &Options::default()).unwrap();
     let Outcome::Found(motion) = found.outcome() else { panic!("shelf has a path") };
     assert!(motion.duration() > 1.0 && found.trajectory() == Some(motion));
@@ -104,8 +100,7 @@ fn an_outcome_is_one_of_three() {
 
 #[test]
 fn invalid_input_is_refused_by_name() {
-    let problem =
-        Problem::load(repository_file("robots/planar_2r.urdf"), repository_file("workspaces/shelf.toml")).unwrap();
+    let problem = Problem::load(shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")).unwrap();
     let shortest = Planner::named(Method::Shortest);
     let plain = Options::default();
     let mut options = vec![
@@ -128,18 +123,14 @@ fn invalid_input_is_refused_by_name() {
         let refused = plan(&problem, &options).expect_err(name);
         assert!(matches!(&refused, PlanError::Options(why) if why.contains(name)), "{name}: {refused}");
     }
-    let task =
-        Problem::load(repository_file("robots/scara.urdf"), repository_file("workspaces/tasks/table_mission.toml"))
-            .unwrap();
+    let task = Problem::load(shipped("robots/scara.urdf"), shipped("workspaces/tasks/table_mission.toml")).unwrap();
     let refused = plan(&task, &Options { planner: shortest.with_gap(0.01), ..plain }).expect_err("a gap of a task");
     assert!(refused.to_string().contains("--gap is for single motions"), "{refused}");
 }
 
 #[test]
 fn files_that_cannot_be_written_are_refused() {
-    let problem =
-        Problem::load(repository_file("robots/planar_2r.urdf"), repository_file("workspaces/singular_closed.toml"))
-            .unwrap();
+    let problem = Problem::load(shipped("robots/planar_2r.urdf"), shipped("workspaces/singular_closed.toml")).unwrap();
     let made = plan(&problem, &Options::default()).unwrap();
     let place = Place::new();
     for (file, part) in [("a.txt", "must end in"), ("a.csv", "no trajectory"), ("missing/a.json", "missing")] {

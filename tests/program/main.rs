@@ -5,9 +5,8 @@ mod docs;
 mod draw;
 mod library_api;
 mod pictures;
-mod roadmaps;
 mod rounding;
-mod search;
+mod searches;
 #[cfg(feature = "serve")]
 mod serve;
 mod streamlines;

@@ -1,26 +1,19 @@
 //! The paths of fields follow the fields. The program's paths are compared with an equation that the test solves on
 //! cells of its own.
 
+use crate::cli::shipped;
 use cplan::input::{Overrides, load};
 use cplan::model::Scene;
 use cplan::space::Configuration;
+use cplan_testkit::judged::plan_result;
 use serde_json::Value;
-use std::path::Path;
-use std::process::Command;
-
-/// Returns the path of a file of the repository.
-fn repository_file(file: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
-}
 
 /// Returns the program's result in a world. Fails if it is not a path.
 fn plan_path(robot: &str, world: &str, options: &str) -> Value {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
-    command.args([&repository_file(robot), world, "--json", "--planner", "harmonic"]).args(options.split_whitespace());
-    let output = command.output().unwrap();
-    let code = output.status.code();
-    assert_eq!(code, Some(0), "{world} {options}: {}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).unwrap()
+    let robot = shipped(robot);
+    let result = plan_result(robot.as_ref(), world.as_ref(), &format!("--planner harmonic {options}"));
+    assert_eq!(result["status"], "found", "{world} {options}");
+    result
 }
 
 fn waypoints(result: &Value) -> Vec<[f64; 2]> {
@@ -167,21 +160,20 @@ const WORLDS: [(&str, &str); 5] = [
 #[test]
 fn harmonic_paths_follow_the_gradient_of_an_equation_solved_elsewhere() {
     for (robot, world) in WORLDS {
-        let problem =
-            load(repository_file(robot), repository_file(world).as_ref(), &Overrides::default()).unwrap().problem;
-        let own = plan_path(robot, &repository_file(world), "");
+        let problem = load(shipped(robot), shipped(world).as_ref(), &Overrides::default()).unwrap().problem;
+        let own = plan_path(robot, &shipped(world), "");
         assert_eq!(own["path_kind"], "own");
         let path = waypoints(&own);
         let end = path[path.len() - 1];
         let oracle = Oracle::new(problem.scene(), Configuration::new(end[0], end[1]), 120.0);
         let median = oracle.median_angle(&path);
         assert!(median <= 5.0, "{world}: {median} degrees off the gradient");
-        let relaxed = plan_path(robot, &repository_file(world), "--relaxation sor --levels 1");
+        let relaxed = plan_path(robot, &shipped(world), "--relaxation sor --levels 1");
         let median = oracle.median_angle(&waypoints(&relaxed));
         assert!(median <= 5.0, "{world}, relaxed: {median} degrees off the gradient");
         if world.contains("shelf") {
             // For comparison, a taut path through the same cells.
-            let taut = plan_path(robot, &repository_file(world), "--path taut");
+            let taut = plan_path(robot, &shipped(world), "--path taut");
             assert_eq!(taut["path_kind"], "taut");
             let median = oracle.median_angle(&waypoints(&taut));
             assert!(median > 20.0, "{median} degrees: the measure tells no difference");
@@ -266,7 +258,7 @@ fn the_share_of_a_path_in_a_region_falls_with_its_preference() {
 fn a_motion_along_a_streamline_is_not_many_times_slower_than_a_taut_one() {
     for (robot, world) in WORLDS {
         let [own, taut] =
-            ["own", "taut"].map(|kind| plan_path(robot, &repository_file(world), &format!("--cells 96 --path {kind}")));
+            ["own", "taut"].map(|kind| plan_path(robot, &shipped(world), &format!("--cells 96 --path {kind}")));
         let number = |result: &Value, key: &str| result[key].as_f64().unwrap();
         let slower = number(&own, "duration") / number(&taut, "duration");
         let longer = number(&own, "length") / number(&taut, "length");

@@ -44,10 +44,6 @@ pub mod world;
 #[cfg(feature = "cplan")]
 pub mod world_reference;
 
-// `roadmap` imports it from here, because `benches/peers/rust` compiles that file, too, beside a `dice` of its own.
-#[cfg(feature = "cplan")]
-use cplan_cases::dice;
-
 /// Returns the root folder of the repository.
 pub fn root() -> &'static std::path::Path {
     let own = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));

@@ -1,9 +1,9 @@
 //! Scenes for planners with roadmaps, and checks of their answers that share no code with them.
 
-use super::dice::Dice;
 use cplan::cspace::{PolygonWithHoles, Proves, Regions};
 use cplan::geometry::{Point, segments_cross};
 use cplan::space::{Configuration, JointRange, Metric, Path, Topology};
+use cplan_cases::dice::Dice;
 
 /// Returns free space over a window of two intervals.
 pub fn regions(window: [(f64, f64); 2], free: Vec<PolygonWithHoles>) -> Regions {

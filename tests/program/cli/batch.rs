@@ -1,7 +1,6 @@
 //! Problems as JSON lines: each answer equals that of the main job.
 
 use super::*;
-use serde_json::{Value, json};
 use std::io::{BufRead, BufReader, Write};
 
 /// Runs `batch` on these lines.
@@ -36,15 +35,10 @@ fn rows_equal_the_results_of_plan() {
                 "options": ["--start=-0.5,0.25", "--goal-tip=0.5,1", "--clearance=0.01"]}),
             [&urdf, &world],
         ),
-        (
-            vec![],
-            json!({"urdf_text": std::fs::read_to_string(&urdf).unwrap(), "world": walled, "id": null}),
-            [&urdf, &walled],
-        ),
+        (vec![], json!({"urdf_text": read(&urdf), "world": walled, "id": null}), [&urdf, &walled]),
     ];
     let lines: Vec<Value> = jobs.iter().map(|job| job.1.clone()).collect();
-    let done = run_batch(&place, &lines, "");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run_batch(&place, &lines, "").exits(0);
     let rows = done.rows();
     assert_eq!(rows.len(), jobs.len());
     for ((words, line, files), mut row) in jobs.iter().zip(rows) {
@@ -107,8 +101,7 @@ fn a_bad_line_is_a_row() {
         );
     }
     place.write("problems.jsonl", &text);
-    let done = place.run(&["batch", "problems.jsonl"], "--fields length");
-    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    let done = place.run(&["batch", "problems.jsonl"], "--fields length").succeeds_silently();
     let rows = done.rows();
     assert_eq!(rows.len(), 2 * bad.len());
     for ((number, (line, kind, parts)), pair) in bad.iter().enumerate().zip(rows.chunks(2)) {
@@ -142,8 +135,7 @@ fn an_id_comes_back_as_it_is_written() {
     // A byte order mark is not part of the first line, and a blank line behind it is skipped.
     for mark in ["", "\u{feff}", "\u{feff}\n"] {
         place.write("problems.jsonl", format!("{mark}{lines}{{\"id\": 1e400}}\n{{\"id\": 1, \"urdf\": 1e400}}\n"));
-        let done = place.run(&["batch", "problems.jsonl"], "--fields status");
-        assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+        let done = place.run(&["batch", "problems.jsonl"], "--fields status").succeeds_silently();
         let rows: Vec<&str> = done.stdout.lines().collect();
         let found = ids.map(|id| format!("{{\"id\":{id},\"status\":\"found\"}}"));
         assert_eq!(rows[..ids.len()], found);
@@ -156,7 +148,7 @@ fn an_id_comes_back_as_it_is_written() {
     }
     place.run(&["batch", "."], "").refused(1, &[".: cannot be read: it is a folder", "hint: give a file"]);
     place.write("bytes.jsonl", "\u{feff}\u{feff}{}\n");
-    assert_eq!(place.run(&["batch", "bytes.jsonl"], "").code, 1);
+    place.run(&["batch", "bytes.jsonl"], "").exits(1);
 }
 
 #[test]
@@ -187,8 +179,7 @@ fn each_problem_has_an_answer_in_time() {
     let place = Place::new();
     let [urdf, world] = shelf();
     let lines: Vec<Value> = (0..3).map(|id| json!({"id": id, "urdf": urdf, "world": world})).collect();
-    let done = run_batch(&place, &lines, "--time 1e-9");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run_batch(&place, &lines, "--time 1e-9").exits(0);
     let stopped = |id: i32| json!({"id": id, "status": "unknown", "reason": "stopped after 0.000000001 s"});
     assert_eq!(done.rows(), [stopped(0), stopped(1), stopped(2)]);
     let unhurried = run_batch(&place, &lines, "--time 1000 --jobs 2");
@@ -209,8 +200,7 @@ fn worlds_whose_own_ends_are_blocked_are_answered_line_by_line() {
     let line = |(id, (start, goal)): (usize, &([f64; 2], [f64; 2]))| json!({"id": id, "urdf": urdf, "world": "world.toml", "options": {"start": start, "goal": goal}});
     let mut lines: Vec<Value> = ends.iter().enumerate().map(line).collect();
     lines.push(json!({"id": 4, "urdf": urdf, "world": "world.toml"}));
-    let done = run_batch(&place, &lines, "--fields status");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run_batch(&place, &lines, "--fields status").exits(0);
     let report: Vec<Value> = done.rows().iter().map(|row| json!([row["id"], row["status"], row["kind"]])).collect();
     let found = |id: i32| json!([id, "found", null]);
     let refused = |id: i32, kind: &str| json!([id, "error", kind]);

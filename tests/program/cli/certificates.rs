@@ -1,10 +1,6 @@
 //! The option `--certificate`, and the verdict of the checker, which shares no code with the program.
 
-use super::{FREE, Place, shipped};
-use cplan_check_files::{CheckError, check, check_files};
-use serde_json::Value;
-use std::path::Path;
-
+use super::*;
 /// Returns the certificate without the digests of its files, so that it applies to any files.
 pub fn without_digests(certificate: &str) -> String {
     let mut whole: Value = serde_json::from_str(certificate).unwrap();
@@ -17,7 +13,7 @@ fn closed() -> Vec<(String, String)> {
     let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces")).unwrap();
     let mut found = Vec::new();
     for path in folder.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "toml")) {
-        let text = std::fs::read_to_string(&path).unwrap();
+        let text = read(&path);
         let robot = text.lines().find_map(|line| line.strip_prefix("# robot: "));
         if let Some(robot) = robot.filter(|_| text.contains("# expect: infeasible")) {
             found.push((path.display().to_string(), shipped(&format!("robots/{robot}.urdf"))));
@@ -33,11 +29,9 @@ fn every_infeasible_shipped_world_has_a_valid_certificate() {
     assert!(closed.len() >= 7, "{closed:?}");
     for (world, robot) in closed {
         let place = Place::new();
-        let done = place.run(&[&robot, &world], "--quiet --certificate c.json");
-        assert_eq!(done.code, 3, "{}", done.stderr);
+        place.run(&[&robot, &world], "--quiet --certificate c.json").exits(3);
         let certificate = place.read("c.json");
         assert!(certificate.len() < 1 << 20, "{world}: {} bytes", certificate.len());
-        let read = |path: &str| std::fs::read_to_string(path).unwrap();
         let judged = |world: &str, certificate: &str| check(&read(&robot), world, certificate);
         judged(&read(&world), &certificate).unwrap_or_else(|why| panic!("{world}: {why}"));
         // If one of the necessary boxes is missing, a path is open. In the twin, which has a path, part of the
@@ -63,13 +57,9 @@ fn every_infeasible_shipped_world_has_a_valid_certificate() {
 fn the_certificate_states_the_query_of_the_command_line() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/limits_closed.toml")];
-    let done = place.run(&files, "--quiet --certificate c.json --start 0.4,10deg --goal 2.5,0.1 --clearance 0.01");
-    assert_eq!(done.code, 3, "{}", done.stderr);
-    let read = |path: &String| std::fs::read_to_string(path).unwrap();
-    let report = check(&read(&files[0]), &read(&files[1]), &place.read("c.json")).unwrap();
-    for part in ["start (0.4, 0.17453292519943295)", "goal (2.5, 0.1)", "clearance 0.01"] {
-        assert!(report.contains(part), "{report}");
-    }
+    place.run(&files, "--quiet --certificate c.json --start 0.4,10deg --goal 2.5,0.1 --clearance 0.01").exits(3);
+    let report = place.judged([&files[0], &files[1], "c.json"]).unwrap();
+    has(&report, &["start (0.4, 0.17453292519943295)", "goal (2.5, 0.1)", "clearance 0.01"]);
 }
 
 /// Checks the tasks of shipped worlds, with the goal as a place of the tip: with both elbows, with two solutions of a
@@ -77,7 +67,6 @@ fn the_certificate_states_the_query_of_the_command_line() {
 #[test]
 fn enclosed_tip_goals_have_valid_certificates() {
     let place = Place::new();
-    let read = |path: &String| std::fs::read_to_string(path).unwrap();
     for (world, robot, tip) in [
         ("no_path", "planar_2r_continuous", "1.2819,1.2350"),
         ("torus_closed", "planar_2r_continuous", "1.1139,1.3429"),
@@ -87,8 +76,7 @@ fn enclosed_tip_goals_have_valid_certificates() {
         ("slot_closed", "rail_arm", "1.0539,-0.3106"),
     ] {
         let files = [shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml"))];
-        let done = place.run(&files, &format!("--quiet --certificate c.json --goal-tip={tip}"));
-        assert_eq!(done.code, 3, "{world}: {}", done.stderr);
+        place.run(&files, &format!("--quiet --certificate c.json --goal-tip={tip}")).exits(3);
         let certificate = place.read("c.json");
         let report = check(&read(&files[0]), &read(&files[1]), &certificate).unwrap();
         assert!(report.contains("a position of the tip \"tool0\""), "{report}");
@@ -119,9 +107,8 @@ fn moved_robots_have_certificates() {
          [[obstacle]]\npolyline = [[2.0, -1.4], [2.0, -3.0]]\n",
     );
     let files = [shipped("robots/planar_2r_continuous.urdf"), "world.toml".to_owned()];
-    let done = place.run(&files, "--quiet --certificate c.json");
-    assert_eq!(done.code, 3, "{}", done.stderr);
-    let urdf = std::fs::read_to_string(&files[0]).unwrap();
+    place.run(&files, "--quiet --certificate c.json").exits(3);
+    let urdf = read(&files[0]);
     let judged = |world: &str| check(&urdf, world, &without_digests(&place.read("c.json")));
     let world = place.read("world.toml");
     judged(&world).unwrap();
@@ -135,13 +122,12 @@ fn moved_robots_have_certificates() {
 #[test]
 fn every_shape_of_a_link_is_named() {
     let place = Place::new();
-    let whole = std::fs::read_to_string(shipped("robots/planar_2r_continuous.urdf")).unwrap();
-    let world = std::fs::read_to_string(shipped("workspaces/no_path.toml")).unwrap();
+    let whole = read(&shipped("robots/planar_2r_continuous.urdf"));
+    let world = read(&shipped("workspaces/no_path.toml"));
     for (tag, robot, named) in [("visual", "", "\"visual\":0"), ("lamp", "[robot]\nbar = 0.05\n", "\"bar\":0")] {
         place.write("arm.urdf", whole.replace("collision>", &format!("{tag}>")));
         place.write("world.toml", world.replace("[start]", &format!("{robot}[start]")));
-        let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-        assert_eq!(done.code, 3, "{tag}: {}", done.stderr);
+        place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(3);
         let certificate = place.read("c.json");
         assert!(certificate.contains(named), "{certificate}");
         let judged = |urdf: &str| check(urdf, &place.read("world.toml"), &certificate);
@@ -154,26 +140,21 @@ fn every_shape_of_a_link_is_named() {
 
 #[test]
 fn a_certificate_does_not_overwrite_its_input() {
-    let place = Place::new();
-    let done = place.plan(FREE, "--quiet --certificate world.toml");
-    done.refused(1, &["world.toml is the input"]);
+    Place::new().plan(FREE, "--quiet --certificate world.toml").refused(1, &["world.toml is the input"]);
 }
 
 /// Checks that a certificate applies to its files only, byte by byte, and to the files that they name.
 #[test]
 fn certificates_are_bound_to_their_files() {
     let place = Place::new();
-    let read = |path: &String| std::fs::read_to_string(path).unwrap();
     let den = |file: &str| read(&shipped(&format!("workspaces/{file}")));
     place.write("arm.urdf", read(&shipped("robots/planar_2r.urdf")));
     place.write("den.toml", den("den.toml"));
     place.write("den.yaml", den("den.yaml"));
     let picture = std::fs::read(shipped("workspaces/den.pgm")).unwrap();
     place.write("den.pgm", &picture);
-    let done = place.run(&["arm.urdf", "den.toml"], "--quiet --certificate c.json --output m.csv");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let [urdf, world, certificate] = ["arm.urdf", "den.toml", "c.json"].map(|file| place.path(file));
-    let judged = || check_files(&urdf, &world, &certificate);
+    place.run(&["arm.urdf", "den.toml"], "--quiet --certificate c.json --output m.csv").exits(0);
+    let judged = || place.judged(["arm.urdf", "den.toml", "c.json"]);
     judged().unwrap();
     for (file, named) in [("arm.urdf", "another URDF"), ("den.toml", "another world"), ("den.yaml", "den.yaml")] {
         let whole = place.read(file);
@@ -189,15 +170,14 @@ fn certificates_are_bound_to_their_files() {
     assert!(matches!(judged(), Err(CheckError::Fails(why)) if why.contains("den.pgm")));
     place.write("den.pgm", &picture);
     // The certificate of `verify` refers to the same files, but not to the trajectory.
-    let done = place.run(&["verify", "arm.urdf", "den.toml", "m.csv"], "--quiet --certificate v.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&["verify", "arm.urdf", "den.toml", "m.csv"], "--quiet --certificate v.json").exits(0);
     let digests = |file: &str| {
-        let whole: Value = serde_json::from_str(&place.read(file)).unwrap();
+        let whole = place.json(file);
         ["urdf", "world", "others"].map(|name| whole[name].clone())
     };
     assert_eq!(digests("c.json"), digests("v.json"));
     assert_eq!(digests("c.json")[2].as_array().unwrap().len(), 2);
-    check_files(&urdf, &world, &place.path("v.json")).unwrap();
+    place.judged(["arm.urdf", "den.toml", "v.json"]).unwrap();
 }
 
 /// Checks that a certificate can be written to a file of its own or into the result. Programs that read the result skip
@@ -206,27 +186,22 @@ fn certificates_are_bound_to_their_files() {
 fn a_certificate_can_be_a_part_of_the_result() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/limits_open.toml")];
-    let done = place.run(&files, "--quiet --certificate r.json --output r.json --output m.csv");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let done = place.run(&files, "--quiet --certificate c.json --output plain.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let value = |file: &str| serde_json::from_str::<Value>(&place.read(file)).unwrap();
+    place.run(&files, "--quiet --certificate r.json --output r.json --output m.csv").exits(0);
+    place.run(&files, "--quiet --certificate c.json --output plain.json").exits(0);
+    let value = |file: &str| place.json(file);
     let mut whole = value("r.json");
     assert_eq!(whole.as_object_mut().unwrap().remove("certificate").unwrap(), value("c.json"));
     assert_eq!(whole, value("plain.json"));
-    let judged = |file: &str| check_files(files[0].as_ref(), files[1].as_ref(), place.path(file).as_ref());
+    let judged = |file: &str| place.judged([&files[0], &files[1], file]);
     assert_eq!(judged("r.json").unwrap(), judged("c.json").unwrap());
     assert!(matches!(judged("plain.json"), Err(CheckError::Input { .. })));
-    let done = place.run(&["verify", &files[0], &files[1], "r.json"], "--quiet");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&["verify", &files[0], &files[1], "r.json"], "--quiet").exits(0);
     // For an infeasible problem, `recheck` verifies the boxes of the proof from the same file.
     let closed = [files[0].clone(), shipped("workspaces/limits_closed.toml")];
-    assert_eq!(place.run(&closed, "--quiet --certificate r.json --output r.json").code, 3);
-    check_files(closed[0].as_ref(), closed[1].as_ref(), place.path("r.json").as_ref()).unwrap();
-    let done = place.run(&["recheck", &closed[0], &closed[1]], "--proof r.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let done = place.run(&files, "--quiet --certificate m.csv --output m.csv");
-    done.refused(1, &["m.csv", "the same file"]);
+    place.run(&closed, "--quiet --certificate r.json --output r.json").exits(3);
+    place.judged([&closed[0], &closed[1], "r.json"]).unwrap();
+    place.run(&["recheck", &closed[0], &closed[1]], "--proof r.json").exits(0);
+    place.run(&files, "--quiet --certificate m.csv --output m.csv").refused(1, &["m.csv", "the same file"]);
 }
 
 /// Returns an STL file of a block of 1 m along x that is slightly thinner in the middle. The program uses its convex
@@ -250,9 +225,8 @@ fn stl() -> String {
 /// Checks links with meshes: motions, bounds and proofs refer to the convex hulls.
 #[test]
 fn arms_of_meshes_have_valid_certificates() {
-    let place = Place::new();
-    place.write("block.stl", stl());
-    let boxed = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
+    let place = Place::new().with("block.stl", stl());
+    let boxed = read(&shipped("robots/planar_2r.urdf"));
     let urdf = boxed
         .replace("<box size=\"1.0 0.1 0.1\"/>", "<mesh filename=\"block.stl\"/>")
         .replace("<box size=\"0.8 0.1 0.1\"/>", "<mesh filename=\"block.stl\" scale=\"0.8 1 1\"/>");
@@ -262,8 +236,7 @@ fn arms_of_meshes_have_valid_certificates() {
         [("shelf", 0, "is shorter than"), ("limits_open", 0, "is shorter than"), ("limits_closed", 3, "no motion of")]
     {
         let world = shipped(&format!("workspaces/{world}.toml"));
-        let done = place.run(&["arm.urdf", &world], "--quiet --certificate c.json");
-        assert_eq!(done.code, code, "{world}: {}", done.stderr);
+        place.run(&["arm.urdf", &world], "--quiet --certificate c.json").exits(code);
         let judged = || check_files(&place.path("arm.urdf"), world.as_ref(), &place.path("c.json"));
         let report = judged().unwrap_or_else(|why| panic!("{world}: {why}"));
         assert!(report.contains(part), "{report}");
@@ -313,11 +286,8 @@ fn shortest_paths_past_huge_obstacles_have_valid_certificates() {
         ),
     ];
     for (number, (urdf, world)) in drawn.iter().enumerate() {
-        let place = Place::new();
-        place.write("a.urdf", urdf);
-        place.write("w.toml", world);
-        let done = place.run(&["a.urdf", "w.toml"], "--quiet --certificate c.json");
-        assert_eq!(done.code, 0, "{number}: {}", done.stderr);
+        let place = Place::new().with("a.urdf", urdf).with("world.toml", world);
+        place.run(&["a.urdf", "world.toml"], "--quiet --certificate c.json").exits(0);
         check(urdf, world, &place.read("c.json")).unwrap_or_else(|why| panic!("{number}: {why}"));
     }
 }
@@ -327,10 +297,8 @@ fn shortest_paths_past_huge_obstacles_have_valid_certificates() {
 fn goal_areas_have_valid_certificates() {
     let robot = shipped("robots/room_gantry.urdf");
     let judged = |areas: &str, walls: &str, code: i32| {
-        let place = Place::new();
-        place.write("world.toml", format!("start.joints = [0, 0]\ngoal.areas = [{areas}]\n{walls}"));
-        let done = place.run(&[&*robot, "world.toml"], "--json --certificate c.json");
-        assert_eq!(done.code, code, "{areas}: {}{}", done.stdout, done.stderr);
+        let place = Place::new().with("world.toml", format!("start.joints = [0, 0]\ngoal.areas = [{areas}]\n{walls}"));
+        let done = place.run(&[&*robot, "world.toml"], "--json --certificate c.json").exits(code);
         check_files(Path::new(&robot), &place.path("world.toml"), &place.path("c.json")).unwrap();
         done.json()
     };
@@ -363,12 +331,8 @@ fn invalid_goal_areas_are_refused_and_turning_arms_take_the_middle() {
         place.run(&[&*gantry, "world.toml"], "").refused(1, parts);
     }
     place.write("world.toml", "start.joints = [0, 0]\ngoal.areas = [[[100, 2], [103, 4]]]\n");
-    let far = place.run(&[shipped("robots/room_gantry.urdf").as_str(), "world.toml"], "");
-    assert!(
-        far.code == 1 && far.stderr.contains("the goal area from (100, 2) to (103, 4) is outside the joint limits"),
-        "{}",
-        far.stderr
-    );
+    let far = place.run(&[shipped("robots/room_gantry.urdf").as_str(), "world.toml"], "").exits(1);
+    far.warns(&["the goal area from (100, 2) to (103, 4) is outside the joint limits"]);
     let turned =
         place.plan(format!("{}[goal]\nareas = [[[1.0, 0.9], [1.2, 1.1]]]\n", "[start]\njoints = [-0.9, 0.4]\n"), "");
     assert_eq!(turned.code, 0, "{}", turned.stderr);

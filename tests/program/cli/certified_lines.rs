@@ -1,10 +1,8 @@
 //! Certificates of motions along lines, and the verdict of the checker, which shares no code with the program.
 
 use super::certificates::without_digests;
-use super::{Done, Place, shipped};
+use super::*;
 use cplan_cases::dice::Dice;
-use cplan_check_files::{CheckError, check};
-use serde_json::{Value, json};
 
 fn robot() -> String {
     shipped("robots/planar_2r.urdf")
@@ -24,11 +22,8 @@ struct Judged {
 impl Judged {
     /// Follows a line, and returns the certificate. It checks the exit code.
     fn of(robot: &str, world: &str, line: &str, options: &str, code: i32) -> Self {
-        let place = Place::new();
-        place.write("world.toml", world);
-        place.write("line.gcode", line);
-        let done = follow(&place, robot, "world.toml", "line.gcode", options);
-        assert_eq!(done.code, code, "{}{line}{world}", done.stderr);
+        let place = Place::new().with("world.toml", world).with("line.gcode", line);
+        follow(&place, robot, "world.toml", "line.gcode", options).exits(code);
         let certificate = serde_json::from_str(&without_digests(&place.read("c.json"))).unwrap();
         Self { urdf: std::fs::read_to_string(robot).unwrap(), world: world.to_owned(), certificate }
     }
@@ -54,7 +49,7 @@ impl Judged {
 }
 
 fn plate() -> Judged {
-    let text = |file: &str| std::fs::read_to_string(shipped(&format!("workspaces/follow/{file}"))).unwrap();
+    let text = |file: &str| read(&shipped(&format!("workspaces/follow/{file}")));
     Judged::of(&robot(), &text("engraving.toml"), &text("plate.gcode"), "", 0)
 }
 
@@ -168,17 +163,15 @@ fn every_kind_of_line_and_arm_has_a_certificate_that_holds() {
          <path d='M 700 800 C 900 500 1000 900 800 400 S 600 300 700 700'/><path d='M 500 300 C 700 300 500 300 700 400'/></svg>",
     );
     place.write("world.toml", "");
-    let done = follow(&place, &robot(), "world.toml", "line.svg", "--output r.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let read = |file: &str| std::fs::read_to_string(file).unwrap();
+    follow(&place, &robot(), "world.toml", "line.svg", "--output r.json").exits(0);
     let proven = check(&read(&robot()), "", &place.read("c.json")).unwrap();
     assert!(proven.contains("leads the tip") && place.read("c.json").contains("cubic"), "{proven}");
     // A certificate can be a member of the result.
-    let done =
-        place.run(&["follow", &robot(), "world.toml", "line.svg", "--quiet"], "--output r.json --certificate r.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let result: Value = serde_json::from_str(&place.read("r.json")).unwrap();
-    assert_eq!(result["certificate"], serde_json::from_str::<Value>(&place.read("c.json")).unwrap());
+    place
+        .run(&["follow", &robot(), "world.toml", "line.svg", "--quiet"], "--output r.json --certificate r.json")
+        .exits(0);
+    let result = place.json("r.json");
+    assert_eq!(result["certificate"], place.json("c.json"));
     assert_eq!(check(&read(&robot()), "", &place.read("r.json")).unwrap(), proven);
 }
 
@@ -228,9 +221,8 @@ fn unknown_answers_have_no_certificate() {
     // The end is out of reach by hardly less than the tolerance.
     place.write("long.gcode", "G21 G0 X1500 Y0\nG1 X1800.00999\n");
     let line = place.path("long.gcode").display().to_string();
-    let done = follow(&place, &robot(), &shipped("workspaces/follow/engraving.toml"), &line, "");
-    assert_eq!(done.code, 4, "{}", done.stderr);
-    assert!(done.stderr.contains("c.json is not written: the answer is \"unknown\""), "{}", done.stderr);
+    let done = follow(&place, &robot(), &shipped("workspaces/follow/engraving.toml"), &line, "").exits(4);
+    done.warns(&["c.json is not written: the answer is \"unknown\""]);
     assert!(!place.path("c.json").exists());
     place.write("line.gcode", "G21 G0 X1100 Y-150\nG1 X1200\n");
     place.write("world.toml", "");
@@ -280,9 +272,7 @@ fn every_answer_about_random_lines_has_a_certificate_that_holds() {
         let (line, world) = (random_line(&mut dice), random_world(&mut dice));
         let robot = shipped(["robots/planar_2r.urdf", "robots/planar_2r_continuous.urdf"][dice.below(2)]);
         let options = ["", "--tolerance 0.0001", "--tolerance 0.0005 --clearance 0.02"][dice.below(3)];
-        let place = Place::new();
-        place.write("world.toml", &world);
-        place.write("line.gcode", &line);
+        let place = Place::new().with("world.toml", &world).with("line.gcode", &line);
         let done = follow(&place, &robot, "world.toml", "line.gcode", options);
         let code = done.code;
         answers[match code {
@@ -292,7 +282,7 @@ fn every_answer_about_random_lines_has_a_certificate_that_holds() {
             _ => panic!("{seed}: {}{line}", done.stderr),
         }] += 1;
         if code != 4 {
-            let urdf = std::fs::read_to_string(&robot).unwrap();
+            let urdf = read(&robot);
             let proven = check(&urdf, &world, &place.read("c.json"));
             let proven = proven.unwrap_or_else(|why| panic!("{seed}: {why}\n{line}{world}"));
             assert!(proven.starts_with(if code == 0 { "a motion" } else { "no motion" }), "{seed}: {proven}");

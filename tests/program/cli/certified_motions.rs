@@ -1,10 +1,7 @@
 //! Certificates of motions, and the verdict of the checker, which shares no code with the program.
 
 use super::certificates::without_digests;
-use super::{FREE, Place, shelf, shipped};
-use cplan_check_files::{CheckError, check, check_files};
-use serde_json::Value;
-use std::path::Path;
+use super::*;
 
 /// Returns shipped worlds that are feasible by name, and their robots.
 fn open() -> Vec<(String, String)> {
@@ -21,10 +18,6 @@ fn open() -> Vec<(String, String)> {
     found
 }
 
-fn read(path: &str) -> String {
-    std::fs::read_to_string(path).unwrap()
-}
-
 /// Returns the certificate, with its motion changed by `alter`.
 fn with_changed_motion(certificate: &str, alter: impl FnOnce(&mut Vec<Value>)) -> String {
     let mut whole: Value = serde_json::from_str(certificate).unwrap();
@@ -39,20 +32,19 @@ fn every_solved_shipped_world_has_a_valid_certificate() {
     let mut bounds = 0;
     for (world, robot) in open {
         let place = Place::new();
-        let done = place.run(&[&robot, &world], "--quiet --certificate c.json --output plan.json");
-        assert_eq!(done.code, 0, "{world}: {}", done.stderr);
+        place.run(&[&robot, &world], "--quiet --certificate c.json --output plan.json").exits(0);
         let certificate = place.read("c.json");
         assert!(certificate.len() < 1 << 20, "{world}: {} bytes", certificate.len());
         let judged = |world: &str, certificate: &str| {
             place.write("altered.json", certificate);
-            check_files(robot.as_ref(), world.as_ref(), place.path("altered.json").as_ref())
+            place.judged([&robot, &world, "altered.json"])
         };
         let begun = std::time::Instant::now();
         let verdict = judged(&world, &certificate);
         eprintln!("{world}: {} bytes, {:.3} s", certificate.len(), begun.elapsed().as_secs_f64());
         let report = verdict.unwrap_or_else(|why| panic!("{world}: {why}"));
         // The checker proves the reported bound, except for a small loss from the walls.
-        let plan: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+        let plan = place.json("plan.json");
         let [output, length] = ["lower_bound", "length"].map(|of| plan["optimum"][of].as_f64().unwrap());
         if let Some((_, proven)) = report.split_once("is shorter than ") {
             let proven: f64 = proven.parse().unwrap();
@@ -80,10 +72,8 @@ fn the_certificate_states_motion_and_query() {
     let place = Place::new();
     let files = shelf();
     let report = |options: &str| {
-        let done = place.run(&files, &format!("--quiet --certificate c.json --output plan.json {options}"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let [certificate, plan] =
-            ["c.json", "plan.json"].map(|file| serde_json::from_str::<Value>(&place.read(file)).unwrap());
+        place.run(&files, &format!("--quiet --certificate c.json --output plan.json {options}")).exits(0);
+        let [certificate, plan] = ["c.json", "plan.json"].map(|file| place.json(file));
         // The samples are those of the trajectory, number by number.
         let knots = certificate["motion"]["knots"].as_array().unwrap();
         let times = plan["trajectory"]["time"].as_array().unwrap();
@@ -92,15 +82,13 @@ fn the_certificate_states_motion_and_query() {
         for (k, knot) in knots.iter().enumerate() {
             assert!((0..2).all(|j| knot[1 + j] == rows[0][k][j] && knot[3 + j] == rows[1][k][j]), "knot {k}");
         }
-        check(&read(&files[0]), &read(&files[1]), &place.read("c.json")).unwrap()
+        place.judged([&files[0], &files[1], "c.json"]).unwrap()
     };
     let plain = report("");
     assert!(plain.contains("read as cubic or quartic") && !plain.contains("within"), "{plain}");
     assert!(report("--jerk 100,100").contains("read as cubic)"));
     let asked = report("--start -0.9,10deg --goal 1.5,-0.3 --clearance 0.0005");
-    for part in ["start (-0.9, 0.17453292519943295)", "goal (1.5, -0.3)", "clearance 0.0005"] {
-        assert!(asked.contains(part), "{asked}");
-    }
+    has(&asked, &["start (-0.9, 0.17453292519943295)", "goal (1.5, -0.3)", "clearance 0.0005"]);
     let tip = report("--goal-tip 0.35,0.5");
     assert!(tip.contains("goal (0.35, 0.5), a position of the tip") && tip.contains("within 1e-1"), "{tip}");
 }
@@ -112,9 +100,8 @@ fn motions_of_every_planner_hold() {
     let files = shelf();
     for options in ["--planner visibility", "--planner voronoi", "--planner prm", "--planner harmonic", "--blend none"]
     {
-        let done = place.run(&files, &format!("--quiet --certificate c.json {options}"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let verdict = check(&read(&files[0]), &read(&files[1]), &place.read("c.json"));
+        place.run(&files, &format!("--quiet --certificate c.json {options}")).exits(0);
+        let verdict = place.judged([&files[0], &files[1], "c.json"]);
         verdict.unwrap_or_else(|why| panic!("{options}: {why}"));
     }
 }
@@ -122,8 +109,7 @@ fn motions_of_every_planner_hold() {
 #[test]
 fn a_motion_without_obstacles_has_a_certificate() {
     let place = Place::new();
-    let done = place.plan(FREE, "--quiet --certificate c.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.plan(FREE, "--quiet --certificate c.json").exits(0);
     check(&read(&shipped("robots/planar_2r.urdf")), FREE, &place.read("c.json")).unwrap();
 }
 
@@ -131,7 +117,7 @@ fn a_motion_without_obstacles_has_a_certificate() {
 fn verify_writes_certificates_of_motions_that_it_accepts() {
     let place = Place::new();
     let [urdf, world] = shelf();
-    assert_eq!(place.run(&[&urdf, &world], "--quiet --output m.csv --output m.json --output m.yaml").code, 0);
+    place.run(&[&urdf, &world], "--quiet --output m.csv --output m.json --output m.yaml").exits(0);
     place.write("path.csv", "shoulder,elbow\n-0.9,0.4\n-0.9,0.5\n");
     let judged = |file: &str, options: &str| {
         let files = ["verify", &urdf, &world, file];
@@ -147,7 +133,7 @@ fn verify_writes_certificates_of_motions_that_it_accepts() {
     ] {
         let (code, exists, why) = judged(file, options);
         assert!(code == 0 && exists, "{file}: {code} {why}");
-        let report = check(&read(&urdf), &read(&world), &place.read(&format!("{file}.c"))).unwrap();
+        let report = place.judged([&urdf, &world, &format!("{file}.c")]).unwrap();
         assert!(report.contains(part), "{file}: {report}");
     }
     place.write("through.csv", "shoulder,elbow\n-0.9,0.4\n1.55,-0.35\n");
@@ -163,14 +149,13 @@ fn an_arm_far_from_the_origin_has_certificates() {
     let obstacle =
         "polygon = [[600001.15, 900000.18], [600001.6, 900000.18], [600001.6, 900000.3], [600001.15, 900000.3]]";
     place.write(
-        "w.toml",
+        "world.toml",
         format!(
             "robot.at = [6e5, 9e5]\nstart.joints = [-0.9, 0.4]\ngoal.joints = [1.55, -0.35]\n[[obstacle]]\n{obstacle}\n"
         ),
     );
-    let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let report = check(&read(&urdf), &place.read("w.toml"), &place.read("c.json"));
+    place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json").exits(0);
+    let report = place.judged([&urdf, "world.toml", "c.json"]);
     assert!(report.as_ref().is_ok_and(|report| report.contains("is shorter than")), "{report:?}");
 }
 
@@ -181,9 +166,8 @@ fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
     let place = Place::new();
     let urdf = shipped("robots/planar_2r.urdf");
     let hold = |options: &str| {
-        let done = place.run(&[urdf.as_str(), "world.toml"], &format!("--quiet --certificate c.json {options}"));
-        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
-        let verdict = check(&read(&urdf), &place.read("world.toml"), &place.read("c.json"));
+        place.run(&[urdf.as_str(), "world.toml"], &format!("--quiet --certificate c.json {options}")).exits(0);
+        let verdict = place.judged([&urdf, "world.toml", "c.json"]);
         verdict.unwrap_or_else(|why| panic!("{options} {}: {why}", place.read("world.toml")))
     };
     for [low, high] in [["-135deg", "77.7deg"], ["-50deg", "0.7deg"], ["-1.23deg", "2.7deg"], ["0deg", "100deg"]] {
@@ -220,9 +204,8 @@ fn motions_at_a_limit_of_0_are_within_the_limits_as_they_are_written() {
     for (from, to) in [("0.3,0.1", "0,0"), ("0,0", "1.2,0.7"), ("1.9,0", "0,1.4")] {
         for options in ["--jerk 8,8", "--jerk 20,20 --optimize time", ""] {
             place.write("world.toml", format!("[start]\njoints = [{from}]\n[goal]\njoints = [{to}]\n"));
-            let done = place.run(&[urdf.as_str(), "world.toml"], &format!("--quiet --certificate c.json {options}"));
-            assert_eq!(done.code, 0, "{options}: {}", done.stderr);
-            let verdict = check(&read(&urdf), &place.read("world.toml"), &place.read("c.json"));
+            place.run(&[urdf.as_str(), "world.toml"], &format!("--quiet --certificate c.json {options}")).exits(0);
+            let verdict = place.judged([&urdf, "world.toml", "c.json"]);
             assert!(verdict.is_ok(), "{from} {to} {options}: {verdict:?}");
         }
     }

@@ -1,10 +1,8 @@
 //! Certificates of plans among moving obstacles, and the verdict of the checker, which shares no code with the program.
 
-use super::certified_tasks::read;
-use super::{Place, shipped};
+use super::*;
 use cplan_cases::dice::Dice;
 use cplan_cases::{seeds, uses_default_cases};
-use cplan_check_files::{CheckError, check};
 use std::f64::consts::PI;
 use std::fmt::Write;
 
@@ -17,25 +15,22 @@ fn every_shipped_motion_among_moving_obstacles_has_a_valid_certificate() {
     let robot = shipped("robots/planar_2r.urdf");
     for name in WORLDS {
         let (place, world) = (Place::new(), shipped(&format!("workspaces/moving/{name}.toml")));
-        let done = place.run(&[&robot, &world], "--quiet --certificate c.json --output m.json --output m.csv");
-        assert_eq!((done.code, &*done.stderr), (0, ""), "{name}");
-        let report =
-            check(&read(&robot), &read(&world), &place.read("c.json")).unwrap_or_else(|why| panic!("{name}: {why}"));
+        place.run(&[&robot, &world], "--quiet --certificate c.json --output m.json --output m.csv").succeeds_silently();
+        let report = place.judged([&robot, &world, "c.json"]).unwrap_or_else(|why| panic!("{name}: {why}"));
         let is_task = ["belt_pick", "belt_stop", "cart_in_task"].contains(&name);
         assert!(report.contains(if is_task { "steps from the start" } else { "is shorter than" }), "{name}: {report}");
         // Recordings have certificates too, by the interpolation of their format. A table does not state which step
         // ends when.
         for file in if is_task { &["m.json"][..] } else { &["m.json", "m.csv"] } {
-            let judged = place.run(&["verify", &robot, &world, file], "--quiet --certificate v.json");
-            assert_eq!((judged.code, &*judged.stderr), (0, ""), "{name} {file}");
-            let report = check(&read(&robot), &read(&world), &place.read("v.json"));
+            place.run(&["verify", &robot, &world, file], "--quiet --certificate v.json").succeeds_silently();
+            let report = place.judged([&robot, &world, "v.json"]);
             assert!(report.is_ok(), "{name} {file}: {report:?}");
         }
     }
     // If the only path is closed for ever, the program writes no certificate.
     let place = Place::new();
-    let unknown = place.run(&[robot, shipped("workspaces/moving/parked.toml")], "--quiet --certificate c.json");
-    assert_eq!(unknown.code, 4);
+    let unknown =
+        place.run(&[robot, shipped("workspaces/moving/parked.toml")], "--quiet --certificate c.json").exits(4);
     assert!(unknown.stderr.contains("claims nothing") && !place.path("c.json").exists(), "{}", unknown.stderr);
 }
 
@@ -45,7 +40,7 @@ fn every_shipped_motion_among_moving_obstacles_has_a_valid_certificate() {
 fn a_certificate_does_not_hold_for_another_time() {
     let (place, robot, world) =
         (Place::new(), shipped("robots/planar_2r.urdf"), shipped("workspaces/moving/crossing.toml"));
-    assert_eq!(place.run(&[&robot, &world], "--quiet --certificate c.json").code, 0);
+    place.run(&[&robot, &world], "--quiet --certificate c.json").exits(0);
     let certificate = super::certificates::without_digests(&place.read("c.json"));
     let (urdf, text) = (read(&robot), read(&world));
     check(&urdf, &text, &certificate).unwrap();
@@ -104,13 +99,12 @@ fn certificates_among_random_moving_obstacles_hold() {
     let (robot, mut found, mut waited) = (shipped("robots/planar_2r.urdf"), 0, 0);
     for seed in seeds(24) {
         let (place, mut dice) = (Place::new(), Dice::new(seed ^ 0x6d6f_7665));
-        place.write("world.toml", drawn(&mut dice));
-        let done = place.run(&[&*robot, "world.toml"], "--certificate c.json");
+        let done = place.run_in(&*robot, drawn(&mut dice), "--certificate c.json");
         // If start or goal is blocked, there is nothing to plan.
         if done.code != 0 {
             continue;
         }
-        let judged = check(&read(&robot), &place.read("world.toml"), &place.read("c.json"));
+        let judged = place.judged([&robot, "world.toml", "c.json"]);
         assert!(judged.is_ok(), "{seed}: {judged:?}\n{}", place.read("world.toml"));
         found += 1;
         waited += usize::from(done.stdout.contains("\nwaits "));
@@ -127,10 +121,7 @@ fn obstacles_waiting_out_of_reach_stay_out_of_reach() {
     let world = "[start]\njoints = [0.4, 1.0]\n[[object]]\nname = \"p\"\ncircle = { center = [0, 0], radius = 0.05 }\nat = [2.5, 0.0]\n\
                  motion = { stops = [{ time = 1.0, at = [2.5, 0.1] }, { time = 2.0, at = [2.8, 1.0] }] }\n\
                  [[step]]\npick = \"p\"\n[[step]]\nplace = { at = [0.3, 1.35] }\n";
-    place.write("w.toml", world);
-    let done = place.run(&[&*urdf, "w.toml"], "");
-    assert_eq!(done.code, 3, "{}", done.stderr);
-    assert!(done.stdout.contains("never within the arm's reach"), "{}", done.stdout);
+    place.run_in(&*urdf, world, "").exits(3).says(&["never within the arm's reach"]);
 }
 
 /// Checks a pick at the very beginning of its window, which is not a whole nanosecond. The plan uses the first whole
@@ -144,9 +135,7 @@ fn a_pick_at_the_beginning_of_its_window_is_within_it() {
         let [from, to] = [2.120_956_725_469_559_8 + 0.201_3 * f64::from(k), 6.0];
         let world =
             shipped.replacen("pick = \"bottle 1\"", &format!("pick = \"bottle 1\"\nwindow = [{from:?}, {to:?}]"), 1);
-        place.write("w.toml", &world);
-        let done = place.run(&[&*urdf, "w.toml"], "--json --certificate c.json");
-        assert_eq!(done.code, 0, "{from}: {}", done.stderr);
+        let done = place.run_in(&*urdf, &world, "--json --certificate c.json").exits(0);
         let result: serde_json::Value = serde_json::from_str(&done.stdout).unwrap();
         let picked = result["steps"][0]["arrival"].as_f64().unwrap_or_else(|| panic!("{}", result["steps"][0]));
         assert!(from <= picked && picked <= to, "{from}: {picked}");

@@ -1,10 +1,8 @@
 //! Certificates for robots as tools export them, and maps as tools write them: the checker accepts the same files as
 //! the program.
 
-use super::Place;
 use super::certificates::without_digests;
-use cplan_check_files::{CheckError, check_files};
-use std::path::PathBuf;
+use super::*;
 
 /// An arm with two bars of 1 m and 0.8 m. The words in braces are placeholders for what differs between cases.
 const ARM: &str = r#"<robot name="r" {version}>
@@ -75,13 +73,10 @@ impl Case<'_> {
         let judged = |world: &str, certificate: &str| {
             place.write("other.toml", world);
             place.write("c.json", certificate);
-            let [urdf, world, certificate] = ["arm.urdf", "other.toml", "c.json"].map(|file| place.path(file));
-            check_files(&urdf, &world, &certificate)
+            place.judged(["arm.urdf", "other.toml", "c.json"])
         };
         let planned = |world: &str, code: i32| {
-            place.write("world.toml", world);
-            let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-            assert_eq!(done.code, code, "{}: {}{}", self.what, done.stdout, done.stderr);
+            place.run_in("arm.urdf", world, "--quiet --certificate c.json").exits(code);
             place.read("c.json")
         };
         let open = self.world();
@@ -175,8 +170,7 @@ fn missing_limits_and_fixed_joints_are_certified() {
         r#"{"format": "cplan certificate 1", "answer": "found",
             "motion": {"interpolation": ["linear"], "knots": [[0, 0, 0], [1, 0.2, 0.5]]}}"#,
     );
-    let [urdf, world, certificate]: [PathBuf; 3] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-    let report = check_files(&urdf, &world, &certificate);
+    let report = place.judged(["arm.urdf", "world.toml", "c.json"]);
     assert!(matches!(&report, Err(CheckError::Fails(why)) if why.contains("leaves its limits")), "{report:?}");
 }
 
@@ -226,11 +220,8 @@ fn numbers_that_are_no_doubles_are_certified() {
         case.written(&place);
         for (goal, code) in [("[0.2, 0.5]", 0), ("[1.5, 0.5]", 3)] {
             let world = case.world().replace("[0.2, 0.5]", goal).replace(from, to);
-            place.write("world.toml", world);
-            let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-            assert_eq!(done.code, code, "{what}: {}{}", done.stdout, done.stderr);
-            let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-            check_files(&urdf, &world, &certificate).unwrap_or_else(|why| panic!("{what}: {why}"));
+            place.run_in("arm.urdf", world, "--quiet --certificate c.json").exits(code);
+            place.judged(["arm.urdf", "world.toml", "c.json"]).unwrap_or_else(|why| panic!("{what}: {why}"));
         }
     }
     let place = Place::new();
@@ -244,11 +235,8 @@ fn numbers_that_are_no_doubles_are_certified() {
         Case { robot: limit, ..Case::default() }.written(&place);
         let world =
             WORLD.replace("0.0, 0.0", ends[0]).replace("0.2, 0.5", ends[1]).replace("[-0.5, 0.0]", "[-0.5, 0.3]");
-        place.write("world.toml", &world);
-        let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-        assert_eq!(done.code, code, "{ends:?}: {}{}", done.stdout, done.stderr);
-        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-        check_files(&urdf, &world, &certificate).unwrap_or_else(|why| panic!("{ends:?}: {why}"));
+        place.run_in("arm.urdf", &world, "--quiet --certificate c.json").exits(code);
+        place.judged(["arm.urdf", "world.toml", "c.json"]).unwrap_or_else(|why| panic!("{ends:?}: {why}"));
     }
 }
 
@@ -275,22 +263,17 @@ fn other_moving_joints_are_certified() {
         place.write("world.toml", world);
         place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json")
     };
-    let judged = || {
-        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-        check_files(&urdf, &world, &certificate)
-    };
+    let judged = || place.judged(["arm.urdf", "world.toml", "c.json"]);
     // The post is 0.1 m ahead of a gripper whose ends are 0.15 m from the axis, and now at the sides.
-    let done = run(&bar("0 0 0"), &task(1.9));
-    assert!(done.code == 1 && done.stderr.contains("not free"), "{}{}", done.stdout, done.stderr);
-    let done = run(&bar("0 0 0"), &task(2.0));
-    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    run(&bar("0 0 0"), &task(1.9)).exits(1).warns(&["not free"]);
+    run(&bar("0 0 0"), &task(2.0)).exits(0);
     judged().unwrap();
     place.write("world.toml", task(1.9));
     let certificate = without_digests(&place.read("c.json"));
     place.write("c.json", certificate);
     assert!(matches!(judged(), Err(CheckError::Fails(_))), "{:?}", judged());
-    let beside = run(&bar("0.1 0 0"), &task(2.5));
-    assert!(beside.code == 1 && beside.stderr.contains("turns with the wrist"), "{}", beside.stderr);
+    let beside = run(&bar("0.1 0 0"), &task(2.5)).exits(1);
+    beside.warns(&["turns with the wrist"]);
     assert!(matches!(judged(), Err(CheckError::Input { message, .. }) if message.contains("turns with the wrist")));
     // One bar is beside the base and turns like the arm, another is above the arm, and one mimics the wrist.
     for (parent, leader, world) in
@@ -304,8 +287,7 @@ fn other_moving_joints_are_certified() {
         );
         let joints =
             if world == WORLD { format!("[robot]\njoints = [\"j1\", \"j2\"]\n{WORLD}") } else { world.to_owned() };
-        let done = run(&more, &joints);
-        assert!(done.code == 1 && done.stderr.contains("mimic"), "{parent}: {}{}", done.stdout, done.stderr);
+        run(&more, &joints).exits(1).warns(&["mimic"]);
         place.write(
             "c.json",
             r#"{"format": "cplan certificate 1", "answer": "found", "start": [0, 0], "goal": [0, 0],
@@ -408,9 +390,7 @@ fn maps_written_by_tools_are_certified() {
     let place = Place::new();
     Case { files: &[("map.yaml", MAP.as_bytes()), ("map.pgm", b"P2 1 1 255 204")], ..Case::default() }.written(&place);
     let on_it = "[start]\njoints = [-0.75, 0.0]\n[goal]\njoints = [0.0, 0.0]\n[[obstacle]]\nimage = \"map.yaml\"\n";
-    place.write("world.toml", on_it);
-    let done = place.run(&["arm.urdf", "world.toml"], "--quiet");
-    assert!(done.code == 1 && done.stderr.contains("the start"), "{}{}", done.stdout, done.stderr);
+    place.run_in("arm.urdf", on_it, "--quiet").exits(1).warns(&["the start"]);
 }
 
 /// Checks a world with a start at a place of the tip, and with numbers in other bases.
@@ -421,11 +401,8 @@ fn worlds_in_all_common_notations_are_certified() {
     Case { ..Case::default() }.written(&place);
     for (goal, code) in [("[0.2, 0.5]", 0), ("[1.5, 0.5]", 3)] {
         let world = format!("clearance = 0x0\n{}", tip.replace("[0.2, 0.5]", goal).replace("1.8, 0.0", "1.7, 0.3"));
-        place.write("world.toml", world);
-        let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-        assert_eq!(done.code, code, "{}{}", done.stdout, done.stderr);
-        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
-        let report = check_files(&urdf, &world, &certificate).unwrap();
+        place.run_in("arm.urdf", world, "--quiet --certificate c.json").exits(code);
+        let report = place.judged(["arm.urdf", "world.toml", "c.json"]).unwrap();
         assert!(report.contains("from the start ("), "{report}");
     }
 }

@@ -1,17 +1,14 @@
 //! Certificates of tasks, and the verdict of the checker, which shares no code with the program.
 
 use super::certificates::without_digests;
-use super::{Place, shipped};
-use cplan_check_files::{CheckError, check, check_files};
-use serde_json::{Value, json};
-use std::path::Path;
+use super::*;
 
 /// Returns shipped tasks with this expected outcome by name, and their robots.
 fn tasks(expected: &str) -> Vec<(String, String)> {
     let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces/tasks")).unwrap();
     let mut found = Vec::new();
     for path in folder.map(|entry| entry.unwrap().path()) {
-        let text = std::fs::read_to_string(&path).unwrap();
+        let text = read(&path);
         let robot = text.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap();
         if text.contains(&format!("# expect: {expected}")) {
             found.push((path.display().to_string(), shipped(&format!("robots/{robot}.urdf"))));
@@ -19,10 +16,6 @@ fn tasks(expected: &str) -> Vec<(String, String)> {
     }
     found.sort();
     found
-}
-
-pub fn read(path: &str) -> String {
-    std::fs::read_to_string(path).unwrap()
 }
 
 /// Returns the certificate with a change.
@@ -45,8 +38,7 @@ fn every_feasible_shipped_task_has_a_valid_certificate() {
     assert!(tasks.len() >= 11, "{tasks:?}");
     for (world, robot) in tasks {
         let place = Place::new();
-        let done = place.run(&[&robot, &world], "--quiet --certificate c.json --output plan.json");
-        assert_eq!(done.code, 0, "{world}: {}", done.stderr);
+        place.run(&[&robot, &world], "--quiet --certificate c.json --output plan.json").exits(0);
         let (urdf, text, certificate) = (read(&robot), read(&world), place.read("c.json"));
         let report = check(&urdf, &text, &certificate).unwrap_or_else(|why| panic!("{world}: {why}"));
         let [whole, plan] =
@@ -136,9 +128,7 @@ fn plan_scara_task(world: &str) -> (i32, String, Option<String>) {
 
 /// Plans a task for the robot of this URDF.
 fn certified_of(urdf: &str, world: &str) -> (i32, String, Option<String>) {
-    let place = Place::new();
-    place.write("arm.urdf", urdf);
-    place.write("world.toml", world);
+    let place = Place::new().with("arm.urdf", urdf).with("world.toml", world);
     let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
     let certificate = place.path("c.json").exists().then(|| place.read("c.json"));
     assert_eq!(certificate.is_none(), done.stderr.contains(NONE), "{}", done.stderr);
@@ -254,11 +244,9 @@ pick = "part"
 "#
             ),
         );
-        let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-        assert_eq!(done.code, code, "{height}: {}", done.stderr);
-        let [urdf, world, certificate] = ["arm.urdf", "world.toml", "c.json"].map(|file| place.path(file));
+        place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
         if code == 0 {
-            let report = check_files(&urdf, &world, &certificate);
+            let report = place.judged(["arm.urdf", "world.toml", "c.json"]);
             assert!(report.is_ok(), "{height}: {report:?}");
         }
     }
@@ -349,15 +337,14 @@ fn a_new_object_is_an_obstacle() {
         "[[step]]\nrepeat = 2\n[[step.steps]]\npick = \"b\"\n[[step.steps]]\nplace = { at = [0.3, 0.5] }\n".into(),
         "[[step.steps]]\npick = \"a\"\n[[step.steps]]\nplace = { at = [1.7, 0.75] }\n".into(),
     ];
-    place.write("w.toml", world.concat());
+    place.write("world.toml", world.concat());
     let urdf = shipped("robots/gantry.urdf");
-    let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");
+    let done = place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json --output plan.json");
     // Between the walls, the only path leads through the new object.
     assert_eq!(done.code, 3, "{}", done.stderr);
     // If the object is not renewed, there is a path.
-    place.write("w.toml", world.concat().replace("renew = true\n", ""));
-    let done = place.run(&[&urdf, "w.toml"], "--quiet --certificate c.json --output plan.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.write("world.toml", world.concat().replace("renew = true\n", ""));
+    place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json --output plan.json").exits(0);
 }
 
 /// Checks that a released object may be touched until the next step has ended. After that step, the arm must be free of
@@ -378,10 +365,9 @@ fn renewed_objects_stay_until_the_next_motion() {
         // The move ends on the object, beside it, or high above it.
         let asked = [(0.1, 1.5, 3), (0.1, 1.3, 0), (0.01, 1.5, 0)];
         for (number, (high, x, code)) in asked.into_iter().enumerate() {
-            place.write("w.toml", world(high, x));
+            place.write("world.toml", world(high, x));
             let options = format!("--quiet --certificate c{number}.json --output plan{number}.json");
-            let done = place.run(&[&urdf, "w.toml"], &options);
-            assert_eq!(done.code, code, "{}{}", done.stdout, done.stderr);
+            place.run(&[&urdf, "world.toml"], &options).exits(code);
             if code == 0 {
                 let report = check(&read(&urdf), &world(high, x), &place.read(&format!("c{number}.json"))).unwrap();
                 assert!(report.contains("does all 6 steps"), "{report}");
@@ -389,9 +375,9 @@ fn renewed_objects_stay_until_the_next_motion() {
         }
         // The motion high above the object does not touch it.
         let verified =
-            |number: usize| place.run(&["verify", &urdf, "w.toml", &format!("plan{number}.json")], "--quiet").code;
+            |number: usize| place.run(&["verify", &urdf, "world.toml", &format!("plan{number}.json")], "--quiet").code;
         assert_eq!(verified(2), 0);
-        place.write("w.toml", world(0.1, 1.5));
+        place.write("world.toml", world(0.1, 1.5));
         assert_eq!(verified(2), 3);
     }
 }
@@ -454,24 +440,19 @@ fn overrides_of_the_world_are_in_the_certificate() {
     let place = Place::new();
     let files = [shipped("robots/rrbot_vertical.urdf"), shipped("workspaces/tasks/tower.toml")];
     let options = "--quiet --certificate c.json --output plan.json --start 0.5,40deg --clearance 0.0005";
-    let done = place.run(&files, options);
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&files, options).exits(0);
     let judged = |certificate: &str| check(&read(&files[0]), &read(&files[1]), certificate);
     let report = judged(&place.read("c.json")).unwrap();
-    for part in ["start (0.5, 0.69813170079773", "with clearance 0.0005 (", "read as cubic or quartic"] {
-        assert!(report.contains(part), "{report}");
-    }
+    has(&report, &["start (0.5, 0.69813170079773", "with clearance 0.0005 (", "read as cubic or quartic"]);
     // A recording of the motion by another program is refused, too.
     let verify = ["verify", &files[0], &files[1], "plan.json"];
     let options = "--quiet --certificate v.json --start 0.5,40deg --clearance 0.0005";
-    let done = place.run(&verify, options);
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&verify, options).exits(0);
     let report = judged(&place.read("v.json")).unwrap();
     assert!(report.contains("does all 5 steps") && report.contains("read as quartic"), "{report}");
     // Uses one of its motions, with all objects at their initial places.
     place.write("rise.csv", "shoulder,elbow\n0.6,0.8\n0.5,0.8\n");
-    let done = place.run(&["verify", &files[0], &files[1], "rise.csv"], "--quiet --certificate r.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&["verify", &files[0], &files[1], "rise.csv"], "--quiet --certificate r.json").exits(0);
     let report = judged(&place.read("r.json")).unwrap();
     assert!(report.contains("to the goal (0.5, 0.8)"), "{report}");
 }
@@ -486,11 +467,8 @@ fn certificates_of_tasks_are_bound_to_their_files_and_can_be_a_part_of_the_resul
                  [start]\njoints = [\"-100deg\", 0.5]\n[[step]]\nmove = { joints = [0.1, 2.5] }\n\
                  [[step]]\nmove = { joints = [\"100deg\", 0.5] }\n\
                  [[obstacle]]\ncircle = { center = [9, 9], radius = 0.1 }\n";
-    place.write("world.toml", world);
-    let done = place.run(&[robot.as_str(), "world.toml"], "--quiet --certificate r.json --output r.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let done = place.run(&["verify", &robot, "world.toml", "r.json"], "--quiet --certificate v.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run_in(&robot, world, "--quiet --certificate r.json --output r.json").exits(0);
+    place.run(&["verify", &robot, "world.toml", "r.json"], "--quiet --certificate v.json").exits(0);
     let judged = |file: &str| check_files(robot.as_ref(), &place.path("world.toml"), &place.path(file));
     for file in ["r.json", "v.json"] {
         assert!(judged(file).unwrap().contains("does all 2 steps"), "{file}");

@@ -1,8 +1,8 @@
 //! The three commands and their options.
 
-use super::{FREE, Place, help, shelf, shipped};
+use super::help;
+use super::*;
 use cplan::engine::Method;
-use serde_json::Value;
 
 #[test]
 fn wrong_command_lines_end_with_2() {
@@ -57,14 +57,13 @@ fn wrong_command_lines_end_with_2() {
     place.run(&["check", "no.urdf", "no.toml"], "--at 0,0 --clearance inf").refused(2, &["finite"]);
     let done = place.run(&["compare", "no.urdf", "no.toml"], "--json --csv");
     assert_eq!((done.code, &done.json()["kind"]), (2, &serde_json::json!("usage")));
-    assert!(done.stderr.contains("--csv"), "{}", done.stderr);
+    done.warns(&["--csv"]);
 }
 
 #[test]
 fn help_names_files_that_exist_and_all_exit_codes() {
     let place = Place::new();
-    let help = place.run(&["--help"], "");
-    assert_eq!(help.code, 0);
+    let help = place.run(&["--help"], "").exits(0);
     let files: Vec<&str> =
         help.stdout.split_whitespace().filter(|word| word.contains('/') && word.contains('.')).collect();
     assert!(files.len() >= 6, "{files:?}");
@@ -74,8 +73,8 @@ fn help_names_files_that_exist_and_all_exit_codes() {
     for part in ["compare", "check", "recheck", "0 found", "1 bad input", "2 wrong", "3 proven", "4 unknown"] {
         assert!(help.stdout.replace('\n', " ").contains(part), "{part}");
     }
-    assert_eq!(place.run(&["check", "--help"], "").code, 0);
-    assert_eq!(place.run(&["compare", "--help"], "").code, 0);
+    place.run(&["check", "--help"], "").exits(0);
+    place.run(&["compare", "--help"], "").exits(0);
 }
 
 #[test]
@@ -95,13 +94,11 @@ fn infeasible_results_and_blocked_ends_suggest_an_explanation() {
     for (options, code) in
         [("", 3), ("--start 0.14,0", 1), ("--goal 8deg,0 --clearance 0.01", 1), ("--goal-tip 5,0", 1)]
     {
-        let done = place.run(&files, options);
-        assert_eq!(done.code, code, "{options}: {}", done.stderr);
+        let done = place.run(&files, options).exits(code);
         let report = if code == 1 { done.stderr } else { done.stdout };
         let hint = report.lines().rfind(|line| line.trim_start().starts_with("hint")).expect("a hint");
         let (_, command) = hint.split_once("cplan ").expect("a command");
-        let explained = place.run(&help::words(command), "");
-        assert_eq!(explained.code, 3, "{command}: {}{}", explained.stdout, explained.stderr);
+        place.run(&help::words(command), "").exits(3);
     }
     assert!(!place.run(&shelf(), "").stdout.contains("hint "));
 }
@@ -110,8 +107,7 @@ fn infeasible_results_and_blocked_ends_suggest_an_explanation() {
 fn options_that_the_planner_ignores_are_noted() {
     let place = Place::new();
     let warned = |options: &str| {
-        let done = place.run(&shelf(), options);
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        let done = place.run(&shelf(), options).exits(0);
         done.stderr.lines().filter(|line| line.contains("has no effect")).count()
     };
     assert_eq!(warned("--cells 64 --levels 2"), 1);
@@ -136,12 +132,10 @@ fn options_override_the_world_file() {
 fn corners_are_rounded_up_to_the_requested_radius() {
     let place = Place::new();
     let run = |options: &str| {
-        let done = place.run(&shelf(), &format!("{options} --output plan.json"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let result: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+        let done = place.run(&shelf(), &format!("{options} --output plan.json")).exits(0);
+        let result = place.json("plan.json");
         let [urdf, world] = shelf();
-        let verified = place.run(&["verify", &urdf, &world, "plan.json"], "");
-        assert_eq!(verified.code, 0, "{}", verified.stdout);
+        place.run(&["verify", &urdf, &world, "plan.json"], "").exits(0);
         (done.stdout, result)
     };
     let number = |result: &Value, key: &str| result[key].as_f64().unwrap();
@@ -164,30 +158,25 @@ fn corners_are_rounded_up_to_the_requested_radius() {
 fn limits_of_the_jerk_are_kept_in_every_format() {
     let place = Place::new();
     let [urdf, world] = shelf();
-    let text = std::fs::read_to_string(&world).unwrap();
+    let text = read(&world);
     place.write("smooth.toml", format!("{text}\n[robot]\njerk = {{ shoulder = 200.0, elbow = 300.0 }}\n"));
     let smooth = [urdf.as_str(), "smooth.toml"];
-    let done = place.run(&smooth, "--verbose --output m.json --output m.yaml --output m.csv");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    for part in ["2 rad/s, 8 rad/s2, 200 rad/s3", "3 rad/s, 12 rad/s2, 300 rad/s3", "; 10 of 10 corners blended"] {
-        assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
-    }
-    let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+    let done = place.run(&smooth, "--verbose --output m.json --output m.yaml --output m.csv").exits(0);
+    done.says(&["2 rad/s, 8 rad/s2, 200 rad/s3", "3 rad/s, 12 rad/s2, 300 rad/s3", "; 10 of 10 corners blended"]);
+    let result = place.json("m.json");
     // With a stop at each corner, the motion would take 3.5 s.
     assert!(result["blends"]["count"] == 10 && result["duration"].as_f64().unwrap() < 2.1, "{}", result["duration"]);
     assert!(result["interpolation"].as_str().unwrap().ends_with("the jerk is constant"));
     let verify = |file: &str| place.run(&["verify", &urdf, "smooth.toml", file], "");
     for file in ["m.json", "m.yaml", "m.csv"] {
-        let verified = verify(file);
-        assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
+        verify(file).exits(0);
     }
     // The command line overrides the world, in either direction.
     let option = place.run(&shelf(), "--jerk 200,300 --json --quiet");
     assert_eq!(option.json(), result);
-    assert_eq!(place.run(&smooth, "--jerk none,none --blend none --output jumps.yaml").code, 0);
-    let jumps = verify("jumps.yaml");
-    assert_eq!(jumps.code, 3, "{}", jumps.stdout);
-    assert!(jumps.stdout.contains("shoulder: acceleration jumps by"), "{}", jumps.stdout);
+    place.run(&smooth, "--jerk none,none --blend none --output jumps.yaml").exits(0);
+    let jumps = verify("jumps.yaml").exits(3);
+    jumps.says(&["shoulder: acceleration jumps by"]);
 }
 
 #[test]
@@ -195,16 +184,15 @@ fn the_least_time_has_a_bound_and_another_shape() {
     let place = Place::new();
     let [urdf, world] = shelf();
     let run = |options: &str| {
-        let done = place.run(&shelf(), &format!("{options} --output m.json --output m.csv --certificate c.json"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        let done =
+            place.run(&shelf(), &format!("{options} --output m.json --output m.csv --certificate c.json")).exits(0);
         for file in ["m.json", "m.csv"] {
-            let verified = place.run(&["verify", &urdf, &world, file], "");
-            assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
+            place.run(&["verify", &urdf, &world, file], "").exits(0);
         }
         let text = |path: &str| std::fs::read_to_string(path).unwrap();
         let judged = cplan_check_files::check(&text(&urdf), &text(&world), &place.read("c.json"));
         assert!(judged.is_ok(), "{options}: {judged:?}");
-        let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+        let result = place.json("m.json");
         (done.stdout, result)
     };
     let number = |result: &Value, pointer: &str| result.pointer(pointer).and_then(Value::as_f64).unwrap();
@@ -221,9 +209,8 @@ fn the_least_time_has_a_bound_and_another_shape() {
         assert!(number(&time, "/length") > number(&length, "/length"));
         assert!(number(&time, "/optimum/lower_bound") < number(&time, "/optimum/length"));
     }
-    let corners = place.run(&shelf(), "--optimize time --blend none");
-    assert!(corners.stdout.contains("; stops at"), "{}", corners.stdout);
-    assert_eq!(place.run(&shelf(), "--optimize speed").code, 2);
+    place.run(&shelf(), "--optimize time --blend none").says(&["; stops at"]);
+    place.run(&shelf(), "--optimize speed").exits(2);
 }
 
 #[test]
@@ -233,11 +220,8 @@ fn check_states_the_reason() {
     let files = ["check".into(), urdf, world];
     let free = place.run(&files, "--at 10deg,45deg");
     assert_eq!((free.code, free.stdout.contains("result     free")), (0, true), "{}", free.stdout);
-    let hit = place.run(&files, "--at 0.14,0.35");
-    assert_eq!(hit.code, 0);
-    for part in ["plane", "link \"forearm\", obstacle \"shelf\": penetrates by", "crosses obstacle side", "not free"] {
-        assert!(hit.stdout.contains(part), "{part}: {}", hit.stdout);
-    }
+    let hit = place.run(&files, "--at 0.14,0.35").exits(0);
+    hit.says(&["plane", "link \"forearm\", obstacle \"shelf\": penetrates by", "crosses obstacle side", "not free"]);
     let json = place.run(&files, "--at 0.14,0.35 --json").json();
     assert_eq!((&json["free"], &json["within_limits"]), (&Value::Bool(false), &serde_json::json!([true, true])));
     // The shortest escape is along the link's normal, past the shelf's upper left corner.
@@ -247,22 +231,17 @@ fn check_states_the_reason() {
     let beyond = corner[1] * angle.cos() - corner[0] * angle.sin();
     let depth = json["contacts"][0]["depth"].as_f64().unwrap();
     assert!((depth - (0.05 + beyond)).abs() < 1e-9, "{depth} {beyond}");
-    let outside = place.run(&files, "--at 9,0");
-    assert_eq!(outside.code, 0);
-    assert!(outside.stdout.contains("OUTSIDE") && outside.stdout.contains("not free"), "{}", outside.stdout);
-    let near = place.run(&files, "--at 10deg,45deg --clearance 0.05");
-    assert!(near.stdout.contains("less than the clearance of 50 mm"), "{}", near.stdout);
+    place.run(&files, "--at 9,0").exits(0).says(&["OUTSIDE", "not free"]);
+    place.run(&files, "--at 10deg,45deg --clearance 0.05").says(&["less than the clearance of 50 mm"]);
 }
 
 #[test]
 fn compare_lists_every_planner() {
-    let place = Place::new();
-    place.write("world.toml", FREE);
+    let place = Place::new().with("world.toml", FREE);
     let files = ["compare".into(), shipped("robots/planar_2r.urdf"), "world.toml".into()];
     let planners = ["visibility", "trapezoid", "wavefront"];
     let options = "--planner visibility --planner trapezoid --planner wavefront --quiet";
-    let text = place.run(&files, options);
-    assert_eq!((text.code, text.stderr.as_str()), (0, ""));
+    let text = place.run(&files, options).succeeds_silently();
     assert!(planners.iter().all(|p| text.stdout.contains(p)), "{}", text.stdout);
     let json = place.run(&files, &format!("{options} --json --picture all.svg")).json();
     for (row, name) in json["planners"].as_array().unwrap().iter().zip(planners) {
@@ -345,7 +324,6 @@ fn gaps_below_the_rounding_of_doubles_end() {
 /// Checks that the first of more than two words is reported as a misspelled command, not as a file.
 #[test]
 fn a_misspelled_command_is_reported_as_such() {
-    let place = Place::new();
-    let done = place.run(&["verfy", "no.urdf", "no.toml", "plan.csv"], "");
+    let done = Place::new().run(&["verfy", "no.urdf", "no.toml", "plan.csv"], "");
     done.refused(2, &["there is no command and no file \"verfy\""]);
 }

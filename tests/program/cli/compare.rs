@@ -1,8 +1,7 @@
 //! `cplan compare` for many problems, and the files that it writes.
 
-use super::{FREE, Place, shelf, shipped};
+use super::*;
 use cplan::input::{Overrides, load};
-use serde_json::Value;
 
 /// A closed pocket for `planar_2r`, with these limits.
 const CLOSED: &str = "[robot]\nlimits = { shoulder = [-1.0, 1.0], elbow = [-1.0, 1.0] }\n[start]\njoints = [-0.9, 0.0]\n\
@@ -47,9 +46,7 @@ const QUICK: &str = "--planner visibility --planner wavefront --cells 64 --quiet
 fn suites_list_every_problem_with_every_planner() {
     let place = Place::new();
     suite(&place);
-    let done = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK} --json"));
-    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
-    let json = done.json();
+    let json = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK} --json")).succeeds_silently().json();
     assert_eq!(json["title"], "two worlds");
     let outcomes = |problem: usize| -> Vec<&str> {
         let rows = json["problems"][problem]["planners"].as_array().unwrap();
@@ -63,21 +60,20 @@ fn suites_list_every_problem_with_every_planner() {
         assert_eq!(planner["distributions"]["over_optimum"]["n"], 1);
     }
     // The robot suits all worlds of the folder. The manifest is not a world.
-    let folder =
-        place.run(&["compare", &shipped("robots/planar_2r.urdf"), "--suite", "worlds"], &format!("{QUICK} --json"));
-    assert_eq!(folder.code, 0, "{}", folder.stderr);
+    let folder = place
+        .run(&["compare", &shipped("robots/planar_2r.urdf"), "--suite", "worlds"], &format!("{QUICK} --json"))
+        .exits(0);
     let folder = folder.json();
     let names: Vec<&str> =
         folder["problems"].as_array().unwrap().iter().map(|p| p["problem"].as_str().unwrap()).collect();
     assert_eq!((names, folder["title"].as_str()), (vec!["closed", "open"], Some("worlds")));
     // Reads a manifest by its own name, and writes the tables.
-    let text = place.run(&["compare", "--suite", "worlds/suite.toml"], QUICK);
-    assert_eq!(text.code, 0);
-    for part in
-        ["two worlds\n", "outcomes\n", "total [ms]\n", "2 problems: 1 with a certified path, 1 proven to have none"]
-    {
-        assert!(text.stdout.contains(part), "no {part:?} in {}", text.stdout);
-    }
+    place.run(&["compare", "--suite", "worlds/suite.toml"], QUICK).exits(0).says(&[
+        "two worlds\n",
+        "outcomes\n",
+        "total [ms]\n",
+        "2 problems: 1 with a certified path, 1 proven to have none",
+    ]);
 }
 
 #[test]
@@ -128,11 +124,8 @@ fn a_suite_goes_on_without_the_worlds_that_cannot_be_run() {
         .map(|name| format!("[[problem]]\nrobot = \"{robot}\"\nworld = \"{name}.toml\"\n"));
     place.write("worlds/suite.toml", problems.concat());
     let options = format!("{QUICK} --output runs.csv --output report.html");
-    let text = place.run(&["compare", "--suite", "worlds"], &options);
-    assert_eq!(text.code, 1, "{}", text.stderr);
-    for part in ["refused  problems", "blocked was not run: ", "broken was not run: ", "absent was not run: "] {
-        assert!(text.stdout.contains(part), "no {part:?} in {}", text.stdout);
-    }
+    let text = place.run(&["compare", "--suite", "worlds"], &options).exits(1);
+    text.says(&["refused  problems", "blocked was not run: ", "broken was not run: ", "absent was not run: "]);
     let counted = |line: &&str| line.split_whitespace().skip(1).eq(["1", "0", "0", "3", "4"]);
     assert!(text.stdout.lines().any(|line| counted(&line)), "{}", text.stdout);
     let csv = place.read("runs.csv");
@@ -144,8 +137,7 @@ fn a_suite_goes_on_without_the_worlds_that_cannot_be_run() {
         "{refused:?}"
     );
     assert!(place.read("report.html").contains("(3 more not run)"));
-    let json = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK} --json"));
-    assert_eq!(json.code, 1);
+    let json = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK} --json")).exits(1);
     let json = json.json();
     let kinds: Vec<&str> = json["refused"].as_array().unwrap().iter().map(|r| r["kind"].as_str().unwrap()).collect();
     assert_eq!((json["problems"].as_array().unwrap().len(), kinds.len()), (1, 3));
@@ -165,19 +157,14 @@ fn worlds_with_steps_are_omitted_with_a_note() {
     let step = "[start]\njoints = [-0.9, 0.4]\n[[step]]\nmove = { joints = [0.0, 0.0] }\n";
     place.write("worlds/task.toml", step);
     let robot = shipped("robots/planar_2r.urdf");
-    let done = place.run(&["compare", &robot, "--suite", "worlds"], "--planner trapezoid --json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(done.stderr.contains("note: worlds/task.toml is left out: it has steps"), "{}", done.stderr);
+    let done = place.run(&["compare", &robot, "--suite", "worlds"], "--planner trapezoid --json").exits(0);
+    done.warns(&["note: worlds/task.toml is left out: it has steps"]);
     let json = done.json();
     assert_eq!((json["problems"].as_array().unwrap().len(), json["left_out"].as_array().unwrap().len()), (1, 1));
     let moving = "[[obstacle]]\ncircle = { center = [5, 0], radius = 0.1 }\nmotion = { velocity = [1, 0] }\n";
     place.write("worlds/moving.toml", format!("{FREE}{moving}"));
-    let done = place.run(&["compare", &robot, "--suite", "worlds"], "--planner trapezoid --json");
-    assert!(
-        done.code == 0 && done.stderr.contains("moving.toml is left out: it has moving obstacles or objects"),
-        "{}",
-        done.stderr
-    );
+    let done = place.run(&["compare", &robot, "--suite", "worlds"], "--planner trapezoid --json").exits(0);
+    done.warns(&["moving.toml is left out: it has moving obstacles or objects"]);
     std::fs::remove_file(place.path("worlds/moving.toml")).unwrap();
     std::fs::remove_file(place.path("worlds/free.toml")).unwrap();
     place
@@ -193,9 +180,10 @@ fn random_queries_are_free_and_follow_from_the_seed() {
     let place = Place::new();
     let [urdf, world] = shelf();
     let run = |options: &str| {
-        let done = place.run(&["compare", &urdf, &world], &format!("{QUICK} --json --clearance 0.02 {options}"));
-        assert_eq!((done.code, done.stderr.as_str()), (0, ""));
-        done.json()
+        place
+            .run(&["compare", &urdf, &world], &format!("{QUICK} --json --clearance 0.02 {options}"))
+            .succeeds_silently()
+            .json()
     };
     let six = run("--queries 6 --seed 5");
     assert_eq!((six["queries"].as_u64(), six["seed"].as_u64()), (Some(6), Some(5)));
@@ -219,7 +207,7 @@ fn random_queries_are_free_and_follow_from_the_seed() {
     assert_ne!(run("--queries 1 --seed 6")["problems"][0]["start"], six["problems"][0]["start"]);
     // The world's own start and goal are ignored; without free space there are no queries.
     place.write("bare.toml", "[[obstacle]]\ncircle = { center = [1.2, 0.9], radius = 0.1 }\n");
-    assert_eq!(place.run(&["compare", &urdf, "bare.toml"], "--queries 2 --planner trapezoid --quiet").code, 0);
+    place.run(&["compare", &urdf, "bare.toml"], "--queries 2 --planner trapezoid --quiet").exits(0);
     place
         .run(&["compare", &urdf, "bare.toml"], "--queries 2 --clearance 99")
         .refused(1, &["--queries", "clearance of 99 m"]);
@@ -237,13 +225,12 @@ fn every_file_is_written_or_none() {
     suite(&place);
     let files = ["r.md", "r.csv", "r.json", "r.html", "r.log"];
     let outputs: String = files.iter().map(|file| format!(" --output {file}")).collect();
-    let done = place.run(&["compare", "--suite", "worlds"], &format!("{QUICK}{outputs}"));
-    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    place.run(&["compare", "--suite", "worlds"], &format!("{QUICK}{outputs}")).succeeds_silently();
     assert!(place.read("r.md").starts_with("# two worlds\n"));
     let csv = place.read("r.csv");
     let columns: Vec<usize> = csv.lines().map(|line| line.split(',').count()).collect();
     assert_eq!(columns, [columns[0]; 5], "{csv}");
-    let json: Value = serde_json::from_str(&place.read("r.json")).unwrap();
+    let json = place.json("r.json");
     assert_eq!(json["problems"].as_array().unwrap().len(), 2);
     assert!(place.read("r.log").ends_with("\n.\n"));
     check_knots(&place.read("r.html"));
@@ -284,13 +271,11 @@ fn odd_names_stay_names_in_the_page() {
     let odd = format!("name = '<b>&\"]]>'\n{FREE}");
     place.write("odd.toml", odd);
     let files = ["compare".into(), shipped("robots/planar_2r.urdf"), "odd.toml".into()];
-    let done = place.run(&files, &format!("{QUICK} --output page.html --output page.log --output page.md"));
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&files, &format!("{QUICK} --output page.html --output page.log --output page.md")).exits(0);
     let html = place.read("page.html");
     assert!(html.contains("&lt;b&gt;&amp;&quot;]]&gt;") && !html.contains("<b>"));
     assert_eq!(check_knots(&html), 2);
-    let queries = place.run(&files, &format!("{QUICK} --queries 3 --output page.html"));
-    assert_eq!(queries.code, 0, "{}", queries.stderr);
+    place.run(&files, &format!("{QUICK} --queries 3 --output page.html")).exits(0);
     let html = place.read("page.html");
     assert!(check_knots(&html) >= 5 && html.contains("id=\"blocked0\""));
 }
@@ -308,7 +293,7 @@ fn one_problem_is_reported_in_all_formats() {
         assert!(row["time"]["total"].as_f64().unwrap() >= row["time"]["query"].as_f64().unwrap());
     }
     let parallel = place.run(&["compare", &urdf, &world], "--planner trapezoid --planner wavefront --jobs 2 --json");
-    assert!(parallel.stderr.contains("memory is reported only with --jobs 1"), "{}", parallel.stderr);
+    parallel.warns(&["memory is reported only with --jobs 1"]);
     assert!(parallel.json()["planners"][0]["memory"].is_null());
 }
 
@@ -327,7 +312,7 @@ fn the_shipped_suite_names_the_robot_of_each_workspace() {
         let file = entry.unwrap().path();
         let name = file.file_name().unwrap().to_str().unwrap().to_owned();
         if name.ends_with(".toml") && name != "suite.toml" {
-            let text = std::fs::read_to_string(&file).unwrap();
+            let text = read(&file);
             let robot = text.lines().find_map(|l| l.strip_prefix("# robot: ")).unwrap().trim().to_owned();
             stated.push((name, format!("../robots/{robot}.urdf")));
         }
@@ -369,8 +354,7 @@ fn pictures_and_charts_distinguish_variants() {
     words.extend(shelf());
     let variants = [oriented("4", "32"), oriented("8", "32"), oriented("8", "48")];
     words.extend(variants.iter().flatten().cloned());
-    let done = place.run(&words, "--planner first --quiet --picture paths.svg --output all.html --output all.csv");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&words, "--planner first --quiet --picture paths.svg --output all.html --output all.csv").exits(0);
     let svg = place.read("paths.svg");
     let texts: Vec<String> = {
         let document = roxmltree::Document::parse(&svg).unwrap();

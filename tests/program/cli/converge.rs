@@ -1,7 +1,6 @@
 //! `cplan converge`.
 
-use super::{FREE, Place, shelf, shipped};
-use serde_json::Value;
+use super::*;
 use std::collections::BTreeMap;
 
 /// Returns files with a coarse grid, so that debug builds finish soon.
@@ -15,10 +14,9 @@ fn files() -> Vec<String> {
 #[test]
 fn the_tables_fit_a_terminal_and_agree_with_the_json() {
     let place = Place::new();
-    let done = place.run(&files(), "");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = place.run(&files(), "").exits(0);
     assert!(done.stdout.lines().all(|line| line.chars().count() <= 80), "{}", done.stdout);
-    assert!(done.stderr.contains("harmonic: relaxations ..."), "{}", done.stderr);
+    done.warns(&["harmonic: relaxations ..."]);
     let quiet = place.run(&files(), "--quiet");
     assert_eq!((quiet.code, quiet.stdout.as_str(), quiet.stderr.as_str()), (0, "", ""));
     let json = place.run(&files(), "--json --quiet").json();
@@ -45,9 +43,9 @@ fn the_tables_fit_a_terminal_and_agree_with_the_json() {
 fn files_hold_one_measurement_the_same_each_time() {
     let place = Place::new();
     let outputs = "--output a.csv --output a.json --picture a.svg --picture a.html --quiet";
-    assert_eq!(place.run(&files(), outputs).code, 0);
+    place.run(&files(), outputs).exits(0);
     let kept = ["a.csv", "a.json", "a.svg", "a.html"].map(|file| (file, place.read(file)));
-    assert_eq!(place.run(&files(), outputs).code, 0);
+    place.run(&files(), outputs).exits(0);
     for (file, content) in &kept {
         assert!(place.read(file) == *content, "{file} differs");
     }
@@ -131,8 +129,7 @@ fn each_axis_may_have_its_own_number_of_cells() {
     let words = [vec!["converge".to_owned()], shelf().to_vec()].concat();
     let json = place.run(&words, "--cells 32x16 --quiet --json").json();
     assert_eq!(json["cells"], serde_json::json!([32, 16]));
-    let text = place.run(&words, "--cells 32x16 --quiet --output a.json");
-    assert_eq!(text.code, 0, "{}", text.stderr);
+    place.run(&words, "--cells 32x16 --quiet --output a.json").exits(0);
     let low = place.run(&words, "--cells 32x16 --initial low --quiet --json").json();
     let sweeps = |json: &Value, k: usize| json["relaxations"][k]["sweeps"].as_u64().unwrap();
     assert!((0..8).all(|k| sweeps(&low, k) > sweeps(&json, k)), "values far from the goal fall for a long time");
@@ -141,8 +138,7 @@ fn each_axis_may_have_its_own_number_of_cells() {
 #[test]
 fn divergence_is_reported() {
     let place = Place::new();
-    let done = place.run(&files(), "--epsilon 30 --direction 1,1 --json --quiet");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = place.run(&files(), "--epsilon 30 --direction 1,1 --json --quiet").exits(0);
     let json = done.json();
     let of = |equation: &str, relaxation: &str| {
         let all = json["relaxations"].as_array().unwrap().iter();
@@ -153,8 +149,7 @@ fn divergence_is_reported() {
     assert!(of("oriented, central", "gauss-seidel").iter().all(|ending| ending != "converged"));
     assert_eq!(of("oriented, upwind", "gauss-seidel"), ["converged"; 3]);
     assert!(!done.stdout.contains("NaN"));
-    let text = place.run(&files(), "--epsilon 30 --direction 1,1 --quiet --output a.csv");
-    assert_eq!(text.code, 0);
+    place.run(&files(), "--epsilon 30 --direction 1,1 --quiet --output a.csv").exits(0);
     assert!(csv_lines(&place.read("a.csv")).iter().any(|c| c[2] == "jacobi" && c[11] == "diverged"));
 }
 
@@ -164,8 +159,7 @@ fn regions_of_the_world_are_relaxed_too() {
     let region = "[[preference]]\nname = \"bay\"\nepsilon = 1\nconfigurations = [[0, 0], [1, 0], [0, 1]]\n";
     place.write("world.toml", format!("{FREE}{region}"));
     let urdf = shipped("robots/planar_2r.urdf");
-    let done = place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16 --json --quiet");
-    let json = done.json();
+    let json = place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16 --json --quiet").json();
     let of = |names: &[&str]| -> Vec<&Value> {
         let all = json["relaxations"].as_array().unwrap().iter();
         all.filter(|entry| names.contains(&entry["equation"].as_str().unwrap())).collect()
@@ -194,7 +188,7 @@ fn regions_of_the_world_are_relaxed_too() {
     assert!(local.iter().all(|entry| entry["leap"].is_null() && entry["samples"]["error"][0].is_number()));
     let text = place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16");
     assert!(text.stdout.lines().all(|line| line.chars().count() <= 80), "{}", text.stdout);
-    assert!(text.stdout.contains("where preferences begin: squared changes"), "{}", text.stdout);
+    text.says(&["where preferences begin: squared changes"]);
     let turned =
         place.run(&["converge", urdf.as_str(), "world.toml"], "--cells 16 --json --quiet --direction 0,-1").json();
     assert_ne!(turned["relaxations"], json["relaxations"]);

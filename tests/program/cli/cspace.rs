@@ -1,10 +1,9 @@
 //! The configuration space as files: by their names, by the schema, and as GeoJSON.
 
 use super::*;
-use serde_json::Value;
 
 fn schema(kind: &str) -> String {
-    std::fs::read_to_string(shipped(&format!("docs/{kind}.schema.json"))).unwrap()
+    read(&shipped(&format!("docs/{kind}.schema.json")))
 }
 
 #[test]
@@ -49,7 +48,7 @@ fn files_satisfy_the_schema() {
             spaces["axes"]
         );
 
-        let features: Value = serde_json::from_str(&place.read("shelf.geojson")).unwrap();
+        let features = place.json("shelf.geojson");
         assert_eq!(features["type"], "FeatureCollection");
         let of = |kind: &str| {
             let all = features["features"].as_array().unwrap().iter();

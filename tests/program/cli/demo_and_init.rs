@@ -1,6 +1,6 @@
 //! The first five minutes: the demo, and files to start from.
 
-use super::{Done, FREE, Place, shipped};
+use super::*;
 use cplan::engine::Method;
 use std::fs;
 
@@ -22,19 +22,15 @@ fn init(place: &Place, kind: &str) -> Done {
 #[test]
 fn the_demo_needs_no_files() {
     let place = Place::new();
-    let done = place.run(&["demo"], "--verbose");
-    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
-    for part in ["arm        scara (RR)", "found and certified", "file       plan.json", "next       open plan.html"] {
-        assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
-    }
+    let done = place.run(&["demo"], "--verbose").succeeds_silently();
+    done.says(&["arm        scara (RR)", "found and certified", "file       plan.json", "next       open plan.html"]);
     assert_eq!(names(&place, "."), ["plan.html", "plan.json"]);
-    let result: serde_json::Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+    let result: serde_json::Value = place.json("plan.json");
     assert_eq!((&result["status"], &result["certified"]), (&"found".into(), &true.into()));
     assert!(place.read("plan.html").contains("SCARA cell"));
     // The built-in cell is the one that `init` writes, so the plan of one must also hold for the other.
     assert_eq!(init(&place, "scara").code, 0);
-    let verified = place.run(&["verify", "scara/arm.urdf", "scara/world.toml", "plan.json"], "");
-    assert_eq!(verified.code, 0, "{}", verified.stdout);
+    place.run(&["verify", "scara/arm.urdf", "scara/world.toml", "plan.json"], "").exits(0);
     let planned = place.run(&["scara/arm.urdf", "scara/world.toml"], "--json --quiet");
     assert_eq!(planned.stdout, place.read("plan.json"));
 }
@@ -43,15 +39,12 @@ fn the_demo_needs_no_files() {
 #[test]
 fn the_demo_of_arch_motions_is_a_task() {
     let place = Place::new();
-    let done = place.run(&["demo"], "--kind arch");
-    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
-    assert!(done.stdout.contains("found and certified: 6 steps"), "{}", done.stdout);
-    let result: serde_json::Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+    place.run(&["demo"], "--kind arch").succeeds_silently().says(&["found and certified: 6 steps"]);
+    let result: serde_json::Value = place.json("plan.json");
     let steps = result["steps"].as_array().unwrap();
     assert!(steps.iter().all(|step| step["stroke"]["before_arrival"].as_f64().unwrap() > 0.1), "{steps:?}");
     assert_eq!(init(&place, "arch").code, 0);
-    let verified = place.run(&["verify", "arch/arm.urdf", "arch/world.toml", "plan.json"], "");
-    assert_eq!(verified.code, 0, "{}", verified.stdout);
+    place.run(&["verify", "arch/arm.urdf", "arch/world.toml", "plan.json"], "").exits(0);
     // The book compares this cycle with the one in which the arm rests during strokes.
     let world = place.read("arch/world.toml").replace("arch = { rise = 0.0, fall = 0.0 }", "arch = false");
     place.write("arch/resting.toml", &world);
@@ -72,15 +65,14 @@ fn the_demo_of_arch_motions_is_a_task() {
 #[test]
 fn the_demo_of_a_line_follows_it() {
     let place = Place::new();
-    let done = place.run(&["demo"], "--kind follow");
-    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
-    assert!(done.stdout.contains("found and certified: at most 0.008 mm from the line"), "{}", done.stdout);
+    let done = place.run(&["demo"], "--kind follow").succeeds_silently();
+    done.says(&["found and certified: at most 0.008 mm from the line"]);
     assert!(place.read("plan.html").contains("The tip follows the line within"));
     let files =
         ["robots/planar_2r.urdf", "workspaces/follow/engraving.toml", "workspaces/follow/plate.gcode"].map(shipped);
-    assert_eq!(place.run(&["follow", &files[0], &files[1], &files[2]], "--output shipped.json --quiet").code, 0);
+    place.run(&["follow", &files[0], &files[1], &files[2]], "--output shipped.json --quiet").exits(0);
     let [demo, shipped] = ["plan.json", "shipped.json"].map(|name| {
-        let mut result: serde_json::Value = serde_json::from_str(&place.read(name)).unwrap();
+        let mut result: serde_json::Value = place.json(name);
         result["line"].as_object_mut().unwrap().remove("file");
         result
     });
@@ -93,8 +85,7 @@ fn the_demo_of_a_line_follows_it() {
 
 #[test]
 fn the_demo_does_not_overwrite_files() {
-    let place = Place::new();
-    place.write("plan.json", "mine");
+    let place = Place::new().with("plan.json", "mine");
     place.run(&["demo"], "").refused(1, &["plan.json exists already", "nothing was written", "--force", "--dir"]);
     assert_eq!((names(&place, "."), place.read("plan.json")), (vec!["plan.json".to_owned()], "mine".to_owned()));
     let elsewhere = place.run(&["demo"], "--dir new/folder --quiet --planner wavefront");
@@ -117,8 +108,7 @@ fn the_demo_does_not_overwrite_files() {
 fn the_files_of_init_can_be_planned_at_once() {
     let place = Place::new();
     for (kind, arm) in KINDS.into_iter().zip(["RR", "RP", "PR", "PP", "RR"]) {
-        let done = init(&place, kind);
-        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{kind}");
+        let done = init(&place, kind).succeeds_silently();
         assert_eq!(names(&place, kind), ["arm.urdf", "world.schema.json", "world.toml"]);
         assert!(!place.read(&format!("{kind}/world.toml")).contains("{{"), "{kind}: a mark is left");
         // The commands that it prints.
@@ -126,20 +116,19 @@ fn the_files_of_init_can_be_planned_at_once() {
         assert_eq!(commands.len(), 4, "{}", done.stdout);
         for command in commands {
             let words: Vec<&str> = command.split_whitespace().collect();
-            let ran = place.run(&words, "");
-            assert_eq!(ran.code, 0, "{command}: {}", ran.stderr);
+            let ran = place.run(&words, "").exits(0);
             assert!(!ran.stderr.contains("warning"), "{command}: {}", ran.stderr);
             match words[0] {
                 "check" => assert!(ran.stdout.contains("result     "), "{}", ran.stdout),
                 "inspect" => {
-                    assert!(ran.stdout.contains("result     planning with this robot is possible"), "{}", ran.stdout);
+                    ran.says(&["result     planning with this robot is possible"]);
                     assert!(!ran.stdout.contains("warning"), "{}", ran.stdout);
                 }
                 "compare" => {
                     assert_eq!(ran.stdout.matches("found").count(), Method::ALL.len(), "{kind}: {}", ran.stdout)
                 }
                 _ => {
-                    assert!(ran.stdout.contains("found and certified"), "{}", ran.stdout);
+                    ran.says(&["found and certified"]);
                     let verbose = place.run(&words, "--verbose").stdout;
                     assert!(verbose.contains(&format!("({arm})")), "{verbose}");
                 }
@@ -166,16 +155,13 @@ fn robots_of_data_sheets_can_be_planned_at_once() {
     let place = Place::new();
     for (number, (sheet, reach)) in SHEETS.into_iter().enumerate() {
         let folder = format!("sheet{number}");
-        let done = place.run(&["init", &folder], sheet);
-        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{sheet}");
+        place.run(&["init", &folder], sheet).succeeds_silently();
         let [urdf, world] = ["arm.urdf", "world.toml"].map(|file| format!("{folder}/{file}"));
         let text = place.read(&world);
         assert!(!place.read(&urdf).contains("{{") && !text.contains("{{"), "{sheet}: a mark is left");
         // Only the arm with small ranges has no way past obstacles, so that they are commented out.
         assert_eq!(text.contains("\n[[obstacle]]"), !sheet.contains("--limits 20,25"), "{sheet}");
-        let ran = place.run(&[&urdf, &world], "--verbose");
-        assert_eq!((ran.code, ran.stderr.as_str()), (0, ""), "{sheet}");
-        assert!(ran.stdout.contains("found and certified"), "{sheet}: {}", ran.stdout);
+        place.run(&[&urdf, &world], "--verbose").succeeds_silently().says(&["found and certified"]);
         // The reach that the robot has is that of the data sheet.
         let inspected = place.run(&["inspect", &urdf, &world], "--json").json();
         if let Some(reach) = reach {
@@ -193,7 +179,7 @@ fn limits_and_speeds_of_data_sheets_are_those_of_the_joints() {
     let done = place.run(&["init", "cell"], words);
     let numbers = "links 0.225 and 0.225 m, ranges -130 to 130 deg and -145 to 145 deg, top speeds 375 deg/s and 600 deg/s, \
                    stroke 0.2 m; its bodies are simple envelopes";
-    assert!(done.stdout.contains(numbers), "{}", done.stdout);
+    done.says(&[numbers]);
     let problem = cplan::Problem::load(place.path("cell/arm.urdf"), place.path("cell/world.toml")).unwrap();
     for (joint, [degrees, speed]) in problem.scene().arm().joints.iter().zip([[130.0, 375.0], [145.0, 600.0_f64]]) {
         let range = joint.range.domain();
@@ -248,8 +234,7 @@ fn keys_that_are_commented_out_are_valid() {
             }
             place.write(&format!("{kind}/changed.toml"), changed.join("\n"));
             let [robot, changed] = ["arm.urdf", "changed.toml"].map(|file| format!("{kind}/{file}"));
-            let done = place.run(&[robot, changed], "--quiet");
-            assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{kind}, line {}: {}", i + 1, lines[i]);
+            place.run(&[robot, changed], "--quiet").succeeds_silently();
             tried += 1;
             i = end;
         }
@@ -260,9 +245,7 @@ fn keys_that_are_commented_out_are_valid() {
 #[test]
 fn init_does_not_overwrite_files() {
     let place = Place::new();
-    let done = place.run(&["init"], "");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(done.stdout.contains("cplan arm.urdf world.toml --picture plan.html"), "{}", done.stdout);
+    place.run(&["init"], "").exits(0).says(&["cplan arm.urdf world.toml --picture plan.html"]);
     place.write("world.toml", "mine");
     fs::remove_file(place.path("world.schema.json")).unwrap();
     place
@@ -272,13 +255,12 @@ fn init_does_not_overwrite_files() {
         (names(&place, "."), place.read("world.toml")),
         (vec!["arm.urdf".into(), "world.toml".into()], "mine".into())
     );
-    assert_eq!(place.run(&["init"], "--kind pp --force").code, 0);
+    place.run(&["init"], "--kind pp --force").exits(0);
     assert!(place.read("world.toml").contains("bridge_slide"));
     place.run(&["init", "world.toml"], "").refused(1, &["cannot make the folder world.toml"]);
     place.run(&["init"], "--kind xyz").refused(2, &["rr, rp, pr, pp, scara"]);
     // Names that a shell would split are printed in quotes.
-    let done = place.run(&["init", "a b"], "");
-    assert!(done.stdout.contains("cplan inspect \"a b/arm.urdf\" \"a b/world.toml\""), "{}", done.stdout);
+    place.run(&["init", "a b"], "").says(&["cplan inspect \"a b/arm.urdf\" \"a b/world.toml\""]);
 }
 
 /// Checks that a folder in which nothing can be created gives one error, and that its contents do not change.
@@ -326,7 +308,7 @@ fn every_wrong_kind_of_value_has_help() {
         place.plan(world, "").refused(1, &["world.toml: line ", help, "hint: "]);
     }
     place.write("world.toml", FREE);
-    let robot = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
+    let robot = read(&shipped("robots/planar_2r.urdf"));
     for size in ["1e308 0.1 0.1", "1e7 0.1 0.1"] {
         let at = robot.find("size=\"").unwrap() + 6;
         let end = at + robot[at..].find('"').unwrap();

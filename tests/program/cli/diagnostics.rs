@@ -1,9 +1,8 @@
 //! Checks that every diagnostic has a hint, with hundreds of files that have a typing error.
 
-use super::{Done, FREE, Place, shipped};
+use super::*;
 use cplan_cases::slips::slipped;
 use cplan_cases::{dice, times};
-use serde_json::Value;
 
 /// Messages about missing things. They have no line.
 const MISSING: [&str; 6] =
@@ -67,9 +66,8 @@ fn slips_in_a_world_are_accepted_or_explained() {
 
 #[test]
 fn slips_in_a_robot_are_accepted_or_explained() {
-    let place = Place::new();
-    place.write("world.toml", FREE);
-    let robot = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
+    let place = Place::new().with("world.toml", FREE);
+    let robot = read(&shipped("robots/planar_2r.urdf"));
     every_slip_is_answered(22, 80, &robot, |robot| {
         place.write("arm.urdf", robot);
         place.run(&["arm.urdf", "world.toml"], "--json --planner subdivision")
@@ -89,7 +87,7 @@ fn slips_in_a_task_are_accepted_or_explained() {
 /// Checks typing errors in a motion of a format, for the world [`FREE`].
 fn slips_in_a_motion(stream: u64, file: &str) {
     let place = Place::new();
-    assert_eq!(place.plan(FREE, &format!("--quiet --path taut --period 0.4 --output {file}")).code, 0);
+    place.plan(FREE, &format!("--quiet --path taut --period 0.4 --output {file}")).exits(0);
     let motion = place.read(file);
     let robot = shipped("robots/planar_2r.urdf");
     every_slip_is_answered(stream, 60, &motion, |motion| {
@@ -107,8 +105,7 @@ fn slips_in_motions_of_each_format_are_accepted_or_explained() {
 
 #[test]
 fn a_json_list_is_no_motion() {
-    let place = Place::new();
-    place.write("world.toml", FREE);
+    let place = Place::new().with("world.toml", FREE);
     let robot = shipped("robots/planar_2r.urdf");
     for text in ["[]", " [ ]", "[null, null, null, null, null, null, null, null]", "{}", "3", "\"path\"", "", "nul"] {
         place.write("motion.json", text);

@@ -1,9 +1,6 @@
 //! Motors: files with their angles, recordings and certificates that their limits refute, and mistakes in their table.
 
-use super::{Place, shipped};
-use cplan_check_files::check;
-use serde_json::Value;
-
+use super::*;
 fn files(world: &str) -> [String; 2] {
     [shipped("robots/planar_2r.urdf"), shipped(&format!("workspaces/{world}.toml"))]
 }
@@ -18,10 +15,8 @@ fn results_have_the_angles_of_the_shafts() {
     let limits = "lower = [\"-150deg\", \"-50deg\"], upper = [\"150deg\", \"90deg\"]";
     let turned = "lower = [-4.7, \"-360deg\"], upper = [5.7, \"60deg\"]";
     place.write("world.toml", world.replace("ratio = 1.0, ", geared).replace(limits, turned));
-    let done = place.run(&[&urdf, "world.toml"], "--output plan.json --output plan.csv");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let result: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
-    let number = |value: &Value| value.as_f64().unwrap();
+    place.run(&[&urdf, "world.toml"], "--output plan.json --output plan.csv").exits(0);
+    let result = place.json("plan.json");
     let trajectory = &result["trajectory"];
     let rows = trajectory["position"].as_array().unwrap().iter().zip(trajectory["motors"].as_array().unwrap());
     let csv = place.read("plan.csv");
@@ -51,12 +46,12 @@ fn the_checker_knows_the_range_of_the_elbow_motor() {
     // Judges the evidence of one world in another one, which has a certificate of its own.
     let judged_elsewhere = |world: &str, evidence: &str, own: &str| {
         let digest = |certificate: &str| {
-            let value: Value = serde_json::from_str(&place.read(certificate)).unwrap();
+            let value = place.json(certificate);
             value["world"].as_str().unwrap().to_owned()
         };
         check(&text(&urdf), world, &place.read(evidence).replace(&digest(evidence), &digest(own)))
     };
-    assert_eq!(place.run(&[&urdf, &world], "--output plan.json --certificate found.json").code, 0);
+    place.run(&[&urdf, &world], "--output plan.json --certificate found.json").exits(0);
     assert!(judged(&text(&world), "found.json").is_ok(), "{:?}", judged(&text(&world), "found.json"));
     let narrow = text(&world).replace("\"90deg\"]", "\"76deg\"]");
     place.write("narrow.toml", &narrow);
@@ -66,13 +61,13 @@ fn the_checker_knows_the_range_of_the_elbow_motor() {
     // The same for a recording.
     let done = place.run(&["verify", &urdf, "narrow.toml", "plan.json"], "");
     assert!(done.code != 0 && done.stdout.contains("elbow motor: position"), "{}", done.stdout);
-    let fast = std::fs::read_to_string(&world).unwrap().replace("2.5] }", "2.0] }");
+    let fast = read(&world).replace("2.5] }", "2.0] }");
     place.write("slow.toml", &fast);
     let done = place.run(&["verify", &urdf, "slow.toml", "plan.json"], "");
     assert!(done.code != 0 && done.stdout.contains("elbow motor: velocity"), "{}", done.stdout);
 
     let [_, closed] = files("belt_elbow_closed");
-    assert_eq!(place.run(&[&urdf, &closed], "--certificate closed.json").code, 3);
+    place.run(&[&urdf, &closed], "--certificate closed.json").exits(3);
     assert!(judged(&text(&closed), "closed.json").is_ok(), "{:?}", judged(&text(&closed), "closed.json"));
     let refuted = judged_elsewhere(&text(&world), "closed.json", "found.json").unwrap_err().to_string();
     assert!(refuted.contains("do not separate"), "{refuted}");
@@ -99,31 +94,26 @@ fn mistakes_in_the_table_of_motors_have_a_place_and_a_hint() {
         ("{ motors = { speed = [1.0, 2.0] } }", "unknown key `speed`"),
     ] {
         place.write("world.toml", world.replace("[start]", &format!("[robot]\ndrives = {drives}\n[start]")));
-        let done = place.run(&[&urdf, "world.toml"], "");
-        assert_eq!(done.code, 1, "{drives}: {}", done.stdout);
-        assert!(done.stderr.contains(message), "{drives}: {}", done.stderr);
-        assert!(done.stderr.contains("world.toml: line ") && done.stderr.contains("hint"), "{}", done.stderr);
+        place.run(&[&urdf, "world.toml"], "").exits(1).warns(&[message, "world.toml: line ", "hint"]);
     }
     let gantry = [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")];
-    let maze = std::fs::read_to_string(&gantry[1]).unwrap();
+    let maze = read(&gantry[1]);
     let at = maze.find("[start]").unwrap();
     place.write("maze.toml", format!("{}[robot]\ndrives = \"direct\"\n{}", &maze[..at], &maze[at..]));
-    let done = place.run(&[&gantry[0], "maze.toml"], "");
-    assert!(done.code == 1 && done.stderr.contains("both joints must turn"), "{}", done.stderr);
+    place.run(&[&gantry[0], "maze.toml"], "").exits(1).warns(&["both joints must turn"]);
 }
 
 /// `init` writes the key, and plans the world at once.
 #[test]
 fn data_sheets_state_where_the_motors_are() {
     let place = Place::new();
-    let done = place.run(&["init", "plotter"], "--kind 2r --links 0.2,0.2 --drives standard_scara");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&["init", "plotter"], "--kind 2r --links 0.2,0.2 --drives standard_scara").exits(0);
     assert!(place.read("plotter/world.toml").contains("\ndrives = \"standard_scara\"\n"));
     let planned = place.run(&["plotter/arm.urdf", "plotter/world.toml"], "--json");
     let result: Value = serde_json::from_str(&planned.stdout).unwrap();
     assert!(planned.code == 0 && result["trajectory"]["motors"].is_array(), "{}", planned.stdout);
-    let refused = place.run(&["init", "gantry"], "--kind gantry --drives direct");
-    assert!(refused.code == 2 && refused.stderr.contains("--drives needs two joints that turn"), "{}", refused.stderr);
+    let refused = place.run(&["init", "gantry"], "--kind gantry --drives direct").exits(2);
+    refused.warns(&["--drives needs two joints that turn"]);
 }
 
 /// Numbers beyond 1e6 are refused, and messages about the range of a motor name it.

@@ -1,7 +1,5 @@
 //! Errors for scripts: with `--json`, any error gives one JSON object on stdout.
 
-use super::{Done, FREE, Place, shelf, shipped};
-
 impl Done {
     /// Checks the kind of an error object and the parts of its message, and returns it.
     fn error(&self, code: i32, kind: &str, parts: &[&str]) -> serde_json::Value {
@@ -12,13 +10,12 @@ impl Done {
             assert!(json.get(key).is_some(), "no {key} in {json}");
         }
         let message = json["message"].as_str().unwrap();
-        for part in parts {
-            assert!(message.contains(part), "{part:?} is not in {message}");
-        }
+        has(&message, parts);
         json
     }
 }
 
+use super::*;
 #[test]
 fn errors_have_the_kind_of_the_mistake() {
     let place = Place::new();
@@ -33,8 +30,7 @@ fn errors_have_the_kind_of_the_mistake() {
     place.plan("[start]\njoints = [0, 0]\n", "--json").error(1, "goal", &["there is no goal"]);
     let json = place.plan("[start\n", "--json").error(1, "input", &[]);
     assert_eq!((&json["file"], &json["line"]), (&"world.toml".into(), &1.into()));
-    place.write("world.toml", FREE);
-    place.run(&["none.urdf", "world.toml"], "--json").error(1, "input", &["cannot be read"]);
+    place.run_in("none.urdf", FREE, "--json").error(1, "input", &["cannot be read"]);
     // All errors, if there are several.
     let two = format!("{FREE}[robot]\nvelocity = {{ a = 1, b = 2 }}\n");
     let json = place.plan(two, "--json").error(1, "input", &["no joint \"a\""]);
@@ -51,16 +47,13 @@ fn a_wrong_command_line_is_json_too() {
     place.run(&shelf(), "--json --picture plan.bmp").error(2, "usage", &[".svg, .png, .gif or .html"]);
     // Without the flag, stdout is empty; help is no error.
     place.run(&shelf(), "--planner best").refused(2, &["invalid value"]);
-    let help = place.run::<&str>(&[], "--json --help");
-    assert_eq!(help.code, 0);
-    assert!(help.stdout.contains("Usage:"), "{}", help.stdout);
+    let help = place.run::<&str>(&[], "--json --help").exits(0);
+    help.says(&["Usage:"]);
 }
 
 #[test]
 fn every_command_with_json_answers_in_json() {
-    let place = Place::new();
-    place.write("world.toml", "[start\n");
-    place.write("motion.csv", "time,shoulder,elbow\n0,0,0\n1,0,0\n");
+    let place = Place::new().with("world.toml", "[start\n").with("motion.csv", "time,shoulder,elbow\n0,0,0\n1,0,0\n");
     let robot = shipped("robots/planar_2r.urdf");
     let cases: [&[&str]; 3] = [
         &["compare", &robot, "world.toml"],
@@ -71,7 +64,6 @@ fn every_command_with_json_answers_in_json() {
         place.run(words, "--json").error(1, "input", &[]);
     }
     // For a robot that one cannot plan with, the report is the answer, and contains the diagnostics.
-    let json = place.run(&["inspect", "none.urdf"], "--json");
-    assert_eq!(json.code, 1);
+    let json = place.run(&["inspect", "none.urdf"], "--json").exits(1);
     assert_eq!(json.json()["plannable"], false);
 }

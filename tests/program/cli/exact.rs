@@ -1,16 +1,14 @@
 //! The option `--margin 0`, with which exact C-obstacles of gantries are written, and `--graph full`.
 
 use super::*;
-use serde_json::{Value, json};
 
 fn maze() -> [String; 2] {
     [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")]
 }
 
 fn space(place: &Place, options: &str) -> Value {
-    let done = place.run(&maze(), &format!("{options} --quiet --output cspace.json"));
-    assert_eq!(done.code, 0, "{options}: {}", done.stderr);
-    let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    place.run(&maze(), &format!("{options} --quiet --output cspace.json")).exits(0);
+    let spaces = place.json("cspace.json");
     spaces["spaces"][0].clone()
 }
 
@@ -77,13 +75,11 @@ fn margin_0_is_refused_where_corners_are_round() {
         let done = place.run(&files, &format!("{options} --margin 0"));
         assert_eq!((done.code, done.stdout.as_str()), (1, ""), "{}", done.stderr);
         assert!(parts.iter().all(|part| done.stderr.contains(part)), "{}", done.stderr);
-        let done = place.run(&files, &format!("{options} --margin 1e-5 --output cspace.json"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+        place.run(&files, &format!("{options} --margin 1e-5 --output cspace.json")).exits(0);
+        let spaces = place.json("cspace.json");
         assert_eq!(spaces["spaces"][0]["proves"]["kind"], "outer");
     }
-    let done = place.run(&[gantry, "wedge.toml".into()], "--margin 0 --quiet");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&[gantry, "wedge.toml".into()], "--margin 0 --quiet").exits(0);
 }
 
 /// Checks walls that the bridge hits. They block values of joint 1, without any growth.
@@ -92,11 +88,8 @@ fn margin_0_does_not_grow_what_the_bridge_hits() {
     let place = Place::new();
     let world = "[start]\njoints = [0.15, 0.15]\n[goal]\njoints = [0.9, 1.35]\n[[obstacle]]\nname = \"column\"\n\
                  polygon = [[1.5, 0.2], [1.6, 0.2], [1.6, 0.3], [1.5, 0.3]]\n";
-    place.write("world.toml", world);
-    let done =
-        place.run(&[shipped("robots/gantry.urdf"), "world.toml".into()], "--margin 0 --quiet --output cspace.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    place.run_in(&shipped("robots/gantry.urdf"), world, "--margin 0 --quiet --output cspace.json").exits(0);
+    let spaces = place.json("cspace.json");
     assert_eq!(spaces["spaces"][0]["proves"], json!({ "kind": "exact" }));
     let left = corners(&spaces["spaces"][0], "column")[0][0];
     // The bridge is 0.08 m wide, the head 0.1 m.
@@ -111,8 +104,7 @@ fn margin_0_does_not_grow_what_the_bridge_hits() {
 fn a_path_that_touches_exact_polygons_is_not_certified() {
     let place = Place::new();
     for planner in ["shortest", "visibility", "visibility --graph full"] {
-        let done = place.run(&maze(), &format!("--margin 0 --planner {planner} --verbose"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        let done = place.run(&maze(), &format!("--margin 0 --planner {planner} --verbose")).exits(0);
         let output: Vec<&str> = done.stdout.lines().filter(|line| line.starts_with("exact")).collect();
         assert!(
             output.len() == 1 && output[0].contains("among the exact polygons, but that path touches"),
@@ -126,7 +118,7 @@ fn a_path_that_touches_exact_polygons_is_not_certified() {
         assert!(length > exact - 1e-4 && length < exact * (1.0 + 1e-3), "{length} {exact}");
     }
     let own = place.run(&maze(), "--margin 0 --planner trapezoid --path own --verbose");
-    assert!(own.stdout.contains("the path was planned among the exact polygons and touches none"), "{}", own.stdout);
+    own.says(&["the path was planned among the exact polygons and touches none"]);
 }
 
 #[test]
@@ -155,9 +147,10 @@ fn the_full_visibility_graph_of_the_maze_has_all_arcs() {
     assert_eq!(of(""), (11, "reduced".to_owned()));
     assert_eq!(of("--search dijkstra").1, "reduced");
     assert_eq!(of("--graph full"), (46, "full".to_owned()));
-    let done = place.run(&maze(), "--planner visibility --graph full --verbose --picture graph.svg");
-    assert!(done.stdout.contains("visibility (astar, full graph): 22 nodes, 46 edges"), "{}", done.stdout);
-    assert!(done.stdout.contains("the corners of C-obstacles, which are cut off at joint limits"), "{}", done.stdout);
+    place.run(&maze(), "--planner visibility --graph full --verbose --picture graph.svg").says(&[
+        "visibility (astar, full graph): 22 nodes, 46 edges",
+        "the corners of C-obstacles, which are cut off at joint limits",
+    ]);
     assert!(place.read("graph.svg").contains("full visibility graph"));
     place.run(&maze(), "--planner visibility --picture graph.svg");
     assert!(place.read("graph.svg").contains("reduced visibility graph"));

@@ -1,8 +1,6 @@
 //! `cplan explain`, from outside.
 
-use super::{Done, Place, shelf, shipped};
-use serde_json::Value;
-
+use super::*;
 fn explain(place: &Place, robot: &str, world: &str, options: &str) -> Done {
     let [robot, world] =
         [format!("robots/{robot}.urdf"), format!("workspaces/{world}.toml")].map(|file| shipped(&file));
@@ -15,8 +13,7 @@ fn json(done: &Done) -> Value {
 
 #[test]
 fn walls_in_the_way_are_named_verdict_first() {
-    let done = explain(&Place::new(), "planar_2r_continuous", "no_path", "");
-    assert_eq!(done.code, 3, "{}", done.stderr);
+    let done = explain(&Place::new(), "planar_2r_continuous", "no_path", "").exits(3);
     let mut lines = done.stdout.lines();
     assert_eq!(lines.next(), Some("The front wall and the back wall are in the way."));
     let third = lines.nth(1).unwrap_or_default();
@@ -24,7 +21,7 @@ fn walls_in_the_way_are_named_verdict_first() {
     for words in
         ["\"back wall\"", "Move the front wall 602 mm right: 601.6 mm opens a path, certified;", "mm does not, proven"]
     {
-        assert!(done.stdout.contains(words), "{words}: {}", done.stdout);
+        done.says(&[words]);
     }
 }
 
@@ -50,14 +47,12 @@ fn json_has_sets_and_changes() {
 #[test]
 fn problems_that_planning_refuses_are_explained() {
     let place = Place::new();
-    let blocked = explain(&place, "planar_2r", "shelf", "--goal 0.14,0 --json");
-    assert_eq!(blocked.code, 3, "{}", blocked.stderr);
+    let blocked = explain(&place, "planar_2r", "shelf", "--goal 0.14,0 --json").exits(3);
     let result = json(&blocked);
     assert_eq!(result["blocked_ends"][0]["end"], "goal");
     assert!(result["blocked_ends"][0]["nearest_free"]["distance"].as_f64().expect("a number") > 0.0);
     // Links of 1 m and 0.8 m miss a place 5 m off by 3.2 m.
-    let far = explain(&place, "planar_2r", "shelf", "--goal-tip 5,0 --json");
-    assert_eq!(far.code, 3);
+    let far = explain(&place, "planar_2r", "shelf", "--goal-tip 5,0 --json").exits(3);
     let misses = json(&far)["out_of_reach"]["misses"].as_f64().expect("a number");
     assert!((misses - 3.2).abs() < 1e-9, "{misses}");
 }
@@ -65,8 +60,7 @@ fn problems_that_planning_refuses_are_explained() {
 /// Checks an arm that stands in the camera's column, so that no step can begin.
 #[test]
 fn a_start_of_steps_that_is_not_free_is_explained() {
-    let done = explain(&Place::new(), "scara", "tasks/kitting_cell", "--start 0.3,0 --json");
-    assert_eq!(done.code, 3, "{}", done.stderr);
+    let done = explain(&Place::new(), "scara", "tasks/kitting_cell", "--start 0.3,0 --json").exits(3);
     let result = json(&done);
     let ends = result["blocked_ends"].as_array().expect("a list");
     assert_eq!((ends.len(), &ends[0]["end"]), (1, &"start".into()), "{result}");
@@ -92,8 +86,7 @@ fn pick_beside_wall(shift: f64, rest: &str) -> String {
 /// Runs `plan` and `explain` in a world of the SCARA. Returns the exit codes and the explanation in JSON and in words.
 fn planned_and_explained(world: &str) -> ([i32; 2], Value, String) {
     let (place, robot) = (Place::new(), shipped("robots/scara.urdf"));
-    place.write("world.toml", world);
-    let plan = place.run(&[robot.as_str(), "world.toml"], "");
+    let plan = place.run_in(&robot, world, "");
     let words = place.run(&["explain", &robot, "world.toml"], "");
     let done = place.run(&["explain", &robot, "world.toml"], "--json");
     assert_eq!(words.code, done.code, "{}", words.stderr);
@@ -155,8 +148,7 @@ fn steps_without_blocking_obstacles_keep_the_planners_answer() {
     let place = Place::new();
     let line = "[start]\njoints = [0.3, 1.2]\n[[obstacle]]\nname = \"post\"\ncircle = { center = [1.2, 0.3], radius = 0.1 }\n\
                 [[step]]\nfollow = { points = [[1.2, -0.2], [1.2, 0.8]], tolerance = 1e-3 }\n";
-    let plan = place.plan(line, "");
-    assert_eq!(plan.code, 3, "{}", plan.stdout);
+    place.plan(line, "").exits(3);
     let robot = shipped("robots/planar_2r.urdf");
     let done = place.run(&["explain", &robot, "world.toml"], "--json");
     assert_eq!((done.code, &json(&done)["status"]), (3, &"infeasible".into()), "{}", done.stderr);
@@ -167,8 +159,7 @@ fn steps_without_blocking_obstacles_keep_the_planners_answer() {
 
 #[test]
 fn a_motion_is_explained_by_the_obstacles_that_shape_it() {
-    let done = explain(&Place::new(), "planar_2r", "shelf", "--json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = explain(&Place::new(), "planar_2r", "shelf", "--json").exits(0);
     let result = json(&done);
     assert!(!result["shaped_by"].as_array().expect("a list").is_empty());
     assert!(result["tightest"]["clearance"].as_f64().expect("a number") > 0.0);
@@ -207,7 +198,7 @@ fn the_first_line_says_what_is_wrong() {
 fn bad_input_is_refused() {
     let place = Place::new();
     let [robot, _] = shelf();
-    assert_eq!(place.run(&["explain", &robot, "missing.toml"], "").code, 1);
+    place.run(&["explain", &robot, "missing.toml"], "").exits(1);
     assert_eq!(explain(&place, "planar_2r", "shelf", "--start=a,b").code, 2);
     assert_eq!(explain(&place, "planar_2r", "shelf", "--picture why.txt").code, 2);
 }
@@ -219,8 +210,7 @@ fn a_tip_beyond_the_slide_is_opened_by_its_limit() {
     let place = Place::new();
     let polar = shipped("robots/polar.urdf");
     place.write("far.toml", "[start]\njoints = [0.1, 0.2]\n[goal]\ntip = [3, 0]\n");
-    let done = place.run(&["explain", &polar, "far.toml"], "--json");
-    assert_eq!(done.code, 3, "{}", done.stderr);
+    let done = place.run(&["explain", &polar, "far.toml"], "--json").exits(3);
     let result = json(&done);
     let blockers = result["sets"][0]["blockers"].as_array().expect("a list");
     let limit = blockers.iter().find(|blocker| blocker["joint"] == "ram_slide" && blocker["side"] == "upper");
@@ -242,8 +232,7 @@ fn a_tip_beyond_the_slide_is_opened_by_its_limit() {
 #[test]
 fn a_feasible_task_has_a_picture() {
     let place = Place::new();
-    let done = explain(&place, "planar_2r", "tasks/elbow_choice", "--picture done.svg");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    explain(&place, "planar_2r", "tasks/elbow_choice", "--picture done.svg").exits(0);
     assert!(place.read("done.svg").contains("<svg"));
 }
 
@@ -277,27 +266,24 @@ circle = { center = [1029.5896, -213.1444], radius = 95.3178 }
 
 #[test]
 fn at_the_time_limit_partial_results_are_reported() {
-    let place = Place::new();
-    place.write("a.urdf", LONG_ARM);
-    place.write("w.toml", WIDE_WORLD);
-    let result = json(&place.run(&["explain", "a.urdf", "w.toml"], "--time 0.3 --json"));
+    let place = Place::new().with("a.urdf", LONG_ARM).with("world.toml", WIDE_WORLD);
+    let result = json(&place.run(&["explain", "a.urdf", "world.toml"], "--time 0.3 --json"));
     assert_eq!((&result["status"], &result["stopped_after"]), (&"infeasible".into(), &0.3.into()), "{result}");
     // With hardly any time.
-    let done = place.run(&["explain", "a.urdf", "w.toml"], "--time 0.000001");
-    assert_eq!(done.code, 3, "{}", done.stderr);
+    let done = place.run(&["explain", "a.urdf", "world.toml"], "--time 0.000001").exits(3);
     for words in [
         "infeasible: proven; blocked by",
         "collision boxes prove it without anything else; not proven irreducible",
         "stopped    after 0.000001 s, before the explanation was complete; --time 5 allows more time",
     ] {
-        assert!(done.stdout.contains(words), "{words}: {}", done.stdout);
+        done.says(&[words]);
     }
-    let result = json(&place.run(&["explain", "a.urdf", "w.toml"], "--time 0.000001 --json"));
+    let result = json(&place.run(&["explain", "a.urdf", "world.toml"], "--time 0.000001 --json"));
     assert_eq!(result["sets"][0]["irreducible"], false, "{result}");
     // If there is time, the output does not mention the time limit.
     let usual = json(&explain(&Place::new(), "planar_2r_continuous", "no_path", "--json"));
     assert!(usual["stopped_after"].is_null() && usual["sets"][0]["irreducible"] == true, "{usual}");
     for time in ["0", "-1", "nan", "inf", "1e10"] {
-        assert_eq!(place.run(&["explain", "a.urdf", "w.toml"], &format!("--time {time}")).code, 2, "{time}");
+        assert_eq!(place.run(&["explain", "a.urdf", "world.toml"], &format!("--time {time}")).code, 2, "{time}");
     }
 }

@@ -1,8 +1,6 @@
 //! `cplan explore` from outside: exit codes, output files, refused input.
 
-use super::{Done, FREE, Place, shelf, shipped};
-use serde_json::Value;
-
+use super::*;
 /// A coarse grid, which is soon explored.
 const COARSE: &str = "--grid 48";
 
@@ -21,9 +19,8 @@ fn json(text: &str) -> Value {
 #[test]
 fn the_goal_is_reached_by_a_free_motion() {
     let place = Place::new();
-    let done = explore(&place, &shelf(), "--output a.json --output a.csv --output a.yaml");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(done.stdout.contains("reached: the arm is at the goal"), "{}", done.stdout);
+    let done = explore(&place, &shelf(), "--output a.json --output a.csv --output a.yaml").exits(0);
+    done.says(&["reached: the arm is at the goal"]);
     let result = json(&place.read("a.json"));
     assert_eq!(result["status"], "reached");
     let positions = result["trajectory"]["position"].as_array().unwrap();
@@ -33,8 +30,7 @@ fn the_goal_is_reached_by_a_free_motion() {
     // The judge has the true world. It checks the motions that programs execute when they read the files.
     for file in ["a.csv", "a.yaml"] {
         let [urdf, world] = shelf();
-        let verified = place.run(&["verify", &urdf, &world, file], "");
-        assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
+        place.run(&["verify", &urdf, &world, file], "").exits(0);
     }
 }
 
@@ -64,8 +60,7 @@ fn rooms_are_explored_and_the_map_is_a_world() {
         "seen.toml",
         "[start]\njoints = [0.2, 0.2]\n[goal]\njoints = [1.5, 0.2]\n[[obstacle]]\nimage = \"rooms.yaml\"\nheight = [0.0, 0.3]\n",
     );
-    let planned = place.run(&[&rooms()[0], "seen.toml"], "");
-    assert_eq!(planned.code, 0, "{}{}", planned.stdout, planned.stderr);
+    place.run(&[&rooms()[0], "seen.toml"], "").exits(0);
 }
 
 /// Checks that the program can continue with a known map. It explores no known area again, and refuses the map of
@@ -81,7 +76,7 @@ fn an_earlier_map_is_used() {
     let onto = explore(&place, &rooms(), &format!("{COARSE} --known rooms.yaml --map rooms.yaml"));
     onto.refused(1, &["rooms.yaml", "is the input"]);
     let [robot, world] = rooms();
-    let text = std::fs::read_to_string(&world).unwrap();
+    let text = read(&world);
     let one = "[0.65, -0.1], [0.7, -0.1], [0.7, 0.5], [0.65, 0.5]";
     assert!(text.contains(one));
     place.write("moved.toml", text.replace(one, "[0.65, -0.1], [0.7, -0.1], [0.7, 0.4], [0.65, 0.4]"));
@@ -125,8 +120,7 @@ fn heights_that_are_known_let_a_scara_pass() {
     assert_eq!((done.code, &result["status"]), (0, &"reached".into()), "{}", done.stderr);
     let [length, known] = ["length", "known_length"].map(|key| result[key].as_f64().unwrap());
     assert!(length >= known - 1e-9 && known > 1.0, "{length} {known}");
-    let verified = place.run(&["verify", &files[0], &files[1], "way.csv"], "");
-    assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
+    place.run(&["verify", &files[0], &files[1], "way.csv"], "").exits(0);
 }
 
 /// A world in which the sensor sees the obstacles between start and goal from some distance.
@@ -138,23 +132,17 @@ const RING: &str = "start.joints = [-2.0, 0.3]\ngoal.joints = [1.6, -0.6]\nsenso
 fn unreachable_goals_are_proven() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/singular_closed.toml")];
-    let done = explore(&place, &files, "");
-    assert_eq!(done.code, 3, "{}{}", done.stdout, done.stderr);
-    assert!(done.stdout.contains("unreachable: proven"), "{}", done.stdout);
+    explore(&place, &files, "").exits(3).says(&["unreachable: proven"]);
     // The earlier motion is valid, and the claims in its file are true.
     place.write("ring.toml", RING);
     let robot = files[0].as_str();
-    let done = explore(&place, &[robot, "ring.toml"].map(str::to_owned), "--output ring.json");
-    assert_eq!(done.code, 3, "{}{}", done.stdout, done.stderr);
-    let verified = place.run(&["verify", robot, "ring.toml", "ring.json"], "--anywhere");
-    assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
-    let stopped = explore(&place, &rooms(), "--decisions 1");
-    assert_eq!(stopped.code, 4, "{}", stopped.stdout);
-    assert!(stopped.stdout.contains("unknown: not finished after 1 decision"), "{}", stopped.stdout);
+    explore(&place, &[robot, "ring.toml"].map(str::to_owned), "--output ring.json").exits(3);
+    place.run(&["verify", robot, "ring.toml", "ring.json"], "--anywhere").exits(0);
+    let stopped = explore(&place, &rooms(), "--decisions 1").exits(4);
+    stopped.says(&["unknown: not finished after 1 decision"]);
     explore(&place, &rooms(), "--decisions 1 --output stopped.json");
     let [urdf, world] = rooms();
-    let verified = place.run(&["verify", &urdf, &world, "stopped.json"], "--anywhere");
-    assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
+    place.run(&["verify", &urdf, &world, "stopped.json"], "--anywhere").exits(0);
 }
 
 /// Checks a grid with so few cells that steps between their centres lead through walls.
@@ -180,10 +168,8 @@ fn the_clearance_is_kept_from_what_lies_beyond_reach() {
         "clearance = 0.3\n[start]\njoints = [-1.5, 1.0]\n[goal]\njoints = [1.5, 0.0]\n\
          [[obstacle]]\npolygon = [[1.93, -1.0], [2.0, -1.0], [2.0, 1.0], [1.93, 1.0]]\n",
     );
-    let done = place.run(&["explore", &robot, "far.toml"], "--output far.csv --grid 64");
-    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
-    let verified = place.run(&["verify", &robot, "far.toml", "far.csv"], "");
-    assert_eq!(verified.code, 0, "{}{}", verified.stdout, verified.stderr);
+    place.run(&["explore", &robot, "far.toml"], "--output far.csv --grid 64").exits(0);
+    place.run(&["verify", &robot, "far.toml", "far.csv"], "").exits(0);
 }
 
 #[test]

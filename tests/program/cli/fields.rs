@@ -1,8 +1,6 @@
 //! Options for fields.
 
-use super::{FREE, Place, shelf, shipped};
-use serde_json::{Value, json};
-
+use super::*;
 /// Options for a coarse grid, so that debug builds finish soon.
 const COARSE: &str = "--planner harmonic --cells 48 --json";
 
@@ -43,6 +41,22 @@ fn options_that_do_not_go_together_end_with_2() {
         ("--planner harmonic --field khatib --attraction cubic:1", "constant:C or linear:K"),
         ("--planner harmonic --field khatib --attraction linear:-1", "positive"),
         ("--planner harmonic --field khatib --repulsion ranged:1", "ranged:K,P0"),
+        ("--planner harmonic --search dfs", "--search needs --planner wavefront, visibility, trapezoid, triangles"),
+        ("--planner prm --search wave", "--search wave needs a planner with a grid"),
+        (
+            "--backward",
+            "--backward needs --planner visibility, trapezoid, triangles, voronoi, prm or wavefront: shortest has",
+        ),
+        ("--planner triangles --samples 5", "--samples needs --planner prm"),
+        ("--planner prm --samples 0", "0 is not in 1..=100000"),
+        ("--planner visibility --search bfs --gap 0.1", "--gap needs a search for the shortest path"),
+        ("--planner wavefront --cells 128x4", "nor two such numbers, one per joint, such as 128x512"),
+        ("--search astar", "--search needs --planner wavefront, visibility"),
+        ("--planner harmonic --neighbors 8", "--neighbors needs --planner wavefront"),
+        ("--space sampled", "--space needs --planner wavefront or harmonic: shortest has no grid"),
+        ("--planner harmonic --space guessed", "[possible values: rows, whole, centers, sampled]"),
+        ("--planner wavefront --search best", "wave, bfs, dfs, dijkstra, astar, greedy"),
+        ("--planner wavefront --neighbors 6", "possible values: 4, 8"),
     ] {
         // The files do not exist: the command line is checked first.
         place.run(&["no.urdf", "no.toml"], options).refused(2, &[part]);
@@ -63,9 +77,7 @@ fn options_that_do_not_go_together_end_with_2() {
 fn the_result_names_the_field() {
     let place = Place::new();
     let field = |options: &str| {
-        let done = place.run(&shelf(), &format!("{COARSE} {options}"));
-        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
-        let result = done.json();
+        let result = place.run(&shelf(), &format!("{COARSE} {options}")).exits(0).json();
         assert_eq!((&result["status"], &result["certified"]), (&json!("found"), &json!(true)));
         (result["field"].clone(), result["size"]["sweeps"].clone())
     };
@@ -139,15 +151,12 @@ fn the_result_names_the_field() {
 #[test]
 fn a_local_minimum_and_a_divergence_are_unknown_with_their_reasons() {
     let place = Place::new();
-    let trap = place.run(&u_trap(), &format!("{COARSE} --levels 1 --field khatib"));
-    assert_eq!(trap.code, 4, "{}", trap.stderr);
+    let trap = place.run(&u_trap(), &format!("{COARSE} --levels 1 --field khatib")).exits(4);
     let reason = trap.json()["reason"].as_str().unwrap().to_owned();
     assert!(reason.contains("the potential has a local minimum at ("), "{reason}");
-    let saturated = place.run(&u_trap(), &format!("{COARSE} --levels 1 --field khatib --saturated"));
-    assert_eq!(saturated.code, 4, "{}", saturated.stderr);
+    let saturated = place.run(&u_trap(), &format!("{COARSE} --levels 1 --field khatib --saturated")).exits(4);
     assert!(saturated.json()["reason"].as_str().unwrap().contains("the forces trap the arm at ("));
-    let diverged = place.run(&u_trap(), &format!("{COARSE} --levels 1 --relaxation sor --factor 2.5"));
-    assert_eq!(diverged.code, 4, "{}", diverged.stderr);
+    let diverged = place.run(&u_trap(), &format!("{COARSE} --levels 1 --relaxation sor --factor 2.5")).exits(4);
     assert!(diverged.json()["reason"].as_str().unwrap().contains("the relaxation diverged: after "));
 }
 
@@ -159,11 +168,8 @@ fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
     let cup = [shipped("robots/stage_robot.urdf"), shipped("workspaces/published/cup.toml")];
     let forces = "--planner harmonic --field khatib --attraction constant:1 --cells 80 --levels 1 --json";
     let run = |options: &str| place.run(&cup, &format!("{forces} {options}"));
-    let trapped = |charge: &str| {
-        let done = run(&format!("--repulsion sum:{charge}"));
-        assert_eq!(done.code, 4, "{}", done.stderr);
-        done.json()["reason"].as_str().unwrap().to_owned()
-    };
+    let trapped =
+        |charge: &str| run(&format!("--repulsion sum:{charge}")).exits(4).json()["reason"].as_str().unwrap().to_owned();
     // The trap is within the cup; with four times the charge, it is beside the goal at (0, -12).
     assert!(trapped("1").contains("local minimum at (0.2500, 3.7500)"), "{}", trapped("1"));
     assert_eq!(run("--repulsion sum:3").code, 0);
@@ -175,8 +181,7 @@ fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
         ("4", "wave", "escaped from a local minimum by a wave over the basin: 2 moves "),
     ] {
         let options = format!("--repulsion sum:{charge} --escape {escape}");
-        let done = run(&options);
-        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+        let done = run(&options).exits(0);
         let field = &done.json()["field"];
         let named = if escape == "walk" { "walk:1" } else { escape };
         assert!(field["escape"] == named && field["escaped"].as_u64() >= Some(1), "{field}");
@@ -192,8 +197,7 @@ fn regions_of_the_world_are_followed() {
         "[[preference]]\nname = \"bay\"\nepsilon = 1\ndirection = [0, 1]\npolygon = [[0, 0], [1, 0], [0, 1]]\n";
     let world = format!("{FREE}{region}");
     for field in ["local", "bvp", "bvp2"] {
-        let done = place.plan(&world, &format!("{COARSE} --field {field}"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        let done = place.plan(&world, &format!("{COARSE} --field {field}")).exits(0);
         assert_eq!(done.json()["field"]["equation"], json!(field));
     }
     let text = place.plan(&world, "--planner harmonic --cells 48 --field local --verbose --picture field.svg").stdout;
@@ -202,8 +206,7 @@ fn regions_of_the_world_are_followed() {
         "{text}"
     );
     assert!(place.read("field.svg").contains("ln of the potential"));
-    let khatib = place.plan(&world, "--planner harmonic --cells 48 --field khatib --picture field.svg");
-    assert_eq!(khatib.code, 0, "{}", khatib.stderr);
+    place.plan(&world, "--planner harmonic --cells 48 --field khatib --picture field.svg").exits(0);
     let picture = place.read("field.svg");
     assert!(picture.contains("equipotentials") && !picture.contains("ln of the potential"));
 }
@@ -265,9 +268,7 @@ fn no_finer_grid_is_tried_for_a_field_that_does_not_converge() {
 fn on_map(map: &str, options: &str) -> (u64, u64) {
     let place = Place::new();
     let files = [shipped("robots/room_gantry.urdf"), shipped(&format!("workspaces/maps/{map}.toml"))];
-    let done = place.run(&files, &format!("--planner harmonic --cells 100 --json {options}"));
-    assert_eq!(done.code, 0, "{map} {options}: {}", done.stderr);
-    let result = done.json();
+    let result = place.run(&files, &format!("--planner harmonic --cells 100 --json {options}")).exits(0).json();
     assert_eq!((&result["status"], &result["field"]["converged"]), (&json!("found"), &json!(true)), "{map} {options}");
     let all = result["size"]["sweeps"].as_u64().unwrap();
     let text = place.run(&files, &format!("--planner harmonic --cells 100 --verbose {options}")).stdout;
@@ -292,9 +293,7 @@ fn over_relaxation_takes_the_published_counts_and_finds_the_path() {
 
 #[test]
 fn unconverged_fields_give_no_path() {
-    let place = Place::new();
-    let done = place.run(&shelf(), &format!("{COARSE} --relaxation gauss-seidel --max-sweeps 30"));
-    assert_eq!(done.code, 4, "{}", done.stdout);
+    let done = Place::new().run(&shelf(), &format!("{COARSE} --relaxation gauss-seidel --max-sweeps 30")).exits(4);
     let reason = done.json()["reason"].to_string();
     assert!(reason.contains("the field is not converged after 30 sweeps: allow more sweeps"), "{reason}");
 }
@@ -304,8 +303,8 @@ fn oblong_cells_are_reported_and_change_the_path() {
     let place = Place::new();
     let files = [shipped("robots/mobile_robot.urdf"), shipped("workspaces/explore/hall.toml")];
     let length = |stencil: &str| {
-        let done = place.run(&files, &format!("{COARSE} --relaxation sor --measure relative --stencil {stencil}"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        let done =
+            place.run(&files, &format!("{COARSE} --relaxation sor --measure relative --stencil {stencil}")).exits(0);
         let result = done.json();
         let message = result["field"]["stencil"].clone();
         (message, result["length"].as_f64().unwrap())

@@ -1,15 +1,13 @@
 //! Pictures as the sources draw them: trapezoids, numbers of waves, flow lines.
 
 use super::*;
-use serde_json::Value;
 
 fn maze() -> [String; 2] {
     [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")]
 }
 
 fn drawn(place: &Place, files: &[String; 2], options: &str) -> String {
-    let done = place.run(files, &format!("{options} --picture picture.svg --output cspace.json"));
-    assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+    place.run(files, &format!("{options} --picture picture.svg --output cspace.json")).exits(0);
     place.read("picture.svg")
 }
 
@@ -20,7 +18,7 @@ fn texts(picture: &str) -> Vec<&str> {
 }
 
 fn space(place: &Place) -> Value {
-    let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    let spaces = place.json("cspace.json");
     spaces["spaces"][0].clone()
 }
 
@@ -113,16 +111,14 @@ fn cells_of_a_coarse_grid_have_the_numbers_of_the_wave() {
 #[test]
 fn coarse_grids_are_kept_or_refused_with_the_reason() {
     let place = Place::new();
-    let done = place.run(&shelf(), "--planner wavefront --cells 16 --quiet --json --output cspace.json");
-    assert_eq!(done.code, 4, "{}", done.stderr);
+    let done = place.run(&shelf(), "--planner wavefront --cells 16 --quiet --json --output cspace.json").exits(4);
     assert_eq!(space(&place)["grid"]["shape"], serde_json::json!([16, 16]));
     let reason = done.json()["reason"].as_str().unwrap().to_owned();
     assert!(reason.contains("16 x 16 cells") && reason.ends_with("more --cells or --levels may find one"), "{reason}");
-    let more = place.run(&shelf(), "--planner wavefront --cells 16 --levels 6 --verbose");
-    assert_eq!(more.code, 0, "{}", more.stderr);
-    assert!(more.stdout.contains("32 x 32: 16 x 16 show no certified path"), "{}", more.stdout);
+    let more = place.run(&shelf(), "--planner wavefront --cells 16 --levels 6 --verbose").exits(0);
+    more.says(&["32 x 32: 16 x 16 show no certified path"]);
     // The option does not affect planners without cells.
-    assert_eq!(place.run(&shelf(), "--planner visibility --cells 16 --quiet").code, 0);
+    place.run(&shelf(), "--planner visibility --cells 16 --quiet").exits(0);
 }
 
 /// Compares pictures of flow lines with figures 34 and 35 of Deicu's text.
@@ -158,7 +154,7 @@ fn dark_pictures_differ_in_their_colors_alone() {
 fn every_command_draws_dark_pictures() {
     let place = Place::new();
     let [robot, world] = shelf();
-    assert_eq!(place.run(&shelf(), "--output plan.csv --quiet").code, 0);
+    place.run(&shelf(), "--output plan.csv --quiet").exits(0);
     let of = |words: &str| -> Vec<String> {
         words.split(' ').map(|word| word.replace("ROBOT", &robot).replace("WORLD", &world)).collect()
     };

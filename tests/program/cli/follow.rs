@@ -1,8 +1,6 @@
 //! `cplan follow` from outside: motions against the tests' own kinematics, answers, files and errors.
 
-use super::{Done, Place, shipped};
-use serde_json::Value;
-
+use super::*;
 fn files() -> [String; 2] {
     [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/engraving.toml")]
 }
@@ -18,19 +16,13 @@ fn follow_program(place: &Place, text: &str, options: &str) -> Done {
     follow(place, "line.gcode", options)
 }
 
-/// Returns the position of the tip of `planar_2r`.
-fn tip([a, b]: [f64; 2]) -> [f64; 2] {
-    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
-}
-
 #[test]
 fn the_shipped_plate_is_engraved_at_its_speeds() {
     let place = Place::new();
     let done = follow(&place, &shipped("workspaces/follow/plate.gcode"), "--output m.csv --picture m.svg --quiet");
     assert_eq!((done.code, done.stdout.as_str()), (0, ""), "{}", done.stderr);
     let csv = place.read("m.csv");
-    let rows: Vec<Vec<f64>> =
-        csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    let rows = place.table("m.csv");
     assert_eq!(csv.lines().next(), Some("time,shoulder,elbow,shoulder_velocity,elbow_velocity,tool"));
     let [first, last] = [&rows[0], &rows[rows.len() - 1]].map(|row| tip([row[1], row[2]]));
     assert!((first[0] - 1.1).hypot(first[1] + 0.15) < 1e-9 && (last[0] - 1.25).hypot(last[1] - 0.06) < 1e-9);
@@ -49,24 +41,20 @@ fn the_shipped_plate_is_engraved_at_its_speeds() {
         assert!(speed < 0.0501, "{speed}");
     }
     let picture = place.read("m.svg");
-    for part in ["Workspace", "The tip follows the line within", "line to follow"] {
-        assert!(picture.contains(part), "{part}");
-    }
+    has(&picture, &["Workspace", "The tip follows the line within", "line to follow"]);
 }
 
 #[test]
 fn the_answer_is_json_with_a_bound_on_the_distance() {
     let place = Place::new();
-    let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200 F3000\n", "--json --output m.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200 F3000\n", "--json --output m.json").exits(0);
     let result: Value = done.json();
     assert_eq!(result["status"], "found");
-    let number = |value: &Value| value.as_f64().unwrap();
     assert!(number(&result["deviation"]) <= 1e-5 && number(&result["tolerance"]) == 1e-5);
     assert!((number(&result["line"]["length"]) - 0.1).abs() < 1e-12);
     // 100 mm at 50 mm/s.
     assert!((2.0..2.1).contains(&number(&result["duration"])), "{}", result["duration"]);
-    assert_eq!(result, serde_json::from_str::<Value>(&place.read("m.json")).unwrap());
+    assert_eq!(result, place.json("m.json"));
     for position in result["trajectory"]["position"].as_array().unwrap() {
         let [x, y] = tip([0, 1].map(|k| number(&position[k])));
         assert!((y + 0.15).abs() < 1e-5 && (1.1 - 1e-9..1.2 + 1e-9).contains(&x), "{x} {y}");
@@ -80,13 +68,12 @@ fn files_mark_travels_and_the_arm_waits_for_the_pen() {
     let text = "G21 G0 X1100 Y-150\nG1 X1200 F3000\nG0 Y-100\nG1 X1100\n";
     let rows = |options: &str| -> Vec<Vec<f64>> {
         assert_eq!(follow_program(&place, text, &format!("--output m.csv --output m.json --quiet {options}")).code, 0);
-        let csv = place.read("m.csv");
-        csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect()
+        place.table("m.csv")
     };
     let fast = rows("");
     for options in ["", "--pen-time 0.25"] {
         let rows = rows(options);
-        let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+        let result = place.json("m.json");
         let tool: Vec<f64> = rows.iter().map(|row| row[5]).collect();
         assert!(result["tool"].as_array().unwrap().iter().zip(&tool).all(|(json, csv)| json.as_f64() == Some(*csv)));
         let off: Vec<usize> = (0..tool.len()).filter(|k| tool[*k] == 0.0).collect();
@@ -115,19 +102,13 @@ fn files_mark_travels_and_the_arm_waits_for_the_pen() {
 fn a_line_out_of_reach_is_infeasible_at_a_place() {
     let place = Place::new();
     let text = "G21 G0 X1100 Y0\nG1 X1400\nG1 X1900\n";
-    let done = follow_program(&place, text, "--json --picture m.svg --output m.csv");
-    assert_eq!(done.code, 3, "{}", done.stderr);
+    let done = follow_program(&place, text, "--json --picture m.svg --output m.csv").exits(3);
     let result = done.json();
     assert_eq!((result["status"].as_str(), result["cause"].as_str()), (Some("infeasible"), Some("out_of_reach")));
     assert_eq!(result["place"]["line"], 3);
     assert!(place.read("m.svg").contains("x: the tip cannot follow the line here"));
     assert!(!place.path("m.csv").exists() && done.stderr.contains("m.csv is not written"), "{}", done.stderr);
-    let done = follow_program(&place, text, "");
-    assert!(
-        done.stdout.contains("infeasible: the line is") && done.stdout.contains("line 3 of the file"),
-        "{}",
-        done.stdout
-    );
+    follow_program(&place, text, "").says(&["infeasible: the line is", "line 3 of the file"]);
 }
 
 #[test]
@@ -137,21 +118,15 @@ fn obstacles_at_both_solutions_are_named() {
                  [[obstacle]]\nname = \"below\"\npolygon = [[0.2, -0.6], [1.0, -0.6], [1.0, -0.3], [0.2, -0.3]]\n";
     place.write("world.toml", world);
     place.write("line.gcode", "G21 G0 X1000 Y-100\nG1 Y100\n");
-    let done = place.run(&["follow", &files()[0], "world.toml", "line.gcode"], "");
-    assert_eq!(done.code, 3, "{}", done.stderr);
-    for part in ["no IK solution is possible at", "hits obstacle \"above\"", "hits obstacle \"below\""] {
-        assert!(done.stdout.contains(part), "{part}: {}", done.stdout);
-    }
+    let done = place.run(&["follow", &files()[0], "world.toml", "line.gcode"], "").exits(3);
+    done.says(&["no IK solution is possible at", "hits obstacle \"above\"", "hits obstacle \"below\""]);
 }
 
 #[test]
 fn placements_units_and_speeds_apply() {
     let place = Place::new();
     let options = "--unit cm --scale 2 --turn 90deg --move 1.2,-0.2 --speed 0.02 --json";
-    let done = follow_program(&place, "G0 X0 Y0\nG1 X5 F99999\n", options);
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let result = done.json();
-    let number = |value: &Value| value.as_f64().unwrap();
+    let result = follow_program(&place, "G0 X0 Y0\nG1 X5 F99999\n", options).exits(0).json();
     assert!((number(&result["line"]["length"]) - 0.1).abs() < 1e-12);
     assert!((5.0..5.1).contains(&number(&result["duration"])));
     let positions = result["trajectory"]["position"].as_array().unwrap();
@@ -170,13 +145,9 @@ fn placements_units_and_speeds_apply() {
 #[test]
 fn ros_messages_and_pages_are_written() {
     let place = Place::new();
-    let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200\n", "--output m.yaml --picture m.html --verbose");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(
-        done.stdout.contains("found and certified: at most") && done.stdout.contains("line 2: straight of"),
-        "{}",
-        done.stdout
-    );
+    let done =
+        follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200\n", "--output m.yaml --picture m.html --verbose").exits(0);
+    done.says(&["found and certified: at most", "line 2: straight of"]);
     let message = place.read("m.yaml");
     assert!(message.contains("joint_names") && message.contains("elbow") && message.contains("velocities"));
     let page = place.read("m.html");
@@ -190,13 +161,10 @@ fn origins_and_dwells_are_followed_and_other_words_are_noted() {
     let place = Place::new();
     let text = "G21 G90\nSET_VELOCITY_LIMIT ACCEL=500\nG0 X1100 Y0\nG1 X1150 F6000\nG92 X0 Y0 (here is the new origin)\n\
         G1 X20 Y0\nG4 X2\nM3 S5\nG1 X20 Y20 Z3\n";
-    let done = follow_program(&place, text, "--output m.csv");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = follow_program(&place, text, "--output m.csv").exits(0);
     let note = "read without effect on the line: M3 (1), S (1), SET_VELOCITY_LIMIT (1), Z (1 height)";
-    assert!(done.stdout.contains(note) && done.stdout.contains("1 stop of 2 s in all (G4)"), "{}", done.stdout);
-    let csv = place.read("m.csv");
-    let rows: Vec<Vec<f64>> =
-        csv.lines().skip(1).map(|line| line.split(',').map(|field| field.parse().unwrap()).collect()).collect();
+    done.says(&[note, "1 stop of 2 s in all (G4)"]);
+    let rows = place.table("m.csv");
     let at = |row: &Vec<f64>| tip([row[1], row[2]]);
     let end = at(&rows[rows.len() - 1]);
     assert!((end[0] - 1.17).hypot(end[1] - 0.02) < 1e-5, "{end:?}");
@@ -227,8 +195,7 @@ fn defects_of_the_line_have_their_place_and_a_hint() {
 
 #[test]
 fn unusable_options_are_refused_before_any_work() {
-    let place = Place::new();
-    place.write("line.gcode", "G21 G0 X1100 Y-150\nG1 X1200\n");
+    let place = Place::new().with("line.gcode", "G21 G0 X1100 Y-150\nG1 X1200\n");
     for (options, message) in [
         ("--tolerance 0", "at least 0.000001"),
         ("--tolerance nan", "at least 0.000001"),
@@ -256,16 +223,14 @@ fn unusable_options_are_refused_before_any_work() {
 /// The end of the line is out of reach by less than the tolerance, and by hardly less.
 #[test]
 fn places_beside_the_reach_are_followed_or_named_with_a_tolerance_that_works() {
-    let place = Place::new();
-    place.write("world.toml", "");
+    let place = Place::new().with("world.toml", "");
     let follow = |end: f64, options: &str| {
         place.write("line.gcode", format!("G21 G90 F6000\nG0 X1000 Y0\nG1 X{end}\n"));
         place.run(&["follow", &files()[0], "world.toml", "line.gcode"], options)
     };
     assert_eq!(follow(1800.008, "").code, 0);
     assert_eq!(follow(1800.011, "").code, 3);
-    let unknown = follow(1_800.009_999_9, "");
-    assert_eq!(unknown.code, 4, "{}", unknown.stdout);
+    let unknown = follow(1_800.009_999_9, "").exits(4);
     let (before, after) = unknown.stdout.split_once("; with `").expect("advice");
     assert!(before.contains("800.0 mm of the line (line 3 of the file) is 0.010 mm out of reach"), "{before}");
     let (advice, _) = after.split_once('`').expect("advice");

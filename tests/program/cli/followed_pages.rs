@@ -1,21 +1,14 @@
 //! Pictures and pages of lines that the tip follows: compared with the written samples, by the tests' own kinematics.
 
-use super::{Place, shipped};
-use serde_json::Value;
-
+use super::*;
 /// Follows a line and returns the data of its page. Writes the motion to `m.csv` and the picture to `m.svg`.
 fn page(place: &Place, world: &str, text: &str, options: &str, code: i32) -> Value {
     place.write("line.gcode", text);
     let options = format!("{options} --picture m.html --picture m.svg --output m.csv --quiet");
-    let done = place.run(&["follow", &shipped("robots/planar_2r.urdf"), world, "line.gcode"], &options);
-    assert_eq!(done.code, code, "{}", done.stderr);
+    place.run(&["follow", &shipped("robots/planar_2r.urdf"), world, "line.gcode"], &options).exits(code);
     let page = place.read("m.html");
     let data = page.split("<script id=\"view\" type=\"application/json\">").nth(1).unwrap();
     serde_json::from_str(data.split("</script>").next().unwrap()).unwrap()
-}
-
-fn tip([a, b]: [f64; 2]) -> [f64; 2] {
-    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
 }
 
 /// Returns the rows of the motion: time, positions and velocities.
@@ -103,18 +96,17 @@ fn the_page_states_which_limit_is_reached_where() {
     assert!(limited > 0.5 * duration && limited < 0.95 * duration, "{limited} of {duration}");
     assert_eq!(motion["stops"].as_array().unwrap().len(), 2);
     let picture = place.read("m.svg");
-    for part in
-        ["Speed of the tip, by the limit that it reaches", "Farthest from the line, magnified", "off the line (mm)"]
-    {
-        assert!(picture.contains(part), "{part}");
-    }
+    has(
+        &picture,
+        &["Speed of the tip, by the limit that it reaches", "Farthest from the line, magnified", "off the line (mm)"],
+    );
 }
 
 #[test]
 fn both_solutions_of_the_shipped_plate_are_drawn() {
     let place = Place::new();
     let world = shipped("workspaces/follow/engraving.toml");
-    let plate = std::fs::read_to_string(shipped("workspaces/follow/plate.gcode")).unwrap();
+    let plate = read(&shipped("workspaces/follow/plate.gcode"));
     let line = &page(&place, &world, &plate, "", 0)["line"];
     let parts = line["solutions"].as_array().unwrap();
     for part in parts {
@@ -131,9 +123,7 @@ fn both_solutions_of_the_shipped_plate_are_drawn() {
     let focus = [0, 1].map(|k| [0, 1].map(|end| number(&line["focus"]["ranges"][k][end])));
     assert!(focus[0][0] < 1.1 && 1.3 < focus[0][1] && focus[0][1] - focus[0][0] < 0.6, "{focus:?}");
     let picture = place.read("m.svg");
-    for part in ["IK solution 1, used", "IK solution 2, excluded", "speed limit of the tip"] {
-        assert!(picture.contains(part), "{part}");
-    }
+    has(&picture, &["IK solution 1, used", "IK solution 2, excluded", "speed limit of the tip"]);
 }
 
 #[test]
@@ -155,8 +145,6 @@ fn an_infeasible_line_is_drawn_with_its_excluded_solutions() {
     assert!(data["line"]["motion"].is_null() && data["line"]["focus"].is_null());
     for file in ["m.html", "m.svg"] {
         let text = place.read(file).replace("&quot;", "\"").replace("\\\"", "\"");
-        for part in ["hits obstacle \"above\"", "hits obstacle \"below\""] {
-            assert!(text.contains(part), "{file}: {part}");
-        }
+        has(&text, &["hits obstacle \"above\"", "hits obstacle \"below\""]);
     }
 }

@@ -12,8 +12,7 @@ fn map() -> [String; 2] {
 
 /// Returns the matrix of labels of a search.
 fn matrix(place: &Place, options: &str) -> Vec<Vec<f64>> {
-    let done = place.run(&map(), &format!("{MAP} {options} --output cspace.csv"));
-    assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+    place.run(&map(), &format!("{MAP} {options} --output cspace.csv")).exits(0);
     place.read("cspace.csv").lines().map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
 }
 
@@ -65,7 +64,7 @@ fn labels_begin_at_the_requested_number() {
     assert_eq!((wave[4][2], wave[18][10], wave[17][10]), (24.0, 2.0, 3.0));
     let costs = matrix(&place, "--search astar --forward --ties first --labels-from 1");
     assert!((costs[4][2], costs[18][10]) == (1.0, 23.0) && costs[1][1].is_nan());
-    let json: serde_json::Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    let json: serde_json::Value = place.json("cspace.json");
     let values = json["spaces"][0]["grid"]["values"].as_array().unwrap();
     let least = values.iter().filter_map(serde_json::Value::as_f64).fold(f64::INFINITY, f64::min);
     assert_eq!(least, 2.0);
@@ -79,8 +78,7 @@ fn labels_begin_at_the_requested_number() {
 fn the_estimates_of_a_star_are_the_published_ones() {
     let place = Place::new();
     let search = "--search astar --forward --ties first --output heuristic.csv --output cspace.json";
-    let done = place.run(&map(), &format!("{MAP} {search}"));
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&map(), &format!("{MAP} {search}")).exits(0);
     let text = place.read("heuristic.csv");
     let lines: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
     for (row, published) in [
@@ -102,7 +100,7 @@ fn the_estimates_of_a_star_are_the_published_ones() {
             assert!(*cell == "inf" || *cell == apart.to_string(), "{row} {column}: {cell}");
         }
     }
-    let json: serde_json::Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    let json: serde_json::Value = place.json("cspace.json");
     let estimates = json["spaces"][0]["grid"]["heuristic"].as_array().unwrap();
     assert_eq!((estimates.len(), estimates[10 * 20 + 1].as_f64()), (240, Some(0.0)));
     place.run(&map(), "--planner wavefront --output heuristic.csv").refused(2, &["--search astar or greedy"]);
@@ -114,9 +112,7 @@ fn the_estimates_of_a_star_are_the_published_ones() {
 fn the_potential_is_that_of_the_sources() {
     let place = Place::new();
     let files = "--output potential.csv --output cspace.csv";
-    let done =
-        place.run(&map(), &format!("--planner harmonic --cells 12x20 --space centers --levels 1 --quiet {files}"));
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&map(), &format!("--planner harmonic --cells 12x20 --space centers --levels 1 --quiet {files}")).exits(0);
     let read = |file: &str| -> Vec<Vec<f64>> {
         place.read(file).lines().map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
     };
@@ -146,8 +142,8 @@ fn the_potential_is_that_of_the_sources() {
 fn the_matrix_is_the_grid_of_the_json_turned() {
     let place = Place::new();
     let outputs = "--output cspace.json --output Map.CSpace.CSV";
-    assert_eq!(place.run(&map(), &format!("{MAP} --search bfs --forward {outputs}")).code, 0);
-    let spaces: serde_json::Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    place.run(&map(), &format!("{MAP} --search bfs --forward {outputs}")).exits(0);
+    let spaces: serde_json::Value = place.json("cspace.json");
     let grid = &spaces["spaces"][0]["grid"];
     assert_eq!((&grid["quantity"], &grid["shape"]), (&"steps_from_start".into(), &serde_json::json!([12, 20])));
     for (line, joint2) in place.read("Map.CSpace.CSV").lines().zip((0..20).rev()) {
@@ -166,9 +162,7 @@ fn the_matrix_is_the_grid_of_the_json_turned() {
 fn every_search_finds_a_path_from_either_end() {
     let place = Place::new();
     let length = |options: &str| {
-        let done = place.run(&map(), &format!("{} {options} --json", MAP.replace("--quiet", "")));
-        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
-        let json = done.json();
+        let json = place.run(&map(), &format!("{} {options} --json", MAP.replace("--quiet", ""))).exits(0).json();
         assert_eq!(
             json["search"]["backward"],
             if options.contains("--forward") { false.into() } else { serde_json::Value::Null }
@@ -188,7 +182,7 @@ fn iterative_deepening_reports_the_number_of_rounds() {
     let place = Place::new();
     let done = place.run(&map(), &format!("{} --search deepening --verbose", MAP.replace(" --quiet", "")));
     // 22 moves: rounds of limits 0 to 22.
-    assert!(done.stdout.contains("wavefront (deepening, 4 neighbours), centers: 23 rounds, "), "{}", done.stdout);
+    done.says(&["wavefront (deepening, 4 neighbours), centers: 23 rounds, "]);
     let json = place.run(&map(), &format!("{MAP} --search deepening --json")).json();
     let size = &json["size"];
     assert!(size["rounds"] == 23 && size["expanded"].as_u64() > size["cells"].as_u64(), "{size}");
@@ -219,7 +213,7 @@ fn maze() -> [String; 2] {
 /// Returns the grid of `cspace.json`, the number of its free cells, and the label of the cell at `(0.15, 0.15)`, the start.
 fn maze_grid(place: &Place, cells: usize, options: &str) -> (serde_json::Value, usize, Option<u64>) {
     place.run(&maze(), &format!("--planner wavefront --cells {cells} --quiet --output cspace.json {options}"));
-    let spaces: serde_json::Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    let spaces: serde_json::Value = place.json("cspace.json");
     let space = spaces["spaces"][0].clone();
     let grid = &space["grid"];
     let free = grid["blocked"].as_array().unwrap().iter().filter(|blocked| **blocked == 0).count();
@@ -238,8 +232,7 @@ fn the_wholly_free_cells_of_a_gantry_are_exact() {
         assert_eq!(space["grid"]["free"], "whole");
     }
     for path in ["own", "taut"] {
-        let done = place.run(&maze(), &format!("--planner wavefront --cells 20 --levels 1 --path {path}"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        let done = place.run(&maze(), &format!("--planner wavefront --cells 20 --levels 1 --path {path}")).exits(0);
         assert!(!done.stdout.contains("attempts"), "{}", done.stdout);
     }
 }
@@ -248,8 +241,7 @@ fn the_wholly_free_cells_of_a_gantry_are_exact() {
 fn a_second_attempt_with_free_centres_is_reported() {
     let place = Place::new();
     let said = "16 x 16 cells that are wholly free show no certified path; here a cell is free if its centre is";
-    let done = place.run(&maze(), "--planner wavefront --cells 16 --picture wave.svg");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = place.run(&maze(), "--planner wavefront --cells 16 --picture wave.svg").exits(0);
     assert!(done.stdout.lines().any(|line| line.starts_with("attempts") && line.ends_with(said)), "{}", done.stdout);
     assert!(place.read("wave.svg").contains(said));
     let (space, ..) = maze_grid(&place, 16, "");
@@ -260,14 +252,12 @@ fn a_second_attempt_with_free_centres_is_reported() {
 #[test]
 fn the_space_whole_has_no_second_attempt() {
     let place = Place::new();
-    let done = place.run(&maze(), "--planner wavefront --cells 16 --space whole --picture wave.svg");
-    assert_eq!(done.code, 4, "{}", done.stdout);
+    let done = place.run(&maze(), "--planner wavefront --cells 16 --space whole --picture wave.svg").exits(4);
     assert!(!done.stdout.contains("attempts") && !place.read("wave.svg").contains("its centre"), "{}", done.stdout);
     let (space, free, _) = maze_grid(&place, 16, "--space whole");
     assert_eq!((free, &space["grid"]["free"]), (149, &"whole".into()));
     // Finer cells are wholly free, too.
-    let done = place.run(&maze(), "--planner wavefront --cells 16 --space whole --levels 3 --verbose");
-    assert_eq!(done.code, 0, "{}", done.stdout);
+    let done = place.run(&maze(), "--planner wavefront --cells 16 --space whole --levels 3 --verbose").exits(0);
     assert!(!done.stdout.contains("attempts"), "{}", done.stdout);
 }
 
@@ -276,10 +266,9 @@ fn the_space_whole_has_no_second_attempt() {
 fn the_manhattan_navigation_function_is_the_published_one() {
     let place = Place::new();
     let files = [shipped("robots/gantry.urdf"), shipped("workspaces/published/manhattan.toml")];
-    let done = place.run(&files, "--planner wavefront --cells 8 --space whole --path own --output cspace.csv");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = place.run(&files, "--planner wavefront --cells 8 --space whole --path own --output cspace.csv").exits(0);
     let published = "2,1,2,3,4,5,inf,inf\n1,0,1,2,3,4,inf,inf\n2,1,2,3,4,5,inf,inf\n3,2,inf,inf,5,6,inf,inf\n\
                      4,3,inf,inf,6,7,8,9\n5,4,inf,inf,7,8,9,10\n6,5,6,7,8,9,10,11\n7,6,7,8,9,10,11,12\n";
     assert_eq!(place.read("cspace.csv"), published);
-    assert!(done.stdout.contains("9 straight pieces, length 2.0625"), "{}", done.stdout);
+    done.says(&["9 straight pieces, length 2.0625"]);
 }

@@ -1,8 +1,7 @@
 //! Help, completions and manual pages: every example in them is a valid command.
 
-use super::Place;
+use super::*;
 use cplan::engine::Method;
-use std::path::Path;
 
 /// Examples that the test only parses, because they would run too long or without end.
 const ONLY_READ: [&str; 3] = ["cplan serve", "--suite", "--queries"];
@@ -94,11 +93,8 @@ fn every_command_has_examples_and_they_run() {
 fn completions_know_commands_options_and_values() {
     let place = Place::new();
     for shell in ["bash", "zsh", "fish", "powershell", "elvish"] {
-        let done = place.run(&["completions", shell], "");
-        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{shell}");
-        for part in ["planner", "goal-tip", "recheck", "completions"] {
-            assert!(done.stdout.contains(part), "{shell}: no {part}");
-        }
+        let done = place.run(&["completions", shell], "").succeeds_silently();
+        done.says(&["planner", "goal-tip", "recheck", "completions"]);
         // The generators for the other two shells list no values.
         for part in ["visibility", "subdivision", "astar", "scara", "gauss-seidel"] {
             let has_values = ["bash", "zsh", "fish"].contains(&shell);
@@ -180,8 +176,7 @@ fn manual_pages_agree_with_the_help() {
     let place = Place::new();
     let main = place.run(&["man"], "").stdout;
     assert!(main.contains(".TH cplan 1"), "{main}");
-    let written = place.run(&["man", "pages/man1"], "");
-    assert_eq!((written.code, written.stderr.as_str()), (0, ""));
+    let written = place.run(&["man", "pages/man1"], "").succeeds_silently();
     let mut pages: Vec<&str> = written.stdout.lines().collect();
     let mut expected: Vec<String> = commands(&place).iter().map(|name| format!("pages/man1/cplan-{name}.1")).collect();
     expected.push("pages/man1/cplan.1".into());
@@ -200,7 +195,7 @@ fn manual_pages_agree_with_the_help() {
         assert_eq!(text.matches("\n.EX\n").count(), text.matches("\n.EE\n").count(), "{page}");
     }
     // Existing pages are overwritten.
-    assert_eq!(place.run(&["man", "pages/man1"], "").code, 0);
+    place.run(&["man", "pages/man1"], "").exits(0);
     place.write("file", "");
     place.run(&["man", "file"], "").refused(1, &["cannot make the folder file"]);
 }

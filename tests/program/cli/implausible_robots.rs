@@ -1,11 +1,10 @@
 //! Robots as real files describe them: with limits in degrees, lengths in millimetres, placeholders for speeds, or no
 //! limits.
 
-use super::{FREE, Place, shipped};
-
+use super::*;
 /// Returns `planar_2r` with pieces of its text replaced, wherever they are.
 fn arm(changes: &[(&str, &str)]) -> String {
-    let urdf = std::fs::read_to_string(shipped("robots/planar_2r.urdf")).unwrap();
+    let urdf = read(&shipped("robots/planar_2r.urdf"));
     changes.iter().fold(urdf, |urdf, (from, to)| {
         assert!(urdf.contains(from), "{from}");
         urdf.replace(from, to)
@@ -16,33 +15,30 @@ const TO_A_TIP: &str = "[start]\njoints = [0.0, 1.0]\n[goal]\ntip = [0.5, 0.5]\n
 
 /// Checks the hint about a robot that `cplan plan` and `cplan inspect` give.
 fn check_hint(changes: &[(&str, &str)], world: &str, parts: &[&str]) {
-    let place = Place::new();
-    place.write("arm.urdf", arm(changes));
-    place.write("world.toml", world);
+    let place = Place::new().with("arm.urdf", arm(changes)).with("world.toml", world);
     let planned = place.run(&["arm.urdf", "world.toml"], "");
     let inspected = place.run(&["inspect", "arm.urdf"], "");
     let warned: String = planned.stderr.lines().filter(|line| line.starts_with("warning: ")).collect();
     for part in parts {
         assert!(warned.contains(part), "{part:?} is not in: {}", planned.stderr);
-        assert!(inspected.stdout.contains(part), "{part:?} is not in: {}", inspected.stdout);
+        inspected.says(&[part]);
     }
 }
 
 #[test]
 fn limits_that_look_like_degrees_are_refused_with_both_readings() {
-    let place = Place::new();
-    place.write("arm.urdf", arm(&[("lower=\"-2.9\" upper=\"2.9\"", "lower=\"-150\" upper=\"150\"")]));
-    place.write("world.toml", TO_A_TIP);
+    let place = Place::new()
+        .with("arm.urdf", arm(&[("lower=\"-2.9\" upper=\"2.9\"", "lower=\"-150\" upper=\"150\"")]))
+        .with("world.toml", TO_A_TIP);
     let parts = ["joint \"shoulder\" has limits from -150 to 150 rad, 48 turns: they look like degrees", "\"150deg\""];
     place.run(&["arm.urdf", "world.toml"], "").refused(1, &parts);
     place.run(&["reach", "arm.urdf", "world.toml"], "").refused(1, &parts);
     let inspected = place.run(&["inspect", "arm.urdf"], "");
     let remedy = "limits = { shoulder = [\"-150deg\", \"150deg\"], elbow = [\"-150deg\", \"150deg\"] }";
-    assert!(inspected.stdout.contains(remedy), "{}", inspected.stdout);
+    inspected.says(&[remedy]);
     for range in ["[\"-150deg\", \"150deg\"]", "[-150, 150]"] {
         place.write("world.toml", format!("[robot]\nlimits = {{ shoulder = {range}, elbow = {range} }}\n{TO_A_TIP}"));
-        let done = place.run(&["arm.urdf", "world.toml"], "");
-        assert_eq!(done.code, 0, "{range}: {}", done.stderr);
+        let done = place.run(&["arm.urdf", "world.toml"], "").exits(0);
         // The joints turn 48 times, so that thousands of IK solutions reach the tip's place.
         assert!(done.stdout.lines().count() < 40, "{}", done.stdout);
     }
@@ -65,9 +61,10 @@ fn robots_in_millimetres_are_noticed() {
         ("lower=\"-2.9\" upper=\"2.9\"", "lower=\"0\" upper=\"600\""),
         ("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"1 0 0\"/>"),
     ];
-    let place = Place::new();
-    place.write("arm.urdf", arm(&slides).replacen("<axis xyz=\"1 0 0\"/>", "<axis xyz=\"0 1 0\"/>", 1));
-    let inspected = place.run(&["inspect", "arm.urdf"], "").stdout;
+    let inspected = Place::new()
+        .with("arm.urdf", arm(&slides).replacen("<axis xyz=\"1 0 0\"/>", "<axis xyz=\"0 1 0\"/>", 1))
+        .run(&["inspect", "arm.urdf"], "")
+        .stdout;
     assert!(
         inspected.contains("joint \"shoulder\" slides from 0 to 600 m: divide limits in millimetres"),
         "{inspected}"
@@ -89,9 +86,9 @@ fn speeds_that_no_drive_has_are_noticed() {
         &["joint \"elbow\": velocity=\"0\" in the URDF counts as missing"],
     );
     // Following the hint solves the problem.
-    let place = Place::new();
-    place.write("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"1000\"")]));
-    place.write("world.toml", format!("[robot]\nvelocity = {{ shoulder = 2.0 }}\n{FREE}"));
+    let place = Place::new()
+        .with("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"1000\"")]))
+        .with("world.toml", format!("[robot]\nvelocity = {{ shoulder = 2.0 }}\n{FREE}"));
     assert_eq!(place.run(&["arm.urdf", "world.toml"], "").stderr, "");
 }
 
@@ -99,9 +96,8 @@ fn speeds_that_no_drive_has_are_noticed() {
 fn joints_without_an_axis_are_noticed() {
     let parts = ["joint \"shoulder\" has no <axis>, which means the x axis", "joint \"elbow\" has no <axis>"];
     check_hint(&[("<axis xyz=\"0 0 1\"/>", "")], TO_A_TIP, &parts);
-    let place = Place::new();
-    place.write("arm.urdf", arm(&[]).replacen("<axis xyz=\"0 0 1\"/>", "", 1));
-    place.write("world.toml", FREE);
+    let place =
+        Place::new().with("arm.urdf", arm(&[]).replacen("<axis xyz=\"0 0 1\"/>", "", 1)).with("world.toml", FREE);
     let parts = ["do not move in one common plane", "joint \"shoulder\" has no <axis>, which means the x axis"];
     place.run(&["arm.urdf", "world.toml"], "").refused(1, &parts);
 }
@@ -114,16 +110,13 @@ const FAST: &str = "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,0,0.
 
 #[test]
 fn verify_judges_limits_that_are_given_and_reports_the_others() {
-    let place = Place::new();
-    place.write("world.toml", FREE);
-    place.write("motion.csv", FAST);
-    place.write("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"3.0\"")]));
+    let place = Place::new()
+        .with("world.toml", FREE)
+        .with("motion.csv", FAST)
+        .with("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"3.0\"")]));
     let verify = |options: &str| place.run(&["verify", "arm.urdf", "world.toml", "motion.csv"], options);
-    let report = verify("--anywhere");
-    assert_eq!(report.code, 0, "{}", report.stdout);
-    for part in ["elbow: acceleration 60.000000 rad/s2, at most 12.000000", "so this does not count", ASSUMED] {
-        assert!(report.stdout.contains(part), "{part:?} is not in: {}", report.stdout);
-    }
+    let report = verify("--anywhere").exits(0);
+    report.says(&["elbow: acceleration 60.000000 rad/s2, at most 12.000000", "so this does not count", ASSUMED]);
     let json = verify("--anywhere --json").json();
     assert_eq!((&json["verdict"], json["limits_broken"].as_array().unwrap().len()), (&"free".into(), 0));
     assert_eq!(json["assumed_exceeded"][1]["limit"], "acceleration");
@@ -138,21 +131,18 @@ fn verify_judges_limits_that_are_given_and_reports_the_others() {
     assert_eq!(verify("--anywhere").code, 3);
     // A speed that no file states does not decide.
     place.write("arm.urdf", arm(&[(" velocity=\"2.0\"", ""), (" velocity=\"3.0\"", "")]));
-    let report = verify("--anywhere");
-    assert_eq!(report.code, 0, "{}", report.stdout);
-    assert!(report.stdout.contains("shoulder: velocity 3.000000 rad/s, at most 1.000000"), "{}", report.stdout);
+    verify("--anywhere").exits(0).says(&["shoulder: velocity 3.000000 rad/s, at most 1.000000"]);
 }
 
 #[test]
 fn assumptions_have_the_same_words_everywhere() {
-    let place = Place::new();
-    place.write("world.toml", FREE);
-    place.write("arm.urdf", arm(&[]));
-    place.write("motion.csv", "time,shoulder,elbow\n0,-0.9,0.4\n9,-0.8,0.4\n");
-    place.write("problems.jsonl", "{\"urdf\": \"arm.urdf\", \"world\": \"world.toml\"}\n");
+    let place = Place::new()
+        .with("world.toml", FREE)
+        .with("arm.urdf", arm(&[]))
+        .with("motion.csv", "time,shoulder,elbow\n0,-0.9,0.4\n9,-0.8,0.4\n")
+        .with("problems.jsonl", "{\"urdf\": \"arm.urdf\", \"world\": \"world.toml\"}\n");
     let run = |files: &[&str], options: &str| {
-        let done = place.run(files, options);
-        assert_eq!(done.code, 0, "{files:?}: {}", done.stderr);
+        let done = place.run(files, options).exits(0);
         done.stdout + &done.stderr
     };
     let quoted = ASSUMED.replace('"', "\\\"");

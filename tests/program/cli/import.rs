@@ -1,8 +1,6 @@
 //! Drawings become worlds in which one can plan.
 
-use super::{Place, shipped};
-use serde_json::Value;
-
+use super::*;
 fn cell() -> String {
     shipped("workspaces/drawings/cell.dxf")
 }
@@ -39,9 +37,7 @@ fn a_cell_by_cad_is_planned_in() {
     assert_eq!(heights, [on_belt, None, of_feeder.clone(), of_feeder.clone(), of_feeder.clone(), of_feeder]);
     let picture = place.read("cell.svg");
     assert!(picture.contains("<svg") && picture.contains("conveyor") && picture.contains("feeder 4"), "{picture}");
-    for part in ["6 obstacles", "extent     x -1.500 to 2.400 m, y -1.500 to 1.500 m", "cell.toml"] {
-        assert!(done.stdout.contains(part), "{part} is not in {}", done.stdout);
-    }
+    done.says(&["6 obstacles", "extent     x -1.500 to 2.400 m, y -1.500 to 1.500 m", "cell.toml"]);
     // Objects on other layers were not requested.
     assert!(!done.stdout.contains("left out"), "{}", done.stdout);
     let planned = place.run(&[shipped("robots/planar_2r.urdf"), "cell.toml".into()], "--json").json();
@@ -51,8 +47,7 @@ fn a_cell_by_cad_is_planned_in() {
 #[test]
 fn without_a_file_the_world_is_printed() {
     let place = Place::new();
-    let done = place.run(&["import", &cell()], "--layer old --quiet");
-    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    let done = place.run(&["import", &cell()], "--layer old --quiet").succeeds_silently();
     let world: toml::Table = toml::from_str(&done.stdout).unwrap();
     assert_eq!(names(&world), ["old"]);
     assert!(world.get("start").is_none() && done.stdout.contains("#[start]"));
@@ -69,11 +64,9 @@ fn without_a_file_the_world_is_printed() {
 
 #[test]
 fn drawings_are_scaled_then_turned_then_moved() {
-    let place = Place::new();
-    place.write("two.dxf", dxf("0 LINE 8 a 10 100 20 0 11 100 21 50 0 CIRCLE 8 a 10 300 20 100 40 20 39 10"));
-    let done =
-        place.run(&["import", "two.dxf"], "--scale 2 --turn 90deg --move 1,-0.25 --height a=0:1 --output w.toml");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let place =
+        Place::new().with("two.dxf", dxf("0 LINE 8 a 10 100 20 0 11 100 21 50 0 CIRCLE 8 a 10 300 20 100 40 20 39 10"));
+    place.run(&["import", "two.dxf"], "--scale 2 --turn 90deg --move 1,-0.25 --height a=0:1 --output w.toml").exits(0);
     let made = world(&place, "w.toml");
     assert_eq!(made["obstacle"][0]["polyline"].to_string(), "[[1.0, -0.05], [0.9, -0.05]]");
     assert_eq!(made["obstacle"][1]["circle"].to_string(), "{ center = [0.8, 0.35], radius = 0.04 }");
@@ -90,7 +83,7 @@ fn each_obstacle_has_a_name_of_its_own() {
     let place = Place::new();
     let disc = |layer: &str| format!("0 CIRCLE 8 {layer} 10 {} 20 0 40 1 ", 10 * layer.len());
     place.write("discs.dxf", dxf(&["0", "a", "post", "a", "0", "a-2"].map(disc).concat()));
-    assert_eq!(place.run(&["import", "discs.dxf"], "--output w.toml --quiet").code, 0);
+    place.run(&["import", "discs.dxf"], "--output w.toml --quiet").exits(0);
     let made = world(&place, "w.toml");
     assert_eq!(names(&made), ["obstacle 1", "a 1", "post", "a 2", "obstacle 2", "a-2"]);
 }
@@ -104,12 +97,11 @@ fn names_with_line_breaks_stay_in_their_comments() {
         "geometry": { "type": "Polygon", "coordinates": [[[3, 3], [4, 3], [4, 4], [3, 3]]] },
     });
     place.write("lines.geojson", feature.to_string());
-    let done = place.run(&["import", "lines.geojson"], "--output w.toml");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = place.run(&["import", "lines.geojson"], "--output w.toml").exits(0);
     assert_eq!(names(&world(&place, "w.toml")), ["a\nb\"c"]);
     let comment = "# Polygon, layer \"x\\n[[obstacle]]\\nname = ";
     assert!(place.read("w.toml").lines().any(|line| line.starts_with(comment)), "{}", place.read("w.toml"));
-    assert!(done.stdout.contains("layer      x\\n[[obstacle]]"), "{}", done.stdout);
+    done.says(&["layer      x\\n[[obstacle]]"]);
 }
 
 #[test]
@@ -122,8 +114,7 @@ fn insertions_on_a_frozen_layer_are_omitted_with_its_name() {
     let text = format!("{layers} {block} 0 SECTION 2 ENTITIES {inserts} 0 ENDSEC 0 EOF");
     place.write("pins.dxf", text.split_whitespace().map(|word| format!("{word}\n")).collect::<String>());
     let taken = |options: &str| {
-        let done = place.run(&["import", "pins.dxf"], &format!("{options} --output w.toml"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        let done = place.run(&["import", "pins.dxf"], &format!("{options} --output w.toml")).exits(0);
         (world(&place, "w.toml")["obstacle"].as_array().unwrap().len(), done.stdout)
     };
     let message = ["off", "cold"].map(|layer| format!("layer \"{layer}\" is switched off and left out"));
@@ -152,16 +143,13 @@ fn self_crossing_outlines_become_the_area_that_they_surround() {
         0 LWPOLYLINE 8 loop 70 1 10 200 20 0 10 300 20 0 10 300 20 50 10 300 20 0 \
         0 LWPOLYLINE 8 room 70 1 10 -500 20 -500 10 500 20 -500 10 500 20 500 10 -500 20 500"),
     );
-    let done = place.run(&["import", "odd.dxf"], "--output w.toml");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = place.run(&["import", "odd.dxf"], "--output w.toml").exits(0);
     assert_eq!(names(&world(&place, "w.toml")), ["tie 1", "tie 2", "loop", "room"]);
-    for part in [
+    done.says(&[
         "outlines that cross or touch themselves: the enclosed area is solid (line 16)",
         "outlines that enclose no area: imported as thin walls (line 38)",
         "\"room\" is solid and encloses everything else: --walls room makes it a wall, --without room leaves it out (line 60)",
-    ] {
-        assert!(done.stdout.contains(part), "{part} is not in {}", done.stdout);
-    }
+    ]);
     let done = place.run(&["import", "odd.dxf"], "--walls room --output w.toml");
     assert!(!done.stdout.contains("--walls"), "{}", done.stdout);
     let made = world(&place, "w.toml");
@@ -180,11 +168,9 @@ fn hall() -> String {
 
 #[test]
 fn options_take_the_names_that_the_world_gives() {
-    let place = Place::new();
-    place.write("hall.dxf", hall());
+    let place = Place::new().with("hall.dxf", hall());
     let made = |options: &[&str]| {
-        let done = place.run(&[&["import", "hall.dxf"], options].concat(), "--output w.toml");
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        place.run(&[&["import", "hall.dxf"], options].concat(), "--output w.toml").exits(0);
         world(&place, "w.toml")
     };
     let kinds = |made: &toml::Table| -> Vec<String> {
@@ -212,8 +198,7 @@ fn options_take_the_names_that_the_world_gives() {
 
 #[test]
 fn notes_are_about_selected_elements_only() {
-    let place = Place::new();
-    place.write("hall.dxf", hall());
+    let place = Place::new().with("hall.dxf", hall());
     let message = |options: &str| {
         let message = place.run(&["import", "hall.dxf"], &format!("{options} --json")).json();
         message["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap().to_owned()).collect::<Vec<_>>()
@@ -235,8 +220,7 @@ fn shapes_of_nested_blocks_have_their_places() {
     let insert = "0 INSERT 8 fix 2 pair 10 500 20 600 41 2 42 -2 50 90 0 CIRCLE 8 fix 10 -500 20 0 40 10";
     let text = format!("{block} 0 SECTION 2 ENTITIES {insert} 0 ENDSEC 0 EOF");
     place.write("units.dxf", text.split_whitespace().map(|word| format!("{word}\n")).collect::<String>());
-    let done = place.run(&["import", "units.dxf"], "--move 1,0 --turn 90deg --output w.toml");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&["import", "units.dxf"], "--move 1,0 --turn 90deg --output w.toml").exits(0);
     let made = world(&place, "w.toml");
     assert_eq!(names(&made), ["pair 1", "pair 2", "pair 3", "pair 4", "fix"]);
     let shown = |i: usize, key: &str| made["obstacle"][i].get(key).map(ToString::to_string);
@@ -293,14 +277,13 @@ fn probable_mistakes_are_noted_with_a_hint() {
     assert_eq!(message(&two, "--unit m"), [wide("440 m")]);
     assert_eq!(message(&two, "--unit um"), [wide("0.440 mm")]);
     // The main job and `inspect` report it, too.
-    assert_eq!(place.run(&["import", "w.dxf"], "--unit m --start 0,1 --goal 1,0.5 --output far.toml").code, 0);
+    place.run(&["import", "w.dxf"], "--unit m --start 0,1 --goal 1,0.5 --output far.toml").exits(0);
     let robot = shipped("robots/planar_2r.urdf");
     let planned = place.run(&[robot.as_str(), "far.toml"], "");
     let part = "no obstacle is within the arm's reach: the nearest is 480.0000 m from joint 1";
     assert!(planned.code == 0 && planned.stderr.contains(part), "{}", planned.stderr);
-    let report = place.run(&["inspect", robot.as_str(), "far.toml"], "");
-    assert!(report.stdout.contains(part), "{}", report.stdout);
-    assert_eq!(place.run(&["import", "w.dxf"], "--start 0,1 --goal 1,0.5 --output near.toml").code, 0);
+    place.run(&["inspect", robot.as_str(), "far.toml"], "").says(&[part]);
+    place.run(&["import", "w.dxf"], "--start 0,1 --goal 1,0.5 --output near.toml").exits(0);
     let report = place.run(&["inspect", robot.as_str(), "near.toml"], "");
     assert!(!report.stdout.contains("no obstacle is within"), "{}", report.stdout);
 }
@@ -312,7 +295,7 @@ fn a_picture_hides_no_shape_behind_names() {
     let disc = |i: usize| format!("0 CIRCLE 8 pins 10 {} 20 {} 40 20 ", 100 * (i % 5), 100 * (i / 5));
     let plate = "0 LWPOLYLINE 8 plate 70 1 10 -60 20 -60 10 460 20 -60 10 460 20 460 10 -60 20 460";
     place.write("tray.dxf", dxf(&((0..24).map(disc).collect::<String>() + plate)));
-    assert_eq!(place.run(&["import", "tray.dxf"], "--output w.toml --picture w.svg").code, 0);
+    place.run(&["import", "tray.dxf"], "--output w.toml --picture w.svg").exits(0);
     let picture = place.read("w.svg");
     let xml = roxmltree::Document::parse(&picture).unwrap();
     let texts: Vec<&str> =
@@ -334,16 +317,16 @@ fn a_picture_hides_no_shape_behind_names() {
 
 #[test]
 fn errors_state_their_place_and_a_hint() {
-    let place = Place::new();
-    place.write("text.dxf", dxf("0 TEXT 8 a 1 hello"));
-    place.write("nan.dxf", dxf("0 CIRCLE 8 a 10 nan 20 0 40 1"));
-    place.write("far.dxf", dxf("0 CIRCLE 8 a 10 1e15 20 0 40 1"));
-    place.write("high.dxf", dxf("0 CIRCLE 8 a 10 1 20 0 39 1e300 40 1"));
-    place.write("one.dxf", dxf("0 CIRCLE 8 a 10 1 20 0 40 1"));
-    place.write("tiny.geojson", r#"{"type": "Polygon", "coordinates": [[[0, 0], [1e-10, 0], [0, 1e-10], [0, 0]]]}"#);
-    place.write("cut.dxf", &dxf("0 CIRCLE 8 a 10 1 20 0 40 1")[..60]);
-    place.write("broken.svg", "<svg>\n<g>\n</svg>");
-    place.write("broken.json", "{ \"type\":\n 3");
+    let place = Place::new()
+        .with("text.dxf", dxf("0 TEXT 8 a 1 hello"))
+        .with("nan.dxf", dxf("0 CIRCLE 8 a 10 nan 20 0 40 1"))
+        .with("far.dxf", dxf("0 CIRCLE 8 a 10 1e15 20 0 40 1"))
+        .with("high.dxf", dxf("0 CIRCLE 8 a 10 1 20 0 39 1e300 40 1"))
+        .with("one.dxf", dxf("0 CIRCLE 8 a 10 1 20 0 40 1"))
+        .with("tiny.geojson", r#"{"type": "Polygon", "coordinates": [[[0, 0], [1e-10, 0], [0, 1e-10], [0, 0]]]}"#)
+        .with("cut.dxf", &dxf("0 CIRCLE 8 a 10 1 20 0 40 1")[..60])
+        .with("broken.svg", "<svg>\n<g>\n</svg>")
+        .with("broken.json", "{ \"type\":\n 3");
     let refused = |file: &str, options: &str, parts: &[&str]| {
         place.run(&["import", file], options).refused(1, parts);
     };
@@ -403,8 +386,7 @@ fn projected_coordinates_are_moved_as_the_hint_says() {
         let hint = cure.split("--move ").nth(1).unwrap().split(' ').next().unwrap().to_owned();
         let turn = before.trim().strip_prefix("--turn").map_or(String::new(), |turn| format!(" --turn{turn}"));
         let options = format!("--output w.toml --move {hint}{turn}");
-        let done = place.run(&["import", "site.geojson"], &options);
-        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
+        place.run(&["import", "site.geojson"], &options).exits(0);
         let made = world(&place, "w.toml");
         let corner = made["obstacle"][0]["polygon"][0].as_array().unwrap();
         assert!(corner.iter().all(|x| x.as_float().unwrap().abs() < 2.0), "{corner:?}");

@@ -1,7 +1,6 @@
 //! Every kind of invalid input once through the program; `input_errors` has the details.
 
-use super::{FREE, Place, shipped};
-
+use super::*;
 #[test]
 fn bad_worlds_are_refused_with_their_place() {
     let place = Place::new();
@@ -66,10 +65,10 @@ fn starts_and_goals_that_collide_name_link_obstacle_and_depth() {
 
 #[test]
 fn files_other_than_urdf_are_refused() {
-    let place = Place::new();
-    place.write("world.toml", FREE);
-    place.write("text.urdf", "hello");
-    place.write("cut.urdf", "<robot name=\"r\">\n  <link name=\"a\"");
+    let place = Place::new()
+        .with("world.toml", FREE)
+        .with("text.urdf", "hello")
+        .with("cut.urdf", "<robot name=\"r\">\n  <link name=\"a\"");
     std::fs::create_dir(place.path("folder.urdf")).unwrap();
     for (file, part) in [("missing.urdf", "cannot be read"), ("folder.urdf", "cannot be read"), ("text.urdf", "XML")] {
         place.run(&[file, "world.toml"], "").refused(1, &[file, part, "hint"]);
@@ -81,7 +80,8 @@ fn files_other_than_urdf_are_refused() {
 #[cfg(target_os = "linux")]
 #[test]
 fn files_without_end_are_refused() {
-    let place = Place::new();
-    place.write("world.toml", FREE);
-    place.run(&["/dev/zero", "world.toml"], "").refused(1, &["/dev/zero", "larger than"]);
+    Place::new()
+        .with("world.toml", FREE)
+        .run(&["/dev/zero", "world.toml"], "")
+        .refused(1, &["/dev/zero", "larger than"]);
 }

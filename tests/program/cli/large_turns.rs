@@ -80,46 +80,40 @@ fn a_start_half_a_million_radians_from_zero_is_not_moved_into_a_stuck_box() {
     let start = format!("{start:?},{FOLDED}");
     let done = place.run(&["recheck", &robot, "world.toml", "--proof", "proof.json", "--start", &start], "");
     assert_ne!(done.code, 0, "{}", done.stdout);
-    assert!(done.stderr.contains("do not separate the goal from the start"), "{}", done.stderr);
+    done.warns(&["do not separate the goal from the start"]);
 }
 
 #[test]
 fn plans_and_proofs_many_turns_from_zero_are_those_at_zero() {
-    let place = Place::new();
-    place.write("world.toml", WALL);
+    let place = Place::new().with("world.toml", WALL);
     let robot = shipped("robots/planar_2r_continuous.urdf");
     for turns in [0.0, 79_577.0, -159_000.0] {
         let start = format!("{:?},{:?}", 2.6 + TAU * turns, FOLDED);
-        let done = place.run(&[&robot, "world.toml", "--start", &start, "--json"], "");
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        let done = place.run(&[&robot, "world.toml", "--start", &start, "--json"], "").exits(0);
         let result = done.json();
-        let number = |value: &serde_json::Value| value.as_f64().unwrap();
         assert!((number(&result["path"][0][0]) - (2.6 + TAU * turns)).abs() < 1e-9, "{}", result["path"]);
         assert!(number(&result["clearance"]) > 0.0);
         place.write("plan.json", done.stdout);
-        let verified = place.run(&["verify", &robot, "world.toml", "plan.json", "--start", &start], "");
-        assert_eq!(verified.code, 0, "{}", verified.stdout);
+        place.run(&["verify", &robot, "world.toml", "plan.json", "--start", &start], "").exits(0);
     }
     // Beyond a million radians, doubles are too coarse.
     let done = place.run(&[&robot, "world.toml", "--start", "1e7,0"], "");
     assert_ne!(done.code, 0);
-    assert!(done.stderr.contains("too large"), "{}", done.stderr);
+    done.warns(&["too large"]);
 }
 
 #[test]
 fn files_without_an_end_are_refused() {
     #[cfg(unix)]
     {
-        let place = Place::new();
-        place.write("world.toml", WALL);
+        let place = Place::new().with("world.toml", WALL);
         let robot = shipped("robots/planar_2r_continuous.urdf");
-        let done = place.run(&["recheck", &robot, "world.toml", "--proof", "/dev/zero", "--start", "2.6,-2"], "");
-        assert_eq!(done.code, 1);
-        assert!(done.stderr.contains("/dev/zero") && done.stderr.contains("larger than"), "{}", done.stderr);
+        let done =
+            place.run(&["recheck", &robot, "world.toml", "--proof", "/dev/zero", "--start", "2.6,-2"], "").exits(1);
+        done.warns(&["/dev/zero", "larger than"]);
         for name in ["zero.json", "zero.csv", "zero.yaml", "zero.mcap"] {
             std::os::unix::fs::symlink("/dev/zero", place.path(name)).unwrap();
-            let done = place.run(&["verify", &robot, "world.toml", name], "");
-            assert_eq!(done.code, 1);
+            let done = place.run(&["verify", &robot, "world.toml", name], "").exits(1);
             assert!(cfg!(not(feature = "mcap")) || done.stderr.contains("larger than"), "{}", done.stderr);
         }
     }

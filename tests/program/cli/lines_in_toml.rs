@@ -1,18 +1,12 @@
 //! Lines in TOML from outside: in `cplan follow`, and as steps of tasks.
 
-use super::{Done, Place, shipped};
-use serde_json::Value;
+use super::*;
 use std::f64::consts::PI;
 
 fn follow(place: &Place, line: &str, options: &str) -> Done {
     let [robot, world] = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/engraving.toml")];
     place.write("line.toml", line);
     place.run(&["follow", &robot, &world, "line.toml"], options)
-}
-
-/// Returns the position of the tip of `planar_2r`.
-fn tip([a, b]: [f64; 2]) -> [f64; 2] {
-    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
 }
 
 fn number(value: &Value) -> f64 {
@@ -44,8 +38,7 @@ fn an_arc_is_followed_at_its_own_speed_and_tolerance() {
 
 #[test]
 fn lines_name_files_beside_them() {
-    let place = Place::new();
-    place.write("part.gcode", "G21 G0 X0 Y0\nG1 X100 F6000\n");
+    let place = Place::new().with("part.gcode", "G21 G0 X0 Y0\nG1 X100 F6000\n");
     let result =
         follow(&place, "file = \"part.gcode\"\nscale = 0.5\nturn = \"90deg\"\nmove = [1.2, 0]\n", "--json").json();
     let tips = tips(&result);
@@ -64,21 +57,17 @@ fn defects_have_their_place_and_a_hint() {
     ] {
         let done = follow(&place, line, "");
         assert_eq!((done.code, done.stdout.as_str()), (1, ""), "{line}");
-        for part in parts {
-            assert!(done.stderr.contains(part), "no \"{part}\" in:\n{}", done.stderr);
-        }
+        done.warns(&parts);
     }
-    let done = follow(&place, "points = [[1, 0], [1.1, 0]]", "--unit mm");
-    assert!(done.code == 2 && done.stderr.contains("leave out --unit"), "{}", done.stderr);
+    follow(&place, "points = [[1, 0], [1.1, 0]]", "--unit mm").exits(2).warns(&["leave out --unit"]);
 }
 
 #[test]
 fn a_task_follows_lines_of_all_kinds() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/badge.toml")];
-    let done = place.run(&[&files[0], &files[1]], "--output badge.json --output badge.yaml --quiet");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let result: Value = serde_json::from_str(&place.read("badge.json")).unwrap();
+    place.run(&[&files[0], &files[1]], "--output badge.json --output badge.yaml --quiet").exits(0);
+    let result = place.json("badge.json");
     let steps = result["steps"].as_array().unwrap();
     let lines: Vec<&Value> = steps.iter().filter(|step| step["action"] == "follow").collect();
     assert_eq!((steps.len(), lines.len()), (9, 4));
@@ -90,8 +79,7 @@ fn a_task_follows_lines_of_all_kinds() {
     // The outline is passed at 0.3 m/s: 1.4 m less what the corners save.
     let seconds = number(&lines[0]["arrival"]) - number(&lines[0]["begin"]);
     assert!((4.4..4.8).contains(&seconds), "{seconds}");
-    let verified = place.run(&["verify", &files[0], &files[1], "badge.json"], "");
-    assert!(verified.code == 0 && verified.stdout.contains("free: the whole task, 9 steps"), "{}", verified.stdout);
+    place.run(&["verify", &files[0], &files[1], "badge.json"], "").exits(0).says(&["free: the whole task, 9 steps"]);
     // A sample of the outline is moved by a tenth of a millimetre.
     let mut moved = result.clone();
     let sample = (steps[1]["first_sample"].as_u64().unwrap() + steps[1]["last_sample"].as_u64().unwrap()) / 2;
@@ -106,38 +94,33 @@ fn a_task_follows_lines_of_all_kinds() {
 fn a_task_with_lines_has_a_certificate() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/badge.toml")];
-    let done = place.run(&[&files[0], &files[1]], "--certificate c.json --output badge.json --quiet");
-    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
-    let verified = place.run(&["verify", &files[0], &files[1], "badge.json"], "--certificate v.json");
-    assert_eq!(verified.code, 0, "{}", verified.stderr);
+    place.run(&[&files[0], &files[1]], "--certificate c.json --output badge.json --quiet").succeeds_silently();
+    place.run(&["verify", &files[0], &files[1], "badge.json"], "--certificate v.json").exits(0);
     for certificate in ["c.json", "v.json"] {
-        let done = place.run(&["recheck", &files[0], &files[1], "--proof", certificate], "");
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        for part in
-            ["does all 9 steps", "in step 4 the tip follows a line of 1 piece from", "within 0.0001 of the line"]
-        {
-            assert!(done.stdout.contains(part), "no \"{part}\" in {}", done.stdout);
-        }
+        let done = place.run(&["recheck", &files[0], &files[1], "--proof", certificate], "").exits(0);
+        done.says(&[
+            "does all 9 steps",
+            "in step 4 the tip follows a line of 1 piece from",
+            "within 0.0001 of the line",
+        ]);
         // The checker reads the arc of step 4 from the world.
         assert_eq!(done.stdout.matches("which is taken from the certificate").count(), 3, "{}", done.stdout);
     }
     // A sample of the last line is moved by a tenth of a millimetre.
-    let mut moved: Value = serde_json::from_str(&place.read("c.json")).unwrap();
+    let mut moved: Value = place.json("c.json");
     let knots = &moved["steps"][7]["knots"];
     let middle = (knots[0].as_u64().unwrap() + knots[1].as_u64().unwrap()) / 2;
     let value = &mut moved["motion"]["knots"][middle as usize][1];
     *value = (number(value) + 1e-4).into();
     place.write("moved.json", moved.to_string());
-    let refused = place.run(&["recheck", &files[0], &files[1], "--proof", "moved.json"], "");
-    assert!(refused.code == 1 && refused.stderr.contains("step 8: from knot"), "{} {}", refused.code, refused.stderr);
+    place.run(&["recheck", &files[0], &files[1], "--proof", "moved.json"], "").exits(1).warns(&["step 8: from knot"]);
 }
 
 /// Runs a task for a shipped robot, and returns its files.
 fn task(place: &Place, robot: &str, world: &str) -> [String; 2] {
     place.write("world.toml", world);
     let files = [shipped(&format!("robots/{robot}.urdf")), "world.toml".to_owned()];
-    let done = place.run(&files, "--output result.json --quiet");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&files, "--output result.json --quiet").exits(0);
     files
 }
 
@@ -148,9 +131,9 @@ fn results_with_limited_jerks_are_verified() {
                  follow = { points = [[-0.6437, -0.5701], [-0.6062, -0.6006], [-0.6348, -0.5798], [-0.6064, -0.5662]], \
                  tolerance = 1e-4, speed = 0.5 }\n";
     let [robot, world] = task(&place, "polar", world);
-    let verified = place.run(&["verify", &robot, &world, "result.json"], "");
-    assert!(verified.code == 0 && verified.stdout.contains("free: the whole task, 2 steps"), "{}", verified.stdout);
-    assert!(verified.stdout.contains("steps[..].deviation"), "{}", verified.stdout);
+    let verified = place.run(&["verify", &robot, &world, "result.json"], "").exits(0);
+    verified.says(&["free: the whole task, 2 steps"]);
+    verified.says(&["steps[..].deviation"]);
 }
 
 #[test]
@@ -166,16 +149,12 @@ fn a_tip_faster_than_its_line_is_refused() {
 
 #[test]
 fn a_line_that_fails_is_not_explained_as_a_free_motion() {
-    let place = Place::new();
-    place.write(
+    let place = Place::new().with(
         "far.toml",
         "[start]\njoints = [0.3, 1.2]\n[[step]]\nfollow = { arc = [[1.2, -1.2], [1.9, 0], [1.2, 1.2]] }\n",
     );
-    let explained = place.run(&["explain", &shipped("robots/planar_2r.urdf"), "far.toml"], "");
-    assert_eq!(explained.code, 3, "{}", explained.stderr);
-    for part in ["step 2, follow a line", "99.99 mm out of reach", "`cplan follow` names the place"] {
-        assert!(explained.stdout.contains(part), "{}", explained.stdout);
-    }
+    let explained = place.run(&["explain", &shipped("robots/planar_2r.urdf"), "far.toml"], "").exits(3);
+    explained.says(&["step 2, follow a line", "99.99 mm out of reach", "`cplan follow` names the place"]);
 }
 
 #[test]
@@ -184,15 +163,10 @@ fn a_certificate_with_a_negative_tolerance_is_refused() {
     let done = follow(&place, "points = [[1.5, 0], [1.9, 0]]", "--certificate c.json --quiet");
     assert_eq!(done.code, 3, "{}", done.stderr);
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/engraving.toml")];
-    assert_eq!(place.run(&["recheck", &files[0], &files[1]], "--proof c.json").code, 0);
-    let mut certificate: Value = serde_json::from_str(&place.read("c.json")).unwrap();
+    place.run(&["recheck", &files[0], &files[1]], "--proof c.json").exits(0);
+    let mut certificate: Value = place.json("c.json");
     certificate["line"]["tolerance"] = (-0.5).into();
     place.write("negative.json", certificate.to_string());
-    let refused = place.run(&["recheck", &files[0], &files[1]], "--proof negative.json");
-    assert!(
-        refused.code == 1 && refused.stderr.contains("tolerance must be above 0"),
-        "{} {}",
-        refused.code,
-        refused.stderr
-    );
+    let refused = place.run(&["recheck", &files[0], &files[1]], "--proof negative.json").exits(1);
+    refused.warns(&["tolerance must be above 0"]);
 }

@@ -1,6 +1,6 @@
 //! Corridors exactly one cell wide, through the whole program. A pen on two slides moves among walls without thickness.
 
-use super::Place;
+use super::*;
 use cplan_cases::mazes;
 use std::fmt::Write;
 
@@ -59,15 +59,14 @@ fn pen(n: usize) -> String {
 
 /// Checks that the planner finds the path at once, with a certificate, and visits all cells of the corridors.
 fn is_solved(n: usize, blocked: &[bool], goal: usize) {
-    let place = Place::new();
-    place.write("pen.urdf", pen(n));
-    place.write("walls.toml", world(n, blocked, goal));
-    let done = place.run(
-        &["pen.urdf", "walls.toml"],
-        &format!("--planner harmonic --cells {n} --levels 1 --period 0.1 --quiet --output path.json"),
-    );
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let result: serde_json::Value = serde_json::from_str(&place.read("path.json")).unwrap();
+    let place = Place::new().with("pen.urdf", pen(n)).with("walls.toml", world(n, blocked, goal));
+    place
+        .run(
+            &["pen.urdf", "walls.toml"],
+            &format!("--planner harmonic --cells {n} --levels 1 --period 0.1 --quiet --output path.json"),
+        )
+        .exits(0);
+    let result: serde_json::Value = place.json("path.json");
     let free = blocked.iter().filter(|&&blocked| !blocked).count();
     assert_eq!(result["size"]["cells"], free);
     assert!(result["clearance"].as_f64().unwrap() > 0.0);

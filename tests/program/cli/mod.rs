@@ -57,13 +57,19 @@ mod terminal;
 mod torques;
 mod xacro;
 
+use cplan_check_files::{CheckError, check, check_files};
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
 use tempfile::TempDir;
 
 /// Returns the path of a file of the repository.
-fn shipped(file: &str) -> String {
+pub fn shipped(file: &str) -> String {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
+}
+
+fn read(path: impl AsRef<Path>) -> String {
+    std::fs::read_to_string(path).unwrap()
 }
 
 fn shelf() -> [String; 2] {
@@ -73,11 +79,22 @@ fn shelf() -> [String; 2] {
 /// Start and goal in free space for `planar_2r`.
 const FREE: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
 
+/// Returns the position of the tip of `planar_2r`.
+fn tip([a, b]: [f64; 2]) -> [f64; 2] {
+    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
+}
+
+fn number(value: &Value) -> f64 {
+    value.as_f64().unwrap_or_else(|| panic!("{value} is not a number"))
+}
+
 /// A folder in which the program runs.
 pub struct Place(TempDir);
 
 /// Result of a run.
 pub struct Done {
+    /// The arguments of the program.
+    words: String,
     pub code: i32,
     pub stdout: String,
     pub stderr: String,
@@ -86,6 +103,12 @@ pub struct Done {
 impl Place {
     pub fn new() -> Self {
         Self(tempfile::tempdir().unwrap())
+    }
+
+    /// Returns the folder with another file in it.
+    pub fn with(self, file: &str, content: impl AsRef<[u8]>) -> Self {
+        self.write(file, content);
+        self
     }
 
     pub fn path(&self, file: &str) -> PathBuf {
@@ -100,6 +123,17 @@ impl Place {
         std::fs::read_to_string(self.path(file)).unwrap()
     }
 
+    /// Reads a JSON file.
+    pub fn json(&self, file: &str) -> Value {
+        serde_json::from_str(&self.read(file)).unwrap()
+    }
+
+    /// Reads a table of numbers, without its header.
+    pub fn table(&self, file: &str) -> Vec<Vec<f64>> {
+        let row = |line: &str| line.split(',').map(|field| field.parse().unwrap()).collect();
+        self.read(file).lines().skip(1).map(row).collect()
+    }
+
     fn command(&self) -> Command {
         let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
         command.current_dir(self.0.path()).stdin(Stdio::null());
@@ -107,32 +141,78 @@ impl Place {
     }
 
     pub fn run<S: AsRef<str>>(&self, files: &[S], options: &str) -> Done {
-        let mut command = self.command();
-        command.args(files.iter().map(AsRef::as_ref)).args(options.split_whitespace());
-        let Output { status, stdout, stderr } = command.output().unwrap();
+        let words: Vec<&str> = files.iter().map(AsRef::as_ref).chain(options.split_whitespace()).collect();
+        let Output { status, stdout, stderr } = self.command().args(&words).output().unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
-        Done { code: status.code().expect("no signal"), stdout: text(stdout), stderr: text(stderr) }
+        let code = status.code().expect("no signal");
+        Done { words: words.join(" "), code, stdout: text(stdout), stderr: text(stderr) }
+    }
+
+    /// Plans for a robot in the given world.
+    pub fn run_in(&self, robot: &str, world: impl AsRef<[u8]>, options: &str) -> Done {
+        self.write("world.toml", world);
+        self.run(&[robot, "world.toml"], options)
     }
 
     /// Plans for `planar_2r` in the given world.
-    fn plan(&self, world: impl AsRef<[u8]>, options: &str) -> Done {
-        self.write("world.toml", world);
-        self.run(&[shipped("robots/planar_2r.urdf"), "world.toml".into()], options)
+    pub fn plan(&self, world: impl AsRef<[u8]>, options: &str) -> Done {
+        self.run_in(&shipped("robots/planar_2r.urdf"), world, options)
+    }
+
+    /// Returns the checker's verdict on a robot, a world and a certificate: files here, or shipped ones.
+    pub fn judged(&self, files: [&str; 3]) -> Result<String, CheckError> {
+        let [urdf, world, certificate] = files.map(|file| self.path(file));
+        check_files(&urdf, &world, &certificate)
     }
 }
 
 impl Done {
+    /// Checks the exit code.
+    #[track_caller]
+    pub fn exits(self, code: i32) -> Self {
+        assert_eq!(self.code, code, "cplan {}\n{}{}", self.words, self.stdout, self.stderr);
+        self
+    }
+
+    /// Checks that the program succeeded and reported nothing on stderr.
+    #[track_caller]
+    pub fn succeeds_silently(self) -> Self {
+        assert_eq!((self.code, &*self.stderr), (0, ""), "cplan {}\n{}", self.words, self.stdout);
+        self
+    }
+
+    /// Checks that stdout has all `parts`.
+    #[track_caller]
+    pub fn says(&self, parts: &[&str]) -> &Self {
+        has(&self.stdout, parts);
+        self
+    }
+
+    /// Checks that stderr has all `parts`.
+    #[track_caller]
+    pub fn warns(&self, parts: &[&str]) -> &Self {
+        has(&self.stderr, parts);
+        self
+    }
+
     /// Checks that a command is refused: the exit code, an empty stdout, and a message that has all `parts`.
-    fn refused(&self, code: i32, parts: &[&str]) {
+    #[track_caller]
+    pub fn refused(&self, code: i32, parts: &[&str]) {
         assert_eq!((self.code, self.stdout.as_str()), (code, ""), "{}", self.stderr);
         assert!(self.stderr.starts_with("error: ") && !self.stderr.contains("panicked"), "{}", self.stderr);
         assert_eq!(self.stderr.matches("error: ").count(), 1, "{}", self.stderr);
-        for part in parts {
-            assert!(self.stderr.contains(part), "{part:?} is not in: {}", self.stderr);
-        }
+        has(&self.stderr, parts);
     }
 
-    fn json(&self) -> serde_json::Value {
+    pub fn json(&self) -> Value {
         serde_json::from_str(&self.stdout).expect("one JSON document and nothing else")
+    }
+}
+
+/// Checks that a text has all `parts`.
+#[track_caller]
+pub fn has(text: &str, parts: &[&str]) {
+    for part in parts {
+        assert!(text.contains(part), "{part:?} is not in: {text}");
     }
 }

@@ -1,8 +1,6 @@
 //! Moving obstacles, through the program: plans, their execution, judgements and refusals.
 
-use super::{FREE, Place, shipped};
-use serde_json::Value;
-
+use super::*;
 fn moving(name: &str) -> [String; 2] {
     [shipped("robots/planar_2r.urdf"), shipped(&format!("workspaces/moving/{name}.toml"))]
 }
@@ -16,19 +14,19 @@ fn world(motion: &str) -> String {
 fn the_arm_waits_until_the_cart_has_gone() {
     let place = Place::new();
     let [urdf, world] = moving("crossing");
-    let done = place.run(
-        &moving("crossing"),
-        "--verbose --output m.json --output m.csv --output m.yaml --picture m.html --picture m.svg",
-    );
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    for part in
-        ["moving     1 obstacle", "waits      1.46 s for cart: from 0.000 to 1.460 s at ", "1 obstacle, 1 moving"]
-    {
-        assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
-    }
-    let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+    place
+        .run(
+            &moving("crossing"),
+            "--verbose --output m.json --output m.csv --output m.yaml --picture m.html --picture m.svg",
+        )
+        .exits(0)
+        .says(&[
+            "moving     1 obstacle",
+            "waits      1.46 s for cart: from 0.000 to 1.460 s at ",
+            "1 obstacle, 1 moving",
+        ]);
+    let result = place.json("m.json");
     let output = &result["moving"];
-    let number = |value: &Value| value.as_f64().expect("a number");
     assert_eq!((&output["obstacles"], &output["free_until"]), (&1.into(), &Value::Null));
     assert_eq!(result["closest"], "link \"forearm\" and obstacle \"cart\"");
     assert!(number(&result["clearance"]) <= number(&output["clearance"]) && number(&result["clearance"]) > 0.0);
@@ -38,8 +36,7 @@ fn the_arm_waits_until_the_cart_has_gone() {
     assert!((2.9..3.7).contains(&number(&result["duration"])), "{}", result["duration"]);
     // Every consumer plays the certified motion.
     for file in ["m.json", "m.csv", "m.yaml"] {
-        let verified = place.run(&["verify", &urdf, &world, file], "");
-        assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
+        place.run(&["verify", &urdf, &world, file], "").exits(0);
     }
     let page = place.read("m.html");
     assert!(page.contains("\"movers\":[{") && page.contains("\"moments\":[{"));
@@ -54,14 +51,11 @@ fn the_arm_waits_until_the_cart_has_gone() {
         cells.map(|cell| cell.to_string()).collect::<Vec<_>>().join(",")
     });
     place.write("rushed.csv", [header.to_owned()].into_iter().chain(rushed).collect::<Vec<_>>().join("\n"));
-    let judged = place.run(&["verify", &urdf, &world, "rushed.csv"], "--anywhere");
-    assert_eq!(judged.code, 3, "{}", judged.stdout);
-    assert!(judged.stdout.contains("obstacle \"cart\""), "{}", judged.stdout);
+    let judged = place.run(&["verify", &urdf, &world, "rushed.csv"], "--anywhere").exits(3);
+    judged.says(&["obstacle \"cart\""]);
     // Without times, a motion cannot be judged.
     place.write("path.csv", "shoulder,elbow\n-0.9,0.3\n0.9,-0.3\n");
-    let judged = place.run(&["verify", &urdf, &world, "path.csv"], "");
-    assert_eq!(judged.code, 4, "{}", judged.stdout);
-    assert!(judged.stdout.contains("no times"), "{}", judged.stdout);
+    place.run(&["verify", &urdf, &world, "path.csv"], "").exits(4).says(&["no times"]);
 }
 
 /// Checks a goal of the tip. The fastest motion may follow another path than the shortest one, and end at another IK
@@ -75,18 +69,15 @@ fn the_fastest_motion_is_timed_along_its_own_path() {
              [[obstacle]]\ncircle = {{ center = [0, 0], radius = 0.1 }}\nmotion = {{ stops = [{stops}] }}\n"
         )
     };
-    let plan = |stops: &str| {
-        place.write("w.toml", world(stops));
-        place.run(&[&shipped("robots/planar_2r.urdf"), "w.toml"], "--optimize time --json").json()
-    };
+    let plan =
+        |stops: &str| place.run_in(&shipped("robots/planar_2r.urdf"), world(stops), "--optimize time --json").json();
     // The disc arrives at the position of the upper arm.
     let output = plan("{ time = 4, at = [0, 3] }, { time = 6, at = [0.638, 0.77] }");
     let until = output["moving"]["free_until"].as_f64().expect("a time");
     let goal = output["path"].as_array().unwrap().last().unwrap().to_string();
     for (time, result) in [(until - 0.01, "result     free"), (until + 0.01, "result     not free")] {
         let at = format!("--at={} --time {time}", goal.trim_matches(['[', ']']));
-        let checked = place.run(&["check", &shipped("robots/planar_2r.urdf"), "w.toml"], &at);
-        assert!(checked.stdout.contains(result), "{at}: {}{}", checked.stdout, checked.stderr);
+        place.run(&["check", &shipped("robots/planar_2r.urdf"), "world.toml"], &at).says(&[result]);
     }
     // The disc blocks only the other solution.
     let output = plan(
@@ -108,10 +99,7 @@ fn a_posture_is_checked_at_a_time() {
 
 #[test]
 fn a_proof_that_no_timing_helps_leaves_the_answer_unknown() {
-    let place = Place::new();
-    let done = place.run(&moving("parked"), "--json");
-    assert_eq!(done.code, 4, "{}", done.stderr);
-    let output = done.json();
+    let output = Place::new().run(&moving("parked"), "--json").exits(4).json();
     assert_eq!((&output["status"], &output["trajectory"]), (&"unknown".into(), &Value::Null));
     let reason = output["reason"].as_str().unwrap();
     assert!(reason.contains("along the one route tried, no timing avoids the moving obstacles (proven)"), "{reason}");
@@ -149,8 +137,7 @@ fn commands_without_time_refuse_moving_obstacles() {
     let place = Place::new();
     let [urdf, world] = moving("crossing");
     for command in ["compare", "explain", "explore", "reach", "converge"] {
-        let done = place.run(&[command, &urdf, &world], "");
-        done.refused(1, &["obstacle \"cart\" moves", "remove its motion"]);
+        place.run(&[command, &urdf, &world], "").refused(1, &["obstacle \"cart\" moves", "remove its motion"]);
     }
     let [urdf, world] = moving("belt_pick");
     for command in ["explain", "explore", "reach"] {
@@ -164,13 +151,9 @@ fn bottles_are_picked_from_a_belt() {
     let place = Place::new();
     let [urdf, world] = moving("belt_pick");
     let files = "--verbose --output m.json --output m.csv --output m.mcap --picture m.html --picture m.svg";
-    let done = place.run(&moving("belt_pick"), files);
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    for part in ["found and certified: 6 steps", "3 objects, 3 moving", "moving     3 obstacles", "pick \"bottle 3\""] {
-        assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
-    }
-    let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
-    let number = |value: &Value| value.as_f64().expect("a number");
+    let done = place.run(&moving("belt_pick"), files).exits(0);
+    done.says(&["found and certified: 6 steps", "3 objects, 3 moving", "moving     3 obstacles", "pick \"bottle 3\""]);
+    let result = place.json("m.json");
     assert_eq!(result["moving"]["obstacles"], 3);
     let events = result["events"].as_array().unwrap();
     let grasps: Vec<&Value> = events.iter().filter(|event| event["event"] == "grasp").collect();
@@ -181,13 +164,12 @@ fn bottles_are_picked_from_a_belt() {
         assert!(off < 1e-8, "{grasp}: the bottle is {off} m away");
     }
     assert!(number(&result["lower_bound"]) <= number(&result["duration"]));
-    let judged = place.run(&["verify", &urdf, &world, "m.json"], "");
-    assert_eq!(judged.code, 0, "{}", judged.stdout);
+    place.run(&["verify", &urdf, &world, "m.json"], "").exits(0);
     let page = place.read("m.html");
     assert!(page.contains("\"movers\":[{") && page.contains("\"until\":1.01"), "what moves is not on the page");
     assert!(place.read("m.svg").contains("bottle 1, moving"));
     // Without its steps, the motion is judged empty-handed while the bottles move on: the third is still on the belt.
-    assert_eq!(place.run(&["verify", &urdf, &world, "m.csv"], "").code, 3);
+    place.run(&["verify", &urdf, &world, "m.csv"], "").exits(3);
 }
 
 /// Checks falsified recordings of a task. One that is a little late picks beside the bottles. One that is too fast does
@@ -207,9 +189,7 @@ fn a_falsified_recording_of_a_task_is_found_out() {
     for time in late["trajectory"]["time"].as_array_mut().unwrap().iter_mut().skip(1) {
         *time = (time.as_f64().unwrap() + 0.1).into();
     }
-    let judged = judge("late.json", &late);
-    assert_eq!(judged.code, 3, "{}", judged.stdout);
-    assert!(judged.stdout.contains("step 1 (cycle 1): the tip ends 35.00 mm"), "{}", judged.stdout);
+    judge("late.json", &late).exits(3).says(&["step 1 (cycle 1): the tip ends 35.00 mm"]);
     // All times are faster.
     let mut fast = result.clone();
     for time in fast["trajectory"]["time"].as_array_mut().unwrap() {
@@ -217,21 +197,19 @@ fn a_falsified_recording_of_a_task_is_found_out() {
     }
     assert_eq!(judge("fast.json", &fast).code, 3);
     // The pick is outside its window.
-    let narrow = std::fs::read_to_string(&world).unwrap();
+    let narrow = read(&world);
     let narrow = narrow.replace("pick = \"bottle 1\"", "pick = \"bottle 1\"\nwindow = [2.0, 2.5]");
     place.write("narrow.toml", narrow);
-    let judged = place.run(&["verify", &urdf, "narrow.toml", "as_it_is.json"], "");
-    assert_eq!(judged.code, 3, "{}", judged.stdout);
-    assert!(judged.stdout.contains("outside the required times"), "{}", judged.stdout);
+    place.run(&["verify", &urdf, "narrow.toml", "as_it_is.json"], "").exits(3).says(&["outside the required times"]);
 }
 
 #[test]
 fn a_pick_keeps_to_its_place_and_its_window() {
     let place = Place::new();
-    let world = std::fs::read_to_string(shipped("workspaces/moving/belt_pick.toml")).unwrap();
+    let world = read(&shipped("workspaces/moving/belt_pick.toml"));
     for (keys, window) in [("at = [1.3, 0.15]", [5.0, 5.0]), ("window = [3.0, 4.5]", [3.0, 3.1])] {
-        place.write("w.toml", world.replace("pick = \"bottle 1\"", &format!("pick = \"bottle 1\"\n{keys}")));
-        let done = place.run(&[shipped("robots/planar_2r.urdf"), "w.toml".into()], "--json");
+        place.write("world.toml", world.replace("pick = \"bottle 1\"", &format!("pick = \"bottle 1\"\n{keys}")));
+        let done = place.run(&[shipped("robots/planar_2r.urdf"), "world.toml".into()], "--json");
         let time = done.json()["events"][0]["time"].as_f64().unwrap();
         assert!((window[0] - 1e-9..=window[1] + 1e-9).contains(&time), "{keys}: picked at {time} s");
     }
@@ -292,12 +270,11 @@ fn picks_that_make_no_sense_are_refused_with_their_place() {
 fn objects_never_within_reach_are_proven_and_missed_ones_reported() {
     let place = Place::new();
     let away = belt("at = [2.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "");
-    let done = place.plan(away, "--certificate c.json");
-    assert_eq!(done.code, 3, "{}", done.stdout);
-    assert!(done.stdout.contains("\"bottle\" is never within the arm's reach"), "{}", done.stdout);
-    assert!(done.stderr.contains("an infeasible task has no certificate"), "{}", done.stderr);
+    let done = place.plan(away, "--certificate c.json").exits(3);
+    done.says(&["\"bottle\" is never within the arm's reach"]);
+    done.warns(&["an infeasible task has no certificate"]);
     assert!(!place.path("c.json").exists());
     let done = place.plan(belt("at = [1.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "window = [0, 0.3]"), "");
     assert_eq!(done.code, 4, "{}", done.stdout);
-    assert!(done.stdout.contains("passes before the arm can arrive"), "{}", done.stdout);
+    done.says(&["passes before the arm can arrive"]);
 }

@@ -1,7 +1,6 @@
 //! Numbers in messages: different numbers look different, and zero has no sign.
 
-use super::{FREE, Place, shipped};
-
+use super::*;
 /// Returns a world with a wall just beyond the stretched arm.
 fn wall(x: f64) -> String {
     format!(
@@ -11,9 +10,8 @@ fn wall(x: f64) -> String {
 
 #[test]
 fn a_tiny_clearance_is_no_zero() {
-    let place = Place::new();
-    place.write("world.toml", wall(1.800_000_6));
-    place.write("motion.csv", "shoulder,elbow\n0,0\n0,0.0000001\n");
+    let place =
+        Place::new().with("world.toml", wall(1.800_000_6)).with("motion.csv", "shoulder,elbow\n0,0\n0,0.0000001\n");
     let robot = shipped("robots/planar_2r.urdf");
     let report = place.run(&["verify", &robot, "world.toml", "motion.csv"], "--anywhere").stdout;
     assert!(!report.contains("-0.0000") && !report.contains(" 0.000 mm proven"), "{report}");
@@ -22,14 +20,13 @@ fn a_tiny_clearance_is_no_zero() {
 
 #[test]
 fn a_value_just_beyond_a_limit_is_printed_differently() {
-    let place = Place::new();
-    place.write("world.toml", FREE);
+    let place = Place::new().with("world.toml", FREE);
     let robot = shipped("robots/planar_2r.urdf");
     let report = place.run(&["check", &robot, "world.toml"], "--at -2.900001,-0.0").stdout;
     let limits = "shoulder: -166.15782 deg (-2.900001 rad) is OUTSIDE -166.15776 deg (-2.900000 rad) to 166.15776 deg";
     assert!(report.contains(limits), "{report}");
     assert!(report.contains("elbow: 0.00 deg (0.0000 rad) is within"), "{report}");
-    let sliding = std::fs::read_to_string(&robot).unwrap();
+    let sliding = read(&robot);
     let sliding =
         sliding.replace("type=\"revolute\"", "type=\"prismatic\"").replacen("xyz=\"0 0 1\"", "xyz=\"1 0 0\"", 1);
     let sliding = sliding.replacen("<axis xyz=\"0 0 1\"/>", "<axis xyz=\"0 1 0\"/>", 1);
@@ -40,8 +37,7 @@ fn a_value_just_beyond_a_limit_is_printed_differently() {
 
 #[test]
 fn a_point_just_out_of_reach_is_printed_differently() {
-    let place = Place::new();
-    let done = place.plan(FREE, "--goal-tip 1.8000001,0");
+    let done = Place::new().plan(FREE, "--goal-tip 1.8000001,0");
     done.refused(1, &["it is 1.8000001 m from joint", "the tip reaches from 0.2000000 to 1.8000000 m"]);
 }
 

@@ -4,9 +4,9 @@ use super::*;
 
 /// Returns a folder with a robot and a world in which one can plan.
 fn place() -> Place {
-    let place = Place::new();
-    place.write("arm.urdf", std::fs::read(shipped("robots/planar_2r.urdf")).unwrap());
-    place.write("world.json", FREE);
+    let place = Place::new()
+        .with("arm.urdf", std::fs::read(shipped("robots/planar_2r.urdf")).unwrap())
+        .with("world.json", FREE);
     std::fs::create_dir(place.path("sub")).unwrap();
     place
 }
@@ -15,11 +15,7 @@ fn place() -> Place {
 fn refused(place: &Place, arguments: &[&str], names: &[&str]) {
     let files = ["arm.urdf", "world.json"];
     let before = files.map(|file| place.read(file));
-    let done = place.run(arguments, "");
-    assert_eq!(done.code, 1, "{arguments:?}: {}", done.stdout);
-    for part in [names, &["nothing was written", "hint:"]].concat() {
-        assert!(done.stderr.contains(part), "no {part} in {}", done.stderr);
-    }
+    place.run(arguments, "").exits(1).warns(&[names, &["nothing was written", "hint:"]].concat());
     assert_eq!(files.map(|file| place.read(file)), before, "{arguments:?}");
 }
 
@@ -31,8 +27,7 @@ fn outputs_are_written_behind_links() {
     std::fs::create_dir(place.path("behind")).unwrap();
     std::os::unix::fs::symlink("behind/plan.json", place.path("link.json")).unwrap();
     for _ in 0..2 {
-        let done = place.run(&["arm.urdf", "world.json", "--quiet", "--output", "link.json"], "");
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        place.run(&["arm.urdf", "world.json", "--quiet", "--output", "link.json"], "").exits(0);
         assert!(place.path("link.json").is_symlink() && place.read("behind/plan.json").contains("\"found\""));
     }
     std::os::unix::fs::symlink("none/plan.json", place.path("dangling.json")).unwrap();
@@ -63,7 +58,7 @@ fn an_input_is_not_overwritten_by_any_path_to_it() {
     // The world has another name, too.
     refused(&place, &["arm.urdf", spellings[spellings.len() - 1], "--output", "world.json"], &["world.json"]);
     refused(&place, &["compare", "arm.urdf", "world.json", "--output", "sub/../world.json"], &["the input"]);
-    assert_eq!(place.run(&["arm.urdf", "world.json", "--output", "new.json"], "").code, 0);
+    place.run(&["arm.urdf", "world.json", "--output", "new.json"], "").exits(0);
 }
 
 #[test]
@@ -96,9 +91,7 @@ fn files_named_by_an_input_are_inputs_too() {
     let robot = world.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap().trim();
     let urdf = shipped(&format!("robots/{robot}.urdf"));
     let before = place.read("den.yaml");
-    let done = place.run(&[&urdf, "den.toml", "--output", "den.yaml"], "");
-    assert_eq!(done.code, 1, "{}", done.stdout);
-    assert!(done.stderr.contains("the input file den.yaml"), "{}", done.stderr);
+    place.run(&[&urdf, "den.toml", "--output", "den.yaml"], "").exits(1).warns(&["the input file den.yaml"]);
     assert_eq!(place.read("den.yaml"), before);
 }
 

@@ -1,8 +1,6 @@
 //! The robot's own body as an obstacle: static links for both links, and link 1 for the parts that link 2 carries.
 
-use super::{Done, Place};
-use cplan_check_files::check_files;
-
+use super::*;
 /// A SCARA with a reach of 1.05 m. It stands on a pedestal 272 mm high, has arms of 560 and 490 mm above it, and a
 /// quill whose lower end is at the height `{quill}` m. The words in braces are placeholders for what differs between
 /// cases.
@@ -33,9 +31,7 @@ fn scara(quill: f64, more: &str) -> String {
 }
 
 fn run(urdf: &str, world: &str, options: &str) -> (Place, Done) {
-    let place = Place::new();
-    place.write("arm.urdf", urdf);
-    place.write("world.toml", world);
+    let place = Place::new().with("arm.urdf", urdf).with("world.toml", world);
     let done = place.run(&["arm.urdf", "world.toml"], options);
     (place, done)
 }
@@ -119,7 +115,7 @@ fn a_hand_that_has_only_a_visual_is_not_left_out() {
     let (_, with) = at_post(hand);
     with.refused(1, &[r#"link "outer" (body "hand") hits obstacle "post""#]);
     let (_, beside) = run(&scara(0.39, hand), &(world("tip = \"quill\"", [0.0, -1.0]) + post), "");
-    assert!(beside.stdout.contains("no collision geometry: \"hand\""), "{}", beside.stdout);
+    beside.says(&["no collision geometry: \"hand\""]);
 }
 
 #[test]
@@ -130,7 +126,7 @@ fn links_that_meet_in_every_configuration_are_named() {
     let (_, done) = run(&scara(0.39, plate), &world("", [0.0, -1.0]), "");
     assert_eq!(done.code, 0, "{}", done.stderr);
     let report = "shapes that meet in every configuration is ignored: \"plate\" and \"outer\", \"plate\" and \"quill\"";
-    assert!(done.stdout.contains(report), "{}", done.stdout);
+    done.says(&[report]);
 }
 
 /// An arm of two bars that are 0.4 m long. Braces stand for its root, with everything that hangs from it, and for the
@@ -209,7 +205,7 @@ fn shapes_of_a_neighbor_count_one_by_one() {
     let (_, beside) = run(&on_a_base(&base("-0.25 0.0"), 2.5, 0.05), &SWING.replace("{robot}", ""), "");
     assert_eq!(beside.code, 0, "{}", beside.stderr);
     let note = "is ignored: shape 1 of \"base\" and shape 1 of \"L1\"";
-    assert!(beside.stdout.contains(note), "{}", beside.stdout);
+    beside.says(&[note]);
 }
 
 /// Checks the hint of an arm whose shapes collide near a joint. The line that it offers helps.
@@ -235,7 +231,7 @@ fn links_that_the_robot_does_not_have_are_refused() {
     ] {
         let (_, done) = run(&scara(0.39, ""), &world(robot, [0.0, -1.0]), "");
         done.refused(1, &parts);
-        assert!(done.stderr.contains("world.toml: line 3"), "{}", done.stderr);
+        done.warns(&["world.toml: line 3"]);
     }
 }
 

@@ -1,17 +1,12 @@
 //! The option `--path own|taut`, and answers if a planner's space does not contain the path that exists.
 
-use super::{FREE, Place, shelf, shipped};
+use super::*;
 use cplan::engine::Method;
-use serde_json::{Value, json};
 
 #[test]
 fn planners_with_two_paths_return_the_requested_one() {
     let place = Place::new();
-    let run = |options: &str| {
-        let done = place.run(&shelf(), &format!("{options} --cells 64 --json"));
-        assert_eq!(done.code, 0, "{options}: {}", done.stderr);
-        done.json()
-    };
+    let run = |options: &str| place.run(&shelf(), &format!("{options} --cells 64 --json")).exits(0).json();
     for (planner, usual) in [
         ("trapezoid", "taut"),
         ("triangles", "taut"),
@@ -59,8 +54,7 @@ fn the_shortest_path_has_no_other_beside_it() {
 fn a_trapezoids_own_path_has_the_centres_of_its_cells_between_the_middles_of_portals() {
     let place = Place::new();
     let world = format!("{FREE}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [1.3, 0.2], radius = 0.2 }}\n");
-    let done = place.plan(world, "--planner trapezoid --path own --json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = place.plan(world, "--planner trapezoid --path own --json").exits(0);
     let path = done.json()["path"].as_array().unwrap().len();
     // Start, then portals and centres in turn, a portal, goal.
     assert!(path >= 3 && path % 2 == 1, "{path} waypoints");
@@ -70,9 +64,7 @@ fn a_trapezoids_own_path_has_the_centres_of_its_cells_between_the_middles_of_por
 fn compare_lists_both_paths_of_each_planner() {
     let place = Place::new();
     let [urdf, world] = shelf();
-    let done = place.run(&["compare", &urdf, &world], "--cells 48 --json --quiet");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let json = done.json();
+    let json = place.run(&["compare", &urdf, &world], "--cells 48 --json --quiet").exits(0).json();
     let rows = json["planners"].as_array().unwrap();
     let names: Vec<&str> = rows.iter().map(|row| row["planner"].as_str().unwrap()).collect();
     assert_eq!(names, Method::ALL.map(Method::name));
@@ -112,9 +104,7 @@ fn where_cells_are_too_coarse_the_answer_says_whether_there_is_a_path() {
             let files = [shipped("robots/planar_2r.urdf"), shipped(world)];
             place.run(&files, &format!("--planner {planner} --cells 16 --levels 1 --json"))
         };
-        let open = on("workspaces/narrow_slot.toml");
-        assert_eq!(open.code, 4, "{planner}: {}", open.stderr);
-        let json = open.json();
+        let json = on("workspaces/narrow_slot.toml").exits(4).json();
         assert_eq!((&json["status"], &json["path_exists"]), (&json!("unknown"), &json!(true)), "{planner}");
         assert!(json["path"].is_null() && json["certified"] == false);
         let reason = json["reason"].as_str().unwrap();
@@ -132,9 +122,8 @@ fn middles_pass_a_centroid_in_a_u_turn_and_the_help_says_so() {
     let help = place.run(&["help", "planners"], "").stdout.split_whitespace().collect::<Vec<_>>().join(" ");
     assert!(help.contains("with a cell's centroid only between two portals on one vertical (a U-turn)"), "{help}");
     let files = [shipped("robots/stage_robot.urdf"), shipped("workspaces/published/cup.toml")];
-    let done = place.run(&files, "--planner trapezoid --path middles --json --output cspace.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let spaces: Value = serde_json::from_str(&place.read("cspace.json")).unwrap();
+    let done = place.run(&files, "--planner trapezoid --path middles --json --output cspace.json").exits(0);
+    let spaces = place.json("cspace.json");
     let cells = &spaces["spaces"][0]["cells"];
     let [centers, middles] = ["centers", "middles"].map(|key| cells[key].as_array().unwrap().clone());
     let passed = done.json()["path"].as_array().unwrap().clone();

@@ -1,10 +1,6 @@
 //! Heights of places: objects that are placed lower or higher than they were picked.
 
-use super::Place;
-use super::certified_tasks::read;
-use super::shipped;
-use cplan_check_files::check_files;
-use serde_json::Value;
+use super::*;
 
 /// Returns a task that takes a part from a tray, 20 mm high, to a box and back. A low bar lies in the box.
 fn world(robot: &str, there: &str, back: &str, bar: &str) -> String {
@@ -58,22 +54,20 @@ const NO_BAR: &str = "[-0.5, -0.4]";
 #[test]
 fn the_tool_goes_down_to_the_stated_heights() {
     for (robot, reaches) in [("", [-0.12, -0.14, -0.14, -0.12]), ("travel = 0.1", [-0.1, -0.12, -0.12, -0.1])] {
-        let place = Place::new();
-        place.write("scara.urdf", read(&shipped("robots/scara.urdf")));
-        place.write("world.toml", world(robot, ", height = 0.0", "on = \"pockets 1,1\"", NO_BAR));
-        let done = place.run(&["scara.urdf", "world.toml"], "--quiet --output plan.json --certificate proof.json");
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let plan: Value = serde_json::from_str(&place.read("plan.json")).unwrap();
+        let place = Place::new()
+            .with("scara.urdf", read(&shipped("robots/scara.urdf")))
+            .with("world.toml", world(robot, ", height = 0.0", "on = \"pockets 1,1\"", NO_BAR));
+        place.run(&["scara.urdf", "world.toml"], "--quiet --output plan.json --certificate proof.json").exits(0);
+        let plan = place.json("plan.json");
         let lowered = |step: &Value| step["stroke"]["lowered"].as_f64().unwrap();
         let steps: Vec<f64> = plan["steps"].as_array().unwrap().iter().map(lowered).collect();
         assert!(steps.iter().zip(reaches).all(|(is, asked)| (is - asked).abs() < 1e-12), "{steps:?}");
-        let judged = place.run(&["verify", "scara.urdf", "world.toml", "plan.json"], "");
-        assert_eq!(judged.code, 0, "{}", judged.stdout);
+        place.run(&["verify", "scara.urdf", "world.toml", "plan.json"], "").exits(0);
         let checked = check_files(&place.path("scara.urdf"), &place.path("world.toml"), &place.path("proof.json"));
         assert!(checked.is_ok(), "{checked:?}");
         // At its other height, the checker and the judge see a wrong stroke.
         place.write("wrong.toml", world(robot, ", height = 0.01", "on = \"pockets 1,1\"", NO_BAR));
-        assert_eq!(place.run(&["verify", "scara.urdf", "wrong.toml", "plan.json"], "").code, 3);
+        place.run(&["verify", "scara.urdf", "wrong.toml", "plan.json"], "").exits(3);
     }
 }
 
@@ -89,11 +83,11 @@ fn placed_objects_have_the_stated_heights() {
         ("", "[0.0, 0.02]", 0),
         (", height = 0.0", "[0.01, 0.02]", 3),
     ] {
-        let place = Place::new();
-        place.write("scara.urdf", read(&shipped("robots/scara.urdf")));
-        place.write("world.toml", world("", there, back, bar));
-        let done = place.run(&["scara.urdf", "world.toml"], "--quiet");
-        assert_eq!(done.code, code, "{there} {bar}: {}", done.stderr);
+        Place::new()
+            .with("scara.urdf", read(&shipped("robots/scara.urdf")))
+            .with("world.toml", world("", there, back, bar))
+            .run(&["scara.urdf", "world.toml"], "--quiet")
+            .exits(code);
     }
 }
 
@@ -126,12 +120,12 @@ fn places_in_the_air_are_errors() {
             "step 2 (world.toml:33:1): the tool would be lowered to -0.24 m, outside the limits [",
         ),
     ] {
-        let place = Place::new();
-        place.write("scara.urdf", read(&shipped("robots/scara.urdf")));
-        place.write("world.toml", world("", there, back, bar));
-        let done = place.run(&["scara.urdf", "world.toml"], "--quiet");
-        assert_eq!(done.code, 1, "{there}");
-        assert!(done.stderr.contains(message) && done.stderr.contains("world.toml"), "{}", done.stderr);
+        Place::new()
+            .with("scara.urdf", read(&shipped("robots/scara.urdf")))
+            .with("world.toml", world("", there, back, bar))
+            .run(&["scara.urdf", "world.toml"], "--quiet")
+            .exits(1)
+            .warns(&[message, "world.toml"]);
     }
 }
 

@@ -1,12 +1,10 @@
 //! `cplan polygons`: the penetration test and the Minkowski difference of two polygons.
 
 use super::*;
-use serde_json::{Value, json};
 
 /// Returns the findings about two polygons.
 fn findings(place: &Place, a: &str, b: &str, options: &str) -> Value {
-    let done = place.run(&["polygons", a, b], &format!("{options} --json"));
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = place.run(&["polygons", a, b], &format!("{options} --json")).exits(0);
     serde_json::from_str(&done.stdout).unwrap()
 }
 
@@ -39,8 +37,10 @@ fn the_difference_has_the_corners_of_the_vertex_sweep() {
     assert_eq!(part["corners"], json!([[2.0, 1.0], [4.0, 1.0], [4.0, 3.0], [3.0, 3.0], [1.0, 2.0]]));
     assert_eq!(part["of"], json!([[1, 3], [2, 3], [3, 1], [3, 2], [1, 2]]));
     let done = place.run(&["polygons", "0,0 1,0 0,1", "2,2 4,2 4,3"], "");
-    assert!(done.stdout.contains("b1 - a3 = (2, 1), b2 - a3 = (4, 1), b3 - a1 = (4, 3)"), "{}", done.stdout);
-    assert!(done.stdout.contains("A and B are 2.12132 apart; the origin is outside B - A"), "{}", done.stdout);
+    done.says(&[
+        "b1 - a3 = (2, 1), b2 - a3 = (4, 1), b3 - a1 = (4, 3)",
+        "A and B are 2.12132 apart; the origin is outside B - A",
+    ]);
     // A turned square: the section of the C-obstacle at this angle.
     let turned = findings(&place, "-1,-1 1,-1 1,1 -1,1", SQUARE, "--turn 45deg");
     assert_eq!(turned["difference"][0]["corners"].as_array().map(Vec::len), Some(8));
@@ -55,35 +55,33 @@ fn polygons_that_are_not_convex_have_a_difference_in_parts() {
     assert_eq!((&found["a"]["convex"], &found["depth_is_exact"]), (&json!(false), &json!(false)));
     assert!(found["difference"].as_array().unwrap().len() > 1);
     let done = place.run(&["polygons", "0,0 3,0 3,3 2,3 2,1 1,1 1,3 0,3", "1.25,0.5 1.75,0.5 1.75,5 1.25,5"], "");
-    assert!(done.stdout.contains("A and B meet; penetration depth: at least 0.5"), "{}", done.stdout);
+    done.says(&["A and B meet; penetration depth: at least 0.5"]);
 }
 
 #[test]
 fn polygons_are_read_from_files_and_drawn() {
-    let place = Place::new();
-    place.write("a.txt", "# a square, clockwise, closed\n0 0\n0 1\n1 1\n1 0\n0 0\n");
-    place.write("b.csv", "x,y\n0.75,0.5\n3,0.5\n3,3\n0.75,3\n");
-    place.write("c.toml", "polygon = [[0.75, 0.5], [3, 0.5], [3, 3], [0.75, 3]]\n");
+    let place = Place::new()
+        .with("a.txt", "# a square, clockwise, closed\n0 0\n0 1\n1 1\n1 0\n0 0\n")
+        .with("b.csv", "x,y\n0.75,0.5\n3,0.5\n3,3\n0.75,3\n")
+        .with("c.toml", "polygon = [[0.75, 0.5], [3, 0.5], [3, 3], [0.75, 3]]\n");
     let found = findings(&place, "a.txt", "b.csv", "--picture both.svg --picture both.png --picture both.html");
     assert_eq!(found["depth"], json!(0.25));
     assert_eq!(found["notes"].as_array().map(Vec::len), Some(2), "{found}");
     assert_eq!(found["b"], findings(&place, "a.txt", "c.toml", "")["b"]);
     let svg = place.read("both.svg");
-    for part in ["a1", "b4", "origin", "B \u{2212} A", "penetration depth: 0.25"] {
-        assert!(svg.contains(part), "{part}");
-    }
+    has(&svg, &["a1", "b4", "origin", "B \u{2212} A", "penetration depth: 0.25"]);
     assert!(place.path("both.png").exists() && place.read("both.html").contains("<svg"));
     place.run(&["polygons", "a.txt", "b.csv"], "--picture b.csv").refused(2, &["must end in"]);
 }
 
 #[test]
 fn bad_polygons_are_refused_with_place_and_hint() {
-    let place = Place::new();
-    place.write("word.txt", "0,0\n1,zero\n1,1\n");
-    place.write("odd.txt", "0,0\n1,0,2\n1,1\n");
-    place.write("cross.txt", "0,0\n2,2\n2,0\n0,2\n");
-    place.write("key.toml", "points = [[0, 0], [1, 0], [1, 1]]\n");
-    place.write("three.toml", "polygon = [[0, 0],\n[1, 0, 2], [1, 1]]\n");
+    let place = Place::new()
+        .with("word.txt", "0,0\n1,zero\n1,1\n")
+        .with("odd.txt", "0,0\n1,0,2\n1,1\n")
+        .with("cross.txt", "0,0\n2,2\n2,0\n0,2\n")
+        .with("key.toml", "points = [[0, 0], [1, 0], [1, 1]]\n")
+        .with("three.toml", "polygon = [[0, 0],\n[1, 0, 2], [1, 1]]\n");
     for (a, parts) in [
         ("word.txt", ["word.txt: line 2, column 3", "\"zero\" is not a number", "hint: write each point as x,y"]),
         ("odd.txt", ["odd.txt: line 2, column 1", "a point has two numbers, but here are 3", "hint: "]),

@@ -1,9 +1,8 @@
 //! The number of boxes of a proof in random worlds, from the program's own result.
 
-use super::{Place, shipped};
+use super::*;
 use cplan_cases::dice::Dice;
 use cplan_cases::seeds;
-use serde_json::Value;
 use std::fmt::Write;
 
 /// Largest number of boxes of a proof.
@@ -45,12 +44,12 @@ fn proofs_in_random_worlds_are_small() {
         if done.code == 1 {
             continue;
         }
-        let result: Value = serde_json::from_str(&place.read("result.json")).unwrap();
+        let result = place.json("result.json");
         assert_eq!(done.code == 3, result["status"] == "infeasible", "seed {seed}");
         if done.code == 3 {
             sizes.push((result["proof"].as_array().unwrap().len(), seed));
             let files = [shipped("robots/planar_2r.urdf"), "world.toml".into()];
-            assert_eq!(place.run(&[&["recheck".to_owned()], &files[..]].concat(), "--proof result.json").code, 0);
+            place.run(&[&["recheck".to_owned()], &files[..]].concat(), "--proof result.json").exits(0);
         }
     }
     sizes.sort_unstable();
@@ -67,11 +66,10 @@ fn proofs_in_random_worlds_are_small() {
 #[test]
 fn the_world_whose_slabs_take_the_most_boxes_has_a_small_proof() {
     let place = Place::new();
-    let done = place.plan(world(4605), "--planner wavefront --output result.json --quiet");
-    assert_eq!(done.code, 3, "{}", done.stderr);
-    let result: Value = serde_json::from_str(&place.read("result.json")).unwrap();
+    place.plan(world(4605), "--planner wavefront --output result.json --quiet").exits(3);
+    let result = place.json("result.json");
     let boxes = result["proof"].as_array().unwrap().len();
     assert!(boxes <= MOST, "{boxes} boxes");
     let files = [shipped("robots/planar_2r.urdf"), "world.toml".into()];
-    assert_eq!(place.run(&[&["recheck".to_owned()], &files[..]].concat(), "--proof result.json").code, 0);
+    place.run(&[&["recheck".to_owned()], &files[..]].concat(), "--proof result.json").exits(0);
 }

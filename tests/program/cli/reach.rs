@@ -1,7 +1,6 @@
 //! `cplan reach` from outside: cells and solutions against the tests' own kinematics, and against plans to them.
 
-use super::{Done, Place, shelf, shipped};
-use serde_json::Value;
+use super::*;
 use std::f64::consts::{PI, TAU};
 
 fn reach(place: &Place, files: &[String; 2], options: &str) -> Done {
@@ -23,11 +22,6 @@ fn solutions(csv: &str) -> Vec<Solution> {
     csv.lines().skip(1).map(solution).collect()
 }
 
-/// Returns the position of the tip of `planar_2r`.
-fn tip([a, b]: [f64; 2]) -> [f64; 2] {
-    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
-}
-
 #[test]
 fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
     let place = Place::new();
@@ -39,9 +33,8 @@ fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
         assert!((x - at_x).hypot(y - at_y) < 1e-9, "{joints:?}");
     }
     // Each cell centre between the least and the greatest reach has two elbow solutions, within the joints' limits.
-    let result: Value = serde_json::from_str(&place.read("r.json")).unwrap();
+    let result = place.json("r.json");
     let within = |value: f64| value.abs() <= 2.9;
-    let number = |value: &Value| value.as_f64().unwrap();
     let (cell, corner) = (number(&result["reach"]["cell"]), &result["reach"]["corner"]);
     let size = [0, 1].map(|k| result["reach"]["size"][k].as_u64().unwrap());
     let mut expected = 0;
@@ -60,9 +53,7 @@ fn all_solutions_are_there_and_put_the_tip_at_the_centres() {
     }
     assert_eq!(all.len(), expected);
     let picture = place.read("r.svg");
-    for part in ["Workspace", "Configuration space", "the tip can reach it, with one IK solution"] {
-        assert!(picture.contains(part), "{part}");
-    }
+    has(&picture, &["Workspace", "Configuration space", "the tip can reach it, with one IK solution"]);
 }
 
 #[test]
@@ -76,9 +67,7 @@ fn each_solution_has_the_outcome_of_planning_to_it() {
         ("slide_arm", "slide_table"),
     ] {
         let files = [shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml"))];
-        let done = reach(&place, &files, "--output r.csv --json");
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let result = done.json();
+        let result = reach(&place, &files, "--output r.csv --json").exits(0).json();
         let home = [0, 1].map(|k| result["reach"]["home"][k].as_f64().unwrap());
         let all = solutions(&place.read("r.csv"));
         for access in ["reachable", "unreachable", "blocked", "unknown"] {
@@ -149,8 +138,7 @@ fn a_place_that_leaves_a_joint_free_is_reached_with_another_value_of_it() {
         "world.toml",
         "robot.at = [0.05, 0.05]\nstart.joints = [0, 0]\nobstacle = [{ circle = { center = [-0.1, 0.05], radius = 0.02 } }]\n",
     );
-    let done = reach(&place, &["arm.urdf".into(), "world.toml".into()], "--cell 0.1 --output r.csv");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    reach(&place, &["arm.urdf".into(), "world.toml".into()], "--cell 0.1 --output r.csv").exits(0);
     let all = solutions(&place.read("r.csv"));
     let folded: Vec<&Solution> = all.iter().filter(|s| s.tip.iter().all(|c| (c - 0.05).abs() < 1e-9)).collect();
     assert!(!folded.is_empty());

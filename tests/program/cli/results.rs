@@ -1,7 +1,6 @@
 //! Output: streams, files, formats, exit codes.
 
-use super::{Done, FREE, Place, shelf, shipped};
-use serde_json::{Value, json};
+use super::*;
 use std::process::Stdio;
 
 /// Checks the members of a result on which scripts rely, and which every result has.
@@ -50,7 +49,7 @@ fn a_motion_to_the_start_has_length_zero() {
     let done = Place::new().plan(FREE, "--goal=-0.9,0.4 --json");
     assert_eq!((done.code, done.json()["path"].clone()), (0, json!([[-0.9, 0.4]])));
     // Serialised, -0.0 and 0.0 differ.
-    assert!(done.stdout.contains("\"length\": 0.0"), "{}", done.stdout);
+    done.says(&["\"length\": 0.0"]);
 }
 
 #[test]
@@ -71,8 +70,7 @@ fn the_same_input_gives_the_same_bytes() {
     let names = ["a.json", "a.csv", "a.yaml", "a.yml", "b.json"];
     let outputs: String = names.iter().map(|n| format!("--output {n} ")).collect();
     let options = format!("{outputs} --picture a.svg --picture a.html");
-    let first = place.run(&shelf(), &options);
-    assert_eq!(first.code, 0, "{}", first.stderr);
+    let first = place.run(&shelf(), &options).exits(0);
     let all = || names.iter().chain(&["a.svg", "a.html"]).map(|n| place.read(n)).collect::<Vec<_>>();
     assert!(names.iter().all(|n| first.stdout.contains(n)), "{}", first.stdout);
     let before = all();
@@ -123,8 +121,7 @@ fn files_that_cannot_be_written_are_known_before_any_work() {
 
 #[test]
 fn without_a_trajectory_tables_stay_as_they_were() {
-    let place = Place::new();
-    place.write("a.csv", "old");
+    let place = Place::new().with("a.csv", "old");
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/no_path.toml")];
     let done = place.run(&files, "--output a.csv --output a.json");
     assert_eq!((done.code, place.read("a.csv").as_str()), (3, "old"));
@@ -152,8 +149,7 @@ fn recordings_hold_every_sample_and_are_the_same_each_time() {
     assert!((statistics.message_end_time as f64 * 1e-9 - end).abs() <= 0.6e-9);
 
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/no_path.toml")];
-    let none = place.run(&files, "--output none.mcap");
-    assert_eq!(none.code, 3);
+    let none = place.run(&files, "--output none.mcap").exits(3);
     assert!(none.stderr.contains("none.mcap is not written") && !place.path("none.mcap").exists(), "{}", none.stderr);
 }
 
@@ -172,8 +168,8 @@ fn a_program_without_png_says_so_before_any_work() {
 #[test]
 fn a_picture_that_moves_is_written_beside_others() {
     let place = Place::new();
-    let done = place.run(&shelf(), "--planner first --picture plan.gif --picture plan.svg --picture plan.html");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done =
+        place.run(&shelf(), "--planner first --picture plan.gif --picture plan.svg --picture plan.html").exits(0);
     let bytes = std::fs::read(place.path("plan.gif")).unwrap();
     let (count, pixels) = crate::draw::moving::last_picture(&bytes, 960);
     assert!(count > 40 && pixels.len() == 960 * 494, "{count} pictures");
@@ -181,8 +177,7 @@ fn a_picture_that_moves_is_written_beside_others() {
     let page = std::fs::read_to_string(place.path("plan.html")).unwrap();
     assert!(page.contains("\"replay\":[{\"caption\":") && done.stdout.contains("plan.gif"));
     // If the start is the goal, nothing moves.
-    let still = place.run(&shelf(), "--goal=-0.9,0.4 --picture still.gif");
-    assert_eq!(still.code, 0, "{}", still.stderr);
+    place.run(&shelf(), "--goal=-0.9,0.4 --picture still.gif").exits(0);
     assert!(place.path("still.gif").exists());
 }
 
@@ -190,8 +185,7 @@ fn a_picture_that_moves_is_written_beside_others() {
 #[test]
 fn a_program_without_mcap_says_so_before_any_work() {
     let place = Place::new();
-    let done = place.run(&shelf(), "--output a.json --output a.mcap");
-    done.refused(1, &["a.mcap", "built without MCAP", ".yaml"]);
+    place.run(&shelf(), "--output a.json --output a.mcap").refused(1, &["a.mcap", "built without MCAP", ".yaml"]);
     assert!(!place.path("a.json").exists());
 }
 
@@ -231,9 +225,7 @@ fn full_devices_are_an_error_and_no_panic() {
 fn paths_come_with_a_bound_on_the_optimum() {
     let here = Place::new();
     let optimum = |options: &str| {
-        let done = here.run(&shelf(), &format!("--json {options}"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let result = done.json();
+        let result = here.run(&shelf(), &format!("--json {options}")).exits(0).json();
         let optimum = result["optimum"].clone();
         let [length, lower] = ["length", "lower_bound"].map(|key| optimum[key].as_f64().unwrap());
         assert!(0.0 < lower && lower <= length, "{optimum}");
@@ -261,11 +253,5 @@ fn paths_come_with_a_bound_on_the_optimum() {
 fn an_unreachable_gap_is_reported() {
     let here = Place::new();
     let slot = ["robots/polar.urdf", "workspaces/thin_wall_open.toml"].map(shipped);
-    let done = here.run(&slot, "--gap 1e-9 --levels 1 --json");
-    assert_eq!(done.code, 0);
-    assert!(
-        done.stderr.contains("warning: the requested gap of") && done.stderr.contains("--levels"),
-        "{}",
-        done.stderr
-    );
+    here.run(&slot, "--gap 1e-9 --levels 1 --json").exits(0).warns(&["warning: the requested gap of", "--levels"]);
 }

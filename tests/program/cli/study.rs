@@ -1,7 +1,6 @@
 //! `cplan study` from outside: rows, how to reproduce them, refused input.
 
-use super::{Done, FREE, Place, shelf, shipped};
-use serde_json::Value;
+use super::*;
 use std::collections::BTreeSet;
 use std::process::Stdio;
 use std::time::{Duration, Instant};
@@ -64,8 +63,7 @@ fn each_row_agrees_with_planning_in_the_files_of_its_layout() {
     let place = Place::new();
     // Layouts that the study would refuse can be planned separately.
     study(&place, "draws = 5\nseed = 3\noverlap = true", CRATE);
-    let done = run(&place, "--output t.csv --jobs 2 --json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run(&place, "--output t.csv --jobs 2 --json").exits(0);
     let rows = rows(&place.read("t.csv"));
     assert_eq!(rows.len(), 20);
     let mut endings = [0; 4];
@@ -112,12 +110,10 @@ fn rows_do_not_depend_on_the_number_of_jobs_or_on_measures() {
     let one = bytes(1);
     assert_eq!(one, bytes(3));
     let page = String::from_utf8(one[1].clone()).unwrap();
-    for part in ["Maps", "Trade-offs", "Best layouts", "y by x", "best: layout"] {
-        assert!(page.contains(part), "{part}");
-    }
+    has(&page, &["Maps", "Trade-offs", "Best layouts", "y by x", "best: layout"]);
     // Lengths alone need no trajectory, and are the same.
     study(&place, "draws = 6\nmeasure = [\"length\", \"over_bound\"]", CRATE);
-    assert_eq!(run(&place, "--output u.csv --quiet").code, 0);
+    run(&place, "--output u.csv --quiet").exits(0);
     let [with, without] = ["t.csv", "u.csv"].map(|file| rows(&place.read(file)));
     for (with, without) in with.iter().zip(&without) {
         for name in ["outcome", "reason", "length", "over_bound"] {
@@ -144,7 +140,7 @@ fn a_program_without_parquet_says_so_before_any_work() {
 fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     let place = Place::new();
     study(&place, "draws = 60\n[search]\nlayouts = 40", CRATE);
-    assert_eq!(run(&place, "--output whole.csv --quiet").code, 0);
+    run(&place, "--output whole.csv --quiet").exits(0);
     let mut killed = place.command();
     killed.args(["study", "study.toml", "--output", "t.csv", "--quiet", "--jobs", "1"]);
     let mut killed = killed.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
@@ -159,20 +155,18 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     let kept = lines();
     assert!(kept >= 20 && !place.path("t.csv").exists(), "{kept} lines");
     // The last line is incomplete.
-    let mut text = std::fs::read_to_string(&part).unwrap();
+    let mut text = read(&part);
     text.truncate(text.len() - 7);
     std::fs::write(&part, &text).unwrap();
-    let done = run(&place, "--output t.csv --jobs 2");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(done.stderr.contains("layouts of the stopped study"), "{}", done.stderr);
+    run(&place, "--output t.csv --jobs 2").exits(0).warns(&["layouts of the stopped study"]);
     assert_eq!(place.read("t.csv"), place.read("whole.csv"));
     assert!(!part.exists());
     // Rows of another study are neither used nor lost.
     std::fs::write(&part, &text).unwrap();
     study(&place, "draws = 61", CRATE);
     run(&place, "--output t.csv").refused(1, &["t.csv.part has rows of another study", "--fresh"]);
-    assert_eq!(std::fs::read_to_string(&part).unwrap(), text);
-    assert_eq!(run(&place, "--output t.csv --fresh --quiet").code, 0);
+    assert_eq!(read(&part), text);
+    run(&place, "--output t.csv --fresh --quiet").exits(0);
     assert_eq!(rows(&place.read("t.csv")).len(), 244);
     // Another kind of file is not overwritten either.
     place.write("t.csv.part", "somebody's notes");
@@ -189,8 +183,7 @@ fn the_search_finds_better_layouts_and_lists_the_tried_ones() {
                 [[parameter]]\nname = \"y\"\nsets = \"world.robot.at[1]\"\nfrom = -0.3\nto = 0.3\nsteps = 4\n";
     let head = "measure = [\"length\", \"clearance\"]\nobjective = \"least length\"\noptions = [\"--clearance=0.003\"]\nconditions = [\"clearance >= 0.002\"]\n[search]\nlayouts = 60";
     study(&place, head, base);
-    let done = run(&place, "--output t.csv --output best.toml --output best.urdf --json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run(&place, "--output t.csv --output best.toml --output best.urdf --json").exits(0);
     let summary: Value = serde_json::from_str(&done.stdout).unwrap();
     let rows = rows(&place.read("t.csv"));
     // The search does not plan a layout again: of its 60, only the different ones count.
@@ -220,24 +213,31 @@ fn the_search_finds_better_layouts_and_lists_the_tried_ones() {
         serde_json::from_str(&place.run(&command.split(' ').collect::<Vec<_>>(), "--json").stdout).unwrap();
     assert_eq!(alone["length"], summary["best"]["measured"]["length"]);
     let output = run(&place, "--output best.toml").stdout;
-    assert!(output.contains(&format!("to plan layout {}: cplan ", summary["best"]["layout"])), "{output}");
-    assert!(output.contains("planar_2r.urdf best.toml --clearance=0.003\n"), "{output}");
-    assert_eq!(run(&place, "--output u.csv --jobs 1 --quiet").code, 0);
+    has(
+        &output,
+        &[
+            &format!("to plan layout {}: cplan ", summary["best"]["layout"]),
+            "planar_2r.urdf best.toml --clearance=0.003\n",
+        ],
+    );
+    run(&place, "--output u.csv --jobs 1 --quiet").exits(0);
     assert_eq!(place.read("t.csv"), place.read("u.csv"));
+}
+
+/// Writes a study of top speeds of the first joint.
+fn speed_study(place: &Place, values: &str) {
+    let [urdf, _] = shelf().map(read);
+    let joint = urdf.split("<joint name=\"").nth(1).unwrap().split('"').next().unwrap();
+    let parameter =
+        format!("[[parameter]]\nname = \"speed\"\nsets = \"urdf.joint.{joint}.limit.velocity\"\n{values}\n");
+    study(place, "measure = [\"duration\"]", &parameter);
 }
 
 #[test]
 fn robots_vary_as_well_as_worlds() {
     let place = Place::new();
-    let [urdf, _] = shelf();
-    let text = std::fs::read_to_string(urdf).unwrap();
-    assert!(text.contains("<limit"), "{text}");
-    let joint = text.split("<joint name=\"").nth(1).unwrap().split('"').next().unwrap();
-    let parameter = format!(
-        "[[parameter]]\nname = \"speed\"\nsets = \"urdf.joint.{joint}.limit.velocity\"\nvalues = [0.5, 1.0, 2.0]\n"
-    );
-    study(&place, "measure = [\"duration\"]", &parameter);
-    assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
+    speed_study(&place, "values = [0.5, 1.0, 2.0]");
+    run(&place, "--output t.csv --quiet").exits(0);
     let times: Vec<f64> =
         rows(&place.read("t.csv")).iter().map(|row| field(row, "duration").parse().unwrap()).collect();
     assert!(times[0] > times[1] && times[1] > times[2], "{times:?}");
@@ -254,7 +254,7 @@ fn failed_layouts_have_rows_and_a_study_may_have_no_best_layout() {
     // The world has no preferred region, and the field needs some.
     let field = "options = [\"--planner=harmonic\", \"--field=bvp\"]\nmeasure = [\"length\"]";
     study(&place, field, &CRATE.replace("draw = \"latin\"", "steps = 2"));
-    assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
+    run(&place, "--output t.csv --quiet").exits(0);
     for row in rows(&place.read("t.csv")) {
         assert_eq!(
             field_of(&row),
@@ -262,9 +262,8 @@ fn failed_layouts_have_rows_and_a_study_may_have_no_best_layout() {
         );
     }
     study(&place, "conditions = [\"duration <= 0.01\"]\ndraws = 3", CRATE);
-    let done = run(&place, "--output t.csv --output best.toml --json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    assert!(done.stderr.contains("best.toml is not written: no layout meets the requirements"), "{}", done.stderr);
+    let done = run(&place, "--output t.csv --output best.toml --json").exits(0);
+    done.warns(&["best.toml is not written: no layout meets the requirements"]);
     assert!(!place.path("best.toml").exists() && rows(&place.read("t.csv")).len() == 12);
     assert_eq!(done.json()["best"], Value::Null);
 }
@@ -281,7 +280,7 @@ fn two_runs_do_not_share_their_rows() {
     kept.lock().unwrap();
     run(&place, "--output t.csv").refused(1, &["t.csv.part: another process is running this study"]);
     drop(kept);
-    assert_eq!(run(&place, "--output t.csv --quiet").code, 0);
+    run(&place, "--output t.csv --quiet").exits(0);
     // A run does not use its own study as rows either.
     std::fs::rename(place.path("study.toml"), place.path("u.csv.part")).unwrap();
     place.run(&["study", "u.csv.part"], "--output u.csv --fresh").refused(1, &["is the input"]);
@@ -291,60 +290,46 @@ fn two_runs_do_not_share_their_rows() {
 fn errors_in_a_study_have_a_place_and_a_hint() {
     let place = Place::new();
     let x = "[[parameter]]\nname = \"x\"\nsets = \"world.obstacle.crate.at[0]\"\nfrom = 0\nto = 1\n";
+    // Each row has a line of the head, changes to the parameter, lines after it, and the message.
+    let table = r#"
+ =>  => draw = "latin" => does not state how often ... draws = 1000
+ =>  =>  => line 4, column 1 ... parameter "x" does not define its values ... from, to and steps
+ =>  => steps = 1 => line 9 ... 1 values from 0 to 1
+ =>  => steps = 200000000 => 200000000 values
+ =>  => draw = "sobol" => "uniform" or "latin", not "sobol"
+ => to = 1 -> to = 0 => draw = "latin" => the range from 0 to 0 has only one value ... write values = [0]
+ => from = 0 -> from = "9deg" => steps = 2 => world.obstacle.crate.at[0] is not an angle ... line 7
+ => from = 0 -> from = 2 => steps = 2 => 2 is more than 1
+ => crate.at -> box.at => steps = 2 => world.obstacle.box.at[0]: there is no "box" ... shelf, crate ... line 6
+ => world.obstacle.crate.at[0] -> robot.at[0] => steps = 2 => an address must begin with world. or urdf.
+options = ["--planer=first"] =>  => steps = 2
+    => options: unexpected argument '--planer' found; tip: a similar argument exists: '--planner'
+options = ["--picture=x.svg"] =>  => steps = 2
+    => options: --picture is about files or printed output ... give files to `cplan study` itself
+options = ["--planner=nobody"] =>  => steps = 2 => line 3 ... nobody
+draws = 5 =>  => steps = 3 => line 3 ... no parameter is drawn
+measure = ["speed"] =>  => steps = 2 => line 3 ... "speed" is not a measure; measures are length
+conditions = ["length < 3"] =>  => steps = 2 => is not a condition ... clearance >= 0.01
+size = 3 =>  => steps = 2 => line 3 ... unknown key `size`
+"#;
+    let table = table.replace("\n    ", " ");
+    let mut cases: Vec<[String; 3]> = Vec::new();
+    for row in table.lines().skip(1) {
+        let fields: Vec<&str> = row.split(" => ").collect();
+        let [head, change, rest, pattern] = fields[..] else { panic!("{row}") };
+        let (from, to) = change.split_once(" -> ").unwrap_or_default();
+        let parameter = if from.is_empty() { x.to_owned() } else { x.replace(from, to) };
+        cases.push([head.to_owned(), format!("{parameter}{rest}\n"), pattern.to_owned()]);
+    }
     let several = "[[parameter]]\nname = \"x\"\nsets = [\"world.obstacle.crate.at[0]\", \"world.obstacle.shelves.at[0]\"]\nvalues = [1]\n";
-    let cases: [(&str, String, &[&str]); 20] = [
-        ("", several.into(), &["line 6, column 39", "no \"shelves\"", "world.obstacle.shelf.at[0] is a number there"]),
-        (
-            "",
-            x.replace("to = 1", "to = 0") + "draw = \"latin\"\n",
-            &["the range from 0 to 0 has only one value", "write values = [0]"],
-        ),
-        (
-            "",
-            x.replace("from = 0", "from = \"9deg\"") + "steps = 2\n",
-            &["world.obstacle.crate.at[0] is not an angle", "line 7"],
-        ),
-        (
-            "options = [\"--planer=first\"]",
-            format!("{x}steps = 2\n"),
-            &["options: unexpected argument '--planer' found; tip: a similar argument exists: '--planner'\n"],
-        ),
-        (
-            "options = [\"--picture=x.svg\"]",
-            format!("{x}steps = 2\n"),
-            &["options: --picture is about files or printed output", "give files to `cplan study` itself"],
-        ),
-        ("", String::new(), &["the study has no parameters", "[[parameter]]"]),
-        ("", x.into(), &["line 4, column 1", "parameter \"x\" does not define its values", "from, to and steps"]),
-        ("", format!("{x}steps = 1\n"), &["line 9", "1 values from 0 to 1"]),
-        ("", format!("{x}draw = \"latin\"\n"), &["does not state how often", "draws = 1000"]),
-        ("draws = 5", format!("{x}steps = 3\n"), &["line 3", "no parameter is drawn"]),
-        ("", format!("{x}draw = \"sobol\"\n"), &["\"uniform\" or \"latin\", not \"sobol\""]),
-        (
-            "",
-            x.replace("crate.at", "box.at") + "steps = 2\n",
-            &["world.obstacle.box.at[0]: there is no \"box\"", "shelf, crate", "line 6"],
-        ),
-        (
-            "",
-            x.replace("world.obstacle.crate.at[0]", "robot.at[0]") + "steps = 2\n",
-            &["an address must begin with world. or urdf."],
-        ),
-        ("", x.replace("from = 0", "from = 2") + "steps = 2\n", &["2 is more than 1"]),
-        ("", format!("{x}steps = 2\n{x}steps = 2\n"), &["another column \"x\""]),
-        (
-            "measure = [\"speed\"]",
-            format!("{x}steps = 2\n"),
-            &["line 3", "\"speed\" is not a measure; measures are length"],
-        ),
-        ("conditions = [\"length < 3\"]", format!("{x}steps = 2\n"), &["is not a condition", "clearance >= 0.01"]),
-        ("options = [\"--planner=nobody\"]", format!("{x}steps = 2\n"), &["line 3", "nobody"]),
-        ("size = 3", format!("{x}steps = 2\n"), &["line 3", "unknown key `size`"]),
-        ("", format!("{x}steps = 200000000\n"), &["200000000 values"]),
-    ];
-    for (head, parameters, parts) in cases {
-        study(&place, head, &parameters);
-        run(&place, "--output t.csv").refused(1, parts);
+    let shelves = "line 6, column 39 ... no \"shelves\" ... world.obstacle.shelf.at[0] is a number there";
+    let twice = format!("{x}steps = 2\n{x}steps = 2\n");
+    cases.push(["", several, shelves].map(str::to_owned));
+    cases.push(["", &twice, "another column \"x\""].map(str::to_owned));
+    cases.push(["", "", "the study has no parameters ... [[parameter]]"].map(str::to_owned));
+    for [head, parameters, pattern] in cases {
+        study(&place, &head, &parameters);
+        run(&place, "--output t.csv").refused(1, &pattern.split(" ... ").collect::<Vec<_>>());
         assert!(!place.path("t.csv").exists() && !place.path("t.csv.part").exists());
     }
     place.write("study.toml", "robot = \"none.urdf\"\nworld = \"world.toml\"\n");
@@ -376,15 +361,15 @@ fn obstacles_overlap_only_where_the_world_allows_it() {
         count += usize::from(overlaps);
     }
     assert_eq!((inside.len(), count), (24, 4));
-    assert!(done.stdout.contains("         4  refused: \"crate\" overlaps \"shelf\"\n"), "{}", done.stdout);
+    done.says(&["         4  refused: \"crate\" overlaps \"shelf\"\n"]);
     // Low things are below the shelf.
     let low = format!("{FREE}{WORLD}").replace("name = \"crate\"", "name = \"crate\"\nheight = [0.0, 0.1]");
     place.write("world.toml", low.replace("name = \"shelf\"", "name = \"shelf\"\nheight = [0.1, 0.3]"));
-    assert_eq!(run(&place, "--output t.csv").code, 0);
+    run(&place, "--output t.csv").exits(0);
     assert!(!place.read("t.csv").contains("overlaps"));
     // A study may want it.
     study(&place, "measure = [\"length\"]\noverlap = true", crate_about);
-    assert_eq!(run(&place, "--output t.csv").code, 0);
+    run(&place, "--output t.csv").exits(0);
     assert!(!place.read("t.csv").contains("overlaps"));
 }
 
@@ -394,22 +379,22 @@ fn the_page_distinguishes_what_colours_mean() {
     let base = CRATE.replace("draw = \"latin\"", "steps = 5");
     let page = |head: &str| {
         study(&place, head, &base);
-        let done = run(&place, "--output t.html");
-        assert_eq!(done.code, 0, "{}", done.stderr);
+        let done = run(&place, "--output t.html").exits(0);
         (place.read("t.html"), done.stdout)
     };
     // Of two measures with equal plots against the objective, one is shown.
     let (html, _) = page("measure = [\"duration\", \"length\", \"lower_bound\"]");
     assert!(html.contains("length against duration") && !html.contains("lower bound against"));
-    for part in [
-        "Scale of colours",
-        ">duration (s)</text>",
-        "<title>best: layout ",
-        "fill=\"var(--undecided)\"",
-        "<table class=\"words\">",
-    ] {
-        assert!(html.contains(part), "{part}");
-    }
+    has(
+        &html,
+        &[
+            "Scale of colours",
+            ">duration (s)</text>",
+            "<title>best: layout ",
+            "fill=\"var(--undecided)\"",
+            "<table class=\"words\">",
+        ],
+    );
     // Cells of layouts with a motion that is too long are neither grey nor in the colour of a proof.
     let unfit = "fill=\"var(--unknown)\" data-layout=";
     assert!(!html.contains(unfit));
@@ -422,17 +407,11 @@ fn the_page_distinguishes_what_colours_mean() {
 fn a_best_layout_at_the_end_of_a_range_is_noted() {
     let place = Place::new();
     let speed = |values: &str| {
-        let [urdf, _] = shelf();
-        let text = std::fs::read_to_string(urdf).unwrap();
-        let joint = text.split("<joint name=\"").nth(1).unwrap().split('"').next().unwrap();
-        let parameter =
-            format!("[[parameter]]\nname = \"speed\"\nsets = \"urdf.joint.{joint}.limit.velocity\"\n{values}\n");
-        study(&place, "measure = [\"duration\"]", &parameter);
+        speed_study(&place, values);
         run(&place, "")
     };
     let edge = "speed = 1 of at most 1: a wider range may give a better layout\n";
-    let stepped = speed("from = 0.5\nto = 1\nsteps = 3");
-    assert!(stepped.stdout.contains(edge), "{} {}", stepped.stdout, stepped.stderr);
+    speed("from = 0.5\nto = 1\nsteps = 3").says(&[edge]);
     assert!(!speed("values = [0.5, 1]").stdout.contains("a wider range"));
 }
 
@@ -442,10 +421,9 @@ fn a_search_plans_in_no_layout_twice() {
     let listed = CRATE.replace("from = -1.5\nto = 1.5\ndraw = \"latin\"", "values = [-1.45, 1.2]");
     let listed = listed.replace("from = -1.5\nto = 1.5\nsteps = 4", "values = [-1, 0.65, 1]");
     study(&place, "[search]\nlayouts = 40", &listed);
-    let done = run(&place, "--output t.csv");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done = run(&place, "--output t.csv").exits(0);
     assert_eq!(rows(&place.read("t.csv")).len(), 6);
-    assert!(done.stdout.contains("the search found no new layout to try"), "{}", done.stdout);
+    done.says(&["the search found no new layout to try"]);
 }
 
 #[test]
@@ -453,7 +431,7 @@ fn angles_may_be_in_degrees() {
     let place = Place::new();
     let angle = "[[parameter]]\nname = \"a\"\nsets = \"world.obstacle.crate.angle\"\nvalues = [0, \"90deg\"]\n";
     study(&place, "", angle);
-    assert_eq!(run(&place, "--output t.csv").code, 0);
+    run(&place, "--output t.csv").exits(0);
     let turned = &rows(&place.read("t.csv"))[1];
     assert_eq!(field(turned, "a").parse::<f64>().unwrap(), std::f64::consts::FRAC_PI_2);
 }
@@ -491,8 +469,7 @@ fn ctrl_c_reports_the_stored_rows() {
 fn pictures_explain_what_they_show() {
     let place = Place::new();
     let legend = |files: [&str; 2], code: i32| {
-        let done = place.run(&files.map(shipped), "--picture p.svg --quiet");
-        assert_eq!(done.code, code, "{}", done.stderr);
+        place.run(&files.map(shipped), "--picture p.svg --quiet").exits(code);
         place.read("p.svg").contains("slices that the path passes")
     };
     assert!(!legend(["robots/planar_2r_continuous.urdf", "workspaces/no_path.toml"], 3));
@@ -517,8 +494,7 @@ fn layouts_have_rows_where_the_base_has_a_blocked_start_or_goal() {
         );
         place.write("world.toml", world);
         place.write("study.toml", format!("robot = \"{robot}\"\nworld = \"world.toml\"\n{parameter}"));
-        let done = run(&place, "--output t.csv --output t.html --output best.toml");
-        assert_eq!(done.code, 0, "{ends}: {}", done.stderr);
+        run(&place, "--output t.csv --output t.html --output best.toml").exits(0);
         let rows = rows(&place.read("t.csv"));
         assert_eq!(rows.len(), 2, "{ends}");
         assert_eq!((field(&rows[0], "outcome"), field(&rows[1], "outcome")), ("refused", "found"), "{ends}");

@@ -1,8 +1,6 @@
 //! Supports of objects: a bottom that touches a top is no collision, for planner, judge and checker.
 
-use super::{Done, Place, shipped};
-use cplan_check_files::check;
-
+use super::*;
 /// The way in which the tool is lowered, and in which the part is held.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Hand {
@@ -54,10 +52,9 @@ fn plan_and_check(place: &Place, world: &str) -> Done {
     let urdf = shipped("robots/scara.urdf");
     let done = place.run(&[&urdf, "world.toml"], "--certificate c.json --output plan.json");
     if done.code == 0 {
-        let report = check(&std::fs::read_to_string(&urdf).unwrap(), world, &place.read("c.json"));
+        let report = check(&read(&urdf), world, &place.read("c.json"));
         assert!(report.is_ok(), "{report:?}\n{world}");
-        let verified = place.run(&["verify", &urdf, "world.toml", "plan.json"], "");
-        assert_eq!(verified.code, 0, "{}{world}", verified.stdout);
+        place.run(&["verify", &urdf, "world.toml", "plan.json"], "").exits(0);
     }
     done
 }
@@ -70,8 +67,7 @@ fn a_part_is_set_on_a_table_that_its_bottom_touches() {
             // A difference of a micrometre is allowed, because stacks add up. Without a lift, the part may slide.
             for (bottom, lift) in [(0.05, 0.1), (0.049_999_5, 0.1), (0.05, 0.0)] {
                 let cell = Cell { bottom, lift, supports, ..Cell::new(hand) };
-                let done = plan_and_check(&place, &cell.set_down());
-                assert_eq!(done.code, 0, "{hand:?} {supports} {bottom} {lift}: {}{}", done.stdout, done.stderr);
+                plan_and_check(&place, &cell.set_down()).exits(0);
             }
         }
     }
@@ -82,16 +78,14 @@ fn pressing_deeper_than_the_tolerance_is_a_contact() {
     let place = Place::new();
     for hand in [Hand::Lifting, Hand::Stroke] {
         let cell = Cell { bottom: 0.049_998, ..Cell::new(hand) };
-        let done = plan_and_check(&place, &cell.set_down());
-        assert_eq!(done.code, 3, "{hand:?}: {}{}", done.stdout, done.stderr);
-        assert!(done.stdout.contains("payload \"part\" hits obstacle \"table\""), "{}", done.stdout);
+        plan_and_check(&place, &cell.set_down()).exits(3).says(&["payload \"part\" hits obstacle \"table\""]);
     }
 }
 
 #[test]
 fn the_checker_knows_the_tolerance_by_itself() {
     let place = Place::new();
-    let urdf = std::fs::read_to_string(shipped("robots/scara.urdf")).unwrap();
+    let urdf = read(&shipped("robots/scara.urdf"));
     let without = |certificate: &str| super::certificates::without_digests(certificate);
     for hand in [Hand::Lifting, Hand::Stroke] {
         let cell = Cell::new(hand);
@@ -116,15 +110,13 @@ fn parts_are_stacked_and_taken_off_again() {
                      [[step]]\npick = \"lid\"\n[[step]]\nplace = { at = [0.35, -0.25] }\n\
                      [[step]]\npick = \"lid\"\n[[step]]\nplace = { at = [0.0, 0.45] }\n\
                      [[step]]\npick = \"part\"\n[[step]]\nplace = { at = [0.1, 0.4] }\n";
-        let done = plan_and_check(&place, &Cell::new(hand).world(&format!("{upper}{steps}")));
-        assert_eq!(done.code, 0, "{hand:?}: {}{}", done.stdout, done.stderr);
+        plan_and_check(&place, &Cell::new(hand).world(&format!("{upper}{steps}"))).exits(0);
         // An object with another one on it can be neither lifted nor pulled out from under it.
         let (first, _) = steps.split_at(steps.find("[[step]]\npick = \"lid\"\n[[step]]\nplace = { at = [0.0").unwrap());
         let taken = format!("{upper}{first}[[step]]\npick = \"part\"\n[[step]]\nplace = {{ at = [0.1, 0.4] }}\n");
         let lift = if hand == Hand::Stroke { 0.1 } else { 0.0 };
-        let done = plan_and_check(&place, &Cell { lift, ..Cell::new(hand) }.world(&taken));
-        assert_eq!(done.code, 3, "{hand:?}: {}{}", done.stdout, done.stderr);
-        assert!(done.stdout.contains("hits obstacle \"lid\""), "{}", done.stdout);
+        let done = plan_and_check(&place, &Cell { lift, ..Cell::new(hand) }.world(&taken)).exits(3);
+        done.says(&["hits obstacle \"lid\""]);
     }
 }
 

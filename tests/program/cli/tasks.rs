@@ -1,12 +1,10 @@
 //! Worlds with steps.
 
-use super::{Done, Place, shipped};
+use super::*;
 use cplan::check::limit_violations;
 use cplan::input::load_scene;
 use cplan::model::Arm;
 use cplan::space::{Configuration, Recording};
-use serde_json::{Value, json};
-use std::path::Path;
 
 /// A world with two objects, of which one is held by a wrist, and with a post as an obstacle. The steps are added to
 /// it.
@@ -75,11 +73,6 @@ fn numbers(value: &Value) -> Vec<f64> {
 
 fn rows(value: &Value) -> Vec<[f64; 2]> {
     serde_json::from_value(value.clone()).unwrap()
-}
-
-/// Returns the tip of `planar_2r`.
-fn tip([a, b]: [f64; 2]) -> [f64; 2] {
-    [a.cos() + 0.8 * (a + b).cos(), a.sin() + 0.8 * (a + b).sin()]
 }
 
 fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
@@ -160,9 +153,7 @@ fn consistent(arm: &Arm, result: &Value) {
 #[test]
 fn a_task_is_one_motion_with_steps_and_events() {
     let place = Place::new();
-    let done = place.task(STEPS, "--json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let result = done.json();
+    let result = place.task(STEPS, "--json").exits(0).json();
     consistent(&place.arm(), &result);
     let steps = result["steps"].as_array().unwrap();
     let words: Vec<_> = steps.iter().map(|step| [&step["action"], &step["object"], &step["carried"]]).collect();
@@ -214,14 +205,11 @@ fn repeated_tasks_are_counted_in_cycles() {
     let cycles: Vec<_> = result["steps"].as_array().unwrap().iter().map(|s| s["cycle"].as_u64().unwrap()).collect();
     assert_eq!(cycles, (0..30).map(|i| i / 6 + 1).collect::<Vec<_>>());
     let text = place.task(&world, "--verbose").stdout;
-    for part in
-        ["1 obstacle, 2 objects", "1 (cycle 3)", "... 12 steps in cycles 4 to 5", "found and certified: 30 steps"]
-    {
-        assert!(text.contains(part), "{part:?} is not in: {text}");
-    }
-    for part in ["carrying \"cup\"", "proven: no sequence of motions takes less than", "closest: ", "motions planned"] {
-        assert!(text.contains(part), "{part:?} is not in: {text}");
-    }
+    has(
+        &text,
+        &["1 obstacle, 2 objects", "1 (cycle 3)", "... 12 steps in cycles 4 to 5", "found and certified: 30 steps"],
+    );
+    has(&text, &["carrying \"cup\"", "proven: no sequence of motions takes less than", "closest: ", "motions planned"]);
     assert!(!text.contains("(cycle 4)"), "{text}");
 }
 
@@ -230,8 +218,7 @@ fn shipped_tasks_are_consistent() {
     for (robot, world) in [("scara", "feeder"), ("room_gantry", "room_mission"), ("rrbot_vertical", "tower")] {
         let files =
             [format!("robots/{robot}.urdf"), format!("workspaces/tasks/{world}.toml")].map(|file| shipped(&file));
-        let done = Place::new().run(&files, "--json --quiet");
-        assert_eq!((done.code, done.stderr.as_str()), (0, ""), "{world}");
+        let done = Place::new().run(&files, "--json --quiet").succeeds_silently();
         let [urdf, world] = files.each_ref().map(Path::new);
         consistent(load_scene(urdf, world).unwrap().scene.arm(), &done.json());
     }
@@ -280,9 +267,7 @@ fn the_first_step_that_fails_is_named() {
         let text = place.task(steps, "").stdout;
         assert_eq!(place.task(steps, "--quiet --picture a.svg").code, code);
         assert!(place.read("a.svg").contains(if code == 3 { "step 2 fails: proven" } else { "step 2 fails: unknown" }));
-        for part in [verdict, "why ", "1 step planned"] {
-            assert!(text.contains(part), "{part:?} is not in: {text}");
-        }
+        has(&text, &[verdict, "why ", "1 step planned"]);
     }
 }
 
@@ -310,13 +295,11 @@ fn the_same_task_gives_the_same_bytes() {
 
 #[test]
 fn each_step_has_a_file_of_its_own() {
-    let place = Place::new();
-    place.write("a-007.csv", "old");
-    let done = place.task(STEPS, "--per-step --output a.csv --output a.yaml --output a.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let place = Place::new().with("a-007.csv", "old");
+    let done = place.task(STEPS, "--per-step --output a.csv --output a.yaml --output a.json").exits(0);
     assert!(done.stdout.contains("a-001.csv to a-006.csv") && done.stderr.contains("a-007.csv"), "{}", done.stderr);
     assert!(!place.path("a.csv").exists() && !place.path("a.yaml").exists() && !place.path("a-001.json").exists());
-    let result: Value = serde_json::from_str(&place.read("a.json")).unwrap();
+    let result = place.json("a.json");
     let whole = rows(&result["trajectory"]["position"]);
     for (i, step) in result["steps"].as_array().unwrap().iter().enumerate() {
         let text = place.read(&format!("a-{:03}.csv", i + 1));
@@ -376,8 +359,7 @@ fn a_recording_has_a_message_for_each_motion() {
 fn supports_that_recede_are_drawn() {
     let place = Place::new();
     let options = "--clearance 0.005 --picture plan.svg --picture plan.html";
-    let done = place.run(&[shipped("robots/rrbot_vertical.urdf"), shipped("workspaces/tasks/tower.toml")], options);
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&[shipped("robots/rrbot_vertical.urdf"), shipped("workspaces/tasks/tower.toml")], options).exits(0);
     assert!(place.read("plan.svg").contains("</svg>") && place.read("plan.html").contains("\"worlds\""));
 }
 
@@ -387,15 +369,14 @@ fn supports_that_recede_are_drawn() {
 fn walls_all_round_a_joint_have_no_end() {
     let place = Place::new();
     place.write(
-        "w.toml",
+        "world.toml",
         "[robot]\npayload = \"level\"\n[start]\njoints = [-0.5, 1.0]\n[[obstacle]]\nheight = [-2, -1]\n\
          polyline = [[0.3, 0.7], [0.4, 0.6], [0.6, 0.7], [0.5, 0.8], [0.3, 0.8]]\n[[object]]\nname = \"bar\"\n\
          polygon = [[0.05, -0.001], [-0.043, 0.001], [-0.05, 0.001]]\nat = [0.742, -1.169]\nheight = [-2, -1]\n\
          [[step]]\npick = \"bar\"\n[[step]]\nplace = { at = [0.4, 0.7] }\n",
     );
     let urdf = shipped("robots/planar_2r_continuous.urdf");
-    let done = place.run(&[&urdf, "w.toml"], "--quiet --output plan.json --certificate c.json");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    let checked = cplan_check_files::check_files(urdf.as_ref(), &place.path("w.toml"), &place.path("c.json"));
+    place.run(&[&urdf, "world.toml"], "--quiet --output plan.json --certificate c.json").exits(0);
+    let checked = cplan_check_files::check_files(urdf.as_ref(), &place.path("world.toml"), &place.path("c.json"));
     assert!(checked.is_ok_and(|report| report.contains("does all 2 steps")));
 }

@@ -1,7 +1,6 @@
 //! Terminal output: the verdict first, within the width, in colour. Control characters in names have no effect.
 
 use super::*;
-use serde_json::Value;
 
 /// Names with control characters: they would clear the screen, change the direction of writing, and imitate a result.
 const NAMES: [&str; 3] = ["wall\u{1b}[2J", "wall\u{202e}eerf", "wall\nresult     free: proven\u{9b}31m"];
@@ -28,10 +27,10 @@ fn harmless(done: &Done, name: &str) {
 fn names_of_obstacles_and_worlds_are_shown_with_escapes() {
     let robot = shipped("robots/planar_2r.urdf");
     for name in NAMES {
-        let place = Place::new();
-        place.write("free.toml", world(name, "[-0.5, 0.4]"));
-        place.write("blocked.toml", world(name, "[-0.785, 0]"));
-        place.write("m.csv", "shoulder,elbow\n-0.5,0.4\n-1.0,-0.1\n");
+        let place = Place::new()
+            .with("free.toml", world(name, "[-0.5, 0.4]"))
+            .with("blocked.toml", world(name, "[-0.785, 0]"))
+            .with("m.csv", "shoulder,elbow\n-0.5,0.4\n-1.0,-0.1\n");
         let runs: [&[&str]; 9] = [
             &[&robot, "free.toml"],
             &[&robot, "free.toml", "--json"],
@@ -93,7 +92,7 @@ fn the_verdict_comes_first_and_assumptions_last() {
         "note",
     ];
     assert_eq!(keys(&verbose), order, "{verbose}");
-    assert!(done.stdout.contains("no acceleration limit given; "), "{}", done.stdout);
+    done.says(&["no acceleration limit given; "]);
     assert!(!done.stdout.contains("heights along"), "{}", done.stdout);
     assert!(
         verbose.contains("\nrobot      plane: coordinates are (x, y)") && verbose.contains("outline from"),

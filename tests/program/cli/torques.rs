@@ -1,8 +1,6 @@
 //! Torques through the program: respected, reported and judged; missing data is named.
 
-use super::{Place, shelf, shipped};
-use serde_json::Value;
-
+use super::*;
 fn upright() -> [String; 2] {
     [shipped("robots/rrbot_vertical.urdf"), shipped("workspaces/upright.toml")]
 }
@@ -18,12 +16,10 @@ fn greatest(result: &Value) -> [f64; 2] {
 fn torques_are_limited_reported_and_judged() {
     let place = Place::new();
     let [urdf, world] = upright();
-    let done = place.run(&upright(), "--verbose --output m.json --output m.csv --output m.yaml --picture m.html");
-    assert_eq!(done.code, 0, "{}", done.stderr);
-    for part in ["at most 2 rad/s, 36 N m", "at most 3 rad/s, 12 N m", "torque     at most shoulder 35."] {
-        assert!(done.stdout.contains(part), "no {part} in {}", done.stdout);
-    }
-    let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+    let done =
+        place.run(&upright(), "--verbose --output m.json --output m.csv --output m.yaml --picture m.html").exits(0);
+    done.says(&["at most 2 rad/s, 36 N m", "at most 3 rad/s, 12 N m", "torque     at most shoulder 35."]);
+    let result = place.json("m.json");
     let [shoulder, elbow] = greatest(&result);
     assert!((35.0..=36.0).contains(&shoulder) && (10.0..=12.0).contains(&elbow), "{shoulder} {elbow}");
     assert_eq!(result["assumed"], Value::Null, "efforts take the place of accelerations");
@@ -31,19 +27,14 @@ fn torques_are_limited_reported_and_judged() {
     assert!(table.lines().next().unwrap().ends_with(",shoulder_torque,elbow_torque"), "{table}");
     assert!(place.read("m.html").contains("\"torque\":36"));
     for file in ["m.json", "m.csv", "m.yaml"] {
-        let verified = place.run(&["verify", &urdf, &world, file], "");
-        assert_eq!(verified.code, 0, "{file}: {}", verified.stdout);
+        place.run(&["verify", &urdf, &world, file], "").exits(0);
     }
     // With weaker motors, the same motion needs too much torque.
-    let weaker =
-        std::fs::read_to_string(&world).unwrap().replace("shoulder = 36, elbow = 12", "shoulder = 35, elbow = 11");
+    let weaker = read(&world).replace("shoulder = 36, elbow = 12", "shoulder = 35, elbow = 11");
     place.write("weaker.toml", weaker);
     for file in ["m.json", "m.csv", "m.yaml"] {
-        let verified = place.run(&["verify", &urdf, "weaker.toml", file], "");
-        assert_eq!(verified.code, 3, "{file}: {}", verified.stdout);
-        for part in ["shoulder: torque", "N m, at most 35.0", "elbow: torque", "at most 11.0"] {
-            assert!(verified.stdout.contains(part), "{file}: no {part} in {}", verified.stdout);
-        }
+        let verified = place.run(&["verify", &urdf, "weaker.toml", file], "").exits(3);
+        verified.says(&["shoulder: torque", "N m, at most 35.0", "elbow: torque", "at most 11.0"]);
     }
 }
 
@@ -51,7 +42,7 @@ fn torques_are_limited_reported_and_judged() {
 fn the_option_equals_the_setting_of_the_world() {
     let place = Place::new();
     let [urdf, world] = upright();
-    let text = std::fs::read_to_string(&world).unwrap();
+    let text = read(&world);
     place.write("silent.toml", text.replace("dynamics = true\n", ""));
     let silent = [urdf.as_str(), "silent.toml"];
     let output = place.run(&upright(), "--json --quiet").json();
@@ -61,11 +52,9 @@ fn the_option_equals_the_setting_of_the_world() {
     assert!(without["trajectory"]["torque"].is_null() && !without["assumed"]["acceleration"].is_null());
     let verify = |options: &str, file: &str| place.run(&["verify", &urdf, "silent.toml", file], options);
     assert_eq!(verify("", "plain.json").code, 0);
-    let judged = verify("--torque", "plain.json");
-    assert_eq!(judged.code, 3, "{}", judged.stdout);
-    assert!(judged.stdout.contains("torque"), "{}", judged.stdout);
+    verify("--torque", "plain.json").exits(3).says(&["torque"]);
     // A motion with stated torques must have these.
-    assert_eq!(place.run(&silent, "--torque --output m.json --output m.csv").code, 0);
+    place.run(&silent, "--torque --output m.json --output m.csv").exits(0);
     for file in ["m.json", "m.csv"] {
         assert_eq!(verify("", file).code, 0, "{file}");
     }
@@ -77,24 +66,21 @@ fn motions_with_payloads_and_drives_stay_within_the_efforts() {
     let [urdf, _] = upright();
     let heavy = shipped("workspaces/tasks/heavy_tower.toml");
     let seconds = |world: &str, options: &str| {
-        let done = place.run(&[&urdf, world], &format!("{options} --output m.json --json --quiet"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        let verified = place.run(&["verify", &urdf, world, "m.json"], "");
-        assert_eq!(verified.code, 0, "{options}: {}", verified.stdout);
+        let done = place.run(&[&urdf, world], &format!("{options} --output m.json --json --quiet")).exits(0);
+        place.run(&["verify", &urdf, world, "m.json"], "").exits(0);
         let [shoulder, elbow] = greatest(&done.json());
         assert!(shoulder <= 45.0 && elbow <= 16.0, "{shoulder} {elbow}");
         done.json()["duration"].as_f64().unwrap()
     };
-    let text = std::fs::read_to_string(&heavy).unwrap();
+    let text = read(&heavy);
     place.write("light.toml", text.replace("mass = 1.5", "mass = 0"));
     let (laden, light) = (seconds(&heavy, ""), seconds("light.toml", ""));
     assert!(light < 0.95 * laden, "{light} {laden}");
     let jerk = seconds(&heavy, "--jerk 300,300");
     assert!(jerk > laden, "{jerk}");
     // The judge includes the payload: the motion of light blocks needs too much torque for heavy ones.
-    assert_eq!(place.run(&[&urdf, "light.toml"], "--output light.json").code, 0);
-    let verified = place.run(&["verify", &urdf, &heavy, "light.json"], "");
-    assert!(verified.code == 3 && verified.stdout.contains("torque"), "{}", verified.stdout);
+    place.run(&[&urdf, "light.toml"], "--output light.json").exits(0);
+    place.run(&["verify", &urdf, &heavy, "light.json"], "").exits(3).says(&["torque"]);
 }
 
 #[test]
@@ -104,7 +90,7 @@ fn missing_and_invalid_settings_are_named() {
     place.run(&shelf(), "--torque").refused(1, &["--torque", "link \"upper_arm\" has no mass", "<inertial>"]);
     let [plain, _] = shelf();
     place.run(&[plain.as_str(), world.as_str()], "").refused(1, &["has no mass", "hint"]);
-    let text = std::fs::read_to_string(&world).unwrap();
+    let text = read(&world);
     let cases = [
         ("shoulder = 36", "shoulder = 0", "effort of \"shoulder\" must be positive"),
         ("shoulder = 36", "wrist = 36", "has no joint \"wrist\""),
@@ -125,7 +111,7 @@ fn missing_and_invalid_settings_are_named() {
         );
         place.run(&[urdf.as_str(), "wrong.toml"], "").refused(1, &["[robot]", "wrong.toml", "hint"]);
     }
-    let robot = std::fs::read_to_string(&urdf).unwrap();
+    let robot = read(&urdf);
     let robots = [
         ("<mass value=\"4\"/>", "<mass value=\"-4\"/>", "has a mass of -4 kg"),
         ("<mass value=\"4\"/>", "", "link \"upper_arm\" has no mass"),
@@ -148,20 +134,17 @@ fn missing_and_invalid_settings_are_named() {
 #[test]
 fn the_efforts_hold_the_arm_at_the_end() {
     let place = Place::new();
-    let world = std::fs::read_to_string(shipped("workspaces/tasks/heavy_tower.toml")).unwrap();
+    let world = read(&shipped("workspaces/tasks/heavy_tower.toml"));
     let ends_holding = world.split("[[step]]\nplace").next().unwrap();
     place.write("light.toml", ends_holding);
     place.write("heavy.toml", ends_holding.replace("mass = 1.5", "mass = 30"));
     let robot = shipped("robots/rrbot_vertical.urdf");
-    let light = place.run(&[&robot, "light.toml"], "--quiet --output held.json");
-    assert_eq!(light.code, 0, "{}", light.stderr);
-    let heavy = place.run(&[&robot, "heavy.toml"], "");
-    assert_eq!(heavy.code, 4, "{}", heavy.stdout);
-    assert!(heavy.stdout.contains("after it joint \"shoulder\" has an effort of 45 N m"), "{}", heavy.stdout);
+    place.run(&[&robot, "light.toml"], "--quiet --output held.json").exits(0);
+    let heavy = place.run(&[&robot, "heavy.toml"], "").exits(4);
+    heavy.says(&["after it joint \"shoulder\" has an effort of 45 N m"]);
     // The same motion is judged as one with the heavier block.
     for (world, code) in [("light.toml", 0), ("heavy.toml", 3)] {
-        let verified = place.run(&["verify", &robot, world, "held.json"], "");
-        assert_eq!(verified.code, code, "{world}: {}", verified.stdout);
+        let verified = place.run(&["verify", &robot, world, "held.json"], "").exits(code);
         assert_eq!(verified.stdout.contains("shoulder: torque"), code == 3, "{}", verified.stdout);
     }
 }
@@ -171,7 +154,7 @@ fn the_efforts_hold_the_arm_at_the_end() {
 fn tiny_efforts_are_distinguished_from_massless_links() {
     let place = Place::new();
     let [urdf, world] = upright();
-    let text = std::fs::read_to_string(&world).unwrap();
+    let text = read(&world);
     let weak = text.replace("shoulder = 36", "shoulder = 1e-14");
     assert_ne!(weak, text);
     place.write("weak.toml", weak);
@@ -186,15 +169,12 @@ fn torques_of_recordings_without_velocities_are_not_judged() {
     let place = Place::new();
     let [urdf, world] = upright();
     place.write("path.csv", "time,shoulder,elbow\n0,1.9,-0.4\n10,1.9,-0.39\n");
-    let verified = place.run(&["verify", &urdf, &world, "path.csv"], "--anywhere");
-    assert_eq!(verified.code, 4, "{}", verified.stdout);
-    assert!(verified.stdout.contains("no velocities: torques are unknown"), "{}", verified.stdout);
+    let verified = place.run(&["verify", &urdf, &world, "path.csv"], "--anywhere").exits(4);
+    verified.says(&["no velocities: torques are unknown"]);
     place.write("one.csv", "time,shoulder,elbow,shoulder_velocity,elbow_velocity\n0,1.9,-0.4,0,0\n");
-    let weaker =
-        std::fs::read_to_string(&world).unwrap().replace("shoulder = 36, elbow = 12", "shoulder = 3, elbow = 1");
+    let weaker = read(&world).replace("shoulder = 36, elbow = 12", "shoulder = 3, elbow = 1");
     place.write("weaker.toml", weaker);
     for (world, code) in [(world.as_str(), 0), ("weaker.toml", 3)] {
-        let verified = place.run(&["verify", &urdf, world, "one.csv"], "--anywhere");
-        assert_eq!(verified.code, code, "{world}: {}", verified.stdout);
+        place.run(&["verify", &urdf, world, "one.csv"], "--anywhere").exits(code);
     }
 }

@@ -1,7 +1,6 @@
 //! Tools that a wrist turns along lines, from outside: motions against the tests' own kinematics, files and errors.
 
-use super::{Done, Place, shipped};
-use serde_json::Value;
+use super::*;
 use std::f64::consts::{PI, TAU};
 
 /// The pieces of `gasket.gcode`, metres: two points of a line, or centre, radius and both angles of an arc.
@@ -87,8 +86,8 @@ fn played(rows: &[[f64; 7]]) -> Vec<([f64; 3], bool)> {
 #[test]
 fn a_knife_turns_along_the_outline() {
     let place = Place::new();
-    let done = follow(&place, "--wrist tangent+0.2 --output m.csv --output m.yaml --output m.json --picture m.html");
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let done =
+        follow(&place, "--wrist tangent+0.2 --output m.csv --output m.yaml --output m.json --picture m.html").exits(0);
     assert!(done.stdout.contains("joint \"axis_4\" turns the tool along the line, 0.2 rad from it, within 0.0"));
     assert!(!done.stdout.contains("\"axis_4\" is held"), "{}", done.stdout);
     let rows = rows(&place.read("m.csv"), COLUMNS);
@@ -107,8 +106,7 @@ fn a_knife_turns_along_the_outline() {
         assert!(least <= 0.0101 || (rests && is_corner) || travel, "{tip:?} {angle} {least}");
     }
     assert!(on_line > 10_000 && at_rest > 0, "{on_line} {at_rest}");
-    let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
-    let number = |value: &Value| value.as_f64().unwrap();
+    let result = place.json("m.json");
     assert_eq!((&result["wrist"]["joint"], number(&result["wrist"]["tangent"])), (&"axis_4".into(), 0.2));
     assert!(number(&result["wrist"]["deviation"]) <= number(&result["wrist"]["tolerance"]));
     let positions = result["trajectory"]["wrist"]["position"].as_array().unwrap();
@@ -120,7 +118,7 @@ fn a_knife_turns_along_the_outline() {
 #[test]
 fn a_fixed_angle_counts_in_the_world() {
     let place = Place::new();
-    let urdf = std::fs::read_to_string(shipped("robots/scara.urdf")).unwrap();
+    let urdf = read(&shipped("robots/scara.urdf"));
     let mounted = urdf.replace(
         "<child link=\"flange\"/>\n    <origin xyz=\"0 0 0\"/>\n    <axis xyz=\"0 0 1\"/>",
         "<child link=\"flange\"/>\n    <origin xyz=\"0 0 0\" rpy=\"0 0 0.3\"/>\n    <axis xyz=\"0 0 -1\"/>",
@@ -137,11 +135,10 @@ fn a_fixed_angle_counts_in_the_world() {
         "points = [[0.4, 0.3], [0.4, 0.5], [0.3, 0.55]]\nwrist = \"40deg\"\nwrist_tolerance = 1e-5\n",
     );
     for (options, angle) in [("", 40_f64.to_radians()), ("--wrist -1.5 --wrist-tolerance 0.001", -1.5)] {
-        let done =
-            place.run(&["follow", "robot.urdf", "world.toml", "line.toml"], &format!("{options} --output m.csv"));
-        assert_eq!(done.code, 0, "{}", done.stderr);
-        assert!(done.stdout.contains("joint \"axis_4\" keeps the tool at"), "{}", done.stdout);
-        assert!(done.stdout.contains("wrist: no acceleration limit given; 36 rad/s2 assumed"), "{}", done.stdout);
+        let done = place
+            .run(&["follow", "robot.urdf", "world.toml", "line.toml"], &format!("{options} --output m.csv"))
+            .exits(0);
+        done.says(&["joint \"axis_4\" keeps the tool at", "wrist: no acceleration limit given; 36 rad/s2 assumed"]);
         for ([a, b, c], _) in played(&rows(&place.read("m.csv"), COLUMNS)) {
             assert!(between(0.5 + a + b + 0.3 - c, angle) < 1e-9);
         }
@@ -192,23 +189,22 @@ fn errors_name_the_wrist() {
     // A gantry has no wrist.
     place.write("line.toml", line);
     let gantry = [shipped("robots/gantry.urdf"), shipped("workspaces/annulus_open.toml")];
-    let done = place.run(&["follow", &gantry[0], &gantry[1], "line.toml"], "--wrist tangent");
-    assert!(done.code == 1 && done.stderr.contains("does not name the wrist's joint"), "{}", done.stderr);
+    let done = place.run(&["follow", &gantry[0], &gantry[1], "line.toml"], "--wrist tangent").exits(1);
+    done.warns(&["does not name the wrist's joint"]);
 }
 
 #[test]
 fn a_joint_that_cannot_turn_as_far_makes_the_line_infeasible() {
     let place = Place::new();
-    let world = std::fs::read_to_string(shipped("workspaces/follow/cutting.toml")).unwrap();
+    let world = read(&shipped("workspaces/follow/cutting.toml"));
     place.write("world.toml", world.replace("fixed = {", "limits = { axis_4 = [-3.5, 3.5] }\nfixed = {"));
     place.write("circle.gcode", "G21 G0 X360 Y0\nG3 I-25 F6000\nG3 I-25\n");
     let arguments = ["follow", &shipped("robots/scara.urdf"), "world.toml", "circle.gcode"];
-    let done = place.run(&arguments, "--wrist tangent --certificate c.json");
-    assert_eq!(done.code, 3, "{} {}", done.stdout, done.stderr);
-    assert!(done.stdout.contains("the wrist cannot turn as far as the tool needs"), "{}", done.stdout);
-    assert!(done.stderr.contains("certificates of lines do not judge the wrist"), "{}", done.stderr);
+    let done = place.run(&arguments, "--wrist tangent --certificate c.json").exits(3);
+    done.says(&["the wrist cannot turn as far as the tool needs"]);
+    done.warns(&["certificates of lines do not judge the wrist"]);
     // Without the tool's angle, the line can be followed.
-    assert_eq!(place.run(&arguments, "").code, 0);
+    place.run(&arguments, "").exits(0);
 }
 
 /// Returns a task with a line for the tool, and other steps around it.
@@ -233,8 +229,7 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
                  [[step]]\nmove = { joints = [-0.9, 1.6] }\n";
     place.write("world.toml", task(&format!("{PICK}{PLACE}{lines}")));
     let robot = shipped("robots/scara.urdf");
-    let done = place.run(&["plan", &robot, "world.toml"], "--output m.json --output m.csv");
-    assert_eq!(done.code, 0, "{} {}", done.stdout, done.stderr);
+    place.run(&["plan", &robot, "world.toml"], "--output m.json --output m.csv").exits(0);
     // The wrist's value is continuous over the whole task, and never too fast.
     let rows = rows(&place.read("m.csv"), COLUMNS);
     for pair in rows.windows(2) {
@@ -244,10 +239,9 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
         assert!((b[6] - a[6]).abs() <= 200.0 * (1.0 + 1e-4) * (b[0] - a[0]) + 1e-9, "{a:?} {b:?}");
     }
     // On the second line, the tool is at 30 degrees.
-    let result: Value = serde_json::from_str(&place.read("m.json")).unwrap();
+    let result = place.json("m.json");
     let steps = result["steps"].as_array().unwrap();
     let line = steps.iter().rfind(|step| step["action"] == "follow").unwrap();
-    let number = |value: &Value| value.as_f64().unwrap();
     let [begin, end] = ["begin", "arrival"].map(|key| number(&line[key]));
     let moves = |row: &&[f64; 7]| (begin..=end).contains(&row[0]) && row[4..6] != [0.0, 0.0];
     let moving: Vec<_> = rows.iter().filter(moves).collect();
@@ -257,8 +251,7 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
         place.write("changed.json", result.to_string());
         place.run(&["verify", &robot, "world.toml", "changed.json"], "")
     };
-    let done = verify(&result);
-    assert!(done.code == 0 && done.stdout.contains("free: the whole task"), "{}", done.stdout);
+    verify(&result).exits(0).says(&["free: the whole task"]);
     // Faults of the wrist are found.
     let index = steps.iter().position(|step| step["action"] == "follow").unwrap();
     let count = steps[index]["wrist_motion"]["position"].as_array().unwrap().len();
@@ -288,8 +281,7 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
     }
     let mut changed = result.clone();
     changed["steps"][index]["wrist_motion"]["position"].as_array_mut().unwrap().pop();
-    let done = verify(&changed);
-    assert!(done.code == 1 && done.stderr.contains("its wrist_motion has"), "{}", done.stderr);
+    verify(&changed).exits(1).warns(&["its wrist_motion has"]);
 }
 
 #[test]
@@ -312,10 +304,8 @@ fn a_payload_must_not_be_turned_along_a_line() {
         (tangent.replace("joint = \"axis_4\", ", ""), "does not name the wrist's joint"),
         (tangent.replace("acceleration = 200.0 }", "jerk = 900.0 }"), "do not keep limits on the jerk of the wrist"),
     ] {
-        let done = plan(&text);
-        assert!(done.code == 1 && done.stderr.contains(message), "{message}: {}", done.stderr);
+        plan(&text).exits(1).warns(&[message]);
     }
     // A level object keeps its angle anyway.
-    let done = plan(&task(&format!("{PICK}{}{end}", line("0"))));
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    plan(&task(&format!("{PICK}{}{end}", line("0")))).exits(0);
 }

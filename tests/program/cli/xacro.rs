@@ -1,16 +1,14 @@
 //! Robots in xacro: accepted wherever a URDF is, and written as URDF for programs that read only that.
 
-use super::{Place, shipped};
-use cplan_check_files::{CheckError, check_files};
-
+use super::*;
 const WORLD: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.5, -0.4]\n[[obstacle]]\nname = \"post\"\n\
                      circle = { center = [0.5, 0.1], radius = 0.03 }\n";
 
 /// Returns a folder with the shipped robot in xacro and a world for it.
 fn place() -> Place {
-    let place = Place::new();
-    place.write("scara.urdf.xacro", std::fs::read(shipped("robots/scara.urdf.xacro")).unwrap());
-    place.write("world.toml", WORLD);
+    let place = Place::new()
+        .with("scara.urdf.xacro", std::fs::read(shipped("robots/scara.urdf.xacro")).unwrap())
+        .with("world.toml", WORLD);
     place
 }
 
@@ -26,8 +24,7 @@ fn every_command_that_takes_a_urdf_takes_xacro_with_arguments() {
     };
     assert!((reach("") - 0.55).abs() < 1e-9 && (reach(argument) - 0.66).abs() < 1e-9);
     assert!((reach("--xacro-arg reach=0.6 --xacro-arg reach:=0.7") - 0.7).abs() < 1e-9);
-    let done = place.run(&FILES, &format!("--output plan.csv --quiet {argument}"));
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&FILES, &format!("--output plan.csv --quiet {argument}")).exits(0);
     for (command, options) in [
         ("verify", "plan.csv"),
         ("check", "--at 0.1,0.2"),
@@ -35,8 +32,7 @@ fn every_command_that_takes_a_urdf_takes_xacro_with_arguments() {
         ("reach", "--json"),
         ("compare", "--planner shortest"),
     ] {
-        let done = place.run(&[command, FILES[0], FILES[1]], &format!("{options} {argument}"));
-        assert_eq!(done.code, 0, "{command}: {}{}", done.stdout, done.stderr);
+        place.run(&[command, FILES[0], FILES[1]], &format!("{options} {argument}")).exits(0);
     }
     place.write(
         "lines.jsonl",
@@ -78,8 +74,7 @@ fn messages_name_the_place_in_the_xacro_file() {
 fn certificates_are_checked_against_the_expanded_urdf() {
     let place = place();
     let argument = "--xacro-arg reach=0.66";
-    let done = place.run(&FILES, &format!("--certificate c.json --quiet {argument}"));
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    place.run(&FILES, &format!("--certificate c.json --quiet {argument}")).exits(0);
     let check = |urdf: &str| check_files(&place.path(urdf), &place.path("world.toml"), &place.path("c.json"));
     place.write("copy.urdf", place.read(FILES[0]));
     let whole = std::fs::read_to_string(place.path("c.json")).unwrap();
@@ -88,16 +83,14 @@ fn certificates_are_checked_against_the_expanded_urdf() {
     let Err(CheckError::Input { message, .. }) = check("copy.urdf") else { panic!("xacro is no URDF") };
     assert!(message.contains("cplan inspect FILE --expanded robot.urdf"), "{message}");
     place.write("c.json", &whole);
-    let done = place.run(&["inspect", FILES[0]], &format!("--expanded robot.urdf {argument}"));
-    assert_eq!((done.code, done.stderr.as_str()), (0, ""));
+    place.run(&["inspect", FILES[0]], &format!("--expanded robot.urdf {argument}")).succeeds_silently();
     check("robot.urdf").unwrap();
     // The written file is the robot, without arguments.
-    assert_eq!(place.run(&["robot.urdf", "world.toml"], "--quiet").code, 0);
+    place.run(&["robot.urdf", "world.toml"], "--quiet").exits(0);
     place
         .run(&["inspect", "robot.urdf"], "--expanded again.urdf")
         .refused_after_report(&["nothing to expand", "leave --expanded out"]);
-    let done = place.run(&["inspect", FILES[0]], "--expanded scara.urdf.xacro");
-    assert_eq!(done.code, 1, "the robot itself is not overwritten");
+    place.run(&["inspect", FILES[0]], "--expanded scara.urdf.xacro").exits(1);
 }
 
 impl super::Done {

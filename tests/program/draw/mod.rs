@@ -8,13 +8,18 @@ mod pages;
 mod scenes;
 mod tasks;
 
+use crate::cli::has;
+use cplan::cspace::c_obstacles;
+use cplan::engine::Method;
 use cplan::geometry::{Point, SimplePolygon};
 use cplan::model::{Preference, Region, Scene, Workspace};
 use cplan::planner::{CellKind, ChannelPoints, FieldQuantity, GraphKind, Trace};
 use cplan::space::{Configuration, JointRange, Path, Segment};
 use cplan::view::{Picture, View, svg};
+use cplan::{Options, PlanOutput as _, Problem, plan};
+use cplan_testkit::problems::motion_problem;
 use cplan_testkit::scenes::placed;
-use scenes::{Cells, TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
+use scenes::{TURN, arm, block, capsule, circle, interval, polygon, scene, slide, wall};
 use std::f64::consts::PI;
 
 /// Checks the rules for every picture, and returns the picture. Writes it to a file if `CPLAN_PICTURES` is set.
@@ -109,136 +114,64 @@ fn configuration(q1: f64, q2: f64) -> Configuration {
     Configuration::new(q1, q2)
 }
 
-/// Returns a planned picture: the wave's path between two configurations, drawn with the trace of `trace`.
-fn planned_picture(
-    name: &str,
-    scene: &Scene,
-    [start, goal]: [Configuration; 2],
-    n: usize,
-    trace: impl Fn(&Cells, &[u32], usize, &Path) -> Trace,
-) -> String {
-    let cells = Cells::sample(scene, n);
-    let [from, to] = [start, goal].map(|q| cells.index(q));
-    let labels = cells.labels(to);
-    let path = cells.descend(from, &labels);
-    let c_obstacles = cells.c_obstacles(scene.workspace().obstacles.len());
-    let trace = trace(&cells, &labels, to, &path);
-    let picture = Picture {
-        title: vec![format!("{name}: a picture of a plan"), format!("length {:.2}", path.length())],
-        status: "found".to_owned(),
-        goals: &[path.goal().into()],
-        paths: vec![("wavefront".to_owned(), &path)],
-        trace: Some(&trace),
-        c_obstacles: &c_obstacles,
-        ..Picture::new(scene, path.start())
-    };
-    checked(name, &picture)
+/// Returns the picture of a plan.
+fn planned_picture(name: &str, scene: &Scene, [start, goal]: [Configuration; 2], method: Method) -> String {
+    let problem = Problem::from(motion_problem(scene.clone(), start, goal));
+    inspected(name, &plan(&problem, &Options::from(method)).unwrap().view())
 }
 
 #[test]
 fn a_wavefront_between_limits_is_drawn() {
-    let text = planned_picture(
-        "rr_wavefront",
-        &planar_scene(),
-        [configuration(-1.9, 0.6), configuration(1.4, -1.0)],
-        160,
-        |cells, labels, _, _| Trace::Wavefront {
-            cells: [cells.n; 2],
-            labels: labels.to_vec(),
-            expanded: Vec::new(),
-            forward: false,
-            estimates: None,
-        },
-    );
-    let words = words(&text);
-    for word in ["shoulder", "elbow", "90\u{b0}", "shelf", "post <1>", "fence & gate", "steps to the goal"] {
-        assert!(words.contains(word), "{word} is missing in {words}");
-    }
-    assert!(text.contains("post &lt;1&gt;") && text.contains("fence &amp; gate"));
+    let ends = [configuration(-1.9, 0.6), configuration(1.4, -1.0)];
+    let text = planned_picture("rr_wavefront", &planar_scene(), ends, Method::Wavefront);
+    has(&words(&text), &["shoulder", "elbow", "90\u{b0}", "shelf", "post <1>", "fence & gate", "steps to the goal"]);
+    has(&text, &["post &lt;1&gt;", "fence &amp; gate"]);
     assert!(text.len() < 600_000, "{} bytes", text.len());
 }
 
 #[test]
 fn a_field_on_a_torus_is_drawn() {
-    let text = planned_picture(
-        "torus_field",
-        &torus(),
-        [configuration(2.6, 0.3), configuration(-2.2, -1.6)],
-        72,
-        |cells, _, goal, _| Trace::field([cells.n; 2], FieldQuantity::Logarithm, cells.potential(goal)),
-    );
-    let words = words(&text);
-    assert!(words.contains("shoulder, wraps around") && words.contains("equipotentials"));
+    let ends = [configuration(2.6, 0.3), configuration(-2.2, -1.6)];
+    let text = planned_picture("torus_field", &torus(), ends, Method::Harmonic);
+    has(&words(&text), &["shoulder, wraps around", "equipotentials"]);
     assert!(text.contains("stroke-dasharray"), "seams are dashed");
 }
 
 #[test]
 fn a_channel_of_a_gantry_is_drawn() {
-    let text = planned_picture(
-        "gantry_channel",
-        &gantry(),
-        [configuration(0.2, 0.15), configuration(1.8, 0.9)],
-        48,
-        |cells, _, _, path| {
-            let boxes = cells.free_boxes();
-            let holds = |b: &Vec<Configuration>, q: &Configuration| (0..2).all(|k| b[0][k] <= q[k] && q[k] <= b[2][k]);
-            let channel = (0..boxes.len()).filter(|&i| path.waypoints().iter().any(|q| holds(&boxes[i], q))).collect();
-            Trace::Channel {
-                kind: CellKind::Trapezoids,
-                cells: boxes.into(),
-                channel,
-                points: ChannelPoints::default(),
-                expanded: Vec::new(),
-            }
-        },
-    );
-    let words = words(&text);
-    for word in ["bridge (m)", "trolley (m)", "channel", "crate"] {
-        assert!(words.contains(word), "{word} is missing in {words}");
-    }
+    let ends = [configuration(0.2, 0.15), configuration(1.8, 0.9)];
+    let text = planned_picture("gantry_channel", &gantry(), ends, Method::Trapezoid);
+    has(&words(&text), &["bridge (m)", "trolley (m)", "channel", "crate"]);
 }
 
 #[test]
 fn a_roadmap_on_an_interval_longer_than_a_turn_is_drawn() {
-    planned_picture(
-        "polar_roadmap",
-        &polar(),
-        [configuration(-3.5, 0.3), configuration(3.0, 0.1)],
-        120,
-        |cells, labels, _, _| {
-            let free: Vec<usize> = (0..labels.len()).filter(|k| labels[*k] != u32::MAX).step_by(97).collect();
-            let edges = free.windows(3).flat_map(|w| [[w[0], w[1]], [w[0], w[2]]]);
-            Trace::Roadmap { edges: edges.map(|e| e.map(|k| cells.center(k))).collect(), whole: true }
-        },
-    );
+    let ends = [configuration(-3.5, 0.3), configuration(3.0, 0.1)];
+    planned_picture("polar_roadmap", &polar(), ends, Method::Prm);
 }
 
 #[test]
 fn a_comparison_distinguishes_paths() {
     let scene = torus();
-    let cells = Cells::sample(&scene, 96);
-    let goal = cells.index(configuration(-2.2, -1.6));
-    let labels = cells.labels(goal);
-    let walk = cells.descend(cells.index(configuration(2.6, 0.3)), &labels);
-    let thinned = |step: usize| {
-        let mut waypoints: Vec<Configuration> = walk.waypoints().iter().copied().step_by(step).collect();
-        waypoints.push(walk.goal());
-        Path::new(waypoints)
+    let problem = Problem::from(motion_problem(scene.clone(), configuration(2.6, 0.3), configuration(-2.2, -1.6)));
+    let planned = |method: Method| {
+        let plan = plan(&problem, &Options::from(method)).unwrap();
+        (
+            method.name().to_owned(),
+            Path::new(plan.waypoints().unwrap().iter().copied().map(Configuration::from).collect()),
+        )
     };
-    let (few, fewer) = (thinned(7), thinned(19));
-    let c_obstacles = cells.c_obstacles(scene.workspace().obstacles.len());
+    let paths = [Method::Visibility, Method::Trapezoid, Method::Wavefront].map(planned);
     let picture = Picture {
         title: vec!["Comparison".to_owned(), "one line".to_owned(), "and another".to_owned()],
         status: "3 of 3 found".to_owned(),
-        goals: &[walk.goal().into()],
-        paths: vec![("visibility".to_owned(), &fewer), ("trapezoid".to_owned(), &few), ("wavefront".to_owned(), &walk)],
-        c_obstacles: &c_obstacles,
-        ..Picture::new(&scene, walk.start())
+        goals: &[paths[0].1.goal().into()],
+        paths: paths.iter().map(|(name, path)| (name.clone(), path)).collect(),
+        c_obstacles: &c_obstacles(&scene, 2e-3, 2e-3),
+        ..Picture::new(&scene, paths[0].1.start())
     };
     let words = words(&checked("comparison", &picture));
-    for word in ["Comparison", "and another", "visibility", "trapezoid", "wavefront", "3 of 3 found"] {
-        assert!(words.contains(word), "{word} is missing in {words}");
-    }
+    has(&words, &["Comparison", "and another", "visibility", "trapezoid", "wavefront", "3 of 3 found"]);
 }
 
 #[test]
@@ -248,12 +181,12 @@ fn a_crowd_without_a_path_is_drawn() {
         circle(&format!("o{k}"), distance * angle.cos(), distance * angle.sin(), 0.05)
     };
     let scene = scene(planar([interval(-2.8, 2.8), interval(-2.6, 2.6)]), (0..60).map(crowd).collect());
-    let c_obstacles = Cells::sample(&scene, 90).c_obstacles(60);
+    let contours = c_obstacles(&scene, 2e-3, 2e-3);
     let picture = Picture {
         title: vec!["A crowd".to_owned()],
         status: "infeasible: proven".to_owned(),
         goals: &[configuration(1.0, -2.4).into(), configuration(2.0, 2.4).into()],
-        c_obstacles: &c_obstacles,
+        c_obstacles: &contours,
         ..Picture::new(&scene, configuration(-2.0, 2.4))
     };
     let words = words(&checked("crowd", &picture));

@@ -1,7 +1,7 @@
 //! Threats to the server's availability: worlds that take long to read, and clients that ask and never read.
 
-use super::client::Page;
 use super::server::Server;
+use super::shelf_page;
 use std::f64::consts::TAU;
 use std::io::Write;
 use std::net::TcpStream;
@@ -12,8 +12,7 @@ const MANY: usize = 40;
 
 #[test]
 fn a_world_of_19_999_corners_is_answered() {
-    let server = Server::planar("workspaces/shelf.toml", &[]);
-    let mut page = Page::open(&server);
+    let (_server, mut page) = shelf_page();
     let corner = |k: usize| {
         let angle = k as f64 / 19_999.0 * TAU;
         let radius = 0.15 + 0.03 * (9.0 * angle).sin();

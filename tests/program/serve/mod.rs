@@ -9,7 +9,9 @@ mod plans;
 mod refusals;
 mod server;
 
+use client::Page;
 use serde_json::{Value, json};
+use server::Server;
 
 /// Returns an obstacle of `shelf.toml`, moved by `by`: the one around which the path leads.
 fn shelf_moved(by: [f64; 2]) -> Value {
@@ -26,4 +28,11 @@ fn shelf_state(shelf: Value) -> Value {
         "goal": { "joints": [1.55, -0.35] },
         "clearance": 0.0,
     })
+}
+
+/// Starts a server with `planar_2r` in `shelf.toml`, and opens a page.
+fn shelf_page() -> (Server, Page) {
+    let server = Server::planar("workspaces/shelf.toml", &[]);
+    let page = Page::open(&server);
+    (server, page)
 }

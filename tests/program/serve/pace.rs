@@ -1,11 +1,9 @@
 //! The page follows dragged objects, however many obstacles there are.
 
 use super::client::Page;
-use super::server::Server;
+use super::shelf_page;
 use serde_json::{Value, json};
 use std::time::Duration;
-
-const WORLD: &str = "workspaces/shelf.toml";
 
 /// Number of obstacles of the crowd.
 const MANY: usize = 300;
@@ -75,8 +73,7 @@ fn cpu_time(process: u32) -> Option<Duration> {
 
 #[test]
 fn three_hundred_obstacles_are_followed_ten_times_a_second() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (server, mut page) = shelf_page();
     let crowd = crowd();
     let answer = page.load(&text(&crowd));
     assert!(answer["verdict"].is_string(), "{answer}");
@@ -101,8 +98,7 @@ fn three_hundred_obstacles_are_followed_ten_times_a_second() {
 
 #[test]
 fn caches_between_answers_change_nothing() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (server, mut page) = shelf_page();
     let crowd = crowd()[..40].to_vec();
     page.load(&text(&crowd));
     let drop = |state: &mut Value, k: usize| state["obstacles"].as_array_mut().unwrap().remove(k);

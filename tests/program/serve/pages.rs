@@ -2,8 +2,9 @@
 
 use super::client::Page;
 use super::server::{Server, shipped};
+use crate::cli::Place;
 use std::net::TcpStream;
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 #[test]
 fn the_page_is_served_and_nothing_else() {
@@ -50,13 +51,9 @@ fn every_answer_has_the_security_headers() {
 /// for documentation (RFC 5737).
 #[test]
 fn an_address_of_another_machine_is_refused_with_a_hint() {
-    let mut serve = Command::new(env!("CARGO_BIN_EXE_cplan"));
-    let done = serve.args(["serve", "--port", "0", "--bind", "203.0.113.9"]).output().unwrap();
-    let report = String::from_utf8(done.stderr).unwrap();
-    assert_eq!(done.status.code(), Some(1), "{report}");
-    for part in ["cannot listen at 203.0.113.9:0", "hint: give --bind an address of this machine"] {
-        assert!(report.contains(part), "{report}");
-    }
+    let words = ["serve", "--port", "0", "--bind", "203.0.113.9"];
+    let parts = ["cannot listen at 203.0.113.9:0", "hint: give --bind an address of this machine"];
+    Place::new().run(&words, "").refused(1, &parts);
 }
 
 #[test]
@@ -109,34 +106,20 @@ fn too_many_pages_are_refused() {
 
 #[test]
 fn wrong_command_lines_are_reported() {
-    let run = |arguments: &[&str]| {
-        let output = Command::new(env!("CARGO_BIN_EXE_cplan"))
-            .arg("serve")
-            .args(arguments)
-            .stdin(Stdio::null())
-            .output()
-            .unwrap();
-        let stderr = String::from_utf8(output.stderr).unwrap();
-        assert!(output.stdout.is_empty(), "{arguments:?}");
-        (output.status.code().unwrap(), stderr)
-    };
-    let (code, error) = run(&["--with", "fastest"]);
-    assert!(code == 2 && error.contains("--with: ") && error.contains("[possible values: shortest"), "{error}");
-    let (code, error) = run(&["--time-limit", "0"]);
-    assert!(code == 2 && error.contains("from 0.01 to 3600"), "{error}");
-    let (code, error) = run(&["arm.urdf"]);
-    assert!(code == 2 && error.contains("WORLD"), "{error}");
-    let (code, error) = run(&[&shipped("robots/planar_2r.urdf"), "missing.toml"]);
-    assert!(code == 1 && error.contains("missing.toml: cannot be read"), "{error}");
-    let (code, error) = run(&["--export", "page.html"]);
-    assert!(code == 2 && error.contains("--engine"), "{error}");
-    let (code, error) = run(&["--export", "page.html", "--engine", "missing.wasm.gz"]);
-    assert!(code == 1 && error.contains("missing.wasm.gz: cannot be read") && error.contains(".ci/page"), "{error}");
-    let (code, error) = run(&["--export", "page.html", "--engine", &shipped("robots/scara.urdf")]);
-    assert!(code == 1 && error.contains("is not packed by gzip"), "{error}");
     let taken = Server::start(&[]);
-    let (code, error) = run(&["--port", &taken.address.port().to_string()]);
-    assert!(code == 1 && error.contains("cannot listen") && error.contains("--port 0"), "{error}");
+    let [robot, other] = ["robots/planar_2r.urdf", "robots/scara.urdf"].map(shipped);
+    for (words, code, parts) in [
+        ("--with fastest", 2, &["--with: ", "[possible values: shortest"][..]),
+        ("--time-limit 0", 2, &["from 0.01 to 3600"]),
+        ("arm.urdf", 2, &["WORLD"]),
+        (&format!("{robot} missing.toml"), 1, &["missing.toml: cannot be read"]),
+        ("--export page.html", 2, &["--engine"]),
+        ("--export page.html --engine missing.wasm.gz", 1, &["missing.wasm.gz: cannot be read", ".ci/page"]),
+        (&format!("--export page.html --engine {other}"), 1, &["is not packed by gzip"]),
+        (&format!("--port {}", taken.address.port()), 1, &["cannot listen", "--port 0"]),
+    ] {
+        Place::new().run(&["serve"], words).refused(code, parts);
+    }
 }
 
 #[cfg(unix)]

@@ -2,7 +2,7 @@
 
 use super::client::Page;
 use super::server::{Server, shipped};
-use super::{shelf_moved, shelf_state};
+use super::{shelf_moved, shelf_page, shelf_state};
 use serde_json::{Value, json};
 use std::process::Command;
 
@@ -30,8 +30,7 @@ fn the_built_in_cell_needs_no_files() {
 
 #[test]
 fn an_obstacle_in_the_way_changes_the_path_which_stays_certified() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (_server, mut page) = shelf_page();
     let length = |answer: &Value| answer["figures"]["length"].as_f64().unwrap();
     let before = page.plan(None, "visibility");
     let aside = page.plan(Some(shelf_state(shelf_moved([0.6, 0.0]))), "visibility");
@@ -44,8 +43,7 @@ fn an_obstacle_in_the_way_changes_the_path_which_stays_certified() {
 
 #[test]
 fn every_planner_answers_while_dragging_and_after() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (_server, mut page) = shelf_page();
     for planner in page.world["planners"].clone().as_array().unwrap() {
         let planner = planner.as_str().unwrap();
         let answer = page.plan(None, planner);
@@ -64,8 +62,7 @@ fn every_planner_answers_while_dragging_and_after() {
 
 #[test]
 fn the_last_place_of_a_drag_is_answered_and_answers_come_in_order() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (_server, mut page) = shelf_page();
     let mut last = 0;
     for step in 0..200 {
         let by = [0.002 * f64::from(step), 0.0];
@@ -120,8 +117,7 @@ fn time_is_limited() {
 
 #[test]
 fn an_infeasible_world_comes_with_its_proof() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (_server, mut page) = shelf_page();
     let text = std::fs::read_to_string(shipped("workspaces/singular_closed.toml")).unwrap();
     let answer = page.load(&text);
     assert_eq!((&answer["verdict"], &answer["certified"]), (&json!("infeasible"), &json!(false)), "{answer}");
@@ -130,8 +126,7 @@ fn an_infeasible_world_comes_with_its_proof() {
 
 #[test]
 fn the_saved_world_is_the_planned_one() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (server, mut page) = shelf_page();
     let mut state = shelf_state(shelf_moved([-0.05, 0.02]));
     let disc = json!({ "name": "disc", "circle": { "center": [-0.4, 0.9], "radius": 0.07 } });
     state["obstacles"].as_array_mut().unwrap().push(disc);
@@ -168,8 +163,7 @@ fn the_saved_world_is_the_planned_one() {
 
 #[test]
 fn results_and_pictures_are_files() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (_server, mut page) = shelf_page();
     for (format, begins) in [("json", "{"), ("csv", "time,"), ("yaml", ""), ("svg", "<"), ("html", "<!DOCTYPE html>")] {
         let (name, content) = page.download(None, "wavefront", format).unwrap();
         assert_eq!(name, format!("plan.{format}"));
@@ -185,8 +179,7 @@ fn results_and_pictures_are_files() {
 
 #[test]
 fn the_start_follows_the_tip() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (_server, mut page) = shelf_page();
     let mut state = shelf_state(json!({ "from": 0 }));
     // The links are 1 m and 0.8 m long.
     let tip = |q: [f64; 2]| [q[0].cos() + 0.8 * (q[0] + q[1]).cos(), q[0].sin() + 0.8 * (q[0] + q[1]).sin()];

@@ -2,10 +2,8 @@
 
 use super::client::Page;
 use super::server::Server;
-use super::{shelf_moved, shelf_state};
+use super::{shelf_moved, shelf_page, shelf_state};
 use serde_json::json;
-
-const WORLD: &str = "workspaces/shelf.toml";
 
 fn error_of(answer: &serde_json::Value) -> &str {
     answer["error"].as_str().unwrap_or_else(|| panic!("no error: {answer}"))
@@ -40,8 +38,7 @@ fn invalid_requests_are_answered() {
 
 #[test]
 fn a_bad_text_is_explained_and_the_last_good_one_stays() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (_server, mut page) = shelf_page();
     let base = page.base;
     for (text, parts) in [
         ("name = ", &["shelf.toml: line 1"][..]),
@@ -65,8 +62,7 @@ fn a_bad_text_is_explained_and_the_last_good_one_stays() {
 
 #[test]
 fn a_start_in_an_obstacle_is_explained_and_drawn() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (_server, mut page) = shelf_page();
     let blocking = json!({ "from": 0, "circle": { "center": [0.6, -0.6], "radius": 0.2 } });
     for is_final in [false, true] {
         let id = page.post(Some(shelf_state(blocking.clone())), is_final, "visibility");
@@ -88,8 +84,7 @@ fn a_start_in_an_obstacle_is_explained_and_drawn() {
 
 #[test]
 fn invalid_states_are_refused() {
-    let server = Server::planar(WORLD, &[]);
-    let mut page = Page::open(&server);
+    let (_server, mut page) = shelf_page();
     let crossed = json!({ "from": 0, "polygon": [[1.0, 0.0], [1.5, 0.5], [1.5, 0.0], [1.0, 0.5]] });
     let flat = json!({ "from": 0, "polygon": [[1.0, 0.0], [1.5, 0.5]] });
     for (obstacles, part) in [

@@ -1,18 +1,13 @@
 //! The server as a process.
 
+pub use crate::cli::shipped;
 use std::io::{BufRead, BufReader, Read, Write};
 use std::net::{SocketAddr, TcpStream};
-use std::path::Path;
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
 /// Time after which a test fails. It is far longer than any request takes.
 pub const TIME_LIMIT: Duration = Duration::from_secs(120);
-
-/// Returns the path of a file of the repository.
-pub fn shipped(file: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string()
-}
 
 /// A server that is killed when it is dropped.
 pub struct Server {

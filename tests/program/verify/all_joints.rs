@@ -1,22 +1,7 @@
 //! The motion of all joints in results of tasks, compared with the steps and with tables of the same motion.
 
-use cplan_testkit::judged::{Question, judge, plan_result};
-use serde_json::Value;
+use super::*;
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-
-fn files(robot: &str, world: &str) -> [PathBuf; 2] {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    [root.join("robots").join(robot), root.join("workspaces").join(world)]
-}
-
-/// Returns the findings about a text in a file with this name.
-fn findings([robot, world]: &[PathBuf; 2], name: &str, text: &str) -> Value {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join(name);
-    std::fs::write(&file, text).unwrap();
-    judge(robot, world, &file, &Question::default()).unwrap_or_else(|error| panic!("{error}"))
-}
 
 /// Returns the motion of all joints of a result as a table.
 fn table(result: &Value) -> String {
@@ -48,10 +33,10 @@ fn change(result: &mut Value, joint: &str, value: impl Fn(usize, f64) -> f64) {
 /// Holds the tool low during the whole motion into a box, whose sides it would hit.
 #[test]
 fn a_tool_that_is_held_low_gets_the_same_verdict_in_json_and_csv() {
-    let files = files("scara.urdf", "arch/into_the_box.toml");
+    let files = shipped("scara", "arch/into_the_box");
     let result = plan_result(&files[0], &files[1], "");
-    assert_eq!(findings(&files, "plan.json", &result.to_string())["verdict"], "free");
-    assert_eq!(findings(&files, "plan.csv", &table(&result))["verdict"], "free");
+    assert_eq!(findings(&files, "plan.json", result.to_string())["verdict"], "free");
+    assert_eq!(findings(&files, "plan.csv", table(&result))["verdict"], "free");
     let mut low = result.clone();
     let positions = result["all_joints"]["position"].as_array().unwrap();
     let joints = result["all_joints"]["joints"].as_array().unwrap();
@@ -69,12 +54,12 @@ fn a_tool_that_is_held_low_gets_the_same_verdict_in_json_and_csv() {
 /// Without its steps, a result is its motion of all joints.
 #[test]
 fn a_result_without_steps_is_judged_by_its_motion_of_all_joints() {
-    let files = files("scara.urdf", "arch/into_the_box.toml");
+    let files = shipped("scara", "arch/into_the_box");
     let mut result = plan_result(&files[0], &files[1], "");
     let members = result.as_object_mut().unwrap();
     // The path of a whole task does not state its blends.
     members.retain(|member, _| !["steps", "events", "path", "length"].contains(&member.as_str()));
-    let found = findings(&files, "plan.json", &result.to_string());
+    let found = findings(&files, "plan.json", result.to_string());
     assert_eq!(found["verdict"], "free", "{found:#}");
     let moves = |found: &Value| found["notes"].to_string().contains("joint \\\"axis_3\\\" moves");
     assert!(moves(&found), "{found:#}");
@@ -84,20 +69,18 @@ fn a_result_without_steps_is_judged_by_its_motion_of_all_joints() {
 /// the joints to and fro.
 #[test]
 fn joints_that_move_differently_from_the_steps_are_refused() {
-    for (robot, world) in [
-        ("scara.urdf", "tasks/kitting_cell.toml"),
-        ("scara.urdf", "arch/pick_and_place.toml"),
-        ("scara.urdf", "arch/into_the_box.toml"),
-    ] {
-        let files = files(robot, world);
+    for (robot, world) in
+        [("scara", "tasks/kitting_cell"), ("scara", "arch/pick_and_place"), ("scara", "arch/into_the_box")]
+    {
+        let files = shipped(robot, world);
         let result = plan_result(&files[0], &files[1], "");
-        let found = findings(&files, "plan.json", &result.to_string());
+        let found = findings(&files, "plan.json", result.to_string());
         assert_eq!(found["verdict"], "free", "{world}: {:#}", found["faults"]);
         let joints: Vec<String> = serde_json::from_value(result["all_joints"]["joints"].clone()).unwrap();
         for joint in &joints {
             let mut moved = result.clone();
             change(&mut moved, joint, |k, value| if k % 2 == 1 { value - 0.01 } else { value });
-            let found = findings(&files, "plan.json", &moved.to_string());
+            let found = findings(&files, "plan.json", moved.to_string());
             let fault = format!("all_joints: joint \\\"{joint}\\\" is at");
             assert_ne!(found["verdict"], "free", "{world} {joint}");
             assert!(found["faults"].to_string().contains(&fault), "{world} {joint}: {:#}", found["faults"]);

@@ -1,46 +1,35 @@
 //! Results with one false claim: the judge finds every change of each claim that it checks.
 
+use super::*;
 use cplan::input::Overrides;
 use cplan_cases::dice::Dice;
-use cplan_testkit::judged::{Question, judge, plan_result};
-use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
 
-fn repository_file(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
-}
-
-/// A robot, a world, and the program's result for them.
+/// A robot and a world, and the program's result for them.
 struct Case {
-    robot: PathBuf,
-    world: PathBuf,
+    files: [PathBuf; 2],
     result: Value,
 }
 
 impl Case {
     fn new(robot: &str, world: &str) -> Self {
-        Self::of(repository_file(&format!("robots/{robot}.urdf")), repository_file(&format!("workspaces/{world}.toml")))
+        Self::of(shipped(robot, world))
     }
 
     /// Returns a shipped task with five steps.
     fn tower() -> Self {
-        let world = std::fs::read_to_string(repository_file("workspaces/tasks/tower.toml")).unwrap();
-        let robot = world.lines().find_map(|line| line.strip_prefix("# robot: ")).unwrap();
-        Self::new(robot.trim(), "tasks/tower")
+        Self::new("rrbot_vertical", "tasks/tower")
     }
 
-    fn of(robot: PathBuf, world: PathBuf) -> Self {
-        let result = plan_result(&robot, &world, "");
-        assert_eq!(result["status"], "found", "{}", world.display());
-        Self { robot, world, result }
+    fn of(files: [PathBuf; 2]) -> Self {
+        let result = plan_result(&files[0], &files[1], "");
+        assert_eq!(result["status"], "found", "{}", files[1].display());
+        Self { files, result }
     }
 
     /// Returns the findings about a result, or the error.
     fn findings_or_error(&self, result: &Value, question: &Question) -> Value {
-        let folder = tempfile::tempdir().unwrap();
-        let file = folder.path().join("r.json");
-        std::fs::write(&file, result.to_string()).unwrap();
-        judge(&self.robot, &self.world, &file, question).unwrap_or_else(|error| Value::String(error.to_string()))
+        let found = judged(&self.files, "r.json", result.to_string(), question);
+        found.unwrap_or_else(|error| Value::String(error.to_string()))
     }
 
     /// Returns the findings about a motion or task, with the start and goal that its world states.
@@ -107,10 +96,8 @@ fn a_colliding_path_beside_a_good_trajectory_is_found() {
 
 #[test]
 fn a_motion_that_does_not_lead_from_start_to_goal_is_found() {
-    let folder = tempfile::tempdir().unwrap();
-    let world = folder.path().join("free.toml");
-    std::fs::write(&world, "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n").unwrap();
-    let case = Case::of(repository_file("robots/planar_2r.urdf"), world);
+    let place = Place::new().with("free.toml", "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n");
+    let case = Case::of([root("robots/planar_2r.urdf"), place.path("free.toml")]);
     let only = |samples: std::ops::Range<usize>| {
         let mut result = json!({"joints": case.result["joints"], "trajectory": {}});
         for key in ["time", "position"] {
@@ -137,9 +124,11 @@ fn a_motion_that_does_not_lead_from_start_to_goal_is_found() {
     // Any IK solution satisfies a goal of the tip.
     let case = Case::new("planar_2r", "two_branches");
     let count = case.result["trajectory"]["time"].as_array().unwrap().len();
-    let (robot, world) = (case.robot.clone(), case.world.clone());
     let path = case.result["path"].as_array().unwrap();
-    let other = Case { robot, world, result: json!({"joints": case.result["joints"], "path": [path[0], [0.0, 0.0]]}) };
+    let other = Case {
+        files: case.files.clone(),
+        result: json!({"joints": case.result["joints"], "path": [path[0], [0.0, 0.0]]}),
+    };
     assert!(count > 1 && other.findings(&other.result)["faults"].to_string().contains("the tip"));
 }
 

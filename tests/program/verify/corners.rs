@@ -1,25 +1,16 @@
 //! Motions with limits on jerks, as `verify` judges them in the files of the planner.
 
-use crate::cli::Place;
-use cplan_testkit::judged::{Question, judge, plan_result};
-use serde_json::Value;
-use std::path::{Path, PathBuf};
-
+use super::*;
 /// Worlds with corners whose legs are short and long.
 const WORLDS: [&str; 5] = ["shelf", "discs", "limits_open", "two_branches", "crowd"];
 
 fn files(world: &str) -> [PathBuf; 2] {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    [root.join("robots/planar_2r.urdf"), root.join("workspaces").join(format!("{world}.toml"))]
+    shipped("planar_2r", world)
 }
 
 /// Returns the findings about a result.
 fn findings(world: &str, result: &Value) -> Value {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("plan.json");
-    std::fs::write(&file, result.to_string()).unwrap();
-    let [robot, world] = files(world);
-    judge(&robot, &world, &file, &Question::default()).unwrap_or_else(|error| panic!("{error}"))
+    super::findings(&files(world), "plan.json", result.to_string())
 }
 
 fn rows(of: &Value) -> Vec<[f64; 2]> {
@@ -110,10 +101,9 @@ fn the_files_of_a_smooth_motion_are_accepted() {
     let [robot, world] = files("shelf").map(|file| file.display().to_string());
     for blend in ["", "--blend 0.05"] {
         let options = format!("--jerk 20,20 {blend} --quiet --output plan.json --output plan.csv --output plan.yaml");
-        assert_eq!(place.run(&[&robot, &world], &options).code, 0);
+        place.run(&[&robot, &world], &options).exits(0);
         for file in ["plan.json", "plan.csv", "plan.yaml"] {
-            let done = place.run(&["verify", &robot, &world, file], "");
-            assert_eq!(done.code, 0, "{file} {blend}: {}", done.stdout);
+            place.run(&["verify", &robot, &world, file], "").exits(0);
         }
     }
 }

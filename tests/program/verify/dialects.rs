@@ -1,20 +1,12 @@
 //! Tables as spreadsheets and loggers write them: the same motion with any separator.
 
-use cplan::input::InputError;
-use cplan_testkit::judged::{Question, judge};
-use serde_json::Value;
-use std::path::Path;
-
+use super::*;
 const PLAIN: &str = "time,shoulder,elbow\n0,-0.9,0.4\n1,-0.8,0.4\n2,-0.7,0.5\n";
 
 /// Returns the findings about a table.
 fn verify(table: &str) -> Result<Value, InputError> {
-    let folder = tempfile::tempdir().unwrap();
-    let [world, recording] = ["world.toml", "m.csv"].map(|file| folder.path().join(file));
-    std::fs::write(&world, "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [-0.7, 0.5]\n").unwrap();
-    std::fs::write(&recording, table).unwrap();
-    let robot = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/robots/planar_2r.urdf"));
-    judge(robot, &world, &recording, &Question::default())
+    let place = Place::new().with("world.toml", "start.joints = [-0.9, 0.4]\ngoal.joints = [-0.7, 0.5]\n");
+    judged(&[root("robots/planar_2r.urdf"), place.path("world.toml")], "m.csv", table, &Question::default())
 }
 
 /// Returns the findings without the notes.

@@ -1,27 +1,18 @@
 //! The option `--plan`: the greatest distances of a motion from its plan, and motions that are nearer than required.
 
-use crate::cli::Place;
-use serde_json::Value;
-use std::path::Path;
-
-fn files() -> [String; 2] {
-    ["robots/planar_2r.urdf", "workspaces/shelf.toml"]
-        .map(|file| Path::new(env!("CARGO_MANIFEST_DIR")).join(file).display().to_string())
-}
+use super::*;
+const SHELF: [&str; 2] = ["planar_2r", "shelf"];
 
 /// Returns the findings about a table, and the program's exit code.
 fn verify(place: &Place, table: &str, options: &str) -> (i32, Value) {
-    let [robot, world] = files();
-    place.write("m.csv", table);
-    let done = place.run(&["verify", &robot, &world, "m.csv"], &format!("--anywhere --json {options}"));
-    (done.code, serde_json::from_str(&done.stdout).unwrap_or_else(|_| panic!("{}", done.stderr)))
+    let done = verify_table(place, SHELF, table, &format!("--anywhere --json {options}"));
+    (done.code, done.json())
 }
 
 /// Compares a plan along one joint with a motion that leaves it by a bump of the other joint.
 #[test]
 fn the_greatest_distances_from_the_plan_are_those_of_the_bump() {
-    let place = Place::new();
-    place.write("plan.csv", "time,shoulder,elbow\n0,-0.9,0.4\n2,-0.5,0.4\n");
+    let place = Place::new().with("plan.csv", "time,shoulder,elbow\n0,-0.9,0.4\n2,-0.5,0.4\n");
     // The motion begins later and moves more slowly, which does not count.
     let bump = "time,shoulder,elbow\n5,-0.9,0.4\n6,-0.8,0.4\n7,-0.7,0.41\n8,-0.6,0.4\n9,-0.5,0.4\n";
     let (code, found) = verify(&place, bump, "--plan plan.csv");
@@ -50,9 +41,8 @@ fn a_motion_that_is_too_near_is_no_collision() {
     assert_eq!((code, &found["touches"]), (3, &false.into()), "{found:#}");
     let shortfall = found["shortfall"].as_f64().unwrap();
     assert!((shortfall - 4e-5).abs() < 1e-6, "{shortfall}");
-    let [robot, world] = files();
     let clearance = format!("--anywhere --clearance {}", least + 4e-5);
-    let text = place.run(&["verify", &robot, &world, "m.csv"], &clearance).stdout;
+    let text = verify_table(&place, SHELF, table, &clearance).stdout;
     let result = text.lines().next().unwrap();
     assert!(result.contains("by 0.040 mm") && result.contains("no collision: proven"), "{result}");
     let hit = "shoulder,elbow\n-0.9,0.4\n1.55,-0.35\n";
@@ -60,6 +50,6 @@ fn a_motion_that_is_too_near_is_no_collision() {
         let (code, found) = verify(&place, hit, clearance);
         assert_eq!((code, &found["touches"]), (3, &true.into()), "{found:#}");
     }
-    let text = place.run(&["verify", &robot, &world, "m.csv"], "--anywhere --clearance 0.01").stdout;
+    let text = verify_table(&place, SHELF, hit, "--anywhere --clearance 0.01").stdout;
     assert_eq!(text.lines().next(), Some("result     collision: proven"), "{text}");
 }

@@ -1,28 +1,17 @@
 //! Recordings of ROS 2 topics.
 #![cfg(feature = "mcap")]
 
-use crate::cli::Place;
-use cplan::input::InputError;
-use cplan_testkit::judged::{self, Question};
-use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
-
-fn repository_file(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
-}
-
+use super::*;
 /// Checks that the same message in both formats is judged as the same motion.
 #[test]
 fn a_recording_is_judged_as_the_message_in_it() {
     for (robot, world) in [("planar_2r", "shelf"), ("scara", "scara_cell")] {
         let place = Place::new();
-        let (robot, world) =
-            (repository_file(&format!("robots/{robot}.urdf")), repository_file(&format!("workspaces/{world}.toml")));
-        let planned =
-            place.run(&[robot.to_str().unwrap(), world.to_str().unwrap()], "--output m.yaml --output m.mcap --quiet");
-        assert_eq!(planned.code, 0, "{}", planned.stderr);
+        let [robot, world] = shipped(robot, world);
+        let files = [robot.to_str().unwrap(), world.to_str().unwrap()];
+        place.run(&files, "--output m.yaml --output m.mcap --quiet").exits(0);
         let found = ["m.yaml", "m.mcap"].map(|file| {
-            let mut found = judged::judge(&robot, &world, &place.path(file), &Question::default()).unwrap();
+            let mut found = judge(&robot, &world, &place.path(file), &Question::default()).unwrap();
             let notes = found.as_object_mut().unwrap().remove("notes").unwrap().to_string();
             (found, notes)
         });
@@ -146,11 +135,7 @@ fn states_recorded_by_another_program_are_judged() {
 
 /// Judges a recording of the planar arm, with any start and end.
 fn judge_recording(bytes: &[u8], topic: Option<&str>) -> Result<Value, InputError> {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("m.mcap");
-    std::fs::write(&file, bytes).unwrap();
-    let (robot, world) = (repository_file("robots/planar_2r.urdf"), repository_file("workspaces/shelf.toml"));
-    judged::judge(&robot, &world, &file, &Question { topic, ..Question::with_free_ends() })
+    judged(&shipped("planar_2r", "shelf"), "m.mcap", bytes, &Question { topic, ..Question::with_free_ends() })
 }
 
 /// Returns the error of a recording, and the hint.
@@ -164,22 +149,21 @@ fn message_of(bytes: &[u8], topic: Option<&str>) -> String {
 /// the same motion as the table.
 #[test]
 fn compressed_chunks_of_a_topic_may_be_out_of_order() {
-    let folder = tempfile::tempdir().unwrap();
-    let (robot, world) = (repository_file("robots/planar_2r.urdf"), repository_file("workspaces/shelf.toml"));
+    let [robot, world] = shipped("planar_2r", "shelf");
     let row = |k: i32| {
         let [time, shoulder, elbow] = [k * 50, -900 + 10 * k, 400 + 10 * k].map(|n| f64::from(n) / 1000.0);
         format!("{time},{shoulder},{elbow}\n")
     };
     let table = "time,shoulder,elbow\n".to_owned() + &(0..40).map(row).collect::<String>();
-    let csv = folder.path().join("m.csv");
-    std::fs::write(&csv, table).unwrap();
+    let place = Place::new().with("m.csv", table);
+    let csv = place.path("m.csv");
     let judged = |file: &PathBuf| {
-        let found = judged::judge(&robot, &world, file, &Question::with_free_ends()).unwrap();
+        let found = judge(&robot, &world, file, &Question::with_free_ends()).unwrap();
         assert_eq!((&found["verdict"], &found["samples"]), (&json!("free"), &json!(40)), "{found:#}");
         ["clearance", "duration", "nearest"].map(|key| found[key].to_string())
     };
     for file in ["zstd", "lz4"] {
-        let file = repository_file(&format!("tests/program/verify/recorded/{file}.mcap"));
+        let file = root(&format!("tests/program/verify/recorded/{file}.mcap"));
         let [found, expected] = [&file, &csv].map(judged);
         assert_eq!((&found[1..], &found[0][..8]), (&expected[1..], &expected[0][..8]), "{}", file.display());
     }
@@ -188,7 +172,7 @@ fn compressed_chunks_of_a_topic_may_be_out_of_order() {
 #[test]
 fn damaged_compressed_chunks_are_refused() {
     for file in ["zstd", "lz4"] {
-        let mut bytes = std::fs::read(repository_file(&format!("tests/program/verify/recorded/{file}.mcap"))).unwrap();
+        let mut bytes = std::fs::read(root(&format!("tests/program/verify/recorded/{file}.mcap"))).unwrap();
         for at in (200..bytes.len() - 200).step_by(97) {
             bytes[at] ^= 0x55;
             // Whatever byte changes, the program does not crash.
@@ -292,11 +276,8 @@ fn motions_of_a_controller_in_a_namespace_are_judged() {
 
 #[test]
 fn only_recordings_have_topics() {
-    let folder = tempfile::tempdir().unwrap();
-    let file = folder.path().join("m.csv");
-    std::fs::write(&file, "time,shoulder,elbow\n0,-0.9,0.4\n").unwrap();
-    let (robot, world) = (repository_file("robots/planar_2r.urdf"), repository_file("workspaces/shelf.toml"));
     let question = Question { topic: Some("/joint_states"), ..Question::default() };
-    let error = judged::judge(&robot, &world, &file, &question).unwrap_err().to_string();
-    assert!(error.contains("has no topics") && error.contains("leave --topic out"), "{error}");
+    let table = "time,shoulder,elbow\n0,-0.9,0.4\n";
+    let error = judged(&shipped("planar_2r", "shelf"), "m.csv", table, &question).unwrap_err().to_string();
+    has(&error, &["has no topics", "leave --topic out"]);
 }

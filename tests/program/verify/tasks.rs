@@ -1,14 +1,6 @@
 //! Results of tasks: the program's own ones, unchanged and tampered with, and in other worlds.
 
-use cplan_testkit::judged::{Question, judge, plan_result};
-use serde_json::{Value, json};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
-
-fn root(file: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
-}
-
+use super::*;
 /// A shipped task with its plan.
 struct Shipped {
     robot: PathBuf,
@@ -16,22 +8,10 @@ struct Shipped {
     result: Value,
 }
 
-/// Output of a run: exit code, stdout and stderr.
-type Said = (i32, String, String);
-
-fn run(folder: &Path, arguments: &[&str]) -> Said {
-    let run = Command::new(env!("CARGO_BIN_EXE_cplan")).current_dir(folder).args(arguments).output();
-    let Output { status, stdout, stderr } = run.unwrap();
-    let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
-    (status.code().expect("no signal"), text(stdout), text(stderr))
-}
-
 /// Plans a shipped task with turns of the wrist at rest.
 fn resting_task(name: &str) -> Shipped {
     let task = shipped_task(name).in_world("[robot]", "[robot]\narch = false");
-    let folder = tempfile::tempdir().unwrap();
-    let [world, _] = task.written(folder.path());
-    let result = plan_result(&task.robot, &world, "");
+    let result = plan_result(&task.robot, &task.written().path("world.toml"), "");
     Shipped { result, ..task }
 }
 
@@ -46,27 +26,20 @@ fn shipped_task(name: &str) -> Shipped {
 }
 
 impl Shipped {
-    /// Writes the world and the result into a folder.
-    fn written(&self, folder: &Path) -> [PathBuf; 2] {
-        let files = ["world.toml", "task.json"].map(|file| folder.join(file));
-        std::fs::write(&files[0], &self.world).unwrap();
-        std::fs::write(&files[1], self.result.to_string()).unwrap();
-        files
+    /// Returns a folder with the world and the result.
+    fn written(&self) -> Place {
+        Place::new().with("world.toml", &self.world).with("task.json", self.result.to_string())
     }
 
-    /// Returns the output of `verify` about the result.
-    fn report(&self, options: &[&str]) -> Said {
-        let folder = tempfile::tempdir().unwrap();
-        self.written(folder.path());
-        let files = ["verify", self.robot.to_str().unwrap(), "world.toml", "task.json"];
-        run(folder.path(), &[&files, options].concat())
+    /// Runs `verify` about the result.
+    fn report(&self, options: &str) -> Done {
+        self.written().run(&["verify", self.robot.to_str().unwrap(), "world.toml", "task.json"], options)
     }
 
     /// Returns the findings about the result.
     fn findings(&self) -> Value {
-        let folder = tempfile::tempdir().unwrap();
-        let [world, task] = self.written(folder.path());
-        judge(&self.robot, &world, &task, &Question::default()).unwrap_or_else(|error| panic!("{error}"))
+        let place = self.written();
+        findings(&[self.robot.clone(), place.path("world.toml")], "task.json", self.result.to_string())
     }
 
     /// Returns the same result for a world with one text replaced.
@@ -110,10 +83,6 @@ impl Shipped {
     }
 }
 
-fn number(value: &Value) -> Option<f64> {
-    value.as_f64()
-}
-
 #[test]
 fn our_own_tasks_are_free_and_their_clearances_agree() {
     for (name, count) in [("kitting_cell", 24), ("tower", 5), ("board_turned", 3), ("feeder", 300), ("sorting", 8)] {
@@ -127,40 +96,36 @@ fn our_own_tasks_are_free_and_their_clearances_agree() {
             for key in ["step", "cycle", "object", "carried", "first_sample", "last_sample"] {
                 assert_eq!(ours[key], theirs[key], "{name}, {key}");
             }
-            let turn = [&ours["turn"], &theirs["turn"]].map(|turn| number(&turn["clearance"]));
+            let turn = [&ours["turn"], &theirs["turn"]].map(|turn| Value::as_f64(&turn["clearance"]));
             // A part of a turn on the way has no clearance at rest.
             let overlaps = ["before_arrival", "after_departure"].iter().any(|key| theirs["turn"].get(key).is_some());
             assert!(
                 turn[0] == turn[1] || (overlaps && turn[0].is_none_or(|least| turn[1].is_some_and(|t| least >= t)))
             );
-            let bound = turn[0].into_iter().chain(number(&ours["clearance"])).reduce(f64::min);
+            let bound = turn[0].into_iter().chain(Value::as_f64(&ours["clearance"])).reduce(f64::min);
             // Both are at least 0.9 of the same distance: one is of the curve, the other of the cubics between samples.
-            match (bound, number(&theirs["clearance"])) {
+            match (bound, Value::as_f64(&theirs["clearance"])) {
                 (Some(a), Some(b)) => assert!(a >= 0.89 * b && b >= 0.89 * a, "{name}: {a}, {b} in {ours:#}"),
                 (a, b) => assert_eq!(a, b, "{name}"),
             }
         }
-        assert!(number(&found["clearance"]).unwrap() > 0.0);
+        assert!(Value::as_f64(&found["clearance"]).unwrap() > 0.0);
     }
 }
 
 #[test]
 fn the_summary_has_a_line_a_step() {
-    let (code, text, _) = shipped_task("feeder").report(&[]);
-    assert_eq!(code, 0);
-    for part in
-        ["step       1 (cycle 1)  pick \"part\"", "... 291 steps in cycles 4 to 100", "the whole task, 300 steps"]
-    {
-        assert!(text.contains(part), "no {part:?} in:\n{text}");
-    }
-    assert!(text.contains("each step is judged by itself"), "{text}");
+    shipped_task("feeder").report("").exits(0).says(&[
+        "step       1 (cycle 1)  pick \"part\"",
+        "... 291 steps in cycles 4 to 100",
+        "the whole task, 300 steps",
+        "each step is judged by itself",
+    ]);
     let turned = shipped_task("board_turned").in_world("velocity = 3.0", "velocity = 0.3");
-    let (code, text, _) = turned.report(&[]);
-    assert_eq!(code, 3);
-    for part in ["not as required", "task       step 2 (cycle 1): the wrist turns in 0.", "result     not the task"] {
-        assert!(text.contains(part), "no {part:?} in:\n{text}");
-    }
-    assert_eq!(turned.report(&["--quiet"]), (3, String::new(), String::new()));
+    let words = ["not as required", "task       step 2 (cycle 1): the wrist turns in 0.", "result     not the task"];
+    turned.report("").exits(3).says(&words);
+    let quiet = turned.report("--quiet").exits(3);
+    assert_eq!((quiet.stdout, quiet.stderr), (String::new(), String::new()));
 }
 
 #[test]
@@ -172,7 +137,7 @@ fn a_sample_in_an_obstacle_is_found() {
     let found = task.refuted("collision", &[2]);
     let hit = &found["steps"][2]["first_contact"];
     assert!(hit["obstacle"].as_str().unwrap().ends_with("wall"), "{hit:#}");
-    let (time, sample) = (number(&hit["time"]).unwrap(), hit["sample"].as_u64().unwrap() as usize);
+    let (time, sample) = (Value::as_f64(&hit["time"]).unwrap(), hit["sample"].as_u64().unwrap() as usize);
     assert!(task.time(sample) <= time && time <= task.time(middle) && sample == middle - 1, "{hit:#}");
     assert_eq!(&found["first_contact"], hit);
 }
@@ -282,7 +247,7 @@ fn a_different_turn_is_found() {
         task.result["steps"][1]["turn"]["to"] = json!(to);
         task
     };
-    let to = number(&resting_task("board_turned").result["steps"][1]["turn"]["to"]).unwrap();
+    let to = Value::as_f64(&resting_task("board_turned").result["steps"][1]["turn"]["to"]).unwrap();
     let found = reversed(to, 0.0).refuted("task", &[1, 2]);
     assert_eq!(
         found["steps"][1]["faults"],
@@ -303,7 +268,7 @@ fn a_different_turn_is_found() {
     // The post's centre is 0.12 from the tip, and the board's long side 0.06. They touch when the centre is 0.07 from
     // the board's axis, in either direction of the turn.
     let expected = (0.07_f64 / 0.12).acos();
-    let angle = |turn: &Value| number(&turn["contact"]["angle"]).unwrap();
+    let angle = |turn: &Value| Value::as_f64(&turn["contact"]["angle"]).unwrap();
     assert!((angle(turn) - expected).abs() < 1e-6, "{turn:#}");
     let back = reversed(0.0, to - std::f64::consts::TAU).in_world("[[object]]", post).findings();
     assert!((angle(&back["steps"][1]["turn"]) + expected).abs() < 1e-6, "{back:#}");
@@ -319,8 +284,8 @@ fn a_different_turn_on_the_way_is_found() {
         task
     };
     let turn = shipped_task("board_turned").result["steps"][1]["turn"].clone();
-    let [to, seconds] = ["to", "seconds"].map(|key| number(&turn[key]).unwrap());
-    assert_eq!(number(&turn["after_departure"]), Some(seconds));
+    let [to, seconds] = ["to", "seconds"].map(|key| Value::as_f64(&turn[key]).unwrap());
+    assert_eq!(Value::as_f64(&turn["after_departure"]), Some(seconds));
     let found = changed("to", to - std::f64::consts::TAU).findings();
     let of_motion = found["steps"][2]["faults"].to_string();
     assert!(of_motion.contains("the wrist exceeds its limits while the arm moves"), "{found:#}");
@@ -337,8 +302,7 @@ fn a_different_turn_on_the_way_is_found() {
     let world = "[robot]\narch = false";
     let found = shipped_task("board_turned").in_world("[robot]", world).findings();
     assert!(found["steps"][2]["faults"].to_string().contains("which the world forbids"), "{found:#}");
-    let (code, _, errors) = changed("after_departure", -1.0).report(&[]);
-    assert!(code == 1 && errors.contains("the turn's after_departure is -1"), "{code} {errors}");
+    changed("after_departure", -1.0).report("").exits(1).warns(&["the turn's after_departure is -1"]);
 }
 
 #[test]
@@ -361,16 +325,11 @@ fn a_larger_payload_is_found() {
 #[test]
 fn a_different_start_is_found() {
     let tower = shipped_task("tower");
-    assert_eq!(tower.report(&["--start", "0.6,0.8", "--quiet"]).0, 0);
-    let (code, text, _) = tower.report(&["--start", "0.6,0.7"]);
-    assert_eq!(code, 3);
-    assert!(text.contains("step 1 (cycle 1): it does not begin at the start"), "{text}");
-    let (code, _, error) = tower.report(&["--picture", "a.svg"]);
-    assert_eq!(code, 2, "{error}");
-    assert!(error.contains("--picture"), "{error}");
+    tower.report("--start 0.6,0.8 --quiet").exits(0);
+    tower.report("--start 0.6,0.7").exits(3).says(&["step 1 (cycle 1): it does not begin at the start"]);
+    tower.report("--picture a.svg").exits(2).warns(&["--picture"]);
     // A clearance that is greater than the actual distance.
-    let (code, text, _) = shipped_task("sorting").report(&["--clearance", "0.01"]);
-    assert!(code == 3 && text.contains("nearer than the required clearance"), "{text}");
+    shipped_task("sorting").report("--clearance 0.01").exits(3).says(&["nearer than the required clearance"]);
 }
 
 #[test]
@@ -380,22 +339,19 @@ fn a_file_without_steps_is_one_motion() {
     let found = tower.findings();
     assert!(found["steps"].is_null());
     assert!(found["notes"].to_string().contains("the world has steps, but the file has none"), "{found:#}");
-    let (code, text, error) = tower.report(&["--start", "0,0"]);
-    assert_eq!(code, 3, "{error}");
-    assert!(text.contains("not at the start (0, 0)"), "{text}");
+    tower.report("--start 0,0").exits(3).says(&["not at the start (0, 0)"]);
 }
 
 #[test]
 fn steps_that_are_none_are_refused() {
     let tower = shipped_task("tower");
-    let refused = |steps: Value, parts: &[&str]| {
+    let with = |change: &dyn Fn(&mut Value)| {
         let mut task = Shipped { robot: tower.robot.clone(), world: tower.world.clone(), result: tower.result.clone() };
-        task.result["steps"] = steps;
-        let (code, text, error) = task.report(&[]);
-        assert_eq!((code, text.as_str()), (1, ""), "{error}");
-        for part in [&["error: ", "task.json"], parts].concat() {
-            assert!(error.contains(part) && !error.contains("panicked"), "no {part:?} in {error}");
-        }
+        change(&mut task.result);
+        task.report("")
+    };
+    let refused = |steps: Value, parts: &[&str]| {
+        with(&|result| result["steps"] = steps.clone()).refused(1, &[&["task.json"], parts].concat());
     };
     let step = |members: Value| {
         let mut step = json!({"step": 1, "cycle": 1, "first_sample": 0, "last_sample": 1});
@@ -414,23 +370,13 @@ fn steps_that_are_none_are_refused() {
     refused(step(json!({"last_sample": u64::MAX})), &["steps[0]", "the trajectory has"]);
     refused(step(json!({"turn": {"from": 0.0, "to": 1.0}})), &["missing field `seconds`"]);
     refused(step(json!({"turn": {"from": 0.0, "to": 1e300, "seconds": 1.0}})), &["the turn's to is 1"]);
-
-    let with = |change: &dyn Fn(&mut Value)| {
-        let mut task = Shipped { robot: tower.robot.clone(), world: tower.world.clone(), result: tower.result.clone() };
-        change(&mut task.result);
-        task.report(&[])
-    };
-    let (code, _, error) = with(&|result| {
-        result["trajectory"].as_object_mut().unwrap().remove("velocity");
-    });
-    assert!(code == 1 && error.contains("no trajectory with time, position and velocity"), "{error}");
-    let (code, _, error) = with(&|result| {
-        result.as_object_mut().unwrap().remove("trajectory");
-    });
-    assert!(code == 1 && error.contains("no trajectory with time, position and velocity"), "{error}");
+    for member in ["/trajectory/velocity", "/trajectory"] {
+        let (owner, key) = member.rsplit_once('/').unwrap();
+        let done = with(&|result| drop(result.pointer_mut(owner).unwrap().as_object_mut().unwrap().remove(key)));
+        done.exits(1).warns(&["no trajectory with time, position and velocity"]);
+    }
     // No steps, or numbers that the world does not have, are not the task.
     for steps in [json!([]), step(json!({"step": 99})), step(json!({"cycle": 0}))] {
-        let (code, text, error) = with(&|result| result["steps"] = steps.clone());
-        assert!(code == 3 && text.contains("not the task"), "{text}{error}");
+        with(&|result| result["steps"] = steps.clone()).exits(3).says(&["not the task"]);
     }
 }

@@ -1,10 +1,6 @@
 //! Distances and harmonic fields on a grid by cplan's solvers. The cells and the results are written to files, for
 //! peers in other languages and for the comparison.
 
-#[path = "../../../../crates/cases/src/mazes.rs"]
-#[allow(dead_code, reason = "only the maze is needed here")]
-mod mazes;
-
 use crate::rounds::Rounds;
 use crate::{Result, scenes};
 use cplan::cspace::{Grid, Proves, grid_from_slices};
@@ -12,6 +8,7 @@ use cplan::field::multigrid::{Ends, Multigrid};
 use cplan::field::search::{Order, Search};
 use cplan::field::{Component, FreeCells, Lattice, Neighborhood, StepLabels, harmonic};
 use cplan::space::{JointRange, Configuration, Topology};
+use cplan_cases::mazes;
 use serde_json::{Value, json};
 use std::path::Path;
 

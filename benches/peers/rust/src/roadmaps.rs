@@ -1,22 +1,16 @@
 //! Shortest paths among random disjoint polygons: cplan's triangulation and visibility graph beside polyanya's mesh.
 //! The polygons and queries are written to a file, for peers in other languages.
 
-#[path = "../../../../crates/cases/src/dice.rs"]
-mod dice;
-#[path = "../../../../crates/testkit/src/roadmap.rs"]
-#[allow(dead_code, reason = "only the random polygons are needed here")]
-mod polygons;
-
 use crate::Result;
 use crate::rounds::Rounds;
 use cplan::cspace::Regions;
 use cplan::geometry::Point;
 use cplan::planner::{Proposal, Planner, Query, Visibility};
 use cplan::space::Configuration;
-use dice::Dice;
+use cplan_cases::dice::Dice;
+use cplan_testkit::roadmap::star_crowd;
 use glam::{Vec2, vec2};
 use polyanya::{Mesh, Triangulation};
-use polygons::star_crowd;
 use serde_json::{Value, json};
 
 /// Number of queries per map.

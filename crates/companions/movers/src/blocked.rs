@@ -395,17 +395,3 @@ pub fn complement(intervals: &[Interval]) -> Vec<Interval> {
     }
     left
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_complement_of_intervals_is_known() {
-        let inf = f64::INFINITY;
-        assert_eq!(complement(&[]), [[0.0, inf]]);
-        assert_eq!(complement(&[[-1.0, 2.0], [3.0, 4.0]]), [[2.0, 3.0], [4.0, inf]]);
-        assert_eq!(complement(&[[1.0, inf]]), [[0.0, 1.0]]);
-        assert_eq!(complement(&[[0.0, inf]]), Vec::<Interval>::new());
-    }
-}

@@ -1,14 +1,13 @@
 //! `cplan gcode` from outside: written programs and answers against a machine of the tests' own.
 
+use super::*;
 mod firmware;
 mod oracle;
 mod words;
 
-use super::{Done, Place, shipped};
 use cplan_cases::dice;
 use cplan_cases::dice::Dice;
 use oracle::{Machine, Move, Point, Stop, distance, moves};
-use serde_json::Value;
 use std::fmt::Write;
 
 /// Distance from an obstacle, metres, below which a travel may count as unsafe. It is several tolerances.
@@ -198,13 +197,10 @@ fn a_travel_that_does_not_exist_is_proven() {
         motor: None,
         obstacles: vec![vec![[0.06, -0.01], [0.6, -0.01], [0.6, 0.01], [0.06, 0.01]]],
     };
-    let place = Place::new();
-    place.write("arm.urdf", machine.urdf());
-    place.write("world.toml", machine.world());
+    let place = Place::new().with("arm.urdf", machine.urdf()).with("world.toml", machine.world());
     let text = "G21 G90\nG0 X0 Y300\nG1 X10\nG0 X0 Y-300\nG1 X10\n";
     place.write("job.gcode", text);
-    let done = place.run(&["gcode", "arm.urdf", "world.toml", "job.gcode"], "--output safe.gcode --json");
-    assert_eq!(done.code, 3, "{}{}", done.stdout, done.stderr);
+    let done = place.run(&["gcode", "arm.urdf", "world.toml", "job.gcode"], "--output safe.gcode --json").exits(3);
     let result = done.json();
     assert!(!place.path("safe.gcode").exists());
     for (elbow, failed) in

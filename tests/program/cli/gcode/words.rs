@@ -1,7 +1,6 @@
 //! The words of lines in written programs, options and errors.
 
-use super::{Done, Place, shipped};
-
+use super::*;
 /// Runs a program on both sides of the bar of `labels.toml`.
 fn run(place: &Place, text: &str, options: &str) -> Done {
     place.write("job.gcode", text);
@@ -12,8 +11,7 @@ fn run(place: &Place, text: &str, options: &str) -> Done {
 /// Returns the lines of the written program.
 fn written(text: &str, options: &str) -> Vec<String> {
     let place = Place::new();
-    let done = run(&place, text, &format!("--output safe.gcode --quiet {options}"));
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    run(&place, text, &format!("--output safe.gcode --quiet {options}")).exits(0);
     place.read("safe.gcode").lines().map(str::to_owned).collect()
 }
 
@@ -73,7 +71,7 @@ fn words_that_lift_the_pen_make_travels() {
     assert_eq!((done.code, &done.json()["lines"]["travels"]), (0, &1.into()), "{}", done.stderr);
     let safe = place.read("safe.gcode");
     assert!(!safe.contains("G0") && safe.contains("\nG1 X-240 Y265\nM300S30\n"), "{safe}");
-    assert_eq!(place.run(&[["gcode", &files[0], &files[1], "safe.gcode"], pen].concat(), "--check").code, 0);
+    place.run(&[["gcode", &files[0], &files[1], "safe.gcode"], pen].concat(), "--check").exits(0);
     run(&place, text, "--check --pen-up M300").refused(2, &["--pen-down"]);
     run(&place, text, "--check --pen-up up --pen-down M5").refused(2, &["a letter and a number"]);
 }
@@ -82,8 +80,7 @@ fn words_that_lift_the_pen_make_travels() {
 fn homing_makes_the_place_unknown() {
     let place = Place::new();
     let text = "G28\nG21 G90\nG0 X240 Y265\nG1 Y275\nG28 X Y\nG0 X-240 Y265\nG1 Y275\n$H\nG0 X240 Y265\n";
-    let done = run(&place, text, "--check --json");
-    assert_eq!(done.code, 0, "{}{}", done.stdout, done.stderr);
+    let done = run(&place, text, "--check --json").exits(0);
     assert_eq!(done.json()["lines"]["unstated"], serde_json::json!([3, 6, 9]));
     // With a known home, the travels from there are judged, and the one to the other side of the bar is not safe.
     let done = run(&place, text, "--check --json --home 0.4,0");
@@ -100,8 +97,7 @@ fn firmware_segments_can_be_judged_by_themselves() {
     // In one segment, the joints lead the pen along a curve below the bar.
     let text = "G21 G90\nG0 X100 Y265\nG1 X-100 Y265\n";
     let whole = run(&place, text, "--check --elbow right --dialect linuxcnc --segment 1");
-    let fine = run(&place, text, "--check --elbow right --dialect linuxcnc --segment 1mm --json");
-    assert_eq!(fine.code, 3, "{}", fine.stdout);
+    let fine = run(&place, text, "--check --elbow right --dialect linuxcnc --segment 1mm --json").exits(3);
     assert_eq!(fine.json()["lines"]["failed"][0]["cause"], "joint_motion");
     assert!([0, 3].contains(&whole.code), "{}{}", whole.stdout, whole.stderr);
 }

@@ -1,11 +1,11 @@
 //! Random arms, worlds and lines without a false answer.
 
-use super::{check, scene_of};
+use super::{check, scene_of, stroke};
 use cplan_cases::dice::Dice;
 use cplan_follow::{Settings, follow};
 use cplan_model::{Obstacle, Outcome, Scene};
 use cplan_testkit::follow_oracle::{Bars, Point, played, points};
-use cplan_toolpath::{Curve, Piece, Source, Toolpath};
+use cplan_toolpath::{Curve, Piece, Toolpath};
 use std::f64::consts::TAU;
 
 /// Clearance, and distance from limits, of a motion that the crate must not call infeasible, metres and radians.
@@ -89,7 +89,7 @@ fn line(dice: &mut Dice, bars: &Bars) -> Toolpath {
         };
         at = curve.at(1.0);
         let speed = dice.chance(0.3).then(|| dice.within(0.05, 0.5));
-        pieces.push(Piece { curve, speed, is_travel: false, dwell: None, source: Source::of_line(k + 1) });
+        pieces.push(Piece { speed, ..stroke(curve, k + 1) });
     }
     Toolpath::new(pieces).expect("a line")
 }

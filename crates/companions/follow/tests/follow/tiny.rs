@@ -1,35 +1,15 @@
 //! Lines with pieces far below the tolerance: hooks, hairpins, closings, dots and micrometre steps.
 
-use super::{BARS, check, scene_of};
+use super::{BARS, ORIGIN, check, gantry, gantry_tips, scene_of, stroke};
 use cplan_cases::dice::Dice;
 use cplan_follow::{Cause, Found, Settings, follow, metres};
-use cplan_model::{Arm, Joint, Link, Outcome, Scene, Workspace};
-use cplan_testkit::follow_oracle::{Bars, Point, pass_together, played, points};
-use cplan_toolpath::{Curve, Piece, Placement, Source, Toolpath};
+use cplan_model::Outcome;
+use cplan_testkit::follow_oracle::{Point, pass_together, points};
+use cplan_toolpath::{Curve, Piece, Placement, Toolpath};
 use std::f64::consts::TAU;
 
-/// The tip's position with both joints at 0.
-const ORIGIN: Point = [0.1, 0.0];
-
-/// Bars whose tip moves at least as fast as that of the gantry, for the number of states between samples.
-const FAST: Bars = Bars { lengths: [1.0, 0.5], width: 0.0 };
-
-fn gantry() -> Scene {
-    let joint =
-        |name: &str, direction: Point, upper: f64| Joint::sliding(name, direction.into(), 0.0, upper).at_most(1.0, 4.0);
-    let joints = [joint("bridge", [1.0, 0.0], 2.0), joint("head", [0.0, 1.0], 1.5)];
-    let links = ["bridge", "head"].map(|name| Link::bar(name, 0.05, 0.05).expect("a link"));
-    Scene::new(Arm::new(joints, links, [0.05, 0.05]), Workspace::new(vec![])).expect("a scene")
-}
-
 fn straight(from: Point, to: Point) -> Piece {
-    Piece {
-        curve: Curve::Line { from, to },
-        speed: Some(0.1),
-        is_travel: false,
-        dwell: None,
-        source: Source::of_line(1),
-    }
+    Piece { speed: Some(0.1), ..stroke(Curve::Line { from, to }, 1) }
 }
 
 /// Returns the pieces of a polyline.
@@ -45,20 +25,14 @@ fn travel(piece: Piece) -> Piece {
     Piece { is_travel: true, speed: None, ..piece }
 }
 
-/// Returns the positions of the gantry's tip, less than a step apart.
-fn tips(found: &Found, step: f64) -> Vec<Point> {
-    let states = played(&FAST, &found.timed.trajectory, step);
-    states.iter().map(|state| [0, 1].map(|k| ORIGIN[k] + state.position[k])).collect()
-}
-
 /// Follows a line with the gantry, and compares both by dense points in their order.
 fn followed(line: &Toolpath, tolerance: f64) -> Result<Found, String> {
     let settings = Settings { tolerance, ..Settings::default() };
-    match follow(&gantry(), line, &settings).expect("usable settings") {
+    match follow(&gantry(None), line, &settings).expect("usable settings") {
         Outcome::Found(found) => {
             assert!(found.deviation <= tolerance);
             let step = tolerance / 8.0;
-            assert!(pass_together(&tips(&found, step), &points(line, step), found.deviation + step), "{line:?}");
+            assert!(pass_together(&gantry_tips(&found, step), &points(line, step), found.deviation + step), "{line:?}");
             Ok(found)
         }
         Outcome::Infeasible(proof) => Err(format!("infeasible: {}", proof.describe())),

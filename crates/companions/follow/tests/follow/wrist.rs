@@ -1,15 +1,15 @@
 //! Tests of tools that a wrist turns along lines. The oracle plays the written samples with its own polynomials, and compares
 //! the tool's angle with directions of short chords of the line.
 
-use super::{BARS, line, scene_of};
+use super::{BARS, found, line, scene_of, stroke};
 use cplan_cases::dice::Dice;
 use cplan_follow::{Cause, Exclusion, FollowError, Found, Obstacle, Settings, WristAlong, WristExcess, follow};
 use cplan_handling::{ToolAngle, WristGuide, WristJoint};
+use cplan_model::Outcome;
 use cplan_model::space::JointRange;
-use cplan_model::{Outcome, Scene};
 use cplan_motion::Trajectory;
 use cplan_testkit::follow_oracle::{Bars, Point, pass_together_if};
-use cplan_toolpath::{Curve, Piece, Source, Toolpath};
+use cplan_toolpath::{Curve, Piece, Toolpath};
 use std::f64::consts::{PI, TAU};
 
 const RANGE: JointRange = JointRange::Interval { lower: -6.0, upper: 6.0 };
@@ -21,13 +21,6 @@ fn wrist(angle: ToolAngle, range: JointRange) -> WristAlong {
 
 fn settings(wrist: WristAlong) -> Settings {
     Settings { wrist: Some(wrist), tolerance: 1e-4, ..Settings::default() }
-}
-
-fn found(scene: &Scene, line: &Toolpath, settings: &Settings) -> Found {
-    match follow(scene, line, settings).expect("usable settings") {
-        Outcome::Found(found) => found,
-        other => panic!("{other:?}"),
-    }
 }
 
 /// The played state: the tip, the angle of the tool, and values, velocities and accelerations of the three joints.
@@ -228,22 +221,6 @@ fn limited_jerks_allow_a_fixed_angle_only() {
     assert_eq!(follow(&scene, &line, &tangent), Err(FollowError::TangentWithJerk));
 }
 
-#[test]
-fn invalid_numbers_of_the_wrist_are_refused() {
-    let (scene, line) = (scene_of(BARS, 3.0, vec![]), line("G0 X900 Y-200\nG1 Y200"));
-    let valid = wrist(ToolAngle::Fixed(0.0), RANGE);
-    let guide = |angle: f64, tolerance: f64| WristGuide { angle: ToolAngle::Tangent(angle), tolerance };
-    for wrong in [
-        WristAlong { velocity: 0.0, ..valid },
-        WristAlong { acceleration: f64::NAN, ..valid },
-        WristAlong { guide: guide(f64::INFINITY, 0.01), ..valid },
-        WristAlong { guide: guide(0.0, 0.0), ..valid },
-        WristAlong { guide: guide(0.0, 2.0), ..valid },
-    ] {
-        assert_eq!(follow(&scene, &line, &settings(wrong)), Err(FollowError::Wrist));
-    }
-}
-
 /// Returns true if a tool can keep its exact angle along a line, by brute force over places 1 mm apart: each IK solution,
 /// with each value of the wrist that is possible. At sharp corners and on travels the wrist may turn to any value.
 fn passes(bars: &Bars, limit: f64, line: &Toolpath, wrist: &WristAlong) -> bool {
@@ -351,7 +328,7 @@ fn random_line(dice: &mut Dice) -> Toolpath {
         };
         at = curve.at(1.0);
         let speed = (!is_travel && dice.chance(0.3)).then(|| dice.within(0.05, 0.5));
-        pieces.push(Piece { curve, speed, is_travel, dwell: None, source: Source::of_line(k + 1) });
+        pieces.push(Piece { speed, is_travel, ..stroke(curve, k + 1) });
     }
     Toolpath::new(pieces).expect("a line")
 }

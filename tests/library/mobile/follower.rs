@@ -1,6 +1,6 @@
 //! The wall follower: it aligns itself with walls, keeps moving, and touches nothing.
 
-use crate::plain::{RADIUS, gap, least_gap};
+use super::plain::{RADIUS, gap, least_gap};
 use cplan::Point;
 use cplan_cases::{dice, seeds};
 use cplan_testkit::mobile::START;

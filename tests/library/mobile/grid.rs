@@ -1,6 +1,6 @@
 //! The sensors and the published occupancy grid.
 
-use crate::plain::{RADIUS, gap};
+use super::plain::{RADIUS, gap};
 use cplan::Point;
 use cplan::nalgebra::Vector2;
 use cplan_cases::{dice, seeds};

@@ -1,21 +1,16 @@
-//! Roadmaps on the command line: planners, searches, seeds, and grids with two numbers of cells.
+//! Searches of roadmaps and grids on the command line: planners, searches, seeds, and grids with two numbers of cells.
 
+use crate::cli::Place;
 use cplan_testkit::judged::plan_result;
 use serde_json::Value;
 use std::path::Path;
-use std::process::{Command, Output};
 
 const ROADMAPS: [&str; 5] = ["visibility", "trapezoid", "triangles", "voronoi", "prm"];
 
 const FILES: [&str; 2] = ["robots/planar_2r.urdf", "workspaces/shelf.toml"];
 
-fn cplan(options: &str) -> Output {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_cplan"));
-    command.args(FILES).args(options.split_whitespace()).output().expect("it runs")
-}
-
 /// Returns the library's result of planning with these options.
-pub fn json(options: &str) -> Value {
+fn json(options: &str) -> Value {
     let [robot, world] = FILES.map(Path::new);
     let result = plan_result(robot, world, options);
     assert_eq!(result["status"], "found", "{options}");
@@ -64,32 +59,9 @@ fn samples_follow_from_the_seed() {
     let [few, more] =
         [100, 400].map(|n| length(&json(&format!("--planner prm --path own --nearest 1000 --samples {n}"))));
     assert!(more <= few, "{few} {more}");
-    let report = String::from_utf8(cplan("--planner prm --search greedy --backward --verbose").stdout).expect("text");
-    assert!(report.contains("prm (greedy, backward): "), "{report}");
-}
-
-#[test]
-fn unsupported_planner_settings_are_refused() {
-    for (options, report) in [
-        (
-            "--planner harmonic --search dfs",
-            "--search needs --planner wavefront, visibility, trapezoid, triangles, voronoi or prm",
-        ),
-        ("--planner prm --search wave", "--search wave needs a planner with a grid"),
-        (
-            "--backward",
-            "--backward needs --planner visibility, trapezoid, triangles, voronoi, prm or wavefront: shortest has no roadmap",
-        ),
-        ("--planner triangles --samples 5", "--samples needs --planner prm"),
-        ("--planner prm --samples 0", "0 is not in 1..=100000"),
-        ("--planner visibility --search bfs --gap 0.1", "--gap needs a search for the shortest path"),
-        ("--planner wavefront --cells 128x4", "nor two such numbers, one per joint, such as 128x512"),
-    ] {
-        let output = cplan(options);
-        assert_eq!(output.status.code(), Some(2), "{options}");
-        let message = String::from_utf8_lossy(&output.stderr);
-        assert!(message.contains(report), "{options}: {message}");
-    }
+    let files = FILES.map(|file| format!("{}/{file}", env!("CARGO_MANIFEST_DIR")));
+    let report = Place::new().run(&files, "--planner prm --search greedy --backward --verbose").exits(0);
+    report.says(&["prm (greedy, backward): "]);
 }
 
 #[test]
@@ -108,4 +80,37 @@ fn grids_may_have_other_numbers_of_cells_along_each_joint() {
         all.windows(2).map(|w| (w[1] - w[0]).abs()).filter(|d| *d > 1e-9).fold(f64::INFINITY, f64::min)
     };
     assert!(steps(0) > 4.0 * steps(1), "{} {}", steps(0), steps(1));
+}
+
+#[test]
+fn every_search_with_four_and_eight_neighbours_is_certified_and_named() {
+    let mut expanded = Vec::new();
+    for search in ["wave", "bfs", "dfs", "dijkstra", "astar", "greedy"] {
+        for neighbors in ["4", "8"] {
+            let json = json(&format!("--planner wavefront --search {search} --neighbors {neighbors} --cells 128"));
+            assert_eq!(json["certified"], true);
+            assert_eq!(json["search"]["search"], search);
+            assert_eq!(json["search"]["neighbors"].to_string(), neighbors);
+            assert_eq!(json["size"]["expanded"].is_u64(), search != "wave");
+            assert_eq!(json["size"]["sweeps"].is_u64(), search == "wave");
+            expanded.extend(json["size"]["expanded"].as_u64().map(|n| (search, n)));
+        }
+    }
+    let of = |name: &str| expanded.iter().find(|(search, _)| *search == name).map(|(_, n)| *n);
+    assert!(of("astar") < of("dijkstra"), "{expanded:?}");
+}
+
+#[test]
+fn sampled_grids_are_reported_and_their_paths_certified() {
+    for planner in
+        ["wavefront", "wavefront --search astar", "harmonic", "harmonic --field oriented --epsilon 0.1 --direction 0,1"]
+    {
+        let of = |space: &str| json(&format!("--cells 128 --planner {planner} {space}"));
+        let sampled = of("--space sampled");
+        assert_eq!((&sampled["space"], &sampled["certified"]), (&"sampled".into(), &true.into()));
+        assert!(sampled["clearance"].as_f64() > Some(0.0));
+        let rows = of("--space rows");
+        assert!(rows.get("space").is_none() && rows != sampled);
+        assert_eq!(rows, of(""));
+    }
 }

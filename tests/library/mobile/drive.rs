@@ -1,6 +1,6 @@
 //! The controller of a differential drive: the signs of its terms, its closed form, and plans that it follows.
 
-use crate::plain::least_gap;
+use super::plain::least_gap;
 use cplan::model::{Arm, Obstacle, Scene, Workspace};
 use cplan::nalgebra::Vector2;
 use cplan::{Options, Outcome, Point, Problem, plan};

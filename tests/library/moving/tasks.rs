@@ -1,7 +1,7 @@
 //! Tasks among moving obstacles. Answers are free at all times, pick objects where they are at that time, and end
 //! hardly later than those of brute force.
 
-use crate::belts::drawn;
+use super::belts::drawn;
 use cplan::engine::task::plan;
 use cplan::geometry::{Point, Vector};
 use cplan::model::{

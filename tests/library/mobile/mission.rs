@@ -1,6 +1,6 @@
 //! The mission: no robot ever hits anything, and each leg ends as it is reported.
 
-use crate::plain::{gap, least_gap};
+use super::plain::{gap, least_gap};
 use cplan::field::Stopping;
 use cplan::{Point, explore};
 use cplan_testkit::mobile::floor::Floor;

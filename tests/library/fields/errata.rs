@@ -111,7 +111,7 @@ fn the_printed_wave_labels_only_the_goal() {
 
 #[test]
 fn the_page_of_errata_names_what_is_tested() {
-    let page = include_str!("../../docs/errata.md");
+    let page = include_str!("../../../docs/errata.md");
     for row in [
         "| tables 6 and 7, line 13 of tables 10, 11, 14 and 15 *",
         "| tables 10, 11, 14 and 15, line 18 *",
