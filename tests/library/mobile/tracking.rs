@@ -1,6 +1,6 @@
 //! The controller that follows a moving point: its closed form, and cells of a wave and of A\* that it follows.
 
-use super::plain::least_gap;
+use super::plain::{least_gap, to_segment};
 use cplan::engine::{CellCounts, GridSpace, Method, Planner, Setting};
 use cplan::model::{Scene, Workspace};
 use cplan::planner::{GridSearch, PathKind};
