@@ -6,6 +6,7 @@ use crate::geometry::array;
 use crate::problem::{Arm, Options, World};
 use crate::signals::interruptible;
 use cplan::cli::{ExplanationResult, Failure, compare_in};
+use cplan::compare::PLAIN;
 use cplan::cspace::Slice;
 use cplan::engine::explain::TIME_LIMIT;
 use cplan::engine::findings;
@@ -97,8 +98,8 @@ pub fn compare(py: Python<'_>, arm: &Arm, world: &World, words: Vec<String>) -> 
     let compared = interruptible(py, |_| compare_in(arm.among(world)?, &words))?;
     let study = compared.map_err(|failure| failed(py, failure))?;
     match study.comparisons.first().filter(|_| study.sampling.is_none()) {
-        Some(only) => Ok([printed(&only.to_json())?, only.to_text(), only.to_markdown(), only.to_csv()]),
-        None => Ok([printed(&study.to_json())?, study.to_text(), study.to_markdown(), study.to_csv()]),
+        Some(only) => Ok([printed(&only.to_json())?, only.to_text(false, PLAIN), only.to_markdown(), only.to_csv()]),
+        None => Ok([printed(&study.to_json())?, study.to_text(false, PLAIN), study.to_markdown(), study.to_csv()]),
     }
 }
 

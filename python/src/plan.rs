@@ -4,6 +4,7 @@ use crate::error::refused;
 use crate::geometry::array;
 use crate::problem::{Options, Problem, noted};
 use crate::signals::interruptible;
+use cplan::output::CSpaceFormat;
 use cplan::{PlanOutput as _, Status};
 use numpy::{PyArray1, PyArray2};
 use pyo3::prelude::*;
@@ -157,7 +158,7 @@ impl Plan {
     /// Returns the configuration spaces and the planner's data in them, as arrays (see `cplan.cspace`): one space for a
     /// motion, and for a task one for each world that the arm moves in.
     fn cspaces<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let spaces = py.detach(|| self.plan.cspaces().json());
+        let spaces = py.detach(|| CSpaceFormat::Json.text(&self.plan.cspaces()).unwrap_or_default());
         py.import("cplan.cspace")?.call_method1("read", (spaces,))
     }
 

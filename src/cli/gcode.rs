@@ -97,12 +97,8 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();
     refuse_to_overwrite_inputs(args.output.iter().map(PathBuf::as_path), &read)?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.print_status(&format!("warning: {warning}")));
-    let settings = Settings {
-        tolerance: args.tolerance,
-        segment: args.segment,
-        elbow: args.elbow,
-        repairs: !args.check,
-    };
+    let settings =
+        Settings { tolerance: args.tolerance, segment: args.segment, elbow: args.elbow, repairs: !args.check };
     let answer = judge(&loaded.scene, &job, &settings).map_err(|error| match error {
         GcodeError::NoElbow => Failure::Usage(format!("--elbow: {error}")),
         error => Failure::Refused(format!("{}: {error}", args.job.display())),

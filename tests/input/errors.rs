@@ -2,7 +2,7 @@
 //! leads to another error.
 
 use super::{changes, fits, with_change};
-use cplan::input::{InputError, LoadedProblem, Overrides, load, robot};
+use cplan::input::{self, InputError, LoadedProblem, Overrides, load};
 use cplan::model::Region;
 use std::fs;
 
@@ -47,7 +47,7 @@ fn load_files(urdf_name: &str, urdf: &str, world: &str, overrides: &Overrides) -
     let (u, w) = (folder.path().join(urdf_name), folder.path().join("world.toml"));
     fs::write(&u, urdf).unwrap();
     fs::write(&w, world).unwrap();
-    load(robot(&u), &w, overrides)
+    load(input::robot(&u), &w, overrides)
 }
 
 fn loaded(urdf: &str, world: &str) -> Result<LoadedProblem, InputError> {

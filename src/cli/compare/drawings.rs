@@ -3,7 +3,6 @@
 use super::cases::{Case, Cases};
 use super::runner::ComparisonResults;
 use crate::check::CheckedProof;
-use crate::cli::theme::ThemeArgs;
 use crate::compare::{Comparison, Overlay, PathPictures, Purpose, Study, labels};
 use crate::engine::{Options, Problem, plan};
 use crate::model::{MotionProblem, Scene, Status};

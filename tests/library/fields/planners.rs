@@ -1,7 +1,7 @@
 //! The field planners, compared with independent methods: direct solutions, Floyd-Warshall, dense sampling and
 //! published tables.
 
-use crate::family::planner::{drawn, found, grid, is_free};
+use super::family::planner::{drawn, found, grid, is_free};
 use cplan::cspace::Grid;
 use cplan::field::{Component, Field, Lattice, UNREACHED, harmonic};
 use cplan::planner::{Harmonic, PathKind, Planner, Proposal, Query, Run, Size, Trace, Wavefront};

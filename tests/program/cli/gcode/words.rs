@@ -66,12 +66,12 @@ fn words_that_lift_the_pen_make_travels() {
     place.write("job.gcode", text);
     let files = ["robots/scara.urdf", "workspaces/gcode/labels.toml"].map(shipped);
     let pen = ["--dialect", "klipper", "--pen-up", "M300 S50", "--pen-down", "M300 S30"];
-    let arguments = [["gcode", &files[0], &files[1], "job.gcode"], pen].concat();
+    let arguments = [&["gcode", &files[0], &files[1], "job.gcode"][..], &pen].concat();
     let done = place.run(&arguments, "--output safe.gcode --json");
     assert_eq!((done.code, &done.json()["lines"]["travels"]), (0, &1.into()), "{}", done.stderr);
     let safe = place.read("safe.gcode");
     assert!(!safe.contains("G0") && safe.contains("\nG1 X-240 Y265\nM300S30\n"), "{safe}");
-    place.run(&[["gcode", &files[0], &files[1], "safe.gcode"], pen].concat(), "--check").exits(0);
+    place.run(&[&["gcode", &files[0], &files[1], "safe.gcode"][..], &pen].concat(), "--check").exits(0);
     run(&place, text, "--check --pen-up M300").refused(2, &["--pen-down"]);
     run(&place, text, "--check --pen-up up --pen-down M5").refused(2, &["a letter and a number"]);
 }

@@ -1,7 +1,7 @@
 //! Ranges, top speeds, accelerations and jerks of the joints.
 
-use crate::Spanned;
 use super::document::Document;
+use crate::Spanned;
 use crate::error::Diagnostic;
 use crate::quantity::{MAX_LENGTH, PerJoint, Written, find};
 use crate::settings::RobotSettings;

@@ -4,6 +4,7 @@ use super::chain::{Chooser, is_movable};
 use super::limits::Limits;
 use super::plane::project;
 use super::reduction::Reduction;
+use super::tree;
 use crate::Spanned;
 use crate::error::Diagnostic;
 use crate::quantity::Number;
@@ -11,7 +12,7 @@ use crate::stroke::{ArchTable, ArchValue, StrokeTable};
 use cplan_handling::{Arch, Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
 use cplan_model::{Plane, assumed_acceleration};
 use nalgebra::Vector3;
-use super::tree;
+use urdf_rs::JointType;
 
 /// Largest difference between 1 and the cosine of the angle between an axis and the plane's normal, for which the two
 /// count as parallel. It covers rounding.
