@@ -158,7 +158,7 @@ pub mod field {
     pub use cplan_harmonic::follow::*;
     pub use cplan_harmonic::{
         Component, Field, Lattice, LocalMaximum, Potential, PotentialGuide, Room, Wave, estimated_harmonic, harmonic,
-        harmonic_path, residual,
+        harmonic_path, path_along_field, residual,
     };
     pub use cplan_multigrid as multigrid;
     pub use cplan_planners::planner::grid_path::Place;
