@@ -14,9 +14,11 @@ pub enum FieldQuantity {
     Height,
 }
 
+type Computation = Box<dyn FnOnce() -> Vec<f64> + Send>;
+
 /// One value per cell of a grid. They are computed when they are first read, because paths do not need them.
 #[derive(Debug, Clone)]
-pub struct FieldValues(Arc<LazyLock<Vec<f64>, Box<dyn FnOnce() -> Vec<f64> + Send>>>);
+pub struct FieldValues(Arc<LazyLock<Vec<f64>, Computation>>);
 
 impl FieldValues {
     /// Stores the computation of the values.
