@@ -40,7 +40,7 @@ toml_table! {
         #[cfg_attr(feature = "schema", schemars(with = "Option<NumberPair>"))]
         pub gear: Option<Numbers>,
         /// Angles of the shafts at joint values of zero, rad; by default [0, 0].
-        #[cfg_attr(feature = "schema", schemars(with = "Option<[AngleOrLength; 2]>"))]
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[Quantity; 2]>"))]
         pub zero: Option<Spanned<Vec<Written>>>,
         /// Limits of the shafts.
         pub motors: Option<MotorTable>,
@@ -51,10 +51,10 @@ toml_table! {
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "motors"))]
     pub struct MotorTable {
         /// Least angles, rad.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<[AngleOrLength; 2]>"))]
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[Quantity; 2]>"))]
         pub lower: Option<Spanned<Vec<Written>>>,
         /// Greatest angles, rad.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<[AngleOrLength; 2]>"))]
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[Quantity; 2]>"))]
         pub upper: Option<Spanned<Vec<Written>>>,
         /// Top speeds, rad/s.
         #[cfg_attr(feature = "schema", schemars(with = "Option<[Positive; 2]>"))]

@@ -8,7 +8,6 @@ use std::collections::BTreeMap;
 
 /// A joint's value or an angle, in radians or metres. The file may state it in degrees.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "schema", derive(schemars::JsonSchema), schemars(from = "super::schema::AngleOrLength"))]
 pub struct Quantity {
     /// Value in radians or metres.
     pub value: f64,

@@ -25,10 +25,10 @@ toml_table! {
         /// Link whose origin is the tip; by default the end of the chain.
         pub tip: Option<Spanned<String>>,
         /// Values of the other movable joints, by name, rad or m; by default 0, clamped into their limits.
-        #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, AngleOrLength>"))]
+        #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Quantity>"))]
         pub fixed: PerJoint<Written>,
         /// Least and greatest value of a joint, by name, rad or m, instead of the URDF's.
-        #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, [AngleOrLength; 2]>"))]
+        #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, [Quantity; 2]>"))]
         pub limits: PerJoint<Spanned<Vec<Written>>>,
         /// Top speed of a joint, by name, rad/s or m/s, instead of the URDF's.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]

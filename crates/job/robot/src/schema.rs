@@ -1,5 +1,6 @@
 //! JSON schemas of files in TOML, derived from the types that read them, and their files in `docs`. Only tests need them.
 
+pub use super::quantity::Quantity;
 use super::spanned::Spanned;
 pub use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -85,13 +86,20 @@ impl<T: JsonSchema> JsonSchema for Spanned<T> {
 pub type NumberPair = [f64; 2];
 
 /// Defines a type that represents the values of a field in a schema: its documentation, its name and its own schema.
-/// The calling crate must depend on `schemars`.
 #[macro_export]
 macro_rules! stands_for {
     ($(#[$doc:meta])* $name:ident, $schema:tt) => {
         $(#[$doc])*
         pub struct $name;
 
+        $crate::has_schema! { $name, $schema }
+    };
+}
+
+/// Gives a type a schema. The calling crate must depend on `schemars`.
+#[macro_export]
+macro_rules! has_schema {
+    ($name:ident, $schema:tt) => {
         impl ::schemars::JsonSchema for $name {
             fn inline_schema() -> bool {
                 true
@@ -112,9 +120,8 @@ stands_for! {
     /// A number above 0.
     Positive, { "type": "number", "exclusiveMinimum": 0 }
 }
-stands_for! {
-    /// An angle or a length.
-    AngleOrLength, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *deg *$" }
+has_schema! {
+    Quantity, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *deg *$" }
 }
 stands_for! {
     /// Grip of objects.

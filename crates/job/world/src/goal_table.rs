@@ -9,7 +9,7 @@ toml_table! {
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }, { "required": ["areas"] }])))]
     pub(super) struct GoalTable {
         /// Values of both joints, base to tip, rad or m.
-        #[cfg_attr(test, schemars(with = "Option<[AngleOrLength; 2]>"))]
+        #[cfg_attr(test, schemars(with = "Option<[Quantity; 2]>"))]
         pub joints: Option<Spanned<Vec<Written>>>,
         /// Coordinates of the tip, m.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]

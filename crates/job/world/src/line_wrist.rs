@@ -12,7 +12,7 @@ use toml::de::DeValue;
 #[cfg_attr(test, derive(JsonSchema), schemars(inline, untagged))]
 pub(super) enum WristValue {
     /// Angle of the tool from the x axis, rad.
-    Fixed(#[cfg_attr(test, schemars(with = "AngleOrLength"))] f64),
+    Fixed(#[cfg_attr(test, schemars(with = "Quantity"))] f64),
     /// The tool points along the line.
     Tangent(TangentWord),
     /// The tool's angle from the direction of the line.

@@ -143,7 +143,7 @@ toml_table! {
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "start", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }])))]
     struct StartTable {
         /// Values of both joints, base to tip, rad or m.
-        #[cfg_attr(test, schemars(with = "Option<[AngleOrLength; 2]>"))]
+        #[cfg_attr(test, schemars(with = "Option<[Quantity; 2]>"))]
         joints: Option<Spanned<Vec<Written>>>,
         /// Coordinates of the tip, m. Exactly one IK solution must be within the limits and free.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
