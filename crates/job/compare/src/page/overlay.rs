@@ -1,6 +1,6 @@
 //! All paths of a planner on one configuration space.
 
-use super::markup::{self, number};
+use super::markup::{chart, text, upright_text};
 use cplan_text::{counted, markup};
 use cplan_theme::PlannerPen;
 
@@ -36,7 +36,7 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
     for (i, (name, paths)) in overlay.planners.iter().enumerate() {
         let (label, count) = (markup(name), counted(paths.len(), "path"));
         html += &format!("<figure><figcaption>{label} <small>{count}</small></figcaption>\n");
-        html += &markup::chart([PANEL_SIZE + NAME_MARGIN; 2], &format!("Paths of {name}"));
+        html += &chart([PANEL_SIZE + NAME_MARGIN; 2], &format!("Paths of {name}"));
         html += &format!("<svg x=\"{NAME_MARGIN}\" y=\"0\" width=\"{PANEL_SIZE}\" height=\"{PANEL_SIZE}\">\n");
         html += &format!("<rect class=\"free\" width=\"{PANEL_SIZE}\" height=\"{PANEL_SIZE}\"/>\n");
         if i == 0 {
@@ -48,9 +48,8 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
         let color = overlay.pens.get(i).map_or_else(|| "ink".to_owned(), |pen| pen.name());
         let data = lines(overlay, paths, false);
         html += &format!("<path class=\"way\" style=\"color: var(--{color})\" d=\"{data}\"/>\n</svg>\n");
-        html +=
-            markup::text("tick", [NAME_MARGIN + PANEL_SIZE / 2.0, PANEL_SIZE + 14.0], &overlay.joints[0]).trim_end();
-        html += &markup::upright_text(PANEL_SIZE / 2.0, &overlay.joints[1]);
+        html += text("tick", [NAME_MARGIN + PANEL_SIZE / 2.0, PANEL_SIZE + 14.0], &overlay.joints[0]).trim_end();
+        html += &upright_text(PANEL_SIZE / 2.0, &overlay.joints[1]);
         html += "</svg></figure>\n";
     }
     html + "</div>\n"
