@@ -143,13 +143,10 @@ impl Study {
             let Some((color, text)) = cell.color_and_label(least, greatest) else { continue };
             let Some((.., layout)) = cell.shown else { continue };
             linked.insert(layout);
+            let [x, y, width, height] = [left, top, right - left, bottom - top].map(number);
+            let title = markup(&text);
             svg += &format!(
-                "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{color}\" data-layout=\"{layout}\" data-cell=\"{i},{j}\"><title>{}</title></rect>\n",
-                number(left),
-                number(top),
-                number(right - left),
-                number(bottom - top),
-                markup(&text)
+                "<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" fill=\"{color}\" data-layout=\"{layout}\" data-cell=\"{i},{j}\"><title>{title}</title></rect>\n"
             );
         }
         if let Some(best) = summary.best() {
@@ -260,13 +257,10 @@ fn scale(objective: Objective, least: f64, greatest: f64) -> String {
     let axis = Axis::between(shown.value(ends[0]), shown.value(ends[1]));
     let mut svg = chart([460.0, 52.0], "Scale of colours");
     for k in 0..SCALE_SHADES {
-        svg += &format!(
-            "<rect x=\"{}\" y=\"2\" width=\"{}\" height=\"12\" fill=\"{}\"/>",
-            number(left + shade_width * k as f64),
-            // Rectangles overlap slightly, so that no seams are visible.
-            number(shade_width + 0.3),
-            cplan_theme::scale(1.0 - (k as f64 + 0.5) / SCALE_SHADES as f64)
-        );
+        // Rectangles overlap slightly, so that no seams are visible.
+        let [x, width] = [left + shade_width * k as f64, shade_width + 0.3].map(number);
+        let color = cplan_theme::scale(1.0 - (k as f64 + 0.5) / SCALE_SHADES as f64);
+        svg += &format!("<rect x=\"{x}\" y=\"2\" width=\"{width}\" height=\"12\" fill=\"{color}\"/>");
     }
     for (value, tick) in axis.ticks() {
         // The best value is on the left, whether it is the least or the greatest.
@@ -371,13 +365,10 @@ impl Cell {
             return None;
         }
         let best = self.cost.map_or_else(String::new, |cost| format!(", best {}", format_value(cost.abs())));
+        let Self { layouts, found, fitting, infeasible, refused, .. } = self;
+        let layouts = counted(*layouts, "layout");
         let text = format!(
-            "{}: {} with a motion, {} fit, {} infeasible, {} refused{best}",
-            counted(self.layouts, "layout"),
-            self.found,
-            self.fitting,
-            self.infeasible,
-            self.refused
+            "{layouts}: {found} with a motion, {fitting} fit, {infeasible} infeasible, {refused} refused{best}"
         );
         let color = match self.cost {
             Some(cost) if greatest > least => cplan_theme::scale(1.0 - (cost - least) / (greatest - least)).to_string(),

@@ -141,12 +141,8 @@ impl<'a> Summary<'a> {
         if !study.conditions.is_empty() {
             let fitting = self.rows.iter().filter(|row| row.fits).count();
             let conditions: Vec<String> = study.conditions.iter().map(ToString::to_string).collect();
-            text += &format!(
-                "  {:<11} {fitting:>8}  {:5.1} %  ({})\n",
-                "fit",
-                percentage(fitting, self.rows.len()),
-                conditions.join(", ")
-            );
+            let (share, conditions) = (percentage(fitting, self.rows.len()), conditions.join(", "));
+            text += &format!("  {:<11} {fitting:>8}  {share:5.1} %  ({conditions})\n", "fit");
         }
         if self.rows.len() > self.designed {
             let [found, infeasible, ..] = self.searched();

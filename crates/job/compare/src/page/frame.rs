@@ -2,7 +2,6 @@
 
 use super::axis::Axis;
 use super::markup::{self, number};
-use cplan_text::markup;
 
 /// Width and height of a chart, in pixels.
 const CHART_SIZE: [f64; 2] = [460.0, 380.0];
@@ -36,7 +35,6 @@ pub fn frame(axes: [Axis; 2], titles: [&str; 2], what: &str) -> Frame<impl Fn([f
         svg += &markup::text("name", [left - 8.0, at + 4.0], &text);
     }
     svg += &markup::text("tick", [left + width / 2.0, CHART_SIZE[1] - 8.0], titles[0]);
-    let (beside, title) = (number(top + height / 2.0), markup(titles[1]));
-    svg += &format!("<text class=\"tick\" transform=\"translate(13 {beside}) rotate(-90)\">{title}</text>\n");
+    svg += &markup::upright_text(top + height / 2.0, titles[1]);
     Frame { svg, place }
 }

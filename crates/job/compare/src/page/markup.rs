@@ -45,6 +45,12 @@ pub fn chart(size: [f64; 2], label: &str) -> String {
     format!("<svg class=\"chart\" viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{label}\">\n")
 }
 
+/// Writes the title of a chart's upright axis, with its middle at `y`.
+pub fn upright_text(y: f64, text: &str) -> String {
+    let (y, text) = (number(y), markup(text));
+    format!("<text class=\"tick\" transform=\"translate(13 {y}) rotate(-90)\">{text}</text>\n")
+}
+
 /// Writes a text of a chart, which belongs to a class of the style sheet.
 pub fn text(class: &str, [x, y]: [f64; 2], text: &str) -> String {
     format!("<text class=\"{class}\" x=\"{}\" y=\"{}\">{}</text>\n", number(x), number(y), markup(text))

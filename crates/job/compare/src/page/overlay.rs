@@ -1,6 +1,6 @@
 //! All paths of a planner on one configuration space.
 
-use super::markup::number;
+use super::markup::{chart, text, upright_text};
 use cplan_text::{counted, markup};
 use cplan_theme::PlannerPen;
 
@@ -34,40 +34,23 @@ const NAME_MARGIN: f64 = 18.0;
 pub fn panels(overlay: &Overlay, id: usize) -> String {
     let mut html = String::from("<div class=\"panels\">\n");
     for (i, (name, paths)) in overlay.planners.iter().enumerate() {
-        let whole = number(PANEL_SIZE + NAME_MARGIN);
-        html += &format!(
-            "<figure><figcaption>{} <small>{}</small></figcaption>\n",
-            markup(name),
-            counted(paths.len(), "path")
-        );
-        html += &format!(
-            "<svg class=\"chart\" viewBox=\"0 0 {whole} {whole}\" role=\"img\" aria-label=\"Paths of {}\">\n",
-            markup(name)
-        );
+        let (label, count) = (markup(name), counted(paths.len(), "path"));
+        html += &format!("<figure><figcaption>{label} <small>{count}</small></figcaption>\n");
+        html += &chart([PANEL_SIZE + NAME_MARGIN; 2], &format!("Paths of {name}"));
         html += &format!("<svg x=\"{NAME_MARGIN}\" y=\"0\" width=\"{PANEL_SIZE}\" height=\"{PANEL_SIZE}\">\n");
         html += &format!("<rect class=\"free\" width=\"{PANEL_SIZE}\" height=\"{PANEL_SIZE}\"/>\n");
         if i == 0 {
-            html += &format!(
-                "<path id=\"blocked{id}\" class=\"blocked\" d=\"{}\"/>\n",
-                lines(overlay, &overlay.blocked, true)
-            );
+            let data = lines(overlay, &overlay.blocked, true);
+            html += &format!("<path id=\"blocked{id}\" class=\"blocked\" d=\"{data}\"/>\n");
         } else {
             html += &format!("<use class=\"blocked\" href=\"#blocked{id}\"/>\n");
         }
         let color = overlay.pens.get(i).map_or_else(|| "ink".to_owned(), |pen| pen.name());
         let data = lines(overlay, paths, false);
         html += &format!("<path class=\"way\" style=\"color: var(--{color})\" d=\"{data}\"/>\n</svg>\n");
-        let middle = number(NAME_MARGIN + PANEL_SIZE / 2.0);
-        html += &format!(
-            "<text class=\"tick\" x=\"{middle}\" y=\"{}\">{}</text>",
-            number(PANEL_SIZE + 14.0),
-            markup(&overlay.joints[0])
-        );
-        html += &format!(
-            "<text class=\"tick\" transform=\"translate(13 {}) rotate(-90)\">{}</text>\n</svg></figure>\n",
-            number(PANEL_SIZE / 2.0),
-            markup(&overlay.joints[1])
-        );
+        html += text("tick", [NAME_MARGIN + PANEL_SIZE / 2.0, PANEL_SIZE + 14.0], &overlay.joints[0]).trim_end();
+        html += &upright_text(PANEL_SIZE / 2.0, &overlay.joints[1]);
+        html += "</svg></figure>\n";
     }
     html + "</div>\n"
 }

@@ -39,17 +39,12 @@ fn hint(comparison: &Comparison) -> String {
 
 /// Returns the legend of the families' hues.
 fn families(comparison: &Comparison) -> String {
-    let of = |family: Family| {
-        let count = comparison.rows.iter().filter(|row| row.family == family).count();
-        (count > 0).then(|| {
-            format!(
-                "<li><span class=\"hue\" style=\"background: var(--{}-0)\"></span>{}</li>",
-                hue(family).name(),
-                family.name()
-            )
-        })
+    let of = |family: &Family| {
+        let (hue, name) = (hue(*family).name(), family.name());
+        format!("<li><span class=\"hue\" style=\"background: var(--{hue}-0)\"></span>{name}</li>")
     };
-    let all: Vec<String> = Family::ALL.into_iter().filter_map(of).collect();
+    let is_there = |family: &Family| comparison.rows.iter().any(|row| row.family == *family);
+    let all: Vec<String> = Family::ALL.iter().filter(|family| is_there(family)).map(of).collect();
     if all.len() < 2 { String::new() } else { format!("<ul class=\"families\">{}</ul>\n", all.concat()) }
 }
 
@@ -59,7 +54,8 @@ fn rows(comparison: &Comparison, picture: Option<&PathPictures>) -> Vec<RankedRo
         let path = comparison.path_index(index);
         let small = picture.zip(path).map(|(picture, path)| picture.small(1, path, pens[index], ""));
         let title = row.reason.as_deref().map_or_else(String::new, |reason| format!(" title=\"{}\"", markup(reason)));
-        let order = Status::ALL.iter().position(|status| *status == row.outcome).unwrap_or_default();
+        let (outcome, sign) = (row.outcome, sign(row.outcome));
+        let order = Status::ALL.iter().position(|status| *status == outcome).unwrap_or_default();
         RankedRow {
             name: row.planner.clone(),
             label: names[index].clone(),
@@ -68,11 +64,7 @@ fn rows(comparison: &Comparison, picture: Option<&PathPictures>) -> Vec<RankedRo
             picture: small.unwrap_or_default(),
             outcome: (
                 order as f64,
-                format!(
-                    "<span class=\"o-{0}\"{title}><span class=\"sign\">{1}</span> {0}</span>",
-                    row.outcome,
-                    sign(row.outcome)
-                ),
+                format!("<span class=\"o-{outcome}\"{title}><span class=\"sign\">{sign}</span> {outcome}</span>"),
             ),
             description: description(comparison, row, &names[index]),
             is_ranked: row.outcome != Status::Unknown,

@@ -87,12 +87,8 @@ pub fn table(caption: &str, outcome_heading: &str, rows: &[RankedRow], columns: 
         markup(outcome_heading)
     );
     for column in columns {
-        html += &format!(
-            "<th scope=\"col\" class=\"r\" data-first=\"{}\" title=\"{}\">{}</th>",
-            direction(column.better),
-            markup(column.hint),
-            markup(&column.heading)
-        );
+        let (first, hint, heading) = (direction(column.better), markup(column.hint), markup(&column.heading));
+        html += &format!("<th scope=\"col\" class=\"r\" data-first=\"{first}\" title=\"{hint}\">{heading}</th>");
     }
     html += "</tr></thead>\n<tbody>\n";
     for (number_of, row) in rows.iter().enumerate() {
