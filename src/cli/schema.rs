@@ -27,7 +27,7 @@ Exit codes: 0 printed, 1 I/O, 2 wrong command line.")]
 pub struct SchemaArgs {
     /// Kind of file.
     #[arg(value_name = "FILES", value_parser = word(SCHEMAS), default_value = "world")]
-    schema: &'static str,
+    of: &'static str,
 }
 
 /// The schemas, with the names of the files that have them.
@@ -47,6 +47,6 @@ const SCHEMAS: &[Word<&str>] = &[
 /// # Errors
 /// I/O.
 pub fn run(args: &SchemaArgs) -> Result<u8, Failure> {
-    sinks::print(args.schema)?;
+    sinks::print(args.of)?;
     Ok(DONE)
 }
