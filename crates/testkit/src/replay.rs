@@ -184,12 +184,15 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
         {
             return Err(say("releases another object"));
         }
-        // While the arm rests, other things may come. An arm that cannot continue leaves the world to them.
+        // While the arm rests, other things may come, and an object lies where it was released. An arm that cannot
+        // continue leaves the world to them.
         let goes_on = all || index + 1 < answer.legs.len();
         let looks = if goes_on && world.anything_moves() { 11 } else { 0 };
         for k in 0..looks {
             world.time = leg.begin + t.duration() + leg.step.dwell * f64::from(k) / 10.0;
-            world.check(q, before, keep).map_err(|what| say(&format!("at rest at {} s: {what}", world.time)))?;
+            world
+                .check(q, before, task.workspace.fixed.clearance)
+                .map_err(|what| say(&format!("at rest at {} s: {what}", world.time)))?;
         }
     }
     Ok(())

@@ -14,14 +14,13 @@ fn square() -> String {
 const WORLD: &str = "start.joints = [1, 1]\ngoal.joints = [9, 1]\n\
                      obstacle = [{ polygon = [[4, -1], [6, -1], [6, 7], [4, 7]] }]";
 
-/// Walls of configurations, each with the claimed potential at its upper end.
-type Walls = Vec<([f64; 2], [f64; 2], Option<f64>)>;
+/// A wall of configurations from one to another, with the claimed potential at its upper end.
+type Wall = ([f64; 2], [f64; 2], Option<f64>);
+type Walls = Vec<Wall>;
 
 fn certificate(length: f64, metric: &str, walls: &Walls) -> String {
-    let wall = |(from, to, _): &([f64; 2], [f64; 2], Option<f64>)| {
-        format!(r#"{{"from": {from:?}, "to": {to:?}, "shape": 0, "part": 0}}"#)
-    };
-    let potential = |(wall, (.., value)): (usize, &([f64; 2], [f64; 2], Option<f64>))| {
+    let wall = |(from, to, _): &Wall| format!(r#"{{"from": {from:?}, "to": {to:?}, "shape": 0, "part": 0}}"#);
+    let potential = |(wall, (.., value)): (usize, &Wall)| {
         value.map(|value| format!(r#"{{"wall": {wall}, "end": 1, "value": {value}}}"#))
     };
     let closed = walls.iter().map(wall).collect::<Vec<_>>().join(", ");
