@@ -57,8 +57,8 @@ fn every_infeasible_shipped_world_has_a_valid_certificate() {
 fn the_certificate_states_the_query_of_the_command_line() {
     let place = Place::new();
     let files = [shipped("robots/planar_2r.urdf"), shipped("workspaces/limits_closed.toml")];
-    place.run(&files, "--quiet --certificate c.json --start 0.4,10deg --goal 2.5,0.1 --clearance 0.01").exits(3);
-    let report = place.judged([&files[0], &files[1], "c.json"]).unwrap();
+    let options = "--start 0.4,10deg --goal 2.5,0.1 --clearance 0.01";
+    let (_, report) = place.certified(&files[0], &files[1], options, 3);
     has(&report, &["start (0.4, 0.17453292519943295)", "goal (2.5, 0.1)", "clearance 0.01"]);
 }
 
@@ -76,12 +76,10 @@ fn enclosed_tip_goals_have_valid_certificates() {
         ("slot_closed", "rail_arm", "1.0539,-0.3106"),
     ] {
         let files = [shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml"))];
-        place.run(&files, &format!("--quiet --certificate c.json --goal-tip={tip}")).exits(3);
-        let certificate = place.read("c.json");
-        let report = check(&read(&files[0]), &read(&files[1]), &certificate).unwrap();
-        assert!(report.contains("a position of the tip \"tool0\""), "{report}");
+        let (_, report) = place.certified(&files[0], &files[1], &format!("--goal-tip={tip}"), 3);
+        has(&report, &["a position of the tip \"tool0\""]);
         // The start is on its own side of the boxes.
-        let mut other: Value = serde_json::from_str(&certificate).unwrap();
+        let mut other = place.json("c.json");
         other.as_object_mut().unwrap().remove("goal_tip");
         other["goal"] = start_of(&read(&files[1]));
         let judged = check(&read(&files[0]), &read(&files[1]), &other.to_string());
@@ -226,23 +224,20 @@ fn stl() -> String {
 #[test]
 fn arms_of_meshes_have_valid_certificates() {
     let place = Place::new().with("block.stl", stl());
-    let boxed = read(&shipped("robots/planar_2r.urdf"));
-    let urdf = boxed
-        .replace("<box size=\"1.0 0.1 0.1\"/>", "<mesh filename=\"block.stl\"/>")
-        .replace("<box size=\"0.8 0.1 0.1\"/>", "<mesh filename=\"block.stl\" scale=\"0.8 1 1\"/>");
-    assert_eq!(urdf.matches("mesh").count(), 2);
-    place.write("arm.urdf", urdf);
+    let meshes = [
+        ("<box size=\"1.0 0.1 0.1\"/>", "<mesh filename=\"block.stl\"/>"),
+        ("<box size=\"0.8 0.1 0.1\"/>", "<mesh filename=\"block.stl\" scale=\"0.8 1 1\"/>"),
+    ];
+    place.write("arm.urdf", planar_2r(&meshes));
     for (world, code, part) in
         [("shelf", 0, "is shorter than"), ("limits_open", 0, "is shorter than"), ("limits_closed", 3, "no motion of")]
     {
         let world = shipped(&format!("workspaces/{world}.toml"));
-        place.run(&["arm.urdf", &world], "--quiet --certificate c.json").exits(code);
-        let judged = || check_files(&place.path("arm.urdf"), world.as_ref(), &place.path("c.json"));
-        let report = judged().unwrap_or_else(|why| panic!("{world}: {why}"));
-        assert!(report.contains(part), "{report}");
+        has(&place.certified("arm.urdf", &world, "", code).1, &[part]);
         // Another mesh is another robot.
         place.write("block.stl", format!("{}\n", stl()));
-        assert!(matches!(judged(), Err(CheckError::Fails(why)) if why.contains("block.stl")), "{world}");
+        let judged = place.judged(["arm.urdf", &world, "c.json"]);
+        assert!(matches!(judged, Err(CheckError::Fails(why)) if why.contains("block.stl")), "{world}");
         place.write("block.stl", stl());
     }
 }
@@ -251,25 +246,17 @@ fn arms_of_meshes_have_valid_certificates() {
 /// paths keep some nanometres from the polygons' sides.
 #[test]
 fn shortest_paths_past_huge_obstacles_have_valid_certificates() {
+    // The tip is at the elbow.
     let arm = |[first, second]: [f64; 2], width: f64| {
-        let bar = |length: f64| {
-            let middle = length / 2.0;
-            format!(
-                "<collision><origin xyz=\"{middle} 0 0\"/><geometry><box size=\"{length} {width} {width}\"/></geometry></collision>"
-            )
-        };
-        let joint = |name: &str, parent: &str, child: &str, at: f64| {
-            format!(
-                "<joint name=\"{name}\" type=\"continuous\"><parent link=\"{parent}\"/><child link=\"{child}\"/><origin xyz=\"{at} 0 0\"/>\
-                 <axis xyz=\"0 0 1\"/><limit effort=\"1\" velocity=\"2\"/></joint>"
-            )
-        };
-        let (one, two) = (joint("j1", "base", "first", 0.0), joint("j2", "first", "second", first));
-        format!(
-            "<robot name=\"small\"><link name=\"base\"/>{one}<link name=\"first\">{}</link>{two}<link name=\"second\">{}</link></robot>",
-            bar(first),
-            bar(second)
-        )
+        planar_2r(&[
+            ("revolute", "continuous"),
+            ("\"0.8 0 0\"", "\"0 0 0\""),
+            ("\"0.5 0 0\"", &format!("\"{} 0 0\"", first / 2.0)),
+            ("\"0.4 0 0\"", &format!("\"{} 0 0\"", second / 2.0)),
+            ("1.0 0.1 0.1", &format!("{first} {width} {width}")),
+            ("0.8 0.1 0.1", &format!("{second} {width} {width}")),
+            ("\"1.0 0 0\"", &format!("\"{first} 0 0\"")),
+        ])
     };
     let drawn = [
         (
@@ -285,10 +272,9 @@ fn shortest_paths_past_huge_obstacles_have_valid_certificates() {
              [-9.470533400064332, -10.079028241170503], [2.13670245729708, -5.802212226406071]]\n",
         ),
     ];
-    for (number, (urdf, world)) in drawn.iter().enumerate() {
+    for (urdf, world) in &drawn {
         let place = Place::new().with("a.urdf", urdf).with("world.toml", world);
-        place.run(&["a.urdf", "world.toml"], "--quiet --certificate c.json").exits(0);
-        check(urdf, world, &place.read("c.json")).unwrap_or_else(|why| panic!("{number}: {why}"));
+        place.certified("a.urdf", "world.toml", "", 0);
     }
 }
 
@@ -298,9 +284,7 @@ fn goal_areas_have_valid_certificates() {
     let robot = shipped("robots/room_gantry.urdf");
     let judged = |areas: &str, walls: &str, code: i32| {
         let place = Place::new().with("world.toml", format!("start.joints = [0, 0]\ngoal.areas = [{areas}]\n{walls}"));
-        let done = place.run(&[&*robot, "world.toml"], "--json --certificate c.json").exits(code);
-        check_files(Path::new(&robot), &place.path("world.toml"), &place.path("c.json")).unwrap();
-        done.json()
+        place.certified(&robot, "world.toml", "--json", code).0.json()
     };
     let post = "[[obstacle]]\npolyline = [[4, -3], [4, 3]]\nheight = [0, 3]\n";
     let found = judged("[[5, -1], [7, 1]], [[-9, -2], [-8, 2]]", post, 0);

@@ -100,17 +100,13 @@ fn motions_of_every_planner_hold() {
     let files = shelf();
     for options in ["--planner visibility", "--planner voronoi", "--planner prm", "--planner harmonic", "--blend none"]
     {
-        place.run(&files, &format!("--quiet --certificate c.json {options}")).exits(0);
-        let verdict = place.judged([&files[0], &files[1], "c.json"]);
-        verdict.unwrap_or_else(|why| panic!("{options}: {why}"));
+        place.certified(&files[0], &files[1], options, 0);
     }
 }
 
 #[test]
 fn a_motion_without_obstacles_has_a_certificate() {
-    let place = Place::new();
-    place.plan(FREE, "--quiet --certificate c.json").exits(0);
-    check(&read(&shipped("robots/planar_2r.urdf")), FREE, &place.read("c.json")).unwrap();
+    Place::new().with("world.toml", FREE).certified(&shelf()[0], "world.toml", "", 0);
 }
 
 #[test]
@@ -154,9 +150,7 @@ fn an_arm_far_from_the_origin_has_certificates() {
             "robot.at = [6e5, 9e5]\nstart.joints = [-0.9, 0.4]\ngoal.joints = [1.55, -0.35]\n[[obstacle]]\n{obstacle}\n"
         ),
     );
-    place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json").exits(0);
-    let report = place.judged([&urdf, "world.toml", "c.json"]);
-    assert!(report.as_ref().is_ok_and(|report| report.contains("is shorter than")), "{report:?}");
+    has(&place.certified(&urdf, "world.toml", "", 0).1, &["is shorter than"]);
 }
 
 /// Checks limits that cannot be written as doubles: limits in degrees, or with more digits than a double has. The
@@ -165,11 +159,7 @@ fn an_arm_far_from_the_origin_has_certificates() {
 fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
     let place = Place::new();
     let urdf = shipped("robots/planar_2r.urdf");
-    let hold = |options: &str| {
-        place.run(&[urdf.as_str(), "world.toml"], &format!("--quiet --certificate c.json {options}")).exits(0);
-        let verdict = place.judged([&urdf, "world.toml", "c.json"]);
-        verdict.unwrap_or_else(|why| panic!("{options} {}: {why}", place.read("world.toml")))
-    };
+    let hold = |options: &str| place.certified(&urdf, "world.toml", options, 0).1;
     for [low, high] in [["-135deg", "77.7deg"], ["-50deg", "0.7deg"], ["-1.23deg", "2.7deg"], ["0deg", "100deg"]] {
         let ends = [format!("[\"{low}\", 0]"), format!("[\"{high}\", \"{high}\"]")];
         place.write(
@@ -180,11 +170,10 @@ fn motions_from_limit_to_limit_are_within_the_limits_as_they_are_written() {
                 ends[0], ends[1]
             ),
         );
-        let report = hold("");
-        assert!(report.contains("is shorter than"), "{report}");
         // The same limits on the command line, in the other direction.
-        let report = hold(&format!("--start {high},{high} --goal={low},0"));
-        assert!(report.contains("is shorter than"), "{report}");
+        for options in [String::new(), format!("--start {high},{high} --goal={low},0")] {
+            has(&hold(&options), &["is shorter than"]);
+        }
     }
     let many = |end: &str| {
         format!("[robot.limits]\nelbow = [-1, {end}]\n[start]\njoints = [0, 0]\n[goal]\njoints = [0, {end}]\n")
@@ -204,9 +193,7 @@ fn motions_at_a_limit_of_0_are_within_the_limits_as_they_are_written() {
     for (from, to) in [("0.3,0.1", "0,0"), ("0,0", "1.2,0.7"), ("1.9,0", "0,1.4")] {
         for options in ["--jerk 8,8", "--jerk 20,20 --optimize time", ""] {
             place.write("world.toml", format!("[start]\njoints = [{from}]\n[goal]\njoints = [{to}]\n"));
-            place.run(&[urdf.as_str(), "world.toml"], &format!("--quiet --certificate c.json {options}")).exits(0);
-            let verdict = place.judged([&urdf, "world.toml", "c.json"]);
-            assert!(verdict.is_ok(), "{from} {to} {options}: {verdict:?}");
+            place.certified(&urdf, "world.toml", options, 0);
         }
     }
 }

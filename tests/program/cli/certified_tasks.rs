@@ -40,14 +40,10 @@ fn every_feasible_shipped_task_has_a_valid_certificate() {
         let place = Place::new();
         place.run(&[&robot, &world], "--quiet --certificate c.json --output plan.json").exits(0);
         let (urdf, text, certificate) = (read(&robot), read(&world), place.read("c.json"));
+        let [whole, plan] = ["c.json", "plan.json"].map(|file| place.json(file));
         let report = check(&urdf, &text, &certificate).unwrap_or_else(|why| panic!("{world}: {why}"));
-        let [whole, plan] =
-            [&certificate, &place.read("plan.json")].map(|text| serde_json::from_str::<Value>(text).unwrap());
         let steps = plan["steps"].as_array().unwrap();
-        assert!(
-            report.contains(&format!("does all {} steps", steps.len())) && report.contains("within 1e-"),
-            "{world}: {report}"
-        );
+        has(&report, &[&format!("does all {} steps", steps.len()), "within 1e-"]);
         let fails = |world: &str, what: &str, certificate: &str| {
             let judged = check(&urdf, world, certificate);
             assert!(matches!(judged, Err(CheckError::Fails(_))), "{what}, {world}: {judged:?}");
@@ -58,15 +54,12 @@ fn every_feasible_shipped_task_has_a_valid_certificate() {
         let last = first["last_sample"].as_u64().unwrap() as usize;
         let rest = last..=steps[1]["first_sample"].as_u64().unwrap() as usize;
         fails(&text, "a step is missing", &with_change(&whole, |c| drop(c["steps"].as_array_mut().unwrap().pop())));
-        fails(
-            &text,
-            "steps are swapped",
-            &with_change(&whole, |c| {
-                let steps = c["steps"].as_array_mut().unwrap();
-                let other = if steps.len() > 2 { 2 } else { 1 };
-                (steps[0]["step"], steps[other]["step"]) = (steps[other]["step"].clone(), steps[0]["step"].clone());
-            }),
-        );
+        let swapped = with_change(&whole, |c| {
+            let steps = c["steps"].as_array_mut().unwrap();
+            let other = if steps.len() > 2 { 2 } else { 1 };
+            (steps[0]["step"], steps[other]["step"]) = (steps[other]["step"].clone(), steps[0]["step"].clone());
+        });
+        fails(&text, "steps are swapped", &swapped);
         // Without a rest, the next step begins at the same knot.
         if rest.start() < rest.end() {
             fails(&text, "the arm does not stand", &with_change(&whole, |c| moved(c, last..=last, |q| q + 1e-9)));
@@ -121,26 +114,22 @@ fn infeasible_tasks_have_no_certificate() {
     }
 }
 
-/// Plans a task for the SCARA. Returns the exit code, the errors, and the checker's report on the certificate.
-fn plan_scara_task(world: &str) -> (i32, String, Option<String>) {
-    certified_of(&read(&shipped("robots/scara.urdf")), world)
-}
-
-/// Plans a task for the robot of this URDF.
-fn certified_of(urdf: &str, world: &str) -> (i32, String, Option<String>) {
-    let place = Place::new().with("arm.urdf", urdf).with("world.toml", world);
-    let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json");
-    let certificate = place.path("c.json").exists().then(|| place.read("c.json"));
-    assert_eq!(certificate.is_none(), done.stderr.contains(NONE), "{}", done.stderr);
-    let report = certificate.map(|text| check(urdf, world, &text).unwrap_or_else(|why| panic!("{why}\n{text}")));
-    (done.code, done.stderr, report)
-}
-
-/// Checks that a task of the shipped SCARA is infeasible.
+/// Plans a task for the robot of this URDF. Checks the exit code, and that exactly an infeasible task has no certificate.
+/// Returns the checker's report on it.
 #[track_caller]
-fn is_infeasible(world: &str) {
-    let (code, stderr, report) = plan_scara_task(world);
-    assert!(code == 3 && report.is_none(), "{code} {stderr}");
+fn planned(urdf: &str, world: &str, code: i32) -> String {
+    let place = Place::new().with("arm.urdf", urdf).with("world.toml", world);
+    let done = place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
+    let is_written = place.path("c.json").exists();
+    assert_eq!((is_written, done.stderr.contains(NONE)), (code == 0, code == 3), "{}", done.stderr);
+    let report = |text: &str| check(urdf, world, text).unwrap_or_else(|why| panic!("{why}\n{text}"));
+    is_written.then(|| report(&place.read("c.json"))).unwrap_or_default()
+}
+
+/// Plans a task for the shipped SCARA.
+#[track_caller]
+fn scara(world: &str, code: i32) -> String {
+    planned(&read(shipped("robots/scara.urdf")), world, code)
 }
 
 /// Checks that a group with infeasible pairs is infeasible in all orders.
@@ -156,16 +145,14 @@ fn proofs_are_about_all_orders() {
         object + &format!("[[step]]\npick = \"pin {number}\"\n[[step]]\nplace = {{ at = [0.4, {y}] }}\n")
     };
     for count in [0, 2, 5] {
-        is_infeasible(&(free.clone() + &(0..count).map(pin).collect::<String>()));
+        scara(&(free.clone() + &(0..count).map(pin).collect::<String>()), 3);
     }
     // Two objects that exchange places block each other. A third one that blocks neither changes nothing.
     let swap = read(&shipped("workspaces/tasks/swap.toml"));
     for count in [0, 1] {
-        is_infeasible(&(swap.clone() + &(0..count).map(pin).collect::<String>()));
+        scara(&(swap.clone() + &(0..count).map(pin).collect::<String>()), 3);
     }
-    let (code, ..) =
-        plan_scara_task(&swap.replacen("place = { at = [0.26, 0.20] }", "place = { at = [0.26, 0.30] }", 1));
-    assert_eq!(code, 0);
+    scara(&swap.replacen("place = { at = [0.26, 0.20] }", "place = { at = [0.26, 0.30] }", 1), 0);
 }
 
 /// Checks a stub that the tool would hit while it is lowered, although nothing blocks the arm above.
@@ -201,28 +188,24 @@ place = {{ at = [0.35, -0.17] }}
     // The stub is beside the pick, beside the target, or where only the payload is lowered onto it. There is a stroke
     // or none.
     for (stub, without) in [([0.14, 0.375], 0), ([0.35, -0.155], 0), ([0.336, -0.17], 3)] {
-        assert_eq!(plan_scara_task(&world("", stub)).0, without, "{stub:?}");
-        is_infeasible(&world(stroke, stub));
+        scara(&world("", stub), without);
+        scara(&world(stroke, stub), 3);
     }
 }
 
 /// Checks a bar that replaces the tool's meshes: it ends at the tip, and is lowered with it.
 #[test]
 fn bars_are_lowered_with_the_tool() {
-    let place = Place::new();
-    let scara = read(&shipped("robots/scara.urdf"));
+    let robot = read(shipped("robots/scara.urdf"));
     let meshes = [("0.01\" length=\"0.22", "quill"), ("0.02\" length=\"0.01", "flange")];
-    let without = meshes.iter().fold(scara, |urdf, (size, name)| {
+    let without = meshes.iter().fold(robot, |urdf, (size, name)| {
         let tool = format!("<cylinder radius=\"{size}\"/>");
         assert!(urdf.contains(&tool), "{tool}");
         urdf.replace(&tool, &format!("<mesh filename=\"{name}.stl\"/>"))
     });
-    place.write("arm.urdf", without);
     for (height, code) in [("[0.0, 0.1]", 3), ("[-0.2, -0.1]", 0)] {
-        place.write(
-            "world.toml",
-            format!(
-                r#"[robot]
+        let world = format!(
+            r#"[robot]
 joints = ["axis_1", "axis_2"]
 tip = "flange"
 bar = 0.03
@@ -242,13 +225,8 @@ lift = 0.15
 [[step]]
 pick = "part"
 "#
-            ),
         );
-        place.run(&["arm.urdf", "world.toml"], "--quiet --certificate c.json").exits(code);
-        if code == 0 {
-            let report = place.judged(["arm.urdf", "world.toml", "c.json"]);
-            assert!(report.is_ok(), "{height}: {report:?}");
-        }
+        planned(&without, &world, code);
     }
 }
 
@@ -262,35 +240,23 @@ fn objects_that_press_into_supports_have_certificates() {
             .replace("at = [0.26, 0.35]", &format!("at = [0.26, {}], supports = [\"near jaw\"]", 0.345 - depth))
     };
     // Its corners may press 5.5e-5 m into the support, and its sides 0.7 of that.
-    assert_eq!(plan_scara_task(&into(2e-5)).0, 0);
-    for depth in [2e-4, 1e-2] {
-        is_infeasible(&into(depth));
-    }
+    scara(&into(2e-5), 0);
     let square = "[[-0.06, -0.01], [0.06, -0.01], [0.06, 0.01], [-0.06, 0.01]]";
     let bent = "[[-0.06, -0.01], [0.06, -0.01], [0.06, 0.01], [0.0, 0.01], [0.0, 0.012], [-0.06, 0.012]]";
     for depth in [2e-4, 1e-2] {
-        is_infeasible(&into(depth).replace(square, bent));
+        scara(&into(depth), 3);
+        scara(&into(depth).replace(square, bent), 3);
     }
     let beside = into(0.0).replace("at = [0.26, 0.345]", "at = [0.30, -0.21]").replace(square, bent);
-    let (code, stderr, report) = plan_scara_task(&beside);
-    assert!(code == 0 && report.is_some_and(|report| report.contains("does all")), "{code} {stderr}");
+    has(&scara(&beside, 0), &["does all"]);
 }
 
 /// Checks rings around pegs. They have convex pieces, some of whose sides extend sides of the hole.
 #[test]
 fn rings_on_pegs_have_certificates() {
     let square = |x: f64, y: f64, half: f64| {
-        format!(
-            "[[{}, {}], [{}, {}], [{}, {}], [{}, {}]]",
-            x - half,
-            y - half,
-            x + half,
-            y - half,
-            x + half,
-            y + half,
-            x - half,
-            y + half
-        )
+        let ([left, right], [low, high]) = ([x - half, x + half], [y - half, y + half]);
+        format!("[[{left}, {low}], [{right}, {low}], [{right}, {high}], [{left}, {high}]]")
     };
     let stepped = format!(
         "[[[-0.1, -0.1], [0.1, -0.1], [0.1, 0.04], [0.13, 0.04], [0.13, 0.1], [-0.1, 0.1]], {}]",
@@ -308,9 +274,8 @@ fn rings_on_pegs_have_certificates() {
              [[object]]\nname = \"ring\"\npolygon = {ring}\nat = [1.0, 0.8]\nheight = [0, 0.01]\nsupports = [\"peg\"]\n\
              [[step]]\npick = \"ring\"\n[[step]]\nplace = {{ at = [1.0, 0.8] }}\n"
         );
-        let (found, stderr, report) = certified_of(&read(&shipped("robots/gantry.urdf")), &world);
-        assert_eq!(found, code, "{peg}: {stderr}");
-        assert_eq!(report.is_some_and(|report| report.contains("does all 2 steps")), code == 0, "{peg}: {stderr}");
+        let report = planned(&read(shipped("robots/gantry.urdf")), &world, code);
+        assert_eq!(report.contains("does all 2 steps"), code == 0, "{peg}: {report}");
     }
 }
 
@@ -327,7 +292,6 @@ fn a_new_object_is_an_obstacle() {
             "[[object]]\nname = \"{name}\"\ncircle = {{ center = [0, 0], radius = {radius} }}\nat = [{x}, 0.75]\nheight = [0, 0.1]\n{more}"
         )
     };
-    let place = Place::new();
     let world = [
         "start.joints = [0.3, 0.6]\n".to_owned(),
         walls(0.0, 0.64),
@@ -336,15 +300,12 @@ fn a_new_object_is_an_obstacle() {
         object("b", 0.03, 0.3, ""),
         "[[step]]\nrepeat = 2\n[[step.steps]]\npick = \"b\"\n[[step.steps]]\nplace = { at = [0.3, 0.5] }\n".into(),
         "[[step.steps]]\npick = \"a\"\n[[step.steps]]\nplace = { at = [1.7, 0.75] }\n".into(),
-    ];
-    place.write("world.toml", world.concat());
-    let urdf = shipped("robots/gantry.urdf");
-    let done = place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json --output plan.json");
-    // Between the walls, the only path leads through the new object.
-    assert_eq!(done.code, 3, "{}", done.stderr);
-    // If the object is not renewed, there is a path.
-    place.write("world.toml", world.concat().replace("renew = true\n", ""));
-    place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json --output plan.json").exits(0);
+    ]
+    .concat();
+    let urdf = read(shipped("robots/gantry.urdf"));
+    // Between the walls, the only path leads through the new object. If the object is not renewed, there is a path.
+    planned(&urdf, &world, 3);
+    planned(&urdf, &world.replace("renew = true\n", ""), 0);
 }
 
 /// Checks that a released object may be touched until the next step has ended. After that step, the arm must be free of
@@ -393,9 +354,8 @@ fn boxes_reach_across_half_a_turn() {
     let motion =
         "[robot]\nlimits = { elbow = [-6.3, 6.3] }\n[start]\njoints = [2.4, 0.8]\n[goal]\ntip = [-1.48, -0.64]\n";
     for (world, code) in [(task, 3), (motion.to_owned() + &block(-1.0, 0.15, 0.11), 0)] {
-        let (found, stderr, report) = certified_of(&urdf, &world);
-        assert_eq!(found, code, "{stderr}");
-        assert_eq!(report.is_some_and(|report| report.contains("is shorter than")), code == 0, "{stderr}");
+        let report = planned(&urdf, &world, code);
+        assert_eq!(report.contains("is shorter than"), code == 0, "{report}");
     }
 }
 
@@ -407,8 +367,7 @@ fn slivers_are_no_evidence() {
     let world = "[start]\njoints = [0.1, 0.1]\n[[obstacle]]\npolygon = [[[1.41558807525, 1.1732870148], [1.45402146287, 1.16220212798], \
                  [1.5, 1.2006]], [[1.43480476906, 1.16774457139], [1.45, 1.18], [1.45, 1.17]]]\n[[object]]\nname = \"disc\"\n\
                  at = [1.4, 0.98]\ncircle = { center = [0.0, 0.0], radius = 0.1 }\n[[step]]\npick = \"disc\"\n";
-    let (code, stderr, _) = certified_of(&urdf, world);
-    assert_eq!(code, 3, "{stderr}");
+    planned(&urdf, world, 3);
 }
 
 /// Checks a crane that turns a thin object of 100 m. Its orientation is as exact as the joint values, however large the
@@ -431,8 +390,7 @@ fn needles_on_cranes_are_in_the_way() {
                  polyline = [[-13.0, -303.0], [-110.0, -220.0], [-160.0, -300.0], [-13.0, -300.0]]\nheight = [0, 10]\n\
                  [[object]]\nname = \"needle\"\npolygon = [[-50.0, 1.0], [50.0, 0.0], [-50.0, -1.0]]\nat = [230.0, 240.0]\n\
                  height = [0, 1]\n[[step]]\npick = \"needle\"\n[[step]]\nplace = { at = [-86.5, -290.0] }\n";
-    let (code, stderr, _) = certified_of(&urdf, world);
-    assert_eq!(code, 3, "{stderr}");
+    planned(&urdf, world, 3);
 }
 
 #[test]
@@ -449,7 +407,7 @@ fn overrides_of_the_world_are_in_the_certificate() {
     let options = "--quiet --certificate v.json --start 0.5,40deg --clearance 0.0005";
     place.run(&verify, options).exits(0);
     let report = judged(&place.read("v.json")).unwrap();
-    assert!(report.contains("does all 5 steps") && report.contains("read as quartic"), "{report}");
+    has(&report, &["does all 5 steps", "read as quartic"]);
     // Uses one of its motions, with all objects at their initial places.
     place.write("rise.csv", "shoulder,elbow\n0.6,0.8\n0.5,0.8\n");
     place.run(&["verify", &files[0], &files[1], "rise.csv"], "--quiet --certificate r.json").exits(0);

@@ -76,6 +76,15 @@ fn shelf() -> [String; 2] {
     [shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")]
 }
 
+/// Returns the URDF of `planar_2r` with changes.
+#[track_caller]
+fn planar_2r(changes: &[(&str, &str)]) -> String {
+    changes.iter().fold(read(shipped("robots/planar_2r.urdf")), |urdf, (from, to)| {
+        assert!(urdf.contains(from), "{from}");
+        urdf.replace(from, to)
+    })
+}
+
 /// Start and goal in free space for `planar_2r`.
 const FREE: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.55, -0.35]\n";
 
@@ -157,6 +166,14 @@ impl Place {
     /// Plans for `planar_2r` in the given world.
     pub fn plan(&self, world: impl AsRef<[u8]>, options: &str) -> Done {
         self.run_in(&shipped("robots/planar_2r.urdf"), world, options)
+    }
+
+    /// Plans with a certificate. Checks the exit code, and that the checker accepts the certificate. Returns its report, too.
+    #[track_caller]
+    fn certified(&self, robot: &str, world: &str, options: &str, code: i32) -> (Done, String) {
+        let done = self.run(&[robot, world], &format!("--certificate c.json {options}")).exits(code);
+        let judged = self.judged([robot, world, "c.json"]);
+        (done, judged.unwrap_or_else(|why| panic!("{robot} {world} {options}: {why}")))
     }
 
     /// Returns the checker's verdict on a robot, a world and a certificate: files here, or shipped ones.

@@ -30,9 +30,17 @@ fn scara(quill: f64, more: &str) -> String {
     SCARA.replace("{middle}", &middle.to_string()).replace("{length}", &length.to_string()).replace("{more}", more)
 }
 
-fn run(urdf: &str, world: &str, options: &str) -> (Place, Done) {
-    let place = Place::new().with("arm.urdf", urdf).with("world.toml", world);
-    let done = place.run(&["arm.urdf", "world.toml"], options);
+const FILES: [&str; 2] = ["arm.urdf", "world.toml"];
+
+fn run(urdf: &str, world: &str, options: &str) -> Done {
+    Place::new().with(FILES[0], urdf).with(FILES[1], world).run(&FILES, options)
+}
+
+/// Checks the exit code of a plan, and that its certificate holds.
+#[track_caller]
+fn certified(urdf: &str, world: &str, code: i32) -> (Place, Done) {
+    let place = Place::new().with(FILES[0], urdf).with(FILES[1], world);
+    let (done, _) = place.certified(FILES[0], FILES[1], "--json --quiet", code);
     (place, done)
 }
 
@@ -48,32 +56,21 @@ fn world(robot: &str, goal: [f64; 2]) -> String {
 const FOLDED: [f64; 2] = [0.5, 3.1];
 
 #[test]
-fn the_base_is_in_the_way_of_the_quill() {
+fn the_base_and_link_1_are_in_the_way_of_the_quill() {
     let allowed = "ignore_contact = [[\"inner\", \"quill\"]]";
-    for (what, quill, robot, is_hit) in [
-        ("98 mm within the pedestal", 0.174, allowed, true),
-        ("over it", 0.273, allowed, false),
-        ("it may touch", 0.174, "ignore_contact = [[\"quill\", \"base_link\"], [\"inner\", \"quill\"]]", false),
-        ("no body", 0.174, "own_body = false", false),
+    let both = "ignore_contact = [[\"quill\", \"base_link\"], [\"inner\", \"quill\"]]";
+    for (what, quill, robot, link, is_hit) in [
+        ("98 mm within the pedestal", 0.174, allowed, "base_link", true),
+        ("over the pedestal", 0.273, allowed, "base_link", false),
+        ("it may touch the pedestal", 0.174, both, "base_link", false),
+        ("no body", 0.174, "own_body = false", "base_link", false),
+        ("beside link 1 when folded", 0.29, "", "inner", true),
+        ("above link 1", 0.381, "", "inner", false),
+        ("it may touch link 1", 0.29, allowed, "inner", false),
     ] {
-        let (_, done) = run(&scara(quill, ""), &world(robot, FOLDED), "--json --quiet");
-        assert_eq!(done.code, i32::from(is_hit), "{what}: {}{}", done.stdout, done.stderr);
-        let hit = r#"link \"outer\" (body \"quill\") hits link \"base_link\""#;
-        assert_eq!(done.stdout.contains(hit), is_hit, "{what}: {}", done.stdout);
-    }
-}
-
-#[test]
-fn link_1_is_in_the_way_of_the_quill() {
-    for (what, quill, robot, is_hit) in [
-        ("beside it when folded", 0.29, "", true),
-        ("above it", 0.381, "", false),
-        ("it may touch", 0.29, "ignore_contact = [[\"inner\", \"quill\"]]", false),
-    ] {
-        let (_, done) = run(&scara(quill, ""), &world(robot, FOLDED), "--json --quiet");
-        assert_eq!(done.code, i32::from(is_hit), "{what}: {}{}", done.stdout, done.stderr);
-        let hit = r#"link \"outer\" (body \"quill\") hits link \"inner\""#;
-        assert_eq!(done.stdout.contains(hit), is_hit, "{what}: {}", done.stdout);
+        let done = run(&scara(quill, ""), &world(robot, FOLDED), "--json --quiet").exits(i32::from(is_hit));
+        let hit = format!(r#"link \"outer\" (body \"quill\") hits link \"{link}\""#);
+        assert_eq!(done.stdout.contains(&hit), is_hit, "{what}: {}", done.stdout);
     }
 }
 
@@ -83,20 +80,13 @@ fn link_1_is_in_the_way_of_the_quill() {
 fn joint_2_does_not_pass_the_fold() {
     let urdf = scara(0.29, "").replace(r#"<limit lower="-3.1" upper="3.1" velocity="5" effort="1"/>"#, "");
     let turns = urdf.replace(r#"name="j2" type="revolute""#, r#"name="j2" type="continuous""#);
-    let (place, found) =
-        run(&turns, &world("limits = { j1 = [-0.2, 0.2] }", [0.0, -2.0]), "--json --quiet --certificate c.json");
-    assert_eq!(found.code, 0, "{}{}", found.stdout, found.stderr);
+    let long = world("limits = { j1 = [-0.2, 0.2] }", [0.0, -2.0]);
+    let (_, found) = certified(&turns, &long, 0);
     let path: Vec<[f64; 2]> = serde_json::from_value(found.json()["path"].clone()).unwrap();
     assert!((path[path.len() - 1][1] + 2.0).abs() < 1e-9, "the long way round: {path:?}");
-    let files = ["arm.urdf", "world.toml", "c.json"].map(|name| place.path(name));
-    check_files(&files[0], &files[1], &files[2]).expect("holds");
     // A post blocks the other direction.
     let post = "[[obstacle]]\ncircle = { center = [0.9, 0.0], radius = 0.15 }\n";
-    let barred = world("limits = { j1 = [-0.2, 0.2] }", [0.0, -2.0]) + post;
-    let (place, none) = run(&turns, &barred, "--json --quiet --certificate c.json");
-    assert_eq!(none.code, 3, "{}{}", none.stdout, none.stderr);
-    let files = ["arm.urdf", "world.toml", "c.json"].map(|name| place.path(name));
-    check_files(&files[0], &files[1], &files[2]).expect("holds");
+    let (place, _) = certified(&turns, &(long + post), 3);
     let explained = place.run(&["explain", "arm.urdf", "world.toml"], "--json");
     let blocking = &explained.json()["blocking"];
     assert!(blocking.as_array().unwrap().contains(&"inner".into()), "{}", explained.stdout);
@@ -110,11 +100,9 @@ fn a_hand_that_has_only_a_visual_is_not_left_out() {
         <link name="hand"> <visual> <origin xyz="0.1 0 0.04"/> <geometry> <box size="0.2 0.05 0.05"/> </geometry> </visual> </link>"#;
     let post = "[[obstacle]]\nname = \"post\"\ncircle = { center = [1.2, 0.0], radius = 0.02 }\n";
     let at_post = |more| run(&scara(0.39, more), &(world("tip = \"quill\"", [0.0, 0.0]) + post), "");
-    let (_, without) = at_post("");
-    assert_eq!(without.code, 0, "{}", without.stderr);
-    let (_, with) = at_post(hand);
-    with.refused(1, &[r#"link "outer" (body "hand") hits obstacle "post""#]);
-    let (_, beside) = run(&scara(0.39, hand), &(world("tip = \"quill\"", [0.0, -1.0]) + post), "");
+    at_post("").exits(0);
+    at_post(hand).refused(1, &[r#"link "outer" (body "hand") hits obstacle "post""#]);
+    let beside = run(&scara(0.39, hand), &(world("tip = \"quill\"", [0.0, -1.0]) + post), "");
     beside.says(&["no collision geometry: \"hand\""]);
 }
 
@@ -123,10 +111,8 @@ fn links_that_meet_in_every_configuration_are_named() {
     // A plate fixed to the base surrounds the quill in every configuration.
     let plate = r#"<joint name="floor" type="fixed"> <parent link="base_link"/> <child link="plate"/> </joint>
         <link name="plate"> <collision> <origin xyz="0 0 0.42"/> <geometry> <cylinder radius="3" length="0.01"/> </geometry> </collision> </link>"#;
-    let (_, done) = run(&scara(0.39, plate), &world("", [0.0, -1.0]), "");
-    assert_eq!(done.code, 0, "{}", done.stderr);
     let report = "shapes that meet in every configuration is ignored: \"plate\" and \"outer\", \"plate\" and \"quill\"";
-    done.says(&[report]);
+    run(&scara(0.39, plate), &world("", [0.0, -1.0]), "").exits(0).says(&[report]);
 }
 
 /// An arm of two bars that are 0.4 m long. Braces stand for its root, with everything that hangs from it, and for the
@@ -145,24 +131,16 @@ fn on_a_base(base: &str, bend: f64, rise: f64) -> String {
     ON_A_BASE.replace("{base}", base).replace("{bend}", &bend.to_string()).replace("{rise}", &rise.to_string())
 }
 
-/// A swing of joint 1 from one side to the other.
-const SWING: &str = "{robot}\n[start]\njoints = [-1.59, 0.0]\n[goal]\njoints = [1.59, 0.0]\n";
-
-fn swing(urdf: &str, robot: &str) -> (Place, Done) {
-    run(urdf, &SWING.replace("{robot}", robot), "--json --quiet --certificate c.json")
+/// Returns a world for a swing of joint 1 from one side to the other.
+fn swing(robot: &str) -> String {
+    format!("{robot}\n[start]\njoints = [-1.59, 0.0]\n[goal]\njoints = [1.59, 0.0]\n")
 }
 
-/// Asserts that a part of the base bars the way, for each planner that can prove it, and for the checker.
+/// Checks that a part of the base is in the way unless the links may touch it, also for the checker.
+#[track_caller]
 fn assert_bars(urdf: &str, link: &str) {
-    let (place, done) = swing(urdf, "");
-    assert_eq!(done.code, 3, "{urdf}\n{}{}", done.stdout, done.stderr);
-    let files = ["arm.urdf", "world.toml", "c.json"].map(|name| place.path(name));
-    check_files(&files[0], &files[1], &files[2]).expect("holds");
-    let allowed = format!("[robot]\nignore_contact = [[\"{link}\", \"L1\"], [\"{link}\", \"L2\"]]");
-    let (place, done) = swing(urdf, &allowed);
-    assert_eq!(done.code, 0, "{urdf}\n{}{}", done.stdout, done.stderr);
-    let files = ["arm.urdf", "world.toml", "c.json"].map(|name| place.path(name));
-    check_files(&files[0], &files[1], &files[2]).expect("holds");
+    certified(urdf, &swing(""), 3);
+    certified(urdf, &swing(&format!("[robot]\nignore_contact = [[\"{link}\", \"L1\"], [\"{link}\", \"L2\"]]")), 0);
 }
 
 /// Checks a plate in front of the arm. Start and goal are beside it, and at 32 values of each joint link 2 is in it.
@@ -202,10 +180,8 @@ fn shapes_of_a_neighbor_count_one_by_one() {
         )
     };
     assert_bars(&on_a_base(&base("0.25 0.15"), 2.5, 0.05), "base");
-    let (_, beside) = run(&on_a_base(&base("-0.25 0.0"), 2.5, 0.05), &SWING.replace("{robot}", ""), "");
-    assert_eq!(beside.code, 0, "{}", beside.stderr);
-    let note = "is ignored: shape 1 of \"base\" and shape 1 of \"L1\"";
-    beside.says(&[note]);
+    let beside = run(&on_a_base(&base("-0.25 0.0"), 2.5, 0.05), &swing(""), "").exits(0);
+    beside.says(&["is ignored: shape 1 of \"base\" and shape 1 of \"L1\""]);
 }
 
 /// Checks the hint of an arm whose shapes collide near a joint. The line that it offers helps.
@@ -216,11 +192,10 @@ fn the_hint_names_shapes_that_are_too_large() {
     let urdf = on_a_base(base, 2.5, 0.05);
     let at_zero =
         |robot: &str| run(&urdf, &format!("{robot}\n[start]\njoints = [0, 0]\n[goal]\njoints = [1, 1]\n"), "");
-    let (_, done) = at_zero("");
     let line = "ignore_contact = [[\"base\", \"L1\"]]";
-    done.refused(1, &["link \"L1\" hits link \"base\"", "shape 1 of \"L1\" and shape 2 of \"base\"", line]);
-    let (_, done) = at_zero(&format!("[robot]\n{line}"));
-    assert_eq!(done.code, 0, "{}", done.stderr);
+    let parts = ["link \"L1\" hits link \"base\"", "shape 1 of \"L1\" and shape 2 of \"base\"", line];
+    at_zero("").refused(1, &parts);
+    at_zero(&format!("[robot]\n{line}")).exits(0);
 }
 
 #[test]
@@ -229,7 +204,7 @@ fn links_that_the_robot_does_not_have_are_refused() {
         ("ignore_contact = [[\"base\", \"quill\"]]", ["no link \"base\"", "\"base_link\", \"inner\""]),
         ("ignore_contact = [[\"base_link\"]]", ["a pair of links needs two names, not 1", "ignore_contact = [["]),
     ] {
-        let (_, done) = run(&scara(0.39, ""), &world(robot, [0.0, -1.0]), "");
+        let done = run(&scara(0.39, ""), &world(robot, [0.0, -1.0]), "");
         done.refused(1, &parts);
         done.warns(&["world.toml: line 3"]);
     }
@@ -246,6 +221,5 @@ fn a_bar_is_no_layer_of_a_box() {
     let urdf = urdf.replace(link, &link.replace("0.2 0 0", "0.3 0 0").replace("0.4 0.04", "0.1 0.04"));
     let urdf = urdf.replace("</link>\n<joint name=\"j2\"", &format!("{mesh} </link>\n<joint name=\"j2\""));
     assert!(urdf.contains("missing.stl") && urdf.contains("0.3 0 0"));
-    let (_, done) = swing(&urdf, "[robot]\nbar = 0.01");
-    assert_eq!(done.code, 3, "{}{}", done.stdout, done.stderr);
+    run(&urdf, &swing("[robot]\nbar = 0.01"), "--quiet").exits(3);
 }

@@ -53,21 +53,18 @@ const NO_BAR: &str = "[-0.5, -0.4]";
 /// The tool goes down to the floor of the box, and to the top of the tray. `verify` and the checker agree.
 #[test]
 fn the_tool_goes_down_to_the_stated_heights() {
+    let scara = shipped("robots/scara.urdf");
     for (robot, reaches) in [("", [-0.12, -0.14, -0.14, -0.12]), ("travel = 0.1", [-0.1, -0.12, -0.12, -0.1])] {
-        let place = Place::new()
-            .with("scara.urdf", read(&shipped("robots/scara.urdf")))
-            .with("world.toml", world(robot, ", height = 0.0", "on = \"pockets 1,1\"", NO_BAR));
-        place.run(&["scara.urdf", "world.toml"], "--quiet --output plan.json --certificate proof.json").exits(0);
+        let place = Place::new().with("world.toml", world(robot, ", height = 0.0", "on = \"pockets 1,1\"", NO_BAR));
+        place.certified(&scara, "world.toml", "--output plan.json", 0);
         let plan = place.json("plan.json");
         let lowered = |step: &Value| step["stroke"]["lowered"].as_f64().unwrap();
         let steps: Vec<f64> = plan["steps"].as_array().unwrap().iter().map(lowered).collect();
         assert!(steps.iter().zip(reaches).all(|(is, asked)| (is - asked).abs() < 1e-12), "{steps:?}");
-        place.run(&["verify", "scara.urdf", "world.toml", "plan.json"], "").exits(0);
-        let checked = check_files(&place.path("scara.urdf"), &place.path("world.toml"), &place.path("proof.json"));
-        assert!(checked.is_ok(), "{checked:?}");
+        place.run(&["verify", &scara, "world.toml", "plan.json"], "").exits(0);
         // At its other height, the checker and the judge see a wrong stroke.
         place.write("wrong.toml", world(robot, ", height = 0.01", "on = \"pockets 1,1\"", NO_BAR));
-        place.run(&["verify", "scara.urdf", "wrong.toml", "plan.json"], "").exits(3);
+        place.run(&["verify", &scara, "wrong.toml", "plan.json"], "").exits(3);
     }
 }
 
@@ -83,11 +80,7 @@ fn placed_objects_have_the_stated_heights() {
         ("", "[0.0, 0.02]", 0),
         (", height = 0.0", "[0.01, 0.02]", 3),
     ] {
-        Place::new()
-            .with("scara.urdf", read(&shipped("robots/scara.urdf")))
-            .with("world.toml", world("", there, back, bar))
-            .run(&["scara.urdf", "world.toml"], "--quiet")
-            .exits(code);
+        Place::new().run_in(&shipped("robots/scara.urdf"), world("", there, back, bar), "--quiet").exits(code);
     }
 }
 
@@ -120,12 +113,8 @@ fn places_in_the_air_are_errors() {
             "step 2 (world.toml:33:1): the tool would be lowered to -0.24 m, outside the limits [",
         ),
     ] {
-        Place::new()
-            .with("scara.urdf", read(&shipped("robots/scara.urdf")))
-            .with("world.toml", world("", there, back, bar))
-            .run(&["scara.urdf", "world.toml"], "--quiet")
-            .exits(1)
-            .warns(&[message, "world.toml"]);
+        let done = Place::new().run_in(&shipped("robots/scara.urdf"), world("", there, back, bar), "--quiet");
+        done.exits(1).warns(&[message, "world.toml"]);
     }
 }
 

@@ -231,16 +231,9 @@ fn outlines_say_the_same_however_they_are_written() {
         let done = place.run(&[&urdf, "world.toml"], "--quiet --certificate c.json --output plan.json").exits(0);
         assert_eq!(place.path("c.json").exists(), is_certified, "{what}: {}", done.stderr);
         if is_certified {
-            let report =
-                cplan_check_files::check_files(urdf.as_ref(), &place.path("world.toml"), &place.path("c.json"));
-            assert!(report.is_ok_and(|report| report.contains("does all 2 steps")), "{what}");
+            has(&place.judged([&urdf, "world.toml", "c.json"]).unwrap(), &["does all 2 steps"]);
         } else {
-            assert!(
-                done.stderr
-                    .contains("object \"part\" rests on a support, but its outline is too fine or touches itself"),
-                "{}",
-                done.stderr
-            );
+            done.warns(&["object \"part\" rests on a support, but its outline is too fine or touches itself"]);
         }
         let verified = place.run(&["verify", &urdf, "world.toml", "plan.json"], "--quiet --certificate v.json");
         assert_eq!((verified.code, place.path("v.json").exists()), (0, is_certified), "{what}: {}", verified.stderr);

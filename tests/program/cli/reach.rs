@@ -114,27 +114,10 @@ fn errors_of_the_home_are_attributed_to_it() {
 /// position, but not others.
 #[test]
 fn a_place_that_leaves_a_joint_free_is_reached_with_another_value_of_it() {
-    let place = Place::new();
-    let bar = |name: &str, length: f64| {
-        format!(
-            "<link name=\"{name}\"><collision><origin xyz=\"{} 0 0\"/><geometry><box size=\"{length} 0.1 0.1\"/></geometry>\
-             </collision></link>",
-            length / 2.0
-        )
-    };
-    let joint = |name: &str, parent: &str, child: &str, x: f64| {
-        format!(
-            "<joint name=\"{name}\" type=\"revolute\"><parent link=\"{parent}\"/><child link=\"{child}\"/><origin xyz=\"{x} 0 0\"/>\
-             <axis xyz=\"0 0 1\"/><limit lower=\"-3.2\" upper=\"3.2\" effort=\"50\" velocity=\"2\"/></joint>"
-        )
-    };
-    let links =
-        ["<link name=\"base\"/>".to_owned(), bar("upper", 1.0), bar("fore", 1.2), "<link name=\"tool\"/>".to_owned()];
-    let joints = [joint("shoulder", "base", "upper", 0.0), joint("elbow", "upper", "fore", 1.0)];
-    let tool =
-        "<joint name=\"t\" type=\"fixed\"><parent link=\"fore\"/><child link=\"tool\"/><origin xyz=\"1 0 0\"/></joint>";
-    place.write("arm.urdf", format!("<robot name=\"long\">{}{}{tool}</robot>", links.concat(), joints.concat()));
-    place.write(
+    // The forearm is 1.2 m long, and the tip is 1 m from the elbow.
+    let longer =
+        [("\"0.4 0 0\"", "\"0.6 0 0\""), ("0.8 0.1 0.1", "1.2 0.1 0.1"), ("\"0.8 0 0\"", "\"1 0 0\""), ("2.9", "3.2")];
+    let place = Place::new().with("arm.urdf", planar_2r(&longer)).with(
         "world.toml",
         "robot.at = [0.05, 0.05]\nstart.joints = [0, 0]\nobstacle = [{ circle = { center = [-0.1, 0.05], radius = 0.02 } }]\n",
     );

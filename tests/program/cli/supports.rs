@@ -52,8 +52,7 @@ fn plan_and_check(place: &Place, world: &str) -> Done {
     let urdf = shipped("robots/scara.urdf");
     let done = place.run(&[&urdf, "world.toml"], "--certificate c.json --output plan.json");
     if done.code == 0 {
-        let report = check(&read(&urdf), world, &place.read("c.json"));
-        assert!(report.is_ok(), "{report:?}\n{world}");
+        place.judged([&urdf, "world.toml", "c.json"]).unwrap();
         place.run(&["verify", &urdf, "world.toml", "plan.json"], "").exits(0);
     }
     done
@@ -86,17 +85,16 @@ fn pressing_deeper_than_the_tolerance_is_a_contact() {
 fn the_checker_knows_the_tolerance_by_itself() {
     let place = Place::new();
     let urdf = read(&shipped("robots/scara.urdf"));
-    let without = |certificate: &str| super::certificates::without_digests(certificate);
     for hand in [Hand::Lifting, Hand::Stroke] {
         let cell = Cell::new(hand);
-        assert_eq!(plan_and_check(&place, &cell.set_down()).code, 0);
-        let certificate = without(&place.read("c.json"));
+        plan_and_check(&place, &cell.set_down()).exits(0);
+        let certificate = super::certificates::without_digests(&place.read("c.json"));
         for (top, holds) in [(0.04, true), (0.050_001, true), (0.050_001_1, false), (0.06, false)] {
             let report = check(&urdf, &Cell { top, ..Cell::new(hand) }.set_down(), &certificate);
             assert_eq!(report.is_ok(), holds, "{hand:?}, table up to {top}: {report:?}");
         }
         let deep = Cell { top: 0.06, ..Cell::new(hand) };
-        assert_eq!(plan_and_check(&place, &deep.set_down()).code, 3);
+        plan_and_check(&place, &deep.set_down()).exits(3);
     }
 }
 

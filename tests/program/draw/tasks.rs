@@ -1,115 +1,53 @@
 //! Pictures of tasks: pick and place, rigid and level, repeated, large, infeasible.
 
-use super::scenes::{TURN, arm, block, capsule, circle, interval, polygon};
 use super::{inspected, pages, words};
+use crate::cli::shipped;
 use cplan::Outcome;
 use cplan::cspace::{CObstacle, c_obstacles};
 use cplan::engine::Method;
 use cplan::engine::task::{Event, TaskAnswer, plan};
 use cplan::geometry::{Point, Pose};
-use cplan::model::{
-    Action, Goal, Heights, Holding, Item, Object, Obstacle, Scene, Shape, Step, Task, ToolValues, Workspace, Wrist,
-};
-use cplan::space::Configuration;
+use cplan::input::{Overrides, Rules, Source, scene_from};
+use cplan::model::{Action, Goal, Item, Scene, Task};
 use cplan::view::{Picture, TaskPicture, View};
-use cplan_testkit::shapes::{convex, disc};
 use std::collections::BTreeSet;
-
-const START: [f64; 2] = [0.2, 2.2];
 
 fn contours(scene: &Scene) -> Vec<CObstacle> {
     c_obstacles(scene, 2e-3, 2e-3)
 }
 
-/// Returns a square or a disc that lies somewhere.
-fn object(name: &str, round: bool, holding: Holding, at: [f64; 2]) -> Object {
-    let half = 0.09;
-    let corners = [(-half, -half), (half, -half), (half, half), (-half, half)].map(|c| Point::new(c.0, c.1)).to_vec();
-    let (shape, piece) = if round {
-        (Shape::Circle { center: Point::zeros(), radius: half }, disc(Point::zeros(), half))
-    } else {
-        (Shape::Polygon(corners.clone()), convex(corners, 0.0))
-    };
-    let at = Pose::translation(at.into());
-    Object {
-        name: name.into(),
-        shape,
-        pieces: vec![piece],
-        heights: Heights::ALL,
-        lift: 0.0,
-        holding,
-        at,
-        trajectory: None,
-        mass: 0.0,
-    }
-}
+const HEAD: &str = "name = \"cell\"\n[start]\njoints = [0.2, 2.2]\n[robot]\nPAYLOAD\n\
+                    [task]\ndwell = 0.25\n";
+const POST: &str = "[[obstacle]]\nname = \"post\"\ncircle = { center = [-0.35, -1.2], radius = 0.14 }\n";
+const FIXED: &str = "[[obstacle]]\nname = \"shelf\"\npolygon = [[0.95, 0.55], [1.45, 0.55], [1.45, 0.7], [0.95, 0.7]]\n\
+                     [[obstacle]]\nname = \"bin\"\npolygon = [[-1.5, 0.1], [-1.45, 0.1], [-1.45, 0.9], [-1.5, 0.9]]\n";
+const PART: &str = "[[object]]\nname = \"part\"\nat = [1.2, -0.5]\nrenew = true\n\
+                    polygon = [[-0.09, -0.09], [0.09, -0.09], [0.09, 0.09], [-0.09, 0.09]]\n";
+const DISC: &str = "[[object]]\nname = \"disc\"\nat = [0.55, -1.25]\ncircle = { center = [0, 0], radius = 0.09 }\n";
 
-fn pick(object: usize) -> Action {
-    Action::Pick { object, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() }
-}
-
-fn place(x: f64, y: f64) -> Action {
-    Action::Place { at: Point::new(x, y), angle: None, supports: Vec::new() }
-}
-
-fn turn_to(q1: f64, q2: f64) -> Action {
-    Action::Move(Goal::Joints(Configuration::new(q1, q2)))
-}
-
-/// Returns a task that repeats these steps. Each round begins with new objects.
-fn task(objects: Vec<Object>, obstacles: Vec<Obstacle>, steps: &[Action], rounds: usize) -> Task {
-    let mut items = Vec::new();
-    for cycle in 1..=rounds {
-        if cycle > 1 {
-            items.push(Item::Renew((0..objects.len()).collect()));
-        }
-        let step = |(i, action): (usize, &Action)| {
-            let action = action.clone();
-            Item::Step(Step {
-                action,
-                number: i + 1,
-                cycle,
-                place: String::new(),
-                speed: 1.0,
-                dwell: 0.25,
-                tool: ToolValues::default(),
-                elevation: 0.0,
-            })
-        };
-        items.extend(steps.iter().enumerate().map(step));
-    }
-    Task {
-        arm: arm(
-            ["shoulder", "elbow"],
-            [TURN; 2],
-            [interval(-2.9, 2.9), interval(-2.7, 2.7)],
-            [1.0, 0.8],
-            [block(-0.06, -0.06, 1.06, 0.06), capsule(0.8, 0.05)],
-        ),
-        workspace: Workspace { name: "cell".into(), ..Workspace::new(obstacles) }.into(),
-        objects,
-        start: Configuration::new(START[0], START[1]),
-        items,
-        wrist: Some(Wrist { velocity: 3.0, acceleration: 10.0, jerk: None, turns_on_the_way: false, joint: None }),
-        stroke: None,
-        start_tool: ToolValues::default(),
-    }
-}
-
-fn fixed() -> Vec<Obstacle> {
-    vec![
-        polygon("shelf", &[(0.95, 0.55), (1.45, 0.55), (1.45, 0.7), (0.95, 0.7)]),
-        circle("post", -0.35, -1.2, 0.14),
-        polygon("bin", &[(-1.5, 0.1), (-1.45, 0.1), (-1.45, 0.9), (-1.5, 0.9)]),
-    ]
+/// Returns the task of a world with this payload, these obstacles and objects, and these steps.
+fn task(payload: &str, things: &[&str], steps: &[&str]) -> Task {
+    let wrist = if payload == "level" { "wrist = { velocity = 3.0, acceleration = 10.0 }\narch = false\n" } else { "" };
+    let head = HEAD.replace("PAYLOAD", &format!("{wrist}payload = \"{payload}\""));
+    let steps: String = steps.iter().map(|step| format!("[[step]]\n{step}\n")).collect();
+    let world = Source::in_memory("world.toml", format!("{head}{}{steps}", things.concat()));
+    let robot = Source::read(shipped("robots/planar_2r.urdf").as_ref()).unwrap();
+    let loaded = scene_from(robot, world).and_then(|scene| scene.resolve(&Overrides::default(), Rules::Plan));
+    loaded.unwrap_or_else(|error| panic!("{error}")).task.expect("a world with steps")
 }
 
 /// Returns a task that moves two objects to two places, with motions before, between and after.
-fn sorting(holding: Holding) -> Task {
-    let objects = vec![object("part", false, holding, [1.2, -0.5]), object("disc", true, holding, [0.55, -1.25])];
-    let home = turn_to(START[0], START[1]);
-    let steps = [turn_to(1.2, 0.6), pick(0), place(-1.15, 0.75), pick(1), turn_to(1.5, -0.4), place(-1.1, 0.35), home];
-    task(objects, fixed(), &steps, 1)
+fn sorting(payload: &str) -> Task {
+    let steps = [
+        "move = { joints = [1.2, 0.6] }",
+        "pick = \"part\"",
+        "place = { at = [-1.15, 0.75] }",
+        "pick = \"disc\"",
+        "move = { joints = [1.5, -0.4] }",
+        "place = { at = [-1.1, 0.35] }",
+        "move = { joints = [0.2, 2.2] }",
+    ];
+    task(payload, &[FIXED, POST, PART, DISC], &steps)
 }
 
 fn answer(task: &Task) -> TaskAnswer {
@@ -225,7 +163,7 @@ fn titles(text: &str) -> Vec<String> {
 
 #[test]
 fn each_payload_state_has_its_configuration_space() {
-    let text = done("task_rigid", &sorting(Holding::Rigid));
+    let text = done("task_rigid", &sorting("rigid"));
     assert_eq!(
         titles(&text),
         [
@@ -290,9 +228,9 @@ fn directions(outline: &str) -> Vec<f64> {
 /// turned with link 2.
 #[test]
 fn payloads_are_drawn_in_their_places() {
-    for (name, holding) in [("task_carried_rigid", Holding::Rigid), ("task_carried_level", Holding::Level)] {
-        let objects = vec![object("part", false, holding, [1.2, -0.5])];
-        let task = task(objects, fixed(), &[pick(0), turn_to(1.8, 0.7)], 1);
+    for holding in ["rigid", "level"] {
+        let name = &format!("task_carried_{holding}");
+        let task = task(holding, &[FIXED, POST, PART], &["pick = \"part\"", "move = { joints = [1.8, 0.7] }"]);
         let answer = answer(&task);
         assert_eq!(answer.failed(), None);
         let text = drawn(name, &task, &answer);
@@ -301,10 +239,7 @@ fn payloads_are_drawn_in_their_places() {
         let payload: Vec<&Mark> = frames[0].iter().filter(|m| m.stroke == color && m.union).collect();
         let [payload] = payload[..] else { panic!("{name}: {payload:?}") };
         let grasp = answer.legs[0].timed.curve.curve().path().goal();
-        let turned = match holding {
-            Holding::Rigid => (1.8 + 0.7 - grasp[0] - grasp[1]).to_degrees(),
-            Holding::Level => 0.0,
-        };
+        let turned = if holding == "rigid" { (1.8 + 0.7 - grasp[0] - grasp[1]).to_degrees() } else { 0.0 };
         let directions = directions(&payload.outline);
         assert!(directions.len() >= 4);
         for direction in directions {
@@ -317,7 +252,7 @@ fn payloads_are_drawn_in_their_places() {
 
 #[test]
 fn level_payloads_have_configuration_spaces_of_their_own() {
-    let text = done("task_level", &sorting(Holding::Level));
+    let text = done("task_level", &sorting("level"));
     assert_eq!(frames(&text).len(), 6);
     let shelves = |text: &str| -> Vec<String> {
         let color = color_of(text, "shelf");
@@ -331,15 +266,15 @@ fn level_payloads_have_configuration_spaces_of_their_own() {
         };
         a.len() == b.len() && a.iter().zip(&b).map(off).fold(0.0, f64::max) < 0.05
     };
-    let (level, rigid) = (shelves(&text), shelves(&done("task_rigid_again", &sorting(Holding::Rigid))));
+    let (level, rigid) = (shelves(&text), shelves(&done("task_rigid_again", &sorting("rigid"))));
     assert!(alike(&level[0], &rigid[0]) && alike(&level[0], &level[2]), "empty-handed");
     assert!(!alike(&level[1], &level[0]) && !alike(&level[1], &rigid[1]), "carrying");
 }
 
 #[test]
 fn repetitions_are_drawn_once() {
-    let objects = vec![object("part", false, Holding::Rigid, [1.2, -0.5])];
-    let text = done("task_repeated", &task(objects, fixed(), &[pick(0), place(-1.1, 0.4)], 12));
+    let steps = ["repeat = 12\n[[step.steps]]\npick = \"part\"\n[[step.steps]]\nplace = { at = [-1.1, 0.4] }"];
+    let text = done("task_repeated", &task("rigid", &[FIXED, POST, PART], &steps));
     let titles = titles(&text);
     assert_eq!(frames(&text).len(), 1 + titles.len());
     // The first round begins elsewhere, and the second where the first ended.
@@ -356,24 +291,20 @@ fn repetitions_are_drawn_once() {
 
 #[test]
 fn a_kit_of_like_parts_has_two_configuration_spaces() {
-    let rows = |i: usize| [1.15 + 0.22 * (i % 3) as f64, -0.6 + 0.22 * (i / 3) as f64];
-    let part = |i: usize| Object {
-        pieces: vec![disc(Point::zeros(), 0.05)],
-        shape: Shape::Circle { center: Point::zeros(), radius: 0.05 },
-        ..object(&format!("part {}", i + 1), true, Holding::Level, rows(i))
-    };
-    let mut steps = Vec::new();
-    for i in 0..13 {
-        steps.extend([pick(i), place(-0.5 - 0.25 * (i % 4) as f64, 1.0 - 0.25 * (i / 4) as f64)]);
-    }
-    let mut kit = task((0..13).map(part).collect(), vec![fixed().swap_remove(1)], &steps, 1);
     // Objects lie below the arm, and are carried above the lying ones.
-    for (link, heights) in kit.arm.links.iter_mut().zip([(0.3, 0.4), (0.2, 0.3)]) {
-        link.parts.iter_mut().for_each(|p| p.heights = Heights { lower: heights.0, upper: heights.1 });
+    let (mut things, mut steps) = (vec![POST.to_owned()], Vec::new());
+    for i in 0..13 {
+        let [x, y] = [1.15 + 0.22 * f64::from(i % 3), -0.6 + 0.22 * f64::from(i / 3)];
+        things.push(format!(
+            "[[object]]\nname = \"part {}\"\nat = [{x}, {y}]\ncircle = {{ center = [0, 0], radius = 0.05 }}\n\
+             height = [-0.3, -0.25]\nlift = 0.06\n",
+            i + 1
+        ));
+        let [x, y] = [-0.5 - 0.25 * f64::from(i % 4), 1.0 - 0.25 * f64::from(i / 4)];
+        steps.extend([format!("pick = \"part {}\"", i + 1), format!("place = {{ at = [{x}, {y}] }}")]);
     }
-    for object in &mut kit.objects {
-        (object.heights, object.lift) = (Heights { lower: 0.0, upper: 0.05 }, 0.06);
-    }
+    let [things, steps] = [&things, &steps].map(|texts| texts.iter().map(String::as_str).collect::<Vec<_>>());
+    let kit = task("level", &things, &steps);
     let text = done("task_kit", &kit);
     // Nothing but the payload changes a configuration space, and all parts are alike.
     assert_eq!(frames(&text).len(), 3);
@@ -383,20 +314,23 @@ fn a_kit_of_like_parts_has_two_configuration_spaces() {
     assert!(titles[1].starts_with("Carrying part 1 or others: steps 2, 4, "), "{titles:?}");
 }
 
+/// Checks targets out of reach. The reader of worlds refuses them, so they are put into the task that it read.
 #[test]
 fn a_step_that_fails_is_named() {
-    let objects = || vec![object("part", false, Holding::Rigid, [1.2, -0.5])];
-    let far = [turn_to(1.2, 0.6), pick(0), place(-5.0, 0.0)];
-    let farther = [Action::Move(Goal::Tip(Point::new(-7.0, 0.0)))];
-    let (first, third) = ("step 1 fails: impossible, proven", "step 3 fails: impossible, proven");
-    for (name, steps, step, reason, panels) in [
-        ("task_failed", &far[..], third, "step 3, place at (-5, 0) m: no IK solution", 3),
-        ("task_failed_at_once", &farther[..], first, "step 1, move the tip to (-7, 0) m: no IK solution", 2),
+    let far = Action::Place { at: Point::new(-5.0, 0.0), angle: None, supports: Vec::new() };
+    let farther = Action::Move(Goal::Tip(Point::new(-7.0, 0.0)));
+    let steps = ["move = { joints = [1.2, 0.6] }", "pick = \"part\"", "place = { at = [-0.5, 0] }"];
+    for (name, number, action, reason, panels) in [
+        ("task_failed", 3, far, "step 3, place at (-5, 0) m: no IK solution", 3),
+        ("task_failed_at_once", 1, farther, "step 1, move the tip to (-7, 0) m: no IK solution", 2),
     ] {
-        let task = task(objects(), fixed(), steps, 1);
+        let mut task = task("rigid", &[FIXED, POST, PART], &steps[..number]);
+        let Some(Item::Step(last)) = task.items.last_mut() else { panic!("no step") };
+        last.action = action;
         let text = drawn(name, &task, &answer(&task));
         let words = words(&text);
-        assert!(words.contains(step) && words.contains(reason), "{words}");
+        let fails = format!("step {number} fails: impossible, proven");
+        assert!(words.contains(&fails) && words.contains(reason), "{words}");
         // There are frames of the workspace, of the steps done (if any), and of the failing step.
         assert_eq!(frames(&text).len(), panels);
     }
@@ -422,10 +356,9 @@ fn hollow_diamonds(text: &str) -> usize {
 /// Checks that the motion that fails is drawn. With the object in the hand, both configurations at the target collide.
 #[test]
 fn the_motion_that_fails_is_drawn() {
-    let held = |holding| vec![object("part", false, holding, [1.2, -0.5])];
-    let mut obstacles = fixed();
-    obstacles.push(polygon("block", &[(-1.2, 0.35), (-1.1, 0.35), (-1.1, 0.45), (-1.2, 0.45)]));
-    let blocked = task(held(Holding::Level), obstacles, &[pick(0), place(-1.1, 0.4)], 1);
+    let block = "[[obstacle]]\nname = \"block\"\npolygon = [[-1.2, 0.35], [-1.1, 0.35], [-1.1, 0.45], [-1.2, 0.45]]\n";
+    let steps = ["pick = \"part\"", "place = { at = [-1.1, 0.4] }"];
+    let blocked = task("level", &[FIXED, POST, block, PART], &steps);
     let answer = answer(&blocked);
     let Outcome::Infeasible(why) = &answer.outcome else { panic!("{:?}", answer.outcome) };
     assert_eq!((why.step.number, why.ik_solutions.len()), (2, 2));
@@ -453,7 +386,7 @@ fn the_motion_that_fails_is_drawn() {
 /// Checks pictures of one motion. The payload is drawn by its own pieces, and there is no obstacle at its former place.
 #[test]
 fn pictures_of_one_motion_show_what_is_carried() {
-    let task = sorting(Holding::Level);
+    let task = sorting("level");
     let answer = answer(&task);
     let leg = &answer.legs[2];
     let path = leg.timed.curve.curve().outline();

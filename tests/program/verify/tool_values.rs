@@ -1,15 +1,12 @@
 //! Motions with values of the tool's joints at start and goal, compared with dense samples of all four joints.
 
+use super::*;
 use cplan::engine::Options;
 use cplan::input::{Overrides, Rules, load_scene};
 use cplan::{Problem, plan};
 use cplan_cases::dice::Dice;
 use cplan_check_files::check;
-use cplan_testkit::judged::{Question, judge, plan_result};
-use serde_json::{Value, json};
 use std::fmt::Write;
-use std::path::{Path, PathBuf};
-use std::process::Command;
 
 /// Lengths of both links, metres.
 const LENGTHS: [f64; 2] = [0.3, 0.25];
@@ -172,6 +169,12 @@ impl Query {
         }
         least
     }
+
+    /// Returns the least distance while the quill is lowered at one end.
+    fn lowering(&self, [one, two, stroke, wrist]: [f64; 4]) -> f64 {
+        let at = |k: u32| self.distance([one, two, stroke * f64::from(k) / 100.0, wrist]);
+        (0..=100).map(at).fold(f64::INFINITY, f64::min)
+    }
 }
 
 /// The four joints over time: times in seconds, values and velocities.
@@ -274,29 +277,27 @@ fn check_motion(query: &Query, result: &Value, seed: u64) -> f64 {
     duration
 }
 
-/// Files of a query in a folder.
+/// The robot and the world of a query, in a folder.
 struct Files {
+    place: Place,
     robot: PathBuf,
     world: PathBuf,
-    result: PathBuf,
 }
 
 impl Files {
-    fn new(folder: &Path) -> Self {
-        let [robot, world, result] = ["four.urdf", "world.toml", "result.json"].map(|file| folder.join(file));
-        std::fs::write(&robot, self::robot()).unwrap();
-        Self { robot, world, result }
+    fn new() -> Self {
+        let place = Place::new().with("four.urdf", robot());
+        let [robot, world] = ["four.urdf", "world.toml"].map(|file| place.path(file));
+        Self { place, robot, world }
     }
 
     /// Returns the result of a world. `None` if its start is refused.
     fn plan(&self, query: &Query, seed: u64) -> Option<Value> {
-        std::fs::write(&self.world, query.world()).unwrap();
+        self.place.write("world.toml", query.world());
         match load_scene(&self.robot, &self.world).and_then(|scene| scene.resolve(&Overrides::default(), Rules::Plan)) {
             Ok(_) => Some(plan_result(&self.robot, &self.world, "")),
             Err(error) => {
-                let [one, two, stroke, wrist] = query.ends[0];
-                let swept = (0..=100).map(|k| query.distance([one, two, stroke * f64::from(k) / 100.0, wrist]));
-                let least = swept.fold(f64::INFINITY, f64::min);
+                let least = query.lowering(query.ends[0]);
                 assert!(least < 1e-3, "seed {seed}: {least}: {error}");
                 assert!(error.to_string().contains("is not free"), "seed {seed}: {error}");
                 None
@@ -309,21 +310,19 @@ impl Files {
         let problem = Problem::load(&self.robot, &self.world).unwrap();
         let plan = plan(&problem, &Options::default()).unwrap();
         let certificate = plan.certificate(&Overrides::default(), None).unwrap();
-        let world = std::fs::read_to_string(&self.world).unwrap();
+        let world = self.place.read("world.toml");
         let held = check(&robot(), &world, &certificate);
         assert!(held.is_ok(), "seed {seed}: {:?}\n{world}", held.err());
     }
 
     fn findings(&self, result: &Value) -> Value {
-        std::fs::write(&self.result, result.to_string()).unwrap();
-        judge(&self.robot, &self.world, &self.result, &Question::default()).unwrap_or_else(|error| panic!("{error}"))
+        super::findings(&[self.robot.clone(), self.world.clone()], "result.json", result.to_string())
     }
 }
 
 #[test]
 fn motions_of_four_joints_have_no_false_answer() {
-    let folder = tempfile::tempdir().unwrap();
-    let files = Files::new(folder.path());
+    let files = Files::new();
     let (mut found, mut limited, mut faster, mut lowered, mut refused) = (0, 0, 0, 0, 0);
     for seed in cplan_cases::seeds(150) {
         let query = Query::random(&mut cplan_cases::dice(seed));
@@ -347,9 +346,7 @@ fn motions_of_four_joints_have_no_false_answer() {
             faster += u32::from(duration < resting - 1e-6);
         } else if result.to_string().contains("while the tool is lowered") {
             lowered += 1;
-            let [one, two, stroke, wrist] = query.ends[1];
-            let swept = (0..=100).map(|k| query.distance([one, two, stroke * f64::from(k) / 100.0, wrist]));
-            assert!(swept.fold(f64::INFINITY, f64::min) < 1e-3, "seed {seed}: {result:#}");
+            assert!(query.lowering(query.ends[1]) < 1e-3, "seed {seed}: {result:#}");
         }
     }
     let counts = [found, limited, faster, lowered, refused];
@@ -367,8 +364,7 @@ fn example() -> Query {
 /// bound is about motions that raise the tool.
 #[test]
 fn no_bound_exceeds_the_duration_of_a_stroke_through_the_raised_position() {
-    let folder = tempfile::tempdir().unwrap();
-    let files = Files::new(folder.path());
+    let files = Files::new();
     for seed in cplan_cases::seeds(12) {
         let mut dice = cplan_cases::dice(seed);
         let query = Query { posts: Vec::new(), arch: "", ..Query::random(&mut dice) };
@@ -400,8 +396,7 @@ fn no_bound_exceeds_the_duration_of_a_stroke_through_the_raised_position() {
 /// moves for some microseconds, during which the wrist must keep its limits.
 #[test]
 fn moves_below_rounding_are_dropped() {
-    let folder = tempfile::tempdir().unwrap();
-    let files = Files::new(folder.path());
+    let files = Files::new();
     for seed in cplan_cases::seeds(24) {
         let mut dice = cplan_cases::dice(seed);
         let mut start = Query::random(&mut dice).ends[0];
@@ -428,7 +423,7 @@ fn moves_below_rounding_are_dropped() {
         let joints = format!("joints = [{}, {}]\nstroke = {}", goal[0], goal[1], goal[2]);
         let world = query.world().replace(&joints, &format!("tip = [{x}, {y}]"));
         assert!(world.contains("tip = "), "{world}");
-        std::fs::write(&files.world, world).unwrap();
+        files.place.write("world.toml", world);
         let result = plan_result(&files.robot, &files.world, "");
         let duration =
             check_motion(&Query { ends: [start, [start[0], start[1], 0.0, goal[3]]], ..query }, &result, seed);
@@ -447,20 +442,12 @@ fn files_of_steps_begin_and_end_at_rest() {
                    polygon = [[-0.03, -0.01], [0.03, -0.01], [0.03, 0.01], [-0.03, 0.01]]\nheight = [0.057, 0.077]\n\
                    lift = 0.042\nat = [0.25, -0.1525]\n[[step]]\npick = \"part\"\n[[step]]\n\
                    place = { at = [0.25, 0.1525] }\n[[step]]\nmove = { joints = [-0.5, 1.2] }\n";
-    let folder = tempfile::tempdir().unwrap();
-    let urdf = concat!(env!("CARGO_MANIFEST_DIR"), "/robots/scara.urdf");
+    let (place, urdf) = (Place::new(), root("robots/scara.urdf").display().to_string());
     for (content, steps) in [(lowered, 1), (carried, 3)] {
-        std::fs::write(folder.path().join("world.toml"), [robot, content].concat()).unwrap();
-        let run = Command::new(env!("CARGO_BIN_EXE_cplan"))
-            .current_dir(folder.path())
-            .args([urdf, "world.toml", "--per-step", "--quiet", "--output", "plan.csv"])
-            .output()
-            .unwrap();
-        assert!(run.status.success(), "{run:?}");
+        place.run_in(&urdf, [robot, content].concat(), "--per-step --quiet --output plan.csv").exits(0);
         for step in 1..=steps {
-            let table = std::fs::read_to_string(folder.path().join(format!("plan-{step:03}.csv"))).unwrap();
-            let rows: Vec<Vec<f64>> = table.lines().skip(1).map(numbers).collect();
-            let [first, .., last] = &rows[..] else { panic!("{table}") };
+            let rows = place.table(&format!("plan-{step:03}.csv"));
+            let [first, .., last] = &rows[..] else { panic!("{rows:?}") };
             assert_eq!(first[0], 0.0);
             for row in [first, last] {
                 assert_eq!(row[5..9], [0.0; 4], "step {step}: {row:?}");
@@ -469,15 +456,9 @@ fn files_of_steps_begin_and_end_at_rest() {
     }
 }
 
-/// Returns the numbers of a line of a table.
-fn numbers(line: &str) -> Vec<f64> {
-    line.split(',').map(|value| value.parse().unwrap()).collect()
-}
-
 #[test]
 fn tampered_results_are_refused() {
-    let folder = tempfile::tempdir().unwrap();
-    let files = Files::new(folder.path());
+    let files = Files::new();
     let result = files.plan(&example(), 0).unwrap();
     assert_eq!(files.findings(&result)["verdict"], "free");
     let step = &result["steps"][0];
@@ -506,7 +487,7 @@ fn tampered_results_are_refused() {
     for end in example().ends {
         let post = Post { at: tip(end), radius: 0.01, height: [0.0, 0.2] };
         let blocked = Query { posts: vec![post], ..example() };
-        std::fs::write(&files.world, blocked.world()).unwrap();
+        files.place.write("world.toml", blocked.world());
         let findings = files.findings(&result);
         assert_eq!(findings["verdict"], "collision", "{findings:#}");
     }
