@@ -31,12 +31,16 @@ toml_table! {
         /// Name of the object to pick.
         pick: Option<Spanned<String>>,
         /// Where to place the carried object.
+        #[cfg_attr(test, schemars(with = "Option<PlaceTable>"))]
         place: Option<Table<PlaceTable>>,
         /// Where to move, with or without an object.
+        #[cfg_attr(test, schemars(with = "Option<GoalTable>"))]
         r#move: Option<Spanned<Table<GoalTable>>>,
         /// A line for the tip, with or without an object. These are two steps: a move to where the line begins, and the line.
+        #[cfg_attr(test, schemars(with = "Option<LineTable>"))]
         follow: Option<Spanned<Table<LineTable>>>,
         /// Picks and places, one after the other: all objects on a pallet, to the places of another.
+        #[cfg_attr(test, schemars(with = "Option<TransferTable>"))]
         transfer: Option<Table<TransferTable>>,
         /// A group; its speed and dwell are the defaults of its steps.
         #[cfg_attr(test, schemars(length(min = 1)))]

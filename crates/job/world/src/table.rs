@@ -4,7 +4,6 @@ use cplan_robot::{FromToml, TomlError, TomlValue};
 use toml::de::DeValue;
 
 /// A table that refuses arrays. Other tables may be arrays of their values in the order of the keys. Then `place = [0.5, 0.6]` would be refused because of its first number, with a confusing message.
-#[cfg_attr(test, derive(schemars::JsonSchema), schemars(transparent))]
 pub(super) struct Table<T>(pub T);
 
 impl<T: FromToml> FromToml for Table<T> {

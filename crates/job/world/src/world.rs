@@ -117,7 +117,9 @@ toml_table! {
         clearance: Option<Number>,
         #[cfg_attr(test, schemars(default, with = "RobotTable"))]
         robot: Option<RobotTable>,
+        #[cfg_attr(test, schemars(with = "Option<StartTable>"))]
         start: Option<Spanned<Table<StartTable>>>,
+        #[cfg_attr(test, schemars(with = "Option<GoalTable>"))]
         goal: Option<Spanned<Table<GoalTable>>>,
         map: Option<MapTable>,
         sensor: Option<SensorTable>,
