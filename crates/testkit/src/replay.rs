@@ -131,10 +131,12 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
             _ => None,
         };
         let clearance = leg.clearance();
-        let keep = if clearance.is_finite() { clearance } else { task.workspace.fixed.clearance };
-        if keep < task.workspace.fixed.clearance {
+        if clearance < task.workspace.fixed.clearance {
             return Err(say("keeps less than the clearance"));
         }
+        // The stated clearance is that from things at rest.
+        let is_stated = clearance.is_finite() && !world.anything_moves();
+        let keep = if is_stated { clearance } else { task.workspace.fixed.clearance };
         let looks = match t.time.len() {
             1 => 0,
             count if world.anything_moves() => LOOKS.max(2 * count),
@@ -163,7 +165,7 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
         }
         q = *t.position.last().ok_or_else(|| say("has no samples"))?;
         let strokes = leg.stroke.map_or(0.0, |stroke| 2.0 * stroke.seconds);
-        clock += t.duration() - departure - arrival
+        clock = leg.begin + t.duration() - arrival
             + leg.step.dwell
             + leg.turn.map_or(0.0, |(_, seconds)| seconds)
             + strokes;
