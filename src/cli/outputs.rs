@@ -89,6 +89,7 @@ impl<T: Copy> Outputs<T> {
     ///
     /// # Errors
     /// The errors of [`Outputs::write`].
+    #[cfg(feature = "study")]
     pub fn write_results(&self, result: impl Fn(&Path, T) -> Result<Option<Vec<u8>>, Failure>) -> Result<(), Failure> {
         self.write(vec![], result, |_| Ok(vec![]))
     }

@@ -45,7 +45,7 @@ fn every_infeasible_shipped_world_has_a_valid_certificate() {
         let count = whole["boxes"].as_array().unwrap().len();
         assert!((0..count).rev().any(|k| matches!(without(k), Err(CheckError::Fails(_)))), "{world}");
         if let Some(twin) = world.strip_suffix("_closed.toml") {
-            let open = read(&format!("{twin}_open.toml"));
+            let open = read(format!("{twin}_open.toml"));
             let anywhere = without_digests(&certificate);
             judged(&read(&world), &anywhere).unwrap_or_else(|why| panic!("{world}: {why}"));
             assert!(matches!(judged(&open, &anywhere), Err(CheckError::Fails(_))), "{twin}");
@@ -120,8 +120,8 @@ fn moved_robots_have_certificates() {
 #[test]
 fn every_shape_of_a_link_is_named() {
     let place = Place::new();
-    let whole = read(&shipped("robots/planar_2r_continuous.urdf"));
-    let world = read(&shipped("workspaces/no_path.toml"));
+    let whole = read(shipped("robots/planar_2r_continuous.urdf"));
+    let world = read(shipped("workspaces/no_path.toml"));
     for (tag, robot, named) in [("visual", "", "\"visual\":0"), ("lamp", "[robot]\nbar = 0.05\n", "\"bar\":0")] {
         place.write("arm.urdf", whole.replace("collision>", &format!("{tag}>")));
         place.write("world.toml", world.replace("[start]", &format!("{robot}[start]")));
@@ -145,8 +145,8 @@ fn a_certificate_does_not_overwrite_its_input() {
 #[test]
 fn certificates_are_bound_to_their_files() {
     let place = Place::new();
-    let den = |file: &str| read(&shipped(&format!("workspaces/{file}")));
-    place.write("arm.urdf", read(&shipped("robots/planar_2r.urdf")));
+    let den = |file: &str| read(shipped(&format!("workspaces/{file}")));
+    place.write("arm.urdf", read(shipped("robots/planar_2r.urdf")));
     place.write("den.toml", den("den.toml"));
     place.write("den.yaml", den("den.yaml"));
     let picture = std::fs::read(shipped("workspaces/den.pgm")).unwrap();

@@ -49,7 +49,7 @@ impl Judged {
 }
 
 fn plate() -> Judged {
-    let text = |file: &str| read(&shipped(&format!("workspaces/follow/{file}")));
+    let text = |file: &str| read(shipped(&format!("workspaces/follow/{file}")));
     Judged::of(&robot(), &text("engraving.toml"), &text("plate.gcode"), "", 0)
 }
 
@@ -164,7 +164,7 @@ fn every_kind_of_line_and_arm_has_a_certificate_that_holds() {
     );
     place.write("world.toml", "");
     follow(&place, &robot(), "world.toml", "line.svg", "--output r.json").exits(0);
-    let proven = check(&read(&robot()), "", &place.read("c.json")).unwrap();
+    let proven = check(&read(robot()), "", &place.read("c.json")).unwrap();
     assert!(proven.contains("leads the tip") && place.read("c.json").contains("cubic"), "{proven}");
     // A certificate can be a member of the result.
     place
@@ -172,7 +172,7 @@ fn every_kind_of_line_and_arm_has_a_certificate_that_holds() {
         .exits(0);
     let result = place.json("r.json");
     assert_eq!(result["certificate"], place.json("c.json"));
-    assert_eq!(check(&read(&robot()), "", &place.read("r.json")).unwrap(), proven);
+    assert_eq!(check(&read(robot()), "", &place.read("r.json")).unwrap(), proven);
 }
 
 #[test]

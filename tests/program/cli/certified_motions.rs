@@ -8,7 +8,7 @@ fn open() -> Vec<(String, String)> {
     let folder = std::fs::read_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("workspaces")).unwrap();
     let mut found = Vec::new();
     for path in folder.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|e| e == "toml")) {
-        let text = read(&path.display().to_string());
+        let text = read(path.display().to_string());
         let robot = text.lines().find_map(|line| line.strip_prefix("# robot: "));
         if let Some(robot) = robot.filter(|_| text.contains("# expect: found")) {
             found.push((path.display().to_string(), shipped(&format!("robots/{robot}.urdf"))));
@@ -37,7 +37,7 @@ fn every_solved_shipped_world_has_a_valid_certificate() {
         assert!(certificate.len() < 1 << 20, "{world}: {} bytes", certificate.len());
         let judged = |world: &str, certificate: &str| {
             place.write("altered.json", certificate);
-            place.judged([&robot, &world, "altered.json"])
+            place.judged([&robot, world, "altered.json"])
         };
         let begun = std::time::Instant::now();
         let verdict = judged(&world, &certificate);

@@ -100,7 +100,7 @@ fn certificates_among_random_moving_obstacles_hold() {
     let (robot, mut found, mut waited) = (shipped("robots/planar_2r.urdf"), 0, 0);
     for seed in seeds(24) {
         let (place, mut dice) = (Place::new(), Dice::new(seed ^ 0x6d6f_7665));
-        let done = place.run_in(&*robot, drawn(&mut dice), "--certificate c.json");
+        let done = place.run_in(&robot, drawn(&mut dice), "--certificate c.json");
         // If start or goal is blocked, there is nothing to plan.
         if done.code != 0 {
             continue;
@@ -122,7 +122,7 @@ fn obstacles_waiting_out_of_reach_stay_out_of_reach() {
     let world = "[start]\njoints = [0.4, 1.0]\n[[object]]\nname = \"p\"\ncircle = { center = [0, 0], radius = 0.05 }\nat = [2.5, 0.0]\n\
                  motion = { stops = [{ time = 1.0, at = [2.5, 0.1] }, { time = 2.0, at = [2.8, 1.0] }] }\n\
                  [[step]]\npick = \"p\"\n[[step]]\nplace = { at = [0.3, 1.35] }\n";
-    place.run_in(&*urdf, world, "").exits(3).says(&["never within the arm's reach"]);
+    place.run_in(&urdf, world, "").exits(3).says(&["never within the arm's reach"]);
 }
 
 /// Checks a pick at the very beginning of its window, which is not a whole nanosecond. The plan uses the first whole
@@ -130,7 +130,7 @@ fn obstacles_waiting_out_of_reach_stay_out_of_reach() {
 #[test]
 fn a_pick_at_the_beginning_of_its_window_is_within_it() {
     let (place, urdf) = (Place::new(), shipped("robots/planar_2r.urdf"));
-    let shipped = read(&shipped("workspaces/moving/belt_pick.toml"));
+    let shipped = read(shipped("workspaces/moving/belt_pick.toml"));
     let mut rounded_down = 0;
     for k in 0..6 {
         let [from, to] = [2.120_956_725_469_559_8 + 0.201_3 * f64::from(k), 6.0];

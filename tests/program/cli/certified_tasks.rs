@@ -123,7 +123,7 @@ fn planned(urdf: &str, world: &str, code: i32) -> String {
     let is_written = place.path("c.json").exists();
     assert_eq!((is_written, done.stderr.contains(NONE)), (code == 0, code == 3), "{}", done.stderr);
     let report = |text: &str| check(urdf, world, text).unwrap_or_else(|why| panic!("{why}\n{text}"));
-    is_written.then(|| report(&place.read("c.json"))).unwrap_or_default()
+    if is_written { report(&place.read("c.json")) } else { Default::default() }
 }
 
 /// Plans a task for the shipped SCARA.
@@ -135,7 +135,7 @@ fn scara(world: &str, code: i32) -> String {
 /// Checks that a group with infeasible pairs is infeasible in all orders.
 #[test]
 fn proofs_are_about_all_orders() {
-    let rigid = read(&shipped("workspaces/tasks/slot_rigid.toml"));
+    let rigid = read(shipped("workspaces/tasks/slot_rigid.toml"));
     let free = rigid.replace("[start]", "[task]\norder = \"free\"\n\n[start]");
     let pin = |number: usize| {
         let y = -0.1 + 0.05 * number as f64;
@@ -148,7 +148,7 @@ fn proofs_are_about_all_orders() {
         scara(&(free.clone() + &(0..count).map(pin).collect::<String>()), 3);
     }
     // Two objects that exchange places block each other. A third one that blocks neither changes nothing.
-    let swap = read(&shipped("workspaces/tasks/swap.toml"));
+    let swap = read(shipped("workspaces/tasks/swap.toml"));
     for count in [0, 1] {
         scara(&(swap.clone() + &(0..count).map(pin).collect::<String>()), 3);
     }
@@ -235,7 +235,7 @@ pick = "part"
 #[test]
 fn objects_that_press_into_supports_have_certificates() {
     let into = |depth: f64| {
-        read(&shipped("workspaces/tasks/slot_rigid.toml"))
+        read(shipped("workspaces/tasks/slot_rigid.toml"))
             .replace("payload = \"rigid\"", "payload = \"level\"")
             .replace("at = [0.26, 0.35]", &format!("at = [0.26, {}], supports = [\"near jaw\"]", 0.345 - depth))
     };
@@ -346,7 +346,7 @@ fn renewed_objects_stay_until_the_next_motion() {
 /// Checks an IK solution at half a turn of a continuous joint, which is blocked on both sides of that value.
 #[test]
 fn boxes_reach_across_half_a_turn() {
-    let urdf = read(&shipped("robots/planar_2r_continuous.urdf"));
+    let urdf = read(shipped("robots/planar_2r_continuous.urdf"));
     let block =
         |x: f64, y: f64, radius: f64| format!("[[obstacle]]\ncircle = {{ center = [{x}, {y}], radius = {radius} }}\n");
     let pick = "[[object]]\nname = \"p\"\ncircle = { center = [0, 0], radius = 0.02 }\nat = [-1.48, -0.64]\n[[step]]\npick = \"p\"\n";
@@ -363,7 +363,7 @@ fn boxes_reach_across_half_a_turn() {
 /// corners, in decimal numbers.
 #[test]
 fn slivers_are_no_evidence() {
-    let urdf = read(&shipped("robots/gantry.urdf"));
+    let urdf = read(shipped("robots/gantry.urdf"));
     let world = "[start]\njoints = [0.1, 0.1]\n[[obstacle]]\npolygon = [[[1.41558807525, 1.1732870148], [1.45402146287, 1.16220212798], \
                  [1.5, 1.2006]], [[1.43480476906, 1.16774457139], [1.45, 1.18], [1.45, 1.17]]]\n[[object]]\nname = \"disc\"\n\
                  at = [1.4, 0.98]\ncircle = { center = [0.0, 0.0], radius = 0.1 }\n[[step]]\npick = \"disc\"\n";

@@ -3,7 +3,7 @@
 use super::*;
 
 fn schema(kind: &str) -> String {
-    read(&shipped(&format!("docs/{kind}.schema.json")))
+    read(shipped(&format!("docs/{kind}.schema.json")))
 }
 
 #[test]

@@ -308,7 +308,7 @@ fn every_wrong_kind_of_value_has_help() {
         place.plan(world, "").refused(1, &["world.toml: line ", help, "hint: "]);
     }
     place.write("world.toml", FREE);
-    let robot = read(&shipped("robots/planar_2r.urdf"));
+    let robot = read(shipped("robots/planar_2r.urdf"));
     for size in ["1e308 0.1 0.1", "1e7 0.1 0.1"] {
         let at = robot.find("size=\"").unwrap() + 6;
         let end = at + robot[at..].find('"').unwrap();

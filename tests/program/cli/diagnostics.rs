@@ -67,7 +67,7 @@ fn slips_in_a_world_are_accepted_or_explained() {
 #[test]
 fn slips_in_a_robot_are_accepted_or_explained() {
     let place = Place::new().with("world.toml", FREE);
-    let robot = read(&shipped("robots/planar_2r.urdf"));
+    let robot = read(shipped("robots/planar_2r.urdf"));
     every_slip_is_answered(22, 80, &robot, |robot| {
         place.write("arm.urdf", robot);
         place.run(&["arm.urdf", "world.toml"], "--json --planner subdivision")

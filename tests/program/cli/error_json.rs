@@ -10,7 +10,7 @@ impl Done {
             assert!(json.get(key).is_some(), "no {key} in {json}");
         }
         let message = json["message"].as_str().unwrap();
-        has(&message, parts);
+        has(message, parts);
         json
     }
 }

@@ -106,7 +106,7 @@ fn the_page_states_which_limit_is_reached_where() {
 fn both_solutions_of_the_shipped_plate_are_drawn() {
     let place = Place::new();
     let world = shipped("workspaces/follow/engraving.toml");
-    let plate = read(&shipped("workspaces/follow/plate.gcode"));
+    let plate = read(shipped("workspaces/follow/plate.gcode"));
     let line = &page(&place, &world, &plate, "", 0)["line"];
     let parts = line["solutions"].as_array().unwrap();
     for part in parts {

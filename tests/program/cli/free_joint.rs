@@ -21,8 +21,7 @@ const PLANNERS: [&str; 5] = ["visibility", "trapezoid", "wavefront", "harmonic",
 
 /// Returns a folder with an arm and a world.
 fn place(arm: &str, world: &str) -> Place {
-    let place = Place::new().with("arm.urdf", arm).with("world.toml", world);
-    place
+    Place::new().with("arm.urdf", arm).with("world.toml", world)
 }
 
 fn run(place: &Place, options: &str) -> Done {

@@ -4,7 +4,7 @@
 use super::*;
 /// Returns `planar_2r` with pieces of its text replaced, wherever they are.
 fn arm(changes: &[(&str, &str)]) -> String {
-    let urdf = read(&shipped("robots/planar_2r.urdf"));
+    let urdf = read(shipped("robots/planar_2r.urdf"));
     changes.iter().fold(urdf, |urdf, (from, to)| {
         assert!(urdf.contains(from), "{from}");
         urdf.replace(from, to)

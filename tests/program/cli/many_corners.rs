@@ -203,7 +203,7 @@ fn shapes_out_of_reach_change_nothing() {
         .collect();
     for (robot, world, code) in [("planar_2r", "shelf", 0), ("planar_2r_continuous", "no_path", 3)] {
         let robot = shipped(&format!("robots/{robot}.urdf"));
-        let own = read(&shipped(&format!("workspaces/{world}.toml")));
+        let own = read(shipped(&format!("workspaces/{world}.toml")));
         let (before, after) = own.split_at(own.find("[[obstacle]]").unwrap());
         let plan = |name: &str, text: String| {
             place.write(name, text);

@@ -206,7 +206,7 @@ fn a_falsified_recording_of_a_task_is_found_out() {
 #[test]
 fn a_pick_keeps_to_its_place_and_its_window() {
     let place = Place::new();
-    let world = read(&shipped("workspaces/moving/belt_pick.toml"));
+    let world = read(shipped("workspaces/moving/belt_pick.toml"));
     for (keys, window) in [("at = [1.3, 0.15]", [5.0, 5.0]), ("window = [3.0, 4.5]", [3.0, 3.1])] {
         place.write("world.toml", world.replace("pick = \"bottle 1\"", &format!("pick = \"bottle 1\"\n{keys}")));
         let done = place.run(&[shipped("robots/planar_2r.urdf"), "world.toml".into()], "--json");

@@ -84,7 +84,7 @@ fn pressing_deeper_than_the_tolerance_is_a_contact() {
 #[test]
 fn the_checker_knows_the_tolerance_by_itself() {
     let place = Place::new();
-    let urdf = read(&shipped("robots/scara.urdf"));
+    let urdf = read(shipped("robots/scara.urdf"));
     for hand in [Hand::Lifting, Hand::Stroke] {
         let cell = Cell::new(hand);
         plan_and_check(&place, &cell.set_down()).exits(0);

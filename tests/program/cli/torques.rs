@@ -134,7 +134,7 @@ fn missing_and_invalid_settings_are_named() {
 #[test]
 fn the_efforts_hold_the_arm_at_the_end() {
     let place = Place::new();
-    let world = read(&shipped("workspaces/tasks/heavy_tower.toml"));
+    let world = read(shipped("workspaces/tasks/heavy_tower.toml"));
     let ends_holding = world.split("[[step]]\nplace").next().unwrap();
     place.write("light.toml", ends_holding);
     place.write("heavy.toml", ends_holding.replace("mass = 1.5", "mass = 30"));

@@ -118,7 +118,7 @@ fn a_knife_turns_along_the_outline() {
 #[test]
 fn a_fixed_angle_counts_in_the_world() {
     let place = Place::new();
-    let urdf = read(&shipped("robots/scara.urdf"));
+    let urdf = read(shipped("robots/scara.urdf"));
     let mounted = urdf.replace(
         "<child link=\"flange\"/>\n    <origin xyz=\"0 0 0\"/>\n    <axis xyz=\"0 0 1\"/>",
         "<child link=\"flange\"/>\n    <origin xyz=\"0 0 0\" rpy=\"0 0 0.3\"/>\n    <axis xyz=\"0 0 -1\"/>",
@@ -196,7 +196,7 @@ fn errors_name_the_wrist() {
 #[test]
 fn a_joint_that_cannot_turn_as_far_makes_the_line_infeasible() {
     let place = Place::new();
-    let world = read(&shipped("workspaces/follow/cutting.toml"));
+    let world = read(shipped("workspaces/follow/cutting.toml"));
     place.write("world.toml", world.replace("fixed = {", "limits = { axis_4 = [-3.5, 3.5] }\nfixed = {"));
     place.write("circle.gcode", "G21 G0 X360 Y0\nG3 I-25 F6000\nG3 I-25\n");
     let arguments = ["follow", &shipped("robots/scara.urdf"), "world.toml", "circle.gcode"];

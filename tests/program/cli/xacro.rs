@@ -6,10 +6,9 @@ const WORLD: &str = "[start]\njoints = [-0.9, 0.4]\n[goal]\njoints = [1.5, -0.4]
 
 /// Returns a folder with the shipped robot in xacro and a world for it.
 fn place() -> Place {
-    let place = Place::new()
+    Place::new()
         .with("scara.urdf.xacro", std::fs::read(shipped("robots/scara.urdf.xacro")).unwrap())
-        .with("world.toml", WORLD);
-    place
+        .with("world.toml", WORLD)
 }
 
 const FILES: [&str; 2] = ["scara.urdf.xacro", "world.toml"];

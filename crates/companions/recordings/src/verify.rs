@@ -5,10 +5,10 @@ use super::ends::{END_TOLERANCE, endpoint_errors};
 use super::findings::{self, ExceededLimits, Judgement, MotionFindings};
 use super::replay::{misplaced_joints, replay};
 use cplan_dynamics::Torques;
-use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording, Task};
+use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording, Task, TimedScene};
 use cplan_model::Scene;
 use cplan_motion::recorded::{
-    check_collision, check_collision_with, limit_violations, motor_violations, torque_violations,
+    CollisionCheck, check_collision, check_collision_with, limit_violations, motor_violations, torque_violations,
 };
 use cplan_robot::InputError;
 use cplan_world::{AllJoints, LoadedRecording, LoadedScene, Overrides, Rules};
@@ -37,13 +37,8 @@ pub fn verify(
         Some((steps, task)) => {
             judge_task(loaded, task, (recording, steps, all_joints.as_ref()), claims, overrides, notes)?
         }
-        None => {
-            let moves = |name| {
-                format!("joint \"{name}\" moves during the steps: whether the arm hits something there is unknown")
-            };
-            judge_motion(loaded, (recording, held), claims, overrides, anywhere, notes)?
-                .with_faults(Judgement::Undecided, unjudged.iter().map(moves).collect())
-        }
+        None => judge_motion(loaded, (recording, held), claims, overrides, anywhere, notes)?
+            .with_faults(Judgement::Undecided, unjudged.clone()),
     };
     Ok(findings.leaving(claims))
 }
@@ -70,6 +65,7 @@ fn judge_motion(
              objects at their initial positions; to judge the steps, verify a task's result in .json"
                 .into(),
         );
+        notes.extend((!held.is_empty()).then(|| "the motion of the tool is judged among the obstacles alone".into()));
     }
     let scene = &loaded.scene;
     let (start, goals) = if anywhere { (None, Vec::new()) } else { loaded.ends(overrides)? };
@@ -96,21 +92,41 @@ fn judge_motion(
             .then_some("efforts are limited, but joints of the tool move: torques are unknown"),
     ];
     let clearance = scene.workspace().clearance;
-    let collision_check = match held {
-        [] => check_collision(loaded.timed(), recording, clearance),
-        held => check_collision_with(loaded.timed(), recording, held, clearance),
+    let with_tool = |scene: TimedScene| match held {
+        [] => check_collision(scene, recording, clearance),
+        held => check_collision_with(scene, recording, held, clearance),
+    };
+    // During steps, the tool comes down to objects. With its motion, the arm is judged among the obstacles alone.
+    let (fixed, trajectories) = loaded.without_objects();
+    let (checked, collision_check) = if loaded.has_steps() && !held.is_empty() {
+        let among_objects = check_collision(loaded.timed(), recording, clearance);
+        let lowered = with_tool(TimedScene { scene: &fixed, trajectories: &trajectories });
+        worse((scene, among_objects), (&fixed, lowered))
+    } else {
+        (scene, with_tool(loaded.timed()))
     };
     let mut broken = limit_violations(&scene.arm().joints, recording);
     broken.extend(motor_violations(scene.arm(), recording));
     broken.extend(torque_violations(scene, recording));
     let broken = ExceededLimits::new(&scene.arm().joints, &broken, &loaded.robot.assumed);
-    let findings = MotionFindings::new(scene, recording, &collision_check, broken, notes);
+    let findings = MotionFindings::new(checked, recording, &collision_check, broken, notes);
     let misses = endpoint_errors(scene.arm(), recording, start, &goals);
     let tool_misses = if anywhere { Vec::new() } else { tool_errors(loaded, recording, held)? };
     let false_claims = false_claims(loaded.timed(), recording, claims, &collision_check);
     let findings = findings.with_faults(Judgement::Undecided, untold.into_iter().flatten().collect());
     let findings = findings.with_faults(Judgement::Ends, misses).with_faults(Judgement::Ends, tool_misses);
     Ok(findings.with_faults(Judgement::Claims, false_claims))
+}
+
+/// Returns the worse of two checks of a motion, each with its scene: a collision, then what is undecided, then the lesser
+/// clearance.
+fn worse<'s>(one: (&'s Scene, CollisionCheck), other: (&'s Scene, CollisionCheck)) -> (&'s Scene, CollisionCheck) {
+    let rank = |(_, check): &(&Scene, CollisionCheck)| match check {
+        CollisionCheck::Collision { .. } => (0, 0.0),
+        CollisionCheck::Undecided(_) => (1, 0.0),
+        CollisionCheck::Free { clearance, .. } => (2, *clearance),
+    };
+    if rank(&other) < rank(&one) { other } else { one }
 }
 
 /// Describes the differences between recorded and stated values of the tool's joints at both ends of a motion. A joint

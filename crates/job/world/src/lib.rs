@@ -252,6 +252,13 @@ impl LoadedScene {
         Self { scene: initial_workspace.scene_trusted(placed_arm(&arm, &world)), trajectories, world, arm, robot }
     }
 
+    /// Returns the scene without its objects, and the trajectories of its loose obstacles.
+    pub fn without_objects(&self) -> (Scene, Vec<ObstacleTrajectory>) {
+        let workspace = self.world.workspace.clone();
+        let trajectories = workspace.trajectories();
+        (workspace.scene_trusted(placed_arm(&self.arm, &self.world)), trajectories)
+    }
+
     /// Returns the scene with the trajectories of its loose obstacles. Their times count from time 0 of the world.
     pub fn timed(&self) -> TimedScene<'_> {
         TimedScene { scene: &self.scene, trajectories: &self.trajectories }

@@ -36,7 +36,7 @@ pub struct LoadedRecording {
     pub recording: Recording,
     /// Motions of joints that the world holds, if they move in the recording.
     pub held: Vec<HeldMotion>,
-    /// Names of joints that move during the steps of a task, and cannot be judged without these steps.
+    /// Reasons why motions of joints during the steps of a task cannot be judged without these steps.
     pub unjudged: Vec<String>,
     /// The steps of a task. `None` unless the file is cplan's result for a world with steps.
     pub steps: Option<Vec<RecordedStep>>,

@@ -21,8 +21,8 @@ pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
 }
 
 impl Names<'_> {
-    /// Returns the motions of held joints that move, and notes about all other joints. Those that move during the steps of a
-    /// task are added to `unjudged`.
+    /// Returns the motions of held joints that move, and notes about all other joints. Reasons why the motions of
+    /// others cannot be judged during the steps of a task are added to `unjudged`.
     ///
     /// # Errors
     /// Joints whose motion cannot be checked.
@@ -47,12 +47,12 @@ impl Names<'_> {
                 notes.push(format!("joint \"{name}\" stays at {}, as in the world, and is ignored", joint.value));
                 continue;
             };
-            if self.has_steps {
-                notes.push(format!("the arm is judged with joint \"{name}\" at {}", joint.value));
-                unjudged.push(name.clone());
-                continue;
-            }
             if let Some(why) = self.unjudgeable_reason(joint, at_samples, &moved) {
+                if self.has_steps {
+                    notes.push(format!("the arm is judged with joint \"{name}\" at {}", joint.value));
+                    unjudged.push(format!("joint \"{name}\" moves during the steps, and it {why}"));
+                    continue;
+                }
                 let value = series.position[sample];
                 let message =
                     format!("joint \"{name}\" is at {value}, but the world holds it at {}, and it {why}", joint.value);

@@ -9,11 +9,14 @@ fn moves(text: &str) -> Program {
 
 #[test]
 fn travels_at_both_ends_belong_to_a_program() {
-    let program = moves("G21 G90\nG0 X10 Y10\nG0 X20\nG1 Y20\nG1 Y20\nG0 X0 Y0\nM2\nG1 X9\n");
+    let program = moves("G21 G90\nG0 X10 Y10\nG0 X20\nG1 Y20\nG1 Y20\nG0 X0 Y0\nM2\n%\n");
     let ends: Vec<_> = program.moves.iter().map(|own| (own.piece.is_travel, own.piece.curve.end())).collect();
     assert_eq!(ends, [(true, [0.02, 0.01]), (false, [0.02, 0.02]), (true, [0.0, 0.0])]);
     assert_eq!(program.unstated.iter().map(|source| source.line).collect::<Vec<_>>(), [2]);
-    assert_eq!(read_program(b"G21\nG0 X1 Y1\n", None).expect_err("an error").message, "the file has no line");
+    let unstated = read_program(b"G21\nG0 X1 Y1\n", None).expect_err("an error").message;
+    assert_eq!(unstated, "the file states for none of its moves where it begins");
+    assert_eq!(read_program(b"G21\nG4 P1\n", None).expect_err("an error").message, "the file has no line");
+    assert_eq!(read_program(b"G0 X1 Y1\nG1 X2\nM2\nG1 X9\n", None).expect_err("an error").line, Some(4));
     assert_eq!(read_program(b"G21\nG0 X0 Y0\nG0 X1e9\n", None).expect_err("an error").line, Some(3));
 }
 
