@@ -505,7 +505,7 @@ impl<'a> World<'a> {
     }
 
     /// Calls `f` for each moving body and each obstacle, with their distance at `q`. If the body rests on the obstacle,
-    /// `f` also gets [`World::pressed`].
+    /// `f` also gets [`Self::allowance_left`].
     fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, Option<f64>)) {
         let fixed = self.task.workspace.fixed.obstacles.len();
         let (frames, _) = frames(&self.task.arm, q);
@@ -566,7 +566,7 @@ impl<'a> World<'a> {
 
     /// Returns the least and the greatest possible value of the room at `q`, which is the distance from obstacles
     /// beyond the required one. A body that does not press into its support at all is free. Otherwise its corners
-    /// decide how much less than [`World::pressed`] it may press.
+    /// decide how much deeper it may press.
     pub fn room(&self, q: V) -> [f64; 2] {
         let (mut surely, mut perhaps) = (f64::INFINITY, f64::INFINITY);
         self.distances(q, None, |_, _, distance, pressed| {
