@@ -117,7 +117,8 @@ pub struct Replay<'a> {
 /// Matches the steps of a record with those of the task. Steps must come in the task's order, except that pairs of a
 /// free group may come in any order. The arm must be at rest between steps. Iteration then checks each step, up to the
 /// point where the record deviates from the task. It checks:
-/// - Each motion from rest to rest, by [`check_collision`] with the workspace's clearance, and by [`limit_violations`].
+/// - Each motion from rest to rest, by [`cplan_motion::recorded::check_collision`] with the workspace's clearance, and by
+///   [`limit_violations`].
 ///   Objects are where previous steps have left them, and the load has the pose in which it was taken. Link 2 may touch
 ///   the object that it takes, and the object that it released last. Payloads may rest on their supports. The state
 ///   after the last step is checked as well.
