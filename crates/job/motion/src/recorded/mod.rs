@@ -2,7 +2,7 @@
 //!
 //! - [`check_collision`] checks a recorded motion for collisions, also among moving obstacles ([`certify_in_time`]).
 //!   [`limit_violations`] checks the limits of joints.
-//! - [`wrist_turn`] judges turns of a wrist by the contact angles of the payload about the tip.
+//! - [`TurnAtRest`] judges turns of a wrist by the contact angles of the payload about the tip.
 
 mod arch;
 mod limits;
