@@ -152,6 +152,8 @@ SLOW = {"planner": "harmonic", "cells": 2048, "levels": 2}
 
 def test_control_c_ends_a_plan() -> None:
     begun = time.monotonic()
+    # Background jobs of shells begin with SIGINT ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     timer = threading.Timer(0.5, signal.raise_signal, [signal.SIGINT])
     timer.start()
     with pytest.raises(KeyboardInterrupt):
