@@ -97,11 +97,13 @@ fn judge_motion(
         held => check_collision_with(scene, recording, held, clearance),
     };
     // During steps, the tool comes down to objects. With its motion, the arm is judged among the obstacles alone.
-    let (fixed, trajectories) = loaded.without_objects();
+    let without_objects;
     let (checked, collision_check) = if loaded.has_steps() && !held.is_empty() {
+        without_objects = loaded.without_objects();
+        let (scene_without, trajectories) = &without_objects;
         let among_objects = check_collision(loaded.timed(), recording, clearance);
-        let lowered = with_tool(TimedScene { scene: &fixed, trajectories: &trajectories });
-        worse((scene, among_objects), (&fixed, lowered))
+        let lowered = with_tool(TimedScene { scene: scene_without, trajectories });
+        worse((scene, among_objects), (scene_without, lowered))
     } else {
         (scene, with_tool(loaded.timed()))
     };
