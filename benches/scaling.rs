@@ -2,7 +2,7 @@
 
 use cplan::cspace::regions;
 use cplan::geometry::{Point, SimplePolygon};
-use cplan::model::{Heights, Obstacle, Shape, Workspace};
+use cplan::model::{Growth, Heights, Obstacle, Shape, Workspace};
 use cplan::space::JointRange;
 use cplan_testkit::{arms, scenes, shapes};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
@@ -61,7 +61,8 @@ fn spaces(c: &mut Criterion) {
     for count in SIZES {
         let [disc, star] = SHAPES.map(|(name, radii)| (name, polygon(ring(count, radii))));
         for (name, (shape, pieces)) in [disc, star, ("zigzag", wall(zigzag(count)))] {
-            let obstacle = Obstacle { name: name.into(), shape, pieces, heights: Heights::ALL };
+            let obstacle =
+                Obstacle { name: name.into(), shape, pieces, heights: Heights::ALL, growth: Growth::default() };
             let workspace =
                 Workspace { name: name.into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
             let range = JointRange::Interval { lower: -2.8, upper: 2.8 };

@@ -24,7 +24,7 @@ use std::time::Duration;
 pub fn check(py: Python<'_>, arm: &Arm, world: &World, at: &str, clearance: Option<f64>) -> PyResult<String> {
     let at: JointValues = at.parse().map_err(|error| refused(format!("at: {error}")))?;
     let found = interruptible(py, |_| {
-        let scene = arm.among(world)?.with_clearance(clearance)?.scene;
+        let scene = arm.among(world)?.with_margins(clearance, None)?.scene;
         Ok(findings::check(&scene, at.resolve(&scene.arm().joints, "at")?))
     })?;
     printed(&found.map_err(|error: InputError| raised(py, &error))?)
@@ -73,7 +73,7 @@ pub fn verify(
 ) -> PyResult<String> {
     let overrides = options.map_or_else(Overrides::default, |options| options.overrides.clone());
     let found = interruptible(py, |_| {
-        let loaded = arm.among(world)?.with_clearance(overrides.clearance)?;
+        let loaded = arm.among(world)?.with_margins(overrides.clearance, overrides.calibration)?;
         let mut recorded = match &file {
             Some(file) => load_recording(file, &loaded)?,
             None => read_recording(&Source::in_memory("motion", text.unwrap_or_default()), &loaded)?,

@@ -8,11 +8,11 @@ use super::sinks;
 use super::theme::ThemeArgs;
 use super::values::clearance;
 use crate::engine::findings::{BasisFinding, ConfigurationFindings, CornerFinding, NearestFinding, PairFinding, check};
-use crate::input::{self, JointValues, LoadedScene, RobotReport};
+use crate::input::{self, CalibrationTable, JointValues, LoadedScene, RobotReport};
 use crate::options::number_in;
 use crate::output::{checked_words, configuration, contours, range};
 use crate::space::{Configuration, JointRange};
-use crate::text::{Columns, chosen_length, fixed, length, length_down, length_unlike};
+use crate::text::{Columns, fixed, length, length_down, length_unlike};
 use crate::view::{CheckedView, Picture, View};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
@@ -45,6 +45,10 @@ pub struct CheckArgs {
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
     pub clearance: Option<f64>,
+    /// Errors within which the answer holds, instead of the world's, such as
+    /// "base=0.5mm,0.05deg; links=0.2mm; zeros=0.02deg; obstacles=1mm".
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    pub calibration: Option<CalibrationTable>,
     /// Draw workspace and configuration space with the configuration: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
@@ -65,7 +69,8 @@ fn time(text: &str) -> Result<f64, String> {
 /// Bad input and I/O. A configuration that is not free is no error, because the report states it.
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let outputs = Outputs::of_pictures(&args.picture, [])?;
-    let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
+    let mut loaded =
+        input::load_scene(args.files.robot(), &args.files.world)?.with_margins(args.clearance, args.calibration)?;
     loaded.scene = loaded.timed().frozen(args.time);
     refuse_to_overwrite_inputs(outputs.paths(), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
@@ -123,7 +128,7 @@ fn outcome(findings: &ConfigurationFindings) -> &'static str {
 
 /// Returns the lines of the report, with their keys. A line that continues the one before has an empty key.
 fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings) -> Vec<(&'static str, String)> {
-    let scene = &loaded.scene;
+    let scene = &*loaded.scene.drawn();
     let arm = scene.arm();
     let mut lines = Vec::new();
     let mut line = |key: &'static str, value: String| lines.push((key, value));
@@ -154,15 +159,13 @@ fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindin
         line("motors", format!("{first}, {second}{beyond}"));
     }
     for contact in &findings.contacts {
-        let PairFinding { link, body, obstacle, touching, depth, .. } = contact;
+        let PairFinding { link, body, obstacle, touching, depth, required, least, .. } = contact;
         let link = if body == link { format!("\"{link}\"") } else { format!("\"{link}\" (body \"{body}\")") };
         let how = match (touching, *depth > 0.0) {
             (true, true) => format!("penetrates by {}", length(*depth)),
             (true, false) => "touches".into(),
             (false, _) => {
-                let [distance, clearance] =
-                    [length_unlike(-depth, findings.required), chosen_length(findings.required)];
-                format!("is {distance} away, less than the clearance of {clearance}")
+                format!("is {} away, less than {least}", length_unlike(-depth, *required))
             }
         };
         line("contact", format!("link {link}, obstacle \"{obstacle}\": {how}"));

@@ -8,7 +8,7 @@ use super::outputs::refuse_to_overwrite_inputs;
 use super::print_args::PrintArgs;
 use super::sinks;
 use super::values::{clearance, displacement, tolerance};
-use crate::input::{self, LoadedScene, line_diagnostic};
+use crate::input::{self, CalibrationTable, LoadedScene, line_diagnostic};
 use crate::model::Status;
 use crate::motion::{check_writable, write_whole};
 use crate::options::word;
@@ -74,6 +74,10 @@ pub struct GcodeArgs {
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     clearance: Option<f64>,
+    /// Errors within which the answer holds, instead of the world's, such as
+    /// "base=0.5mm,0.05deg; links=0.2mm; zeros=0.02deg; obstacles=1mm".
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    calibration: Option<CalibrationTable>,
     /// Write the program with safe travels.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     output: Option<PathBuf>,
@@ -92,7 +96,8 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let pen = args.pen_up.clone().zip(args.pen_down.clone()).map(|(up, down)| Pen { up, down });
     let setup = Setup { dialect: args.dialect, pen, home: args.home };
     let job = Job::read(&bytes, &setup).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
-    let loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
+    let loaded =
+        input::load_scene(args.files.robot(), &args.files.world)?.with_margins(args.clearance, args.calibration)?;
     loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();
     refuse_to_overwrite_inputs(args.output.iter().map(PathBuf::as_path), &read)?;

@@ -2,7 +2,7 @@
 
 use super::headings::QUERY;
 use super::values::clearance;
-use crate::input::{JointValues, Overrides, TipPoint};
+use crate::input::{CalibrationTable, JointValues, Overrides, TipPoint};
 use clap::Args;
 
 /// Values that replace those of the world file.
@@ -21,23 +21,29 @@ pub struct QueryArgs {
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
     pub clearance: Option<f64>,
+    /// Errors within which the answer holds, instead of the world's, such as
+    /// "base=0.5mm,0.05deg; links=0.2mm; zeros=0.02deg; obstacles=1mm".
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    pub calibration: Option<CalibrationTable>,
 }
 
 impl QueryArgs {
     /// Returns the stated options as words of a command line.
     pub fn words(&self) -> Vec<String> {
-        let Self { start, goal, goal_tip, clearance } = self;
+        let Self { start, goal, goal_tip, clearance, calibration } = self;
         let words = [
             start.map(|start| format!("--start={start}")),
             goal.map(|goal| format!("--goal={goal}")),
             goal_tip.map(|TipPoint(tip)| format!("--goal-tip={},{}", tip.x, tip.y)),
             clearance.map(|clearance| format!("--clearance={clearance}")),
+            calibration.map(|errors| format!("--calibration={errors}")),
         ];
         words.into_iter().flatten().collect()
     }
 
     /// Converts the options to overrides of the world file.
     pub fn overrides(&self) -> Overrides {
-        Overrides { start: self.start, goal: self.goal, goal_tip: self.goal_tip, clearance: self.clearance }
+        let Self { start, goal, goal_tip, clearance, calibration } = *self;
+        Overrides { start, goal, goal_tip, clearance, calibration }
     }
 }

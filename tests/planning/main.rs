@@ -1,6 +1,7 @@
 //! Paths, proofs, bounds and tasks, compared with brute force, closed forms and published figures.
 
 mod bound;
+mod calibration;
 mod certificates;
 mod certify;
 mod checked_bounds;

@@ -86,7 +86,7 @@ fn check_texts([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2
     let files = Files::new(&certificate, [urdf, world], given)?;
     // Ignore a byte order mark.
     let [urdf, world] = [urdf, world].map(|text| text.strip_prefix('\u{feff}').unwrap_or(text));
-    let world = WorldFile::read(world, &files)?;
+    let mut world = WorldFile::read(world, &files)?;
     // A document type is harmless: the parser limits the size of entities.
     let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
     let document = roxmltree::Document::parse_with_options(urdf, options).map_err(|error| CheckError::Input {
@@ -94,7 +94,13 @@ fn check_texts([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2
         line: Some(error.pos().row as usize),
         message: error.to_string(),
     })?;
-    let robot = Robot::read(&document, &world, &files, certificate.joints.as_ref())?;
+    let mut robot = Robot::read(&document, &world, &files, certificate.joints.as_ref())?;
+    let mut errors = std::mem::take(&mut world.robot.calibration);
+    certificate.calibration.as_ref().map_or(Ok(()), |stated| errors.replace(stated, &mut world.world))?;
+    let clearance = certificate.clearance(&world.world)?.clone();
+    if errors.grow(&mut robot.arm, &mut world.world, &clearance)? && world.task.is_some() {
+        return Err(CheckError::in_file(Input::World, "tasks do not allow for errors (calibration)"));
+    }
     let proven = match (&certificate.line, &certificate.steps) {
         (Some(line), _) => cplan_check_line::judge(&robot.arm, &world.world, &certificate, line.get())?,
         (None, Some(steps)) => task::check_motion(&robot, &world, &certificate, steps)?,

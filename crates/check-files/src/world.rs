@@ -1,6 +1,7 @@
 //! The world file: obstacles, the query, and settings that override the URDF.
 
 use crate::files::Files;
+use calibration::Calibration;
 use cells::Cells;
 use cplan_check::decimal::Decimal;
 use cplan_check::domain::Range;
@@ -18,6 +19,7 @@ use task::Task;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
+pub mod calibration;
 pub mod carried_shapes;
 mod cells;
 pub mod drives;
@@ -54,6 +56,8 @@ pub struct RobotTable {
     pub limits: BTreeMap<String, [Range; 2]>,
     /// Limits of the shafts of motors, if given.
     pub drives: Option<Drives>,
+    /// Errors for which motions stay free.
+    pub calibration: Calibration,
     /// Radius of bars that replace links without geometry, if given.
     pub bar: Option<Decimal>,
     /// The link whose origin is the tip, if given.
@@ -73,6 +77,7 @@ impl Default for RobotTable {
             fixed: BTreeMap::new(),
             limits: BTreeMap::new(),
             drives: None,
+            calibration: Calibration::default(),
             bar: None,
             tip: None,
             own_body: true,
@@ -195,6 +200,7 @@ impl Reader<'_> {
                 "at" => robot.at = self.pair(value, |n| self.number(n))?,
                 "angle" => robot.angle = Interval::enclosing(&self.quantity(value)?),
                 "drives" => robot.drives = self.drives(value)?,
+                "calibration" => robot.calibration = self.calibration(value)?,
                 // These keys do not affect the positions of shapes.
                 "velocity" | "acceleration" | "jerk" | "effort" | "dynamics" | "gravity" => {}
                 // These keys affect tasks only.
@@ -232,7 +238,7 @@ impl Reader<'_> {
         let (mut outlines, mut holes) = (Vec::new(), Vec::new());
         let (mut at, mut angle, mut heights) = (point(&origin()), Interval::whole(0), None);
         let (mut name, mut motion) = (None, None);
-        let (mut image, mut unknown_is_solid) = (None, true);
+        let (mut image, mut unknown_is_solid, mut stated) = (None, true, [None, None]);
         for (key, value) in self.table(value)? {
             match &**key.get_ref() {
                 "polygon" => outlines.push(Outline::Polygon(self.rings(value)?)),
@@ -253,6 +259,8 @@ impl Reader<'_> {
                 "height" => heights = Some(self.heights(value)?),
                 "name" => name = Some(self.text(value)?),
                 "motion" => motion = Some(value),
+                "clearance" if !is_object => stated[0] = Some(self.number(value)?),
+                "calibration" if !is_object => stated[1] = Some(self.length_error(value)?),
                 // Keys of objects, which are read elsewhere.
                 "pallet" | "lift" | "mass" | "payload" | "grasp" | "supports" | "renew" if is_object => {}
                 other => {
@@ -276,7 +284,8 @@ impl Reader<'_> {
             .map(|motion| self.trajectory(motion, &at, &angle))
             .transpose()?
             .map(|trajectory| Rc::new(trajectory) as _);
-        Ok(Obstacle { name, own: None, outline, at, turn: angle.sin_cos(), heights, trajectory })
+        let turn = angle.sin_cos();
+        Ok(Obstacle { name, at, turn, heights, trajectory, stated, ..Obstacle::new(outline) })
     }
 
     /// Reads all obstacles.

@@ -44,6 +44,8 @@ pub struct Certificate {
     pub goal_tip: Option<Corner>,
     /// The clearance, if it differs from the world's.
     pub clearance: Option<Decimal>,
+    /// Errors of the robot and the world that replace those of the world, as `--calibration` states them.
+    pub calibration: Option<String>,
     /// Evidence for "found": the motion.
     pub motion: Option<Motion>,
     /// For a task: the part of the motion that executes each step.

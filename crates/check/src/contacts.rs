@@ -55,11 +55,11 @@ impl<'a> Contacts<'a> {
         clearance: &Decimal,
     ) -> Result<Self, CheckError> {
         let part = |(number, name): (usize, &PartName)| {
-            let (link, Shape { points, radius }, heights) = match name.obstacle {
+            let (link, shape, heights) = match name.obstacle {
                 Some(obstacle) => part_of(world, number, obstacle, name)?,
                 None => own::part(arm, name)?,
             };
-            Ok(Part { link, shape: Shape { points, radius: &radius + &Interval::from(clearance) }, heights })
+            Ok(Part { link, shape: shape.grown(&Interval::from(clearance)), heights })
         };
         let shapes = certificate.shapes.iter().map(|name| shape(arm, name)).collect::<Result<_, _>>()?;
         let parts = certificate.parts.iter().enumerate().map(part).collect::<Result<_, _>>()?;

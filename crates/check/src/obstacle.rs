@@ -28,6 +28,10 @@ pub struct Obstacle {
     pub heights: Option<Range>,
     /// Motion of the obstacle's frame; `None` for a static obstacle. The motion replaces `at` and `turn`.
     pub trajectory: Option<Rc<dyn ObstacleTrajectory>>,
+    /// Its own required distance, and its displacement in any direction, metres, if the world states them.
+    pub stated: [Option<Decimal>; 2],
+    /// Distances by which it is grown: to show that it is hit, and to show that it is not.
+    pub grown: [Interval; 2],
 }
 
 /// The region that an obstacle covers.
@@ -78,8 +82,15 @@ pub fn point(corner: &Corner) -> Point {
 impl Obstacle {
     /// Makes an obstacle from a link of the robot.
     pub fn link(name: String, owner: Owner, shape: Shape, heights: Option<Range>) -> Self {
-        let [at, turn] = [[0, 0], [0, 1]].map(|of| of.map(Interval::whole));
-        Self { name: Some(name), own: Some(owner), outline: Outline::Own(shape), at, turn, heights, trajectory: None }
+        let outline = Outline::Own(shape);
+        Self { name: Some(name), own: Some(owner), heights, ..Self::new(outline) }
+    }
+
+    /// Makes a static obstacle whose frame is the plane's, at all heights.
+    pub fn new(outline: Outline) -> Self {
+        let [at, turn, grown] = [[0, 0], [0, 1], [0, 0]].map(|of| of.map(Interval::whole));
+        let (name, own, heights, trajectory) = (None, None, None, None);
+        Self { name, own, outline, at, turn, heights, trajectory, stated: [None, None], grown }
     }
 
     /// Returns true if the obstacle is a link that joint 1 carries.
@@ -143,7 +154,7 @@ impl Obstacle {
             radius,
         };
         let thin = Interval::whole(0);
-        match &self.outline {
+        let part = match &self.outline {
             Outline::Circle(_, radius) if radius.sign() == Sign::Minus => CheckError::fails("its radius is negative"),
             Outline::Circle(center, radius) => Ok(shape(std::slice::from_ref(center), Interval::from(radius))),
             Outline::Polyline(points) => {
@@ -173,7 +184,8 @@ impl Obstacle {
                     None => CheckError::fails("its corners are not those of a rectangle of solid squares"),
                 }
             }
-        }
+        };
+        part.map(|part| part.grown(&self.grown[0]))
     }
 
     /// Returns the sides from which shapes must keep away: the segments of the obstacle's border, its disc, or the
@@ -186,7 +198,9 @@ impl Obstacle {
     /// If the obstacle could not be read, or if it has too few points.
     pub fn sides(&self) -> Result<Vec<Shape>, CheckError> {
         let placed = |p: &Point| if self.trajectory.is_some() { p.clone() } else { self.placed(p) };
-        let side = |points: &[Point], radius: Interval| Shape { points: points.iter().map(placed).collect(), radius };
+        let side = |points: &[Point], radius: Interval| {
+            Shape { points: points.iter().map(placed).collect(), radius }.grown(&self.grown[1])
+        };
         let thin = |a: &Corner, b: &Corner| side(&[point(a), point(b)], Interval::whole(0));
         match &self.outline {
             Outline::Polygon(rings) if rings.iter().all(|ring| ring.len() > 2) => {
@@ -202,7 +216,7 @@ impl Obstacle {
                 let cells = cells.as_ref().map_err(Clone::clone)?;
                 Ok(cells.border()?.iter().map(|ends| side(ends, Interval::whole(0))).collect())
             }
-            Outline::Own(shape) => Ok(vec![shape.clone()]),
+            Outline::Own(shape) => Ok(vec![shape.clone().grown(&self.grown[1])]),
             _ => Err(CheckError::in_file(Input::World, "an obstacle has too few points, or no radius")),
         }
     }

@@ -13,6 +13,13 @@ pub struct Shape {
     pub radius: Interval,
 }
 
+impl Shape {
+    /// Returns the shape with a radius that is larger by a distance.
+    pub fn grown(self, by: &Interval) -> Self {
+        Self { radius: &self.radius + by, ..self }
+    }
+}
+
 /// A point whose coordinates are numbers of units; see [`Interval`].
 pub type Exact = [BigInt; 2];
 

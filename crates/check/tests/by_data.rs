@@ -65,7 +65,7 @@ fn world() -> World {
     let joints = |q: [&str; 2]| Some(Goal::Joints(q.map(|value| [number(value), number(value)])));
     let outline = Outline::Circle([number("0.9"), number("0")], number("0.2"));
     let (at, turn) = (point(0, 0), point(0, 1));
-    let post = Obstacle { name: None, own: None, outline, at, turn, heights: None, trajectory: None };
+    let post = Obstacle { at, turn, ..Obstacle::new(outline) };
     World { start: joints(["-1", "0"]), goal: joints(["1", "0"]), obstacles: vec![post], ..World::default() }
 }
 

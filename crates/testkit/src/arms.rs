@@ -13,6 +13,7 @@ pub fn link(name: &str, shapes: Vec<Convex>) -> Link {
         .map(|shape| Part {
             shape,
             inner: None,
+            padding: 0.0,
             number: 0,
             is_visual: false,
             heights: Heights { lower: 0.0, upper: 0.1 },

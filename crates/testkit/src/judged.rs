@@ -28,7 +28,7 @@ impl Question<'_> {
 /// Returns the findings about a recording. Their `verdict` decides the program's exit code.
 pub fn judge(robot: &Path, world: &Path, recording: &Path, question: &Question) -> Result<Value, InputError> {
     let Question { overrides, anywhere, topic } = question;
-    let mut loaded = load_scene(robot, world)?.with_clearance(overrides.clearance)?;
+    let mut loaded = load_scene(robot, world)?.with_margins(overrides.clearance, overrides.calibration)?;
     let recorded = match topic {
         None => load_recording(recording, &loaded)?,
         Some(topic) => load_topic(recording, topic, &loaded)?,

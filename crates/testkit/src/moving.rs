@@ -5,7 +5,7 @@ use crate::shapes::{disc, rectangle};
 use crate::world::{KINDS, world};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
-    Arm, Heights, MovingObstacle, Obstacle, ObstacleTrajectory, Scene, Shape, Stop, TimedWorkspace, Workspace,
+    Arm, Growth, Heights, MovingObstacle, Obstacle, ObstacleTrajectory, Scene, Shape, Stop, TimedWorkspace, Workspace,
 };
 use cplan::motion::Trajectory;
 use cplan::space::{Configuration, GoalSet};
@@ -148,7 +148,8 @@ pub fn mover(dice: &mut Dice, base: Point, reach: f64, halfway: Point) -> Moving
         }
     };
     let name = "mover".into();
-    let obstacle = Obstacle { name, shape: Shape::Pieces, pieces: vec![piece], heights: Heights::ALL };
+    let obstacle =
+        Obstacle { name, shape: Shape::Pieces, pieces: vec![piece], heights: Heights::ALL, growth: Growth::default() };
     MovingObstacle { obstacle, trajectory: trajectory.expect("a trajectory") }
 }
 

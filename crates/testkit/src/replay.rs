@@ -9,8 +9,8 @@ use crate::solid::{Solid, V, add, norm, rotate, sub};
 use cplan::engine::task::{Event, TaskAnswer};
 use cplan::geometry::Point;
 use cplan::model::{
-    Action, Arm, Goal, Heights, Holding, Item, Joint, JointType, MovingObstacle, Object, Obstacle, Part, Shape, Step,
-    Task,
+    Action, Arm, Goal, Growth, Heights, Holding, Item, Joint, JointType, MovingObstacle, Object, Obstacle, Part, Shape,
+    Step, Task,
 };
 use cplan::motion::Trajectory;
 use overlaps::{MotionTurns, Turn, check_overlaps, depth_of, stroke_height, stroke_time, turned_share};
@@ -66,7 +66,13 @@ pub fn pose_on_trajectory(object: &Object, time: f64) -> Frame {
     };
     // The object's pose follows from two of its points.
     let pieces = vec![disc(Point::zeros(), 0.1), disc(Point::new(1.0, 0.0), 0.1)];
-    let points = Obstacle { name: String::new(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
+    let points = Obstacle {
+        name: String::new(),
+        shape: Shape::Pieces,
+        pieces,
+        heights: Heights::ALL,
+        growth: Growth::default(),
+    };
     let placed = obstacle_at(&MovingObstacle { obstacle: points, trajectory }, time).pieces;
     let [origin, beside] = [0, 1].map(|k| [placed[k].core()[0].x, placed[k].core()[0].y]);
     (sub(beside, origin), origin)

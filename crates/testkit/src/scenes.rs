@@ -3,7 +3,7 @@
 use crate::arms::rr;
 use crate::shapes::{convex, disc, rectangle, wall};
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Arm, Heights, Obstacle, Scene, Shape, Workspace};
+use cplan::model::{Arm, Growth, Heights, Obstacle, Scene, Shape, Workspace};
 use cplan::space::{Configuration, JointRange};
 use cplan_cases::dice::Dice;
 use std::f64::consts::PI;
@@ -20,7 +20,7 @@ pub fn obstacle(name: &str, piece: Convex) -> Obstacle {
         [a, b] => Shape::Polyline(vec![*a, *b]),
         corners => Shape::Polygon(corners.to_vec()),
     };
-    Obstacle { name: name.into(), shape, pieces: vec![piece], heights: Heights::ALL }
+    Obstacle { name: name.into(), shape, pieces: vec![piece], heights: Heights::ALL, growth: Growth::default() }
 }
 
 /// Returns the scene of an arm in a workspace. Panics if either is invalid.

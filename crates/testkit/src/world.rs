@@ -6,8 +6,8 @@ use crate::scenes::placed;
 use crate::shapes::{convex, disc, wall};
 use cplan::geometry::{Convex, Point, Vector};
 use cplan::model::{
-    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Scene, SelfObstacle, Shape,
-    Workspace,
+    Arm, Growth, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Scene, SelfObstacle,
+    Shape, Workspace,
 };
 use cplan::space::{Configuration, GoalSet, JointRange};
 use cplan_cases::dice::Dice;
@@ -100,6 +100,7 @@ fn link(dice: &mut Dice, name: &str, length: f64) -> Link {
         .map(|shape| Part {
             shape,
             inner: None,
+            padding: 0.0,
             number: 0,
             is_visual: false,
             heights: Heights { lower, upper: lower + 0.1 },
@@ -163,6 +164,7 @@ pub fn obstacle(dice: &mut Dice, reach: f64, base: Point) -> Vec<Obstacle> {
         shape: Shape::Polygon(piece.core().to_vec()),
         pieces: vec![piece],
         heights,
+        growth: Growth::default(),
     };
     if dice.chance(0.3) {
         vec![Obstacle { pieces: pieces.clone(), ..obstacle(pieces[0].clone()) }]

@@ -171,7 +171,7 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure
         if member.scene.is_task() {
             member.scene.clone().problem(overrides)?;
         }
-        let scene = member.scene.with_clearance(overrides.clearance)?.scene;
+        let scene = member.scene.with_margins(overrides.clearance, overrides.calibration)?.scene;
         let nowhere = Configuration::zeros();
         Ok((member.name, MotionProblem::trusted(scene, nowhere, nowhere)))
     };

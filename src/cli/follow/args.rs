@@ -6,6 +6,7 @@ use crate::cli::headings::OUTPUT;
 use crate::cli::print_args::PrintArgs;
 use crate::cli::theme::ThemeArgs;
 use crate::cli::values::{clearance, displacement, tolerance, turn};
+use crate::input::CalibrationTable;
 use crate::options::positive;
 use clap::{Args, ValueHint};
 use cplan_follow::Settings;
@@ -70,6 +71,10 @@ pub struct FollowArgs {
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     pub clearance: Option<f64>,
+    /// Errors within which the answer holds, instead of the world's, such as
+    /// "base=0.5mm,0.05deg; links=0.2mm; zeros=0.02deg; obstacles=1mm".
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    pub calibration: Option<CalibrationTable>,
     /// Time between two samples of the motion, seconds.
     #[arg(long, value_name = "SECONDS", value_parser = positive, default_value_t = Settings::default().period)]
     pub period: f64,

@@ -11,7 +11,7 @@ use std::path::Path;
 /// Returns the text of the certificate. Without one, prints a warning about the file that would contain it.
 pub fn text(answered: &Answered, path: &Path) -> Option<String> {
     let Answered { args, loaded, line, answer, digests, .. } = answered;
-    let asked = &Overrides { clearance: args.clearance, ..Overrides::default() };
+    let asked = &Overrides { clearance: args.clearance, calibration: args.calibration, ..Overrides::default() };
     let (scene, tolerance, files) = (&loaded.scene, answered.tolerance, digests.as_ref());
     let certified = CertifiedLine { scene, line, tolerance, asked, files };
     let text = match answer {

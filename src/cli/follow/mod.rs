@@ -62,7 +62,7 @@ pub fn answer(
 ) -> Result<u8, Failure> {
     let outputs = files::outputs(args)?;
     let line = read_line(args)?;
-    let loaded = load(line.wrist.is_some())?.with_clearance(args.clearance)?;
+    let loaded = load(line.wrist.is_some())?.with_margins(args.clearance, args.calibration)?;
     loaded.require_static_obstacles("a line is followed among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.path.clone()]).collect();
     refuse_to_overwrite_inputs(outputs.paths(), &read)?;

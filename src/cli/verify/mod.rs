@@ -13,7 +13,9 @@ use super::sinks;
 use super::theme::ThemeArgs;
 use crate::engine::certificate_of_recording;
 use crate::engine::findings::{Judgement, MotionFindings, PlanFinding, verify};
-use crate::input::{self, Digests, JointValues, LoadedRecording, LoadedScene, Overrides, Rules, TipPoint};
+use crate::input::{
+    self, CalibrationTable, Digests, JointValues, LoadedRecording, LoadedScene, Overrides, Rules, TipPoint,
+};
 use crate::model::TimedScene;
 use crate::output::{contours, title_of};
 use crate::space::Recording;
@@ -67,6 +69,10 @@ pub struct VerifyArgs {
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub clearance: Option<f64>,
+    /// Errors within which the answer holds, instead of the world's, such as
+    /// "base=0.5mm,0.05deg; links=0.2mm; zeros=0.02deg; obstacles=1mm".
+    #[arg(long, value_name = "KEY=VALUE,..")]
+    pub calibration: Option<CalibrationTable>,
     /// Required start configuration instead of the world's, such as 0.3,-1 or 20deg,-60deg.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with = "anywhere")]
     pub start: Option<JointValues>,
@@ -110,7 +116,8 @@ pub struct VerifyArgs {
 /// check.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let outputs = Outputs::of_pictures(&args.picture, args.certificate.clone())?;
-    let mut loaded = input::load_scene(args.files.robot(), &args.files.world)?.with_clearance(args.clearance)?;
+    let mut loaded =
+        input::load_scene(args.files.robot(), &args.files.world)?.with_margins(args.clearance, args.calibration)?;
     loaded.robot.warnings.iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let mut recorded = match &args.topic {
         None => input::load_recording(&args.trajectory, &loaded)?,
@@ -185,7 +192,13 @@ fn certificate(
 }
 
 fn overrides(args: &VerifyArgs) -> Overrides {
-    Overrides { start: args.start, goal: args.goal, goal_tip: args.goal_tip, clearance: args.clearance }
+    Overrides {
+        start: args.start,
+        goal: args.goal,
+        goal_tip: args.goal_tip,
+        clearance: args.clearance,
+        calibration: args.calibration,
+    }
 }
 
 /// Returns the view of a recorded motion.

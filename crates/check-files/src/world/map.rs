@@ -3,8 +3,7 @@
 use super::{ReadResult, Reader, Value, origin};
 use crate::files::Files;
 use cplan_check::decimal::Decimal;
-use cplan_check::interval::Interval;
-use cplan_check::obstacle::{Obstacle, Outline, point};
+use cplan_check::obstacle::{Obstacle, Outline};
 use cplan_check::polygon::Corner;
 use cplan_check::world::{Goal, World};
 use cplan_check::{CheckError, Input};
@@ -43,9 +42,8 @@ impl Reader<'_> {
         let Some(file) = file else { return self.error(value, "the map has no file") };
         let stem = file.file_stem().unwrap_or_default().to_string_lossy();
         for (own, outline) in walls(self.files, &file, &unit, is_framed)? {
-            let (at, turn) = (point(&origin()), [0, 1].map(Interval::whole));
             let (name, heights) = (Some(format!("{stem}, {own}")), heights.clone());
-            world.obstacles.push(Obstacle { name, own: None, outline, at, turn, heights, trajectory: None });
+            world.obstacles.push(Obstacle { name, heights, ..Obstacle::new(outline) });
         }
         if let (None, Some(path), false) = (&world.goal, wishes, has_steps) {
             world.goal = Some(Goal::Areas(goals(self.files, &path, &unit)?));

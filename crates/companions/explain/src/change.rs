@@ -90,8 +90,8 @@ pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext
             threshold(0.0, most, fine, ask).map(|by| made(ChangeKind::Widened, by)).into_iter().collect()
         }
         Element::Clearance => {
-            let clearance = scene.workspace().clearance;
-            let ask = |by: f64| question.with_clearance((clearance - by).max(0.0)).answer(boxes);
+            let clearance = scene.workspace().greatest_clearance();
+            let ask = |by: f64| question.with_clearance_at_most((clearance - by).max(0.0)).answer(boxes);
             let by = threshold(0.0, clearance, fine.min(MAX_TOLERANCE_SHARE * clearance), ask);
             by.map(|by| made(ChangeKind::Lowered, by)).into_iter().collect()
         }
@@ -132,25 +132,25 @@ fn is_eroded(obstacle: &Obstacle) -> bool {
 /// convex obstacle move inwards; others are scaled about the middle of their bounding box. Returns no pieces if the
 /// obstacle is too thin.
 pub(super) fn shrunk_pieces(obstacle: &Obstacle, by: f64) -> Vec<Convex> {
-    if is_eroded(obstacle) {
-        return obstacle.pieces[0].eroded(by).into_iter().collect();
-    }
-    let Some((middle, extent)) = middle(obstacle).filter(|(_, extent)| by < *extent) else { return Vec::new() };
-    let share = 1.0 - by / extent;
-    let scaled = |piece: &Convex| piece.mapped(|p| middle + (p - middle) * share, piece.radius() * share);
-    obstacle.pieces.iter().map(scaled).collect()
+    let (pieces, growth) = (obstacle.real_pieces(), obstacle.growth.total);
+    let eroded = is_eroded(obstacle).then(|| pieces[0].eroded(by).into_iter().collect::<Vec<_>>());
+    let shrunk = eroded.or_else(|| {
+        let (middle, extent) = middle(obstacle).filter(|(_, extent)| by < *extent)?;
+        let share = 1.0 - by / extent;
+        let scaled = |piece: &Convex| piece.mapped(|p| middle + (p - middle) * share, piece.radius() * share);
+        Some(pieces.iter().map(scaled).collect())
+    });
+    shrunk.unwrap_or_default().iter().map(|piece| piece.grown(growth)).collect()
 }
 
 /// Returns the middle of an obstacle's bounding box, and the distance from there to the farthest point of the obstacle.
 /// `None` if it has no pieces.
 pub(super) fn middle(obstacle: &Obstacle) -> Option<(Point, f64)> {
-    let [lower, upper] = obstacle
-        .pieces
-        .iter()
-        .map(|piece| piece.bounds().map(Point::from))
-        .reduce(|[a, b], [c, d]| [a.inf(&c), b.sup(&d)])?;
+    let pieces = obstacle.real_pieces();
+    let [lower, upper] =
+        pieces.iter().map(|piece| piece.bounds().map(Point::from)).reduce(|[a, b], [c, d]| [a.inf(&c), b.sup(&d)])?;
     let middle = (lower + upper) * 0.5;
-    Some((middle, obstacle.pieces.iter().map(|piece| piece.reach_from(middle)).fold(0.0, f64::max)))
+    Some((middle, pieces.iter().map(|piece| piece.reach_from(middle)).fold(0.0, f64::max)))
 }
 
 /// Finds the smallest move of an obstacle that opens a path. Doubles the step until some direction opens one. Then

@@ -21,8 +21,8 @@ impl Change {
             Element::Link { .. } | Element::Motor => rest,
             Element::Limit { joint, side } => rest.with_wider(joint, side, self.by.opens),
             Element::Clearance => {
-                let clearance = (question.scene().workspace().clearance - self.by.opens).max(0.0);
-                rest.with_clearance(clearance)
+                let clearance = (question.scene().workspace().greatest_clearance() - self.by.opens).max(0.0);
+                rest.with_clearance_at_most(clearance)
             }
         }
     }
@@ -38,7 +38,8 @@ impl Change {
             }
             ChangeKind::Eroded => {
                 let pieces = shrunk_pieces(obstacle, self.by.opens);
-                (shape_of(&pieces), pieces)
+                let shrunk = Obstacle { pieces, ..obstacle.clone() };
+                (shape_of(&shrunk.real_pieces()), shrunk.pieces)
             }
             ChangeKind::Scaled { to } => {
                 let center = middle(obstacle)?.0;

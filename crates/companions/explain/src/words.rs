@@ -157,7 +157,7 @@ pub fn instruction(scene: &Scene, change: &Change, is_only: bool) -> String {
             _ => String::new(),
         },
         ChangeKind::Lowered => {
-            let to = (scene.workspace().clearance - opens).max(0.0);
+            let to = (scene.workspace().greatest_clearance() - opens).max(0.0);
             format!("Lower the clearance to {}", headline_length(to, false))
         }
     }
@@ -183,7 +183,7 @@ pub fn bounds(scene: &Scene, set: &BlockingSet, change: &Change) -> [String; 2] 
             ]
         }
         (ChangeKind::Lowered, _) => {
-            let clearance = scene.workspace().clearance;
+            let clearance = scene.workspace().greatest_clearance();
             [positive_down((clearance - opens).max(0.0)), length_up(clearance - closed)]
         }
         _ => [length_up(opens), positive_down(closed)],

@@ -3,7 +3,7 @@
 use super::views::{CELL_RADIUS, Crossing};
 use cplan_geometry::{Convex, Point, Pose, Vector, shapes_meet};
 use cplan_model::space::{Configuration, SplitMix64};
-use cplan_model::{Arm, Heights, JointType, Obstacle, Scene, Shape, Workspace};
+use cplan_model::{Arm, Growth, Heights, JointType, Obstacle, Scene, Shape, Workspace};
 use cplan_world::{Occupancy, OccupancyMap, Sensor};
 
 /// Largest number of cells of a map.
@@ -296,7 +296,7 @@ impl Survey {
         }
         let obstacle = |name: &str, heights: Heights, is_among: &dyn Fn(usize) -> bool| {
             let pieces = self.known.rectangles_of(is_among, usize::MAX).unwrap_or_default();
-            Obstacle { name: name.into(), shape: Shape::Pieces, pieces, heights }
+            Obstacle { name: name.into(), shape: Shape::Pieces, pieces, heights, growth: Growth::default() }
         };
         let is_seen = |cell: usize| self.known.cells[cell] == Occupancy::Occupied;
         let unknown = obstacle("unknown", self.heights, &|cell| !unknown_is_free && self.is_unknown(cell));

@@ -115,7 +115,8 @@ impl Attachment {
         let on_link = |part: &AttachedPart| {
             let shape = if is_level { Convex::point(tip) } else { part.shape.at(&self.grip.frame()) };
             let (heights, body) = (self.heights, self.name.clone());
-            let on_link = Part { shape, inner: None, number: part.number, is_visual: false, heights, body };
+            let on_link =
+                Part { shape, inner: None, padding: 0.0, number: part.number, is_visual: false, heights, body };
             (on_link, self.meetable(part, obstacles, clearance, policy, differences))
         };
         self.parts.iter().filter(counts).map(on_link).collect()
@@ -138,7 +139,9 @@ impl Attachment {
             // So a disc covers the part, and contacts of the disc prove no collision.
             let is_folding = matches!(kind, ObstacleKind::Own(own) if own.carrier == Carrier::FirstJoint);
             let is_turned = level.is_some() && is_folding;
-            let nearer = self.nearer(part, number, clearance);
+            // A support has no clearance of its own either.
+            let own_clearance = (obstacle.growth.clearance - clearance).max(0.0);
+            let nearer = self.nearer(part, number, clearance + own_clearance);
             let Some(nearer) = nearer.filter(|_| !(is_turned && policy.is_definite())) else { return 0..0 };
             if level.is_none() && nearer == 0.0 {
                 return 0..own;

@@ -20,6 +20,7 @@ pub mod space;
 mod additions;
 mod arm;
 mod attachment;
+mod calibration;
 mod carried;
 mod contacts;
 mod motors;
@@ -45,6 +46,7 @@ pub use additions::{Additions, LooseObstacle};
 pub use arm::{Arm, Plane};
 pub use attachment::{AttachedPart, Attachment, Grip};
 pub use blocked_along::BlockedStretch;
+pub use calibration::Calibration;
 use carried::swept;
 pub use carried::{CarriedPart, on_axis};
 pub use contacts::Contacts;
@@ -62,7 +64,9 @@ pub use outcome::{Outcome, Status};
 pub use preference::{Preference, Region};
 pub use problem::{Goal, MotionProblem, MotionProblemError};
 pub use scene::{Contact, Pair, Scene};
-pub use scene_error::{MAX_COORDINATE, MAX_TURN_RANGE, SceneError, are_small, check_range, is_pose, is_small};
+pub use scene_error::{
+    MAX_COORDINATE, MAX_TURN_RANGE, SceneError, are_small, check_clearance, check_range, is_pose, is_small,
+};
 pub use self_obstacle::{Carrier, SelfObstacle};
 pub use tip_area::area_goals;
-pub use workspace::{Heights, Obstacle, RESTING_TOLERANCE, Shape, Workspace};
+pub use workspace::{Growth, Heights, Obstacle, RESTING_TOLERANCE, Shape, Workspace};

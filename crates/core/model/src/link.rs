@@ -1,6 +1,7 @@
 //! The outline of a link.
 
 use super::Heights;
+use super::workspace::resized;
 use cplan_geometry::{Convex, ConvexError, Point};
 use serde::{Deserialize, Serialize};
 
@@ -26,9 +27,12 @@ pub struct Part {
     /// The part's projection on the plane, or a shape that covers the projection. If this shape is free of
     /// collisions, so is the part.
     pub shape: Convex,
-    /// A shape inside the real part, for proofs of collisions. `None` if `shape` is exact.
+    /// A shape inside the real part, for proofs of collisions. `None` if `shape` without its padding is exact.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub inner: Option<Convex>,
+    /// Distance by which `shape` has been grown to cover errors of the robot, metres.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    pub padding: f64,
     /// Number of the shape from which this part was made. It counts the shapes of the URDF link that have a size, or
     /// for an attached part the attachment's pieces.
     #[serde(default, skip_serializing_if = "is_first")]
@@ -44,6 +48,33 @@ pub struct Part {
 
 fn is_first(number: &usize) -> bool {
     *number == 0
+}
+
+fn is_zero(length: &f64) -> bool {
+    *length == 0.0
+}
+
+impl Part {
+    /// Grows the shape by this distance more, metres, to cover errors of the robot.
+    pub(super) fn pad(&mut self, distance: f64) {
+        self.shape = self.shape.grown(distance);
+        self.padding += distance;
+    }
+
+    /// Removes the padding.
+    pub(super) fn unpad(&mut self) {
+        if self.padding > 0.0 {
+            self.shape = resized(&self.shape, -std::mem::take(&mut self.padding));
+        }
+    }
+
+    /// Replaces the shape by one that lies inside the real part.
+    pub(super) fn restrict_to_inner(&mut self) {
+        self.unpad();
+        if let Some(inner) = self.inner.take() {
+            self.shape = inner;
+        }
+    }
 }
 
 /// A rigid body between two joints: all parts that one joint moves and the next does not, including URDF links that
@@ -62,8 +93,15 @@ pub struct Link {
 impl Link {
     /// Creates a link of these shapes, at all heights. A link without shapes cannot collide.
     pub fn of(name: &str, shapes: impl IntoIterator<Item = Convex>) -> Self {
-        let part =
-            |shape| Part { shape, inner: None, number: 0, is_visual: false, heights: Heights::ALL, body: name.into() };
+        let part = |shape| Part {
+            shape,
+            inner: None,
+            padding: 0.0,
+            number: 0,
+            is_visual: false,
+            heights: Heights::ALL,
+            body: name.into(),
+        };
         let parts: Vec<Part> = shapes.into_iter().map(part).collect();
         let source = if parts.is_empty() { OutlineSource::None } else { OutlineSource::Collision };
         Self { name: name.into(), parts, source }

@@ -3,7 +3,7 @@
 use super::{Contact, Pair, Scene};
 use crate::space::Configuration;
 use cplan_geometry::{Convex, Pose, separation, shapes_meet};
-use cplan_text::{chosen_length, length, length_unlike};
+use cplan_text::{length, length_unlike};
 use std::borrow::Cow;
 
 /// A collision, or a distance below the clearance: a reason why a configuration is not free.
@@ -47,9 +47,11 @@ impl Scene {
         for (pair, piece) in pieces {
             let part = self.part(pair).at(&poses[pair.link]);
             let contact = Contact { pair, separation: separation(&part, &piece) };
-            let distance = contact.separation.distance;
-            let touches = distance <= 0.0 || shapes_meet(&part, &piece);
-            if !touches && distance >= self.workspace().clearance {
+            let (distance, growth) = (contact.separation.distance, self.growth(pair));
+            let meet = distance <= 0.0 || shapes_meet(&part, &piece);
+            // Grown shapes that meet need not touch.
+            let touches = meet && distance + growth <= 0.0;
+            if !meet && distance >= self.workspace().clearance {
                 continue;
             }
             let found = Obstruction { contact, touches };
@@ -64,15 +66,15 @@ impl Scene {
 
     /// Describes an obstruction in words: `link "forearm" hits obstacle "shelf", 12.00 mm deep`.
     pub fn explain(&self, obstruction: &Obstruction) -> String {
-        let Contact { pair, separation } = obstruction.contact;
+        let pair = obstruction.contact.pair;
         let part = self.describe_part(pair);
         let moves = if self.loose_index(pair).is_some() { "moving " } else { "" };
         let obstacle = format!("{moves}{}", self.describe_obstacle(pair.obstacle));
-        let distance = separation.distance;
+        let distance = self.real_distance(&obstruction.contact);
         if !obstruction.touches {
-            let clearance = self.workspace().clearance;
-            let [distance, clearance] = [length_unlike(distance, clearance), chosen_length(clearance)];
-            return format!("{part} is {distance} from {obstacle}, nearer than the clearance of {clearance}");
+            let required = self.required(pair);
+            let (distance, least) = (length_unlike(distance, required), self.describe_required(pair));
+            return format!("{part} is {distance} from {obstacle}, nearer than {least}");
         }
         let depth = (-distance).max(0.0);
         let how = match depth {

@@ -1,13 +1,14 @@
 //! The arm among its obstacles.
 
+use super::calibration::slide;
 use super::pairing::{HeightPolicy, PairPolicy, Pairing, numbered};
 use super::scene_error::{check, check_clearance};
 use super::scene_record::SceneRecord;
 use super::{
-    Additions, Arm, Attachment, Carrier, Heights, Joint, Link, LooseObstacle, Obstacle, Part, SceneError, SelfObstacle,
+    Additions, Arm, Attachment, Carrier, Heights, Link, LooseObstacle, Obstacle, Part, SceneError, SelfObstacle,
     Workspace,
 };
-use crate::space::{Configuration, JointRange};
+use crate::space::Configuration;
 use cplan_geometry::{Convex, Pose, Separation, separation};
 use serde::{Deserialize, Serialize};
 use std::borrow::Cow;
@@ -145,19 +146,25 @@ impl Scene {
         let mut pieces = placed().chain(own).flat_map(|obstacle| &obstacle.pieces);
         let is_whole =
             self.policy.is_definite() || !(pieces.any(Convex::is_sliver) || attached.any(|part| !part.is_never_empty));
-        if is_exact && is_whole && !is_covered && parts().all(|part| part.inner.is_none()) {
+        let is_padded = placed()
+            .chain(self.arm.self_obstacles.iter().map(|own| &own.obstacle))
+            .any(|obstacle| obstacle.growth.padding > 0.0);
+        let has_inner = |part: &Part| part.inner.is_some() || part.padding > 0.0;
+        if is_exact && is_whole && !is_covered && !is_padded && !parts().any(has_inner) {
             return Cow::Borrowed(self);
         }
-        let shrink = |part: &mut Part| {
-            if let Some(inner) = part.inner.take() {
-                part.shape = inner;
-            }
+        let (policy, clearance) =
+            (PairPolicy { meet: HeightPolicy::Definite, ..self.policy }, self.workspace.clearance);
+        let unpad = |obstacle: &mut Obstacle| {
+            obstacle.growth.padding = 0.0;
+            obstacle.grow(clearance);
         };
-        Cow::Owned(self.remade(
-            shrink,
-            |obstacle| obstacle.pieces.clone(),
-            PairPolicy { meet: HeightPolicy::Definite, ..self.policy },
-        ))
+        let inner = self.rebuilt_with(policy, |arm, workspace| {
+            arm.links.iter_mut().flat_map(|link| &mut link.parts).for_each(Part::restrict_to_inner);
+            let own = arm.self_obstacles.iter_mut().map(|own| &mut own.obstacle);
+            workspace.obstacles.iter_mut().chain(own).for_each(unpad);
+        });
+        Cow::Owned(if is_padded { inner.with_loose(unpad) } else { inner })
     }
 
     /// Returns the scene with other shapes of the arm's own parts and other pieces of obstacles. How many parts and
@@ -203,11 +210,6 @@ impl Scene {
         if self.attachment().is_some() || self.pairs.len() <= MIN_PAIRS_TO_OMIT {
             return None;
         }
-        let slide = |joint: &Joint| match (joint.joint_type.is_revolute(), joint.range) {
-            (true, _) => 0.0,
-            (false, JointRange::Interval { lower, upper }) => lower.abs().max(upper.abs()),
-            (false, JointRange::Circle) => f64::INFINITY,
-        };
         let out = self.arm.reach() + self.arm.joints.iter().map(slide).sum::<f64>() + self.workspace.clearance;
         let policy = PairPolicy { farthest: out * (1.0 + ROUNDING), ..self.policy };
         let near = self.remade(|_| (), |obstacle| obstacle.pieces.clone(), policy);
@@ -250,7 +252,17 @@ impl Scene {
     /// If the clearance is negative, too large or not finite.
     pub fn with_clearance(self, clearance: f64) -> Result<Self, SceneError> {
         check_clearance(clearance)?;
-        Ok(self.changed(|_, workspace| workspace.clearance = clearance))
+        let changed = self.changed(|_, workspace| workspace.set_clearance(clearance));
+        Ok(changed.with_loose(|obstacle| obstacle.grow(clearance)))
+    }
+
+    /// Returns the scene after `change` has changed each of its loose obstacles.
+    pub(super) fn with_loose(mut self, change: impl Fn(&mut Obstacle)) -> Self {
+        if self.additions.loose.is_empty() {
+            return self;
+        }
+        self.additions.loose.iter_mut().for_each(|loose| change(&mut loose.obstacle));
+        self.changed(|_, _| ())
     }
 
     /// Returns the scene with its loose obstacles at these poses. They become static obstacles, numbered after the

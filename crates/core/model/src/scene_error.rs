@@ -1,8 +1,8 @@
 //! Checks of the arm, the obstacles and the additions of a scene.
 
 use super::{
-    Additions, Arm, Attachment, Body, Dynamics, Grip, Heights, Joint, JointType, LooseObstacle, Motors, Obstacle,
-    Plane, Workspace,
+    Additions, Arm, Attachment, Body, Dynamics, Grip, Growth, Heights, Joint, JointType, LooseObstacle, Motors,
+    Obstacle, Plane, Workspace,
 };
 use crate::space::JointRange;
 use cplan_geometry::{Convex, Point, Pose, separation};
@@ -299,10 +299,18 @@ fn check_workspace(workspace: &Workspace) -> Result<(), SceneError> {
 
 fn check_obstacle(obstacle: &Obstacle) -> Result<(), SceneError> {
     check_size(&obstacle.name, &obstacle.pieces)?;
+    let Growth { clearance, error, padding, total } = obstacle.growth;
+    if ![clearance, error, padding, total].iter().all(|length| (0.0..=MAX_COORDINATE).contains(length)) {
+        return Err(SceneError::Size { of: obstacle.name.clone() });
+    }
     check_heights(&obstacle.name, obstacle.heights)
 }
 
-pub(super) fn check_clearance(clearance: f64) -> Result<(), SceneError> {
+/// Checks a clearance, metres.
+///
+/// # Errors
+/// If it is negative, too large or not finite.
+pub fn check_clearance(clearance: f64) -> Result<(), SceneError> {
     if (0.0..=MAX_COORDINATE).contains(&clearance) { Ok(()) } else { Err(SceneError::Clearance { clearance }) }
 }
 

@@ -1,6 +1,7 @@
 //! The obstacles of a scene by number, and descriptions of its shapes for messages.
 
 use super::{Carrier, Obstacle, Pair, Scene, SelfObstacle};
+use cplan_text::{chosen_length, length};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -56,11 +57,25 @@ impl Scene {
     /// States that a part is too near to an obstacle: `link "forearm" hits obstacle "shelf"`, or is nearer than the clearance.
     pub fn explain_contact(&self, pair: Pair) -> String {
         let (part, obstacle) = (self.describe_part(pair), self.describe_obstacle(pair.obstacle));
-        match self.workspace().clearance {
-            clearance if clearance > 0.0 => {
-                format!("{part} is nearer to {obstacle} than the clearance of {}", cplan_text::length(clearance))
-            }
-            _ => format!("{part} hits {obstacle}"),
+        match self.required(pair) > 0.0 {
+            true => format!("{part} is nearer to {obstacle} than {}", self.describe_required(pair)),
+            false => format!("{part} hits {obstacle}"),
+        }
+    }
+
+    /// Describes the distance that a pair must keep: `the clearance of 10.00 mm`, `the 1.20 mm that errors need`.
+    pub fn describe_required(&self, pair: Pair) -> String {
+        let growth = self.obstacle(pair.obstacle).growth;
+        let clearance = self.workspace().clearance.max(growth.clearance);
+        let errors = self.required(pair) - clearance;
+        match (clearance > 0.0, errors > 0.0) {
+            (_, false) => format!("the clearance of {}", chosen_length(clearance)),
+            (false, true) => format!("the {} that the stated errors need", length(errors)),
+            (true, true) => format!(
+                "the clearance of {} and the {} that the stated errors need",
+                chosen_length(clearance),
+                length(errors)
+            ),
         }
     }
 

@@ -131,11 +131,37 @@ impl Shape {
     }
 }
 
+/// Returns the shape grown by `distance`, or shrunk, but not beyond its core: rounding leaves no negative radius.
+pub(super) fn resized(shape: &Convex, distance: f64) -> Convex {
+    shape.grown(distance.max(-shape.radius()))
+}
+
 /// Returns the pieces of a thin wall: one segment between each two consecutive points.
 fn walls(points: &[Point]) -> Result<Vec<Convex>, ConvexError> {
     match points {
         [] | [_] => Ok(vec![Convex::new(points.to_vec(), 0.0)?]),
         _ => points.windows(2).map(|ends| Convex::segment(ends[0], ends[1])).collect(),
+    }
+}
+
+/// How much larger an obstacle's pieces are than its shape. All lengths in metres.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Growth {
+    /// Least distance to keep from this obstacle; the workspace's clearance counts if it is larger.
+    pub clearance: f64,
+    /// Greatest displacement of the obstacle in any direction, relative to the arm.
+    pub error: f64,
+    /// Distance that covers all other errors, so that nearer configurations need not be in collision.
+    pub padding: f64,
+    /// The distance by which the pieces have been grown: the clearance beyond the workspace's, the error and the padding.
+    pub total: f64,
+}
+
+impl Growth {
+    /// Returns true if the pieces are as large as the shape, whatever the clearance.
+    pub fn is_none(&self) -> bool {
+        *self == Self::default()
     }
 }
 
@@ -147,10 +173,14 @@ pub struct Obstacle {
     pub name: String,
     /// The shape as the user gave it.
     pub shape: Shape,
-    /// Convex pieces whose union is the obstacle, without any clearance.
+    /// Convex pieces whose union is the obstacle, without the workspace's clearance. They are larger than the shape by
+    /// [`Growth::total`].
     pub pieces: Vec<Convex>,
     /// Extent along the plane's normal, metres.
     pub heights: Heights,
+    /// How much larger the pieces are than the shape, and why.
+    #[serde(default, skip_serializing_if = "Growth::is_none")]
+    pub growth: Growth,
 }
 
 /// The obstacles, the clearance to keep from them, and the preferred regions.
@@ -161,7 +191,8 @@ pub struct Workspace {
     pub name: String,
     /// The static obstacles, in the order of the file.
     pub obstacles: Vec<Obstacle>,
-    /// Least distance to keep from every obstacle, metres. With 0, any proven distance above zero is enough.
+    /// Least distance to keep from every obstacle, metres. With 0, any proven distance above zero is enough. See
+    /// [`Workspace::set_clearance`].
     pub clearance: f64,
     /// Regions that field planners prefer or avoid, in the order of the file. Where several overlap, the last one
     /// counts.
@@ -176,7 +207,7 @@ impl Obstacle {
     pub fn polygon(name: &str, corners: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, PolygonError> {
         let polygon = SimplePolygon::new(points(corners))?;
         let (shape, pieces) = (Shape::Polygon(polygon.corners().to_vec()), polygon.convex_pieces());
-        Ok(Self { name: name.into(), shape, pieces, heights: Heights::ALL })
+        Ok(Self { name: name.into(), shape, pieces, heights: Heights::ALL, growth: Growth::default() })
     }
 
     /// Creates a disc at all heights. Centre and radius in metres.
@@ -186,7 +217,8 @@ impl Obstacle {
     pub fn circle(name: &str, center: [f64; 2], radius: f64) -> Result<Self, ConvexError> {
         let center = Point::from(center);
         let pieces = vec![Convex::disc(center, radius)?];
-        Ok(Self { name: name.into(), shape: Shape::Circle { center, radius }, pieces, heights: Heights::ALL })
+        let shape = Shape::Circle { center, radius };
+        Ok(Self { name: name.into(), shape, pieces, heights: Heights::ALL, growth: Growth::default() })
     }
 
     /// Creates a thin wall through these points, metres, at all heights. It has no area, but the arm must not touch
@@ -197,7 +229,8 @@ impl Obstacle {
     pub fn polyline(name: &str, through: impl IntoIterator<Item = [f64; 2]>) -> Result<Self, ConvexError> {
         let points = points(through);
         let pieces = walls(&points)?;
-        Ok(Self { name: name.into(), shape: Shape::Polyline(points), pieces, heights: Heights::ALL })
+        let shape = Shape::Polyline(points);
+        Ok(Self { name: name.into(), shape, pieces, heights: Heights::ALL, growth: Growth::default() })
     }
 }
 
@@ -206,13 +239,28 @@ impl Obstacle {
     #[must_use]
     pub fn at(&self, pose: &Pose) -> Self {
         let pieces = self.pieces.iter().map(|piece| piece.at(pose)).collect();
-        Self { name: self.name.clone(), shape: self.shape.at(pose), pieces, heights: self.heights }
+        Self { name: self.name.clone(), shape: self.shape.at(pose), pieces, ..*self }
+    }
+
+    /// Returns the pieces at their real size, without any growth.
+    pub fn real_pieces(&self) -> Vec<Convex> {
+        self.pieces.iter().map(|piece| resized(piece, -self.growth.total)).collect()
+    }
+
+    /// Makes the pieces as large as [`Obstacle::growth`] requires in a workspace of this clearance, metres.
+    pub fn grow(&mut self, clearance: f64) {
+        let growth = &mut self.growth;
+        let total = (growth.clearance - clearance).max(0.0) + growth.error + growth.padding;
+        if total != growth.total {
+            self.pieces.iter_mut().for_each(|piece| *piece = resized(piece, total - growth.total));
+            growth.total = total;
+        }
     }
 
     /// Changes the shape in pictures so that it agrees with the pieces that collision checks use. For obstacles that
     /// are read from files.
     pub fn derive_shape_from_pieces(&mut self) {
-        self.shape.restrict_to(&self.pieces);
+        self.shape.restrict_to(&self.real_pieces());
     }
 }
 
@@ -231,5 +279,24 @@ impl Workspace {
     /// are read from files.
     pub fn restrict_shapes(&mut self) {
         self.obstacles.iter_mut().for_each(Obstacle::derive_shape_from_pieces);
+    }
+
+    /// Returns the greatest clearance that the workspace or one of its obstacles has, metres.
+    pub fn greatest_clearance(&self) -> f64 {
+        self.obstacles.iter().map(|obstacle| obstacle.growth.clearance).fold(self.clearance, f64::max)
+    }
+
+    /// Lowers the clearances of the workspace and of its obstacles to at most this one, metres.
+    pub fn limit_clearances(&mut self, clearance: f64) {
+        for obstacle in &mut self.obstacles {
+            obstacle.growth.clearance = obstacle.growth.clearance.min(clearance);
+        }
+        self.set_clearance(self.clearance.min(clearance));
+    }
+
+    /// Changes the clearance, metres. Obstacles with a clearance of their own keep it if it is larger.
+    pub fn set_clearance(&mut self, clearance: f64) {
+        self.clearance = clearance;
+        self.obstacles.iter_mut().for_each(|obstacle| obstacle.grow(clearance));
     }
 }

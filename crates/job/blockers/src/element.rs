@@ -53,7 +53,7 @@ impl Element {
         let mut all: Vec<Self> =
             limits.flat_map(|joint| [Side::Lower, Side::Upper].map(|side| Self::Limit { joint, side })).collect();
         all.extend(scene.arm().topology().sum.map(|_| Self::Motor));
-        all.extend((scene.workspace().clearance > 0.0).then_some(Self::Clearance));
+        all.extend((scene.workspace().greatest_clearance() > 0.0).then_some(Self::Clearance));
         let met: BTreeSet<usize> = scene.pairs().iter().map(|pair| scene.first_layer(pair.obstacle)).collect();
         let links = scene.self_obstacles();
         let element = |number| if links.contains(&number) { Self::Link { number } } else { Self::Obstacle { number } };
@@ -78,7 +78,7 @@ impl Element {
                 format!("the {which} limit of joint \"{}\"", scene.arm().joints[joint].name)
             }
             Self::Motor => "the range of the elbow's motor".into(),
-            Self::Clearance => format!("the clearance of {}", chosen_length(scene.workspace().clearance)),
+            Self::Clearance => format!("the clearance of {}", chosen_length(scene.workspace().greatest_clearance())),
         }
     }
 

@@ -258,7 +258,7 @@ impl MotionQuestion {
     #[must_use]
     pub fn without(&self, elements: &[Element]) -> Self {
         self.without_at_clearance(elements).rebuilt(|_, workspace| {
-            workspace.clearance = workspace.clearance.max(self.least_clearance);
+            workspace.set_clearance(workspace.clearance.max(self.least_clearance));
         })
     }
 
@@ -280,7 +280,7 @@ impl MotionQuestion {
                         arm.joints[joint].range = widened(arm.joints[joint].range, side, self.beyond[joint]);
                     }
                     Element::Motor => arm.motors.iter_mut().for_each(|motors| motors.range = None),
-                    Element::Clearance => workspace.clearance = 0.0,
+                    Element::Clearance => workspace.limit_clearances(0.0),
                 }
             }
         })
@@ -296,9 +296,14 @@ impl MotionQuestion {
         self.rebuilt(|arm, _| arm.joints[joint].range = widened(arm.joints[joint].range, side, by))
     }
 
-    /// Returns the question with another clearance.
+    /// Returns the question with another clearance of the world.
     pub fn with_clearance(&self, clearance: f64) -> Self {
-        self.rebuilt(|_, workspace| workspace.clearance = clearance)
+        self.rebuilt(|_, workspace| workspace.set_clearance(clearance))
+    }
+
+    /// Returns the question with at most this clearance from every obstacle.
+    pub fn with_clearance_at_most(&self, clearance: f64) -> Self {
+        self.rebuilt(|_, workspace| workspace.limit_clearances(clearance))
     }
 
     /// Returns the question after `edit` has changed the arm and the workspace in all scenes.

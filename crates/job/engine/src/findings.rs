@@ -83,6 +83,11 @@ pub struct PairFinding {
     pub touching: bool,
     /// Penetration depth, metres. A negative value is a distance.
     pub depth: f64,
+    /// The distance that the two must keep, metres: a clearance, and what stated errors need.
+    pub required: f64,
+    /// The same in words.
+    #[serde(skip)]
+    pub least: String,
     /// Corners of the link that lie in the obstacle. Empty for rounded shapes.
     pub link_corners_inside: Vec<CornerFinding>,
     /// Corners of the obstacle that lie in the link. Empty for rounded shapes.
@@ -120,7 +125,7 @@ pub fn check(scene: &Scene, q: Configuration) -> ConfigurationFindings {
         within_limits,
         motors,
         tip: pair(scene.arm().tip_at(q)),
-        clearance: Some(scene.clearance(q)).filter(|c| c.is_finite()),
+        clearance: Some(scene.drawn().clearance(q)).filter(|c| c.is_finite()),
         required,
         plane: BasisFinding { u: array(plane.u), v: array(plane.v), normal: array(plane.normal) },
         contacts,
@@ -136,12 +141,15 @@ pub fn check(scene: &Scene, q: Configuration) -> ConfigurationFindings {
 /// Describes a pair of shapes. `None` if they keep the required clearance.
 fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFinding> {
     let Contact { pair: indices, separation } = contact;
-    let part = scene.part(indices).at(&scene.arm().pose(indices.link, q));
-    let piece = scene.piece(indices);
-    let touching = shapes_meet(&part, piece);
-    if !touching && separation.distance >= scene.workspace().clearance {
+    let at = scene.arm().pose(indices.link, q);
+    if !shapes_meet(&scene.part(indices).at(&at), scene.piece(indices))
+        && separation.distance >= scene.workspace().clearance
+    {
         return None;
     }
+    let drawn = scene.drawn();
+    let (part, piece) = (drawn.part(indices).at(&at), drawn.piece(indices));
+    let touching = shapes_meet(&part, piece);
     let (a, b) = (part.core(), piece.core());
     // Only polygons have corners and sides. For rounded shapes, the depth says enough.
     let sharp = part.radius() == 0.0 && piece.radius() == 0.0;
@@ -156,7 +164,9 @@ fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFind
         body: link.parts[indices.part].body.clone(),
         obstacle: scene.obstacle_name(indices).to_owned(),
         touching,
-        depth: -separation.distance,
+        depth: -scene.real_distance(&contact),
+        required: scene.required(indices),
+        least: scene.describe_required(indices),
         link_corners_inside: test.as_ref().map_or_else(Vec::new, |t| inside(a, &t.a_inside)),
         obstacle_corners_inside: test.as_ref().map_or_else(Vec::new, |t| inside(b, &t.b_inside)),
         crossing_sides: test

@@ -28,6 +28,7 @@ pub use certificate::{
     BoundCertificate, CertifiedLine, ExcludedSolution, NoCertificate, certificate_of_bound, certificate_of_boxes,
     certificate_of_recording,
 };
+pub use cplan_world::AllowedErrors;
 pub use motion::Motion;
 pub use plan::{Detail, Plan, PlanError, Refutation, plan};
 pub use problem::{Problem, ProblemError};

@@ -62,6 +62,8 @@ pub struct Plan {
     detail: Box<Detail>,
     clock: Clock,
     pub(super) margins: OnceLock<Margins>,
+    /// The answer for the robot and the world as drawn, if the motion must be free for errors.
+    drawn: OnceLock<Option<Status>>,
 }
 
 /// The planned problem and its answer. Limits that the options override have the options' values.
@@ -125,7 +127,15 @@ pub fn plan(
             plan_task((task, search), &joints_in_messages(&problem, options), options, &mut clock, progress)?
         }
     };
-    Ok(Plan { problem, options: *options, searches, detail: Box::new(detail), clock, margins: OnceLock::new() })
+    Ok(Plan {
+        problem,
+        options: *options,
+        searches,
+        detail: Box::new(detail),
+        clock,
+        margins: OnceLock::new(),
+        drawn: OnceLock::new(),
+    })
 }
 
 /// Returns the reason why the options do not suit the robot. `None` if they do.
@@ -245,6 +255,19 @@ impl Plan {
             Detail::Motion { answer, .. } => answer.outcome.status(),
             Detail::Task { answer, .. } => answer.outcome.status(),
         }
+    }
+
+    /// Returns the status of the problem without the errors for which the motion must be free. Plans it at the first call,
+    /// unless a motion was found, which is one for it, too. `None` if there are no errors.
+    pub fn status_as_drawn(&self) -> Option<Status> {
+        *self.drawn.get_or_init(|| {
+            let errors = self.problem.errors()?;
+            if self.status() == Status::Found {
+                return Some(Status::Found);
+            }
+            let drawn = errors.drawn.as_ref()?;
+            Some(solve(drawn, &self.options, &mut |_| ()).outcome.status())
+        })
     }
 
     /// Returns the motion of the arm, if there is one.

@@ -6,7 +6,7 @@ use cplan_model::space::{Configuration, GoalSet};
 use cplan_model::{Arm, MotionProblem, MotionProblemError, Scene, SceneError};
 use cplan_robot::{InputError, RobotFile, RobotReport};
 use cplan_solver::Options;
-use cplan_world::{self, LoadedProblem, LoadedScene, Overrides, Rules};
+use cplan_world::{self, AllowedErrors, LoadedProblem, LoadedScene, Overrides, Rules};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Duration;
@@ -25,6 +25,8 @@ pub struct Problem {
     trajectories: Arc<[ObstacleTrajectory]>,
     robot: Arc<RobotReport>,
     notes: Arc<[String]>,
+    /// The errors for which the motion must be free. `None` if there are none, or the problem was restored.
+    errors: Option<AllowedErrors>,
     /// Time that reading the files took. `None` if the problem was created in code.
     read_in: Option<Duration>,
 }
@@ -138,6 +140,11 @@ impl Problem {
         &self.notes
     }
 
+    /// Returns the errors of the robot and the world for which the motion must be free. `None` if there are none.
+    pub fn errors(&self) -> Option<&AllowedErrors> {
+        self.errors.as_ref()
+    }
+
     /// Returns the scene with the trajectories of its loose obstacles.
     pub fn timed(&self) -> TimedScene<'_> {
         TimedScene { scene: self.scene(), trajectories: &self.trajectories }
@@ -148,7 +155,7 @@ impl Problem {
         let names = problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone());
         let robot = RobotReport { joints: RobotJoints::only_planned(&names), ..RobotReport::default() };
         let (stated_goals, notes) = (Vec::new(), Vec::new());
-        LoadedProblem { problem, stated_goals, task: None, trajectories, robot, notes }.into()
+        LoadedProblem { problem, stated_goals, task: None, trajectories, robot, notes, errors: None }.into()
     }
 }
 
@@ -171,9 +178,9 @@ pub(super) fn motion_among(
 }
 
 impl From<LoadedProblem> for Problem {
-    fn from(LoadedProblem { problem, task, trajectories, robot, notes, .. }: LoadedProblem) -> Self {
+    fn from(LoadedProblem { problem, task, trajectories, robot, notes, errors, .. }: LoadedProblem) -> Self {
         let (query, task, robot) = (Arc::new(problem), task.map(Arc::new), Arc::new(robot));
-        Self { query, task, trajectories: trajectories.into(), robot, notes: notes.into(), read_in: None }
+        Self { query, task, trajectories: trajectories.into(), robot, notes: notes.into(), errors, read_in: None }
     }
 }
 

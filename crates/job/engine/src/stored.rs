@@ -122,7 +122,7 @@ impl<'de> Deserialize<'de> for Problem {
                 (MotionProblem::trusted(scene, task.start, GoalSet::default()), Some(task), trajectories)
             }
         };
-        Ok(LoadedProblem { problem, stated_goals: Vec::new(), task, trajectories, robot, notes }.into())
+        Ok(LoadedProblem { problem, stated_goals: Vec::new(), task, trajectories, robot, notes, errors: None }.into())
     }
 }
 

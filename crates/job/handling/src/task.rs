@@ -6,7 +6,7 @@ use super::{
 };
 use cplan_geometry::{Convex, Interval, Point, Pose};
 use cplan_model::space::Configuration;
-use cplan_model::{Arm, Goal, Heights, Obstacle, Shape};
+use cplan_model::{Arm, Goal, Growth, Heights, Obstacle, Shape};
 use cplan_text::{length, short};
 use serde::{Deserialize, Serialize};
 
@@ -304,7 +304,7 @@ impl Object {
             None => (Shape::Pieces, Vec::new()),
         };
         let heights = placement.map_or(self.heights, |placement| self.heights_at(placement.elevation));
-        Obstacle { name: self.name.clone(), shape, pieces, heights }
+        Obstacle { name: self.name.clone(), shape, pieces, heights, growth: Growth::default() }
     }
 
     /// Returns the object's initial placement. Returns `None` if the object moves initially.
@@ -321,7 +321,7 @@ impl Object {
     pub fn moving(&self) -> Option<MovingObstacle> {
         let obstacle = || {
             let (shape, pieces) = (self.shape.clone(), self.pieces.clone());
-            Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights }
+            Obstacle { name: self.name.clone(), shape, pieces, heights: self.heights, growth: Growth::default() }
         };
         self.trajectory.clone().map(|trajectory| MovingObstacle { obstacle: obstacle(), trajectory })
     }

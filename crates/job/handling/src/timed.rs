@@ -26,6 +26,15 @@ impl From<Workspace> for TimedWorkspace {
 }
 
 impl TimedWorkspace {
+    /// Returns the workspace with the pieces of all obstacles as large as their [growth](cplan_model::Growth) requires.
+    #[must_use]
+    pub fn grown(mut self) -> Self {
+        let clearance = self.fixed.clearance;
+        self.fixed.set_clearance(clearance);
+        self.movers.iter_mut().for_each(|mover| mover.obstacle.grow(clearance));
+        self
+    }
+
     /// Splits the workspace into its static part, and its moving obstacles as additions to a scene.
     pub fn into_parts(self) -> (Workspace, Additions) {
         let loose = self.movers.iter().map(MovingObstacle::to_loose_obstacle).collect();

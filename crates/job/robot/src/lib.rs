@@ -13,6 +13,7 @@
 //! module documentation lists the stages.
 
 mod assumed;
+mod calibration;
 mod drives;
 mod error;
 mod identity;
@@ -32,6 +33,7 @@ mod urdf;
 mod wrist;
 
 pub use assumed::AssumedLimits;
+pub use calibration::{CalibrationTable, ErrorBound, LengthError};
 pub use drives::{DrivesTable, DrivesValue, MotorTable};
 pub use error::{Diagnostic, DiagnosticKind, InputError, quoted};
 pub use identity::FileIdentity;

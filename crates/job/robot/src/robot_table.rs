@@ -1,6 +1,7 @@
 //! The world file's `[robot]` table.
 
 use crate::Spanned;
+use crate::calibration::CalibrationTable;
 use crate::drives::DrivesValue;
 use crate::quantity::{Number, Numbers, PerJoint, Written};
 #[cfg(feature = "schema")]
@@ -38,6 +39,8 @@ toml_table! {
         pub acceleration: PerJoint<Number>,
         /// Motors of two joints that turn, with their limits: a table, "standard_scara" or "direct".
         pub drives: Option<Spanned<DrivesValue>>,
+        /// Errors of the robot and its place within which motions stay free; by default none.
+        pub calibration: Option<Spanned<CalibrationTable>>,
         /// Greatest jerk of a joint, by name, rad/s3 or m/s3; a joint without has no such limit.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
         pub jerk: PerJoint<Number>,
@@ -71,10 +74,10 @@ toml_table! {
 }
 
 impl RobotTable {
-    /// Returns the same table without the placement of the robot. The reader of URDFs receives this table.
+    /// Returns the same table without the placement of the robot and its errors. The reader of URDFs receives this table.
     #[must_use]
     pub fn unplaced(&self) -> Self {
-        Self { at: None, angle: None, ..self.clone() }
+        Self { at: None, angle: None, calibration: None, ..self.clone() }
     }
 
     /// Returns the name of the wrist's joint, if the table states it.

@@ -124,6 +124,10 @@ has_schema! {
     Quantity, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *deg *$" }
 }
 stands_for! {
+    /// The greatest error of a length, of an angle, or of both.
+    StatedError, { "type": ["number", "string"], "minimum": 0, "pattern": "^ *[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|um|m|deg|rad) *(, *[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|um|m|deg|rad) *)?$" }
+}
+stands_for! {
     /// Grip of objects.
     HeldAs, { "type": "string", "enum": ["rigid", "level"] }
 }

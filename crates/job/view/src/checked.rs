@@ -79,6 +79,7 @@ impl CheckedView {
     pub fn new(scene: &Scene, findings: &ConfigurationFindings) -> Self {
         let q = findings.configuration.into();
         // Shapes of a level attachment are not its own, but derived ones.
+        let scene = &*scene.drawn();
         let nearest = scene.closest(q).filter(|near| near.separation.distance > 0.0 && !scene.is_attached(near.pair));
         let nearest = nearest.map(|near| DistanceView {
             ends: shortest_line(scene, q, &near),

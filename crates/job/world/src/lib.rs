@@ -72,9 +72,10 @@ pub use values::{JointValues, Overrides, TipPoint};
 pub use world::World;
 
 use cplan_handling::{ObstacleTrajectory, RobotJoints, Task, TimedScene, ToolJoint, Wrist, WristJoint};
-use cplan_model::{Arm, Goal, MotionProblem, Scene};
+use cplan_model::{Arm, Calibration, Goal, MotionProblem, Scene};
 use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, RobotTable, Source};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Reason why a line cannot have an angle of the tool in a world with a limit on the wrist's jerk.
 pub(crate) const WRIST_WITH_JERK: &str =
@@ -118,6 +119,19 @@ pub struct LoadedProblem {
     pub robot: RobotReport,
     /// Notes for the user: defaults, blocked IK solutions of the goal, joints whose value does not matter.
     pub notes: Vec<String>,
+    /// The errors of the robot and the world for which the motion must be free; `None` if there are none.
+    pub errors: Option<AllowedErrors>,
+}
+
+/// Errors of a robot and its world for which a motion must be free.
+#[derive(Debug, Clone)]
+pub struct AllowedErrors {
+    /// Errors of the robot.
+    pub robot: Calibration,
+    /// Greatest displacement of an obstacle, metres.
+    pub obstacles: f64,
+    /// The problem without errors. `None` if its start or all of its goals are not free.
+    pub drawn: Option<Arc<MotionProblem>>,
 }
 
 /// Reads a robot and a world. Does not check start, goal and steps: see [`LoadedScene::resolve`].
@@ -158,7 +172,7 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let refused = |message: String, help: &str| Diagnostic::new(world.source.name(), message).help(help);
     if world.robot.unplaced() != RobotTable::default() {
         let message = "[robot] interprets a URDF, but this arm was made in code".into();
-        return Err(refused(message, "keep only `at` and `angle` in this table").into());
+        return Err(refused(message, "keep only `at`, `angle` and `calibration` in this table").into());
     }
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
@@ -166,9 +180,11 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let joints = RobotJoints::only_planned(&arm.joints.each_ref().map(|joint| joint.name.clone()));
     let initial_workspace = world.initial_workspace();
     let trajectories = initial_workspace.trajectories();
-    let scene = initial_workspace
-        .scene(placed_arm(&arm, &world))
+    initial_workspace
+        .clone()
+        .scene(arm.clone())
         .map_err(|error| refused(error.to_string(), "use finite numbers and sizes above 0"))?;
+    let scene = world.scene(initial_workspace, &arm);
     Ok(LoadedScene { scene, trajectories, world, arm, robot: RobotReport { joints, ..RobotReport::default() } })
 }
 
@@ -249,14 +265,14 @@ impl LoadedScene {
     fn unchecked(world: World, arm: Arm, robot: RobotReport) -> Self {
         let initial_workspace = world.initial_workspace();
         let trajectories = initial_workspace.trajectories();
-        Self { scene: initial_workspace.scene_trusted(placed_arm(&arm, &world)), trajectories, world, arm, robot }
+        Self { scene: world.scene(initial_workspace, &arm), trajectories, world, arm, robot }
     }
 
     /// Returns the scene without its objects, and the trajectories of its loose obstacles.
     pub fn without_objects(&self) -> (Scene, Vec<ObstacleTrajectory>) {
         let workspace = self.world.workspace.clone();
         let trajectories = workspace.trajectories();
-        (workspace.scene_trusted(placed_arm(&self.arm, &self.world)), trajectories)
+        (self.world.scene(workspace, &self.arm), trajectories)
     }
 
     /// Returns the scene with the trajectories of its loose obstacles. Their times count from time 0 of the world.
@@ -274,11 +290,6 @@ fn scene_of_world(world: World, urdf: Source) -> Result<LoadedScene, InputError>
     let mut loaded = LoadedScene::unchecked(world, arm, robot);
     loaded.robot.warnings.extend(nearness::warning(&loaded.scene));
     Ok(loaded)
-}
-
-/// Returns the arm at the place where the world file puts the robot.
-fn placed_arm(arm: &Arm, world: &World) -> Arm {
-    world.place.as_ref().map_or_else(|| arm.clone(), |place| arm.placed(place))
 }
 
 /// Examines a robot and collects all defects. Without a world file, no joints are chosen, held or overridden. Decisions
@@ -299,7 +310,7 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
     files.extend(file.files());
     // A world that cannot be read counts as an input, too.
     files.extend(world.map(Path::to_owned));
-    let in_world = |alone: Scene| file.initial_workspace().scene_trusted(placed_arm(alone.arm(), &file));
+    let in_world = |alone: Scene| file.scene(file.initial_workspace(), alone.arm());
     let mut inspection = Inspection {
         world: world.map(|p| p.display().to_string()),
         scene: inspection.scene.map(in_world),

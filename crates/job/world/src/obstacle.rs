@@ -8,8 +8,8 @@ use super::reader::Reader;
 use super::schema::*;
 use cplan_geometry::{Convex, Pose};
 use cplan_handling::MovingObstacle;
-use cplan_model::{Obstacle, Shape};
-use cplan_robot::{Diagnostic, InputError, Number, Numbers, Spanned, Written, toml_table};
+use cplan_model::{Growth, Obstacle, Shape};
+use cplan_robot::{Diagnostic, InputError, LengthError, Number, Numbers, Spanned, Written, toml_table};
 
 toml_table! {
     /// An obstacle, which the arm must not touch: exactly one of polygon, circle, polyline and image.
@@ -50,6 +50,13 @@ toml_table! {
         /// heights.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         height: Option<Numbers>,
+        /// Least distance to keep from it, m; at least the world's `clearance`, which is the default.
+        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
+        clearance: Option<Number>,
+        /// Greatest displacement of it in any direction for which motions stay free, m, or "1 mm"; by default that of
+        /// `[robot] calibration`.
+        #[cfg_attr(test, schemars(with = "Option<StatedError>"))]
+        calibration: Option<LengthError>,
     }
 
     /// A disc.
@@ -67,6 +74,15 @@ toml_table! {
 /// Largest number of convex pieces of a map. With more pieces, each planner takes minutes.
 pub(super) const MAX_PIECES: usize = 1 << 20;
 
+/// Distances that the world's obstacles have unless they say otherwise, metres.
+#[derive(Clone, Copy)]
+pub(super) struct Margins {
+    /// Least distance to keep.
+    pub clearance: f64,
+    /// Greatest displacement for which motions stay free.
+    pub displacement: f64,
+}
+
 /// The kinds of obstacles in a world file.
 pub(super) enum ObstacleKind {
     /// A static obstacle.
@@ -79,11 +95,17 @@ const SIMPLE_POLYGON_HINT: &str =
     "list the corners in order round the shape (and round each hole), each once; a wall without area is a polyline";
 
 impl ObstacleTable {
-    /// Reads the obstacle with this index in its file.
+    /// Reads the obstacle with this index in its file. Unless it says otherwise, it has the `world`'s displacement; its own
+    /// clearance is at least that of the world. Both in metres.
     ///
     /// # Errors
     /// A table without exactly one shape, values that are not finite, invalid shapes, and unusable files.
-    pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<ObstacleKind, InputError> {
+    pub fn read(
+        reader: &Reader,
+        index: usize,
+        table: &Spanned<Self>,
+        world: Margins,
+    ) -> Result<ObstacleKind, InputError> {
         let obstacle = table.get_ref();
         let name = obstacle.name.clone().unwrap_or_else(|| format!("obstacle {}", index + 1));
         let what = format!("obstacle \"{name}\"");
@@ -117,7 +139,26 @@ impl ObstacleTable {
             return Err(reader.source.diagnostic_at(holes.span(), message).help("remove the key").into());
         }
         let heights = reader.heights(obstacle.height.as_ref(), &what)?;
-        let obstacle = Obstacle { name, shape, pieces, heights };
+        let clearance = obstacle.clearance.as_ref();
+        let growth = Growth {
+            clearance: clearance
+                .map(|c| reader.not_negative(c, &format!("{what}, clearance")))
+                .transpose()?
+                .unwrap_or(0.0),
+            error: obstacle.calibration.map_or(world.displacement, |LengthError(error)| error),
+            ..Growth::default()
+        };
+        if let Some(given) = clearance
+            && growth.clearance < world.clearance
+        {
+            let message = format!(
+                "{what}: its clearance of {} m is less than the world's of {} m, which holds for every obstacle",
+                growth.clearance, world.clearance
+            );
+            let help = "lower the world's clearance, and give the other obstacles one of their own";
+            return Err(reader.source.diagnostic_at(given.span(), message).help(help).into());
+        }
+        let obstacle = Obstacle { name, shape, pieces, heights, growth };
         Ok(match trajectory {
             Some(trajectory) => ObstacleKind::Moving(MovingObstacle { obstacle, trajectory }),
             None => ObstacleKind::Static(obstacle),

@@ -5,13 +5,14 @@ use super::reasons::{
     HELP_FOR_LIMITS, beyond_limits, describe, describe_out_of_reach, describe_segment, help_at, help_for_ik_solutions,
     help_for_reach, obstructions, within_limits,
 };
-use super::{LoadedProblem, LoadedScene, Overrides};
+use super::{AllowedErrors, LoadedProblem, LoadedScene, Overrides};
 use cplan_geometry::Point;
 use cplan_model::space::{Configuration, GoalSet, Segment};
 use cplan_model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, area_goals, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::{first_lines, listed};
 use std::ops::Range;
+use std::sync::Arc;
 
 /// The source of a value: the command line or the world file.
 pub(super) enum Place<'a> {
@@ -63,13 +64,14 @@ impl LoadedScene {
     pub fn resolve(self, overrides: &Overrides, rules: Rules) -> Result<LoadedProblem, InputError> {
         if rules == Rules::Exploration {
             self.require_static_obstacles("explorations are for worlds without moving obstacles")?;
+            self.require_real_shapes()?;
         }
         let may_be_task = matches!(rules, Rules::Plan | Rules::Start | Rules::Recording);
         let overrides_goal = overrides.goal.is_some() || overrides.goal_tip.is_some();
         if self.is_task() && !may_be_task || self.has_steps() && overrides_goal {
             return Err(self.has_no_goal(overrides).into());
         }
-        let loaded = self.with_clearance(overrides.clearance)?;
+        let loaded = self.with_margins(overrides.clearance, overrides.calibration)?;
         let mut notes = loaded.world.notes.clone();
         let (start, place) = loaded.start(overrides, &mut notes)?;
         let is_checked = matches!(rules, Rules::Plan | Rules::Motion | Rules::Exploration);
@@ -77,6 +79,7 @@ impl LoadedScene {
             let is_free = loaded.require("the start", start, &place).and_then(|()| loaded.require_clear(start, &place));
             is_free.map_err(|diagnostic| diagnostic.with_kind(DiagnosticKind::Start))?;
         }
+        let errors = loaded.allowed_errors(overrides, rules);
         let (mut stated_goals, mut goals, mut task) = (Vec::new(), GoalSet::default(), None);
         match rules {
             Rules::Start => stated_goals.push(Goal::Joints(start)),
@@ -87,7 +90,21 @@ impl LoadedScene {
         }
         let Self { scene, trajectories, robot, .. } = loaded;
         let problem = MotionProblem::trusted(scene, start, goals);
-        Ok(LoadedProblem { problem, stated_goals, task, trajectories, robot, notes })
+        Ok(LoadedProblem { problem, stated_goals, task, trajectories, robot, notes, errors })
+    }
+
+    /// Returns the errors for which motions must be free, with the problem without them. `None` if there are none.
+    fn allowed_errors(&self, overrides: &Overrides, rules: Rules) -> Option<AllowedErrors> {
+        if !self.world.has_errors() || !matches!(rules, Rules::Plan | Rules::Motion) {
+            return None;
+        }
+        let (robot, obstacles) = (self.world.calibration.of_robot(), self.world.greatest_displacement());
+        let mut world = self.world.clone();
+        world.remove_errors();
+        let drawn = Self::unchecked(world, self.arm.clone(), self.robot.clone());
+        let overrides = Overrides { clearance: None, calibration: None, ..overrides.clone() };
+        let drawn = drawn.resolve(&overrides, rules).ok().map(|drawn| Arc::new(drawn.problem));
+        Some(AllowedErrors { robot, obstacles, drawn })
     }
 
     /// Reads start and goal of a motion: [`LoadedScene::resolve`] by [`Rules::Motion`].
@@ -124,7 +141,8 @@ impl LoadedScene {
                 Err(diagnostic) => refused.push(diagnostic),
             }
         }
-        if goals.is_empty() {
+        // A goal that is free for some of the errors must not be missing in a proof that there is no motion.
+        if goals.is_empty() || self.world.has_errors() && !refused.is_empty() {
             // There is at least one goal, so there is at least one reason.
             return Err(refused.swap_remove(0).with_kind(DiagnosticKind::Goal).into());
         }
@@ -171,7 +189,7 @@ impl LoadedScene {
         }
         let (mut goals, mut blocked) = (Vec::new(), Vec::new());
         for piece in rim.pieces() {
-            match blocked_all_along(&self.scene, piece) {
+            match blocked_all_along(&self.scene.inner(), piece) {
                 Some(reasons) => blocked.extend(reasons),
                 None => goals.push(*piece),
             }
@@ -268,6 +286,17 @@ impl LoadedScene {
         Err(self.world.source.diagnostic(message).help(help).into())
     }
 
+    /// Checks that all obstacles have their real size, for explorations, whose sensor sees them.
+    fn require_real_shapes(&self) -> Result<(), InputError> {
+        let grown = self.scene.workspace().obstacles.iter().find(|obstacle| obstacle.growth.total > 0.0);
+        if grown.is_none() && !self.world.has_errors() {
+            return Ok(());
+        }
+        let message = "explorations know neither errors (calibration) nor clearances of single obstacles";
+        let help = "give the world a clearance that covers them";
+        Err(self.world.source.diagnostic(message).help(help).into())
+    }
+
     /// Checks that no moving obstacle is at the arm's start at time 0.
     pub(super) fn require_clear(&self, start: Configuration, place: &Place) -> Result<(), Diagnostic> {
         let hits = self.timed().obstructions(start, 0.0);
@@ -301,10 +330,13 @@ impl LoadedScene {
         }
         notes.extend(solved.free.map(|free| freedom(scene, &at, free)));
         let (allowed, outside) = within_limits(scene, &solved);
-        let (mut goals, mut blocked) = (Vec::new(), Vec::new());
+        let (mut goals, mut undecided, mut blocked) = (Vec::new(), Vec::new(), Vec::new());
         for piece in allowed {
             match blocked_all_along(scene, &piece) {
-                Some(reasons) => blocked.extend(reasons),
+                Some(reasons) => {
+                    undecided.extend(blocked_all_along(&scene.inner(), &piece).is_none().then_some(piece));
+                    blocked.extend(reasons);
+                }
                 None => goals.push(piece),
             }
         }
@@ -317,7 +349,8 @@ impl LoadedScene {
         let ruled_out = |reason: String| format!("an IK solution with the tip at {at} is ruled out: {reason}");
         let reasons = outside.into_iter().chain(blocked).map(ruled_out).collect();
         notes.extend(first_lines(reasons, |more| format!("and so are {more} more")));
-        Ok(goals.into_iter().collect())
+        // No motion may end at these, but a proof that there is none must exclude them.
+        Ok(goals.into_iter().chain(undecided).collect())
     }
 }
 

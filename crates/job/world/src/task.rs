@@ -48,6 +48,7 @@ impl LoadedScene {
         }
         let mut workspace = self.world.workspace.clone();
         workspace.fixed.clearance = self.scene.workspace().clearance;
+        let workspace = workspace.grown();
         notes.extend(self.world.wrist.iter().filter_map(|(_, note)| note.clone()));
         notes.extend(stroke.iter().flat_map(|stroke| lifted_higher(stroke, &self.world.objects)));
         let task = Task {

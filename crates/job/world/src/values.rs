@@ -4,8 +4,8 @@ use super::LoadedScene;
 use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
 use cplan_model::space::Configuration;
-use cplan_model::{Joint, SceneError};
-use cplan_robot::{Diagnostic, InputError, MAX_LENGTH};
+use cplan_model::{Joint, SceneError, check_clearance};
+use cplan_robot::{CalibrationTable, Diagnostic, InputError, MAX_LENGTH};
 use std::fmt;
 use std::str::FromStr;
 
@@ -20,21 +20,43 @@ pub struct Overrides {
     pub goal_tip: Option<TipPoint>,
     /// The value of `--clearance`, metres.
     pub clearance: Option<f64>,
+    /// The value of `--calibration`.
+    pub calibration: Option<CalibrationTable>,
 }
 
 impl LoadedScene {
-    /// Sets the clearance that overrides the world's, in metres. `None` keeps the world's.
+    /// Sets the clearance, in metres, and the errors for which motions stay free, which override the world's. `None`
+    /// keeps the world's.
     ///
     /// # Errors
-    /// A clearance that is negative or not finite.
-    pub fn with_clearance(mut self, clearance: Option<f64>) -> Result<Self, InputError> {
-        if let Some(clearance) = clearance {
-            let refused = |diagnostic: SceneError| {
-                Diagnostic::new("--clearance", diagnostic.to_string()).help("metres: 0 or more, such as 0.02")
-            };
-            self.scene = self.scene.with_clearance(clearance).map_err(refused)?;
+    /// A clearance that is negative or not finite; errors in a world with steps.
+    pub fn with_margins(
+        mut self,
+        clearance: Option<f64>,
+        errors: Option<CalibrationTable>,
+    ) -> Result<Self, InputError> {
+        if let Some(stated) = errors {
+            self.world.replace_errors(stated);
+            if self.is_task() && self.world.has_errors() {
+                return Err(self.world.task_with_errors().into());
+            }
         }
-        Ok(self)
+        let Some(clearance) = clearance.or(errors.map(|_| self.scene.workspace().clearance)) else { return Ok(self) };
+        let refused = |diagnostic: SceneError| {
+            Diagnostic::new("--clearance", diagnostic.to_string()).help("metres: 0 or more, such as 0.02")
+        };
+        if !self.world.has_errors() && errors.is_none() {
+            self.scene = self.scene.with_clearance(clearance).map_err(refused)?;
+            return Ok(self);
+        }
+        check_clearance(clearance).map_err(refused)?;
+        // How much errors grow the obstacles depends on the clearance.
+        self.world.workspace.fixed.clearance = clearance;
+        let Self { scene, world, arm, robot, .. } = self;
+        let mut changed = Self::unchecked(world, arm, robot);
+        let limited = changed.scene.arm_mut();
+        (limited.joints, limited.dynamics) = (scene.arm().joints.clone(), scene.arm().dynamics.clone());
+        Ok(changed)
     }
 
     /// Returns the scene with the arm at rest during strokes and turns of the wrist, as with `arch = false`.

@@ -4,7 +4,7 @@ use super::goal_table::GoalTable;
 use super::help::help;
 use super::joint_pair::JointPair;
 use super::object::{self, MovableObject, Names, ObjectTable};
-use super::obstacle::{ObstacleKind, ObstacleTable};
+use super::obstacle::{Margins, ObstacleKind, ObstacleTable};
 use super::pallet::{PalletTable, Pallets};
 use super::preference::PreferenceTable;
 use super::reader::Reader;
@@ -18,9 +18,10 @@ use super::tool_values::StatedTool;
 use super::world_map::{self, MapTable};
 use cplan_geometry::Pose;
 use cplan_handling::{Holding, Object, TimedWorkspace, Wrist};
-use cplan_model::{Goal, Obstacle, Workspace};
+use cplan_model::{Arm, Calibration, Goal, Growth, Obstacle, Scene, Workspace};
 use cplan_robot::{
-    Diagnostic, InputError, Number, Numbers, RobotSettings, RobotTable, Source, Spanned, Written, toml_table,
+    CalibrationTable, Diagnostic, InputError, LengthError, Number, Numbers, RobotSettings, RobotTable, Source, Spanned,
+    Written, toml_table,
 };
 use std::ops::Range;
 use std::path::PathBuf;
@@ -53,6 +54,8 @@ pub struct World {
     pub(super) wrist: Option<(Wrist, Option<String>)>,
     /// True if the wrist turns during motions although the world has no steps.
     pub(super) wrist_turns: bool,
+    /// Errors for which motions stay free.
+    pub(super) calibration: CalibrationTable,
 }
 
 impl World {
@@ -74,6 +77,7 @@ impl World {
             sensor: SensorWishes::default(),
             wrist: None,
             wrist_turns: false,
+            calibration: CalibrationTable::default(),
         }
     }
 
@@ -99,7 +103,61 @@ impl World {
         let lying = |object: &Object| object.obstacle_at(object.initial_static_pose().as_ref());
         workspace.fixed.obstacles.extend(self.objects.iter().map(lying));
         workspace.movers.extend(self.objects.iter().filter_map(Object::moving));
-        workspace
+        let error = self.calibration.obstacles.unwrap_or_default().0;
+        let fixed = workspace.fixed.obstacles.iter_mut().skip(self.workspace.fixed.obstacles.len());
+        let moving = workspace.movers.iter_mut().skip(self.workspace.movers.len()).map(|mover| &mut mover.obstacle);
+        for object in fixed.chain(moving) {
+            object.growth.error = error;
+        }
+        workspace.grown()
+    }
+
+    /// Returns the scene of an arm with the workspace, with the errors for which motions stay free.
+    pub(super) fn scene(&self, workspace: TimedWorkspace, arm: &Arm) -> Scene {
+        let placed = self.place.as_ref().map_or_else(|| arm.clone(), |place| arm.placed(place));
+        let (drawn, errors) = (workspace.scene_trusted(placed), self.calibration.of_robot());
+        if errors == Calibration::default() { drawn } else { drawn.within_errors(&errors) }
+    }
+
+    /// Replaces errors for which motions stay free by those that an option states. Its displacement of obstacles
+    /// applies to all of them.
+    pub(super) fn replace_errors(&mut self, stated: CalibrationTable) {
+        self.calibration = self.calibration.replaced_by(stated);
+        if let Some(LengthError(error)) = stated.obstacles {
+            let TimedWorkspace { fixed, movers } = &mut self.workspace;
+            let moving = movers.iter_mut().map(|mover| &mut mover.obstacle);
+            fixed.obstacles.iter_mut().chain(moving).for_each(|obstacle| obstacle.growth.error = error);
+        }
+    }
+
+    /// Removes all errors for which motions stay free.
+    pub(super) fn remove_errors(&mut self) {
+        self.calibration = CalibrationTable::default();
+        self.replace_errors(CalibrationTable { obstacles: Some(LengthError(0.0)), ..CalibrationTable::default() });
+    }
+
+    /// Returns the greatest displacement of an obstacle for which motions stay free, metres.
+    pub(super) fn greatest_displacement(&self) -> f64 {
+        let moving = self.workspace.movers.iter().map(|mover| &mover.obstacle);
+        let all = self.workspace.fixed.obstacles.iter().chain(moving).map(|obstacle| obstacle.growth.error);
+        all.fold(self.calibration.obstacles.unwrap_or_default().0, f64::max)
+    }
+
+    /// Returns true if motions must stay free within errors of the robot or of an obstacle's place.
+    pub fn has_errors(&self) -> bool {
+        self.calibration.of_robot() != Calibration::default() || self.greatest_displacement() > 0.0
+    }
+
+    /// Returns the diagnostic that a task does not allow for errors.
+    pub(super) fn task_with_errors(&self) -> Diagnostic {
+        let at = self.robot.calibration.as_ref().map(|table| table.span());
+        let message = "errors (calibration) are for motions between a start and a goal: parts that a task picks and places \
+                       would be off by them, too";
+        let diagnostic = match at {
+            Some(at) => self.source.diagnostic_at(at, message),
+            None => self.source.diagnostic(message),
+        };
+        diagnostic.help("remove the errors, and give the world a clearance that covers them")
     }
 }
 
@@ -188,14 +246,18 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let tool = [start_tool?, goal_tool?];
     let goals = file.goal.as_ref().map(|g| reader.goals(&g.get_ref().0, g.span())).transpose()?;
     let (mut obstacles, mut movers) = (Vec::new(), Vec::new());
+    let calibration = robot.calibration.as_ref().map(|table| *table.get_ref()).unwrap_or_default();
+    let displacement = calibration.obstacles.unwrap_or_default().0;
     for (index, table) in file.obstacle.iter().enumerate() {
-        match ObstacleTable::read(&reader, index, table)? {
+        match ObstacleTable::read(&reader, index, table, Margins { clearance, displacement })? {
             ObstacleKind::Static(obstacle) => obstacles.push(obstacle),
             ObstacleKind::Moving(mover) => movers.push(mover),
         }
     }
     let map = file.map.as_ref().map(|m| world_map::read(&reader, m)).transpose()?.unwrap_or_default();
-    obstacles.extend(map.obstacles);
+    let error = displacement;
+    obstacles
+        .extend(map.obstacles.into_iter().map(|wall| Obstacle { growth: Growth { error, ..wall.growth }, ..wall }));
     let preferences = file.preference.iter().enumerate().map(|(i, p)| PreferenceTable::read(&reader, i, p));
     let mut preferences = preferences.collect::<Result<Vec<_>, _>>()?;
     preferences.extend(map.preferences);
@@ -224,9 +286,9 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         format!("robot: its root frame stands at ({}, {}) m in the world, turned by {angle} rad", at.x, at.y)
     }));
     let fixed = Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences };
-    Ok(World {
+    let world = World {
         notes,
-        workspace: TimedWorkspace { fixed, movers },
+        workspace: TimedWorkspace { fixed, movers }.grown(),
         start,
         in_degrees: reader.in_degrees.take(),
         named_files: reader.files.take(),
@@ -238,10 +300,15 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         sensor,
         wrist,
         wrist_turns: false,
+        calibration,
         place,
         robot,
         source,
-    })
+    };
+    if world.is_task() && world.has_errors() {
+        return Err(world.task_with_errors().into());
+    }
+    Ok(world)
 }
 
 /// Returns the steps with all repetitions. `None` if there are no steps.

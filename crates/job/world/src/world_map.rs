@@ -7,7 +7,7 @@ use super::reader::Reader;
 #[cfg(test)]
 use super::schema::*;
 use cplan_geometry::{Convex, Point, SimplePolygon, Vector};
-use cplan_model::{Goal, Obstacle, Preference, Region, Shape};
+use cplan_model::{Goal, Growth, Obstacle, Preference, Region, Shape};
 use cplan_robot::{InputError, MAX_LENGTH, Number, Numbers, Spanned, toml_table};
 use std::ops::Range;
 use std::path::Path;
@@ -80,7 +80,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
                 (Shape::Polyline(points), pieces)
             }
         };
-        obstacles.push(Obstacle { name, shape, pieces, heights });
+        obstacles.push(Obstacle { name, shape, pieces, heights, growth: Growth::default() });
     };
     for chain in map.chains() {
         let [first, last] = chain.lines.map(|line| line + 1);

@@ -46,13 +46,16 @@ impl Replay<'_> {
         chain: &Chain,
         on: &Attachment,
         hanging: &Obstacle,
-        pressed: Option<&Obstacle>,
+        (pressed, supports): (Option<&Obstacle>, &[usize]),
     ) -> Result<[Vec<Solid>; 2], CheckError> {
         let solids = |own: &Obstacle, kept: &BigInt| {
             carried_shapes::solids(own)
                 .map(|all| all.iter().map(|shape| Solid::new(chain, on.clone(), shape, kept)).collect())
         };
-        Ok([solids(hanging, &self.kept)?, pressed.map_or(Ok(Vec::new()), |own| solids(own, &guard()))?])
+        // Supports are grown by their own clearance, which need not be kept from what rests on them.
+        let grown = supports.iter().map(|support| &self.all[*support].grown[1].lower).min();
+        let kept = guard() - grown.cloned().unwrap_or_default();
+        Ok([solids(hanging, &self.kept)?, pressed.map_or(Ok(Vec::new()), |own| solids(own, &kept))?])
     }
 
     /// Returns a disc about the tip that covers a level object in all orientations.
@@ -110,7 +113,7 @@ impl Replay<'_> {
         let pressed = (!carrying.supports.is_empty())
             .then(|| carried_shapes::shrunk_object(&hanging, &self.pressed))
             .transpose()?;
-        let solids = self.attached_shapes(&self.chain, &on, &hanging, pressed.as_ref())?;
+        let solids = self.attached_shapes(&self.chain, &on, &hanging, (pressed.as_ref(), &carrying.supports))?;
         self.held = Some(HeldObject { object, on, hanging, pressed, solids, round, carrying });
         self.released = None;
         Ok(())
@@ -154,7 +157,12 @@ impl Replay<'_> {
         };
         let time = [0, 1].map(Decimal::whole);
         let swept = Piece { knot: done.knots[1], curves: vec![vec![[0, 0], [end, 0]]], time };
-        let solids = self.attached_shapes(&wrist, &Attachment::Link(0), &held.hanging, held.pressed.as_ref())?;
+        let solids = self.attached_shapes(
+            &wrist,
+            &Attachment::Link(0),
+            &held.hanging,
+            (held.pressed.as_ref(), &held.carrying.supports),
+        )?;
         let seen = |(number, present): (usize, &Option<PlacedObstacle>)| {
             // The disc about the tip has already been checked.
             let meets = || self.meets(&held, number, ToolHeights::Raised).is_some_and(|of| of != ContactRule::Round);
@@ -192,7 +200,12 @@ impl Replay<'_> {
             own.at = turned(&own.at, &angle);
             own.turn = both_turns(&own.turn, &angle);
         }
-        held.solids = self.attached_shapes(&self.chain, &held.on, &held.hanging, held.pressed.as_ref())?;
+        held.solids = self.attached_shapes(
+            &self.chain,
+            &held.on,
+            &held.hanging,
+            (held.pressed.as_ref(), &held.carrying.supports),
+        )?;
         Ok(())
     }
 }

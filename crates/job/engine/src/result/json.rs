@@ -4,6 +4,7 @@
 //! none. Other fields are omitted if they have no value. Numbers are finite: radians for a revolute joint, metres for a
 //! prismatic one, and seconds.
 
+use super::errors_report::ErrorsReport;
 use super::margin_report::{margin_reports, tolerance_reports};
 use super::step_report::{FailedStepReport, step_reports};
 use super::{finite, optimum};
@@ -163,6 +164,7 @@ impl PlanResult<'_> {
         fields.add("clearance", &plan.clearance())?;
         fields.add_optional("closest", plan.closest())?;
         self.margins(fields)?;
+        fields.add_optional("calibration", plan.problem().errors().map(|errors| ErrorsReport::new(plan, errors)))?;
         fields.add_optional("field", plan.options().planner.field().map(|field| field_report(field, answer)))?;
         let size: BTreeMap<_, _> = answer.run.size.figures().into_iter().collect();
         fields.add_optional("size", Some(size).filter(|size| !size.is_empty()))?;
@@ -234,7 +236,7 @@ fn free_joints(problem: &MotionProblem) -> Vec<&str> {
 
 impl Plan {
     /// The names of all fields that results can have.
-    pub const FIELD_NAMES: [&str; 38] = [
+    pub const FIELD_NAMES: [&str; 39] = [
         "status",
         "name",
         "planner",
@@ -259,6 +261,7 @@ impl Plan {
         "closest",
         "margins",
         "tolerances",
+        "calibration",
         "field",
         "size",
         "duration",

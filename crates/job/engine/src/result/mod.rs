@@ -1,5 +1,6 @@
 //! The results of a plan: its figures, its JSON and its files.
 
+mod errors_report;
 mod files;
 mod json;
 mod margin_report;

@@ -238,6 +238,7 @@ impl Bodies<'_> {
         let to_link = Pose::translation(-joint);
         let body = &self.document.robot.links[*link].name;
         let part = |shape, inner, heights| Part {
+            padding: 0.0,
             shape,
             inner,
             number: *number,
@@ -296,6 +297,7 @@ impl Bodies<'_> {
         let (to, high) = if index == 0 { self.joint_at(1) } else { self.at(self.chain.tip) };
         Part {
             inner: None,
+            padding: 0.0,
             number: 0,
             is_visual: false,
             shape: capsule(Point::zeros(), to - from, radius),

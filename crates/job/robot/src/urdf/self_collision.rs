@@ -12,7 +12,7 @@ use super::tree::Tree;
 use crate::error::{Diagnostic, quoted};
 use cplan_geometry::{Convex, Point, hull};
 use cplan_judge::permanent_contacts;
-use cplan_model::{Arm, Carrier, Obstacle, Pair, Part, Scene, SelfObstacle, Shape, Workspace};
+use cplan_model::{Arm, Carrier, Growth, Obstacle, Pair, Part, Scene, SelfObstacle, Shape, Workspace};
 use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::JointType;
 
@@ -107,7 +107,8 @@ impl<'a> SelfCollision<'a> {
             };
             for (piece, heights) in shape.solid.layers(&shape.pose, self.bodies.plane, &self.cuts(link, all)) {
                 let name = self.bodies.document.robot.links[link].name.clone();
-                let obstacle = Obstacle { name, shape: Shape::Pieces, pieces: vec![piece], heights };
+                let obstacle =
+                    Obstacle { name, shape: Shape::Pieces, pieces: vec![piece], heights, growth: Growth::default() };
                 let ignored = self.ignored(link);
                 let permanent = Default::default();
                 obstacles.push(SelfObstacle { carrier, obstacle, number, is_visual, ignored, permanent });

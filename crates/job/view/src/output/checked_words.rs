@@ -4,7 +4,7 @@ use super::names::{joint_name, obstacle_name, part_of_pair};
 use cplan_engine::findings::ConfigurationFindings;
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, JointRange};
-use cplan_text::{chosen_length, length, length_unlike};
+use cplan_text::{length, length_unlike};
 
 /// Returns a distance with three significant digits, or with more if it would look like the required one.
 pub fn distance(metres: f64, required: f64) -> String {
@@ -29,7 +29,8 @@ pub fn title(scene: &Scene, findings: &ConfigurationFindings) -> String {
     if findings.motors.as_ref().is_some_and(|motors| !motors.within_limits) {
         return "Not free: the elbow's motor is beyond its limits".into();
     }
-    let Some(near) = scene.closest(findings.configuration.into()) else {
+    let drawn = scene.drawn();
+    let Some(near) = drawn.closest(findings.configuration.into()) else {
         return format!("{answer}: no obstacle within reach");
     };
     let (who, what) = (part_of_pair(scene, near.pair), obstacle_name(scene, near.pair.obstacle));
@@ -41,9 +42,9 @@ pub fn title(scene: &Scene, findings: &ConfigurationFindings) -> String {
         () if touches && apart < 0.0 => format!("Not free: {who} is {} deep in {what}", distance(-apart, 0.0)),
         () if touches => format!("Not free: {who} touches {what}"),
         () => format!(
-            "Not free: {who} is {} from {what}, less than the clearance of {}",
-            distance(apart, findings.required),
-            chosen_length(findings.required)
+            "Not free: {who} is {} from {what}, less than {}",
+            distance(apart, scene.required(near.pair)),
+            scene.describe_required(near.pair)
         ),
     }
 }
@@ -53,7 +54,7 @@ pub fn cards(scene: &Scene, findings: &ConfigurationFindings) -> Vec<[String; 3]
     let q = Configuration::from(findings.configuration);
     let mut cards = Vec::new();
     let mut card = |name: &str, value: String, note: String| cards.push([name.to_owned(), value, note]);
-    if let Some(near) = scene.closest(q) {
+    if let Some(near) = scene.drawn().closest(q) {
         let pair = format!("{} and {}", part_of_pair(scene, near.pair), obstacle_name(scene, near.pair.obstacle));
         match near.separation.distance {
             apart if apart > 0.0 => card("distance", distance(apart, findings.required), pair),

@@ -2,11 +2,12 @@
 
 use super::motion_summary::{self, among_movers};
 use super::task_summary;
-use cplan_engine::{Detail, Plan};
+use cplan_engine::{AllowedErrors, Detail, Plan};
 use cplan_model::space::{Configuration, GoalSet, JointRange, Segment};
-use cplan_model::{Arm, Joint};
+use cplan_model::{Arm, Joint, Status};
 use cplan_motion::{Margin, Margins, Trajectory};
-use cplan_text::{Columns, counted, first_lines, length_down, round_down};
+use cplan_text::{Columns, chosen_length, counted, first_lines, length_down, round_down, short};
+
 use std::time::Duration;
 
 /// Returns the values of both joints by name.
@@ -161,6 +162,7 @@ fn summary_lines(plan: &Plan) -> SummaryLines {
     if let Some(timing) = plan.timing() {
         found.extend(among_movers(arm, timing, plan.place_time().as_ref()));
     }
+    found.extend(errors_line(plan));
     found.extend(work);
     found.extend(plan.options().planner.field().map(|field| ("field", field.to_string())));
     let name = non_empty(&problem.scene().workspace().name);
@@ -168,6 +170,33 @@ fn summary_lines(plan: &Plan) -> SummaryLines {
         vec![("world", format!("{name}, {things}{moving}")), ("start", configuration(arm, problem.query().start()))];
     asked.extend(target);
     SummaryLines { found, asked }
+}
+
+/// Describes the errors for which the motion must be free, and what the answer says about them.
+fn errors_line(plan: &Plan) -> Option<Line> {
+    let AllowedErrors { robot, obstacles, .. } = plan.problem().errors()?;
+    let angle = |radians: f64| format!("{} deg", short(radians.to_degrees()));
+    let both = |length: f64, radians: f64| match (length > 0.0, radians > 0.0) {
+        (true, true) => Some(format!("{} and {}", chosen_length(length), angle(radians))),
+        (true, false) => Some(chosen_length(length)),
+        (false, true) => Some(angle(radians)),
+        (false, false) => None,
+    };
+    let stated = [
+        ("base", both(robot.base_shift, robot.base_turn)),
+        ("links", both(robot.links, 0.0)),
+        ("zeros", both(robot.zero_slide, robot.zero_turn)),
+        ("obstacles", both(*obstacles, 0.0)),
+    ];
+    let stated: Vec<String> = stated.into_iter().filter_map(|(of, size)| Some(format!("{of} {}", size?))).collect();
+    let claim = plan.claim_about_errors().unwrap_or("no motion was found that is free for all of these errors");
+    let drawn = match plan.status_as_drawn() {
+        _ if plan.status() == Status::Found => "",
+        Some(Status::Found) => "; there is one for the robot and the world as drawn",
+        Some(Status::Infeasible) => "; there is none for the robot and the world as drawn either",
+        Some(Status::Unknown) | None => "; whether there is one for the robot and the world as drawn is unknown",
+    };
+    Some(("errors", format!("{claim}: {}{drawn}", stated.join(", "))))
 }
 
 /// The lines of a summary that are about the result or the problem.
