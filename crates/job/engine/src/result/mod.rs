@@ -2,7 +2,6 @@
 
 mod files;
 mod json;
-mod margin_report;
 mod messages;
 mod step_report;
 
