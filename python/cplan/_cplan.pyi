@@ -61,6 +61,14 @@ class Arm:
         velocity: Sequence[float] | None = None,
         acceleration: Sequence[float] | None = None,
     ) -> Arm: ...
+    @staticmethod
+    def scara(
+        links: Sequence[float] | None = None,
+        stroke: float | None = None,
+        *,
+        limits: Sequence[tuple[float, float]] | None = None,
+        velocity: Sequence[float] | None = None,
+    ) -> Arm: ...
     @property
     def urdf(self) -> str | None: ...
     def joints(self, world: World) -> list[str]: ...

@@ -2,6 +2,7 @@
 
 use crate::error::{raised, refused};
 use cplan::Joint;
+use cplan::cli::scara_urdf;
 use cplan::input::{self, InputError, LoadedScene, Overrides, RobotFile, Source, scene_from, scene_of};
 use pyo3::PyClass;
 use pyo3::prelude::*;
@@ -78,6 +79,22 @@ impl Arm {
             *joint = joint.clone().at_most(speed, rise);
         }
         Ok(Self(ArmSource::Made(Box::new(arm))))
+    }
+
+    /// Creates a SCARA by the numbers of its data sheet, as `cplan init --kind scara` does: lengths of both links and travel
+    /// of the quill in metres, `limits` ((lower, upper) of "axis_1" and "axis_2", radians) and their top speeds `velocity`
+    /// (rad/s). Numbers that are left out are those of `cplan init`. Its quill is "axis_3", its wrist "axis_4" and its tip
+    /// the link "flange", for `stroke`, `wrist` and `tip` of the world's robot.
+    #[staticmethod]
+    #[pyo3(signature = (links = None, stroke = None, *, limits = None, velocity = None))]
+    fn scara(
+        links: Option<[f64; 2]>,
+        stroke: Option<f64>,
+        limits: Option<[(f64, f64); 2]>,
+        velocity: Option<[f64; 2]>,
+    ) -> PyResult<Self> {
+        let urdf = scara_urdf(links, stroke, limits, velocity).map_err(refused)?;
+        Ok(Self(ArmSource::Urdf(Source::in_memory("arm.urdf", urdf))))
     }
 
     /// The text of the URDF; None for an arm that is made in code.

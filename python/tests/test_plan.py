@@ -88,6 +88,24 @@ def test_an_arm_and_a_world_in_code() -> None:
         cplan.plan(limited, world)
 
 
+def test_a_scara_by_its_data_sheet(tmp_path: Path) -> None:
+    numbers = ["--links", "0.225,0.2", "--stroke", "0.15", "--limits=-42:222,145", "--speeds", "375,600"]
+    for arm, words in [
+        (cplan.Arm.scara([0.225, 0.2], 0.15, limits=np.radians([(-42, 222), (-145, 145)]).tolist(), velocity=np.radians([375, 600]).tolist()), numbers),
+        (cplan.Arm.scara([0.225, 0.2]), numbers[:2]),
+        (cplan.Arm.scara(stroke=0.15), numbers[2:4]),
+    ]:
+        done = program("init", tmp_path, "--force", "--kind", "scara", *words)
+        assert done.returncode == 0, done.stderr
+        assert arm.urdf == (tmp_path / "arm.urdf").read_text()
+        world = cplan.World.from_toml(tmp_path / "world.toml")
+        assert isinstance(cplan.plan(arm, world), cplan.Found)
+        assert arm.joints(world) == ["axis_1", "axis_2"]
+    for refused in [{"links": [225, 225]}, {"stroke": 0.0}, {"limits": [(0.1, 1.0), (-1.0, 1.0)]}]:
+        with pytest.raises(ValueError, match=next(iter(refused))):
+            cplan.Arm.scara(**refused)
+
+
 def test_geometries_are_obstacles() -> None:
     shapely = pytest.importorskip("shapely")
     ring = shapely.Point(0.0, 1.4).buffer(0.3).difference(shapely.Point(0.0, 1.4).buffer(0.2))

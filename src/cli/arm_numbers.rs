@@ -9,7 +9,9 @@ pub struct ArmNumbers {
     pub links: [f64; 2],
     /// Travel of the quill. 0 without one.
     pub stroke: f64,
-    /// Range of each joint: from the negative value if it turns, from 0 if it slides.
+    /// Lower limits of the joints: negative if the joint turns, 0 if it slides.
+    pub lower: [f64; 2],
+    /// Upper limits of the joints.
     pub limits: [f64; 2],
     /// Top speeds.
     pub speeds: [f64; 2],
@@ -28,7 +30,17 @@ impl ArmNumbers {
             Kind::Scara | Kind::Arch => [[0.3, 0.25], [2.4435, 2.618], [7.243, 11.502]],
         };
         let stroke = if matches!(kind, Kind::Scara | Kind::Arch) { 0.18 } else { 0.0 };
-        Self { links, stroke, limits, speeds, drives: None }
+        let lower = [0, 1].map(|k| if kind.turns()[k] { -limits[k] } else { 0.0 });
+        Self { links, stroke, lower, limits, speeds, drives: None }
+    }
+
+    /// Returns the limits of each joint, lower and upper, as multiples of those of the arm to begin with.
+    pub fn limit_ratios(&self, kind: Kind) -> [[f64; 2]; 2] {
+        let usual = Self::of(kind);
+        [0, 1].map(|k| {
+            let lower = if usual.lower[k] < 0.0 { self.lower[k] / usual.lower[k] } else { 1.0 };
+            [lower, self.limits[k] / usual.limits[k]]
+        })
     }
 
     /// Returns the sizes of the arm as multiples of those of the arm to begin with: along x and along y.
@@ -46,8 +58,15 @@ impl ArmNumbers {
     }
 
     /// Returns the URDF: a template with these numbers. The widths of bodies follow from the lengths.
-    pub fn urdf(&self, kind: Kind, template: &str) -> String {
-        let Self { links: [a, b], stroke, limits, speeds, .. } = *self;
+    pub fn urdf(&self, kind: Kind) -> String {
+        let template = match kind {
+            Kind::Rr => include_str!("starter/rr.urdf"),
+            Kind::Rp => include_str!("starter/rp.urdf"),
+            Kind::Pr => include_str!("starter/pr.urdf"),
+            Kind::Pp => include_str!("starter/pp.urdf"),
+            Kind::Scara | Kind::Arch => include_str!("starter/scara.urdf"),
+        };
+        let Self { links: [a, b], stroke, lower, limits, speeds, .. } = *self;
         let usual = Self::of(kind);
         let (widths, spans, heights) = match kind {
             Kind::Rr => {
@@ -71,6 +90,8 @@ impl ArmNumbers {
         let marks = [
             ("link1", a),
             ("link2", b),
+            ("lower1", lower[0]),
+            ("lower2", lower[1]),
             ("limit1", limits[0]),
             ("limit2", limits[1]),
             ("speed1", speeds[0]),
@@ -105,7 +126,8 @@ impl ArmNumbers {
         let links = if links.is_empty() { String::new() } else { format!("links {} m, ", links.join(" and ")) };
         let range = |k: usize| match turns[k] {
             true => {
-                format!("{0} to {1} deg", -rounded(self.limits[k].to_degrees()), rounded(self.limits[k].to_degrees()))
+                let [lower, upper] = [self.lower, self.limits].map(|limit| rounded(limit[k].to_degrees()));
+                format!("{lower} to {upper} deg")
             }
             false => format!("0 to {} m", rounded(self.limits[k])),
         };
@@ -123,8 +145,9 @@ pub fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }
 
-/// Returns a text in which the numbers are multiplied by the factors, in turn.
-pub fn scaled(text: &str, factors: &[f64]) -> String {
+/// Returns a text in which the numbers are multiplied by the factors, in turn: of each pair, the first one is for negative
+/// numbers.
+pub fn scaled(text: &str, factors: &[[f64; 2]]) -> String {
     let is_number = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
     let (mut out, mut rest, mut count) = (String::new(), text, 0);
     while let Some(begin) = rest.find(is_number) {
@@ -132,7 +155,8 @@ pub fn scaled(text: &str, factors: &[f64]) -> String {
         out.push_str(&rest[..begin]);
         match rest[begin..end].parse::<f64>() {
             Ok(number) => {
-                out.push_str(&format!("{:?}", rounded(number * factors[count % factors.len()])));
+                let factor = factors[count % factors.len()][usize::from(number >= 0.0)];
+                out.push_str(&format!("{:?}", rounded(number * factor)));
                 count += 1;
             }
             Err(_) => out.push_str(&rest[begin..end]),
@@ -148,11 +172,12 @@ mod tests {
 
     #[test]
     fn numbers_of_a_text_are_scaled_in_turn() {
-        assert_eq!(scaled("[[0.6, -0.1], [1, 2.0]]", &[2.0, 10.0]), "[[1.2, -1.0], [2.0, 20.0]]");
+        assert_eq!(scaled("[[0.6, -0.1], [1, 2.0]]", &[[2.0; 2], [10.0; 2]]), "[[1.2, -1.0], [2.0, 20.0]]");
+        assert_eq!(scaled("[-2.0, 2.0]", &[[0.5, 3.0]]), "[-1.0, 6.0]");
         assert_eq!(
-            scaled("{ center = [0.1, -0.7], radius = 0.05 }", &[0.5]),
+            scaled("{ center = [0.1, -0.7], radius = 0.05 }", &[[0.5; 2]]),
             "{ center = [0.05, -0.35], radius = 0.025 }"
         );
-        assert_eq!(scaled("none", &[2.0]), "none");
+        assert_eq!(scaled("none", &[[2.0; 2]]), "none");
     }
 }

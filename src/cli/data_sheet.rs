@@ -4,8 +4,55 @@ use super::arm_numbers::ArmNumbers;
 use super::failure::Failure;
 use super::headings::DATA_SHEET;
 use super::init::Kind;
-use crate::options::{Word, positive, word};
+use crate::options::{Word, finite, positive, word};
 use clap::Args;
+
+/// The range of a joint, in degrees or metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Range {
+    /// `None` for the negative upper end of a joint that turns, and for 0 of one that slides.
+    lower: Option<f64>,
+    upper: f64,
+}
+
+/// Parses the range of a joint, such as 130 or -100:130.
+fn range(text: &str) -> Result<Range, String> {
+    let Some((lower, upper)) = text.split_once(':') else {
+        return positive(text).map(|upper| Range { lower: None, upper });
+    };
+    let range = Range { lower: Some(finite(lower)?), upper: finite(upper)? };
+    match range {
+        Range { lower: Some(lower), upper } if lower < 0.0 && upper > 0.0 => Ok(range),
+        _ => Err("a range must contain 0, such as -100:130".to_owned()),
+    }
+}
+
+/// Returns the URDF of the SCARA that `cplan init --kind scara` writes for these numbers, in metres, radians and radians per
+/// second. Numbers that are `None` are those of the arm that it writes without a data sheet.
+///
+/// # Errors
+/// Numbers that cannot be those of a SCARA.
+pub fn scara_urdf(
+    links: Option<[f64; 2]>,
+    stroke: Option<f64>,
+    limits: Option<[(f64, f64); 2]>,
+    speeds: Option<[f64; 2]>,
+) -> Result<String, Failure> {
+    let sheet = DataSheet {
+        links: links.iter().flatten().copied().collect(),
+        stroke,
+        limits: { limits.iter().flatten() }
+            .map(|(lower, upper)| Range { lower: Some(lower.to_degrees()), upper: upper.to_degrees() })
+            .collect(),
+        speeds: speeds.iter().flatten().map(|speed| speed.to_degrees()).collect(),
+        drives: None,
+    };
+    let numbers = sheet.numbers(Kind::Scara).map_err(|failure| match failure {
+        Failure::Usage(message) => Failure::Usage(message.trim_start_matches("--").to_owned()),
+        other => other,
+    })?;
+    Ok(numbers.urdf(Kind::Scara))
+}
 
 /// Numbers that data sheets state.
 #[derive(Debug, Clone, Args)]
@@ -17,9 +64,10 @@ pub struct DataSheet {
     /// Travel of the quill, metres (scara).
     #[arg(long, value_name = "METRES", value_parser = positive, help_heading = DATA_SHEET)]
     pub stroke: Option<f64>,
-    /// Ranges of both joints: 130 is from -130 to 130 degrees; for a sliding joint, 0.8 is from 0 to 0.8 metres.
-    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive, help_heading = DATA_SHEET)]
-    pub limits: Vec<f64>,
+    /// Ranges of both joints: 130 is from -130 to 130 degrees, and -100:130 from -100 to 130 degrees; for a sliding joint,
+    /// 0.8 is from 0 to 0.8 metres.
+    #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = range, allow_hyphen_values = true, help_heading = DATA_SHEET)]
+    pub limits: Vec<Range>,
     /// Top speeds of both joints, degrees or metres per second.
     #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive, help_heading = DATA_SHEET)]
     pub speeds: Vec<f64>,
@@ -53,10 +101,19 @@ impl DataSheet {
     /// Numbers that this kind of arm does not have, a wrong count of them, and numbers that cannot be metres or degrees.
     pub fn numbers(&self, kind: Kind) -> Result<ArmNumbers, Failure> {
         let usual = ArmNumbers::of(kind);
-        let [limits, speeds] = [both("limits", &self.limits)?, both("speeds", &self.speeds)?];
+        let (limits, speeds) = (both("limits", &self.limits)?, both("speeds", &self.speeds)?);
         for (k, turns) in kind.turns().into_iter().enumerate() {
             let (range, unit) = if turns { (DEGREES, "degrees") } else { (LENGTHS, "metres") };
-            check("limits", limits.map(|limits| limits[k]), range, unit)?;
+            let limit = limits.map(|limits| limits[k]);
+            check("limits", limit.map(|limit| limit.upper), range, unit)?;
+            if let Some(lower) = limit.and_then(|limit| limit.lower) {
+                if !turns {
+                    let message =
+                        format!("--limits: joint {} slides from 0; give its travel alone, such as 0.8", k + 1);
+                    return Err(Failure::Usage(message));
+                }
+                check("limits", Some(lower), [-range[1], -range[0]], unit)?;
+            }
             check("speeds", speeds.map(|speeds| speeds[k]), SPEEDS, &format!("{unit} per second"))?;
         }
         self.links.iter().try_for_each(|&length| check("links", Some(length), LENGTHS, "metres"))?;
@@ -69,7 +126,11 @@ impl DataSheet {
         Ok(ArmNumbers {
             links: self.links(kind, usual.links)?,
             stroke: self.stroke(kind, usual.stroke)?,
-            limits: limits.map_or(usual.limits, in_radians),
+            lower: limits.map_or(usual.lower, |limits| {
+                let lower = |k: usize| limits[k].lower.unwrap_or(if turns[k] { -limits[k].upper } else { 0.0 });
+                in_radians([lower(0), lower(1)])
+            }),
+            limits: limits.map_or(usual.limits, |limits| in_radians(limits.map(|limit| limit.upper))),
             speeds: speeds.map_or(usual.speeds, in_radians),
             drives: self.drives,
         })
@@ -97,7 +158,7 @@ impl DataSheet {
 }
 
 /// Returns the numbers of an option for both joints. `None` without any.
-fn both(name: &str, given: &[f64]) -> Result<Option<[f64; 2]>, Failure> {
+fn both<T: Copy>(name: &str, given: &[T]) -> Result<Option<[T; 2]>, Failure> {
     match *given {
         [] => Ok(None),
         [first, second] => Ok(Some([first, second])),

@@ -61,15 +61,15 @@ pub struct InitArgs {
 /// Arms to start from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Kind {
-    /// Two turning joints.
+    /// Two turning joints; 2r is the same.
     #[value(alias = "2r")]
     Rr,
-    /// A turret with a ram that slides out of it: turning, then sliding.
+    /// A turret with a ram that slides out of it: turning, then sliding; polar is the same.
     #[value(alias = "polar")]
     Rp,
     /// An arm on a rail: sliding, then turning.
     Pr,
-    /// A gantry: two sliding joints.
+    /// A gantry: two sliding joints; gantry is the same.
     #[value(alias = "gantry")]
     Pp,
     /// The cell of `cplan demo`, a SCARA among six obstacles; with the numbers of a data sheet, that SCARA among two.
@@ -83,16 +83,15 @@ pub enum Kind {
 fn world(kind: Kind, marks: &str, numbers: &ArmNumbers, distance: f64) -> String {
     let all: BTreeMap<String, BTreeMap<String, String>> = toml::from_str(MARKS).expect("a table of texts for each arm");
     let [x, y] = numbers.scale(kind).map(|scale| scale * distance);
-    let usual = ArmNumbers::of(kind);
-    let ratio = [0, 1].map(|k| numbers.limits[k] / usual.limits[k]);
+    let ratios = numbers.limit_ratios(kind);
     // Angles change only if the ranges are narrower than usual.
-    let joints = [0, 1].map(|k| if kind.turns()[k] { ratio[k].min(1.0) } else { ratio[k] });
+    let joints = [0, 1].map(|k| ratios[k].map(|ratio| if kind.turns()[k] { ratio.min(1.0) } else { ratio }));
     let filled = |world: String, (mark, text): (&String, &String)| {
         let text = match mark.as_str() {
-            "limits2" => scaled(text, &ratio[1..]),
+            "limits2" => scaled(text, &ratios[1..]),
             "start" | "goal" => scaled(text, &joints),
-            "tip" | "polygon" | "wall" | "region" => scaled(text, &[x, y]),
-            "disc" => scaled(text, &[x, y, x.min(y)]),
+            "tip" | "polygon" | "wall" | "region" => scaled(text, &[[x; 2], [y; 2]]),
+            "disc" => scaled(text, &[[x; 2], [y; 2], [x.min(y); 2]]),
             _ => text.clone(),
         };
         world.replace(&format!("{{{{{mark}}}}}"), &text)
@@ -141,12 +140,12 @@ impl Kind {
     /// Returns the texts of the robot's file and of the world file for an arm with these numbers, with obstacles at this
     /// multiple of their usual distances.
     fn files_by(self, numbers: &ArmNumbers, distance: f64) -> [String; 2] {
-        let (template, marks) = match self {
-            Kind::Rr => (include_str!("starter/rr.urdf"), "rr"),
-            Kind::Rp => (include_str!("starter/rp.urdf"), "rp"),
-            Kind::Pr => (include_str!("starter/pr.urdf"), "pr"),
-            Kind::Pp => (include_str!("starter/pp.urdf"), "pp"),
-            Kind::Scara | Kind::Arch => (include_str!("starter/scara.urdf"), "scara"),
+        let marks = match self {
+            Kind::Rr => "rr",
+            Kind::Rp => "rp",
+            Kind::Pr => "pr",
+            Kind::Pp => "pp",
+            Kind::Scara | Kind::Arch => "scara",
         };
         let mut world = world(self, marks, numbers, distance);
         if numbers.stroke > 0.0 {
@@ -155,7 +154,7 @@ impl Kind {
                         stroke = { joint = \"axis_3\" }\nwrist = { joint = \"axis_4\", velocity = 20.0 }\n";
             world = world.replace(&format!("#{joints}"), joints).replace("#tip = \"tool0\"\n", tool);
         }
-        [numbers.urdf(self, template), world]
+        [numbers.urdf(self), world]
     }
 
     /// Returns the files for an arm with these numbers, whose motion can be planned at once: its obstacles are at the first of

@@ -53,6 +53,7 @@ mod verify;
 mod words;
 
 pub use compare::compare_in;
+pub use data_sheet::scara_urdf;
 pub use explain::ExplanationResult;
 pub use failure::Failure;
 pub use memory::MemoryMeter;

@@ -427,7 +427,7 @@ def test_key_figures_are_cards_and_bounds_are_rounded_to_the_safe_side(program, 
 def test_tabs_show_one_part_at_a_time(program, show_file):
     page, _ = program.plan("planar_2r", "shelf")
     seen = show_file(page, width=1000, height=900)
-    parts = {"Layers": ".legend", "Plots": ".plots", "Details": ".facts"}
+    parts = {"Layers": ".legend", "Plots": ".plots", "Margins": ".budget", "Details": ".facts"}
     tabs = seen.page.get_by_role("tab")
     assert tabs.all_inner_texts() == list(parts)
     for name in parts:
@@ -437,7 +437,7 @@ def test_tabs_show_one_part_at_a_time(program, show_file):
     assert seen.page.locator(".legend").is_visible(), "arrow keys go round"
     # On a wide page, the layers stand beside the pictures.
     seen.page.set_viewport_size({"width": 1500, "height": 900})
-    seen.until("document.querySelectorAll('[role=tab]:not([hidden])').length === 2")
+    seen.until("document.querySelectorAll('[role=tab]:not([hidden])').length === 3")
     assert seen.page.locator(".legend").is_visible() and seen.page.locator(".plots").is_visible()
     seen.do("cplan.switchTo('think')")
     assert seen.page.locator(".facts").is_visible(), "the replay has no plots"

@@ -6,11 +6,13 @@ use cplan::model::{Arm, Grip, MotionProblem, Scene, Workspace};
 use cplan::motion::{BodyKind, ErrorKind, Margins, Trajectory};
 use cplan::space::{Configuration, Path};
 use cplan::{Options, Plan, Problem};
+use cplan_testkit::judged::{Question, judge};
 use cplan_testkit::moving::state_between;
 use cplan_testkit::oracle::Oracle;
 use cplan_testkit::problems::shipped_feasible;
 use cplan_testkit::solid::Solid;
 use cplan_testkit::{shipped, world};
+use serde_json::Value;
 use std::f64::consts::TAU;
 
 /// Allowance for rounding, as a share of a margin.
@@ -262,4 +264,59 @@ fn margins_of_moving_obstacles_hold_at_all_times() {
             assert!(proven >= MEDIAN * seen, "{world}: {} keeps {seen}, only {proven} is proven", loose.obstacle.name);
         }
     }
+}
+
+/// Returns the findings about a recording of waypoints, which are joined by straight lines.
+fn verified(world: &str, joints: [&str; 2], waypoints: &[[f64; 2]]) -> Value {
+    let rows: String = waypoints.iter().map(|[a, b]| format!("{a},{b}\n")).collect();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("recorded.csv");
+    std::fs::write(&file, format!("{},{}\n{rows}", joints[0], joints[1])).unwrap();
+    judge(&shipped::world(world).robot, &shipped::world(world).world, &file, &Question::with_free_ends()).unwrap()
+}
+
+/// Recordings of any origin have margins like those of plans. Places on motions without times are waypoints.
+#[test]
+fn margins_of_recordings_are_proven_and_tight() {
+    let mut ratios = Vec::new();
+    for world in ["shelf", "workbench", "crowd", "scara_cell", "gantry_maze", "polar_gate"] {
+        let shipped = shipped::world(world);
+        let problem = shipped.motion();
+        let scene = problem.scene();
+        let path = plan(&shipped.problem(), &Options::default()).unwrap().waypoints().unwrap();
+        let joints = scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
+        let found = verified(world, joints, &path);
+        assert_eq!(found["verdict"], "free", "{world}: {found:#}");
+        let waypoints = Path::new(path.iter().map(|q| Configuration::from(*q)).collect());
+        let motion = on_path(&waypoints, 400);
+        let obstacles = found["margins"].as_array().unwrap().iter().filter(|margin| margin["kind"] == "obstacle");
+        for (k, margin) in obstacles.enumerate() {
+            let truth = oracle(scene, |arm, workspace| {
+                arm.self_obstacles.clear();
+                workspace.obstacles = vec![workspace.obstacles[k].clone()];
+            });
+            let (seen, name) = (least(&truth, &motion), &scene.workspace().obstacles[k].name);
+            assert_eq!(margin["body"], **name, "{world}");
+            let Some(proven) = margin["clearance"].as_f64() else { continue };
+            assert!(proven <= seen * (1.0 + ROUNDING), "{world}: {name} keeps {seen}, not {proven}");
+            ratios.push(proven / seen);
+            let at: Configuration = serde_json::from_value::<[f64; 2]>(margin["at"].clone()).unwrap().into();
+            let waypoint = margin["waypoint"].as_f64().unwrap();
+            let (from, share) = (waypoint.floor().min(path.len() as f64 - 2.0), waypoint.fract());
+            let [from, to] = [0, 1].map(|next| Configuration::from(path[from as usize + next]));
+            let share = if share == 0.0 && at == to { 1.0 } else { share };
+            assert!((from + (to - from) * share - at).norm() < 1e-9, "{world}: {at} is not at waypoint {waypoint}");
+        }
+        let kinds = found["tolerances"].as_array().unwrap().len();
+        assert_eq!(kinds, plan(&shipped.problem(), &Options::default()).unwrap().margins().tolerances.len(), "{world}");
+    }
+    assert_median(ratios, 50);
+}
+
+/// A recording that is not proven free has no margins.
+#[test]
+fn colliding_recordings_have_no_margins() {
+    let joints = ["shoulder", "elbow"];
+    let found = verified("shelf", joints, &[[-0.9, 0.4], [1.55, -0.35]]);
+    assert_eq!((&found["verdict"], &found["margins"]), (&Value::from("collision"), &Value::Null));
 }

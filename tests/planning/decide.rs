@@ -4,7 +4,7 @@ use cplan::check::certify;
 use cplan::engine::{Method, decide, solve};
 use cplan::geometry::{Point, shapes_meet};
 use cplan::input::{self, Overrides};
-use cplan::model::{Heights, MotionProblem, Obstacle, Shape, Workspace};
+use cplan::model::{Growth, Heights, MotionProblem, Obstacle, Shape, Workspace};
 use cplan::space::JointRange;
 use cplan::{Options, Outcome};
 use cplan_testkit::arms::rr;
@@ -26,7 +26,13 @@ fn ring(count: usize, folding: f64) -> MotionProblem {
     let points: Vec<Point> = (0..=count).map(at).collect();
     let ends = points.windows(2).filter(|w| w[0].y.abs() > 0.5);
     let pieces = ends.map(|w| wall(w[0], w[1])).collect();
-    let obstacle = Obstacle { name: "ring".into(), shape: Shape::Pieces, pieces, heights: Heights::ALL };
+    let obstacle = Obstacle {
+        name: "ring".into(),
+        shape: Shape::Pieces,
+        pieces,
+        heights: Heights::ALL,
+        growth: Growth::default(),
+    };
     let workspace =
         Workspace { name: "ring".into(), obstacles: vec![obstacle], clearance: 0.0, preferences: Vec::new() };
     let scene = placed(rr([JointRange::Circle, JointRange::Interval { lower: -folding, upper: folding }]), workspace);

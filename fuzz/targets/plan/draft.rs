@@ -3,7 +3,8 @@
 use arbitrary::Arbitrary;
 use cplan::geometry::{Convex, Point, Vector, hull};
 use cplan::model::{
-    Arm, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape, Workspace,
+    Arm, Growth, Heights, Joint, JointType, Link, MotionProblem, Obstacle, OutlineSource, Part, Plane, Scene, Shape,
+    Workspace,
 };
 use cplan::space::{Configuration, GoalSet, JointRange};
 use nalgebra::Vector3;
@@ -93,6 +94,7 @@ impl Draft {
             let part = |s: &ShapeDraft| Part {
                 shape: s.shape(0.125),
                 inner: None,
+                padding: 0.0,
                 number: 0,
                 is_visual: false,
                 heights: s.heights(),
@@ -120,6 +122,7 @@ impl Draft {
                 shape: Shape::Polygon(piece.core().to_vec()),
                 pieces: vec![piece],
                 heights: s.heights(),
+                growth: Growth::default(),
             }
         };
         let obstacles = self.obstacles.iter().take(usize::from(self.count) % 7).map(obstacle).collect();

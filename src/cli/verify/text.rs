@@ -17,6 +17,7 @@ const TOUCHING_DEPTH: f64 = 1e-9;
 pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFindings) -> String {
     let mut lines = vec![("result", result(findings))];
     lines.extend(collisions(arm, &findings.collisions, findings.verdict));
+    lines.extend(findings.margins.iter().filter_map(|margins| Some(("margin", margins.describe()?))));
     lines.extend(findings.steps.iter().flatten().filter_map(turn));
     lines.extend(findings.limits_broken.iter().map(|limit| ("limit", broken(arm, limit))));
     let exceeds =

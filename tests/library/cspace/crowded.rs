@@ -3,7 +3,7 @@
 
 use cplan::cspace::{Regions, regions, traced_pairs};
 use cplan::geometry::{Point, Pose, SimplePolygon, Vector};
-use cplan::model::{Arm, Heights, Obstacle, Scene, Shape, Workspace};
+use cplan::model::{Arm, Growth, Heights, Obstacle, Scene, Shape, Workspace};
 use cplan::space::{Configuration, JointRange};
 use cplan_testkit::arms::rr;
 use cplan_testkit::scenes::{placed, q};
@@ -44,7 +44,13 @@ fn polyline(choice: u64, count: usize, walks: bool) -> Obstacle {
         })
         .collect();
     let pieces = points.windows(2).filter(|w| w[0] != w[1]).map(|w| wall(w[0], w[1])).collect();
-    Obstacle { name: "wall".into(), shape: Shape::Polyline(points), pieces, heights: Heights::ALL }
+    Obstacle {
+        name: "wall".into(),
+        shape: Shape::Polyline(points),
+        pieces,
+        heights: Heights::ALL,
+        growth: Growth::default(),
+    }
 }
 
 /// Returns a polygon with a corner in each of `count` directions, at different distances.
@@ -55,7 +61,13 @@ fn spiky(choice: u64, count: usize) -> Obstacle {
     };
     let polygon = SimplePolygon::new((0..count).map(corner).collect()).expect("corners go round the centre");
     let pieces = polygon.convex_pieces();
-    Obstacle { name: "spikes".into(), shape: Shape::Polygon(polygon.corners().to_vec()), pieces, heights: Heights::ALL }
+    Obstacle {
+        name: "spikes".into(),
+        shape: Shape::Polygon(polygon.corners().to_vec()),
+        pieces,
+        heights: Heights::ALL,
+        growth: Growth::default(),
+    }
 }
 
 fn obstacle(kind: usize, choice: u64, count: usize) -> Obstacle {

@@ -129,6 +129,7 @@ pub fn with_arches(seed: u64) -> Task {
     task.arm.links[1].parts.push(Part {
         shape: disc(task.arm.tip, 0.02),
         inner: None,
+        padding: 0.0,
         number: 0,
         is_visual: false,
         heights: Heights { lower: DEPTH + 0.05, upper: 0.3 },

@@ -138,9 +138,10 @@ fn the_files_of_init_can_be_planned_at_once() {
 }
 
 /// Arms of data sheets, from toys to large ones: the words of the command line, and the reach that `inspect` states, in metres.
-const SHEETS: [(&str, Option<f64>); 9] = [
+const SHEETS: [(&str, Option<f64>); 10] = [
     ("--kind scara --links 0.225,0.225 --stroke 0.2 --limits 130,145", Some(0.45)),
     ("--kind scara --links 0.4,0.2 --stroke 0.1", Some(0.6)),
+    ("--kind scara --links 0.25,0.2 --limits -42:222,145", Some(0.45)),
     ("--kind scara --links 0.3,0.3 --limits 20,25 --speeds 400,600", Some(0.6)),
     ("--kind 2r --links 0.2,0.1 --limits 360,170", Some(0.3)),
     ("--kind rr --links 3,2", Some(5.0)),
@@ -186,7 +187,19 @@ fn limits_and_speeds_of_data_sheets_are_those_of_the_joints() {
         assert!((range.1.to_degrees() - degrees).abs() < 1e-3 && (range.0.to_degrees() + degrees).abs() < 1e-3);
         assert!((joint.velocity.to_degrees() - speed).abs() < 1e-3, "{}", joint.velocity);
     }
+    place
+        .run(&["init", "sides"], "--kind 2r --limits=-42:222,145")
+        .says(&["ranges -42 to 222 deg and -145 to 145 deg"]);
+    let problem = cplan::Problem::load(place.path("sides/arm.urdf"), place.path("sides/world.toml")).unwrap();
+    let ranges = problem.scene().arm().joints.each_ref().map(|joint| joint.range.domain());
+    for ((lower, upper), [from, to]) in ranges.into_iter().zip([[-42.0, 222.0], [-145.0, 145.0_f64]]) {
+        assert!((lower.to_degrees() - from).abs() < 1e-3 && (upper.to_degrees() - to).abs() < 1e-3, "{lower} {upper}");
+    }
     for (words, message) in [
+        ("--kind scara --limits 10:130,145", "a range must contain 0, such as -100:130"),
+        ("--kind scara --limits=-100:x,145", "x"),
+        ("--kind scara --limits=-9000:130,145", "--limits -9000 is not from -3600 to -0.1 degrees"),
+        ("--kind gantry --limits=1,-1:2", "--limits: joint 2 slides from 0; give its travel alone, such as 0.8"),
         ("--kind rr --links 0.2", "--links: an arm of two turning joints needs 2, not 1"),
         ("--kind gantry --links 0.2,0.1", "--links: a gantry has none; --limits are its travels"),
         ("--kind rr --stroke 0.2", "--stroke needs --kind scara"),
@@ -207,6 +220,22 @@ fn limits_and_speeds_of_data_sheets_are_those_of_the_joints() {
 /// blank before words.
 fn is_key(line: &str) -> bool {
     line.strip_prefix('#').is_some_and(|rest| rest.starts_with(|c: char| c.is_alphabetic() || c == '['))
+}
+
+/// The help lists other names of kinds, which mean the same.
+#[test]
+fn kinds_have_other_names() {
+    let place = Place::new();
+    let help = place.run(&["init", "--help"], "").stdout.split_whitespace().collect::<Vec<_>>().join(" ");
+    for (kind, other) in [("rr", "2r"), ("rp", "polar"), ("pp", "gantry")] {
+        assert!(help.contains(&format!("; {other} is the same")), "{help}");
+        for name in [kind, other] {
+            place.run(&["init", name, "--kind", name], "").exits(0);
+        }
+        for file in ["arm.urdf", "world.toml"] {
+            assert_eq!(place.read(&format!("{kind}/{file}")), place.read(&format!("{other}/{file}")), "{file}");
+        }
+    }
 }
 
 #[test]

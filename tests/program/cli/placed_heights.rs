@@ -118,6 +118,21 @@ fn places_in_the_air_are_errors() {
     }
 }
 
+/// A stated height at which nothing ends means a surface that the world leaves out. A note says so.
+#[test]
+fn assumed_surfaces_are_noted() {
+    let note = "\"part 1,1\": placed at the stated height of 0.000 mm, where no obstacle or object below ends; a surface \
+                is assumed there";
+    for (height, bar, is_noted) in
+        [("0.0", NO_BAR, true), ("0.0", "[-0.1, 0.0]", false), ("0.02", "[0.0, 0.02]", false)]
+    {
+        let there = format!(", height = {height}");
+        let done =
+            Place::new().run_in(&shipped("robots/scara.urdf"), world("", &there, "on = \"pockets 1,1\"", bar), "");
+        assert!(done.code == 0 && done.stdout.contains(note) == is_noted, "{height}, {bar}: {}", done.stdout);
+    }
+}
+
 /// Hints about heights have the form of the value that the key takes, and a note states where the tool's travel does not suffice.
 #[test]
 fn hints_about_heights_can_be_followed() {

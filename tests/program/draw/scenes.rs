@@ -1,7 +1,7 @@
 //! Made-up arms and obstacles.
 
 use cplan::geometry::{Convex, Point, Vector};
-use cplan::model::{Arm, Heights, JointType, Obstacle, Scene, Shape, Workspace};
+use cplan::model::{Arm, Growth, Heights, JointType, Obstacle, Scene, Shape, Workspace};
 use cplan::space::JointRange;
 use cplan_testkit::arms::{self, joint, link};
 use cplan_testkit::scenes::placed;
@@ -55,7 +55,7 @@ pub fn wall(name: &str, corners: &[(f64, f64)]) -> Obstacle {
 }
 
 fn obstacle(name: &str, shape: Shape, pieces: Vec<Convex>) -> Obstacle {
-    Obstacle { name: name.to_owned(), shape, pieces, heights: Heights::ALL }
+    Obstacle { name: name.to_owned(), shape, pieces, heights: Heights::ALL, growth: Growth::default() }
 }
 
 pub fn scene(arm: Arm, obstacles: Vec<Obstacle>) -> Scene {

@@ -219,3 +219,20 @@ fn motions_of_a_quill_and_a_wrist_agree_with_the_scenes_of_their_moments() {
     }
     assert!(verdicts.iter().all(|count| *count > 0), "{verdicts:?}");
 }
+
+/// Margins count each part with all its heights. The quill is lowered beside the block, then it passes above it.
+#[test]
+fn margins_hold_while_a_quill_moves() {
+    let margin = |table: &str| {
+        let found = verify(FINGER, table).unwrap_or_else(|error| panic!("{error}"));
+        assert_eq!(found["verdict"], "free", "{found:#}");
+        let margins = found["margins"].as_array().unwrap();
+        margins.iter().find(|margin| margin["body"] == "block").unwrap()["clearance"].as_f64()
+    };
+    // Above the block all the time.
+    assert_eq!(margin("time,j1,j2,quill\n0,0,0,0.05\n1,0.38,0,0.1\n"), None);
+    // The finger ends at (2.2, 0), and the quill, 0.05 m thick, stands at (2, 0). The block's nearest corner is (1.9, 0.5).
+    let lowered = margin("time,j1,j2,quill\n0,0,0,0.4\n1,0,0,0\n2,0.38,0,0\n").expect("the block can be met");
+    let least = 0.1_f64.hypot(0.5) - 0.05;
+    assert!((0.85 * least..=least).contains(&lowered), "{lowered} instead of {least}");
+}

@@ -12,6 +12,7 @@
 mod claims;
 mod ends;
 mod findings;
+mod margins;
 mod plan_distance;
 mod replay;
 mod verify;

@@ -3,6 +3,7 @@
 use super::claims::false_claims;
 use super::ends::{END_TOLERANCE, endpoint_errors};
 use super::findings::{self, ExceededLimits, Judgement, MotionFindings};
+use super::margins::margins;
 use super::replay::{misplaced_joints, replay};
 use cplan_dynamics::Torques;
 use cplan_handling::{Claims, HeldMotion, RecordedStep, Recording, Task, TimedScene};
@@ -33,13 +34,16 @@ pub fn verify(
     let notes = loaded.world.notes.iter().chain(read).cloned().chain(turns).chain(assumed).collect();
     let read = steps.as_ref().map(|_| loaded.clone().resolve(overrides, Rules::Recording)).transpose()?;
     let task = read.as_ref().and_then(|read| Some((read.task.as_ref()?, read.problem.scene())));
-    let findings = match steps.as_ref().zip(task) {
+    let mut findings = match steps.as_ref().zip(task) {
         Some((steps, task)) => {
             judge_task(loaded, task, (recording, steps, all_joints.as_ref()), claims, overrides, notes)?
         }
         None => judge_motion(loaded, (recording, held), claims, overrides, anywhere, notes)?
             .with_faults(Judgement::Undecided, unjudged.clone()),
     };
+    if findings.verdict == Judgement::Free && findings.steps.is_none() {
+        findings.margins = Some(margins(loaded, recording, held, findings.collisions.clearance));
+    }
     Ok(findings.leaving(claims))
 }
 
@@ -165,7 +169,7 @@ fn judge_task(
     notes.push(
         "each step is judged by itself: it must be a step of the world, in an order that the world allows. Its motion is \
          judged with its payload, and with the objects where they lie at that time. Limits, grasps, places, turns and \
-         rests are judged, too, and the file's statements about steps and events"
+         rests are judged, too, and the file's statements about steps and events. Margins of tasks are not judged"
             .into(),
     );
     let replay = replay(task, recording, steps);

@@ -120,7 +120,8 @@ pub use json::field_per_line;
 pub use least::least_duration;
 pub use limits::{Limits, SumLimit, WristLimit};
 pub use margins::{
-    BodyKind, BodyMargin, BodyNames, ErrorKind, Margin, MarginSearch, Margins, MotionStretch, Tolerance,
+    BodyKind, BodyMargin, BodyNames, ErrorKind, Margin, MarginReport, MarginSearch, Margins, MotionStretch, Tolerance,
+    ToleranceReport,
 };
 pub use message::{AccelerationJump, JointMotion};
 pub use place_time::{BlockedTimes, MotionPart, PlaceTime, TimedPlace, WaitReason};

@@ -63,6 +63,16 @@ impl Writer<'_> {
             })
     }
 
+    /// Notes that a surface is assumed at the stated height of a place.
+    pub(super) fn note_surface(&self, object: usize, place: &ObjectPlace) {
+        let object = &self.objects[object].object;
+        let bottom = length(object.heights_at(place.elevation).lower);
+        let note = format!(
+            "placed at the stated height of {bottom}, where no obstacle or object below ends; a surface is assumed there"
+        );
+        self.reader.taken.note(&format!("\"{}\"", object.name), note);
+    }
+
     /// Returns the error that nothing carries an object at a place.
     pub(super) fn in_the_air(&self, leaf: &Leaf, object: usize, place: &ObjectPlace) -> Diagnostic {
         let object = &self.objects[object].object;

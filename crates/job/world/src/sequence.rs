@@ -340,8 +340,11 @@ impl Writer<'_> {
         let mut object_places = ObjectPlace { at, angle, tip: None, moves: false, elevation };
         object_places.tip = object_places.point(grasp);
         let is_known = self.rest_initially[object] || elevation != 0.0;
-        if height.is_none() && is_known && !self.is_carried(object, &object_places) {
-            return Err(self.in_the_air(leaf, object, &object_places));
+        if is_known && !self.is_carried(object, &object_places) {
+            if height.is_none() {
+                return Err(self.in_the_air(leaf, object, &object_places));
+            }
+            self.note_surface(object, &object_places);
         }
         self.object_places[object] = object_places;
         if let Some(tip) = object_places.tip {

@@ -3,6 +3,7 @@
 use super::{PlanFinding, StepFinding};
 use cplan_handling::{Claims, Recording};
 use cplan_model::{Joint, Scene};
+use cplan_motion::Margins;
 use cplan_motion::recorded::{CollisionCheck, Encounter, Limit, LimitViolation, Moment, Touch};
 use cplan_robot::AssumedLimits;
 use serde::Serialize;
@@ -61,6 +62,9 @@ pub struct MotionFindings {
     /// Collisions and clearance along the motion.
     #[serde(flatten)]
     pub collisions: CollisionFinding,
+    /// Margins of a free motion. `None` for any other motion, and for tasks.
+    #[serde(flatten)]
+    pub margins: Option<Margins>,
     /// Violated limits, each listed once.
     pub limits_broken: Vec<LimitFinding>,
     /// Assumed limits that the motion exceeds, each listed once. The input files do not state these limits, so they do
@@ -225,6 +229,7 @@ impl MotionFindings {
             duration: recording.duration(),
             required: scene.workspace().clearance,
             collisions: CollisionFinding::default(),
+            margins: None,
             limits_broken: Vec::new(),
             assumed_exceeded: Vec::new(),
             faults: Vec::new(),

@@ -5,7 +5,6 @@
 //! prismatic one, and seconds.
 
 use super::errors_report::ErrorsReport;
-use super::margin_report::{margin_reports, tolerance_reports};
 use super::step_report::{FailedStepReport, step_reports};
 use super::{finite, optimum};
 use crate::field_report::field_report;
@@ -14,7 +13,7 @@ use crate::plan::{Detail, Plan};
 use cplan_handling::Task;
 use cplan_legs::{TaskAnswer, TaskMotion};
 use cplan_model::{Joint, MotionProblem};
-use cplan_motion::{BlendReport, JointMotion, Trajectory, field_per_line, interpolation};
+use cplan_motion::{BlendReport, JointMotion, Margins, Trajectory, field_per_line, interpolation};
 use cplan_robot::AssumedLimits;
 use cplan_solver::{Answer, GridSpace};
 use serde::Serialize;
@@ -206,8 +205,8 @@ impl PlanResult<'_> {
         let Self { plan, .. } = self;
         let is_written = plan.trajectory().is_some() && ["margins", "tolerances"].iter().any(|name| fields.has(name));
         let margins = is_written.then(|| plan.margins());
-        fields.add_optional("margins", margins.map(margin_reports))?;
-        fields.add_optional("tolerances", margins.map(tolerance_reports))
+        fields.add_optional("margins", margins.map(Margins::body_reports))?;
+        fields.add_optional("tolerances", margins.map(Margins::tolerance_reports))
     }
 
     fn timings<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {

@@ -3,7 +3,6 @@
 mod errors_report;
 mod files;
 mod json;
-mod margin_report;
 mod messages;
 mod step_report;
 

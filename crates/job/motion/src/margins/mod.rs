@@ -5,9 +5,11 @@
 //! and tight for each of them.
 
 mod bodies;
+mod report;
 mod search;
 
 pub use bodies::{BodyKind, BodyNames};
+pub use report::{MarginReport, ToleranceReport};
 pub use search::{MarginSearch, MotionStretch};
 
 use cplan_judge::ArmErrors;
@@ -21,7 +23,7 @@ pub struct Margin {
     pub size: f64,
     /// Configuration of the arm at that place.
     pub at: Configuration,
-    /// Time of that place, seconds. At a corner that the motion rounds, it is about the time at which the motion passes.
+    /// Time of that place, seconds: see [`Margins::lacks_times`]. At a corner that the motion rounds, it is about the time at which the motion passes.
     pub time: f64,
     /// The obstacle there, and the part of the arm or the payload: indices into [`Margins::bodies`].
     pub bodies: [usize; 2],
@@ -54,6 +56,9 @@ pub struct Margins {
     pub bodies: Vec<BodyMargin>,
     /// The largest error of each kind, alone.
     pub tolerances: Vec<Tolerance>,
+    /// True if the motion has no times. The time of a place is then the index of the waypoint, plus the fraction of the
+    /// segment to the next one.
+    pub lacks_times: bool,
 }
 
 /// A kind of errors of an arm's model.

@@ -189,7 +189,7 @@ impl<'a> MarginSearch<'a> {
         bodies.iter_mut().for_each(|body| body.margin = body.margin.map(renumbered));
         let tolerance = |(of, limit): (ErrorKind, &Limit)| Tolerance { of, margin: limit.margin().map(renumbered) };
         let tolerances = self.kinds.into_iter().zip(&self.errors).map(tolerance).collect();
-        Margins { bodies, tolerances }
+        Margins { bodies, tolerances, lacks_times: false }
     }
 
     /// Samples the distances of pairs at a place. Skips pairs that are farther apart than others of both bodies.

@@ -20,6 +20,7 @@ pub use collision::{
     first_moving_contact,
 };
 pub use limits::{ELBOW_MOTOR, Limit, LimitViolation, limit_violations, motor_violations, torque_violations};
+pub use tool::swept_by_tool;
 pub use torque::torque_samples;
 pub use turning::{TurnCover, TurnDuringMotion, turn_angle, turn_profile};
 pub use wrist::{TurnAtRest, TurnContact, WristTurn, turn_resolution};

@@ -221,6 +221,17 @@ impl<'a> ToolMotion<'a> {
     }
 }
 
+/// Returns the scene with the parts of the arm at all heights and angles that other joints give them during a motion.
+pub fn swept_by_tool(scene: &Scene, held: &[HeldMotion]) -> Scene {
+    let tool = ToolMotion::new(scene, held);
+    let turned = tool.shapes(|joint| joint.extent(Span::all(joint.pieces.len())));
+    tool.swept.changed(|arm, _| {
+        for (part, cover) in turned.0 {
+            arm.links[1].parts[part].shape = cover;
+        }
+    })
+}
+
 /// Returns the index of the bar from joint 2 to the tip among link 2's parts, or `None` without a bar.
 fn bar_of(scene: &Scene) -> Option<usize> {
     let is_bar = scene.arm().links[1].source == OutlineSource::Bar;

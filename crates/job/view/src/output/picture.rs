@@ -2,7 +2,7 @@
 
 use super::motion_summary::second_attempt;
 use super::summary::facts;
-use crate::{DrawError, Figure, KeyFigures, Moments, Picture, TaskPicture, View};
+use crate::{DrawError, Figure, KeyFigures, Moments, Picture, Section, TaskPicture, View};
 use cplan_engine::{Detail, Motion, Plan};
 use cplan_handling::{Task, TimedScene};
 use cplan_legs::TaskAnswer;
@@ -143,7 +143,11 @@ pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -
         Detail::Motion { problem, answer } => motion_view(plan, problem, answer, &contours(problem.scene())),
         Detail::Task { task, answer } => View::of_task(&task_picture(plan, task, answer, plan.place_time().as_ref())),
     };
-    view.with_figures(key_figures(plan))
+    let view = view.with_figures(key_figures(plan));
+    match plan.trajectory() {
+        Some(_) => view.with_section(Section::of_data("budget", plan.margins())),
+        None => view,
+    }
 }
 
 /// Returns the key figures of a plan; none unless a motion was found. Among moving obstacles, there is no useful bound on

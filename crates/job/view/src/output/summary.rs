@@ -5,9 +5,8 @@ use super::task_summary;
 use cplan_engine::{AllowedErrors, Detail, Plan};
 use cplan_model::space::{Configuration, GoalSet, JointRange, Segment};
 use cplan_model::{Arm, Joint, Status};
-use cplan_motion::{Margin, Margins, Trajectory};
-use cplan_text::{Columns, chosen_length, counted, first_lines, length_down, round_down, short};
-
+use cplan_motion::Trajectory;
+use cplan_text::{Columns, chosen_length, counted, first_lines, short};
 use std::time::Duration;
 
 /// Returns the values of both joints by name.
@@ -119,24 +118,12 @@ pub(super) fn facts(plan: &Plan) -> Vec<[String; 2]> {
     lines.map(|(key, text)| [key.to_owned(), text]).collect()
 }
 
-/// Adds the line about margins after the clearance: the body with the least one, and the largest error of each kind.
+/// Adds the line about margins after the clearance.
 fn add_margin(plan: &Plan, lines: &mut Vec<Line>) {
     let at = lines.iter().position(|(key, _)| *key == "clearance").filter(|_| plan.trajectory().is_some());
     let Some(at) = at else { return };
-    let Margins { bodies, tolerances } = plan.margins();
-    let least = bodies.iter().filter_map(|body| body.margin).min_by(|a, b| a.size.total_cmp(&b.size));
-    let Some(Margin { size, bodies: [nearest, _], .. }) = least else { return };
-    let body = format!("{} \"{}\" {}", bodies[nearest].kind.word(), bodies[nearest].name, length_down(size));
-    let errors = tolerances.iter().filter_map(|tolerance| {
-        let Margin { size, .. } = tolerance.margin?;
-        let size = match tolerance.of.is_angle() {
-            true => format!("{} deg", round_down(size.to_degrees(), 3)),
-            false => length_down(size),
-        };
-        Some(format!("{} {size}", tolerance.of.name()))
-    });
-    let errors: Vec<String> = [body].into_iter().chain(errors).collect();
-    lines.insert(at + 1, ("margin", format!("for one error alone: {}", errors.join(", "))));
+    let Some(words) = plan.margins().describe() else { return };
+    lines.insert(at + 1, ("margin", words));
 }
 
 fn summary_lines(plan: &Plan) -> SummaryLines {

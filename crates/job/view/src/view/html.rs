@@ -6,7 +6,7 @@ use cplan_text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 37] = [
+const SCRIPTS: [&str; 38] = [
     include_str!("assets/element.js"),
     include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
@@ -40,6 +40,7 @@ const SCRIPTS: [&str; 37] = [
     include_str!("assets/steps.js"),
     include_str!("assets/tour.js"),
     include_str!("assets/explain.js"),
+    include_str!("assets/budget.js"),
     include_str!("assets/pointer.js"),
     include_str!("assets/keys.js"),
     include_str!("assets/layout.js"),

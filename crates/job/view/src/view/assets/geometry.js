@@ -130,6 +130,31 @@ const Geometry = (() => {
     return distance - a.radius - b.radius;
   }
 
+  /**
+   * Returns the distance of two shapes, and the points that are nearest to each other. If the shapes meet, the distance is
+   * not positive, and the points are meaningless.
+   */
+  function nearest(a, b) {
+    const distance = separation(a, b);
+    let [least, ends] = [Infinity, [[NaN, NaN], [NaN, NaN]]];
+    for (const [one, other, isFirst] of [[a, b, true], [b, a, false]]) {
+      const points = [...pointsOf(other.core)];
+      for (const p of pointsOf(one.core)) {
+        for (const [i, from] of points.entries()) {
+          const to = points[(i + 1) % points.length];
+          const side = minus(to, from);
+          const share = Math.min(1, Math.max(0, dot(minus(p, from), side) / (dot(side, side) || 1)));
+          const foot = [from[0] + share * side[0], from[1] + share * side[1]];
+          const apart = Math.hypot(...minus(p, foot));
+          if (apart < least) [least, ends] = [apart, isFirst ? [p, foot] : [foot, p]];
+        }
+      }
+    }
+    // From the cores to the rounded outlines.
+    const toward = (k, radius) => [0, 1].map((c) => ends[k][c] + ((ends[1 - k][c] - ends[k][c]) * radius) / (least || 1));
+    return { distance, ends: [toward(0, a.radius), toward(1, b.radius)] };
+  }
+
   /** Returns the corners of a shape, with its rounding as short sides, counter-clockwise. */
   function corners({ core, radius }) {
     const points = [...pointsOf(core)];
@@ -342,5 +367,5 @@ const Geometry = (() => {
     for (let i = 0; i + 1 < flat.length; i += 2) yield [flat[i], flat[i + 1]];
   }
 
-  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, moved, separation, contacts, inverse, solutions, wrap, interval, moving, pointsOf };
+  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, moved, separation, nearest, contacts, inverse, solutions, wrap, interval, moving, pointsOf };
 })();

@@ -81,6 +81,7 @@ function buildPage(view) {
     }),
   };
   view.explain.watch(view.panels);
+  view.budget.watch(view.panels);
   // Texts on canvases follow the text size of the page.
   new ResizeObserver(() => view.model && view.recolor()).observe(parts.measure);
   view.plots = [...Plots.mount(parts.plots, view), view.strip, view.height, view.turns, view.toolAngle];
@@ -95,6 +96,7 @@ function buildTabs(view) {
     { name: 'layers', title: 'Layers', panel: view.layers.root, isAside: true, isOffered: () => true, isBeside },
     { name: 'steps', title: 'Steps', panel: view.steps.root, isAside: true, isOffered: () => view.steps.buttons.length > 0, isBeside },
     { name: 'plots', title: 'Plots', panel: element('div', {}, view.parts.plots), isOffered: () => Boolean(view.model?.clock) && view.mode === 'move', isBeside: never },
+    { name: 'margins', title: 'Margins', panel: view.budget.root, isOffered: () => view.budget.rows.length > 0 && view.mode === 'move', isBeside: never },
     { name: 'details', title: 'Details', panel: element('div', {}, view.parts.facts), isOffered: () => Boolean(view.model?.facts.length), isBeside: never },
   ]);
   wide.addEventListener('change', () => tabs.refresh());

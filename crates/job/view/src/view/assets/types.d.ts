@@ -107,6 +107,15 @@ interface ToolAngleModel { joint?: string; duration: number; motion: Chain; line
 /** Key figures of a result. */
 interface FiguresModel { duration?: number; gap?: number; fastest?: boolean; clearance?: number }
 
+/** Two bodies, and where they come nearest to a contact. */
+interface PlaceModel { between?: [string, string]; at?: Point; time?: number }
+
+/** The proven clearance of a body in metres, or `null` if it can meet none. */
+interface MarginModel extends PlaceModel { body: string; kind: string; clearance: number | null }
+
+/** The largest error of a kind, or `null` if no error leads to contact. */
+interface ToleranceModel extends PlaceModel { of: string; unit: string; error: number | null }
+
 /** A card of an explanation: a change of the world with the path that it opens, or a configuration to look at. */
 interface Card {
   /** The change as an instruction. */
@@ -189,6 +198,7 @@ interface Model {
   legend: any[];
   stuck?: any;
   explanation?: ExplanationModel;
+  budget?: { margins: MarginModel[]; tolerances: ToleranceModel[] };
   checked?: any;
   reach?: any;
   line?: LineModel;

@@ -65,6 +65,7 @@ class View {
     this.chosen = 'move';
     this.learn = new Learn(this);
     this.explain = new Explain(this);
+    this.budget = new Budget(this);
     this.speed = 1;
     this.playing = false;
     /** The examined arm. @type {?{ q: Point, contacts: ContactModel[] }} */
@@ -97,6 +98,7 @@ class View {
     this.model = model;
     this.traces = null;
     this.explain.update(model);
+    this.budget.update(model);
     const count = model.worlds[0]?.obstacles.length ?? 0;
     [this.named, this.isCrowded] = [count <= NAMED, count > CROWDED];
     this.hovered = null;
@@ -157,6 +159,7 @@ class View {
   }
 
   enter(mode) {
+    this.budget.close();
     this.times[this.mode] = this.time;
     // For a task, the replay is that of the current motion.
     const replayed = mode === 'think' && this.hasReplay(this.motion) ? this.model.motions.indexOf(this.motion) : this.replayed;
@@ -670,6 +673,7 @@ class View {
       this.pinned = false;
       return;
     }
+    if (q !== this.budget.shown?.at) this.budget.release();
     this.probe = q && { q, contacts: Geometry.contacts(this.model.arm, this.world, q) };
     if (!q) this.pinned = false;
     this.report();
