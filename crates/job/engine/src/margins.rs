@@ -18,13 +18,10 @@ impl Plan {
     pub fn margins(&self) -> &Margins {
         self.margins.get_or_init(|| match self.detail() {
             Detail::Motion { problem, answer } => answer.outcome.found().map_or_else(Margins::default, |motion| {
-                // Margins are those of the real shapes.
-                let drawn = problem.scene().drawn();
-                let scene = &*drawn;
+                let scene = problem.scene();
                 let names = BodyNames { fixed: scene.workspace().obstacles.len(), ..BodyNames::default() };
                 let mut search = MarginSearch::new(scene.arm(), names);
-                let timed = TimedScene { scene, ..self.problem().timed() };
-                examine(&mut search, timed, &motion.timed, 0.0);
+                examine(&mut search, self.problem().timed(), &motion.timed, 0.0);
                 search.margins()
             }),
             Detail::Task { task, answer } if answer.outcome.found().is_some() => of_task(task, answer),

@@ -147,9 +147,11 @@ impl<'a> MarginSearch<'a> {
         Self { arm, kinds, bodies: Bodies::new(names), distances: Vec::new(), errors, checks: 0 }
     }
 
-    /// Examines a stretch of the motion. Permitted contacts, such as those of a payload with its supports, do not count.
+    /// Examines a stretch of the motion, with the shapes as they are drawn. Permitted contacts, such as those of a payload
+    /// with its supports, do not count.
     pub fn examine(&mut self, stretch: &MotionStretch) {
-        let scene = stretch.scene.scene;
+        let scene = &*stretch.scene.scene.drawn();
+        let stretch = &MotionStretch { scene: TimedScene { scene, ..stretch.scene }, ..*stretch };
         let bodies = self.bodies.of(scene);
         self.distances.resize(self.bodies.all.len(), Limit::new(f64::INFINITY));
         let all = (1 << (self.kinds.len() + 1)) - 1;
