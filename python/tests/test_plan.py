@@ -90,8 +90,9 @@ def test_an_arm_and_a_world_in_code() -> None:
 
 def test_a_scara_by_its_data_sheet(tmp_path: Path) -> None:
     numbers = ["--links", "0.225,0.2", "--stroke", "0.15", "--limits=-42:222,145", "--speeds", "375,600"]
+    limits, velocity = [tuple(ends) for ends in np.radians([(-42, 222), (-145, 145)])], list(np.radians([375, 600]))
     for arm, words in [
-        (cplan.Arm.scara([0.225, 0.2], 0.15, limits=np.radians([(-42, 222), (-145, 145)]).tolist(), velocity=np.radians([375, 600]).tolist()), numbers),
+        (cplan.Arm.scara([0.225, 0.2], 0.15, limits=limits, velocity=velocity), numbers),
         (cplan.Arm.scara([0.225, 0.2]), numbers[:2]),
         (cplan.Arm.scara(stroke=0.15), numbers[2:4]),
     ]:

@@ -54,7 +54,8 @@ pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
     }
 }
 
-fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Bounds {
+/// Returns the least and greatest coordinates of points.
+pub(super) fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Bounds {
     points.fold([(f64::INFINITY, f64::NEG_INFINITY); 2], |bounds, p| {
         [0, 1].map(|k| (bounds[k].0.min(p[k]), bounds[k].1.max(p[k])))
     })

@@ -25,6 +25,7 @@ Examples:
     --picture cell.svg
   cplan import workspaces/drawings/cell.dxf --layer fence --layer conveyor \\
     --height conveyor=0:0.2 --start 0.4,0.5 --goal 2,-0.5
+  cplan import workspaces/drawings/cell.dxf --min-size 0.1 --output large.toml
   cplan import workspaces/drawings/bench.svg --output bench.toml \\
     --move 0.1,-0.3 --turn 90deg
   cplan import workspaces/drawings/hall.geojson --output hall.toml \\
@@ -47,6 +48,12 @@ pub struct ImportArgs {
     /// Leave this layer or part out, such as the arm's own base. Can be repeated.
     #[arg(long, value_name = "NAME")]
     pub without: Vec<String>,
+    /// Leave smaller parts out, such as screws: those whose box along x and y has a longer side below this, metres.
+    #[arg(long, value_name = "METRES", value_parser = positive)]
+    pub min_size: Option<f64>,
+    /// Leave larger parts out, such as the frame of the page, metres.
+    #[arg(long, value_name = "METRES", value_parser = positive)]
+    pub max_size: Option<f64>,
     /// Extent of a layer or part along the plane's normal, metres, such as conveyor=0:0.2. Can be repeated.
     #[arg(long, value_name = "NAME=LOW:HIGH")]
     pub height: Vec<LayerHeight>,

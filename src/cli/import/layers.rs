@@ -1,6 +1,7 @@
 //! Selects the parts of a drawing, and decides whether they become solids or walls.
 
-use super::obstacles::{ImportedObstacle, Names, rounded};
+use super::advice::bounds;
+use super::obstacles::{ImportedObstacle, Names, coordinates, rounded};
 use crate::cli::failure::Failure;
 use crate::input::MAX_LENGTH;
 use crate::text::{counted, plain_line};
@@ -38,6 +39,8 @@ pub(super) struct Layers<'a> {
     pub without: &'a [String],
     pub heights: &'a [LayerHeight],
     pub walls: &'a [String],
+    /// Least and greatest size of parts, in metres.
+    pub sizes: [Option<f64>; 2],
     /// Greatest distance between a circle and the wall that replaces it, in metres.
     pub tolerance: f64,
 }
@@ -106,6 +109,14 @@ impl Layers<'_> {
                 notes.add_of(shape.called(), message, shape.line);
                 continue;
             }
+            let [least, most] = self.sizes;
+            let size = size(shape);
+            let is_small = least.filter(|least| size < *least).map(|least| format!("smaller than {least} m"));
+            let is_large = || most.filter(|most| size > *most).map(|most| format!("larger than {most} m"));
+            if let Some(why) = is_small.or_else(is_large) {
+                notes.add_of(shape.called(), format!("parts {why}: left out"), shape.line);
+                continue;
+            }
             let is_wall = among(self.walls);
             if let Some(height) = self.heights.iter().rev().find(|height| is_called(&taken, &height.name)) {
                 taken.shape.height = Some(height.height);
@@ -118,6 +129,12 @@ impl Layers<'_> {
         }
         chosen
     }
+}
+
+/// Returns the longer side of the box around a part, along the axes of the world.
+fn size(shape: &Shape) -> f64 {
+    let bounds = bounds(coordinates(shape));
+    rounded(bounds.map(|(low, high)| high - low).into_iter().fold(0.0, f64::max))
 }
 
 /// Converts the outlines of an obstacle to thin walls.

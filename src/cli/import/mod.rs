@@ -65,6 +65,11 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
         let file = args.drawing.display();
         Failure::Usage(format!("{file}: a drawing's name must end in .dxf, .svg, .geojson or .json"))
     })?;
+    if let (Some(least), Some(most)) = (args.min_size, args.max_size)
+        && least > most
+    {
+        return Err(Failure::Usage(format!("--min-size {least} is larger than --max-size {most}")));
+    }
     let outputs = outputs(args)?;
     let bytes = input::read_bytes(&args.drawing)?;
     refuse_to_overwrite_inputs(outputs.paths(), std::slice::from_ref(&args.drawing))?;
@@ -82,6 +87,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
         without: &args.without,
         heights: &args.height,
         walls: &args.walls,
+        sizes: [args.min_size, args.max_size],
         tolerance: args.tolerance,
     };
     layers.check(&found)?;
@@ -92,9 +98,10 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     let is_told = |names: &[String]| layers.selects(names) || known.contains(names);
     let notes: Vec<String> = notes.of(is_told).iter().map(Note::to_string).collect();
     if taken.is_empty() {
-        let cure = match args.without.is_empty() {
-            true => "draw outlines as closed polylines, lines, arcs or circles, or choose layers with --layer",
-            false => "use fewer --without options",
+        let cure = match (args.without.is_empty(), args.min_size.or(args.max_size)) {
+            (_, Some(_)) => "choose another --min-size or --max-size",
+            (true, None) => "draw outlines as closed polylines, lines, arcs or circles, or choose layers with --layer",
+            (false, None) => "use fewer --without options",
         };
         let why: Vec<String> = notes.iter().map(|note| format!("; {note}")).collect();
         let message = format!("this drawing contains no obstacle{}", why.concat());

@@ -397,3 +397,36 @@ fn projected_coordinates_are_moved_as_the_hint_says() {
     let cure = place.run(&["import", "site.geojson"], "--json").json()["cure"].to_string();
     assert!(cure.contains("--unit") && !cure.contains("--move"), "{cure}");
 }
+
+/// Parts are left out by their size in the world, after scaling and turning; walls, circles and blocks alike.
+#[test]
+fn parts_are_left_out_by_size() {
+    // A tray of 100 mm, a pocket of 30 by 20 mm, a screw of 6 mm, and a wall of 50 mm.
+    let drawing = dxf("0 LWPOLYLINE 8 tray 90 4 70 1 10 0 20 0 10 100 20 0 10 100 20 80 10 0 20 80 \
+         0 LWPOLYLINE 8 pocket 90 4 70 1 10 10 20 10 10 40 20 10 10 40 20 30 10 10 20 30 \
+         0 CIRCLE 8 screw 10 60 20 60 40 3 0 LINE 8 wall 10 200 20 0 11 200 21 50");
+    let place = Place::new().with("tray.dxf", drawing);
+    for (words, expected, note) in [
+        ("", &["tray", "pocket", "screw", "wall"][..], ""),
+        ("--min-size 0.03", &["tray", "pocket", "wall"], "parts smaller than 0.03 m: left out (line"),
+        ("--min-size 0.0301", &["tray", "wall"], "parts smaller than 0.0301 m: left out (2 times, first in line"),
+        ("--max-size 0.06", &["pocket", "screw", "wall"], "parts larger than 0.06 m: left out (line"),
+        ("--min-size 0.01 --max-size 0.04", &["pocket"], "parts larger than 0.04 m"),
+        ("--min-size 0.03 --scale 10", &["tray", "pocket", "screw", "wall"], ""),
+        ("--min-size 0.03 --turn 90deg --walls tray", &["tray", "pocket", "wall"], "parts smaller"),
+        ("--min-size 0.03 --layer screw --layer tray", &["tray"], "parts smaller"),
+    ] {
+        let done = place.run(&["import", "tray.dxf", "--output", "w.toml"], words).exits(0);
+        assert_eq!(names(&world(&place, "w.toml")), expected, "{words}");
+        assert!(
+            done.stdout.contains(note) && done.stdout.contains("left out") != note.is_empty(),
+            "{words}: {}",
+            done.stdout
+        );
+    }
+    place.run(&["import", "tray.dxf"], "--min-size 2").refused(1, &["this drawing contains no obstacle", "--min-size"]);
+    place
+        .run(&["import", "tray.dxf"], "--min-size 2 --max-size 1")
+        .refused(2, &["--min-size 2 is larger than --max-size 1"]);
+    place.run(&["import", "tray.dxf"], "--min-size 0").refused(2, &["greater than 0"]);
+}
