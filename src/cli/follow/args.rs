@@ -30,7 +30,7 @@ Examples:
     --picture plate.html
   cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \\
     workspaces/follow/plate.gcode --tolerance 0.0001 --move 0.05,0 --json
-  cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \
+  cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \\
     workspaces/follow/plate.gcode --fit --output plate.yaml
 
 Exit codes: 0 found and certified, 1 bad input or I/O, 2 wrong command line, 3

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 /// Number of turns that the search tries.
 const TURNS: u32 = 36;
 
-/// What the search may choose.
+/// Freedom of the search for a placement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Freedom {
     /// The position of the line.

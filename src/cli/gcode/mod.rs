@@ -20,12 +20,15 @@ use clap::{Args, ValueHint};
 use cplan_gcode::{
     Answer, Dialect, Elbow, Failed, Frame, GcodeError, Job, Pen, PenWords, Segments, Settings, Setup, Travel, judge,
 };
-use cplan_toolpath::Source;
+use cplan_toolpath::{Curve, Source};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Greatest number of failed moves in the summary.
 const MAX_SHOWN: usize = 8;
+
+/// Commands by which many plotters move the pen.
+const PEN_WORDS: [&str; 4] = ["M3", "M5", "M280", "M300"];
 
 /// Length of the segments into which firmwares divide arcs by default, metres.
 const ARC_SEGMENT: f64 = 1e-3;
@@ -137,10 +140,11 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
         error => Failure::Refused(format!("{}: {error}", args.job.display())),
     })?;
     let code = code_of(answer.status());
-    let note = found.map(|(dialect, source)| {
+    let named = found.map(|(dialect, source)| {
         format!("line {} of the program names the dialect {dialect}; --dialect states another one", source.line)
     });
-    let answered = Answered { args, loaded: &loaded, job: &job, answer: &answer, dialect, note };
+    let notes = named.into_iter().chain(pen_note(args, &job, &answer)).collect();
+    let answered = Answered { args, loaded: &loaded, job: &job, answer: &answer, dialect, notes };
     let program = args.output.as_ref().zip(answer.text.as_ref()).map(|(path, text)| (path.clone(), text.clone()));
     if let (Some(path), None) = (&args.output, &program) {
         sinks::warn_unwritten(path, "safe program");
@@ -157,8 +161,8 @@ struct Answered<'a> {
     job: &'a Job,
     answer: &'a Answer,
     dialect: Dialect,
-    /// A note about the line that names the dialect.
-    note: Option<String>,
+    /// Notes about the dialect and the pen.
+    notes: Vec<String>,
 }
 
 impl GcodeArgs {
@@ -196,7 +200,7 @@ impl Answered<'_> {
                 "unstated": self.job.program.unstated.iter().map(|source| source.line).collect::<Vec<_>>(),
             },
             "other": other.as_ref().map(|other| json!({ "elbow": side(&other.elbow), "failed": failures(&other.failed) })),
-            "notes": self.note.iter().chain(&self.job.program.notes).collect::<Vec<_>>(),
+            "notes": self.notes.iter().chain(&self.job.program.notes).collect::<Vec<_>>(),
         })
     }
 
@@ -232,7 +236,7 @@ impl Answered<'_> {
         }
         let program = &self.job.program;
         lines.extend(unstated(&program.unstated).map(|text| ("note", text)));
-        let notes = self.note.iter().chain(&program.notes).chain(&self.loaded.robot.notes);
+        let notes = self.notes.iter().chain(&program.notes).chain(&self.loaded.robot.notes);
         lines.extend(notes.map(|note| ("note", note.clone())));
         format!("{}\n{}", title_of(&self.loaded.scene), format_columns(&lines))
     }
@@ -248,6 +252,22 @@ impl Answered<'_> {
             Status::Unknown => format!("unknown: {} not proven to be safe", counted(failed.len(), "move")),
         }
     }
+}
+
+/// Returns a note about the words that move the pen, if a drawing move fails that may be a travel with a lifted pen.
+fn pen_note(args: &GcodeArgs, job: &Job, answer: &Answer) -> Option<String> {
+    let words =
+        PEN_WORDS.iter().filter(|word| job.program.notes.iter().any(|note| note.contains(&format!("{word} ("))));
+    let words: Vec<&str> = words.copied().collect();
+    let is_straight = |failed: &&Failed| matches!(failed.own.piece.curve, Curve::Line { .. });
+    let first = answer.failed.iter().filter(is_straight).find(|failed| !failed.own.piece.is_travel)?;
+    let is_open = args.pen_up.is_none() && !words.is_empty();
+    is_open.then(|| {
+        let (line, words) = (first.own.piece.source.line, words.join(" or "));
+        format!(
+            "if {words} lifts the pen for line {line}, state its words by --pen-up and --pen-down: then it is a travel"
+        )
+    })
 }
 
 /// Returns a note about moves that begin at unstated places, if there are any.

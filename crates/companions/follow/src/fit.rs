@@ -29,6 +29,9 @@ const REACH_MARGIN: f64 = 0.02;
 /// Greatest number of points of the line that are compared with the grid.
 const MAX_POINTS: usize = 4000;
 
+/// Greatest number of points of a piece. A piece that needs more is far larger than the reach.
+const MAX_PIECE_POINTS: f64 = 1e5;
+
 /// Size of the smallest boxes of displacements, and accuracy of the room, in cells.
 const RESOLUTION: f64 = 0.125;
 
@@ -51,7 +54,7 @@ pub struct Fitted {
     /// Approximate distance between the line and the nearest place that the IK solution excludes, metres. `None` if no
     /// placement was found.
     pub room: Option<f64>,
-    /// The motion along the line, or the reason why there is none at any placement.
+    /// The motion along the line; or the reason why the line was not placed.
     pub answer: Followed,
 }
 
@@ -79,13 +82,13 @@ pub fn fit(
         let path = path.placed(&placement).unwrap_or_else(|_| path.clone());
         Fitted { placement, path, room: None, answer }
     };
+    if let Some(infeasible) = too_large(&kinematics, path, placement.scale, settings.tolerance) {
+        return Ok(unplaced(Outcome::Infeasible(infeasible)));
+    }
     let field = |solution: usize| Field::new(scene, &kinematics, solution);
     let fields: Vec<Field> = (0..if kinematics.has_two_solutions() { 2 } else { 1 }).map(field).collect();
     let points = points(path, fields[0].cell / placement.scale);
     let points: Vec<Point> = points.into_iter().map(|point| point * placement.scale).collect();
-    if let Some(infeasible) = too_large(&kinematics, path, placement.scale, settings.tolerance) {
-        return Ok(unplaced(Outcome::Infeasible(infeasible)));
-    }
     let mut candidates: Vec<Candidate> = Vec::new();
     for &turn in turns {
         let (sin, cos) = turn.sin_cos();
@@ -252,7 +255,7 @@ fn points(path: &Toolpath, cell: f64) -> Vec<Point> {
         let mut seen = BTreeSet::new();
         let mut points = Vec::new();
         for piece in path.pieces() {
-            let count = (2.0 * piece.curve.length() / size).ceil().max(1.0);
+            let count = (2.0 * piece.curve.length() / size).ceil().clamp(1.0, MAX_PIECE_POINTS);
             for k in 0..=count as u32 {
                 checkpoint();
                 let point = Point::from(piece.curve.at(f64::from(k) / count));

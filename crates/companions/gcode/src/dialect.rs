@@ -54,7 +54,7 @@ impl Dialect {
     }
 
     /// Returns the dialect that a program names in a comment, or by words that only this firmware has, with the first such
-    /// line. `None` if there is none, or if the first line that names one names several.
+    /// line. `None` without such a line, or if it names several dialects.
     pub fn of_program(text: &str) -> Option<(Self, Source)> {
         let of_line = |line: &str| -> Vec<Self> {
             let at = line.find([';', '(']).unwrap_or(line.len());

@@ -118,6 +118,10 @@ fn travel(line: &str, own: &ProgramMove, frame: Frame, points: &[Point]) -> Vec<
         from = range.end + spaces;
     }
     first.extend(&characters[from..]);
+    // The spaces before a removed word at the end of the line.
+    if !line.ends_with(' ') {
+        first.truncate(first.trim_end_matches(' ').len());
+    }
     let motion = if modes.is_rapid { "G0" } else { "G1" };
     let further = points.windows(2).map(|pair| format!("{motion} {}", coordinates(modes, frame, pair[0], pair[1])));
     let mut lines: Vec<String> = [first].into_iter().chain(further).collect();

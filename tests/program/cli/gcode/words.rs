@@ -148,7 +148,7 @@ fn wrong_checksums_and_numbers_out_of_order_are_named_by_line() {
     // M110 states the number of its line, or that of the last one.
     let set = program(&["N9 M110 N0", "N1 G21", "N2 G0 X240 Y265", "N3 G1 Y275"]);
     assert_eq!(run(&place, &set, "--check").code, 0, "{set}");
-    // A * in a comment is none.
+    // Comments have no checksums.
     assert_eq!(run(&place, "G21 G90 ; 2*3\nG0 X240 Y265\nG1 Y275 ; *9\n", "--check").code, 0);
 }
 
@@ -179,4 +179,41 @@ fn programs_name_their_dialect() {
     for before in ["", "; made by hand", "; for Marlin or Klipper", "; grblings", "M117 Hello"] {
         assert_eq!(dialect(before, ""), ("marlin".to_owned(), false), "{before}");
     }
+}
+
+#[test]
+fn pictures_show_replaced_travels_and_failed_moves() {
+    let place = Place::new();
+    let text = "G21 G90\nG0 X240 Y265\nG1 Y275\nG0 X-240 Y265\nG1 Y275\n";
+    assert_eq!(
+        run(&place, text, "--output safe.gcode --picture safe.svg --picture safe.html --picture safe.png").code,
+        0
+    );
+    let picture = place.read("safe.svg");
+    has(&picture, &["drawing moves", "replaced travel", "found: the machine can play all moves"]);
+    assert!(!picture.contains("move that fails") && place.path("safe.png").exists());
+    // The page has both lines of the new travel, from one tray to the other.
+    let page = place.read("safe.html");
+    let (_, marked) = page.split_once("\"marked\":").expect("marked moves");
+    assert!(marked.starts_with("[[\"#0072b2\",[0.24,0.275,"), "{}", &marked[..100]);
+    assert_eq!(run(&place, text, "--check --picture fails.svg").code, 3);
+    assert!(
+        place.read("fails.svg").contains("move that fails") && !place.read("fails.svg").contains("replaced travel")
+    );
+    run(&place, text, "--check --picture a.gif").refused(2, &["a program is drawn as .svg, .png or .html"]);
+    run(&place, text, "--output a.svg --picture ./a.svg").refused(1, &["are the same file"]);
+}
+
+/// Without the words of the pen, its travels by G1 fail as drawing moves, and a note says so.
+#[test]
+fn a_note_states_the_words_that_may_lift_the_pen() {
+    let place = Place::new();
+    let text = "G21 G90\nM280 P0 S60\nG1 X240 Y265 F3000\nM280 P0 S60\nG1 X-240 Y265\n";
+    let note = "if M280 lifts the pen for line 5, state its words by --pen-up and --pen-down";
+    run(&place, text, "--check").exits(3).says(&[note]);
+    place.write("job.gcode", text);
+    let files = ["robots/scara.urdf", "workspaces/gcode/labels.toml"].map(shipped);
+    let words = ["gcode", &files[0], &files[1], "job.gcode", "--pen-up", "M280 S60", "--pen-down", "M280 S10"];
+    let done = place.run(&words, "--check").exits(3);
+    assert!(!done.stdout.contains("--pen-up"), "{}", done.stdout);
 }
