@@ -1,5 +1,6 @@
 //! The arguments of `cplan follow`.
 
+use super::fit::Freedom;
 use super::wrist::{tool_angle, tool_tolerance};
 use crate::cli::files::Files;
 use crate::cli::headings::OUTPUT;
@@ -7,7 +8,7 @@ use crate::cli::print_args::PrintArgs;
 use crate::cli::theme::ThemeArgs;
 use crate::cli::values::{clearance, displacement, tolerance, turn};
 use crate::input::CalibrationTable;
-use crate::options::positive;
+use crate::options::{positive, word};
 use clap::{Args, ValueHint};
 use cplan_follow::Settings;
 use cplan_handling::ToolAngle;
@@ -30,6 +31,8 @@ Examples:
     --picture plate.html
   cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \\
     workspaces/follow/plate.gcode --tolerance 0.0001 --move 0.05,0 --json
+  cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \\
+    workspaces/follow/plate.gcode --fit --output plate.yaml
 
 Exit codes: 0 found and certified, 1 bad input or I/O, 2 wrong command line, 3
 proven infeasible, 4 unknown.")]
@@ -68,6 +71,12 @@ pub struct FollowArgs {
     /// New position of the line's origin, metres.
     #[arg(long = "move", value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
     pub shift: Option<[f64; 2]>,
+    /// Search for the position of the line's origin (--fit), or also for the angle in steps of 10 degrees (--fit=turn), so
+    /// that the whole line can be followed without a change of the IK solution, far from places that the arm cannot reach. The
+    /// answer states the options that repeat the placement.
+    #[arg(long, value_name = "turn", num_args = 0..=1, require_equals = true, default_missing_value = "move",
+        value_parser = word([(Freedom::Move, "move", ""), (Freedom::Turn, "turn", "")]), conflicts_with = "shift")]
+    pub fit: Option<Freedom>,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     pub clearance: Option<f64>,
@@ -98,8 +107,16 @@ pub struct FollowArgs {
 }
 
 impl FollowArgs {
-    /// Returns the place of the line in the plane.
+    /// Returns the place of the line in the plane. If a placement is searched, the line is read without one.
     pub(super) fn placement(&self) -> Placement {
+        match self.fit {
+            Some(_) => Placement { unit: self.unit, ..Placement::default() },
+            None => self.stated_placement(),
+        }
+    }
+
+    /// Returns the placement by the options.
+    pub(super) fn stated_placement(&self) -> Placement {
         Placement { unit: self.unit, scale: self.scale, turn: self.turn, shift: self.shift.unwrap_or_default() }
     }
 }

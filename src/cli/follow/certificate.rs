@@ -5,7 +5,7 @@ use crate::cli::sinks;
 use crate::engine::{CertifiedLine, ExcludedSolution, NoCertificate};
 use crate::input::Overrides;
 use crate::model::{Outcome, Status};
-use cplan_follow::{Exclusion, Obstacle};
+use cplan_follow::{Cause, Exclusion, Infeasible, Obstacle};
 use std::path::Path;
 
 /// Returns the text of the certificate. Without one, prints a warning about the file that would contain it.
@@ -16,6 +16,7 @@ pub fn text(answered: &Answered, path: &Path) -> Option<String> {
     let certified = CertifiedLine { scene, line, tolerance, asked, files };
     let text = match answer {
         Outcome::Found(found) => Ok(certified.of_motion(&found.timed.trajectory)),
+        Outcome::Infeasible(Infeasible { cause: Cause::TooLarge { .. }, .. }) => Err(NoCertificate::Placement),
         Outcome::Infeasible(infeasible) => {
             let excluded: Option<Vec<ExcludedSolution>> = infeasible.evidence.iter().map(excluded).collect();
             let of_exclusions = |excluded: Vec<_>| certified.of_exclusions(&infeasible.place, &excluded);

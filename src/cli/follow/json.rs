@@ -1,6 +1,7 @@
 //! The answer as JSON.
 
 use super::Answered;
+use super::fit::Placed;
 use super::words::{exclusions, joints};
 use crate::model::Outcome;
 use crate::motion::interpolation;
@@ -31,6 +32,7 @@ pub fn object(answered: &Answered) -> Value {
                 "proven_clearance": clearance.is_finite().then_some(clearance),
                 "duration": found.timed.trajectory.duration(),
                 "changes": found.changes.iter().map(place).collect::<Vec<_>>(),
+                "fit": answered.placed.as_ref().map(Placed::to_json),
                 "wrist": answered.wrist.map(|wrist| wrist.to_json(found.tool_deviation)),
                 "interpolation": interpolation(&answered.loaded.scene.arm().joints),
                 "trajectory": found.timed.trajectory,
@@ -42,7 +44,7 @@ pub fn object(answered: &Answered) -> Value {
     };
     if let (Value::Object(object), Value::Object(more)) = (&mut object, more) {
         let is_absent = |key: &str, value: &Value| match key {
-            "wrist" => value.is_null(),
+            "wrist" | "fit" => value.is_null(),
             "tool" => answered.tool.is_empty(),
             _ => false,
         };
@@ -63,6 +65,7 @@ fn infeasible_object(answered: &Answered, infeasible: &Infeasible) -> Value {
     });
     let (cause, by) = match infeasible.cause {
         Cause::OutOfReach { by } => ("out_of_reach", Some(by)),
+        Cause::TooLarge { .. } => ("too_large", None),
         Cause::Excluded(_) => ("excluded", None),
         Cause::NoChange(_) => ("no_change", None),
     };

@@ -3,6 +3,7 @@
 mod args;
 mod certificate;
 mod files;
+mod fit;
 mod json;
 mod picture;
 mod read;
@@ -10,6 +11,7 @@ mod words;
 mod wrist;
 
 pub use args::FollowArgs;
+pub use picture::resting;
 
 use super::exit::code_of;
 use super::failure::Failure;
@@ -19,6 +21,7 @@ use crate::input::{self, Digests, InputError, LoadedScene};
 use cplan_follow::{FollowError, Followed, Settings, follow};
 use cplan_handling::FollowedLine;
 use cplan_toolpath::Toolpath;
+use std::sync::Arc;
 use wrist::FollowingWrist;
 
 /// A line with its robot, its world and the answer.
@@ -33,6 +36,8 @@ struct Answered<'a> {
     /// The wrist that turns the tool; `None` if the tool's angle does not matter.
     wrist: Option<&'a FollowingWrist>,
     answer: &'a Followed,
+    /// The placement that was searched and found.
+    placed: Option<fit::Placed>,
     /// For each sample of the motion, whether the tool is on the line; empty without a motion or travels.
     tool: Vec<bool>,
     /// The digests of the files of robot and world, for a certificate.
@@ -75,13 +80,19 @@ pub fn answer(
     let FollowedLine { path, tolerance, speed, .. } = line;
     let along = wrist.as_ref().map(|wrist| wrist.along);
     let settings = Settings { tolerance, speed, period: args.period, wrist: along, ..Settings::default() };
-    let answer = follow(&loaded.scene, &path, &settings).map_err(refused)?;
+    let (path, answer, placed) = match args.fit {
+        None => (path.clone(), follow(&loaded.scene, &path, &settings).map_err(refused)?, None),
+        Some(freedom) => {
+            let (fitted, placed) = fit::search(args, freedom, &loaded.scene, &path, &settings)?;
+            (Arc::new(fitted.path), fitted.answer, placed)
+        }
+    };
     let wrist = wrist.as_ref();
     let has_travels = path.pieces().iter().any(|piece| piece.is_travel);
     let found = answer.found().filter(|_| has_travels);
     let tool = found.map_or_else(Vec::new, |found| found.tool(loaded.scene.arm(), &path, tolerance));
-    let answered =
-        Answered { tool, args, loaded: &loaded, line: &path, tolerance, speed, wrist, answer: &answer, digests };
+    let (loaded, line, answer) = (&loaded, &*path, &answer);
+    let answered = Answered { tool, args, loaded, line, tolerance, speed, wrist, answer, placed, digests };
     files::write(&outputs, &answered)?;
     let code = code_of(answer.status());
     args.print.report(code, || sinks::pretty(&json::object(&answered)), || words::summary(&answered))?;

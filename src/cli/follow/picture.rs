@@ -2,6 +2,7 @@
 
 use super::Answered;
 use super::words::{exclusions, facts, figures, headline};
+use crate::input::LoadedScene;
 use crate::model::{Goal, Outcome, Scene};
 use crate::output::{contours, title_of};
 use crate::space::{Configuration, JointRange, Path};
@@ -62,21 +63,25 @@ fn line(answered: &Answered, scene: &Scene) -> LineView {
     }
 }
 
-/// Returns the first configuration of the motion. Without a motion, returns the one that is excluded, the world's start,
-/// or else the one nearest to zero.
+/// Returns the first configuration of the motion. Without a motion, returns the one that is excluded, or else the one of
+/// [`resting`].
 fn start(answered: &Answered) -> Configuration {
-    let arm = answered.loaded.scene.arm();
     let excluded = match answered.answer {
         Outcome::Found(found) => return found.timed.curve.straight().path().start(),
         Outcome::Infeasible(infeasible) => exclusions(infeasible).first(),
         Outcome::Unknown(_) => None,
     };
-    let stated = match answered.loaded.stated_ends()[0] {
+    resting(answered.loaded, excluded.map(|exclusion| Configuration::from(exclusion.q)))
+}
+
+/// Returns a configuration to show within the limits: this one, the world's start, or else the one nearest to zero.
+pub fn resting(loaded: &LoadedScene, q: Option<Configuration>) -> Configuration {
+    let stated = match loaded.stated_ends()[0] {
         Some(Goal::Joints(q)) => Some(q),
         _ => None,
     };
-    let q = excluded.map(|exclusion| Configuration::from(exclusion.q)).or(stated).unwrap_or_default();
-    Configuration::from_fn(|k, _| match arm.joints[k].range {
+    let q = q.or(stated).unwrap_or_default();
+    Configuration::from_fn(|k, _| match loaded.scene.arm().joints[k].range {
         JointRange::Circle => q[k],
         JointRange::Interval { lower, upper } => q[k].clamp(lower, upper),
     })

@@ -18,6 +18,7 @@ pub fn summary(answered: &Answered) -> String {
         }
         Outcome::Unknown(_) => {}
     }
+    lines.extend(answered.placed.as_ref().map(|placed| ("placed", placed.describe())));
     lines.push(("line", line(answered)));
     if answered.args.verbose {
         lines.extend(pieces(answered).into_iter().map(|text| ("", text)));
@@ -66,7 +67,7 @@ pub fn figures(answered: &Answered) -> KeyFigures {
 /// Returns the IK solutions that are excluded.
 pub fn exclusions(infeasible: &Infeasible) -> &[Exclusion] {
     match &infeasible.cause {
-        Cause::OutOfReach { .. } => &[],
+        Cause::OutOfReach { .. } | Cause::TooLarge { .. } => &[],
         Cause::Excluded(list) | Cause::NoChange(list) => list,
     }
 }

@@ -22,6 +22,7 @@ mod explain;
 mod explore;
 mod fields;
 mod figures;
+mod fit;
 mod follow;
 mod followed_pages;
 mod wrist_lines;

@@ -38,9 +38,12 @@
 //!
 //! A travel (G0) is a straight move of the tip as fast as the joints allow, with stops at both ends. It is held within
 //! the same tolerance, so nothing surprising happens between two cuts.
+//!
+//! [`fit`] searches for a placement of the line at which it can be followed with one IK solution.
 #![forbid(unsafe_code)]
 
 mod deviation;
+mod fit;
 mod fixed_angle;
 mod follower;
 mod merge;
@@ -57,6 +60,7 @@ mod wrist;
 
 pub use cplan_deviation::Place;
 pub use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
+pub use fit::{Fitted, fit};
 pub use follower::metres;
 pub use proof::{Cause, Exclusion, Infeasible, Obstacle};
 pub use proof_wrist::WristExcess;

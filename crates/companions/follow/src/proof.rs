@@ -18,7 +18,7 @@ use cplan_interrupt::checkpoint;
 use cplan_judge::{Deviation, Posture};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Pair, Scene};
-use cplan_text::length_down;
+use cplan_text::{length, length_down};
 
 /// Greatest difference of joint values at both ends of a part for which no whole turn can be hidden between them.
 const MAX_STEP: f64 = 0.5;
@@ -48,6 +48,14 @@ pub enum Cause {
     OutOfReach {
         /// Lower bound on the distance of the place from all points that the tip can reach, metres.
         by: f64,
+    },
+    /// The line is larger than the reach, so that it cannot be followed at any placement: two of its points are farther apart
+    /// than any two places of the tip. [`crate::fit`] states it.
+    TooLarge {
+        /// Distance between two points of the line, metres.
+        width: f64,
+        /// Upper bound on the distance between two places of the tip, metres.
+        reach: f64,
     },
     /// Each IK solution at the place violates a limit or collides.
     Excluded(Vec<Exclusion>),
@@ -296,6 +304,10 @@ impl Infeasible {
         let at = self.place;
         match &self.cause {
             Cause::OutOfReach { by } => format!("the line is {} out of reach at {at}", length_down(*by)),
+            Cause::TooLarge { width, reach } => {
+                let [width, reach] = [length_down(*width), length(*reach)];
+                format!("two points of the line are {width} apart, and two places of the tip at most {reach}")
+            }
             Cause::Excluded(_) => format!("no IK solution is possible at {at}"),
             Cause::NoChange(list) if list.iter().all(|e| matches!(e.by, Obstacle::Wrist(WristExcess::Turn(..)))) => {
                 format!("the wrist cannot turn as far as the tool needs before {at}")

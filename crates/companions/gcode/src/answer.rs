@@ -3,7 +3,7 @@
 use crate::fault::{Cause, Fault};
 use crate::player::Player;
 use crate::walk::{Replaced, Walk};
-use crate::{Job, written};
+use crate::{Dialect, Job, written};
 use cplan_deviation::Kinematics;
 use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
 use cplan_model::{Scene, Status};
@@ -42,14 +42,44 @@ impl Elbow {
     }
 }
 
+/// The segments into which the firmware divides each line. On a segment, the joints move straight.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Segments {
+    /// They are so short that the tip stays within the tolerance of the line.
+    #[default]
+    Short,
+    /// They have at most this length, metres.
+    OfLength(f64),
+    /// Straight lines have as many as Marlin or RepRapFirmware computes from the length of the move and its speed (F).
+    PerSecond {
+        /// Number of segments per second.
+        rate: f64,
+        /// Least length of a segment, metres. `None` for the firmware's default.
+        least: Option<f64>,
+        /// Greatest length of the segments of arcs, metres.
+        arcs: f64,
+    },
+}
+
+impl Segments {
+    /// Returns a number that is not positive and finite.
+    fn invalid(&self) -> Option<f64> {
+        let numbers = match *self {
+            Segments::Short => vec![],
+            Segments::OfLength(length) => vec![length],
+            Segments::PerSecond { rate, least, arcs } => [rate, arcs].into_iter().chain(least).collect(),
+        };
+        numbers.into_iter().find(|number| !(number.is_finite() && *number > 0.0))
+    }
+}
+
 /// Settings for the judgement of a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
     /// Greatest distance between the tip and the line that the machine may have, metres. At least [`MIN_TOLERANCE`].
     pub tolerance: f64,
-    /// Greatest length of the segments of each line on which the joints move straight, metres. `None` if the tip stays within
-    /// the tolerance of the line.
-    pub segment: Option<f64>,
+    /// The segments of each line, on which the joints move straight.
+    pub segments: Segments,
     /// The side of the elbow. `None` if the machine can be set up with either side.
     pub elbow: Option<Elbow>,
     /// True if unsafe travels are replaced.
@@ -57,19 +87,26 @@ pub struct Settings {
 }
 
 impl Default for Settings {
-    /// Returns a tolerance of a hundredth of a millimetre, no segments, either side of the elbow, Marlin, and replaced
-    /// travels.
+    /// Returns a tolerance of a hundredth of a millimetre, short segments, either side of the elbow, and replaced travels.
     fn default() -> Self {
-        Self { tolerance: DEFAULT_TOLERANCE, segment: None, elbow: None, repairs: true }
+        Self { tolerance: DEFAULT_TOLERANCE, segments: Segments::Short, elbow: None, repairs: true }
     }
 }
 
 /// The reason why a program cannot be judged, or not be written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GcodeError {
-    /// The length of segments is not a positive number.
-    #[error("the length of segments is {0} m; it must be a finite number above 0")]
+    /// A length of segments, or their number per second, is not a positive number.
+    #[error("a length of segments, or their number per second, is {0}; it must be a finite number above 0")]
     Segment(f64),
+    /// A number of segments per second for a firmware that divides lines otherwise, or not at all.
+    #[error("{0} does not divide lines into a number of segments per second; state their length, or leave it out")]
+    SegmentsPerSecond(Dialect),
+    /// A move without a speed, which determines its number of segments.
+    #[error(
+        "line {0}: the number of segments follows from the speed, and the file has stated none; write an F before this line"
+    )]
+    NoSpeed(usize),
     /// The tolerance is too small, or not a number.
     #[error("the tolerance is {0} m; it must be a finite number of at least {MIN_TOLERANCE} m")]
     Tolerance(f64),
@@ -91,12 +128,19 @@ pub struct Failed {
 }
 
 /// A travel that was replaced.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Travel {
     /// Number of its line.
     pub line: usize,
-    /// Number of moves in its place.
-    pub moves: usize,
+    /// The places of the moves instead of it, from the first beginning to the last end, metres.
+    pub points: Vec<[f64; 2]>,
+}
+
+impl Travel {
+    /// Returns the number of moves in its place.
+    pub fn moves(&self) -> usize {
+        self.points.len() - 1
+    }
 }
 
 /// The answer about a program.
@@ -133,13 +177,22 @@ impl Answer {
 /// motion is planned for each unsafe travel for which no earlier path is suitable.
 ///
 /// # Errors
-/// [`GcodeError`]: settings that cannot be used, and checksums.
+/// [`GcodeError`]: settings that cannot be used, moves without a speed that is needed, and checksums.
 pub fn judge(scene: &Scene, job: &Job, settings: &Settings) -> Result<Answer, GcodeError> {
     if !(settings.tolerance.is_finite() && settings.tolerance >= MIN_TOLERANCE) {
         return Err(GcodeError::Tolerance(settings.tolerance));
     }
-    if let Some(segment) = settings.segment.filter(|length| !(length.is_finite() && *length > 0.0)) {
-        return Err(GcodeError::Segment(segment));
+    if let Some(number) = settings.segments.invalid() {
+        return Err(GcodeError::Segment(number));
+    }
+    let dialect = job.setup.dialect;
+    if matches!(settings.segments, Segments::PerSecond { .. }) {
+        if dialect.least_segment().is_none() {
+            return Err(GcodeError::SegmentsPerSecond(dialect));
+        }
+        if let Some(own) = job.program.moves.iter().find(|own| own.modes.feed.is_none()) {
+            return Err(GcodeError::NoSpeed(own.piece.source.line));
+        }
     }
     let has_elbow = scene.arm().only_turns();
     if settings.elbow.is_some() && !has_elbow {
@@ -151,10 +204,9 @@ pub fn judge(scene: &Scene, job: &Job, settings: &Settings) -> Result<Answer, Gc
         None if has_elbow => Elbow::ALL.map(|elbow| (Some(elbow), elbow.solution())).to_vec(),
         None => (0..if kinematics.has_two_solutions() { 2 } else { 1 }).map(|solution| (None, solution)).collect(),
     };
-    let by_joints = job.setup.dialect.travels_by_joints();
     let players: Vec<(Option<Elbow>, Player)> = sides
         .into_iter()
-        .map(|(elbow, solution)| (elbow, Player::new(scene, &kinematics, solution, settings, by_joints)))
+        .map(|(elbow, solution)| (elbow, Player::new(scene, &kinematics, solution, settings, dialect)))
         .collect();
     let mut walks: Vec<(Option<Elbow>, Walk)> =
         players.iter().map(|(elbow, player)| (*elbow, Walk::new(player, &job.program.moves))).collect();
@@ -177,12 +229,14 @@ pub fn judge(scene: &Scene, job: &Job, settings: &Settings) -> Result<Answer, Gc
 /// Replaces travels if that is requested, and proves the written program.
 fn finished(job: &Job, settings: &Settings, elbow: Option<Elbow>, mut walk: Walk) -> Result<Answer, GcodeError> {
     let moves = &job.program.moves;
-    let replaced = if settings.repairs { walk.repair() } else { Vec::new() };
+    let replaced = if settings.repairs { walk.repair(job.setup.frame) } else { Vec::new() };
     walk.keep_travels();
-    let travels = replaced
-        .iter()
-        .map(|own| Travel { line: moves[own.index].piece.source.line, moves: own.points.len() })
-        .collect();
+    let travel = |own: &Replaced| {
+        let piece = &moves[own.index].piece;
+        let points = [piece.curve.start()].into_iter().chain(own.points.iter().map(|point| (*point).into()));
+        Travel { line: piece.source.line, points: points.collect() }
+    };
+    let travels = replaced.iter().map(travel).collect();
     let failed = walk.failed.iter().map(|(index, fault)| Failed { own: moves[*index].clone(), fault: fault.clone() });
     let mut answer = Answer { elbow, failed: failed.collect(), replaced: travels, text: None, other: None };
     if answer.failed.is_empty() && settings.repairs {
@@ -203,8 +257,8 @@ fn text(job: &Job, replaced: &[Replaced]) -> Result<Vec<u8>, GcodeError> {
     let text = String::from_utf8_lossy(&job.bytes);
     // The reader counts characters after a byte order mark.
     let (mark, rest) = text.split_at(text.len() - text.trim_start_matches('\u{feff}').len());
-    let program =
-        written::program(rest, &job.program.moves, replaced, job.setup.dialect).map_err(GcodeError::Checksum)?;
+    let form = (job.setup.dialect, job.setup.frame);
+    let program = written::program(rest, &job.program.moves, replaced, form).map_err(GcodeError::Checksum)?;
     Ok(format!("{mark}{program}").into_bytes())
 }
 

@@ -5,6 +5,7 @@
 //! between its places. Paths that keep off obstacles and limits need few lines, so such paths are tried first. A travel
 //! along places of an earlier one is tried before all others, because it takes no planning.
 
+use crate::Frame;
 use crate::fault::{Cause, Fault};
 use crate::player::Player;
 use crate::written::Grid;
@@ -13,7 +14,7 @@ use cplan_interrupt::checkpoint;
 use cplan_model::space::{Configuration, GoalSet, JointRange, Path, Segment};
 use cplan_model::{JointType, MotionProblem, MotionProblemError, Outcome};
 use cplan_solver::{Options, solve};
-use cplan_toolpath::{Curve, ProgramMove};
+use cplan_toolpath::{Curve, Modes, ProgramMove};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
 /// Shares of the margins below to try, in this order. Only an answer without margins proves that there is no travel.
@@ -54,6 +55,7 @@ pub(crate) struct Travel<'a> {
 /// A search for safe travels.
 pub(crate) struct Detours<'a> {
     player: &'a Player<'a>,
+    frame: Frame,
     /// Places of the travels that were planned so far, without their ends.
     known: Vec<Vec<Point>>,
 }
@@ -62,8 +64,8 @@ pub(crate) struct Detours<'a> {
 type Found = (Vec<Point>, Configuration);
 
 impl<'a> Detours<'a> {
-    pub fn new(player: &'a Player<'a>) -> Self {
-        Self { player, known: Vec::new() }
+    pub fn new(player: &'a Player<'a>, frame: Frame) -> Self {
+        Self { player, frame, known: Vec::new() }
     }
 
     /// Plans a safe travel.
@@ -179,7 +181,7 @@ impl<'a> Detours<'a> {
 
     /// Divides a path until the machine can play the straight lines between its places.
     fn lines(&self, own: &ProgramMove, path: &Path) -> Option<Found> {
-        let (grid, length) = (Grid::new(&own.modes), path.length());
+        let (grid, length) = (Grid::new(&own.modes, self.frame), path.length());
         let end = Point::from(own.piece.curve.end());
         let arm = self.player.kinematics.arm;
         let (mut from, mut at) = (Point::from(own.piece.curve.start()), path.start());
@@ -222,7 +224,9 @@ impl<'a> Detours<'a> {
     /// Plays a straight travel from given joint values. Returns the joint values at its end if the machine can play it.
     fn line(&self, own: &ProgramMove, [from, to]: [Point; 2], at: Configuration) -> Option<Configuration> {
         let curve = Curve::Line { from: from.into(), to: to.into() };
-        let swept = self.player.play(&curve, own.modes.is_rapid).ok()?;
+        // The line with the word Z is only known when the program is written, and then judged again.
+        let modes = Modes { words: Default::default(), ..own.modes.clone() };
+        let swept = self.player.play(&curve, &modes).ok()?;
         let turns = self.player.kinematics.near(swept.start, at) - swept.start;
         let swept = swept.turned(turns);
         let is_within = (0..2).all(|k| match self.player.kinematics.arm.joints[k].range {
@@ -239,7 +243,7 @@ impl<'a> Detours<'a> {
     fn along_known(&self, travel: &Travel) -> Option<Found> {
         let [from, to] = [travel.own.piece.curve.start(), travel.own.piece.curve.end()].map(Point::from);
         let is_goal = |q: &Configuration| travel.goals.iter().any(|goal| (goal - q).amax() <= SAME_TURN);
-        let grid = Grid::new(&travel.own.modes);
+        let grid = Grid::new(&travel.own.modes, self.frame);
         let places = |known: &Vec<Point>| known.iter().map(|place| grid.nearest(*place)).collect::<Vec<_>>();
         let forward = self.known.iter().map(places);
         let backward = self.known.iter().map(|known| places(known).into_iter().rev().collect());

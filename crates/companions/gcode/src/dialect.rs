@@ -1,5 +1,6 @@
 //! The dialects of G-code that machines with their own kinematics read.
 
+use cplan_toolpath::Source;
 use std::fmt;
 
 /// A firmware, as far as its programs and its travels differ from others.
@@ -40,6 +41,59 @@ impl Dialect {
     /// kinematics move the joints straight from its beginning to its end. Such travels must also be free in this motion.
     pub fn travels_by_joints(self) -> bool {
         matches!(self, Dialect::Marlin | Dialect::Duet)
+    }
+
+    /// Returns the default of the least length of segments, metres, for firmwares that divide lines into a number of segments
+    /// per second: `SCARA_MIN_SEGMENT_LENGTH` in Marlin, the T of M669 in RepRapFirmware. `None` for other firmwares.
+    pub fn least_segment(self) -> Option<f64> {
+        match self {
+            Dialect::Marlin => Some(0.5e-3),
+            Dialect::Duet => Some(0.2e-3),
+            _ => None,
+        }
+    }
+
+    /// Returns the dialect that a program names in a comment, or by words that only this firmware has, with the first such
+    /// line. `None` without such a line, or if it names several dialects.
+    pub fn of_program(text: &str) -> Option<(Self, Source)> {
+        let of_line = |line: &str| -> Vec<Self> {
+            let at = line.find([';', '(']).unwrap_or(line.len());
+            let (code, comment) = (line[..at].trim(), line[at..].to_ascii_lowercase());
+            let words: Vec<&str> = comment.split(|c: char| !c.is_ascii_alphanumeric()).collect();
+            let is_named = |own: &Self| own.names().iter().any(|name| words.contains(name));
+            let mut found: Vec<Self> = Self::ALL.into_iter().filter(is_named).collect();
+            found.extend(Self::of_code(code).filter(|own| !found.contains(own)));
+            found
+        };
+        let (found, line) =
+            text.lines().zip(1..).map(|(line, k)| (of_line(line), k)).find(|(found, _)| !found.is_empty())?;
+        (found.len() == 1).then(|| (found[0], Source::of_line(line)))
+    }
+
+    /// Returns the words of comments that name the firmware. Slicers write `;FLAVOR:RepRap` for RepRapFirmware.
+    fn names(self) -> &'static [&'static str] {
+        match self {
+            Dialect::Marlin => &["marlin", "marlin2"],
+            Dialect::Klipper => &["klipper"],
+            Dialect::Duet => &["duet", "reprapfirmware", "reprap"],
+            Dialect::FluidNc => &["fluidnc"],
+            Dialect::Grbl => &["grbl"],
+            Dialect::LinuxCnc => &["linuxcnc", "emc2"],
+        }
+    }
+
+    /// Returns the dialect whose words a line has: commands with long names of Klipper, settings of Grbl (`$H`), and `%` or
+    /// names of subroutines of LinuxCNC.
+    fn of_code(code: &str) -> Option<Self> {
+        let name = code.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).next().unwrap_or_default();
+        let is_command = name.len() > 2 && name.chars().all(|c| c.is_ascii_alphabetic() || c == '_');
+        match code.chars().next()? {
+            '$' => Some(Dialect::Grbl),
+            '%' => Some(Dialect::LinuxCnc),
+            'o' | 'O' if code[1..].trim_start().starts_with('<') => Some(Dialect::LinuxCnc),
+            _ if is_command => Some(Dialect::Klipper),
+            _ => None,
+        }
     }
 
     /// Returns a text as a comment.

@@ -16,8 +16,10 @@ struct Word {
 /// Checks that a firmware runs all commands of a program.
 ///
 /// # Errors
-/// The first word that the firmware leaves out, or reads otherwise, with its line and column.
+/// The first wrong checksum or number of a line, or else the first word that the firmware leaves out, or reads otherwise,
+/// with its line and column.
 pub(crate) fn check(text: &str, dialect: Dialect) -> Result<(), Error> {
+    check_numbers(text, dialect)?;
     if !matches!(dialect, Dialect::Marlin | Dialect::Klipper) {
         return Ok(());
     }
@@ -58,6 +60,45 @@ pub(crate) fn check(text: &str, dialect: Dialect) -> Result<(), Error> {
             let message = format!("is not the first command of its line, and {dialect} runs only that one");
             return error(word, message, "write it into a line of its own, or name another firmware by --dialect");
         }
+    }
+    Ok(())
+}
+
+/// Checks the checksums of lines, and for Marlin the numbers of lines. Of lines with a checksum, it accepts only the number
+/// after that of the last line with a number.
+fn check_numbers(text: &str, dialect: Dialect) -> Result<(), Error> {
+    let mut last = None;
+    for (line, number) in text.trim_start_matches('\u{feff}').lines().zip(1..) {
+        let code = line.split(';').next().unwrap_or_default();
+        let sum = code.rfind('*').map(|at| (at, code[at + 1..].trim()));
+        let sum = sum.filter(|(_, digits)| digits.chars().all(|c| c.is_ascii_digit()));
+        if let Some((at, stated)) = sum {
+            let own = code[..at].trim_start().bytes().fold(0, |sum, byte| sum ^ byte);
+            if stated.parse() != Ok(own) {
+                let message = format!("the checksum is *{stated}, but that of this line is *{own}");
+                let hint = "write the line again; it may have been damaged or edited";
+                return Err(Error::new(number, code[..at].chars().count() + 1, message, hint));
+            }
+        }
+        let words = words(code);
+        let first = words.iter().find(|word| word.has_letter("N"));
+        let Some((first, named)) = first.and_then(|word| Some((word, word.text[1..].parse::<u64>().ok()?))) else {
+            continue;
+        };
+        if let Some((_, rest)) = code.split_once("M110") {
+            // Another N is the number that the command sets.
+            let set = rest.split_once('N').map(|(_, set)| set.trim_start());
+            let set = set.and_then(|set| set.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok());
+            last = Some(set.unwrap_or(named));
+            continue;
+        }
+        let is_next = |last: u64| if sum.is_some() { named == last + 1 } else { named > last };
+        if let Some(last) = last.filter(|last| dialect == Dialect::Marlin && !is_next(*last)) {
+            let message = format!("{} comes after N{last}, and {dialect} refuses numbers out of order", first.text);
+            let hint = "number the lines again, or leave out the numbers and the checksums";
+            return Err(Error::new(number, first.column, message, hint));
+        }
+        last = Some(named);
     }
     Ok(())
 }

@@ -1,6 +1,6 @@
 //! A program with its text, and the words that lift its pen.
 
-use super::{Dialect, firmware};
+use super::{Dialect, Frame, firmware};
 use cplan_toolpath::{Curve, Program, read_program};
 use std::str::FromStr;
 
@@ -40,8 +40,10 @@ pub struct Setup {
     pub dialect: Dialect,
     /// The lines that move the pen. `None` if only G0 is a travel.
     pub pen: Option<Pen>,
-    /// Place of the tip at the beginning and after homing, metres. `None` if it is unknown.
+    /// Place of the tip at the beginning and after homing, metres, in the coordinates of the file. `None` if it is unknown.
     pub home: Option<[f64; 2]>,
+    /// The place of the file's coordinates in the world.
+    pub frame: Frame,
 }
 
 /// A program with its text.
@@ -49,7 +51,7 @@ pub struct Setup {
 pub struct Job {
     pub(crate) bytes: Vec<u8>,
     pub(crate) setup: Setup,
-    /// The moves. Straight moves with a lifted pen are travels.
+    /// The moves, at their places in the world. Straight moves with a lifted pen are travels.
     pub program: Program,
 }
 
@@ -67,6 +69,9 @@ impl Job {
                 let is_straight = matches!(piece.curve, Curve::Line { .. });
                 piece.is_travel |= is_straight && lifted.get(piece.source.line - 1).is_some_and(|lifted| *lifted);
             }
+        }
+        for piece in program.moves.iter_mut().map(|own| &mut own.piece) {
+            piece.curve = setup.frame.place(&piece.curve);
         }
         Ok(Self { bytes: bytes.to_vec(), setup: setup.clone(), program })
     }

@@ -31,12 +31,14 @@ mod detour;
 mod dialect;
 mod fault;
 mod firmware;
+mod frame;
 mod job;
 mod player;
 mod walk;
 mod written;
 
-pub use answer::{Answer, Elbow, Failed, GcodeError, Settings, Travel, judge};
+pub use answer::{Answer, Elbow, Failed, GcodeError, Segments, Settings, Travel, judge};
 pub use dialect::Dialect;
 pub use fault::{Cause, Fault};
+pub use frame::Frame;
 pub use job::{Job, Pen, PenWords, Setup};

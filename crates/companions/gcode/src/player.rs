@@ -5,15 +5,15 @@
 //! without jumps, and the boxes bound their values. The judge bounds the distance between the arm and obstacles over each
 //! box, and halves parts that are too long for that ([`CurveSearch`]).
 
-use crate::Settings;
 use crate::fault::{Cause, Fault};
+use crate::{Dialect, Segments, Settings};
 use cplan_deviation::{Kinematics, SolutionBox, sag};
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
 use cplan_judge::{CurveSearch, Deviation, Rejection, Vicinity};
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, JointRange};
-use cplan_toolpath::Curve;
+use cplan_toolpath::{Curve, Modes};
 use std::f64::consts::TAU;
 
 /// Distance beyond the reach that counts as rounding, metres.
@@ -27,6 +27,9 @@ const MAX_HALF_TURN: f64 = 1.0;
 
 /// Greatest number of parts of a move.
 const MAX_PARTS: usize = 20_000;
+
+/// Relative rounding of the firmware's numbers of segments. It computes them with seven digits.
+const FIRMWARE_ROUNDING: f64 = 1e-5;
 
 /// Greatest number of distance evaluations for a part of a move.
 const MAX_EVALUATIONS: usize = 200_000;
@@ -66,34 +69,61 @@ pub(crate) struct Player<'a> {
     /// Number of the IK solution, 0 or 1.
     pub solution: usize,
     tolerance: f64,
-    /// Greatest length of the segments on which the joints move straight, metres. `None` if the tip is on the line.
-    segment: Option<f64>,
-    travels_by_joints: bool,
+    segments: Segments,
+    dialect: Dialect,
 }
 
 impl<'a> Player<'a> {
-    /// Creates an arm. `travels_by_joints` is as of [`crate::Dialect::travels_by_joints`].
+    /// Creates an arm with its firmware.
     pub fn new(
         scene: &'a Scene,
         kinematics: &'a Kinematics<'a>,
         solution: usize,
         settings: &Settings,
-        travels_by_joints: bool,
+        dialect: Dialect,
     ) -> Self {
-        let (vicinity, Settings { tolerance, segment, .. }) = (Vicinity::new(scene), *settings);
-        Self { scene, kinematics, vicinity, solution, tolerance, segment, travels_by_joints }
+        let (vicinity, Settings { tolerance, segments, .. }) = (Vicinity::new(scene), *settings);
+        Self { scene, kinematics, vicinity, solution, tolerance, segments, dialect }
     }
 
-    /// Plays a move, which is a G0 if `is_rapid`. The whole turns of the result are any.
-    pub fn play(&self, curve: &Curve, is_rapid: bool) -> Result<Swept, Fault> {
-        let swept = match self.segment {
-            Some(length) => self.segments(curve, length)?,
+    /// Plays a move with its modes. The whole turns of the result are any.
+    pub fn play(&self, curve: &Curve, modes: &Modes) -> Result<Swept, Fault> {
+        let swept = match self.counts(curve, modes)? {
             None => self.line(curve)?,
+            Some([least, most]) if least == most => self.segments(curve, least)?,
+            Some([least, most]) => {
+                let (one, other) = (self.segments(curve, least)?, self.segments(curve, most)?);
+                Swept { low: one.low.inf(&other.low), high: one.high.sup(&other.high), ..one }
+            }
         };
-        if is_rapid && self.travels_by_joints {
+        if modes.is_rapid && self.dialect.travels_by_joints() {
             self.straight(swept.start, swept.end)?;
         }
         Ok(swept)
+    }
+
+    /// Returns both numbers of segments that the firmware may divide a move into, which differ at most by its rounding.
+    /// `None` if the tip stays within the tolerance of the line.
+    fn counts(&self, curve: &Curve, modes: &Modes) -> Result<Option<[f64; 2]>, Fault> {
+        let of_length = |length: f64| Some([(curve.length() / length).ceil().max(1.0); 2]);
+        let (rate, least, arcs) = match self.segments {
+            Segments::Short => return Ok(None),
+            Segments::OfLength(length) => return Ok(of_length(length)),
+            Segments::PerSecond { rate, least, arcs } => (rate, least.or(self.dialect.least_segment()), arcs),
+        };
+        let (Curve::Line { .. }, Some(feed), Some(least)) = (curve, modes.feed, least) else {
+            return Ok(of_length(arcs));
+        };
+        // Marlin counts the height, too, and leaves out a part of a segment. RepRapFirmware rounds to the nearest number.
+        let (rise, half) = if self.dialect == Dialect::Marlin { (modes.rise, 0.0) } else { (Some(0.0), 0.5) };
+        let rise = if modes.words[2].is_some() { rise } else { Some(0.0) };
+        let Some(rise) = rise else {
+            let why = "its number of segments depends on the height (Z) before it, which the file does not state";
+            return Err(Fault::undecided(curve.start().into(), why.into()));
+        };
+        let length = curve.length().hypot(rise);
+        let count = (length / feed * rate).min(length / least);
+        Ok(Some([-1.0, 1.0].map(|sign| (count * (1.0 + sign * FIRMWARE_ROUNDING) + half).floor().max(1.0))))
     }
 
     /// Returns the joint values that put the tip at a point.
@@ -154,9 +184,8 @@ impl<'a> Player<'a> {
         }
     }
 
-    /// Plays a line in segments on which the joints move straight.
-    fn segments(&self, curve: &Curve, length: f64) -> Result<Swept, Fault> {
-        let count = (curve.length() / length).ceil().max(1.0);
+    /// Plays a line in a number of segments on which the joints move straight.
+    fn segments(&self, curve: &Curve, count: f64) -> Result<Swept, Fault> {
         if count > MAX_PARTS as f64 {
             let why = format!("the move needs more than {MAX_PARTS} segments");
             return Err(Fault::undecided(curve.start().into(), why));

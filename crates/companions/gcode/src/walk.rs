@@ -4,6 +4,7 @@
 //! program states it; a safe travel leads from there to the next chain. Within a chain all joint values are known up to
 //! whole turns, and a joint with a range of more than a turn may allow several.
 
+use crate::Frame;
 use crate::detour::{Detours, Travel};
 use crate::fault::{Cause, Fault};
 use crate::player::{Player, Swept};
@@ -64,7 +65,7 @@ impl<'a> Walk<'a> {
     /// Adds a move after a chain, and returns the chain that it belongs to or begins.
     fn add(&mut self, index: usize, chain: Option<usize>) -> Option<usize> {
         let ProgramMove { piece, modes } = &self.moves[index];
-        let played = self.player.play(&piece.curve, modes.is_rapid).and_then(|swept| {
+        let played = self.player.play(&piece.curve, modes).and_then(|swept| {
             let Some(before) = chain.map(|chain| self.chains[chain]) else { return Ok(swept) };
             let turns = self.player.kinematics.near(swept.start, before.end) - swept.start;
             let joined = before.then(&swept.turned(turns));
@@ -124,9 +125,9 @@ impl<'a> Walk<'a> {
         of(0).flat_map(|one| of(1).map(move |two| Configuration::new(one, two))).collect()
     }
 
-    /// Plans a safe travel for each broken one. Returns them, and adds the others to the failed moves.
-    pub fn repair(&mut self) -> Vec<Replaced> {
-        let mut detours = Detours::new(self.player);
+    /// Plans a safe travel for each broken one, which the file can state in its frame. Returns them, and adds the others to the failed moves.
+    pub fn repair(&mut self, frame: Frame) -> Vec<Replaced> {
+        let mut detours = Detours::new(self.player, frame);
         let mut chosen: Vec<Option<Configuration>> = vec![None; self.chains.len()];
         let mut replaced = Vec::new();
         for Broken { index, fault, chains: [before, after] } in std::mem::take(&mut self.broken) {

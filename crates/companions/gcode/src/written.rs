@@ -1,7 +1,7 @@
 //! Writes a program again with other travels. All other lines remain unchanged.
 
-use crate::Dialect;
 use crate::walk::Replaced;
+use crate::{Dialect, Frame};
 use cplan_geometry::Point;
 use cplan_toolpath::{Modes, ProgramMove};
 use std::collections::BTreeMap;
@@ -20,20 +20,22 @@ const ROUNDING: f64 = 1e-9;
 
 /// The places that a line can state with few decimals.
 pub(crate) struct Grid {
+    frame: Frame,
     origin: Point,
     /// Metres between two places.
     step: f64,
 }
 
 impl Grid {
-    pub fn new(modes: &Modes) -> Self {
+    pub fn new(modes: &Modes, frame: Frame) -> Self {
         let decimals = DECIMALS[usize::from(modes.unit > MILLIMETRE)];
-        Self { origin: modes.origin.into(), step: modes.unit / 10_f64.powi(decimals) }
+        Self { frame, origin: modes.origin.into(), step: modes.unit / 10_f64.powi(decimals) }
     }
 
     /// Returns the place nearest to a point.
     pub fn nearest(&self, point: Point) -> Point {
-        self.origin + ((point - self.origin) / self.step).map(f64::round) * self.step
+        let away = (self.frame.to_file(point) - self.origin) / self.step;
+        self.frame.to_world(self.origin + away.map(f64::round) * self.step)
     }
 }
 
@@ -48,8 +50,9 @@ fn number(value: f64) -> String {
     }
 }
 
-/// Returns the words X and Y of a move from one place to another.
-fn coordinates(modes: &Modes, from: Point, to: Point) -> String {
+/// Returns the words X and Y of a move from one place of the world to another.
+fn coordinates(modes: &Modes, frame: Frame, from: Point, to: Point) -> String {
+    let [from, to] = [from, to].map(|point| frame.to_file(point));
     let origin = if modes.is_relative { from } else { Point::from(modes.origin) };
     let [x, y] = [0, 1].map(|k| number((to[k] - origin[k]) / modes.unit));
     format!("X{x} Y{y}")
@@ -63,7 +66,7 @@ pub(crate) fn program(
     text: &str,
     moves: &[ProgramMove],
     replaced: &[Replaced],
-    dialect: Dialect,
+    (dialect, frame): (Dialect, Frame),
 ) -> Result<String, usize> {
     let by_line: BTreeMap<usize, &Replaced> =
         replaced.iter().map(|own| (moves[own.index].piece.source.line, own)).collect();
@@ -78,7 +81,7 @@ pub(crate) fn program(
         if line.split([';', '(']).next().is_some_and(|code| code.contains('*')) {
             return Err(number);
         }
-        let lines = travel(line, &moves[own.index], &own.points);
+        let lines = travel(line, &moves[own.index], frame, &own.points);
         let count = lines.len();
         let comment = format!("cplan: the travel of line {number} of the original, in {count} moves");
         for line in [dialect.comment(&comment)].into_iter().chain(lines) {
@@ -94,12 +97,12 @@ pub(crate) fn program(
 
 /// Returns the lines of a travel through places. The first one is the line of the program with other words X and Y, so that
 /// its modes, its speed and its other words hold from the beginning. A word Z that lowers the tool moves to the last one.
-fn travel(line: &str, own: &ProgramMove, points: &[Point]) -> Vec<String> {
+fn travel(line: &str, own: &ProgramMove, frame: Frame, points: &[Point]) -> Vec<String> {
     let (modes, start) = (&own.modes, Point::from(own.piece.curve.start()));
     let characters: Vec<char> = line.chars().collect();
     let [x, y, z] = &modes.words;
     let lowered = z.as_ref().filter(|_| points.len() > 1 && modes.rise.is_some_and(|rise| rise < 0.0));
-    let mut edits = vec![(x.clone().or(y.clone()), coordinates(modes, start, points[0]))];
+    let mut edits = vec![(x.clone().or(y.clone()), coordinates(modes, frame, start, points[0]))];
     if x.is_some() && y.is_some() {
         edits.push((y.clone(), String::new()));
     }
@@ -115,8 +118,12 @@ fn travel(line: &str, own: &ProgramMove, points: &[Point]) -> Vec<String> {
         from = range.end + spaces;
     }
     first.extend(&characters[from..]);
+    // The spaces before a removed word at the end of the line.
+    if !line.ends_with(' ') {
+        first.truncate(first.trim_end_matches(' ').len());
+    }
     let motion = if modes.is_rapid { "G0" } else { "G1" };
-    let further = points.windows(2).map(|pair| format!("{motion} {}", coordinates(modes, pair[0], pair[1])));
+    let further = points.windows(2).map(|pair| format!("{motion} {}", coordinates(modes, frame, pair[0], pair[1])));
     let mut lines: Vec<String> = [first].into_iter().chain(further).collect();
     if let (Some(range), Some(last)) = (lowered, lines.last_mut()) {
         last.push(' ');

@@ -63,7 +63,7 @@ pub use checked::CheckedView;
 pub use compared::{ComparedPaths, SmallPicture, compared};
 pub use figure::Figure;
 pub use flow::FieldLines;
-pub use followed::{LineSettings, LineView};
+pub use followed::{LineSettings, LineView, MoveMark};
 pub use object::Object;
 pub use obstacles::{extent, obstacles, still_page};
 pub use polygon_pair::{PolygonPair, polygon_pair};

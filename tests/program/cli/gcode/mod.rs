@@ -3,6 +3,8 @@
 use super::*;
 mod firmware;
 mod oracle;
+mod placed;
+mod segments;
 mod words;
 
 use cplan_cases::dice;

@@ -57,6 +57,9 @@ pub enum NoCertificate {
     /// The range of a wrist excludes an IK solution at a place of a line.
     #[error("the wrist's range is a part of the proof, and certificates of lines do not judge the wrist")]
     Wrist,
+    /// A line is too large for all placements.
+    #[error("the answer is about all placements of the line, and certificates are about one")]
+    Placement,
 }
 
 impl Plan {

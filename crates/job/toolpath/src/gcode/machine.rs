@@ -267,8 +267,8 @@ impl Machine {
         self.pieces.push(Piece { curve: curve?, speed, is_travel, dwell: None, source });
         let words = [block.get(Slot::X), block.get(Slot::Y), block.with_letters("Z").next()];
         let words = words.map(|word| word.and_then(|word| Some(word.source.column? - 1..word.end)));
-        let (is_rapid, unit, is_relative) = (is_travel, self.unit, self.is_relative);
-        self.modes.push(Modes { is_rapid, unit, is_relative, origin, words, rise });
+        let (is_rapid, unit, is_relative, feed) = (is_travel, self.unit, self.is_relative, self.speed);
+        self.modes.push(Modes { is_rapid, unit, is_relative, origin, words, feed, rise });
         Ok(())
     }
 

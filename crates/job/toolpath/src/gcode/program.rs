@@ -36,6 +36,8 @@ pub struct Modes {
     pub origin: Point,
     /// The words X, Y and Z as ranges of characters of the line; `None` for a word that the line does not have.
     pub words: [Option<Range<usize>>; 3],
+    /// Speed of the last F up to this line, metres per second; `None` if the program has stated none. It also holds for G0.
+    pub feed: Option<f64>,
     /// Difference of the tool's height by the word Z, metres; `None` if it is unknown or there is no such word.
     pub rise: Option<f64>,
 }

@@ -1,7 +1,7 @@
 //! Pictures of a line that the tip follows: in the workspace and in the configuration space.
 
 use super::LineView;
-use super::view::color;
+use super::view::{MoveMark, color};
 use crate::arm::{self, GHOST_LOOK, UNREACHED_LOOK};
 use crate::axes::{Frame, span};
 use crate::blocking::cross;
@@ -36,11 +36,19 @@ const LENS_MARK: f64 = 7.0;
 const OVERVIEW_SHARE: f64 = 0.3;
 const OVERVIEW_GAP: f64 = 10.0;
 
+/// Returns the width of the line: it is wide if the path of the tip lies on it.
+fn width(line: &LineView) -> f64 {
+    if line.marked.is_some() { TRACE_WIDTH } else { WIDTH }
+}
+
 /// Draws the line in the workspace.
 pub fn in_workspace(line: &LineView, frame: &Frame) -> Vec<Item> {
     let color = if line.motion.is_some() { GHOST } else { GRAY };
     let steps = |stroke: &Vec<Point>| chain(stroke.iter().map(|p| frame.at(p.x, p.y)), false);
-    line.strokes.iter().map(|stroke| Item::Outline(steps(stroke), Style::line(color, WIDTH))).collect()
+    let strokes = line.strokes.iter().map(|stroke| Item::Outline(steps(stroke), Style::line(color, width(line))));
+    let marked = line.marked.iter().flatten();
+    let marked = marked.map(|(mark, points)| Item::Outline(steps(points), Style::line(mark.look().0, TRACE_WIDTH)));
+    strokes.chain(marked).collect()
 }
 
 /// Returns the path of a point that moves with the arm, divided by the limits that the motion reaches.
@@ -175,7 +183,11 @@ pub fn solution_names(line: &LineView, chart: &Chart) -> Vec<Named> {
 pub fn keys(line: &LineView) -> Vec<Key> {
     let pen = |color, width| Sign::Line(Pen { color, width, dash: &[] });
     let color = if line.motion.is_some() { GHOST } else { GRAY };
-    let mut keys = vec![(pen(color, WIDTH), "line to follow".to_owned())];
+    let name = if line.marked.is_some() { "drawing moves" } else { "line to follow" };
+    let mut keys = vec![(pen(color, width(line)), name.to_owned())];
+    let is_marked = |mark: &MoveMark| line.marked.iter().flatten().any(|(own, _)| own == mark);
+    let marks = MoveMark::ALL.into_iter().filter(is_marked).map(MoveMark::look);
+    keys.extend(marks.map(|(color, name)| (pen(color, TRACE_WIDTH), name.to_owned())));
     keys.extend(line.limits().into_iter().map(|(_, name, color)| (pen(color, TRACE_WIDTH), name)));
     if line.place.is_some() {
         keys.push((pen(INFEASIBLE, 2.6), "x: the tip cannot follow the line here".to_owned()));

@@ -18,7 +18,7 @@ pub use limits::Stretch;
 use limits::{active_limits, stops, stretches, with_wrist};
 pub use played::Played;
 pub use solutions::{SolutionPart, solutions};
-pub use view::{LineView, document};
+pub use view::{LineView, MoveMark, document};
 
 use cplan_handling::Piece;
 use cplan_model::Arm;

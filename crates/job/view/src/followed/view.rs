@@ -11,7 +11,7 @@ use cplan_geometry::Point;
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Scene};
 use cplan_motion::Trajectory;
-use cplan_theme::{GRAY, PATH_COLORS, Rgb};
+use cplan_theme::{ACCENT, GRAY, INFEASIBLE, PATH_COLORS, Rgb};
 use cplan_toolpath::{Curve, Toolpath};
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -68,6 +68,8 @@ pub struct LineView {
     pub(crate) other: Option<(Configuration, bool)>,
     /// The magnified part of the workspace; `None` if the line fills most of the workspace.
     pub(crate) focus: Option<Focus>,
+    /// The marked moves of a program; `None` for a line that is followed.
+    pub(crate) marked: Option<Vec<(MoveMark, Vec<Point>)>>,
     is_smooth: bool,
     names: [String; 2],
 }
@@ -81,7 +83,35 @@ pub struct Focus {
     pub corner: [f64; 2],
 }
 
+/// The kinds of moves of a program that pictures distinguish from drawing moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MoveMark {
+    /// A travel that was replaced, at its new place.
+    Replaced,
+    /// A move that the machine cannot play, or that is not proven.
+    Failed,
+}
+
+impl MoveMark {
+    pub(crate) const ALL: [Self; 2] = [Self::Replaced, Self::Failed];
+
+    /// Returns the colour, and the name in the legend.
+    pub(crate) fn look(self) -> (Rgb, &'static str) {
+        match self {
+            Self::Replaced => (ACCENT, "replaced travel"),
+            Self::Failed => (INFEASIBLE, "move that fails"),
+        }
+    }
+}
+
 impl LineView {
+    /// Returns the view of a program for a machine, with these moves marked by their points.
+    #[must_use]
+    pub fn with_marked_moves(mut self, marked: Vec<(MoveMark, Vec<Point>)>) -> Self {
+        self.marked = Some(marked);
+        self
+    }
+
     /// Creates the view of a line without a motion.
     pub fn new(scene: &Scene, line: &Toolpath, tolerance: f64) -> Self {
         let strokes = line.outlines(DRAWN_TOLERANCE * scene.arm().reach());
@@ -98,6 +128,7 @@ impl LineView {
             pose: None,
             other: None,
             focus: None,
+            marked: None,
             is_smooth: is_smooth(scene.arm()),
             names: scene.arm().joints.each_ref().map(|joint| joint.name.clone()),
         }
@@ -249,8 +280,10 @@ pub fn document(line: &LineView, grain: RoundingSteps) -> Object {
         let points = grain.configurations(&part.points);
         object!("solution": part.solution, "excluded": part.is_excluded, "points": points)
     };
+    let mark = |(mark, points): &(MoveMark, Vec<Point>)| (mark.look().0.to_string(), Chain(grain.points(points)));
     object!(
         "strokes": line.strokes.iter().map(|stroke| Chain(grain.points(stroke))).collect::<Vec<_>>(),
+        "marked": line.marked.as_ref().map(|marked| marked.iter().map(mark).collect::<Vec<_>>()),
         "curves": has_curves.then_some(curves),
         "tolerance": line.tolerance,
         "lens": LENS_TOLERANCES * line.tolerance,

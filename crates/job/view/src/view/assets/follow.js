@@ -186,12 +186,16 @@ class FollowedLine {
 
   /** Draws the line below the arm, and the arms that are excluded. */
   inWorkspace(context, panel) {
-    const { view, line: { strokes, excluded } } = this;
+    const { view, line: { strokes, marked, excluded } } = this;
     const { theme } = panel;
     for (const q of excluded) Workspace.arm(context, panel, view, view.world, q, { fill: theme.paper, line: theme.infeasible, width: 0.9, alpha: 0.65, blocks: true });
     if (!view.shows('path')) return;
-    [context.lineWidth, context.strokeStyle, context.lineCap] = [7, this.motion ? theme.ghost : theme.grey, 'round'];
+    [context.lineWidth, context.strokeStyle, context.lineCap] = [marked ? 3 : 7, this.motion ? theme.ghost : theme.grey, 'round'];
     for (const stroke of strokes) line(context, [...Geometry.pointsOf(stroke)].map((p) => panel.at(p)));
+    for (const [color, points] of marked ?? []) {
+      [context.lineWidth, context.strokeStyle] = [3, theme.stroke(color)];
+      line(context, [...Geometry.pointsOf(points)].map((p) => panel.at(p)));
+    }
     context.lineCap = 'butt';
   }
 

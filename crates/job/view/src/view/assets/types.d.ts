@@ -146,6 +146,8 @@ interface ExplanationModel { headline: string; evidence: string; title: string; 
 /** A line that the tip should follow, with the images under its IK solutions, and the place where it cannot be followed. */
 interface LineModel {
   strokes: Chain[];
+  /** Replaced and failing moves of a program, each with its colour. */
+  marked?: [string, Chain][];
   /** Exact curves: two ends; centre, radius, direction, angle, and perhaps growth of the radius; or four control points. */
   curves?: number[][];
   tolerance: number;

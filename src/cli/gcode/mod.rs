@@ -1,27 +1,37 @@
 //! `cplan gcode`: judges G-code for a machine with its own kinematics, and replaces unsafe travels.
 
-use super::exit::code_of;
-use super::failure::Failure;
-use super::files::Files;
-use super::headings::OUTPUT;
-use super::outputs::refuse_to_overwrite_inputs;
-use super::print_args::PrintArgs;
-use super::sinks;
-use super::values::{clearance, displacement, tolerance};
+mod picture;
+
+use crate::cli::exit::code_of;
+use crate::cli::failure::Failure;
+use crate::cli::files::Files;
+use crate::cli::headings::OUTPUT;
+use crate::cli::outputs::{Outputs, drawn, refuse_to_overwrite_inputs};
+use crate::cli::print_args::PrintArgs;
+use crate::cli::sinks;
+use crate::cli::theme::ThemeArgs;
+use crate::cli::values::{clearance, displacement, tolerance, turn};
 use crate::input::{self, CalibrationTable, LoadedScene, line_diagnostic};
 use crate::model::Status;
-use crate::motion::{check_writable, write_whole};
-use crate::options::word;
+use crate::options::{positive, word};
 use crate::output::{format_columns, title_of};
 use crate::text::{chosen_length, counted};
 use clap::{Args, ValueHint};
-use cplan_gcode::{Answer, Dialect, Elbow, Failed, GcodeError, Job, Pen, PenWords, Settings, Setup, judge};
-use cplan_toolpath::Source;
+use cplan_gcode::{
+    Answer, Dialect, Elbow, Failed, Frame, GcodeError, Job, Pen, PenWords, Segments, Settings, Setup, Travel, judge,
+};
+use cplan_toolpath::{Curve, Source};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 
 /// Greatest number of failed moves in the summary.
 const MAX_SHOWN: usize = 8;
+
+/// Commands by which many plotters move the pen.
+const PEN_WORDS: [&str; 4] = ["M3", "M5", "M280", "M300"];
+
+/// Length of the segments into which firmwares divide arcs by default, metres.
+const ARC_SEGMENT: f64 = 1e-3;
 
 /// Prove G-code for machines with their own kinematics.
 #[derive(Debug, Args)]
@@ -29,7 +39,8 @@ const MAX_SHOWN: usize = 8;
 The firmware moves the tip along each line, and keeps the side of its elbow.
 Drawing moves (G1, G2, G3) remain unchanged, and are proven to be within reach and
 limits, and free of collisions. Travels (G0) that are not are replaced by others.
-The coordinates of the file are those of the world.
+The coordinates of the file are those of the world, turned by --turn and then
+moved by --move.
 
 Examples:
   cplan gcode robots/scara.urdf workspaces/gcode/labels.toml \\
@@ -49,15 +60,23 @@ pub struct GcodeArgs {
     /// Judge the original program, travels included, and write nothing.
     #[arg(long, conflicts_with = "output", required_unless_present = "output")]
     check: bool,
-    /// Firmware of the machine.
-    #[arg(long, value_name = "NAME", value_parser = word(Dialect::ALL.map(|own| (own, own.name(), ""))), default_value_t)]
-    dialect: Dialect,
+    /// Firmware of the machine. By default the one that the program names in a comment, or by words that only this firmware
+    /// has; otherwise marlin.
+    #[arg(long, value_name = "NAME", value_parser = word(Dialect::ALL.map(|own| (own, own.name(), ""))))]
+    dialect: Option<Dialect>,
     /// Side of the elbow, seen from joint 1 towards the tip, if the machine's is fixed. By default both are tried.
     #[arg(long, value_name = "SIDE", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
     elbow: Option<Elbow>,
-    /// Place of the tip at the beginning and after homing (G28), metres. Without it, the moves from there are not judged.
+    /// Place of the tip at the beginning and after homing (G28), metres, in the coordinates of the program. Without it, the
+    /// moves from there are not judged.
     #[arg(long, value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
     home: Option<[f64; 2]>,
+    /// Angle by which the machine's coordinates are turned in the world: radians, or degrees such as 90deg.
+    #[arg(long, value_name = "ANGLE", value_parser = turn, allow_hyphen_values = true, default_value_t = 0.0)]
+    turn: f64,
+    /// Position of the machine's origin in the world, metres; by default 0,0.
+    #[arg(long = "move", value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
+    shift: Option<[f64; 2]>,
     /// Words of the lines that lift the pen, such as "M300 S50" or Z5. Then G1 with a lifted pen is a travel, too.
     #[arg(long, value_name = "WORDS", requires = "pen_down")]
     pen_up: Option<PenWords>,
@@ -68,9 +87,17 @@ pub struct GcodeArgs {
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, default_value_t = Settings::default().tolerance)]
     tolerance: f64,
     /// Length of the firmware's segments, metres or with a unit such as 5mm: on each, the joints move straight. By default the
-    /// tip stays within the tolerance of the line.
+    /// tip stays within the tolerance of the line. With --segments-per-second, greatest length of the segments of arcs; by
+    /// default 1mm.
     #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
     segment: Option<f64>,
+    /// Number of segments per second (S in M665 of Marlin, and in M669 of RepRapFirmware). The firmware then computes the
+    /// segments of straight lines from their lengths and F.
+    #[arg(long, value_name = "RATE", value_parser = positive)]
+    segments_per_second: Option<f64>,
+    /// Least length of these segments, metres or with a unit; by default 0.5mm for marlin, and 0.2mm for duet.
+    #[arg(long, value_name = "LENGTH", value_parser = tolerance, requires = "segments_per_second")]
+    min_segment: Option<f64>,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     clearance: Option<f64>,
@@ -81,6 +108,11 @@ pub struct GcodeArgs {
     /// Write the program with safe travels.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     output: Option<PathBuf>,
+    /// Draw the drawing moves, the replaced travels and the moves that fail: .svg, .png or .html. Can be repeated.
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
+    picture: Vec<PathBuf>,
+    #[command(flatten)]
+    theme: ThemeArgs,
     #[command(flatten)]
     print: PrintArgs,
 }
@@ -90,31 +122,39 @@ pub struct GcodeArgs {
 /// # Errors
 /// Bad input and I/O, and options that do not suit the robot.
 pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
-    args.output.iter().try_for_each(|path| check_writable(path))?;
+    let outputs = Outputs::of_pictures(&args.picture, args.output.clone())?.without_animation("a program")?;
     let bytes = input::read_bytes(&args.job)?;
     let file = args.job.display().to_string();
     let pen = args.pen_up.clone().zip(args.pen_down.clone()).map(|(up, down)| Pen { up, down });
-    let setup = Setup { dialect: args.dialect, pen, home: args.home };
+    let found = Dialect::of_program(&String::from_utf8_lossy(&bytes)).filter(|_| args.dialect.is_none());
+    let dialect = args.dialect.or(found.map(|(dialect, _)| dialect)).unwrap_or_default();
+    let frame = Frame { turn: args.turn, origin: args.shift.unwrap_or_default() };
+    let setup = Setup { dialect, pen, home: args.home, frame };
     let job = Job::read(&bytes, &setup).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
     let loaded =
         input::load_scene(args.files.robot(), &args.files.world)?.with_margins(args.clearance, args.calibration)?;
     loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();
-    refuse_to_overwrite_inputs(args.output.iter().map(PathBuf::as_path), &read)?;
+    refuse_to_overwrite_inputs(outputs.paths(), &read)?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.print_status(&format!("warning: {warning}")));
     let settings =
-        Settings { tolerance: args.tolerance, segment: args.segment, elbow: args.elbow, repairs: !args.check };
+        Settings { tolerance: args.tolerance, segments: args.segments(), elbow: args.elbow, repairs: !args.check };
     let answer = judge(&loaded.scene, &job, &settings).map_err(|error| match error {
         GcodeError::NoElbow => Failure::Usage(format!("--elbow: {error}")),
+        GcodeError::SegmentsPerSecond(_) => Failure::Usage(format!("--segments-per-second: {error}")),
         error => Failure::Refused(format!("{}: {error}", args.job.display())),
     })?;
-    match (&args.output, &answer.text) {
-        (Some(path), Some(text)) => write_whole(path, text)?,
-        (Some(path), None) => sinks::warn_unwritten(path, "safe program"),
-        (None, _) => {}
-    }
     let code = code_of(answer.status());
-    let answered = Answered { args, loaded: &loaded, job: &job, answer: &answer };
+    let named = found.map(|(dialect, source)| {
+        format!("line {} of the program names the dialect {dialect}; --dialect states another one", source.line)
+    });
+    let notes = named.into_iter().chain(pen_note(args, &job, &answer)).collect();
+    let answered = Answered { args, loaded: &loaded, job: &job, answer: &answer, dialect, notes };
+    let program = args.output.as_ref().zip(answer.text.as_ref()).map(|(path, text)| (path.clone(), text.clone()));
+    if let (Some(path), None) = (&args.output, &program) {
+        sinks::warn_unwritten(path, "safe program");
+    }
+    outputs.write_pictures(program.into_iter().collect(), drawn(|| args.theme.apply(picture::view(&answered))))?;
     args.print.report(code, || sinks::pretty(&answered.json()), || answered.summary())?;
     Ok(code)
 }
@@ -125,6 +165,21 @@ struct Answered<'a> {
     loaded: &'a LoadedScene,
     job: &'a Job,
     answer: &'a Answer,
+    dialect: Dialect,
+    /// Notes about the dialect and the pen.
+    notes: Vec<String>,
+}
+
+impl GcodeArgs {
+    fn segments(&self) -> Segments {
+        match (self.segments_per_second, self.segment) {
+            (Some(rate), arcs) => {
+                Segments::PerSecond { rate, least: self.min_segment, arcs: arcs.unwrap_or(ARC_SEGMENT) }
+            }
+            (None, Some(length)) => Segments::OfLength(length),
+            (None, None) => Segments::Short,
+        }
+    }
 }
 
 impl Answered<'_> {
@@ -136,20 +191,21 @@ impl Answered<'_> {
         json!({
             "status": self.answer.status().name(),
             "file": self.args.job.display().to_string(),
-            "dialect": self.args.dialect.name(),
+            "dialect": self.dialect.name(),
             "elbow": side(elbow),
             "tolerance": self.args.tolerance,
             "segment": self.args.segment,
+            "segments_per_second": self.args.segments_per_second,
             "clearance": self.loaded.scene.workspace().clearance,
             "lines": {
                 "drawing": drawing,
                 "travels": travels,
-                "replaced": replaced.iter().map(|own| json!({ "line": own.line, "moves": own.moves })).collect::<Vec<_>>(),
+                "replaced": replaced.iter().map(|own| json!({ "line": own.line, "moves": own.moves() })).collect::<Vec<_>>(),
                 "failed": failures(failed),
                 "unstated": self.job.program.unstated.iter().map(|source| source.line).collect::<Vec<_>>(),
             },
             "other": other.as_ref().map(|other| json!({ "elbow": side(&other.elbow), "failed": failures(&other.failed) })),
-            "notes": self.job.program.notes,
+            "notes": self.notes.iter().chain(&self.job.program.notes).collect::<Vec<_>>(),
         })
     }
 
@@ -169,12 +225,12 @@ impl Answered<'_> {
         let [drawing, travels] = self.job.counts();
         let tolerance = chosen_length(self.args.tolerance);
         let moves = format!("{}, {}", counted(drawing, "drawing move"), counted(travels, "travel"));
-        lines.push(("program", format!("{moves}; tolerance {tolerance}; dialect {}", self.args.dialect)));
+        lines.push(("program", format!("{moves}; tolerance {tolerance}; dialect {}", self.dialect)));
         lines.extend(
             elbow.map(|elbow| ("elbow", format!("to the {} of the line from joint 1 to the tip", elbow.name()))),
         );
         if let Some(first) = replaced.first() {
-            let count: usize = replaced.iter().map(|own| own.moves).sum();
+            let count: usize = replaced.iter().map(Travel::moves).sum();
             let text = format!(
                 "{} by {}; the first in line {}",
                 counted(replaced.len(), "travel"),
@@ -185,7 +241,7 @@ impl Answered<'_> {
         }
         let program = &self.job.program;
         lines.extend(unstated(&program.unstated).map(|text| ("note", text)));
-        let notes = program.notes.iter().chain(&self.loaded.robot.notes);
+        let notes = self.notes.iter().chain(&program.notes).chain(&self.loaded.robot.notes);
         lines.extend(notes.map(|note| ("note", note.clone())));
         format!("{}\n{}", title_of(&self.loaded.scene), format_columns(&lines))
     }
@@ -201,6 +257,22 @@ impl Answered<'_> {
             Status::Unknown => format!("unknown: {} not proven to be safe", counted(failed.len(), "move")),
         }
     }
+}
+
+/// Returns a note about the words that move the pen, if a drawing move fails that may be a travel with a lifted pen.
+fn pen_note(args: &GcodeArgs, job: &Job, answer: &Answer) -> Option<String> {
+    let words =
+        PEN_WORDS.iter().filter(|word| job.program.notes.iter().any(|note| note.contains(&format!("{word} ("))));
+    let words: Vec<&str> = words.copied().collect();
+    let is_straight = |failed: &&Failed| matches!(failed.own.piece.curve, Curve::Line { .. });
+    let first = answer.failed.iter().filter(is_straight).find(|failed| !failed.own.piece.is_travel)?;
+    let is_open = args.pen_up.is_none() && !words.is_empty();
+    is_open.then(|| {
+        let (line, words) = (first.own.piece.source.line, words.join(" or "));
+        format!(
+            "if {words} lifts the pen for line {line}, state its words by --pen-up and --pen-down: then it is a travel"
+        )
+    })
 }
 
 /// Returns a note about moves that begin at unstated places, if there are any.
