@@ -26,14 +26,7 @@ fn limited_world(seed: u64) -> Option<MotionProblem> {
         let [low, high] = [f64::min, f64::max].map(|pick| ends().map(|q| q[k]).fold(ends().next().unwrap()[k], pick));
         joint.range = JointRange::Interval { lower: low - dice.within(0.1, 1.5), upper: high + dice.within(0.1, 1.5) };
     }
-    arm.motors = Some(Motors {
-        ratio,
-        gear: [1.0; 2],
-        zero: [0.0; 2],
-        range: Some([least, greatest]),
-        velocity: None,
-        acceleration: None,
-    });
+    arm.motors = Some(Motors { range: Some([least, greatest]), ..Motors::with_ratio(ratio) });
     let scene = placed(arm, free.scene().workspace().clone());
     let goals: GoalSet = free.goals().pieces().iter().copied().collect();
     Some(motion_problem(scene, free.start(), goals))
@@ -218,14 +211,7 @@ fn motions_use_the_limits_of_a_motor_on_the_base() {
 #[test]
 fn ranges_of_sums_need_limits_of_both_joints() {
     let mut arm = Arm::rr([1.0, 0.8], 0.06).unwrap();
-    arm.motors = Some(Motors {
-        ratio: 1.0,
-        gear: [1.0; 2],
-        zero: [0.0; 2],
-        range: Some([-1.0, 1.0]),
-        velocity: None,
-        acceleration: None,
-    });
+    arm.motors = Some(Motors { range: Some([-1.0, 1.0]), ..Motors::with_ratio(1.0) });
     let error = Scene::new(arm, cplan::model::Workspace::new([])).unwrap_err().to_string();
     assert!(error.contains("needs limits of both joints"), "{error}");
 }

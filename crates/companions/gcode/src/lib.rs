@@ -36,7 +36,7 @@ mod player;
 mod walk;
 mod written;
 
-pub use answer::{Answer, Elbow, Failed, GcodeError, Settings, Travel, judge};
+pub use answer::{Answer, Failed, GcodeError, Settings, Travel, judge};
 pub use dialect::Dialect;
 pub use fault::{Cause, Fault};
 pub use job::{Job, Pen, PenWords, Setup};

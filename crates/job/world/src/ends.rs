@@ -17,9 +17,9 @@ impl LoadedScene {
             Some(values) => Some(Goal::Joints(values.resolve(joints, "--start")?)),
             None => self.world.start.as_ref().map(|(start, _)| *start),
         };
-        let goal = match (&overrides.goal, &overrides.goal_tip) {
+        let goal = match (&overrides.goal, overrides.tip_goal()) {
             (Some(values), _) => vec![Goal::Joints(values.resolve(joints, "--goal")?)],
-            (None, Some(tip)) => vec![Goal::Tip(tip.0)],
+            (None, Some(goal)) => vec![goal],
             (None, None) => self.world.goals.as_ref().map_or_else(Vec::new, |(goals, _)| goals.clone()),
         };
         Ok((start, goal))

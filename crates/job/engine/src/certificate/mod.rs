@@ -157,7 +157,8 @@ fn members(problem: &MotionProblem, asked: &Overrides) -> Evidence {
 /// Returns the members for a goal of the tip and a clearance that override the world file.
 fn tip_and_clearance(asked: &Overrides) -> impl Iterator<Item = Member> + use<> {
     let tip = asked.goal_tip.map(|TipPoint(tip)| member("goal_tip", [tip.x, tip.y]));
-    tip.into_iter().chain(asked.clearance.map(|clearance| member("clearance", clearance)))
+    let elbow = asked.elbow.map(|elbow| member("elbow", elbow.name()));
+    tip.into_iter().chain(elbow).chain(asked.clearance.map(|clearance| member("clearance", clearance)))
 }
 
 /// Two values of a joint that differ by less than this count as equal, in radians or metres.
