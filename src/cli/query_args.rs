@@ -21,7 +21,7 @@ pub struct QueryArgs {
     #[arg(long, value_name = "x,y", allow_hyphen_values = true)]
     pub goal_tip: Option<TipPoint>,
     /// Side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default either side will do.
-    #[arg(long, value_name = "SIDE", requires = "goal_tip", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
+    #[arg(long, value_name = "SIDE", requires = "goal_tip", conflicts_with = "goal", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
     pub elbow: Option<Elbow>,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]

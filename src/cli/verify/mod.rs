@@ -78,7 +78,7 @@ pub struct VerifyArgs {
     #[arg(long, value_name = "x,y", allow_hyphen_values = true, conflicts_with = "anywhere")]
     pub goal_tip: Option<TipPoint>,
     /// Required side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default either side will do.
-    #[arg(long, value_name = "SIDE", requires = "goal_tip", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
+    #[arg(long, value_name = "SIDE", requires = "goal_tip", conflicts_with = "goal", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
     pub elbow: Option<Elbow>,
     /// Ignore the world's start and goal: the motion may begin and end anywhere.
     #[arg(long)]

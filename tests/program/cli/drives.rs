@@ -237,7 +237,8 @@ fn direct_motors_equal_joints() {
         motion(&robot, &world.replace("effort = { shoulder = 36, elbow = 12 }", motors))
     );
     let robot = shipped("robots/planar_2r.urdf");
-    let world = |keys: &str| read(shipped("workspaces/shelf.toml")).replace("[start]", &format!("[robot]\n{keys}\n[start]"));
+    let world =
+        |keys: &str| read(shipped("workspaces/shelf.toml")).replace("[start]", &format!("[robot]\n{keys}\n[start]"));
     let joints = world("jerk = { shoulder = 50, elbow = 80 }");
     let motors = world("drives = { elbow = \"link\", gear = [2.0, -0.5], motors = { jerk = [100, 40] } }");
     assert_eq!(motion(&robot, &joints), motion(&robot, &motors));
@@ -306,7 +307,7 @@ fn bounds_among_obstacles_count_the_motors() {
         lengths.push(motor.sum::<f64>());
         let report = check(&read(&robot), &read(&world), &place.read("c.json")).unwrap();
         assert!(report.contains("is shorter than"), "{metric}: {report}");
-        place.run(&["recheck", &robot, &world, "m.json"], "").exits(0);
+        place.run(&["recheck", &robot, &world], "--proof m.json").exits(0);
         place.run(&["verify", &robot, &world, "m.json"], "").exits(0);
     }
     assert!(lengths[0] <= lengths[1] + 1e-9 && lengths[0] <= lengths[2] + 1e-9, "{lengths:?}");
@@ -317,10 +318,12 @@ fn bounds_among_obstacles_count_the_motors() {
 fn templates_have_the_angles_of_the_shafts() {
     let place = Place::new();
     let [robot, world] = files("belt_elbow_open");
-    let text = "{% for move in moves %}\n{{ move.joints | join(\" \") }} M {{ move.motors | join(\" \") }}\n{% endfor %}\n";
+    let text =
+        "{% for move in moves %}\n{{ move.joints | join(\" \") }} M {{ move.motors | join(\" \") }}\n{% endfor %}\n";
     place.write("own.j2", text);
     let geared = read(&world).replace("ratio = 1.0, ", "ratio = 1.0, gear = [2.0, -1.0], zero = [0.0, \"90deg\"], ");
-    let geared = geared.replace("lower = [\"-150deg\", \"-50deg\"], upper = [\"150deg\", \"90deg\"]", "velocity = [4.0, 2.5]");
+    let geared =
+        geared.replace("lower = [\"-150deg\", \"-50deg\"], upper = [\"150deg\", \"90deg\"]", "velocity = [4.0, 2.5]");
     place.write("world.toml", geared.replace("velocity = [4.0, 2.5], velocity = [2.0, 2.5]", "velocity = [4.0, 2.5]"));
     place.run(&[&robot, "world.toml"], "--template own.j2 --output own.txt").exits(0);
     let mut count = 0;

@@ -1,6 +1,7 @@
 //! The configurations that put a point of the arm at a target.
 
 use cplan_geometry::Point;
+use cplan_handling::{Action, Step};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Elbow, Goal, equivalent_values, inverse};
 
@@ -13,8 +14,11 @@ fn without_rounding(q: Configuration, preferred: Configuration) -> Configuration
     if (q - preferred).amax() <= JOINT_ROUNDING { preferred } else { q }
 }
 
-/// Reason why a step without IK solutions is impossible.
-pub(super) const UNREACHABLE: &str = "no IK solution within the joint limits reaches its target";
+/// Returns the reason why a step without IK solutions is impossible.
+pub(super) fn unreachable(step: &Step) -> String {
+    let target = if matches!(step.action, Action::Follow(_)) { "the end of the line" } else { "its target" };
+    format!("no IK solution within the joint limits{} reaches {target}", Elbow::describe(step.required_elbow()))
+}
 
 /// Configurations that reach a target.
 #[derive(Debug, Clone, PartialEq)]

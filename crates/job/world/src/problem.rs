@@ -222,7 +222,7 @@ impl LoadedScene {
     }
 
     /// Checks that the arm has an elbow, if a goal states its side.
-    fn require_elbow(&self, goal: &Goal, place: &Place) -> Result<(), Diagnostic> {
+    pub(super) fn require_elbow(&self, goal: &Goal, place: &Place) -> Result<(), Diagnostic> {
         match goal.elbow().and_then(|_| no_elbow(&self.scene)) {
             Some((message, help)) => Err(place.diagnostic(format!("the goal: {message}")).help(help)),
             None => Ok(()),
