@@ -83,7 +83,7 @@ fn graphs(criterion: &mut Criterion) {
 
 fn planners(criterion: &mut Criterion) {
     measure(criterion, "visibility", &Visibility::default());
-    let time = Visibility { metric: Metric::Time { speeds: [1.0, 1.5] }, ..Visibility::default() };
+    let time = Visibility { metric: Metric::Time { speeds: [1.0, 1.5], sum: None }, ..Visibility::default() };
     measure(criterion, "visibility, travel time", &time);
     measure(criterion, "trapezoid", &Trapezoid::default());
 }

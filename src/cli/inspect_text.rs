@@ -1,9 +1,10 @@
 //! The report on a robot as text.
 
 use crate::input::{
-    Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, RateEntry, RateSource, Role,
-    SelfObstacleEntry,
+    Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, MotorEntry, OutlineEntry, PairEntry, RateEntry,
+    RateSource, Role, SelfObstacleEntry,
 };
+use crate::model::Motors;
 use crate::text::{Columns, counted};
 
 /// Largest number of pairs of joints for which the report states why they form no arm. Further reasons are similar.
@@ -30,6 +31,9 @@ pub fn text(report: &Inspection) -> String {
     }
     for joint in report.joints.iter().filter(|j| j.axis.is_some()) {
         lines.add("movable", &movable(report, joint));
+    }
+    if let Some(entry) = &report.motors {
+        motors(&mut lines, report, entry);
     }
     pairs(&mut lines, report);
     if let Some([first, second]) = &report.chosen {
@@ -149,6 +153,28 @@ fn rate(joint: &JointEntry, what: &str, per: &str, rate: Option<RateEntry>) -> S
         RateSource::Default => "default; not specified",
     };
     format!("{what} {value} {}{per} ({source})", unit(joint))
+}
+
+/// Describes the motors, and the joint values that remain where they narrow the limits of joints.
+fn motors(lines: &mut Columns, report: &Inspection, entry: &MotorEntry) {
+    let in_degrees = |[lower, upper]: [f64; 2]| {
+        let [from, to] = [lower, upper].map(f64::to_degrees);
+        format!("{lower:.4} to {upper:.4} rad = {from:.1} to {to:.1} deg")
+    };
+    let mut words = vec![entry.words.trim_start_matches("drives: ").to_owned()];
+    let Motors { range, velocity, acceleration, jerk, .. } = entry.motors;
+    words.extend(range.map(in_degrees));
+    let rates = [("top speed", "rad/s", velocity), ("acceleration", "rad/s2", acceleration), ("jerk", "rad/s3", jerk)];
+    words.extend(rates.iter().filter_map(|(what, unit, rate)| Some(format!("{what} {} {unit}", (*rate)?))));
+    lines.add("motors", &words.join("; "));
+    let joints =
+        report.chosen.iter().flatten().filter_map(|name| report.joints.iter().find(|joint| joint.name == *name));
+    for (joint, range) in joints.zip(entry.ranges) {
+        let own = joint.limits.and_then(|limits| limits.range);
+        if let Some(range) = range.filter(|range| own != Some(*range)) {
+            lines.add("motors", &format!("they leave \"{}\" {}", joint.name, in_degrees(range)));
+        }
+    }
 }
 
 fn pairs(lines: &mut Columns, report: &Inspection) {

@@ -3,6 +3,8 @@
 use super::headings::QUERY;
 use super::values::clearance;
 use crate::input::{CalibrationTable, JointValues, Overrides, TipPoint};
+use crate::model::Elbow;
+use crate::options::word;
 use clap::Args;
 
 /// Values that replace those of the world file.
@@ -18,6 +20,9 @@ pub struct QueryArgs {
     /// Goal position of the tip instead of the world's goal, metres. Any IK solution counts.
     #[arg(long, value_name = "x,y", allow_hyphen_values = true)]
     pub goal_tip: Option<TipPoint>,
+    /// Side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default either side will do.
+    #[arg(long, value_name = "SIDE", requires = "goal_tip", conflicts_with = "goal", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
+    pub elbow: Option<Elbow>,
     /// Least distance to keep from every obstacle, metres, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
     pub clearance: Option<f64>,
@@ -30,11 +35,12 @@ pub struct QueryArgs {
 impl QueryArgs {
     /// Returns the stated options as words of a command line.
     pub fn words(&self) -> Vec<String> {
-        let Self { start, goal, goal_tip, clearance, calibration } = self;
+        let Self { start, goal, goal_tip, elbow, clearance, calibration } = self;
         let words = [
             start.map(|start| format!("--start={start}")),
             goal.map(|goal| format!("--goal={goal}")),
             goal_tip.map(|TipPoint(tip)| format!("--goal-tip={},{}", tip.x, tip.y)),
+            elbow.map(|elbow| format!("--elbow={}", elbow.name())),
             clearance.map(|clearance| format!("--clearance={clearance}")),
             calibration.map(|errors| format!("--calibration={errors}")),
         ];
@@ -43,7 +49,7 @@ impl QueryArgs {
 
     /// Converts the options to overrides of the world file.
     pub fn overrides(&self) -> Overrides {
-        let Self { start, goal, goal_tip, clearance, calibration } = *self;
-        Overrides { start, goal, goal_tip, clearance, calibration }
+        let Self { start, goal, goal_tip, elbow, clearance, calibration } = *self;
+        Overrides { start, goal, goal_tip, elbow, clearance, calibration }
     }
 }

@@ -138,9 +138,8 @@ fn check_certificate(args: &RecheckArgs, what: &str, certificate: &str) -> Resul
 /// Reads the lower bound that a result file states. Returns `None` if there is none.
 fn read_stated_bound(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Failure> {
     let claims = input::load_recording(&args.proof, scene)?.claims.unwrap_or_default();
-    let speeds = scene.scene.arm().joints.each_ref().map(|joint| joint.velocity);
     Ok(claims.optimum.and_then(|optimum| {
-        let metric = optimum.metric(speeds)?;
+        let metric = optimum.metric(scene.scene.arm())?;
         Some(Bound { metric, lower: optimum.lower_bound, upper: optimum.length })
     }))
 }

@@ -264,8 +264,8 @@ fn the_slide_of_the_book_has_its_torques() {
     assert!((lift.expect("a motion") / expected - 1.0).abs() < 5e-3);
     let heavy =
         driven(&scene(gantry([24.0, 19.0], [4.0, 2.0], Vector::new(0.0, -10.0)), vec![]), &[[0.0, 0.0], [0.0, 3.0]]);
-    let Err(TimingError::TooHeavy { joint, torque, effort, .. }) = heavy else { panic!("{heavy:?}") };
-    assert_eq!((joint.as_str(), effort), ("y", 19.0));
+    let Err(TimingError::TooHeavy { drive, torque, effort, .. }) = heavy else { panic!("{heavy:?}") };
+    assert_eq!((drive.as_str(), effort), ("joint \"y\"", 19.0));
     assert!((torque - 20.0).abs() < 1e-9);
 }
 

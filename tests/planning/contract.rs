@@ -57,7 +57,7 @@ const PLANNERS: [(&str, Plan); 26] = [
         reproducible_run(&Visibility { metric, ..Visibility::default() }, &spaces.polygons, query)
     }),
     ("visibility, travel time", |spaces, query| {
-        let metric = Metric::Time { speeds: [1.0, 1.5] };
+        let metric = Metric::Time { speeds: [1.0, 1.5], sum: None };
         reproducible_run(&Visibility { metric, ..Visibility::default() }, &spaces.polygons, query)
     }),
     ("visibility, Dijkstra backward", |spaces, query| {

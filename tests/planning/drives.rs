@@ -1,6 +1,6 @@
 //! Motors of the elbow on the base: their limits against brute force, and limits that are described for joints and for motors.
 
-use cplan::engine::{Method, Problem, plan, solve};
+use cplan::engine::{Criterion, Method, Planner, Problem, plan, solve};
 use cplan::model::{Arm, MotionProblem, Motors, Scene};
 use cplan::space::{Configuration, GoalSet, JointRange};
 use cplan::{Options, Outcome};
@@ -26,14 +26,7 @@ fn limited_world(seed: u64) -> Option<MotionProblem> {
         let [low, high] = [f64::min, f64::max].map(|pick| ends().map(|q| q[k]).fold(ends().next().unwrap()[k], pick));
         joint.range = JointRange::Interval { lower: low - dice.within(0.1, 1.5), upper: high + dice.within(0.1, 1.5) };
     }
-    arm.motors = Some(Motors {
-        ratio,
-        gear: [1.0; 2],
-        zero: [0.0; 2],
-        range: Some([least, greatest]),
-        velocity: None,
-        acceleration: None,
-    });
+    arm.motors = Some(Motors { range: Some([least, greatest]), ..Motors::with_ratio(ratio) });
     let scene = placed(arm, free.scene().workspace().clone());
     let goals: GoalSet = free.goals().pieces().iter().copied().collect();
     Some(motion_problem(scene, free.start(), goals))
@@ -45,9 +38,9 @@ const NODES: usize = 72;
 /// Length of an edge that is checked by a sample in its middle, as a share of its room.
 const ROOM: f64 = 0.004;
 
-/// Returns the length of the shortest path over a lattice of free configurations from the start to a goal; `None` if the
-/// lattice shows no path. Collisions, kinematics and sums are the oracle's and this function's own.
-fn lattice_length(problem: &MotionProblem) -> Option<f64> {
+/// Returns the length of the shortest path over a lattice of free configurations from the start to a goal, in a norm; `None`
+/// if the lattice shows no path. Collisions, kinematics and sums are the oracle's and this function's own.
+fn lattice_length(problem: &MotionProblem, norm: &dyn Fn(Configuration) -> f64) -> Option<f64> {
     let (oracle, motors) = (Oracle::new(problem.scene()), problem.scene().arm().motors.unwrap());
     let [least, greatest] = motors.range.unwrap();
     let allowed = |q: Configuration| {
@@ -73,8 +66,8 @@ fn lattice_length(problem: &MotionProblem) -> Option<f64> {
     let near = |q: Configuration| {
         let reach =
             1.5 * [0, 1].map(|k| (axes[k][1] - axes[k][0]) / (NODES - 1) as f64).into_iter().fold(0.0, f64::max);
-        let nodes = (0..NODES * NODES).filter(|node| open[*node]).map(|node| (node, (at(node) - q).norm()));
-        nodes.filter(|(node, length)| *length <= reach && is_edge(q, at(*node))).collect::<Vec<_>>()
+        let nodes = (0..NODES * NODES).filter(|node| open[*node] && (at(*node) - q).norm() <= reach);
+        nodes.filter(|node| is_edge(q, at(*node))).map(|node| (node, norm(at(node) - q))).collect::<Vec<_>>()
     };
     let goals = problem.goals().pieces().iter().flat_map(|piece| near(piece.ends()[0]));
     let mut last = vec![f64::INFINITY; NODES * NODES];
@@ -99,7 +92,7 @@ fn lattice_length(problem: &MotionProblem) -> Option<f64> {
         {
             let next = a * NODES + b;
             if next != node && open[next] && known[next].is_infinite() && is_edge(at(node), at(next)) {
-                waiting.push((std::cmp::Reverse((length + (at(next) - at(node)).norm()).to_bits()), next));
+                waiting.push((std::cmp::Reverse((length + norm(at(next) - at(node))).to_bits()), next));
             }
         }
     }
@@ -118,10 +111,10 @@ fn unlimited_length(problem: &MotionProblem) -> Option<f64> {
 /// and nothing is called infeasible that the lattice can do.
 #[test]
 fn answers_agree_with_a_lattice_of_samples() {
-    let (mut found, mut infeasible, mut limited) = (0, 0, 0);
+    let (mut found, mut infeasible, mut limited, mut counted) = (0, 0, 0, 0);
     for seed in cplan_cases::seeds(30) {
         let Some(problem) = limited_world(seed) else { continue };
-        let length = lattice_length(&problem);
+        let length = lattice_length(&problem, &|d| d[0].hypot(d[1]));
         let motors = problem.scene().arm().motors.unwrap();
         let [least, greatest] = motors.range.unwrap();
         let unlimited = unlimited_length(&problem);
@@ -137,6 +130,7 @@ fn answers_agree_with_a_lattice_of_samples() {
                 assert!(length.is_none_or(|length| bound.lower <= length), "{seed}: {bound:?} {length:?}");
                 limited += usize::from(unlimited.is_some_and(|length| length < bound.lower));
                 found += 1;
+                counted += usize::from(bounds_count_the_motors(seed, problem));
             }
             Outcome::Infeasible(_) => {
                 limited += usize::from(unlimited.is_some());
@@ -148,6 +142,35 @@ fn answers_agree_with_a_lattice_of_samples() {
     }
     let are_usual = cplan_cases::uses_default_cases();
     assert!(!are_usual || found >= 10 && infeasible >= 3 && limited >= 2, "{found} {infeasible} {limited}");
+    assert!(!are_usual || counted >= 5, "{counted}");
+}
+
+/// With a slow motor, the bounds of both metrics that count it are not above the length of the lattice's path in them, whose
+/// norms are computed here. Returns true if the motor raises the bound on the time.
+fn bounds_count_the_motors(seed: u64, mut problem: MotionProblem) -> bool {
+    let motors = problem.scene().arm().motors.unwrap();
+    let speeds = problem.scene().arm().joints.each_ref().map(|joint| joint.velocity);
+    let bound = |problem: &MotionProblem, criterion: Criterion| {
+        let planner = Planner::named(Method::Shortest).with_criterion(criterion);
+        solve(problem, &planner.into(), &mut |_| {}).outcome.found().map(|path| path.bound.expect("a bound"))
+    };
+    let without = bound(&problem, Criterion::Time);
+    let slow = 0.4 * (motors.ratio.abs() * speeds[0] + speeds[1]);
+    problem.arm_mut().motors = Some(Motors { velocity: Some(slow), ..motors });
+    let sum = |d: Configuration| motors.ratio * d[0] + d[1];
+    let in_time = |d: Configuration| (d[0].abs() / speeds[0]).max(d[1].abs() / speeds[1]).max(sum(d).abs() / slow);
+    let in_motor_angles = |d: Configuration| d[0].hypot(sum(d));
+    let norms: [(Criterion, &dyn Fn(Configuration) -> f64); 2] =
+        [(Criterion::Time, &in_time), (Criterion::Motor, &in_motor_angles)];
+    for (criterion, norm) in norms {
+        let (Some(bound), Some(length)) = (bound(&problem, criterion), lattice_length(&problem, norm)) else {
+            continue;
+        };
+        assert!(bound.lower <= length, "{seed}, {criterion:?}: {bound:?} {length}");
+        assert!(bound.upper <= 1.001 * length, "{seed}, {criterion:?}: {bound:?} {length}");
+    }
+    let raised = bound(&problem, Criterion::Time);
+    raised.zip(without).is_some_and(|(raised, without)| raised.lower > 1.01 * without.upper)
 }
 
 /// Returns the result of a world on the shelf's arm with a `[robot]` table.
@@ -218,14 +241,7 @@ fn motions_use_the_limits_of_a_motor_on_the_base() {
 #[test]
 fn ranges_of_sums_need_limits_of_both_joints() {
     let mut arm = Arm::rr([1.0, 0.8], 0.06).unwrap();
-    arm.motors = Some(Motors {
-        ratio: 1.0,
-        gear: [1.0; 2],
-        zero: [0.0; 2],
-        range: Some([-1.0, 1.0]),
-        velocity: None,
-        acceleration: None,
-    });
+    arm.motors = Some(Motors { range: Some([-1.0, 1.0]), ..Motors::with_ratio(1.0) });
     let error = Scene::new(arm, cplan::model::Workspace::new([])).unwrap_err().to_string();
     assert!(error.contains("needs limits of both joints"), "{error}");
 }

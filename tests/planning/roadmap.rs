@@ -6,7 +6,7 @@ use cplan::planner::{
     PathKind, Planner, Prm, Proposal, Query, RoadmapSearch, Run, SearchOrder, Size, Trace, Trapezoid, Triangles,
     Visibility, VisibilityGraph, Voronoi,
 };
-use cplan::space::{Configuration, Metric, Path};
+use cplan::space::{Configuration, Metric, Path, SumSpeed};
 use cplan_cases::dice::Dice;
 use cplan_testkit::roadmap::*;
 use cplan_testkit::scenes::q;
@@ -288,8 +288,15 @@ proptest! {
 }
 
 /// Returns one metric of each kind.
-fn metrics(ratio: f64) -> [Metric; 3] {
-    [Metric::Euclidean, Metric::Weighted { weights: [1.0, ratio] }, Metric::Time { speeds: [1.0, ratio] }]
+fn metrics(ratio: f64) -> [Metric; 5] {
+    let speeds = [1.0, ratio];
+    [
+        Metric::Euclidean,
+        Metric::Weighted { weights: [1.0, ratio] },
+        Metric::Motor { ratio: -ratio },
+        Metric::Time { speeds, sum: None },
+        Metric::Time { speeds, sum: Some(SumSpeed { ratio, speed: 0.8 }) },
+    ]
 }
 
 /// Draws lower left corners and sizes of squares on a board, apart or touching.
@@ -378,7 +385,7 @@ fn no_path_leads_between_squares_that_touch_in_a_corner() {
 fn of_motions_that_take_equally_long_the_shortest_is_taken() {
     // On either side of the obstacle, the first joint needs 4 s. The path below is shorter.
     let regions = window_with_holes((0.0, 4.0), (-2.0, 2.0), vec![rectangle((1.5, 2.5), (-0.5, 0.6))]);
-    let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0] }, ..VISIBILITY };
+    let planner = Visibility { metric: Metric::Time { speeds: [1.0, 1.0], sum: None }, ..VISIBILITY };
     let path = checked_path(&planner, &regions, &query((0.0, 0.0), (4.0, 0.0))).unwrap();
     let corners = [(0.0, 0.0), (1.5, -0.5), (2.5, -0.5), (4.0, 0.0)].map(|(x, y)| q(x, y));
     assert_eq!(path.waypoints(), corners);

@@ -55,7 +55,7 @@ fn distant_object(name: &str, at: Point) -> Object {
 
 fn step(action: Action, number: usize) -> Step {
     let (place, tool) = (String::new(), ToolValues::default());
-    Step { action, number, cycle: 1, place, speed: 1.0, dwell: 0.25, tool, elevation: 0.0 }
+    Step { action, number, cycle: 1, place, speed: 1.0, dwell: 0.25, tool, elevation: 0.0, elbow: None }
 }
 
 /// Returns a task without obstacles at the height of its objects, with pairs of picks and places in fixed or free

@@ -5,6 +5,7 @@ use calibration::Calibration;
 use cells::Cells;
 use cplan_check::decimal::Decimal;
 use cplan_check::domain::Range;
+use cplan_check::elbow::Elbow;
 use cplan_check::interval::Interval;
 use cplan_check::obstacle::{Obstacle, Outline, point};
 use cplan_check::polygon::Corner;
@@ -178,9 +179,20 @@ impl Reader<'_> {
         }
         match (table.get("joints"), table.get("tip")) {
             (Some(joints), None) if table.len() == 1 => Ok(Goal::Joints(self.pair(joints, |q| self.quantity(q))?)),
-            (None, Some(tip)) if table.len() == 1 => Ok(Goal::Tip(self.pair(tip, |n| self.number(n))?)),
+            (None, Some(tip)) if table.len() == 1 + usize::from(table.contains_key("elbow")) => {
+                Ok(Goal::Tip(self.pair(tip, |n| self.number(n))?, self.elbow(&table)?))
+            }
             _ => self.error(value, "give joints = [q1, q2] or tip = [x, y]"),
         }
+    }
+
+    /// Reads the side of the elbow that a table states.
+    fn elbow(&self, table: &DeTable) -> ReadResult<Option<Elbow>> {
+        let read = |value| match Elbow::named(&self.text(value)?) {
+            Some(elbow) => Ok(elbow),
+            None => self.error(value, "expected \"left\" or \"right\""),
+        };
+        table.get("elbow").map(read).transpose()
     }
 
     fn robot(&self, value: &Value, robot: &mut RobotTable) -> ReadResult<()> {

@@ -11,6 +11,7 @@ use cplan_check::certificate::{Certificate, rectangles};
 use cplan_check::contacts::Contacts;
 use cplan_check::decimal::Decimal;
 use cplan_check::domain::{Rectangle, within};
+use cplan_check::elbow::Elbow;
 use cplan_check::interval::{Interval, Point, length, minus, rough};
 use cplan_check::mover::{self, MovingBody};
 use cplan_check::world::World;
@@ -45,12 +46,13 @@ pub fn no_motion(arm: &Arm, world: &World, certificate: &Certificate, line: &Lin
             "{none}: the tip cannot come within {tolerance} of ({a:.6}, {b:.6}), even without limits of the joints"
         ));
     }
+    line.elbow.map_or(Ok(()), |elbow| elbow.of_arm(arm))?;
     let stuck = certificate.boxes.as_deref().unwrap_or_default();
     let boxes = rectangles(stuck)?;
     let (chords, measure) = (of_stretch(line, &[from.clone(), to.clone()])?, Measure::new(arm));
     let near = Interval::from(tolerance).upper;
     let measures = chords.iter().map(|chord| chord.measures(&measure, &near)).collect();
-    let search = Search { arm, boxes: &boxes, chords, measure, measures, ends, tolerance };
+    let search = Search { arm, boxes: &boxes, chords, measure, measures, ends, tolerance, elbow: line.elbow };
     search.check_separated()?;
     Contacts::new(arm, world, certificate, clearance)?.check_boxes(arm, stuck, &boxes)?;
     Ok(format!(
@@ -75,6 +77,8 @@ struct Search<'a> {
     /// The places where the stretch begins and ends.
     ends: [Point; 2],
     tolerance: &'a Decimal,
+    /// The required side of the elbow.
+    elbow: Option<Elbow>,
 }
 
 /// A cell in which the tip may be near the stretch.
@@ -117,11 +121,12 @@ impl Search<'_> {
         groups(all, touches).into_iter().filter(connects).flatten().collect()
     }
 
-    /// Returns a cell with its relation to the stretch. Returns `None` if a box contains the cell, or if the tip stays
-    /// away from the stretch in it.
+    /// Returns a cell with its relation to the stretch. Returns `None` if a box contains the cell, if the
+    /// elbow is on the wrong side in it, or if the tip stays away from the stretch in it.
     fn candidate(&self, tip: &MovingBody, cell: Cell) -> Option<Candidate> {
         let ranges = cell.rectangle(&self.arm.domain);
-        if self.boxes.iter().any(|other| within(&ranges, other)) {
+        let is_excluded = self.elbow.is_some_and(|elbow| elbow.excludes(self.arm, &ranges[1]));
+        if is_excluded || self.boxes.iter().any(|other| within(&ranges, other)) {
             return None;
         }
         let middle = ranges.each_ref().map(|[low, high]| Decimal::middle(low, high));

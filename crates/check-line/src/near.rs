@@ -73,11 +73,16 @@ pub fn follows(arm: &Arm, world: &World, certificate: &Certificate, line: &Line)
     ))
 }
 
-/// Checks that the tip follows the line within the tolerance, for each reading of a motion.
+/// Checks that the tip follows the line within the tolerance, for each reading of a motion, with the elbow on the line's
+/// side.
 ///
 /// # Errors
 /// Those of [`spans`], and the first part of the motion for which it is not shown.
 pub fn stays_near(arm: &Arm, line: &Line, pieces: &[Piece]) -> Result<(), CheckError> {
+    if let Some(elbow) = line.elbow {
+        elbow.of_arm(arm)?;
+        elbow.check_pieces(arm, pieces)?;
+    }
     let spans = spans(line, pieces.len())?;
     for reading in 0..pieces[0].curves.len() {
         let mut follower = Follower { arm, line, tolerance: Interval::from(&line.tolerance).lower, parts: 0 };

@@ -6,6 +6,7 @@ use crate::{near, tip};
 use cplan_check::arm::Arm;
 use cplan_check::curve::Piece;
 use cplan_check::decimal::Decimal;
+use cplan_check::elbow::Elbow;
 use cplan_check::interval::{Interval, Point, length, minus, roughly};
 use cplan_check::{CheckError, Input};
 use num_bigint::BigInt;
@@ -22,18 +23,18 @@ const REFINEMENTS: usize = 4;
 pub struct StepLine(Line);
 
 impl StepLine {
-    /// Reads the line of a step from its JSON. `tolerance` is the world's, in metres.
+    /// Reads the line of a step from its JSON. `tolerance` and `elbow` are the world's, the former in metres.
     ///
     /// # Errors
-    /// If the text is not a line, if it states a tolerance or a stretch, or if a piece does not begin where the one before
+    /// If the text is not a line, if it states a tolerance, an elbow or a stretch, or if a piece does not begin where the one before
     /// it ends.
-    pub fn read(text: &str, tolerance: &Decimal) -> Result<Self, CheckError> {
+    pub fn read(text: &str, tolerance: &Decimal, elbow: Option<Elbow>) -> Result<Self, CheckError> {
         let mut text = LineText::read(text)?;
-        if text.tolerance.is_some() || text.stretch.is_some() {
-            let message = "the \"line\" of a step has no tolerance, which is the world's, and no stretch";
+        if text.tolerance.is_some() || text.stretch.is_some() || text.elbow.is_some() {
+            let message = "the \"line\" of a step has no tolerance and no elbow, which are the world's, and no stretch";
             return Err(CheckError::in_file(Input::Certificate, message));
         }
-        text.tolerance = Some(tolerance.clone());
+        (text.tolerance, text.elbow) = (Some(tolerance.clone()), elbow);
         Line::new(text).map(Self)
     }
 

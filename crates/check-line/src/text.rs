@@ -2,6 +2,7 @@
 
 use crate::curve::{Arc, Curve};
 use cplan_check::decimal::Decimal;
+use cplan_check::elbow::Elbow;
 use cplan_check::interval::{BITS, Interval, Point, length, minus, rough};
 use cplan_check::polygon::Corner;
 use cplan_check::{CheckError, Input};
@@ -31,6 +32,7 @@ pub struct LineText {
     #[serde(default)]
     places: Vec<[Decimal; 2]>,
     pub stretch: Option<[Decimal; 2]>,
+    pub elbow: Option<Elbow>,
 }
 
 impl LineText {
@@ -56,6 +58,8 @@ pub struct Line {
     pub places: Vec<[Decimal; 2]>,
     /// Evidence for "infeasible": the positions between which no motion follows the line.
     pub stretch: Option<[Decimal; 2]>,
+    /// The side of the elbow all along the line. `None` if either side will do.
+    pub elbow: Option<Elbow>,
 }
 
 fn wrong(message: String) -> CheckError {
@@ -72,7 +76,7 @@ impl Line {
     /// # Errors
     /// If it has no tolerance or no pieces, or if a piece does not begin where the one before it ends.
     pub fn new(text: LineText) -> Result<Self, CheckError> {
-        let LineText { tolerance, pieces, travels, places, stretch } = text;
+        let LineText { tolerance, pieces, travels, places, stretch, elbow } = text;
         let Some(tolerance) = tolerance else { return Err(wrong("\"line\": it has no tolerance".into())) };
         let curve = |piece: &PieceText| match piece {
             PieceText::Straight(ends) => Curve::Bezier(ends.iter().map(point).collect()),
@@ -83,8 +87,8 @@ impl Line {
                 Curve::Arc(Box::new(Arc { center: point(center), radius, from, by, growth }))
             }
         };
-        let line =
-            Self { tolerance, pieces: pieces.iter().map(curve).collect(), travels: travels.len(), places, stretch };
+        let (curves, count) = (pieces.iter().map(curve).collect(), travels.len());
+        let line = Self { tolerance, pieces: curves, travels: count, places, stretch, elbow };
         if Interval::from(&line.tolerance).lower <= BigInt::ZERO {
             return Err(wrong("\"line\": its tolerance must be above 0".into()));
         }
@@ -133,6 +137,7 @@ impl fmt::Display for Line {
         let [[a, b], [c, d]] = [rough(&from), rough(&to)];
         let travels = if self.travels > 0 { format!(", {} of them travels,", self.travels) } else { String::new() };
         let pieces = if count == 1 { "piece" } else { "pieces" };
-        write!(f, "a line of {count} {pieces}{travels} from ({a:.6}, {b:.6}) to ({c:.6}, {d:.6})")
+        let side = self.elbow.map_or_else(String::new, |elbow| format!(" with the elbow on the {}", elbow.name()));
+        write!(f, "a line of {count} {pieces}{travels} from ({a:.6}, {b:.6}) to ({c:.6}, {d:.6}){side}")
     }
 }

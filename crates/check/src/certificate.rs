@@ -5,12 +5,13 @@ mod boxes;
 mod motion;
 mod tasks;
 
-pub use bound::{Bound, Metric, Wall};
+pub use bound::{Bound, Metric, MotorSpeeds, Wall};
 pub use boxes::{CollisionBox, PartName, ShapeName, rectangles};
 pub use motion::{Interpolation, Motion};
 pub use tasks::ExecutedStep;
 
 use crate::decimal::Decimal;
+use crate::elbow::Elbow;
 use crate::error::{CheckError, Input};
 use crate::polygon::Corner;
 use crate::world::World;
@@ -42,6 +43,8 @@ pub struct Certificate {
     pub goal: Option<[Decimal; 2]>,
     /// The goal, if it is a tip position that differs from the world's goal.
     pub goal_tip: Option<Corner>,
+    /// The side of the elbow at `goal_tip`.
+    pub elbow: Option<Elbow>,
     /// The clearance, if it differs from the world's.
     pub clearance: Option<Decimal>,
     /// Errors of the robot and the world that replace those of the world, as `--calibration` states them.
@@ -129,6 +132,9 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
     let Certificate { answer, motion, steps, boxes, bound, .. } = &certificate;
     let evidence = [motion.is_some(), boxes.is_some(), bound.is_some()];
     let is_to_the_goal = bound.as_ref().is_some_and(|bound| bound.to.is_none());
+    if certificate.elbow.is_some() && certificate.goal_tip.is_none() {
+        return Err(CheckError::in_file(Input::Certificate, "\"elbow\" needs a \"goal_tip\""));
+    }
     let fits = match answer {
         Answer::Found => evidence[0] && (is_to_the_goal || !evidence[1]),
         Answer::Infeasible => steps.is_none() && evidence == [false, true, false],

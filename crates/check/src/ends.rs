@@ -37,14 +37,17 @@ impl End {
     pub fn goal(certificate: &Certificate, world: &World) -> Result<Self, CheckError> {
         let own = match (&certificate.goal, &certificate.goal_tip) {
             (Some(_), Some(_)) => return Err(CheckError::in_file(Input::Certificate, "it has two goals")),
-            (joints, tip) => joints.as_ref().map(exact_goal).or(tip.clone().map(Goal::Tip)),
+            (joints, tip) => {
+                let tip = tip.clone().map(|tip| Goal::Tip(tip, certificate.elbow));
+                joints.as_ref().map(exact_goal).or(tip)
+            }
         };
         Self::of("goal", own, world.goal.as_ref())
     }
 
     fn of(what: &'static str, own: Option<Goal>, given: Option<&Goal>) -> Result<Self, CheckError> {
         let description = match &own {
-            Some(Goal::Joints([[a, _], [b, _]]) | Goal::Tip([a, b])) => format!(" ({a}, {b})"),
+            Some(Goal::Joints([[a, _], [b, _]]) | Goal::Tip([a, b], _)) => format!(" ({a}, {b})"),
             Some(Goal::Areas(_)) | None => String::new(),
         };
         let missing = || format!("there is no {what}: [{what}] joints = [q1, q2]");
@@ -56,7 +59,13 @@ impl End {
     pub fn named(&self, arm: &Arm) -> String {
         match self.at {
             Goal::Joints(_) => self.own.clone(),
-            Goal::Tip(_) => format!("{}, a position of the tip \"{}\",", self.own, arm.tip_link),
+            Goal::Tip(_, None) => format!("{}, a position of the tip \"{}\",", self.own, arm.tip_link),
+            Goal::Tip(_, Some(elbow)) => format!(
+                "{}, a position of the tip \"{}\" with the elbow on the {},",
+                self.own,
+                arm.tip_link,
+                elbow.name()
+            ),
             Goal::Areas(_) => format!("{}, an area of the tip \"{}\",", self.own, arm.tip_link),
         }
     }

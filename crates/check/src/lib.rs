@@ -12,7 +12,7 @@
 //! | [`decimal`], [`interval`] | numbers |
 //! | [`overlap`], [`polygon`] | shapes |
 //! | [`domain`], [`curve`] | configurations and motions |
-//! | [`arm`], [`shapes`], [`obstacle`], [`world`], [`certificate`] | input of the checks |
+//! | [`arm`], [`elbow`], [`shapes`], [`obstacle`], [`world`], [`certificate`] | input of the checks |
 //! | [`ends`] | start and goal |
 //! | [`motion`], [`scene`], [`free`] | a motion is free |
 //! | `infeasible`, `sweep` | boxes separate start and goal |
@@ -27,6 +27,7 @@ pub mod contacts;
 pub mod curve;
 pub mod decimal;
 pub mod domain;
+pub mod elbow;
 pub mod ends;
 mod error;
 pub mod free;

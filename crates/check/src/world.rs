@@ -2,6 +2,7 @@
 
 use crate::decimal::Decimal;
 use crate::domain::Range;
+use crate::elbow::Elbow;
 use crate::obstacle::Obstacle;
 use crate::polygon::Corner;
 
@@ -26,8 +27,8 @@ pub struct World {
 pub enum Goal {
     /// Joint values.
     Joints([Range; 2]),
-    /// A tip position; every configuration with the tip there satisfies the goal.
-    Tip(Corner),
+    /// A tip position; every configuration with the tip there, and with the elbow on the stated side, satisfies the goal.
+    Tip(Corner, Option<Elbow>),
     /// Rectangles for the tip, given by opposite corners; any of them satisfies the goal.
     Areas(Vec<[Corner; 2]>),
 }

@@ -8,6 +8,7 @@ use crate::cli::print_args::PrintArgs;
 use crate::cli::theme::ThemeArgs;
 use crate::cli::values::{clearance, displacement, tolerance, turn};
 use crate::input::CalibrationTable;
+use crate::model::Elbow;
 use crate::options::{positive, word};
 use clap::{Args, ValueHint};
 use cplan_follow::Settings;
@@ -59,6 +60,10 @@ pub struct FollowArgs {
     /// Greatest difference from that angle, radians; by default that of the line in TOML, or else 0.01.
     #[arg(long, value_name = "RADIANS", value_parser = tool_tolerance)]
     pub wrist_tolerance: Option<f64>,
+    /// Side of the elbow along the line, seen from joint 1 towards the tip, instead of that of a line in TOML. By default
+    /// either side will do.
+    #[arg(long, value_name = "SIDE", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
+    pub elbow: Option<Elbow>,
     /// Unit of the line's numbers instead of the unit in the file: mm, cm, dm, m, km, um, mil, in, ft, yd or px.
     #[arg(long, value_name = "UNIT")]
     pub unit: Option<Unit>,

@@ -13,7 +13,7 @@ pub fn text(answered: &Answered, path: &Path) -> Option<String> {
     let Answered { args, loaded, line, answer, digests, .. } = answered;
     let asked = &Overrides { clearance: args.clearance, calibration: args.calibration, ..Overrides::default() };
     let (scene, tolerance, files) = (&loaded.scene, answered.tolerance, digests.as_ref());
-    let certified = CertifiedLine { scene, line, tolerance, asked, files };
+    let certified = CertifiedLine { scene, line, tolerance, elbow: answered.elbow, asked, files };
     let text = match answer {
         Outcome::Found(found) => Ok(certified.of_motion(&found.timed.trajectory)),
         Outcome::Infeasible(Infeasible { cause: Cause::TooLarge { .. }, .. }) => Err(NoCertificate::Placement),

@@ -34,7 +34,7 @@ pub fn object(answered: &Answered) -> Value {
                 "changes": found.changes.iter().map(place).collect::<Vec<_>>(),
                 "fit": answered.placed.as_ref().map(Placed::to_json),
                 "wrist": answered.wrist.map(|wrist| wrist.to_json(found.tool_deviation)),
-                "interpolation": interpolation(&answered.loaded.scene.arm().joints),
+                "interpolation": interpolation(answered.loaded.scene.arm()),
                 "trajectory": found.timed.trajectory,
                 "tool": answered.tool.iter().map(|is_on| u8::from(*is_on)).collect::<Vec<_>>(),
             })

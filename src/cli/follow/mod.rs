@@ -18,6 +18,7 @@ use super::failure::Failure;
 use super::outputs::refuse_to_overwrite_inputs;
 use super::sinks;
 use crate::input::{self, Digests, InputError, LoadedScene};
+use crate::model::Elbow;
 use cplan_follow::{FollowError, Followed, Settings, follow};
 use cplan_handling::FollowedLine;
 use cplan_toolpath::Toolpath;
@@ -33,6 +34,8 @@ struct Answered<'a> {
     tolerance: f64,
     /// Greatest speed of the tip, metres per second, instead of the speeds of the line.
     speed: Option<f64>,
+    /// The side of the elbow along the line; `None` if either side will do.
+    elbow: Option<Elbow>,
     /// The wrist that turns the tool; `None` if the tool's angle does not matter.
     wrist: Option<&'a FollowingWrist>,
     answer: &'a Followed,
@@ -77,9 +80,13 @@ pub fn answer(
     if !args.print.quiet {
         loaded.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     }
-    let FollowedLine { path, tolerance, speed, .. } = line;
+    let FollowedLine { path, tolerance, speed, elbow, .. } = line;
+    if elbow.is_some() && !loaded.scene.arm().only_turns() {
+        let message = "only arms with two revolute joints have an elbow; leave out its side";
+        return Err(Failure::Refused(format!("{}: {message}", args.path.display())));
+    }
     let along = wrist.as_ref().map(|wrist| wrist.along);
-    let settings = Settings { tolerance, speed, period: args.period, wrist: along, ..Settings::default() };
+    let settings = Settings { tolerance, speed, period: args.period, wrist: along, elbow, ..Settings::default() };
     let (path, answer, placed) = match args.fit {
         None => (path.clone(), follow(&loaded.scene, &path, &settings).map_err(refused)?, None),
         Some(freedom) => {
@@ -92,7 +99,7 @@ pub fn answer(
     let found = answer.found().filter(|_| has_travels);
     let tool = found.map_or_else(Vec::new, |found| found.tool(loaded.scene.arm(), &path, tolerance));
     let (loaded, line, answer) = (&loaded, &*path, &answer);
-    let answered = Answered { tool, args, loaded, line, tolerance, speed, wrist, answer, placed, digests };
+    let answered = Answered { tool, args, loaded, line, tolerance, speed, elbow, wrist, answer, placed, digests };
     files::write(&outputs, &answered)?;
     let code = code_of(answer.status());
     args.print.report(code, || sinks::pretty(&json::object(&answered)), || words::summary(&answered))?;

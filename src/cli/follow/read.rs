@@ -25,7 +25,7 @@ pub fn line(args: &FollowArgs) -> Result<FollowedLine, Failure> {
         Some(seconds) => Arc::new(with_rests(&line.path, seconds).map_err(|error| defect(args, error))?),
         None => line.path,
     };
-    Ok(FollowedLine { path, tolerance, speed, wrist })
+    Ok(FollowedLine { path, tolerance, speed, wrist, elbow: args.elbow.or(line.elbow) })
 }
 
 /// Returns a line with a rest at both ends of each travel.

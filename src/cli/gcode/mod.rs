@@ -12,13 +12,13 @@ use crate::cli::sinks;
 use crate::cli::theme::ThemeArgs;
 use crate::cli::values::{clearance, displacement, tolerance, turn};
 use crate::input::{self, CalibrationTable, LoadedScene, line_diagnostic};
-use crate::model::Status;
+use crate::model::{Elbow, Status};
 use crate::options::{positive, word};
 use crate::output::{format_columns, title_of};
 use crate::text::{chosen_length, counted};
 use clap::{Args, ValueHint};
 use cplan_gcode::{
-    Answer, Dialect, Elbow, Failed, Frame, GcodeError, Job, Pen, PenWords, Segments, Settings, Setup, Travel, judge,
+    Answer, Dialect, Failed, Frame, GcodeError, Job, Pen, PenWords, Segments, Settings, Setup, Travel, judge,
 };
 use cplan_toolpath::{Curve, Source};
 use serde_json::{Value, json};

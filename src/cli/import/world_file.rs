@@ -35,6 +35,9 @@ pub(super) fn text(args: &ImportArgs, taken: &[ImportedObstacle], notes: &[Strin
         }
         (None, Some(tip)) => {
             let _ = writeln!(text, "\n[goal]\ntip = {:?}", [tip.0.x, tip.0.y]);
+            if let Some(elbow) = query.elbow {
+                let _ = writeln!(text, "elbow = \"{}\"", elbow.name());
+            }
         }
         (None, None) => text += "\n# The goal; or joints = [q1, q2]:\n#[goal]\n#tip = [0.3, 0.2]\n",
     }

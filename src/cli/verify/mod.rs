@@ -16,7 +16,8 @@ use crate::engine::findings::{Judgement, MotionFindings, PlanFinding, verify};
 use crate::input::{
     self, CalibrationTable, Digests, JointValues, LoadedRecording, LoadedScene, Overrides, Rules, TipPoint,
 };
-use crate::model::TimedScene;
+use crate::model::{Elbow, TimedScene};
+use crate::options::word;
 use crate::output::{contours, title_of};
 use crate::space::Recording;
 use crate::view::{Picture, View};
@@ -82,6 +83,9 @@ pub struct VerifyArgs {
     /// Required final position of the tip instead of the world's goal, metres.
     #[arg(long, value_name = "x,y", allow_hyphen_values = true, conflicts_with = "anywhere")]
     pub goal_tip: Option<TipPoint>,
+    /// Required side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default either side will do.
+    #[arg(long, value_name = "SIDE", requires = "goal_tip", conflicts_with = "goal", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
+    pub elbow: Option<Elbow>,
     /// Ignore the world's start and goal: the motion may begin and end anywhere.
     #[arg(long)]
     pub anywhere: bool,
@@ -192,13 +196,8 @@ fn certificate(
 }
 
 fn overrides(args: &VerifyArgs) -> Overrides {
-    Overrides {
-        start: args.start,
-        goal: args.goal,
-        goal_tip: args.goal_tip,
-        clearance: args.clearance,
-        calibration: args.calibration,
-    }
+    let &VerifyArgs { start, goal, goal_tip, elbow, clearance, calibration, .. } = args;
+    Overrides { start, goal, goal_tip, elbow, clearance, calibration }
 }
 
 /// Returns the view of a recorded motion.

@@ -43,7 +43,7 @@ pub fn drawn(kind: &str, seed: u64) -> Option<Task> {
         let speed = if dice.chance(0.2) { dice.within(0.4, 1.0) } else { 1.0 };
         let dwell = if dice.chance(0.5) { dice.within(0.0, 0.4) } else { 0.0 };
         let (place, tool) = (String::new(), ToolValues::default());
-        Item::Step(Step { action, number, cycle: 1, place, speed, dwell, tool, elevation: 0.0 })
+        Item::Step(Step { action, number, cycle: 1, place, speed, dwell, tool, elevation: 0.0, elbow: None })
     };
     let items = items.into_iter().zip(1..).map(&mut step).collect();
     let task =

@@ -96,6 +96,7 @@ fn single_pick(seed: u64) -> Task {
         dwell: 0.0,
         tool: ToolValues::default(),
         elevation: 0.0,
+        elbow: None,
     };
     let start = Configuration::new(dice.within(-PI, PI), dice.within(-PI, PI));
     let workspace = workspace.into();

@@ -12,7 +12,7 @@ pub use worlds::obstacle;
 
 use cplan::model::MotionProblem;
 use cplan::proofs::{MotionQuery, least_length};
-use cplan::space::Metric;
+use cplan::space::{Metric, SumSpeed};
 
 /// Relative error that rounding may add to a length.
 const ROUNDING: f64 = 1e-9;
@@ -27,7 +27,14 @@ fn bound(problem: &MotionProblem, metric: Metric, limit: f64, gap: f64) -> f64 {
     least_length(&MotionQuery { scene, start, goals, clearance, metric }, limit, gap, &[])
 }
 
-/// Returns the metrics: Euclidean, weighted, and time.
-fn metrics() -> [Metric; 3] {
-    [Metric::Euclidean, Metric::Weighted { weights: [1.0, 0.3] }, Metric::Time { speeds: [0.7, 2.0] }]
+/// Returns metrics of all kinds.
+fn metrics() -> [Metric; 5] {
+    let sum = Some(SumSpeed { ratio: 1.0, speed: 0.6 });
+    [
+        Metric::Euclidean,
+        Metric::Weighted { weights: [1.0, 0.3] },
+        Metric::Motor { ratio: 1.0 },
+        Metric::Time { speeds: [0.7, 2.0], sum: None },
+        Metric::Time { speeds: [0.7, 2.0], sum },
+    ]
 }

@@ -82,6 +82,7 @@ pub fn task(seed: u64) -> Task {
             dwell: if dice.chance(0.5) { dice.within(0.0, 0.5) } else { 0.0 },
             tool: ToolValues::default(),
             elevation: 0.0,
+            elbow: None,
         }
     };
     let mut pairs = Vec::new();

@@ -144,3 +144,237 @@ fn messages_name_the_motor() {
     }
     assert!(!done.stdout.contains("collides"), "{}", done.stdout);
 }
+
+/// Returns rows of pairs of a result's trajectory.
+fn rows(result: &Value, key: &str) -> Vec<[f64; 2]> {
+    let pair = |row: &Value| [0, 1].map(|k| number(&row[k]));
+    result["trajectory"][key].as_array().unwrap_or_else(|| panic!("{key}")).iter().map(pair).collect()
+}
+
+/// The torques of both shafts, by the transpose of the inverse of `m = G (K q)`, stay within the efforts of the motors, and
+/// reach them. Recordings are judged by them.
+#[test]
+fn torques_of_motors_are_limited() {
+    let place = Place::new();
+    let robot = shipped("robots/rrbot_vertical.urdf");
+    let world = read(shipped("workspaces/upright.toml"));
+    let with = |drives: &str| world.replace("[robot]\n", &format!("[robot]\ndrives = {{ {drives} }}\n"));
+    let gear = [2.0, -3.0];
+    place.write("free.toml", with("ratio = 1.0, gear = [2.0, -3.0]"));
+    let free = place.run(&[&robot, "free.toml"], "--output free.json").exits(0);
+    assert!(free.stderr.is_empty(), "{}", free.stderr);
+    let shafts = |result: &Value| -> [f64; 2] {
+        let torques = rows(result, "torque");
+        let of = |[one, two]: [f64; 2]| [(one - two) / gear[0], two / gear[1]];
+        [0, 1].map(|k| torques.iter().map(|row| of(*row)[k].abs()).fold(0.0, f64::max))
+    };
+    let [first, second] = shafts(&place.json("free.json"));
+    // Weaker than what the motion without motors needs, but strong enough to hold the arm.
+    let efforts = [0.97 * first, 0.97 * second];
+    let limited = format!("ratio = 1.0, gear = [2.0, -3.0], motors = {{ effort = [{}, {}] }}", efforts[0], efforts[1]);
+    place.write("limited.toml", with(&limited));
+    place.run(&[&robot, "limited.toml"], "--output limited.json").exits(0);
+    let result = place.json("limited.json");
+    let reached = shafts(&result);
+    for k in 0..2 {
+        assert!(reached[k] <= efforts[k] * (1.0 + 1e-6), "{k}: {reached:?} {efforts:?}");
+    }
+    assert!((0..2).any(|k| reached[k] >= 0.93 * efforts[k]), "{reached:?} {efforts:?}");
+    place.run(&["verify", &robot, "limited.toml", "limited.json"], "").exits(0);
+    let first_alone = format!("ratio = 1.0, gear = [2.0, -3.0], motors = {{ effort = [{}, 1e5] }}", 0.9 * first);
+    place.write("first.toml", with(&first_alone));
+    place.run(&["verify", &robot, "first.toml", "free.json"], "").exits(3).says(&["first motor: torque"]);
+    // A motor that cannot hold the arm.
+    place.write("weak.toml", with("ratio = 1.0, motors = { effort = [3.0, 1e5] }"));
+    place.run(&[&robot, "weak.toml"], "").exits(1).warns(&["motor 1 has an effort of 3 N m", "raise the effort"]);
+}
+
+/// The jerk of the elbow's motor limits straight moves and rounded corners, and recordings are judged by it.
+#[test]
+fn jerks_of_motors_are_limited() {
+    let place = Place::new();
+    let [robot, world] = files("belt_elbow_open");
+    let world = read(world);
+    let with = |limits: &str| world.replace("velocity = [2.0, 2.5] }", &format!("velocity = [2.0, 2.5], {limits} }}"));
+    let most = 40.0;
+    for (name, options) in [("stops", "--blend none"), ("blends", "")] {
+        place.write("jerk.toml", with("jerk = [60.0, 40.0]"));
+        place.run(&[&robot, "jerk.toml"], &format!("--output m.json {options}")).exits(0);
+        let result = place.json("m.json");
+        let times: Vec<f64> = result["trajectory"]["time"].as_array().unwrap().iter().map(number).collect();
+        let sums: Vec<f64> = rows(&result, "acceleration").iter().map(|[a, b]| a + b).collect();
+        let firsts: Vec<f64> = rows(&result, "acceleration").iter().map(|[a, _]| *a).collect();
+        let greatest = |values: &[f64]| {
+            let steps = times.windows(2).zip(values.windows(2)).filter(|(t, _)| t[1] - t[0] > 1e-6);
+            steps.map(|(t, a)| ((a[1] - a[0]) / (t[1] - t[0])).abs()).fold(0.0, f64::max)
+        };
+        let [sum, first] = [greatest(&sums), greatest(&firsts)];
+        assert!(sum <= most * (1.0 + 1e-3) && first <= 60.0 * (1.0 + 1e-3), "{name}: {sum} {first}");
+        assert!(sum >= 0.8 * most || first >= 48.0, "{name}: {sum} {first}");
+        place.run(&["verify", &robot, "jerk.toml", "m.json"], "").exits(0);
+        place.write("less.toml", with(&format!("jerk = [60.0, {}]", 0.8 * sum)));
+        let verified = place.run(&["verify", &robot, "less.toml", "m.json"], "").exits(3);
+        verified.says(&["elbow motor: jerk"]);
+    }
+}
+
+/// With the elbow's motor on the link, limits of motors are those of the joints: both descriptions give the same motion.
+#[test]
+fn direct_motors_equal_joints() {
+    let place = Place::new();
+    let motion = |robot: &str, world: &str| {
+        place.write("world.toml", world);
+        let done = place.run(&[robot, "world.toml"], "--json").exits(0);
+        let result = done.json();
+        (result["path"].clone(), result["trajectory"]["position"].clone(), result["trajectory"]["time"].clone())
+    };
+    let robot = shipped("robots/rrbot_vertical.urdf");
+    let world = read(shipped("workspaces/upright.toml"));
+    assert!(world.contains("effort = { shoulder = 36, elbow = 12 }"), "{world}");
+    let motors = "drives = { elbow = \"link\", gear = [2.0, -4.0], motors = { effort = [18, 3] } }\neffort = { shoulder = 99, elbow = 99 }";
+    assert_eq!(
+        motion(&robot, &world),
+        motion(&robot, &world.replace("effort = { shoulder = 36, elbow = 12 }", motors))
+    );
+    let robot = shipped("robots/planar_2r.urdf");
+    let world =
+        |keys: &str| read(shipped("workspaces/shelf.toml")).replace("[start]", &format!("[robot]\n{keys}\n[start]"));
+    let joints = world("jerk = { shoulder = 50, elbow = 80 }");
+    let motors = world("drives = { elbow = \"link\", gear = [2.0, -0.5], motors = { jerk = [100, 40] } }");
+    assert_eq!(motion(&robot, &joints), motion(&robot, &motors));
+}
+
+/// Among no obstacles, the lengths in motor angles and in time are closed forms, and so are the bounds.
+#[test]
+fn lengths_and_times_count_the_motors() {
+    let place = Place::new();
+    let robot = shipped("robots/planar_2r.urdf");
+    for (k, ratio) in [1.0, -1.5, 0.5, 2.0].into_iter().enumerate() {
+        let (d1, d2) = ([0.9, -1.2, 0.4, 1.1][k], [0.7, 1.0, -1.3, 0.8][k]);
+        let drives = format!("ratio = {ratio:?}, motors = {{ velocity = [1.5, 0.8], acceleration = [8.0, 5.0] }}");
+        let world = format!(
+            "[robot]\ndrives = {{ {drives} }}\n[start]\njoints = [0.1, 0.2]\n[goal]\njoints = [{}, {}]\n",
+            0.1 + d1,
+            0.2 + d2
+        );
+        place.write("world.toml", &world);
+        let sum: f64 = ratio * d1 + d2;
+        let at_top_speed = f64::max(d1.abs() / 1.5, d2.abs() / 3.0).max(sum.abs() / 0.8);
+        for (metric, length) in [("motor", f64::hypot(d1, sum)), ("time", at_top_speed)] {
+            let options = format!("--metric {metric} --certificate c.json --json");
+            let result = place.run(&[&robot, "world.toml"], &options).exits(0).json();
+            let optimum = &result["optimum"];
+            let [found, bound] = ["length", "lower_bound"].map(|key| number(&optimum[key]));
+            assert_eq!(optimum["metric"], metric);
+            assert!((found - length).abs() < 1e-9 && bound <= length && bound > 0.999 * length, "{ratio}: {optimum}");
+            let certificate = place.json("c.json");
+            let report = check(&read(&robot), &world, &certificate.to_string()).unwrap();
+            assert!(report.contains("is shorter than"), "{report}");
+            // A greater length is refuted.
+            let mut wrong = certificate.clone();
+            wrong["bound"]["length"] = (1.001 * length).into();
+            assert!(matches!(check(&read(&robot), &world, &wrong.to_string()), Err(CheckError::Fails(_))), "{ratio}");
+        }
+        // From rest to rest, no motion of the sum is faster than with its greatest speed and acceleration.
+        let result = place.run(&[&robot, "world.toml"], "--optimize time --json").exits(0).json();
+        let [duration, bound] = ["duration", "lower_bound"].map(|key| number(&result["fastest"][key]));
+        let alone = |length: f64, speed: f64, acceleration: f64| match length.abs() >= speed * speed / acceleration {
+            true => length.abs() / speed + speed / acceleration,
+            false => 2.0 * (length.abs() / acceleration).sqrt(),
+        };
+        assert!(bound <= duration && bound > 0.8 * alone(sum, 0.8, 5.0), "{ratio}: {bound} {duration}");
+    }
+    let world = read(shipped("workspaces/shelf.toml"));
+    place.write("world.toml", world);
+    let refused = place.run(&[&robot, "world.toml"], "--metric motor");
+    refused.refused(1, &["--metric motor needs the motors", "[robot] drives"]);
+}
+
+/// Past the shelf, bounds in both metrics have certificates, and the paths are compared with those of other metrics.
+#[test]
+fn bounds_among_obstacles_count_the_motors() {
+    let place = Place::new();
+    let [robot, world] = files("belt_elbow_open");
+    let mut lengths = Vec::new();
+    for metric in ["motor", "euclidean", "time"] {
+        place.run(&[&robot, &world], &format!("--metric {metric} --output m.json --certificate c.json")).exits(0);
+        let result = place.json("m.json");
+        let path = result["path"].as_array().unwrap();
+        let motor = path.windows(2).map(|ends| {
+            let d = [0, 1].map(|k| number(&ends[1][k]) - number(&ends[0][k]));
+            d[0].hypot(d[0] + d[1])
+        });
+        lengths.push(motor.sum::<f64>());
+        let report = check(&read(&robot), &read(&world), &place.read("c.json")).unwrap();
+        assert!(report.contains("is shorter than"), "{metric}: {report}");
+        place.run(&["recheck", &robot, &world], "--proof m.json").exits(0);
+        place.run(&["verify", &robot, &world, "m.json"], "").exits(0);
+    }
+    assert!(lengths[0] <= lengths[1] + 1e-9 && lengths[0] <= lengths[2] + 1e-9, "{lengths:?}");
+}
+
+/// Templates get the angles of both shafts.
+#[test]
+fn templates_have_the_angles_of_the_shafts() {
+    let place = Place::new();
+    let [robot, world] = files("belt_elbow_open");
+    let text =
+        "{% for move in moves %}\n{{ move.joints | join(\" \") }} M {{ move.motors | join(\" \") }}\n{% endfor %}\n";
+    place.write("own.j2", text);
+    let geared = read(&world).replace("ratio = 1.0, ", "ratio = 1.0, gear = [2.0, -1.0], zero = [0.0, \"90deg\"], ");
+    let geared =
+        geared.replace("lower = [\"-150deg\", \"-50deg\"], upper = [\"150deg\", \"90deg\"]", "velocity = [4.0, 2.5]");
+    place.write("world.toml", geared.replace("velocity = [4.0, 2.5], velocity = [2.0, 2.5]", "velocity = [4.0, 2.5]"));
+    place.run(&[&robot, "world.toml"], "--template own.j2 --output own.txt").exits(0);
+    let mut count = 0;
+    for line in place.read("own.txt").lines() {
+        let (joints, motors) = line.split_once(" M ").unwrap();
+        let [q1, q2]: [f64; 2] = numbers(joints);
+        let expected = [2.0 * q1, 90.0 - (q1 + q2)];
+        for (angle, expected) in numbers(motors).into_iter().zip(expected) {
+            assert!((angle - expected).abs() < 3e-4, "{line}");
+        }
+        count += 1;
+    }
+    assert!(count > 2, "{count}");
+    // Without motors, there is nothing.
+    place.write("none.j2", text.replace("move.motors | join(\" \")", "move.motors or 'none'"));
+    place.run(&shelf(), "--template none.j2 --output own.txt").exits(0);
+    assert!(place.read("own.txt").lines().all(|line| line.ends_with(" M none")));
+}
+
+fn numbers(list: &str) -> [f64; 2] {
+    let values: Vec<f64> = list.split_whitespace().map(|value| value.parse().unwrap()).collect();
+    values.try_into().unwrap()
+}
+
+/// The report on a robot has the joint values that the motors leave, compared with all pairs of a fine grid.
+#[test]
+fn the_report_states_what_the_motors_leave() {
+    let place = Place::new();
+    let robot = shipped("robots/planar_2r.urdf");
+    for (ratio, least, most) in [(1.0, -1.0, 0.5), (-2.0, -2.0, 7.0), (0.5, 3.5, 4.0)] {
+        let limits = format!("lower = [-1e3, {least:?}], upper = [1e3, {most:?}], velocity = [4.0, 2.5]");
+        let drives = format!("[robot]\ndrives = {{ ratio = {ratio:?}, motors = {{ {limits} }} }}\n");
+        place.write("world.toml", drives + FREE);
+        let report = place.run(&["inspect", &robot, "world.toml"], "--json").exits(0).json();
+        let grid = |k: i32| -2.9 + 5.8 * f64::from(k) / 1000.0;
+        let mut ranges = [[f64::INFINITY, f64::NEG_INFINITY]; 2];
+        for (i, j) in (0..=1000).flat_map(|i| (0..=1000).map(move |j| (i, j))) {
+            let q = [grid(i), grid(j)];
+            if (least..=most).contains(&(ratio * q[0] + q[1])) {
+                ranges = [0, 1].map(|k| [ranges[k][0].min(q[k]), ranges[k][1].max(q[k])]);
+            }
+        }
+        for (k, range) in ranges.into_iter().enumerate() {
+            let stated = [0, 1].map(|end| number(&report["motors"]["ranges"][k][end]));
+            assert!((0..2).all(|end| (stated[end] - range[end]).abs() < 0.012), "{ratio} {k}: {stated:?} {range:?}");
+        }
+        let told = place.run(&["inspect", &robot, "world.toml"], "").exits(0);
+        told.says(&["motors", "shoulder + elbow", "top speed 2.5 rad/s"]);
+        let narrows = ranges.iter().any(|range| range[0] > -2.88 || range[1] < 2.88);
+        assert_eq!(told.stdout.contains("they leave"), narrows, "{}", told.stdout);
+    }
+    let plain = place.run(&["inspect", &robot], "--json").exits(0).json();
+    assert!(plain["motors"].is_null());
+}

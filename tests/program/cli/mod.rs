@@ -16,6 +16,7 @@ mod cspace;
 mod demo_and_init;
 mod diagnostics;
 mod drives;
+mod elbow;
 mod error_json;
 mod exact;
 mod explain;

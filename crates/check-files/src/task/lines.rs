@@ -16,7 +16,7 @@ pub(super) fn read(step: &Step, done: &ExecutedStep) -> Result<Option<StepLine>,
     let wrong = |message| Err(CheckError::in_file(Input::Certificate, message));
     match (&step.action, &done.line) {
         (Action::Follow(asked), Some(text)) => {
-            let line = StepLine::read(text.get(), &asked.tolerance)?;
+            let line = StepLine::read(text.get(), &asked.tolerance, asked.elbow)?;
             match asked.allows(&line) {
                 true => Ok(Some(line)),
                 false => CheckError::fails(format!("the line of step {number} is not that of the world")),

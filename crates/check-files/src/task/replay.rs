@@ -212,6 +212,10 @@ impl<'a> Replay<'a> {
         let before = std::mem::replace(&mut self.before, next);
         let moving = self.pieces(done.knots[0]..last)?;
         self.free_during_overlaps([&before, &own], &moving, target)?;
+        if let Some(elbow) = step.elbow {
+            elbow.of_arm(self.arm)?;
+            elbow.check_knot(self.arm, &motion.knots[last])?;
+        }
         match &step.action {
             Action::Pick { object, grasp, supports, passing } => {
                 let places = |step: &&Step| matches!(step.action, Action::Place { .. });
@@ -230,7 +234,10 @@ impl<'a> Replay<'a> {
             Action::Move(_) | Action::MoveToLine | Action::Follow(_) => {
                 let next_line = after.first().and_then(|next| next.line.as_ref());
                 match (&step.action, next_line, line) {
-                    (Action::Move(goal), ..) => self.misses(self.arm.error_bound(&motion.knots[last], goal))?,
+                    (Action::Move(goal), ..) => {
+                        goal.check_elbow(self.arm, &motion.knots[last])?;
+                        self.misses(self.arm.error_bound(&motion.knots[last], goal))?;
+                    }
                     (Action::MoveToLine, Some(line), _) => {
                         self.misses(line.distance_from_start(self.arm, &motion.knots[last]))?;
                     }

@@ -46,7 +46,7 @@ impl Reader<'_> {
                             "lower" => ends[0] = Some(self.pair(value, |q| self.quantity(q))?),
                             "upper" => ends[1] = Some(self.pair(value, |q| self.quantity(q))?),
                             // These keys do not affect the positions of shapes.
-                            "velocity" | "acceleration" => {}
+                            "velocity" | "acceleration" | "jerk" | "effort" => {}
                             other => {
                                 return self.error(value, &format!("the checker does not know motors with {other}"));
                             }

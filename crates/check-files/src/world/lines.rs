@@ -2,6 +2,7 @@
 
 use super::{ReadResult, Reader, Value};
 use cplan_check::decimal::Decimal;
+use cplan_check::elbow::Elbow;
 use cplan_check::interval::{Interval, Point, sum, times, turned};
 use cplan_check::obstacle::point;
 use cplan_check_line::StepLine;
@@ -15,8 +16,8 @@ const FORMS: [&str; 4] = ["points", "arc", "spline", "file"];
 
 /// Other keys of a line. The checker judges neither the speed nor the angle of the tool. It counts shapes that turn with the
 /// wrist as discs, so they are free at each angle.
-const MANNERS: [&str; 9] =
-    ["radius", "speed", "tolerance", "unit", "scale", "turn", "move", "wrist", "wrist_tolerance"];
+const MANNERS: [&str; 10] =
+    ["radius", "speed", "tolerance", "unit", "scale", "turn", "move", "wrist", "wrist_tolerance", "elbow"];
 
 /// A line that a step of the world asks for.
 pub struct WorldLine {
@@ -24,6 +25,8 @@ pub struct WorldLine {
     pub tolerance: Decimal,
     /// True if the world asks for an angle of the tool.
     pub has_tool_angle: bool,
+    /// The side of the elbow all along the line. `None` if either side will do.
+    pub elbow: Option<Elbow>,
     /// The form of the line. `None` if the checker does not read it.
     form: Option<Form>,
 }
@@ -96,6 +99,6 @@ impl Reader<'_> {
             },
             _ => None,
         };
-        Ok(WorldLine { tolerance, has_tool_angle: table.contains_key("wrist"), form })
+        Ok(WorldLine { tolerance, has_tool_angle: table.contains_key("wrist"), elbow: self.elbow(table)?, form })
     }
 }

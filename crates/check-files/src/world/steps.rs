@@ -294,7 +294,8 @@ impl Steps<'_, '_> {
         let reader = self.reader;
         let table = reader.table(value)?;
         let dwell = table.get("dwell").map_or(Ok(dwell.clone()), |value| reader.number(value))?;
-        let known = ["pick", "place", "move", "follow", "transfer", "steps", "grasp", "supports", "at", "window"];
+        let known =
+            ["pick", "place", "move", "follow", "transfer", "steps", "grasp", "supports", "at", "window", "elbow"];
         let is_known = |key: &str| known.contains(&key) || SHARED_STEP_KEYS.contains(&key);
         if let Some((key, _)) = table.iter().find(|(key, _)| !is_known(key.get_ref())) {
             return reader.error(value, &format!("the checker does not know the key {} of a step", key.get_ref()));
@@ -303,6 +304,9 @@ impl Steps<'_, '_> {
         let [what] = given[..] else { return reader.error(value, "a step needs exactly one action") };
         if what != "pick" && (table.contains_key("at") || table.contains_key("window")) {
             return reader.error(value, "only picks have a place and a window of time");
+        }
+        if what != "pick" && table.contains_key("elbow") {
+            return reader.error(value, "of steps, only picks have an elbow beside them");
         }
         let of = &table[what];
         let actions = match what {
@@ -323,11 +327,16 @@ impl Steps<'_, '_> {
             "follow" => vec![Action::MoveToLine, Action::Follow(reader.line(of)?)],
             _ => self.transfer(of)?,
         };
+        let elbow = match what {
+            "pick" => reader.elbow(table)?,
+            "place" | "transfer" => reader.elbow(reader.table(of)?)?,
+            _ => None,
+        };
         let step = |action| {
             self.count += 1;
             // The arm need not rest before it follows a line.
             let dwell = if matches!(action, Action::MoveToLine) { Decimal::whole(0) } else { dwell.clone() };
-            Node::Step(Box::new(Step { number: self.count, action, dwell }))
+            Node::Step(Box::new(Step { number: self.count, action, dwell, elbow }))
         };
         Ok(actions.into_iter().map(step).collect())
     }

@@ -3,6 +3,7 @@
 use super::lines::WorldLine;
 use cplan_check::decimal::Decimal;
 use cplan_check::domain::Range;
+use cplan_check::elbow::Elbow;
 use cplan_check::interval::{Interval, Point};
 use cplan_check::polygon::Corner;
 use cplan_check::world::Goal;
@@ -77,7 +78,8 @@ pub struct Group {
 impl Group {
     /// Makes a group of a single move, to a goal of the world or of the certificate.
     pub(super) fn single(goal: Option<Goal>) -> Self {
-        let step = goal.map(|goal| Step { number: 1, action: Action::Move(goal), dwell: Decimal::whole(0) });
+        let step =
+            goal.map(|goal| Step { number: 1, action: Action::Move(goal), dwell: Decimal::whole(0), elbow: None });
         Self {
             nodes: step.map(|step| Node::Step(Box::new(step))).into_iter().collect(),
             repeat: 1,
@@ -100,6 +102,8 @@ pub struct Step {
     pub action: Action,
     /// Time that the arm rests after the step, seconds.
     pub dwell: Decimal,
+    /// Side of the elbow at a pick or a place. `None` if either side will do.
+    pub elbow: Option<Elbow>,
 }
 
 /// Time and place at which a moving object must be picked. `None` for those that the step does not state.

@@ -1,6 +1,6 @@
 //! Length metrics.
 
-use crate::certificate::Metric;
+use crate::certificate::{Metric, MotorSpeeds};
 use crate::decimal::Decimal;
 use crate::error::CheckError;
 use crate::interval::{Interval, Point, length};
@@ -20,17 +20,26 @@ impl fmt::Display for Metric {
             Self::Euclidean => Ok(()),
             Self::Weights([a, b]) => write!(f, ", with the joints' values times {a} and {b}"),
             Self::Speeds([a, b]) => write!(f, " s, at speeds of the joints of no more than {a} and {b}"),
+            Self::MotorSpeeds(MotorSpeeds { speeds: [a, b], ratio, speed }) => write!(
+                f,
+                " s, at speeds of the joints of no more than {a} and {b}, and of {ratio} q1 + q2 of no more than {speed}"
+            ),
+            Self::Motor(ratio) => write!(f, ", of q1 and {ratio} q1 + q2"),
         }
     }
 }
 
 impl Metric {
     pub(super) fn is_a_norm(&self) -> Result<(), CheckError> {
-        let (Self::Weights(factors) | Self::Speeds(factors)) = self else { return Ok(()) };
+        let (factors, speed) = match self {
+            Self::Euclidean | Self::Motor(_) => return Ok(()),
+            Self::Weights(factors) | Self::Speeds(factors) => (factors, None),
+            Self::MotorSpeeds(motor) => (&motor.speeds, Some(&motor.speed)),
+        };
         let is_positive = |factor: &Decimal| Interval::from(factor).lower.sign() == Sign::Plus;
         // Whole turns must have a positive length.
         let tells = |k: usize| self.scaled(k, &Interval::whole(1)).lower.sign() == Sign::Plus;
-        if factors.iter().all(is_positive) && tells(0) && tells(1) {
+        if factors.iter().chain(speed).all(is_positive) && tells(0) && tells(1) {
             return Ok(());
         }
         CheckError::fails("the metric's weights or speeds must be greater than 0 and not too large")
@@ -39,27 +48,71 @@ impl Metric {
     /// Returns true if the metric is the greatest entry of a displacement. If false, it is the root of the sum of
     /// squares.
     pub(super) fn is_greatest(&self) -> bool {
-        matches!(self, Self::Speeds(_))
+        matches!(self, Self::Speeds(_) | Self::MotorSpeeds(_))
+    }
+
+    /// Returns true if the metric of a displacement depends on the magnitudes of its entries alone.
+    pub(super) fn is_of_entries(&self) -> bool {
+        !matches!(self, Self::Motor(_))
+    }
+
+    /// Returns the greatest entry of a displacement of this length.
+    pub(super) fn reach(&self, joint: usize, length: &BigInt) -> BigInt {
+        match self {
+            // The second entry is the sum minus the first one times the factor.
+            Self::Motor(ratio) if joint == 1 => {
+                (&Interval::exact(length.clone()) * &(&Interval::whole(1) + &Interval::from(ratio).abs())).upper
+            }
+            _ => length.clone(),
+        }
     }
 
     /// Converts a joint's value to the units of the metric.
     pub(super) fn scaled(&self, joint: usize, value: &Interval) -> Interval {
         match self {
-            Self::Euclidean => value.clone(),
+            Self::Euclidean | Self::Motor(_) => value.clone(),
             Self::Weights(weights) => value * &Interval::from(&weights[joint]),
-            Self::Speeds(speeds) => value.divided(&Interval::from(&speeds[joint])),
+            Self::Speeds(speeds) | Self::MotorSpeeds(MotorSpeeds { speeds, .. }) => {
+                value.divided(&Interval::from(&speeds[joint]))
+            }
         }
+    }
+
+    /// Returns a lower bound on the sum of two entries of the displacement between two rectangles, in units of the metric.
+    /// `None` if the metric has no such sum.
+    fn sum_bound(&self, a: &Point, b: &Point) -> Option<BigInt> {
+        let [x, y] = [0, 1].map(|k| &b[k] - &a[k]);
+        let sum = match self {
+            Self::Euclidean | Self::Weights(_) | Self::Speeds(_) => return None,
+            Self::MotorSpeeds(MotorSpeeds { speeds, ratio, speed }) => {
+                let [first, second] = speeds.each_ref().map(Interval::from);
+                (&(&(&x * &first) * &Interval::from(ratio)) + &(&y * &second)).divided(&Interval::from(speed))
+            }
+            Self::Motor(ratio) => &(&x * &Interval::from(ratio)) + &y,
+        };
+        Some(sum.abs().lower)
     }
 
     /// Returns a lower bound on the length of all paths between two rectangles.
     pub(super) fn length_bound(&self, a: &Point, b: &Point) -> BigInt {
         let [x, y] = axis_distances(a, b);
-        if self.is_greatest() { x.max(y) } else { length(&[x, y].map(Interval::exact)).lower }
+        match (self.sum_bound(a, b), self.is_greatest()) {
+            (None, true) => x.max(y),
+            (Some(sum), true) => x.max(y).max(sum),
+            (None, false) => length(&[x, y].map(Interval::exact)).lower,
+            (Some(sum), false) => length(&[x, sum].map(Interval::exact)).lower,
+        }
     }
 
     /// Returns true if all paths between two rectangles are at least as long as `least`, which must be positive.
     pub(super) fn is_at_least(&self, a: &Point, b: &Point, least: &BigInt) -> bool {
         let [x, y] = axis_distances(a, b);
-        if self.is_greatest() { x.max(y) >= *least } else { &x * &x + &y * &y >= least * least }
+        match (self.sum_bound(a, b), self.is_greatest()) {
+            (sum, true) => x.max(y) >= *least || sum.is_some_and(|sum| sum >= *least),
+            (sum, false) => {
+                let y = sum.unwrap_or(y);
+                &x * &x + &y * &y >= least * least
+            }
+        }
     }
 }

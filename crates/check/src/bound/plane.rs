@@ -56,8 +56,9 @@ impl<'a> Plane<'a> {
                 let (turn, value) =
                     (metric.scaled(k, &double(Interval::pi())), metric.scaled(k, &Interval::enclosing(&rectangle[k])));
                 // Include one more turn on either side, for rounding.
-                let least = (&from.at[k].lower - &length.upper - &value.upper) / &turn.lower - 1;
-                let most = (&from.at[k].upper + &length.upper - &value.lower) / &turn.lower + 1;
+                let reach = metric.reach(k, &length.upper);
+                let least = (&from.at[k].lower - &reach - &value.upper) / &turn.lower - 1;
+                let most = (&from.at[k].upper + &reach - &value.lower) / &turn.lower + 1;
                 Some(i64::from(i32::try_from(least).ok()?)..=i64::from(i32::try_from(most).ok()?))
             });
             let [first, second] = turns;
@@ -175,7 +176,7 @@ impl<'a> Plane<'a> {
         });
         let square = i128::from(coarse).saturating_mul(coarse.into());
         let is_long = if self.metric.is_greatest() { x.max(y) >= coarse.into() } else { x * x + y * y >= square };
-        is_long || self.metric.is_at_least(&from.at, &to.at, length)
+        is_long && self.metric.is_of_entries() || self.metric.is_at_least(&from.at, &to.at, length)
     }
 
     /// Returns true if walls block every straight leg from `from` to any point of `to`. A wall blocks a leg that

@@ -31,6 +31,23 @@ pub enum Metric {
     Weights([Decimal; 2]),
     /// The greater of the two times, seconds, that the joints need at these speeds.
     Speeds([Decimal; 2]),
+    /// The greatest of these times and of the time that a motor of the elbow on the base needs.
+    MotorSpeeds(MotorSpeeds),
+    /// Root of the sum of squares of the angles of both motors. The number is the factor of joint 1 in the angle of the
+    /// second one.
+    Motor(Decimal),
+}
+
+/// Speeds of the joints, and of the sum `ratio q1 + q2` that the elbow's motor turns.
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MotorSpeeds {
+    /// Speeds of the joints.
+    pub speeds: [Decimal; 2],
+    /// Factor of joint 1 in the sum.
+    pub ratio: Decimal,
+    /// Speed of the sum.
+    pub speed: Decimal,
 }
 
 /// A straight segment of configurations. A shape and a part overlap in all of them.

@@ -24,6 +24,7 @@ impl End {
     /// If the distance exceeds `10^-5`.
     pub fn reached(&self, arm: &Arm, knot: &[Decimal]) -> Result<String, CheckError> {
         let named = self.named(arm);
+        self.at.check_elbow(arm, knot)?;
         let equals_knot = |k: usize, range: &Range| range.iter().all(|end| *end == knot[1 + k]);
         match &self.at {
             Goal::Joints(ranges) if (0..2).all(|k| equals_knot(k, &ranges[k])) => Ok(named),
@@ -55,6 +56,18 @@ fn distance_outside(place: &Point, area: &Point) -> BigInt {
     length(&[beyond(0), beyond(1)]).upper
 }
 
+impl Goal {
+    /// Checks that the elbow is on the required side at a knot, if the goal requires one.
+    ///
+    /// # Errors
+    /// If it is on the other side, or if the arm has no elbow.
+    pub fn check_elbow(&self, arm: &Arm, knot: &[Decimal]) -> Result<(), CheckError> {
+        let Self::Tip(_, Some(elbow)) = self else { return Ok(()) };
+        elbow.of_arm(arm)?;
+        elbow.check_knot(arm, knot)
+    }
+}
+
 impl Arm {
     /// Returns an upper bound on the distance of a knot from a goal. For joint values it is the greater error of the
     /// two joints. For a position or area it is the distance of the tip.
@@ -62,7 +75,7 @@ impl Arm {
         let at = [&knot[1], &knot[2]];
         match goal {
             Goal::Joints(ranges) => (0..2).map(|k| self.joint_error(k, at[k], &ranges[k])).max().expect("two joints"),
-            Goal::Tip(place) => {
+            Goal::Tip(place, _) => {
                 let actual = self.tip_at(&at);
                 length(&minus(&actual, &place.each_ref().map(Interval::from))).upper
             }

@@ -24,7 +24,7 @@ impl End {
     pub fn configuration(&self, arm: &Arm) -> Result<Rectangle, CheckError> {
         match &self.at {
             Goal::Joints(values) => arm.configuration(self.what, values),
-            Goal::Tip(_) | Goal::Areas(_) => {
+            Goal::Tip(..) | Goal::Areas(_) => {
                 let message = format!(
                     "the checker does not judge proofs for a {} that is a position of the tip: give joint values",
                     self.what
@@ -45,12 +45,17 @@ impl End {
         most: usize,
         is_left_out: impl Fn(&Rectangle) -> bool,
     ) -> Result<Vec<Rectangle>, CheckError> {
-        let tips = match &self.at {
+        let tips: Vec<Point> = match &self.at {
             Goal::Joints(values) => {
                 let place = arm.configuration(self.what, values)?;
                 return Ok(if is_left_out(&place) { Vec::new() } else { vec![place] });
             }
-            Goal::Tip(at) => vec![at.each_ref().map(Interval::from)],
+            Goal::Tip(at, elbow) => {
+                elbow.map_or(Ok(()), |elbow| elbow.of_arm(arm))?;
+                let excludes = |part: &Rectangle| elbow.is_some_and(|elbow| elbow.excludes(arm, &part[1]));
+                let tip = at.each_ref().map(Interval::from);
+                return Ok(arm.places(&tip, most, |part| is_left_out(part) || excludes(part)));
+            }
             Goal::Areas(areas) => areas.iter().map(|area| arm.area(area)).collect(),
         };
         Ok(tips.iter().flat_map(|tip| arm.places(tip, most, &is_left_out)).collect())

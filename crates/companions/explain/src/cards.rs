@@ -169,7 +169,7 @@ impl CardMaker<'_> {
 
     /// Makes the card of the nearest place that the tip can reach.
     fn of_reach(&self, out: &OutOfReach) -> Card {
-        let OutOfReach { tip, nearest, at } = *out;
+        let OutOfReach { tip, nearest, at, .. } = *out;
         let title = format!("Move the goal {} nearer", headline_length((tip - nearest).norm(), true));
         let place = format!("({:.3}, {:.3}) m", nearest.x, nearest.y);
         self.at(title, format!("the tip comes as near as {place}, if there are no obstacles"), false, at)

@@ -4,7 +4,7 @@ use cplan_blockers::{End, MotionQuestion, Target};
 use cplan_geometry::Point;
 use cplan_legs::StandstillScene;
 use cplan_model::space::{Configuration, JointRange};
-use cplan_model::{Arm, Obstruction, Scene, inverse};
+use cplan_model::{Arm, Elbow, Obstruction, Scene, inverse};
 use cplan_planners::cspace::{NearestFree, nearest_free};
 
 /// Number of values of each joint in the lattice with which the search for the tip's nearest place starts.
@@ -56,6 +56,8 @@ impl BlockedEnd {
 pub struct OutOfReach {
     /// The goal.
     pub tip: Point,
+    /// The required side of the elbow. `None` if either side will do.
+    pub elbow: Option<Elbow>,
     /// The nearest place found that the tip can reach if there are no obstacles. Its distance from the goal is an upper
     /// bound on that of the nearest place.
     pub nearest: Point,
@@ -75,12 +77,12 @@ pub fn blocked_ends(question: &MotionQuestion) -> (Vec<BlockedEnd>, Option<OutOf
         let arm = question.scene().arm();
         let goals: Vec<Configuration> = match question.target() {
             Target::Goals(goals) => goals.pieces().iter().map(|piece| piece.ends()[0]).collect(),
-            Target::Tip(tip) => {
+            Target::Tip(tip, elbow) => {
                 let within = question.ends();
                 if within.is_empty() {
-                    out_of_reach = Some(nearest_tip(arm, *tip));
+                    out_of_reach = Some(nearest_tip(arm, *tip, *elbow));
                 }
-                let beyond = inverse(arm, *tip, question.start()).branches;
+                let beyond = inverse(arm, *tip, question.start()).with_elbow(arm, *elbow).branches;
                 if within.is_empty() { beyond } else { within.iter().map(|piece| piece.at(0.5)).collect() }
             }
         };
@@ -111,9 +113,9 @@ fn blocked_end(question: &MotionQuestion, end: End, at: Configuration) -> Blocke
     }
 }
 
-/// Finds the place nearest to a goal that the tip reaches within the limits. Starts at the best configuration of a
+/// Finds the place nearest to a goal that the tip reaches within the limits, with the elbow on the stated side. Starts at the best configuration of a
 /// lattice. Then improves it by steps that become smaller and smaller.
-fn nearest_tip(arm: &Arm, tip: Point) -> OutOfReach {
+fn nearest_tip(arm: &Arm, tip: Point, elbow: Option<Elbow>) -> OutOfReach {
     let ranges = arm.topology().ranges;
     let at = |share: [f64; 2]| {
         Configuration::from_fn(|k, _| {
@@ -121,7 +123,10 @@ fn nearest_tip(arm: &Arm, tip: Point) -> OutOfReach {
             (lower + (upper - lower) * share[k]).clamp(lower, upper)
         })
     };
-    let off = |share: [f64; 2]| (arm.tip_at(at(share)) - tip).norm();
+    let off = |share: [f64; 2]| match elbow.is_none_or(|elbow| elbow.allows(arm, at(share))) {
+        true => (arm.tip_at(at(share)) - tip).norm(),
+        false => f64::INFINITY,
+    };
     let lattice = (0..=SAMPLES_PER_JOINT)
         .flat_map(|i| (0..=SAMPLES_PER_JOINT).map(move |j| [i, j].map(|n| n as f64 / SAMPLES_PER_JOINT as f64)));
     let mut best = lattice.min_by(|a, b| off(*a).total_cmp(&off(*b))).unwrap_or([0.5; 2]);
@@ -134,5 +139,5 @@ fn nearest_tip(arm: &Arm, tip: Point) -> OutOfReach {
             None => step /= 2.0,
         }
     }
-    OutOfReach { tip, nearest: arm.tip_at(at(best)), at: at(best) }
+    OutOfReach { tip, elbow, nearest: arm.tip_at(at(best)), at: at(best) }
 }

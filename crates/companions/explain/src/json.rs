@@ -137,8 +137,12 @@ fn of_end(scene: &Scene, blocked: &BlockedEnd) -> Value {
 }
 
 fn of_out_of_reach(out: &OutOfReach) -> Value {
-    let OutOfReach { tip, nearest, at } = *out;
-    json!({ "tip": tip, "nearest": nearest, "joints": at, "misses": (tip - nearest).norm() })
+    let OutOfReach { tip, nearest, at, elbow } = *out;
+    let mut object = json!({ "tip": tip, "nearest": nearest, "joints": at, "misses": (tip - nearest).norm() });
+    if let Some(elbow) = elbow {
+        object["elbow"] = elbow.name().into();
+    }
+    object
 }
 
 fn of_hit(scene: &Scene, hit: &Obstruction) -> Value {

@@ -4,7 +4,7 @@ use super::cards::{blocking, explanation_section};
 use super::words::{bounds, headline, instruction};
 use super::{BlockedEnd, Bottleneck, Explanation, FoundExplanation, InfeasibleExplanation, OutOfReach};
 use cplan_blockers::{End, TIME_LIMIT, Target};
-use cplan_model::{Outcome, Scene, Status};
+use cplan_model::{Elbow, Outcome, Scene, Status};
 use cplan_solver::BoundedPath;
 use cplan_text::{fixed, length, length_down, length_up, listed, percent, round_down, round_up, short};
 use cplan_view::output::{Line, configuration, contours, format_columns, goal_lines, status, title_of};
@@ -24,7 +24,9 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
     lines.push(("start", configuration(scene.arm(), explanation.question.start())));
     match explanation.question.target() {
         Target::Goals(goals) => lines.extend(goal_lines(scene.arm(), goals)),
-        Target::Tip(tip) => lines.push(("goal", format!("tip at ({}, {}) m", tip.x, tip.y))),
+        Target::Tip(tip, elbow) => {
+            lines.push(("goal", format!("tip at ({}, {}) m{}", tip.x, tip.y, Elbow::describe(*elbow))));
+        }
     }
     lines.extend(notes.iter().map(|note| ("note", note.clone())));
     let said = format!("{}\n{}\n{}", headline(explanation), title_of(scene), format_columns(&lines));
@@ -91,7 +93,10 @@ fn verdict(explanation: &Explanation) -> String {
         },
         Outcome::Infeasible(closed) => match blocking {
             Some(set) => format!("infeasible: proven; blocked by {}", set.describe(scene)),
-            None if closed.out_of_reach.is_some() => "infeasible: the goal is out of reach".into(),
+            None if closed.out_of_reach.is_some() => {
+                let elbow = closed.out_of_reach.and_then(|out| out.elbow);
+                format!("infeasible: the goal is out of reach{}", Elbow::describe(elbow))
+            }
             None => "infeasible: there is no path, and no obstacle or limit whose removal opens one is known".into(),
         },
     }
@@ -212,9 +217,10 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
 
 /// Describes how far a tip goal is out of reach.
 fn misses(scene: &Scene, out: &OutOfReach) -> String {
-    let OutOfReach { tip, nearest, at } = out;
+    let OutOfReach { tip, nearest, at, elbow } = out;
     format!(
-        "within the limits, the tip misses ({:.4}, {:.4}) m by {}: its nearest position is ({:.4}, {:.4}) m, at {}",
+        "within the limits{}, the tip misses ({:.4}, {:.4}) m by {}: its nearest position is ({:.4}, {:.4}) m, at {}",
+        Elbow::describe(*elbow).replace(" with", " and with"),
         tip.x,
         tip.y,
         length((tip - nearest).norm()),

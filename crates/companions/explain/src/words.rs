@@ -4,7 +4,7 @@ use super::{
     BlockedEnd, Change, ChangeContext, ChangeKind, Explanation, FoundExplanation, InfeasibleExplanation, Saving,
 };
 use cplan_blockers::{BlockingSet, Element, End, Side};
-use cplan_model::{Joint, Obstruction, Outcome, Scene};
+use cplan_model::{Elbow, Joint, Obstruction, Outcome, Scene};
 use cplan_text::{fixed, headline_length, headline_number, joined, length_down, length_up};
 use cplan_view::output::names::{
     MAX_NAMED, blame_in_words, body_name, capitalized, is_or_are, joint_name, obstacle_name, part_name, subject,
@@ -39,8 +39,8 @@ fn headline_of_found(scene: &Scene, found: &FoundExplanation, is_stopped: bool) 
 }
 
 fn headline_of_infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> String {
-    if closed.out_of_reach.is_some() {
-        return "The goal is out of reach.".into();
+    if let Some(out) = &closed.out_of_reach {
+        return format!("The goal is out of reach{}.", Elbow::describe(out.elbow));
     }
     if !closed.ends.is_empty() {
         return headline_of_ends(scene, &closed.ends);

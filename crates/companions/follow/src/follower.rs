@@ -137,7 +137,7 @@ impl Follower<'_> {
 
     /// Returns true if jerks are limited.
     fn is_smooth(&self) -> bool {
-        self.scene.arm().joints.iter().any(|joint| joint.jerk.is_some())
+        self.scene.arm().limits_jerks()
     }
 
     /// Returns the division of the line for a share of the tolerance.
@@ -190,7 +190,7 @@ impl Follower<'_> {
         let Some(nodes) = &Nodes::new(kinematics, line, Some(&merged.joints), division) else {
             return Ok(Attempt::TooLong);
         };
-        let sheets = Sheets::new(kinematics, nodes);
+        let sheets = Sheets::new(kinematics, nodes, settings.elbow);
         let mut search = Search::new(scene, (kinematics, line), nodes, &sheets, division, ends);
         let (route, turns) = match self.route(&mut search, (line, nodes)) {
             Ok(found) => found,
@@ -238,7 +238,7 @@ impl Follower<'_> {
                 Attempt::TooFar(_) | Attempt::TooLong => {}
             }
         }
-        let (inner, sheets) = (&*scene.inner(), &Sheets::new(kinematics, nodes));
+        let (inner, sheets) = (&*scene.inner(), &Sheets::new(kinematics, nodes, settings.elbow));
         let search = Search::new(scene, (kinematics, line), nodes, sheets, division, ends);
         let prover = Prover { scene, inner, kinematics, line, nodes, sheets, tolerance, wrist: settings.wrist };
         Ok(match prove(&prover, &search) {
@@ -283,7 +283,7 @@ impl Follower<'_> {
         let turn = self.settings.greatest_turn();
         let finer = Division { deviation: division.deviation / PROOF_FINENESS, least_parts, turn, ..division };
         let nodes = &Nodes::new(self.kinematics, self.line, None, finer)?;
-        let sheets = &Sheets::new(self.kinematics, nodes);
+        let sheets = &Sheets::new(self.kinematics, nodes, self.settings.elbow);
         let finer = Prover { nodes, sheets, ..*prover };
         proof::out_of_reach(self.kinematics, nodes, self.settings.tolerance).or_else(|| finer.prove())
     }

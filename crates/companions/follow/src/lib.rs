@@ -69,7 +69,7 @@ pub use wrist::WristAlong;
 use cplan_deviation::{Kinematics, Line};
 use cplan_handling::{MAX_WRIST_TOLERANCE, MIN_WRIST_TOLERANCE, ToolAngle};
 use cplan_model::space::Configuration;
-use cplan_model::{Outcome, Scene};
+use cplan_model::{Elbow, Outcome, Scene};
 use cplan_motion::{TimedMotion, TimingError};
 use cplan_toolpath::Toolpath;
 use follower::Follower;
@@ -95,13 +95,23 @@ pub struct Settings {
     pub period: f64,
     /// The wrist that turns the tool; `None` if the angle of the tool does not matter.
     pub wrist: Option<WristAlong>,
+    /// The side of the elbow; `None` if either side will do. Arms without an elbow ignore it.
+    pub elbow: Option<Elbow>,
 }
 
 impl Default for Settings {
     /// Returns a tolerance of a hundredth of a millimetre, the speeds of the file, and a sample every hundredth of a
     /// second.
     fn default() -> Self {
-        Self { tolerance: DEFAULT_TOLERANCE, speed: None, tip_speed: None, share: 1.0, period: 0.01, wrist: None }
+        Self {
+            tolerance: DEFAULT_TOLERANCE,
+            speed: None,
+            tip_speed: None,
+            share: 1.0,
+            period: 0.01,
+            wrist: None,
+            elbow: None,
+        }
     }
 }
 

@@ -66,8 +66,7 @@ pub(crate) struct Driver<'a> {
 impl Driver<'_> {
     /// Returns the fastest motion along a route that is found, with a wrist that turns as given.
     pub fn motion(&self, route: &Route, turns: Option<&Turns>) -> Result<Motion, FollowError> {
-        let joints = &self.scene.arm().joints;
-        let is_smooth = joints.iter().any(|joint| joint.jerk.is_some());
+        let is_smooth = self.scene.arm().limits_jerks();
         let speeds = self.leg_speeds(route);
         let wrist = self.settings.wrist.zip(turns);
         let mut share = self.settings.share;

@@ -148,7 +148,7 @@ impl Prover<'_> {
         let mut list: Vec<Exclusion> = excluded[node].iter().flatten().cloned().collect();
         if list.is_empty() {
             // No sheet is within the limits at any node.
-            let solutions = if self.kinematics.has_two_solutions() { 0..2 } else { 0..1 };
+            let solutions = self.sheets.solutions.clone();
             list = solutions.map(|solution| self.outside(node, solution)).collect::<Option<_>>()?;
         }
         let (place, evidence) = (self.place(node), list.clone());
@@ -186,8 +186,10 @@ impl Prover<'_> {
 
     fn is_box_known(&self, node: usize) -> bool {
         let point = self.place(node).point;
-        let solutions = if self.kinematics.has_two_solutions() { 0..2 } else { 0..1 };
-        solutions.into_iter().all(|solution| self.kinematics.solution_box(point, solution, self.tolerance).is_some())
+        self.sheets
+            .solutions
+            .clone()
+            .all(|solution| self.kinematics.solution_box(point, solution, self.tolerance).is_some())
     }
 
     /// Returns true if the boxes of all sheets stay separate on a part, and the sheets are continuous there.

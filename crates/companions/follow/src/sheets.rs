@@ -2,8 +2,10 @@
 
 use crate::nodes::{Node, Nodes};
 use cplan_deviation::Kinematics;
+use cplan_model::Elbow;
 use cplan_model::space::{Configuration, JointRange};
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Values beyond a limit by at most this, radians or metres, are set to the limit: such an excess is rounding.
 const LIMIT_ROUNDING: f64 = 1e-9;
@@ -32,17 +34,24 @@ pub(crate) struct Sheet {
 pub(crate) struct Sheets<'a> {
     kinematics: &'a Kinematics<'a>,
     nodes: &'a [Node],
+    /// Numbers of the IK solutions that may be used.
+    pub solutions: Range<usize>,
     pub sheets: Vec<Sheet>,
     /// True if the list has all such sheets.
     pub is_complete: bool,
 }
 
 impl<'a> Sheets<'a> {
-    pub fn new(kinematics: &'a Kinematics<'a>, nodes: &'a Nodes) -> Self {
+    /// Lists the sheets with the elbow on a side; those of both sides if there is no side.
+    pub fn new(kinematics: &'a Kinematics<'a>, nodes: &'a Nodes, elbow: Option<Elbow>) -> Self {
         let nodes = &nodes.nodes[..];
-        let mut list = Self { kinematics, nodes, sheets: Vec::new(), is_complete: true };
-        let solutions = if kinematics.has_two_solutions() { 2 } else { 1 };
-        for solution in 0..solutions {
+        let solutions = match elbow.filter(|_| kinematics.arm.only_turns()) {
+            Some(elbow) => elbow.solution()..elbow.solution() + 1,
+            None if kinematics.has_two_solutions() => 0..2,
+            None => 0..1,
+        };
+        let mut list = Self { kinematics, nodes, solutions: solutions.clone(), sheets: Vec::new(), is_complete: true };
+        for solution in solutions {
             let [first, second] = [0, 1].map(|joint| list.turns(joint, solution));
             let pairs = first.iter().flat_map(|a| second.iter().map(move |b| Configuration::new(*a, *b)));
             list.sheets.extend(pairs.map(|turns| Sheet { solution, turns }));

@@ -17,6 +17,7 @@ use crate::{FollowError, MIN_TOLERANCE};
 use cplan_handling::Piece;
 use cplan_interrupt::checkpoint;
 use cplan_judge::CertifiedPath;
+use cplan_model::Motors;
 use cplan_model::space::Configuration;
 use cplan_motion::{CertifiedCurve, CurveDrive, JointCurve, TimedMotion, along_curve, along_joint_curve};
 use std::cell::Cell;
@@ -201,14 +202,17 @@ impl<'a> Stretch<'a> {
     /// Returns about the distance in which a motion along a leg reaches its top speed from rest, with the limited jerk. Over
     /// the first spacing from a stop, the motion passes one fixed sequence of jerks.
     fn start_distance(&self, leg: usize) -> f64 {
-        let (q, joints) = (self.path.path().waypoints(), &self.driver.scene.arm().joints);
+        let (q, arm) = (self.path.path().waypoints(), self.driver.scene.arm());
+        let joints = &arm.joints;
         let direction = (q[leg + 1] - q[leg]) / (q[leg + 1] - q[leg]).norm();
         let along = |limits: [f64; 2]| (limits[0] / direction[0].abs()).min(limits[1] / direction[1].abs());
         let tip = self.driver.kinematics.velocity(q[leg], direction).norm();
         let tip_speed = self.drive.tip.map_or(f64::INFINITY, |limit| limit.speed / tip);
         let share = self.drive.share;
         let speed = (share * along([0, 1].map(|k| joints[k].velocity))).min(tip_speed);
-        let jerk = share.powi(3) * along([0, 1].map(|k| joints[k].jerk.unwrap_or(f64::INFINITY)));
+        let of_sum = |motors: Motors| Some(motors.jerk? / motors.joint_sum(direction).abs());
+        let of_sum = arm.motors.and_then(of_sum).unwrap_or(f64::INFINITY);
+        let jerk = share.powi(3) * along([0, 1].map(|k| joints[k].jerk.unwrap_or(f64::INFINITY))).min(of_sum);
         if jerk.is_finite() { speed * (speed / jerk).sqrt() } else { f64::INFINITY }
     }
 

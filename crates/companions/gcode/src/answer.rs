@@ -6,41 +6,11 @@ use crate::walk::{Replaced, Walk};
 use crate::{Dialect, Job, written};
 use cplan_deviation::Kinematics;
 use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
-use cplan_model::{Scene, Status};
+use cplan_model::{Elbow, Scene, Status};
 use cplan_toolpath::ProgramMove;
 
 /// Greatest difference between the drawing moves of the program and those of the written one, metres. It is rounding.
 const MAX_DIFFERENCE: f64 = 1e-9;
-
-/// The side of the elbow.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Elbow {
-    /// The elbow is to the left of the straight line from joint 1 to the tip.
-    Left,
-    /// The elbow is to the right of that line.
-    Right,
-}
-
-impl Elbow {
-    /// Both sides.
-    pub const ALL: [Self; 2] = [Self::Left, Self::Right];
-
-    /// Returns the name on the command line.
-    pub fn name(self) -> &'static str {
-        match self {
-            Elbow::Left => "left",
-            Elbow::Right => "right",
-        }
-    }
-
-    /// Returns the number of the IK solution.
-    fn solution(self) -> usize {
-        match self {
-            Elbow::Right => 0,
-            Elbow::Left => 1,
-        }
-    }
-}
 
 /// The segments into which the firmware divides each line. On a segment, the joints move straight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

@@ -37,7 +37,7 @@ mod player;
 mod walk;
 mod written;
 
-pub use answer::{Answer, Elbow, Failed, GcodeError, Segments, Settings, Travel, judge};
+pub use answer::{Answer, Failed, GcodeError, Segments, Settings, Travel, judge};
 pub use dialect::Dialect;
 pub use fault::{Cause, Fault};
 pub use frame::Frame;

@@ -41,9 +41,9 @@ fn configurations(
 ) -> impl Iterator<Item = (Configuration, Vec<Obstruction>)> {
     let found = match place {
         Goal::Joints(q) => vec![q],
-        Goal::Tip(_) | Goal::Area(_) => {
+        Goal::Tip(_) | Goal::TipAndElbow(..) | Goal::Area(_) => {
             let tip = place.tip().unwrap_or(scene.arm().base);
-            let solved = inverse(scene.arm(), tip, near);
+            let solved = inverse(scene.arm(), tip, near).with_elbow(scene.arm(), place.elbow());
             let within: Vec<_> = solved.solutions(scene.arm()).iter().map(|piece: &Segment| piece.ends()[0]).collect();
             if within.is_empty() { solved.branches } else { within }
         }

@@ -176,6 +176,10 @@ fn change_place(toml: &mut DocumentMut, name: &str, key: &str, [a, b]: Pair) -> 
     match toml.get_mut(name).and_then(Item::as_table_like_mut) {
         Some(table) => {
             table.remove(other);
+            if key == "joints" {
+                // Joint values state the side of the elbow.
+                table.remove("elbow");
+            }
             set_value(table, key, Item::Value(new));
         }
         None => {
@@ -368,6 +372,8 @@ image = \"map.yaml\"
             .replace("[0, 1.5] # here", "[0.25, 1.5] # here")
             .replace("tip = [1.0, 2.0]", "joints = [0.5, 0.75]");
         assert_eq!(text, expected);
+        let sided = TEXT.replace("tip = [1.0, 2.0]", "tip = [1.0, 2.0]\nelbow = \"left\"");
+        assert_eq!(Document::parse(&sided).unwrap().changed(&state, None).unwrap(), expected);
     }
 
     #[test]

@@ -104,7 +104,7 @@ pub fn time_among_moving_obstacles(
             let along = |effort: Effort| {
                 // If jerks are limited, rounding corners takes as long as everything else together, and there are many
                 // motions here.
-                let stops = effort == Effort::THOROUGH && Limits::from(&scene.arm().joints).stops_at_corners();
+                let stops = effort == Effort::THOROUGH && Limits::from(scene.arm()).stops_at_corners();
                 let drive = if stops { options.drive.stopping_at_corners() } else { options.drive };
                 let along = schedule(&movers, &path, &whole, &drive, demand, effort, before)?;
                 Ok::<_, TimingError>(along.filter(|it| best.is_none_or(|best| it.is_better_than(best))))

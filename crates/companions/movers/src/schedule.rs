@@ -199,7 +199,7 @@ pub fn schedule(
     }
     let legs = BTreeMap::from([((0, at.len() - 1), whole.clone())]);
     let speeds = movers.scene().arm().joints.each_ref().map(|joint| joint.velocity);
-    let metric = Metric::Time { speeds };
+    let metric = Metric::Time { speeds, sum: None };
     let gone = at.iter().map(|&distance| metric.length(&path.path().part(0.0, distance))).collect();
     let mut stops = Stops { movers, path, drive, effort, demand, at, gone, safe, legs };
     let Some(StopSequence { stops: sequence, free_until }) = stops.search(before)? else { return Ok(None) };

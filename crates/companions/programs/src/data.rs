@@ -7,6 +7,9 @@ use cplan_text::{plain_line, round_down, short};
 use minijinja::context;
 use minijinja::value::Value;
 
+/// Unit to which angles of motors are rounded, degrees.
+const MOTOR_UNIT: f64 = 1e-4;
+
 /// Returns a name as one line without the characters of marks, so that it can stand in a comment.
 fn clean(name: &str) -> String {
     plain_line(name).replace(MARK, "?")
@@ -59,6 +62,8 @@ impl Program {
         let values = values.map(|(index, (joint, value))| JointValue::new(target, index, joint, *value));
         let joints: Vec<Value> = values.map(Value::from_object).collect();
         let names = self.joints.iter().map(|joint| joint.name.as_str());
+        let in_degrees = |angle: f64| (angle.to_degrees() / MOTOR_UNIT).round() * MOTOR_UNIT;
+        let motors = self.motors.map(|motors| motors.angles(one.drives.planned.into()).map(in_degrees));
         let kind = match one.kind {
             MoveKind::Start => "start",
             MoveKind::Travel => "travel",
@@ -73,6 +78,7 @@ impl Program {
             begins_step => is_first,
             joint => Value::from_pairs(names.zip(joints.iter().cloned())),
             joints,
+            motors => motors.map(|angles| Value::from(angles.to_vec())),
             speed => self.steps[one.step].speed,
             grip => one.grip,
             dwell => one.dwell,

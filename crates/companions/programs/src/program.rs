@@ -6,6 +6,7 @@ use crate::moves::{Move, ProgramJoint, ProgramStep, Travel};
 use crate::tolerance::JointTolerance;
 use cplan_engine::{Detail, Plan, Problem};
 use cplan_handling::{Action, Holding, Task};
+use cplan_model::Motors;
 use cplan_model::space::JointRange;
 
 /// Displacement of a joint that is due to rounding, radians or metres.
@@ -17,6 +18,8 @@ pub struct Program {
     pub(crate) robot: String,
     pub(crate) world: String,
     pub(crate) joints: Vec<ProgramJoint>,
+    /// The motors of both joints; `None` if they are unknown.
+    pub(crate) motors: Option<Motors>,
     pub(crate) steps: Vec<ProgramStep>,
     pub(crate) moves: Vec<Move>,
     pub(crate) travels: Vec<Travel>,
@@ -83,6 +86,7 @@ impl Program {
             robot: arm.name.clone(),
             world: scene.workspace().name.clone(),
             joints,
+            motors: arm.motors,
             steps,
             moves,
             travels,

@@ -2,7 +2,7 @@
 
 use cplan_handling::Recording;
 use cplan_model::space::Configuration;
-use cplan_model::{Arm, Goal};
+use cplan_model::{Arm, Elbow, Goal};
 use cplan_text::length;
 use thiserror::Error;
 
@@ -42,6 +42,12 @@ pub enum EndpointError {
         /// Distance of the tip from its required place, metres.
         off: f64,
     },
+    /// The tip ends at its required place, but the elbow is on the wrong side.
+    #[error("the motion ends with the elbow on the {}, not on the {}", elbow.other().name(), elbow.name())]
+    Elbow {
+        /// The required side.
+        elbow: Elbow,
+    },
 }
 
 /// Returns the differences from the start and from the goals that exceed [`END_TOLERANCE`], up to whole turns of joints
@@ -61,7 +67,11 @@ pub fn endpoint_errors(arm: &Arm, recording: &Recording, start: Option<Goal>, go
     });
     let missed = |goal: &Goal| match goal.of_arm(arm) {
         Goal::Joints(goal) => misses(last, goal).then_some(EndpointError::Goal { is: last, goal }),
-        place => tip_off(last, place).map(|off| EndpointError::Tip { off }),
+        place => {
+            let elbow = place.elbow().filter(|elbow| elbow.excess(arm, last) > END_TOLERANCE);
+            let elbow = elbow.map(|elbow| EndpointError::Elbow { elbow });
+            tip_off(last, place).map(|off| EndpointError::Tip { off }).or(elbow)
+        }
     };
     let all: Option<Vec<EndpointError>> = goals.iter().map(missed).collect();
     start.into_iter().chain(all.and_then(|misses| misses.first().copied())).collect()

@@ -5,7 +5,7 @@
 //! ends of motions are judged, no paths. So this takes about a millisecond per step.
 
 use super::failed_step::{RefusedStep, farthest};
-use super::ik_solutions::UNREACHABLE;
+use super::ik_solutions::unreachable;
 use super::plan::Found;
 use super::refusal::{Refusal, require_unobstructed};
 use super::state::{Candidate, Candidates, State};
@@ -94,7 +94,7 @@ fn states_after<'a>(task: &'a Task, states: &[State]) -> Result<Vec<State>, Opti
                 refused.push(RefusedStep { depth: 0, node: 0, step, ik_solution, candidate, refusal });
             };
             if ways.is_empty() {
-                refuse(None, Refusal::new(UNREACHABLE, true));
+                refuse(None, Refusal::new(unreachable(step), true));
             }
             for candidate in ways {
                 match check_target(task, state, &candidate) {

@@ -270,7 +270,7 @@ fn targets(
 ) -> Option<Vec<Configuration>> {
     let arm = &task.arm;
     let tip_to = |target: Option<Point>| {
-        let reach = ik_solutions(arm, arm.tip, target?, task.start);
+        let reach = ik_solutions(arm, arm.tip, (target?, step.required_elbow()), task.start);
         reach.all.then_some(reach.configurations)
     };
     match &step.action {
@@ -343,7 +343,7 @@ mod tests {
         ) {
             let arm = arm();
             let stop = |(radius, angle): (f64, f64), dwell| Stop {
-                ik_solutions: Some(ik_solutions(&arm, arm.tip, Point::new(radius * angle.cos(), radius * angle.sin()), Configuration::zeros()).configurations),
+                ik_solutions: Some(ik_solutions(&arm, arm.tip, (Point::new(radius * angle.cos(), radius * angle.sin()), None), Configuration::zeros()).configurations),
                 speed: 1.0,
                 least_travel: 0.0,
                 overlaps: [0.0; 2],

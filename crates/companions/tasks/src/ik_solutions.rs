@@ -1,8 +1,9 @@
 //! The configurations that put a point of the arm at a target.
 
 use cplan_geometry::Point;
+use cplan_handling::{Action, Step};
 use cplan_model::space::Configuration;
-use cplan_model::{Arm, Goal, equivalent_values, inverse};
+use cplan_model::{Arm, Elbow, Goal, equivalent_values, inverse};
 
 /// Displacement of a joint, radians or metres, that is due to rounding. It is far above the rounding of IK solutions and
 /// of units, and far below the resolution of controllers. A joint does not move by so little.
@@ -13,8 +14,11 @@ fn without_rounding(q: Configuration, preferred: Configuration) -> Configuration
     if (q - preferred).amax() <= JOINT_ROUNDING { preferred } else { q }
 }
 
-/// Reason why a step without IK solutions is impossible.
-pub(super) const UNREACHABLE: &str = "no IK solution within the joint limits reaches its target";
+/// Returns the reason why a step without IK solutions is impossible.
+pub(super) fn unreachable(step: &Step) -> String {
+    let target = if matches!(step.action, Action::Follow(_)) { "the end of the line" } else { "its target" };
+    format!("no IK solution within the joint limits{} reaches {target}", Elbow::describe(step.required_elbow()))
+}
 
 /// Configurations that reach a target.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,15 +29,21 @@ pub(super) struct IkSolutions {
     pub all: bool,
 }
 
-/// Returns all configurations within the limits that put the tip, or another point of link 2, at `target`. If there are
-/// infinitely many, returns those in which the free joint has its `preferred` value. A solution that differs from
+/// Returns all configurations within the limits that put the tip, or another point of link 2, at `target`, with the elbow
+/// on the stated side. If there are infinitely many, returns those in which the free joint has its `preferred` value. A solution that differs from
 /// `preferred` only by rounding becomes `preferred`, so that the arm does not move.
-pub(super) fn ik_solutions(arm: &Arm, point: Point, target: Point, preferred: Configuration) -> IkSolutions {
+pub(super) fn ik_solutions(
+    arm: &Arm,
+    point: Point,
+    (target, elbow): (Point, Option<Elbow>),
+    preferred: Configuration,
+) -> IkSolutions {
     let solved = if point == arm.tip {
         inverse(arm, target, preferred)
     } else {
         inverse(&Arm { tip: point, ..arm.clone() }, target, preferred)
     };
+    let solved = solved.with_elbow(arm, elbow);
     let mut configurations = Vec::new();
     for branch in &solved.branches {
         let copies =
@@ -52,10 +62,10 @@ pub(super) fn ik_solutions(arm: &Arm, point: Point, target: Point, preferred: Co
 pub(super) fn goal_ik_solutions(arm: &Arm, goal: &Goal, preferred: Configuration) -> IkSolutions {
     match goal {
         Goal::Joints(q) => IkSolutions { configurations: vec![without_rounding(*q, preferred)], all: true },
-        Goal::Tip(tip) => ik_solutions(arm, arm.tip, *tip, preferred),
+        Goal::Tip(tip) | Goal::TipAndElbow(tip, _) => ik_solutions(arm, arm.tip, (*tip, goal.elbow()), preferred),
         Goal::Area([low, high]) => {
             // Tasks that have been checked contain no areas.
-            let middle = ik_solutions(arm, arm.tip, (low + high) * 0.5, preferred);
+            let middle = ik_solutions(arm, arm.tip, ((low + high) * 0.5, None), preferred);
             IkSolutions { all: false, ..middle }
         }
     }

@@ -214,6 +214,7 @@ impl MotionCache {
             share: step.speed,
             period: drive.period,
             wrist: line.wrist.map(|guide| wrist_along(task, guide)).transpose()?,
+            elbow: line.elbow,
         };
         let scene = from.scene(task, None);
         let planned = match follow_between(&scene, &line.path, &settings, [from.q, candidate.to]) {

@@ -5,7 +5,7 @@
 
 use super::failed_step::{RefusedStep, farthest};
 use super::heuristic::Heuristic;
-use super::ik_solutions::UNREACHABLE;
+use super::ik_solutions::unreachable;
 use super::least_time::{least_line_time, least_time};
 use super::motion_cache::{Motion, MotionCache};
 use super::refusal::Refusal;
@@ -13,7 +13,7 @@ use super::state::{Candidate, State, turns_on_the_way};
 use super::stroke::{least_rest, least_stroke, least_without_strokes, most_overlap};
 use super::tool_turn::wrist_after;
 use cplan_geometry::OpenList;
-use cplan_handling::{Action, Step, Task};
+use cplan_handling::{Step, Task};
 use cplan_interrupt::checkpoint;
 use cplan_legs::{FailedStep, Leg};
 use std::cmp::Reverse;
@@ -237,11 +237,7 @@ impl<'a, 'l> Search<'a, 'l> {
         for candidates in state.candidates(self.task) {
             self.complete &= candidates.all;
             if candidates.ways.is_empty() {
-                let reason = match candidates.step.action {
-                    Action::Follow(_) => "no IK solution within the joint limits reaches the end of the line",
-                    _ => UNREACHABLE,
-                };
-                self.refuse(index, candidates.step, None, Refusal::new(reason, candidates.all));
+                self.refuse(index, candidates.step, None, Refusal::new(unreachable(candidates.step), candidates.all));
             }
             for candidate in candidates.ways {
                 // A turn after a pick counts for the next motion, in which it may be hidden.

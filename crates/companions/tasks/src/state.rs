@@ -208,7 +208,7 @@ impl State {
         let mut add = |to: Configuration, turn: Option<[f64; 2]>, event: Option<Event>, grip: Option<Grip>| {
             ways.push(Candidate { step, to, turn, event, grip, progress });
         };
-        let arm = &task.arm;
+        let (arm, elbow) = (&task.arm, step.required_elbow());
         let reach = match (&step.action, &self.held) {
             (Action::Move(goal), _) => {
                 let reach = goal_ik_solutions(arm, goal, self.q);
@@ -216,13 +216,13 @@ impl State {
                 reach
             }
             (Action::Follow(line), _) => {
-                let reach = ik_solutions(arm, arm.tip, line.path.end().into(), self.q);
+                let reach = ik_solutions(arm, arm.tip, (line.path.end().into(), elbow), self.q);
                 reach.configurations.iter().for_each(|&to| add(to, None, None, None));
                 reach
             }
             (Action::Pick { object, grasp, .. }, None) => {
                 let Some(Placement { pose: lies, .. }) = self.poses[*object] else { return Candidates::unknown(step) };
-                let reach = ik_solutions(arm, arm.tip, lies.point(*grasp), self.q);
+                let reach = ik_solutions(arm, arm.tip, (lies.point(*grasp), elbow), self.q);
                 let wanted = place.and_then(|place| match place.action {
                     Action::Place { angle, .. } => angle,
                     _ => None,
@@ -247,7 +247,7 @@ impl State {
                 let object = held.object;
                 match held.grip {
                     Grip::Rigid(in_link) => {
-                        let reach = ik_solutions(arm, in_link.translation, *at, self.q);
+                        let reach = ik_solutions(arm, in_link.translation, (*at, elbow), self.q);
                         for &to in &reach.configurations {
                             let turned = (arm.pose(1, to) * in_link).rotation.angle();
                             let turned = (turned / ORIENTATION_ROUNDING).round() * ORIENTATION_ROUNDING;
@@ -259,7 +259,7 @@ impl State {
                     Grip::Level { angle: carried, point } => {
                         let wanted = angle.unwrap_or(carried);
                         let pose = Pose::new(*at, wanted);
-                        let reach = ik_solutions(arm, arm.tip, pose.point(point), self.q);
+                        let reach = ik_solutions(arm, arm.tip, (pose.point(point), elbow), self.q);
                         let turn = (!same_angle(carried, wanted)).then_some([carried, wanted]);
                         let event = Some(Event::Release { object, pose });
                         reach.configurations.iter().for_each(|&to| add(to, turn, event, None));

@@ -1,7 +1,7 @@
 //! The planar two-joint arm and its kinematics.
 
 use super::{Dynamics, Joint, JointType, Link, Motors, SelfObstacle};
-use crate::space::{Configuration, LimitedValue, Topology};
+use crate::space::{Configuration, LimitedValue, Metric, SumSpeed, Topology};
 use cplan_geometry::{ConvexError, Point, Pose, Vector, perpendicular};
 use nalgebra::Vector3;
 use serde::{Deserialize, Serialize};
@@ -132,6 +132,17 @@ impl Arm {
     pub fn motor_angles<'a>(&self, positions: impl IntoIterator<Item = &'a [f64; 2]>) -> Vec<[f64; 2]> {
         let angles = |motors: Motors| positions.into_iter().map(|q| motors.angles((*q).into())).collect();
         self.motors.map(angles).unwrap_or_default()
+    }
+
+    /// Returns the metric of travel time with the joints and the elbow's motor at their top speeds.
+    pub fn time_metric(&self) -> Metric {
+        let sum = self.motors.and_then(|motors| Some(SumSpeed { ratio: motors.ratio, speed: motors.velocity? }));
+        Metric::Time { speeds: self.joints.each_ref().map(|joint| joint.velocity), sum }
+    }
+
+    /// Returns true if the jerk of a joint or of the elbow's motor is limited.
+    pub fn limits_jerks(&self) -> bool {
+        self.joints.iter().any(|joint| joint.jerk.is_some()) || self.motors.is_some_and(|motors| motors.jerk.is_some())
     }
 
     /// Names a limit in a message: `joint "elbow"`, `the elbow's motor`.

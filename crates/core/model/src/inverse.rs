@@ -1,6 +1,6 @@
 //! Inverse kinematics of the tip, in closed form.
 
-use super::{Arm, JointType};
+use super::{Arm, Elbow, JointType};
 use crate::space::{Configuration, JointRange, Segment};
 use cplan_geometry::{Point, Vector, cross};
 use nalgebra::Rotation2;
@@ -171,6 +171,13 @@ fn symmetric_values(middle: f64, root: f64) -> Vec<f64> {
 }
 
 impl Inverse {
+    /// Returns the solutions with the elbow on a side; all if there is no side.
+    #[must_use]
+    pub fn with_elbow(mut self, arm: &Arm, elbow: Option<Elbow>) -> Self {
+        self.branches.retain(|q| elbow.is_none_or(|elbow| elbow.allows(arm, *q)));
+        self
+    }
+
     /// Returns all solutions within the limits. A branch has one solution per whole turn that the limits allow; a
     /// free joint gives a segment over its whole range. On circles each solution appears once. If both joints are
     /// free, all configurations are solutions, and the preferred one represents them.

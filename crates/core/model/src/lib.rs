@@ -23,6 +23,7 @@ mod attachment;
 mod calibration;
 mod carried;
 mod contacts;
+mod elbow;
 mod motors;
 mod inverse;
 mod joint;
@@ -52,6 +53,7 @@ pub use carried::{CarriedPart, on_axis};
 pub use contacts::Contacts;
 /// Loops over configurations or pairs of shapes that may take long call this, so that they can be stopped.
 pub use cplan_interrupt::checkpoint;
+pub use elbow::Elbow;
 pub use inverse::{Freedom, Inverse, equivalent_values, inverse};
 pub use joint::{
     DEFAULT_SLIDING_SPEED, DEFAULT_TIME_TO_TOP_SPEED, DEFAULT_TURNING_SPEED, Joint, JointType, assumed_acceleration,

@@ -14,7 +14,11 @@ use serde::{Deserialize, Serialize};
 /// equal pulleys leads to the elbow: the motor's angle then is that of link 2 against the base. The sum
 /// `ratio q1 + q2` is the *joint sum*.
 ///
-/// Limits of the first motor, and those of the second one with `ratio` 0, are limits of joints and not repeated here.
+/// The torques of the joints, `tau1` and `tau2`, take the torques `(tau1 - ratio tau2) / gear[0]` and `tau2 / gear[1]` of
+/// the shafts.
+///
+/// Limits of the first motor's motion, those of the second motor's torque, and all those of motors with `ratio` 0, are limits
+/// of joints and not repeated here.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Motors {
@@ -30,9 +34,22 @@ pub struct Motors {
     pub velocity: Option<f64>,
     /// Greatest acceleration of the joint sum, rad/s2; `None` without such a limit.
     pub acceleration: Option<f64>,
+    /// Greatest jerk of the joint sum, rad/s3; `None` without such a limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub jerk: Option<f64>,
+    /// Greatest magnitude of `tau1 - ratio tau2`, the torque of the first motor without its gear, N m; `None` without such
+    /// a limit.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub effort: Option<f64>,
 }
 
 impl Motors {
+    /// Returns motors without limits, gears and zeros.
+    pub fn with_ratio(ratio: f64) -> Self {
+        let (gear, zero) = ([1.0; 2], [0.0; 2]);
+        Self { ratio, gear, zero, range: None, velocity: None, acceleration: None, jerk: None, effort: None }
+    }
+
     /// Returns the angles of both shafts, radians.
     pub fn angles(&self, q: Configuration) -> [f64; 2] {
         let turned = self.rates(q);

@@ -1,7 +1,7 @@
 //! A planning problem.
 
-use super::Scene;
 use super::scene_record::MotionRecord;
+use super::{Elbow, Scene};
 use crate::space::{Configuration, GoalSet};
 use cplan_geometry::Point;
 use serde::{Deserialize, Serialize};
@@ -14,6 +14,8 @@ pub enum Goal {
     Joints(Configuration),
     /// A point for the tip, in plane coordinates, metres. Every configuration that puts the tip there is a goal.
     Tip(Point),
+    /// A point for the tip, metres, with the elbow on a side. Only the configurations on that side are goals.
+    TipAndElbow(Point, Elbow),
     /// A rectangle for the tip, given by its lower left and upper right corners, metres. For an arm that does not
     /// slide along both axes, only the rectangle's middle counts ([`Goal::of_arm`]).
     Area([Point; 2]),
@@ -24,8 +26,16 @@ impl Goal {
     pub fn tip(&self) -> Option<Point> {
         match self {
             Self::Joints(_) => None,
-            Self::Tip(tip) => Some(*tip),
+            Self::Tip(tip) | Self::TipAndElbow(tip, _) => Some(*tip),
             Self::Area([low, high]) => Some((low + high) * 0.5),
+        }
+    }
+
+    /// Returns the required side of the elbow. `None` if any side will do.
+    pub fn elbow(&self) -> Option<Elbow> {
+        match self {
+            Self::TipAndElbow(_, elbow) => Some(*elbow),
+            Self::Joints(_) | Self::Tip(_) | Self::Area(_) => None,
         }
     }
 

@@ -219,14 +219,16 @@ fn is_mass(value: f64) -> bool {
 }
 
 fn check_motors(arm: &Arm) -> Result<(), SceneError> {
-    let Some(Motors { ratio, gear, zero, range, velocity, acceleration }) = arm.motors else { return Ok(()) };
+    let Some(Motors { ratio, gear, zero, range, velocity, acceleration, jerk, effort }) = arm.motors else {
+        return Ok(());
+    };
     let error = |what| Err(SceneError::Motors { what });
     let numbers = [ratio].into_iter().chain(gear).chain(zero).chain(range.into_iter().flatten());
     if !are_small(numbers) || gear.contains(&0.0) {
         return error("ratio, gears, zeros and limits must be finite, and no gear 0");
     }
-    if [velocity, acceleration].into_iter().flatten().any(|limit| !(limit.is_finite() && limit > 0.0)) {
-        return error("speeds and accelerations must be positive and finite");
+    if [velocity, acceleration, jerk, effort].into_iter().flatten().any(|limit| !(limit.is_finite() && limit > 0.0)) {
+        return error("speeds, accelerations, jerks and efforts must be positive and finite");
     }
     if !arm.only_turns() {
         return error("both joints must turn");

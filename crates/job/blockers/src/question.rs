@@ -6,7 +6,7 @@ use cplan_interrupt::{Instant, Interrupt};
 use cplan_judge::{CertifiedPath, CheckedProof};
 use cplan_legs::{FailedStep, Standstill, StandstillScene};
 use cplan_model::space::{Configuration, GoalSet, Segment};
-use cplan_model::{Arm, Goal, JointType, MotionProblem, Outcome, Scene, Workspace, area_goals, inverse};
+use cplan_model::{Arm, Elbow, Goal, JointType, MotionProblem, Outcome, Scene, Workspace, area_goals, inverse};
 use cplan_solver::decide;
 use serde::Serialize;
 use std::f64::consts::TAU;
@@ -37,21 +37,23 @@ pub enum End {
 pub enum Target {
     /// Any of these configurations.
     Goals(GoalSet),
-    /// Any configuration that puts the tip at this place. In a world with fewer elements, more configurations may do
-    /// so.
-    Tip(Point),
+    /// Any configuration that puts the tip at this place, with the elbow on the stated side. In a world with fewer
+    /// elements, more configurations may do so.
+    Tip(Point, Option<Elbow>),
 }
 
 impl Target {
     /// Converts the goals of an arm to one target.
     fn of_goals(goals: &[Goal], arm: &Arm, start: Configuration) -> Self {
         let goals: Vec<Goal> = goals.iter().map(|goal| goal.of_arm(arm)).collect();
-        if let [Goal::Tip(tip)] = goals[..] {
-            return Self::Tip(tip);
+        if let [goal @ (Goal::Tip(tip) | Goal::TipAndElbow(tip, _))] = goals[..] {
+            return Self::Tip(tip, goal.elbow());
         }
         let pieces = goals.into_iter().flat_map(|goal| match goal {
             Goal::Joints(q) => vec![Segment::point(q)],
-            Goal::Tip(tip) => inverse(arm, tip, start).solutions(arm),
+            Goal::Tip(tip) | Goal::TipAndElbow(tip, _) => {
+                inverse(arm, tip, start).with_elbow(arm, goal.elbow()).solutions(arm)
+            }
             Goal::Area(area) => area_goals(arm, area, start).pieces().to_vec(),
         });
         Self::Goals(pieces.collect())
@@ -213,7 +215,10 @@ impl MotionQuestion {
                 let within = |piece: &&Segment| piece.ends().into_iter().all(|q| topology.contains(q));
                 goals.pieces().iter().filter(within).copied().collect()
             }
-            Target::Tip(tip) => inverse(self.scene.arm(), *tip, self.start).solutions(self.scene.arm()),
+            Target::Tip(tip, elbow) => {
+                let arm = self.scene.arm();
+                inverse(arm, *tip, self.start).with_elbow(arm, *elbow).solutions(arm)
+            }
         }
     }
 
@@ -322,7 +327,7 @@ fn margins_beyond_limits(scene: &Scene, start: Configuration, target: &Target) -
     let arm = scene.arm();
     let (asked, tip) = match target {
         Target::Goals(goals) => (goals.pieces().iter().flat_map(Segment::ends).chain([start]).collect(), arm.base),
-        Target::Tip(tip) => (vec![start], *tip),
+        Target::Tip(tip, _) => (vec![start], *tip),
     };
     [0, 1].map(|k| {
         let (joint, values) = (&arm.joints[k], asked.iter().map(|q| q[k]));

@@ -101,7 +101,40 @@ pub struct Torques<'a> {
     pub dynamics: Dynamics,
 }
 
+/// A limited torque: a weighted sum of the torques of both joints.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LimitedTorque {
+    /// Weights of the joints' torques.
+    pub weights: [f64; 2],
+    /// Greatest magnitude of the sum, N m or N.
+    pub effort: f64,
+    /// Index of the joint that has this torque. `None` for the first motor, if the elbow's motor is mounted on the base.
+    pub joint: Option<usize>,
+}
+
+impl LimitedTorque {
+    /// Returns the sum.
+    pub fn of(&self, torques: Configuration) -> f64 {
+        self.weights[0] * torques[0] + self.weights[1] * torques[1]
+    }
+
+    /// Returns the greatest magnitude of the sum, given those of the joints' torques.
+    pub fn bound(&self, torques: [f64; 2]) -> f64 {
+        self.weights[0].abs() * torques[0] + self.weights[1].abs() * torques[1]
+    }
+}
+
 impl<'a> Torques<'a> {
+    /// Iterates over the limited torques: those of both joints, and of the first motor if its torque is limited. That motor
+    /// also bears the torque of the elbow's motor on the base, which the belt transmits.
+    pub fn limited_torques(&self) -> impl Iterator<Item = LimitedTorque> + use<> {
+        let joint = |k: usize, weights| LimitedTorque { weights, effort: self.dynamics.effort[k], joint: Some(k) };
+        let motor = self.arm.motors.and_then(|motors| {
+            Some(LimitedTorque { weights: [1.0, -motors.ratio], effort: motors.effort?, joint: None })
+        });
+        [joint(0, [1.0, 0.0]), joint(1, [0.0, 1.0])].into_iter().chain(motor)
+    }
+
     /// Returns the torques of a scene's arm. Returns `None` if motions need not respect its efforts.
     pub fn limited(scene: &'a Scene) -> Option<Self> {
         let arm = scene.arm();

@@ -34,12 +34,20 @@ pub(super) fn fastest(
             }
         }
     }
-    let joints = &scene.arm().joints;
-    let metric = Metric::Time { speeds: joints.each_ref().map(|joint| joint.velocity) };
-    let known = path.bound.filter(|bound| bound.metric == metric).map(|bound| bound.lower);
-    let length = || known.unwrap_or_else(|| bound(problem, best.curve.curve().path(), metric, LENGTH_BOUND_GAP).lower);
-    let duration = best.trajectory.duration();
-    let fastest =
-        options.bounded.then(|| DurationOptimality::new(duration, least_duration(length(), &Limits::from(joints))));
+    let arm = scene.arm();
+    let of_joints = Metric::Time { speeds: arm.joints.each_ref().map(|joint| joint.velocity), sum: None };
+    let length = |metric: Metric| {
+        let known = path.bound.filter(|bound| bound.metric == metric).map(|bound| bound.lower);
+        known.unwrap_or_else(|| bound(problem, best.curve.curve().path(), metric, LENGTH_BOUND_GAP).lower)
+    };
+    let lower = || {
+        let of_joints_alone = least_duration(length(of_joints), &Limits::from(&arm.joints));
+        match arm.time_metric() {
+            metric if metric == of_joints => of_joints_alone,
+            // Motors that accelerate quickly can lower this bound, so the greater one counts.
+            metric => of_joints_alone.max(least_duration(length(metric), &Limits::from(arm))),
+        }
+    };
+    let fastest = options.bounded.then(|| DurationOptimality::new(best.trajectory.duration(), lower()));
     Ok((best, fastest))
 }

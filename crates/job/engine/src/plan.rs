@@ -12,7 +12,7 @@ use cplan_model::space::Path;
 use cplan_model::{Arm, MotionProblem, Outcome, Scene, Status};
 use cplan_motion::{BlockedTimes, Margins, MotionPart, PlaceTime, Timing, TimingError, Trajectory};
 use cplan_planners::cspace::{NotPolygons, not_polygons};
-use cplan_solver::{Answer, NamedJoints, Options, Replay, solve};
+use cplan_solver::{Answer, Criterion, NamedJoints, Options, Replay, solve};
 use cplan_text::{length, percent};
 use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
@@ -146,6 +146,9 @@ fn unsuitable_options(options: &Options, problem: &Problem) -> Option<String> {
         return Some(format!(
             "--margin 0 needs C-obstacles that are polygons, but {why}; use a small margin, such as --margin 1e-5"
         ));
+    }
+    if options.planner.settings().criterion == Criterion::Motor && problem.scene().arm().motors.is_none() {
+        return Some("--metric motor needs the motors of two joints that turn: [robot] drives in the world".into());
     }
     if !options.drive.torque || problem.scene().arm().dynamics.is_some() {
         return None;

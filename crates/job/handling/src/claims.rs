@@ -1,5 +1,6 @@
 //! Claims: statements of a file about its motion or task, in addition to the samples.
 
+use cplan_model::Arm;
 use cplan_model::space::{Configuration, Metric};
 use serde::Deserialize;
 use std::ops::RangeInclusive;
@@ -108,7 +109,7 @@ pub struct BlendsClaim {
 /// Claims about the optimality of a path.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct OptimumClaim {
-    /// Name of the metric: `euclidean`, `weighted` or `time`.
+    /// Name of the metric: `euclidean`, `weighted`, `time` or `motor`.
     pub metric: String,
     /// Weights of the joints, for the metric `weighted`.
     pub weights: Option<[f64; 2]>,
@@ -121,12 +122,13 @@ pub struct OptimumClaim {
 }
 
 impl OptimumClaim {
-    /// Returns the metric for an arm with these top speeds. Returns `None` if the name of the metric is unknown.
-    pub fn metric(&self, speeds: [f64; 2]) -> Option<Metric> {
+    /// Returns the metric for an arm. Returns `None` if the name of the metric is unknown, or if the arm lacks motors.
+    pub fn metric(&self, arm: &Arm) -> Option<Metric> {
         match (self.metric.as_str(), self.weights) {
             ("euclidean", _) => Some(Metric::Euclidean),
             ("weighted", Some(weights)) => Some(Metric::Weighted { weights }),
-            ("time", _) => Some(Metric::Time { speeds }),
+            ("time", _) => Some(arm.time_metric()),
+            ("motor", _) => Some(Metric::Motor { ratio: arm.motors?.ratio }),
             _ => None,
         }
     }

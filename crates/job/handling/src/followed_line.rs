@@ -1,6 +1,7 @@
 //! A line that the tip follows.
 
 use super::WristGuide;
+use cplan_model::Elbow;
 use cplan_toolpath::{Curve, Piece, Point, Toolpath};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
@@ -18,6 +19,9 @@ pub struct FollowedLine {
     /// The angle of the tool along the line; `None` if it does not matter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wrist: Option<WristGuide>,
+    /// Side of the elbow along the line; `None` if either side will do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elbow: Option<Elbow>,
 }
 
 /// Tolerance of lines that state none, metres: a hundredth of a millimetre.
@@ -29,7 +33,7 @@ pub const MIN_TOLERANCE: f64 = 1e-6;
 impl From<Toolpath> for FollowedLine {
     /// Returns the line with the default tolerance and the speeds of its pieces.
     fn from(path: Toolpath) -> Self {
-        Self { path: Arc::new(path), tolerance: DEFAULT_TOLERANCE, speed: None, wrist: None }
+        Self { path: Arc::new(path), tolerance: DEFAULT_TOLERANCE, speed: None, wrist: None, elbow: None }
     }
 }
 

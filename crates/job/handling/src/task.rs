@@ -6,7 +6,7 @@ use super::{
 };
 use cplan_geometry::{Convex, Interval, Point, Pose};
 use cplan_model::space::Configuration;
-use cplan_model::{Arm, Goal, Growth, Heights, Obstacle, Shape};
+use cplan_model::{Arm, Elbow, Goal, Growth, Heights, Obstacle, Shape};
 use cplan_text::{length, short};
 use serde::{Deserialize, Serialize};
 
@@ -126,6 +126,20 @@ pub struct Step {
     /// Height of the object where it is picked or placed above its own heights, metres.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub elevation: f64,
+    /// Side of the elbow at a pick or a place. `None` if either side will do.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub elbow: Option<Elbow>,
+}
+
+impl Step {
+    /// Returns the side of the elbow that the step requires at its end. `None` if either side will do.
+    pub fn required_elbow(&self) -> Option<Elbow> {
+        match &self.action {
+            Action::Pick { .. } | Action::Place { .. } => self.elbow,
+            Action::Move(goal) => goal.elbow(),
+            Action::Follow(line) => line.elbow,
+        }
+    }
 }
 
 /// Returns true for no elevation, which is omitted.
@@ -358,6 +372,9 @@ impl Action {
             }
             Action::Move(Goal::Joints(q)) => format!("move to joints {}", point(q[0], q[1])),
             Action::Move(Goal::Tip(tip)) => format!("move the tip to {} m", point(tip.x, tip.y)),
+            Action::Move(Goal::TipAndElbow(tip, elbow)) => {
+                format!("move the tip to {} m with the elbow on the {}", point(tip.x, tip.y), elbow.name())
+            }
             Action::Follow(line) => format!("follow a line of {}", length(line.path.length())),
             Action::Move(Goal::Area([low, high])) => {
                 format!("move the tip into {} to {} m", point(low.x, low.y), point(high.x, high.y))

@@ -257,7 +257,10 @@ impl Gripper<'_> {
             let why = "its wrist turns from an unknown value, or there is no wrist";
             require(step.tool.wrist.is_none() || may_turn, step, why)?;
         }
-        let tip = if let Action::Move(Goal::Tip(tip)) = step.action { Some(tip) } else { None };
+        let why = "only arms with two revolute joints have an elbow";
+        require(step.required_elbow().is_none() || self.task.arm.only_turns(), step, why)?;
+        let tip =
+            if let Action::Move(Goal::Tip(tip) | Goal::TipAndElbow(tip, _)) = step.action { Some(tip) } else { None };
         let before = std::mem::replace(&mut self.tip, tip);
         match &step.action {
             Action::Pick { object, grasp, supports, when } => {
@@ -299,7 +302,7 @@ impl Gripper<'_> {
                 let is_there = before.is_some_and(|tip| (tip - start).norm() <= LINE_START_TOLERANCE);
                 require(is_there, step, "the step before a line must move the tip to where the line begins")
             }
-            Action::Move(Goal::Tip(tip)) => {
+            Action::Move(Goal::Tip(tip) | Goal::TipAndElbow(tip, _)) => {
                 require(are_small(tip.iter().copied()), step, "its position must be finite")
             }
         }

@@ -110,8 +110,7 @@ pub(super) fn motion(
 ) -> Option<Spline> {
     let pieces = curve.pieces().len();
     let mut parts = MIN_INTERVALS.div_ceil(pieces);
-    let growth = |k: usize| limits.jerk[k].map_or(f64::INFINITY, |jerk| limits.acceleration[k] / jerk);
-    let coarsest = growth(0).min(growth(1)) / INTERVALS_PER_GROWTH;
+    let coarsest = limits.growths().fold(f64::INFINITY, f64::min) / INTERVALS_PER_GROWTH;
     let mut best: Option<Spline> = None;
     for _ in 0..MAX_DIVISIONS {
         let rate = Rate::fastest_of_all(&curve.conditions(limits, parts), 1.0 / parts as f64)?;

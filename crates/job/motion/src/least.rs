@@ -1,6 +1,6 @@
 //! Lower bounds on the duration of motions.
 
-use super::Limits;
+use super::limits::{LimitedAxis, Limits};
 
 /// Number of times that the range of durations is halved in the search for a duration.
 const TIME_HALVINGS: usize = 64;
@@ -9,15 +9,25 @@ const TIME_HALVINGS: usize = 64;
 const ROUNDING: f64 = 1e-9;
 
 /// Returns a lower bound on the duration, in seconds, of every motion from rest to rest on a path. `length` is the time
-/// that the path takes at the joints' top speeds ([`cplan_model::space::Metric::Time`]), seconds.
+/// that the path takes at the joints' top speeds ([`cplan_model::space::Metric::Time`]), seconds; if the limits contain those
+/// of a sum of joint values, the metric may contain that sum.
 ///
-/// Let `f(t)` be the greatest fraction of its top speed that a joint can reach `t` seconds after rest, by its
-/// acceleration and jerk. At the time `t` of a motion of `T` seconds, no joint exceeds the fraction `min(1, f(t), f(T -
+/// Let `f(t)` be the greatest fraction of its top speed that a joint or the sum can reach `t` seconds after rest, by its
+/// acceleration and jerk. At the time `t` of a motion of `T` seconds, none exceeds the fraction `min(1, f(t), f(T -
 /// t))`. So the length of the path is at most the integral of this, which increases with `T`.
 pub fn least_duration(length: f64, limits: &Limits) -> f64 {
-    let rate = |of: &dyn Fn(usize) -> f64| of(0).max(of(1));
-    let acceleration = rate(&|k| limits.acceleration[k] / limits.velocity[k]);
-    let jerk = rate(&|k| limits.jerk[k].unwrap_or(f64::INFINITY) / limits.velocity[k]);
+    let limits = Limits { wrist: None, ..*limits };
+    // The sum accelerates at most as the joints do together.
+    let together = |of: &dyn Fn(usize) -> f64| limits.sum.map_or(0.0, |sum| sum.ratio.abs() * of(0) + of(1));
+    let rate = |own: &dyn Fn(&LimitedAxis) -> f64, of_joint: &dyn Fn(usize) -> f64| {
+        let rate = |axis: LimitedAxis| match axis.joint() {
+            Some(_) => own(&axis) / axis.velocity,
+            None => own(&axis).min(together(of_joint)) / axis.velocity,
+        };
+        limits.axes().map(rate).fold(0.0, f64::max)
+    };
+    let acceleration = rate(&|axis| axis.acceleration, &|k| limits.acceleration[k]);
+    let jerk = rate(&|axis| axis.jerk.unwrap_or(f64::INFINITY), &|k| limits.jerk[k].unwrap_or(f64::INFINITY));
     // The time at which the jerk has built up the greatest acceleration, or at which the speed is greatest if that is
     // earlier; 0 without a limit on the jerk.
     let grown = if jerk.is_finite() { (acceleration / jerk).min((2.0 / jerk).sqrt()) } else { 0.0 };

@@ -4,7 +4,7 @@ use super::sample::Trajectory;
 use super::tip::TipSpeed;
 use super::torque::TorqueLimit;
 use cplan_model::space::Configuration;
-use cplan_model::{Arm, Joint};
+use cplan_model::{Arm, Joint, Motors};
 use nalgebra::Vector3;
 
 /// Number of times that torques are reduced if they exceed the efforts between the positions at which they are limited.
@@ -38,6 +38,8 @@ pub struct SumLimit {
     pub velocity: f64,
     /// Greatest acceleration of the sum; infinite for no limit.
     pub acceleration: f64,
+    /// Greatest jerk of the sum; `None` for no limit.
+    pub jerk: Option<f64>,
 }
 
 /// Values of both joints and of the wrist's joint, or their rates; 0 for the wrist's joint if the arm has none.
@@ -95,11 +97,13 @@ impl From<&[Joint; 2]> for Limits<'_> {
 impl From<&Arm> for Limits<'_> {
     /// Takes the limits of the joints and of their motors, without limits on the tip and on torques.
     fn from(arm: &Arm) -> Self {
-        let sum = arm.motors.filter(|motors| motors.velocity.is_some() || motors.acceleration.is_some());
-        let sum = sum.map(|motors| SumLimit {
+        let is_limited =
+            |motors: &Motors| motors.velocity.is_some() || motors.acceleration.is_some() || motors.jerk.is_some();
+        let sum = arm.motors.filter(is_limited).map(|motors| SumLimit {
             ratio: motors.ratio,
             velocity: motors.velocity.unwrap_or(f64::INFINITY),
             acceleration: motors.acceleration.unwrap_or(f64::INFINITY),
+            jerk: motors.jerk,
         });
         Self { sum, ..Self::from(&arm.joints) }
     }
@@ -124,6 +128,7 @@ impl Limits<'_> {
             sum: self.sum.map(|sum| SumLimit {
                 velocity: sum.velocity * share,
                 acceleration: sum.acceleration * share * share,
+                jerk: sum.jerk.map(|jerk| jerk * share * share * share),
                 ..sum
             }),
         }
@@ -142,7 +147,7 @@ impl Limits<'_> {
             axis: Err(sum.ratio),
             velocity: sum.velocity,
             acceleration: sum.acceleration,
-            jerk: None,
+            jerk: sum.jerk,
         };
         let of_wrist = |WristLimit { velocity, acceleration, .. }: WristLimit| LimitedAxis {
             axis: Ok(2),
@@ -191,10 +196,34 @@ impl Limits<'_> {
         self.tip.map_or(1.0, |tip| tip.share_of_leg(leg))
     }
 
-    /// Returns the greatest distance over both joints that a joint moves at top speed while its jerk builds up the full
+    /// Returns the limits without those on jerks.
+    pub(super) fn without_jerks(self) -> Self {
+        Self { jerk: [None; 2], sum: self.sum.map(|sum| SumLimit { jerk: None, ..sum }), ..self }
+    }
+
+    /// Iterates over the times in which the jerk of a joint or of the sum builds up the full acceleration, for those with a
+    /// limit on their jerks.
+    pub(super) fn growths(&self) -> impl Iterator<Item = f64> + use<> {
+        let of_joints = self.sum.map_or(0.0, |sum| sum.ratio.abs() * self.acceleration[0] + self.acceleration[1]);
+        self.axes().filter_map(move |axis| {
+            let acceleration =
+                if axis.joint().is_some() { axis.acceleration } else { axis.acceleration.min(of_joints) };
+            Some(acceleration / axis.jerk?)
+        })
+    }
+
+    /// Returns the greatest of these times; 0 without limits on jerks.
+    pub(super) fn longest_growth(&self) -> f64 {
+        self.growths().fold(0.0, f64::max)
+    }
+
+    /// Returns the greatest distance over both joints that a joint moves at top speed while a jerk builds up the full
     /// acceleration.
     pub(super) fn reversal(&self) -> f64 {
-        (0..2).map(|k| self.jerk[k].map_or(0.0, |j| self.acceleration[k] / j * self.velocity[k])).fold(0.0, f64::max)
+        let of_joint = |k: usize| self.jerk[k].map_or(0.0, |j| self.acceleration[k] / j * self.velocity[k]);
+        let is_limited = self.sum.is_some_and(|sum| sum.jerk.is_some());
+        let of_sum = if is_limited { self.longest_growth() * self.velocity[0].max(self.velocity[1]) } else { 0.0 };
+        of_joint(0).max(of_joint(1)).max(of_sum)
     }
 
     /// Returns the greatest distance over both joints that a joint moves until it reaches its top speed.
@@ -223,9 +252,9 @@ impl Limits<'_> {
         self.axes().map(|axis| limit(&axis) / axis.component(direction).abs()).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns true if a motion must stop at every corner. This is so if the jerk of any joint is limited, because the
-    /// acceleration would jump at the start of a blend.
+    /// Returns true if a motion must stop at every corner. This is so if the jerk of any joint or of their sum is limited,
+    /// because the acceleration would jump at the start of a blend.
     pub fn stops_at_corners(&self) -> bool {
-        self.jerk.iter().any(Option::is_some)
+        self.jerk.iter().any(Option::is_some) || self.sum.is_some_and(|sum| sum.jerk.is_some())
     }
 }

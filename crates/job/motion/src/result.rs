@@ -2,18 +2,18 @@
 
 use crate::CertifiedCurve;
 use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
-use cplan_model::Joint;
+use cplan_model::Arm;
 use serde::Serialize;
 
-/// Describes how to interpolate trajectories of these joints.
-pub fn interpolation(joints: &[Joint; 2]) -> &'static str {
-    if joints.iter().any(|joint| joint.jerk.is_some()) { SMOOTH_INTERPOLATION } else { INTERPOLATION }
+/// Describes how to interpolate trajectories of an arm.
+pub fn interpolation(arm: &Arm) -> &'static str {
+    if arm.limits_jerks() { SMOOTH_INTERPOLATION } else { INTERPOLATION }
 }
 
 /// Length of a path, with a proven lower bound on the length of every free motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LengthOptimality {
-    /// Measure of lengths: `euclidean`, `weighted` or `time` (seconds at the joints' top speeds).
+    /// Measure of lengths: `euclidean`, `weighted`, `time` (seconds at the joints' and motors' top speeds), or `motor`.
     pub metric: &'static str,
     /// Weights of the joints, if any.
     #[serde(skip_serializing_if = "Option::is_none")]

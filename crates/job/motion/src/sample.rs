@@ -97,20 +97,20 @@ pub enum TimingError {
          raise the limits of the joints, and of the tip's speed if it has one"
     )]
     TooLong(f64),
-    /// The effort of a joint is less than the torque that holds the arm against gravity.
+    /// The effort of a joint or a motor is less than the torque that holds the arm against gravity.
     #[error(
-        "joint \"{joint}\" has an effort of {effort} {unit}, and the arm takes {torque:.3} {unit} at {}; \
-         raise [robot] effort, or let the path keep away from there",
+        "{drive} has an effort of {effort} {unit}, and the arm takes {torque:.3} {unit} at {}; \
+         raise the effort in [robot], or let the path keep away from there",
         described(*.at)
     )]
     TooHeavy {
-        /// The joint's name.
-        joint: String,
+        /// The joint or the motor: `joint "elbow"`.
+        drive: String,
         /// The configuration in which the arm cannot be held.
         at: [f64; 2],
         /// The required torque or force, N m or N.
         torque: f64,
-        /// The joint's effort.
+        /// The effort.
         effort: f64,
         /// Unit of the torque and the effort.
         unit: &'static str,

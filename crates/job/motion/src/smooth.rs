@@ -121,9 +121,8 @@ impl<'a> Smoothing<'a> {
     fn new(curve: &BlendedPath, limits: Limits<'a>, period: f64) -> Option<Self> {
         let with = |share: f64, coasts: bool| {
             let acceleration = limits.acceleration.map(|a| a * share);
-            let grows = |k: usize| limits.jerk[k].map_or(0.0, |jerk| acceleration[k] / jerk);
-            let coast = if coasts { grows(0).max(grows(1)) } else { 0.0 };
-            let base = Limits { jerk: [None; 2], acceleration, ..limits };
+            let coast = if coasts { Limits { acceleration, ..limits }.longest_growth() } else { 0.0 };
+            let base = Limits { acceleration, ..limits.without_jerks() };
             Self { limits, base, coast, period, retimes: false }
         };
         let ones = vec![1.0; curve.radii().len()];

@@ -14,7 +14,7 @@
 //! on straight pieces.
 
 use super::clock::{nanoseconds, seconds};
-use super::limits::Limits;
+use super::limits::{LimitedAxis, Limits};
 use super::retime::{CONDITION_POSITIONS, Condition, Rate};
 use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL, Trajectory};
 use super::schedule::{TimedTrack, duration, places};
@@ -87,11 +87,11 @@ impl Spline {
     /// Smooths a run from rest to rest as far as the limits on jerks require. `acceleration` has the limits on
     /// acceleration that the run keeps.
     pub fn smoothed(run: &[TimedTrack], acceleration: [f64; 2], limits: &Limits, period: f64) -> Self {
-        let longest = |k: usize| limits.jerk[k].map_or(0.0, |jerk| 2.0 * acceleration[k] / jerk);
-        let fine = (longest(0).max(longest(1)) / STEPS_PER_WINDOW).max(MIN_STEP_SHARE * period).max(MIN_INTERVAL);
+        let longest = 2.0 * Limits { acceleration, ..*limits }.longest_growth();
+        let fine = (longest / STEPS_PER_WINDOW).max(MIN_STEP_SHARE * period).max(MIN_INTERVAL);
         let step = nanoseconds(fine.max(duration(run) / MAX_STEPS));
         let places = places(run, seconds(step));
-        let window = window(&places, seconds(step), limits.jerk);
+        let window = window(&places, seconds(step), limits);
         let [start, goal] = [places[0], places[places.len() - 1]];
         let place = |j: usize| places[j.min(places.len() - 1)];
         let mean = |j: usize| {
@@ -288,27 +288,35 @@ fn conditions_at([position, velocity, acceleration, jerk]: [Configuration; 4], l
         let here = torques.at(position);
         let (inertial, bent) = (here.inertial(velocity), here.inertial(acceleration) + here.centrifugal(velocity));
         let holding = here.holding();
-        for (k, sign) in [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)] {
-            let room = share * (USED_LIMIT_SHARE * torques.dynamics.effort[k] - sign * holding[k]);
-            ask([bent[k], inertial[k] / 2.0, 0.0].map(|factor| sign * factor / room), false);
+        for limited in torques.limited_torques() {
+            let [inertial, bent, holding] = [inertial, bent, holding].map(|torques| limited.of(torques));
+            for sign in [1.0, -1.0] {
+                let room = share * (USED_LIMIT_SHARE * limited.effort - sign * holding);
+                ask([bent, inertial / 2.0, 0.0].map(|factor| sign * factor / room), false);
+            }
         }
     }
     asked
 }
 
 /// Returns the least number of steps over which positions must be averaged so that the jerks are within their limits.
-fn window(places: &[Configuration], step: f64, jerk: [Option<f64>; 2]) -> usize {
+fn window(places: &[Configuration], step: f64, limits: &Limits) -> usize {
     let place = |j: isize| places[j.clamp(0, places.len() as isize - 1) as usize];
     let seconds: Vec<Configuration> =
         (0..places.len() as isize).map(|j| place(j + 1) - place(j) * 2.0 + place(j - 1)).collect();
-    let most = seconds.iter().fold(Configuration::zeros(), |most, second| most.sup(&second.abs()));
-    let thirds = jerk.map(|jerk| jerk.map_or(f64::INFINITY, |jerk| jerk * step * step * step));
-    let enough = (0..2).map(|k| (2.0 * most[k] / thirds[k]).ceil()).fold(1.0, f64::max) as usize;
+    let along = |axis: &LimitedAxis, second: Configuration| axis.component(second.push(0.0)).abs();
+    let limited = |axis: LimitedAxis| axis.jerk.map(|jerk| (axis, jerk * step * step * step));
+    let thirds: Vec<(LimitedAxis, f64)> = limits.axes().filter_map(limited).collect();
+    let enough = |(axis, third): &(LimitedAxis, f64)| {
+        let most = seconds.iter().map(|second| along(axis, *second)).fold(0.0, f64::max);
+        (2.0 * most / third).ceil()
+    };
+    let enough = thirds.iter().map(enough).fold(1.0, f64::max) as usize;
     let second = |j: usize| seconds.get(j).copied().unwrap_or_else(Configuration::zeros);
     let keeps = |n: &usize| {
         (0..seconds.len() + n).all(|j| {
             let change = second(j) - if j >= *n { second(j - n) } else { Configuration::zeros() };
-            (0..2).all(|k| change[k].abs() <= *n as f64 * thirds[k])
+            thirds.iter().all(|(axis, third)| along(axis, change) <= *n as f64 * third)
         })
     };
     (1..enough).find(keeps).unwrap_or(enough)

@@ -3,7 +3,7 @@
 use super::sample::{TimingError, Trajectory};
 use super::tip::Part;
 use crate::recorded::torque_samples;
-use cplan_dynamics::{Curvature, Rates, Torques};
+use cplan_dynamics::{Curvature, LimitedTorque, Rates, Torques};
 use cplan_handling::Piece;
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, Path};
@@ -11,10 +11,6 @@ use cplan_model::space::{Configuration, Path};
 /// Fraction of an effort by which the torque may be overestimated on a part of a curve. It determines how finely curves
 /// are cut.
 const TORQUE_STEP: f64 = 0.01;
-
-/// Number of rows of conditions for a part of a curve: for two joints, two directions, three coefficients, and two
-/// signs of the error of the inertial factor.
-const TORQUE_ROWS: usize = 24;
 
 /// Number of parts into which a straight stretch is cut to find one acceleration and one speed that are safe on all of
 /// it.
@@ -103,24 +99,26 @@ impl<'a> TorqueLimit<'a> {
     /// coefficients do.
     pub(super) fn rows(&self, part: &Part, used: f64) -> Vec<[f64; 2]> {
         let TorquesOnPart { ends: [first, last], off } = self.on(part);
-        let mut rows = Vec::with_capacity(TORQUE_ROWS);
-        for k in 0..2 {
-            let effort = self.torques.dynamics.effort[k];
+        let mut rows = Vec::new();
+        for limited in self.torques.limited_torques() {
+            let effort = limited.effort;
+            let [off_inertial, off_bent, off_holding] =
+                [off.inertial, off.bent, off.holding].map(|off| limited.bound(off));
             for sign in [1.0, -1.0] {
-                let [i0, b0, h0] = [first.inertial[k], first.bent[k], first.holding[k]].map(|x| sign * x);
-                let [i1, b1, h1] = [last.inertial[k], last.bent[k], last.holding[k]].map(|x| sign * x);
+                let [i0, b0, h0] = [first.inertial, first.bent, first.holding].map(|x| sign * limited.of(x));
+                let [i1, b1, h1] = [last.inertial, last.bent, last.holding].map(|x| sign * limited.of(x));
                 let coefficients = [
                     (i0, [b0, 0.0], h0),
                     ((i0 + i1) / 2.0, [b1 / 2.0, b0 / 2.0], (h0 + h1) / 2.0),
                     (i1, [0.0, b1], h1),
                 ];
                 for (inertial, bent, holding) in coefficients {
-                    let room = (used * effort - holding - off.holding[k]).max(MIN_REMAINING_EFFORT * effort);
+                    let room = (used * effort - holding - off_holding).max(MIN_REMAINING_EFFORT * effort);
                     // The inertial factor deviates to the side that is worse.
-                    for inertial in [inertial + off.inertial[k], inertial - off.inertial[k]] {
+                    for inertial in [inertial + off_inertial, inertial - off_inertial] {
                         // z' over the part's length, halved.
                         let rising = inertial / (4.0 * part.half);
-                        let row = [bent[0] + off.bent[k] - rising, bent[1] + off.bent[k] + rising];
+                        let row = [bent[0] + off_bent - rising, bent[1] + off_bent + rising];
                         rows.push(row.map(|c| c / room));
                     }
                 }
@@ -134,7 +132,8 @@ impl<'a> TorqueLimit<'a> {
         let off = self.on(part).off;
         let rising = (z1 - z0).abs() / (4.0 * part.half);
         let unknown = |k: usize| off.inertial[k] * rising + off.bent[k] * z0.max(z1) + off.holding[k];
-        (0..2).any(|k| unknown(k) > TORQUE_STEP * self.torques.dynamics.effort[k])
+        let unknown = [unknown(0), unknown(1)];
+        self.torques.limited_torques().any(|limited| limited.bound(unknown) > TORQUE_STEP * limited.effort)
     }
 
     /// Returns a speed and an acceleration along a straight stretch that are safe together everywhere on it.
@@ -149,11 +148,14 @@ impl<'a> TorqueLimit<'a> {
                 bend: Configuration::zeros(),
                 half: length / (2.0 * count),
             });
-            for (k, end) in (0..2).flat_map(|k| ends.iter().map(move |end| (k, end))) {
-                let effort = self.torques.dynamics.effort[k];
-                let room = (effort - end.holding[k].abs() - off.holding[k]).max(MIN_REMAINING_EFFORT * effort);
-                let squared = (1.0 - ACCELERATION_SHARE) * room / (end.bent[k].abs() + off.bent[k]);
-                let pull = ACCELERATION_SHARE * room / (end.inertial[k].abs() + off.inertial[k]);
+            let both = |limited| ends.iter().map(move |end| (limited, end));
+            for (limited, end) in self.torques.limited_torques().flat_map(both) {
+                let effort = limited.effort;
+                let greatest = |factor: Configuration, off: [f64; 2]| limited.of(factor).abs() + limited.bound(off);
+                let room = effort - limited.of(end.holding).abs() - limited.bound(off.holding);
+                let room = room.max(MIN_REMAINING_EFFORT * effort);
+                let squared = (1.0 - ACCELERATION_SHARE) * room / greatest(end.bent, off.bent);
+                let pull = ACCELERATION_SHARE * room / greatest(end.inertial, off.inertial);
                 safe = [safe[0].min(squared.sqrt()), safe[1].min(pull)];
             }
         }
@@ -164,21 +166,21 @@ impl<'a> TorqueLimit<'a> {
     /// than its effort.
     pub(super) fn accelerations(&self) -> [f64; 2] {
         let inertia = self.torques.greatest_inertia();
-        let share = |k: usize, l: usize| self.torques.dynamics.effort[l] / (2.0 * inertia[l][k]);
-        [0, 1].map(|k| share(k, 0).min(share(k, 1)))
+        let share =
+            |k: usize, limited: LimitedTorque| limited.effort / (2.0 * limited.bound([inertia[0][k], inertia[1][k]]));
+        [0, 1].map(|k| self.torques.limited_torques().map(|limited| share(k, limited)).fold(f64::INFINITY, f64::min))
     }
 
     /// Returns the factor by which accelerating torques on pieces of a motion may exceed the efforts that gravity
     /// leaves. `None` if they are proven not to exceed them.
     pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
-        let effort = self.torques.dynamics.effort;
         let mut excess = 1.0_f64;
         for look in pieces.iter().flat_map(|piece| torque_samples(&self.torques, piece, SEARCHED_TORQUE_TOLERANCE)) {
-            for (k, effort) in effort.into_iter().enumerate() {
-                let greatest = look.torque[k].abs() + look.off[k];
-                if greatest > effort {
-                    let left = effort - look.holding[k].abs() - look.off[k];
-                    let moves = (look.torque[k] - look.holding[k]).abs();
+            for limited in self.torques.limited_torques() {
+                let (effort, off) = (limited.effort, limited.bound(look.off));
+                if limited.of(look.torque).abs() + off > effort {
+                    let left = effort - limited.of(look.holding).abs() - off;
+                    let moves = limited.of(look.torque - look.holding).abs();
                     excess = excess.max(moves / left.max(MIN_REMAINING_EFFORT * effort));
                 }
             }
@@ -186,10 +188,16 @@ impl<'a> TorqueLimit<'a> {
         (excess > 1.0).then_some(excess)
     }
 
-    fn too_heavy(&self, k: usize, at: Configuration, torque: f64) -> TimingError {
-        let joint = &self.torques.arm.joints[k];
-        let (effort, unit) = (self.torques.dynamics.effort[k], joint.effort_unit());
-        TimingError::TooHeavy { joint: joint.name.clone(), at: at.into(), torque: torque.abs(), effort, unit }
+    /// Returns the error that a torque exceeds its effort. That of a motor is stated for its shaft.
+    fn too_heavy(&self, limited: &LimitedTorque, at: Configuration, torque: f64) -> TimingError {
+        let (joints, motors) = (&self.torques.arm.joints, self.torques.arm.motors);
+        let gear = motors.filter(|_| limited.joint.is_none()).map_or(1.0, |motors| motors.gear[0].abs());
+        let (drive, unit) = match limited.joint.map(|k| &joints[k]) {
+            Some(joint) => (format!("joint \"{}\"", joint.name), joint.effort_unit()),
+            None => ("motor 1".to_owned(), "N m"),
+        };
+        let (torque, effort) = (torque.abs() / gear, limited.effort / gear);
+        TimingError::TooHeavy { drive, at: at.into(), torque, effort, unit }
     }
 
     /// Checks that the torques of a motion are within the efforts.
@@ -199,9 +207,10 @@ impl<'a> TorqueLimit<'a> {
     pub(super) fn check(&self, pieces: &[Piece]) -> Result<(), TimingError> {
         for piece in pieces {
             for look in torque_samples(&self.torques, piece, SAMPLED_TORQUE_TOLERANCE) {
-                if let Some(k) = (0..2).find(|&k| look.torque[k].abs() + look.off[k] > self.torques.dynamics.effort[k])
-                {
-                    return Err(self.too_heavy(k, piece.at(look.u), look.torque[k]));
+                let exceeds =
+                    |limited: &LimitedTorque| limited.of(look.torque).abs() + limited.bound(look.off) > limited.effort;
+                if let Some(limited) = self.torques.limited_torques().find(exceeds) {
+                    return Err(self.too_heavy(&limited, piece.at(look.u), limited.of(look.torque)));
                 }
             }
         }
@@ -241,21 +250,21 @@ impl<'a> TorqueLimit<'a> {
 
     fn check_holding(&self, at: Configuration) -> Result<(), TimingError> {
         let holding = self.torques.at(at).holding();
-        match (0..2).find(|&k| holding[k].abs() >= self.torques.dynamics.effort[k]) {
-            Some(k) => Err(self.too_heavy(k, at, holding[k])),
+        match self.torques.limited_torques().find(|limited| limited.of(holding).abs() >= limited.effort) {
+            Some(limited) => Err(self.too_heavy(&limited, at, limited.of(holding))),
             None => Ok(()),
         }
     }
 
     /// Checks that the arm can be held against gravity along a whole path.
     fn check_holding_along(&self, path: &Path) -> Result<(), TimingError> {
-        let effort = self.torques.dynamics.effort;
         for (from, to) in path.segments() {
             let (offset, half) = ((to - from) / 2.0, 1.0);
             let whole = Part { middle: from + offset, slope: offset, bend: Configuration::zeros(), half };
             let off = self.on(&whole).off.holding;
             // The error of chords falls with the square of their length.
-            let share = (0..2).map(|k| off[k] / (TORQUE_STEP * effort[k])).fold(1.0, f64::max);
+            let limited = self.torques.limited_torques();
+            let share = limited.map(|own| own.bound(off) / (TORQUE_STEP * own.effort)).fold(1.0, f64::max);
             let count = share.sqrt().ceil().min(MAX_LEG_PARTS);
             for i in 0..=count as u32 {
                 self.check_holding(from + offset * (2.0 * f64::from(i) / count))?;

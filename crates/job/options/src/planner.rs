@@ -90,8 +90,10 @@ pub enum MetricName {
     Euclidean,
     /// As euclidean, with the joints' values multiplied by --weights.
     Weighted,
-    /// Time that the joints need at top speed, seconds.
+    /// Time that the joints and the elbow's motor need at top speed, seconds.
     Time,
+    /// As euclidean, of the angles of both motors without their gears, radians; for arms with [robot] drives.
+    Motor,
 }
 
 /// Settings of searches of a grid or a roadmap.
@@ -273,6 +275,7 @@ impl OptimumArgs {
         match (self.metric, self.weights) {
             (MetricName::Weighted, Some(weights)) => Criterion::Weighted(weights),
             (MetricName::Time, _) => Criterion::Time,
+            (MetricName::Motor, _) => Criterion::Motor,
             _ => Criterion::Euclidean,
         }
     }

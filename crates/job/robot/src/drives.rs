@@ -62,5 +62,11 @@ toml_table! {
         /// Greatest accelerations, rad/s2.
         #[cfg_attr(feature = "schema", schemars(with = "Option<[Positive; 2]>"))]
         pub acceleration: Option<Numbers>,
+        /// Greatest jerks, rad/s3.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[Positive; 2]>"))]
+        pub jerk: Option<Numbers>,
+        /// Greatest torques, N m. Like the efforts of joints, they limit motions with `dynamics = true`.
+        #[cfg_attr(feature = "schema", schemars(with = "Option<[Positive; 2]>"))]
+        pub effort: Option<Numbers>,
     }
 }

@@ -3,7 +3,8 @@
 use super::error::InputError;
 use cplan_geometry::Point;
 use cplan_handling::ObstacleTrajectory;
-use cplan_model::{OutlineSource, Scene};
+use cplan_model::space::JointRange;
+use cplan_model::{Arm, Motors, OutlineSource, Scene};
 use nalgebra::Vector3;
 use serde::Serialize;
 use std::path::PathBuf;
@@ -41,6 +42,9 @@ pub struct Inspection {
     pub self_obstacles: Vec<SelfObstacleEntry>,
     /// Reach of the arm.
     pub reach: Option<ReachEntry>,
+    /// The motors of both joints. `None` if the world does not describe them.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motors: Option<MotorEntry>,
     /// Ignored elements, with reasons.
     pub ignored: Vec<String>,
     /// Warnings.
@@ -71,6 +75,42 @@ impl Inspection {
     /// Returns true if planning is possible.
     pub fn is_plannable(&self) -> bool {
         self.errors.is_empty()
+    }
+}
+
+/// The motors of both joints, and the joint values that they leave.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct MotorEntry {
+    /// Mounting of the elbow's motor, in words.
+    #[serde(skip)]
+    pub words: String,
+    /// The motors, without the limits that are limits of joints.
+    #[serde(flatten)]
+    pub motors: Motors,
+    /// The least and the greatest value that each joint can take within the limits of all joints and motors, radians. `None`
+    /// for a joint without limits.
+    pub ranges: [Option<[f64; 2]>; 2],
+}
+
+impl MotorEntry {
+    /// Describes the motors of an arm.
+    pub(crate) fn new(arm: &Arm, words: String) -> Option<Self> {
+        let motors = arm.motors?;
+        let interval = |k: usize| match arm.joints[k].range {
+            JointRange::Interval { lower, upper } => Some([lower, upper]),
+            JointRange::Circle => None,
+        };
+        let mut ranges = [interval(0), interval(1)];
+        if let (Some([least, most]), [Some(first), Some(second)], true) = (motors.range, ranges, motors.ratio != 0.0) {
+            // For each value of joint 1, joint 2 must have a value for which the sum is within its range; and vice versa.
+            let turned = [(least - second[1]) / motors.ratio, (most - second[0]) / motors.ratio];
+            let own = first.map(|q1| motors.ratio * q1);
+            ranges = [
+                Some([first[0].max(turned[0].min(turned[1])), first[1].min(turned[0].max(turned[1]))]),
+                Some([second[0].max(least - own[0].max(own[1])), second[1].min(most - own[0].min(own[1]))]),
+            ];
+        }
+        Some(Self { words, motors, ranges })
     }
 }
 

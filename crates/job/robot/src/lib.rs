@@ -38,8 +38,8 @@ pub use drives::{DrivesTable, DrivesValue, MotorTable};
 pub use error::{Diagnostic, DiagnosticKind, InputError, quoted};
 pub use identity::FileIdentity;
 pub use inspection::{
-    BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
-    RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry,
+    BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, MotorEntry, OutlineEntry, PairEntry,
+    PlaneEntry, RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry,
 };
 pub use quantity::{MAX_LENGTH, Number, Numbers, PerJoint, Quantity, Written};
 pub use report::RobotReport;

@@ -44,7 +44,7 @@ impl Planner {
         match setting {
             Setting::Criterion => match settings.criterion {
                 Criterion::Weighted(weights) => weights.into_iter().find_map(|weight| not_positive("weights", weight)),
-                Criterion::Euclidean | Criterion::Time => None,
+                Criterion::Euclidean | Criterion::Time | Criterion::Motor => None,
             },
             Setting::Gap => {
                 let gap = settings.gap?;

@@ -36,8 +36,10 @@ pub enum Criterion {
     Euclidean,
     /// Square root of the sum of squares after multiplying the joints' values by these weights, both positive.
     Weighted([f64; 2]),
-    /// Travel time in seconds, with each joint at its top speed.
+    /// Travel time in seconds, with each joint, and the elbow's motor on the base, at its top speed.
     Time,
+    /// Square root of the sum of squares of the angles by which both motors turn, without their gears.
+    Motor,
 }
 
 impl Criterion {
@@ -46,7 +48,9 @@ impl Criterion {
         match self {
             Criterion::Euclidean => Metric::Euclidean,
             Criterion::Weighted(weights) => Metric::Weighted { weights },
-            Criterion::Time => Metric::Time { speeds: arm.joints.each_ref().map(|joint| joint.velocity) },
+            Criterion::Time => arm.time_metric(),
+            // Motors that are not known count as direct ones.
+            Criterion::Motor => Metric::Motor { ratio: arm.motors.map_or(0.0, |motors| motors.ratio) },
         }
     }
 }

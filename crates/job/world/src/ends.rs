@@ -1,5 +1,6 @@
 //! Start and goals of a motion, as far as they are given.
 
+use super::problem::Place;
 use super::{LoadedScene, Overrides};
 use cplan_model::Goal;
 use cplan_robot::InputError;
@@ -10,17 +11,25 @@ impl LoadedScene {
     /// that.
     ///
     /// # Errors
-    /// Invalid values on the command line.
+    /// Invalid values on the command line, and a side of the elbow for an arm without one.
     pub fn ends(&self, overrides: &Overrides) -> Result<(Option<Goal>, Vec<Goal>), InputError> {
         let joints = &self.scene.arm().joints;
         let start = match &overrides.start {
             Some(values) => Some(Goal::Joints(values.resolve(joints, "--start")?)),
             None => self.world.start.as_ref().map(|(start, _)| *start),
         };
-        let goal = match (&overrides.goal, &overrides.goal_tip) {
+        let goal = match (&overrides.goal, overrides.tip_goal()) {
             (Some(values), _) => vec![Goal::Joints(values.resolve(joints, "--goal")?)],
-            (None, Some(tip)) => vec![Goal::Tip(tip.0)],
-            (None, None) => self.world.goals.as_ref().map_or_else(Vec::new, |(goals, _)| goals.clone()),
+            (None, Some(goal)) => {
+                self.require_elbow(&goal, &Place::Option("--goal-tip"))?;
+                vec![goal]
+            }
+            (None, None) => {
+                let (goals, at) = self.world.goals.clone().unwrap_or_default();
+                let place = Place::World(self, at);
+                goals.iter().try_for_each(|goal| self.require_elbow(goal, &place))?;
+                goals
+            }
         };
         Ok((start, goal))
     }

@@ -6,7 +6,7 @@ use cplan_robot::{Number, Numbers, Spanned, Written, toml_table};
 
 toml_table! {
     /// Where the arm is to go: joint values, a place for the tip in whatever IK solution is best, or areas for the tip.
-    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }, { "required": ["areas"] }])))]
+    #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }, { "required": ["areas"] }], "dependencies" = { "elbow": ["tip"] })))]
     pub(super) struct GoalTable {
         /// Values of both joints, base to tip, rad or m.
         #[cfg_attr(test, schemars(with = "Option<[Quantity; 2]>"))]
@@ -14,6 +14,9 @@ toml_table! {
         /// Coordinates of the tip, m.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         pub tip: Option<Numbers>,
+        /// Side of the elbow with `tip`, seen from joint 1 towards the tip: "left" or "right"; by default either.
+        #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
+        pub elbow: Option<Spanned<String>>,
         /// Rectangles for the tip, any of which will do, each by two opposite corners, m; of an arm that does not slide along both axes each
         /// counts as its middle. Not in steps.
         #[cfg_attr(test, schemars(with = "Option<Vec<[NumberPair; 2]>>"))]

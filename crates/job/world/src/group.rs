@@ -3,7 +3,7 @@
 use super::object::Supports;
 use cplan_geometry::{Interval, Point};
 use cplan_handling::{FollowedLine, ToolValues};
-use cplan_model::Goal;
+use cplan_model::{Elbow, Goal};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -46,6 +46,8 @@ pub(super) struct Leaf {
     pub speed: f64,
     pub dwell: f64,
     pub tool: ToolValues,
+    /// Side of the elbow at a pick or a place.
+    pub elbow: Option<Elbow>,
 }
 
 /// The action of a step, as the file states it.

@@ -51,6 +51,9 @@ toml_table! {
         r#move: Option<Numbers>,
         /// Angle of the tool along the line.
         wrist: Option<Spanned<WristValue>>,
+        /// Side of the elbow along the line, seen from joint 1 towards the tip: "left" or "right"; by default either.
+        #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
+        elbow: Option<Spanned<String>>,
         /// Greatest difference from that angle, rad; by default 0.01. The arm rests at corners where the line turns by more,
         /// while the tool turns.
         wrist_tolerance: Option<Written>,
@@ -113,8 +116,9 @@ impl LineTable {
         let speed = self.speed.as_ref().map(|speed| positive(reader, speed, "speed")).transpose()?;
         let tolerance = self.tolerance.as_ref().map(|t| positive(reader, t, "tolerance")).transpose()?;
         let wrist = line_wrist::read(reader, self.wrist.as_ref(), self.wrist_tolerance.as_ref())?;
-        let line =
-            FollowedLine { path: Arc::new(path), tolerance: tolerance.unwrap_or(DEFAULT_TOLERANCE), speed, wrist };
+        let elbow = reader.elbow(self.elbow.as_ref())?;
+        let tolerance = tolerance.unwrap_or(DEFAULT_TOLERANCE);
+        let line = FollowedLine { path: Arc::new(path), tolerance, speed, wrist, elbow };
         match &self.tolerance {
             Some(number) if line.tolerance < MIN_TOLERANCE => {
                 let message = format!("the tolerance is {} m, less than {MIN_TOLERANCE} m", line.tolerance);

@@ -8,9 +8,10 @@ use super::reasons::{
 use super::{AllowedErrors, LoadedProblem, LoadedScene, Overrides};
 use cplan_geometry::Point;
 use cplan_model::space::{Configuration, GoalSet, Segment};
-use cplan_model::{BlockedStretch, Freedom, Goal, MotionProblem, Scene, area_goals, inverse};
+use cplan_model::{BlockedStretch, Elbow, Freedom, Goal, MotionProblem, Scene, area_goals, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::{first_lines, listed};
+use std::fmt::Write;
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -171,8 +172,9 @@ impl LoadedScene {
                     let arm = "for an arm that does not slide along both axes,";
                     notes.push(format!("{arm} the middle of a goal area is the goal: ({}, {})", tip.x, tip.y));
                 }
-                self.ik_solutions(tip, start, place, notes)
+                self.ik_solutions((tip, None), start, place, notes)
             }
+            Goal::TipAndElbow(tip, elbow) => self.ik_solutions((tip, Some(elbow)), start, place, notes),
             Goal::Area(area) => self.area(area, start, place),
         }
     }
@@ -207,7 +209,7 @@ impl LoadedScene {
     }
 
     fn given_goals(&self, overrides: &Overrides) -> Result<(Vec<Goal>, Place<'_>), InputError> {
-        match (&overrides.goal, &overrides.goal_tip) {
+        match (&overrides.goal, overrides.tip_goal()) {
             (Some(_), Some(_)) => {
                 let diagnostic = Diagnostic::new("--goal and --goal-tip", "both options give a goal");
                 return Err(diagnostic.help("give one of them").into());
@@ -216,16 +218,32 @@ impl LoadedScene {
                 let q = values.resolve(&self.scene.arm().joints, "--goal")?;
                 return Ok((vec![Goal::Joints(q)], Place::Option("--goal")));
             }
-            (None, Some(tip)) => return Ok((vec![Goal::Tip(tip.0)], Place::Option("--goal-tip"))),
+            (None, Some(goal)) => {
+                let place = Place::Option("--goal-tip");
+                self.require_elbow(&goal, &place)?;
+                return Ok((vec![goal], place));
+            }
             (None, None) => {}
         }
         match &self.world.goals {
-            Some((goals, at)) => Ok((goals.clone(), Place::World(self, at.clone()))),
+            Some((goals, at)) => {
+                let place = Place::World(self, at.clone());
+                goals.iter().try_for_each(|goal| self.require_elbow(goal, &place))?;
+                Ok((goals.clone(), place))
+            }
             None => {
                 let help =
                     "[goal] joints = [q1, q2] or tip = [x, y] in the world file, or --goal q1,q2, or --goal-tip x,y";
                 Err(self.missing("goal", help).into())
             }
+        }
+    }
+
+    /// Checks that the arm has an elbow, if a goal states its side.
+    pub(super) fn require_elbow(&self, goal: &Goal, place: &Place) -> Result<(), Diagnostic> {
+        match goal.elbow().and_then(|_| no_elbow(&self.scene)) {
+            Some((message, help)) => Err(place.diagnostic(format!("the goal: {message}")).help(help)),
+            None => Ok(()),
         }
     }
 
@@ -312,22 +330,25 @@ impl LoadedScene {
         Err(place.diagnostic(message).help("change the obstacle's initial position, or choose another start"))
     }
 
-    /// Returns every IK solution for `tip` that is within the limits and not proven to be blocked.
+    /// Returns every IK solution for `tip` that is within the limits and not proven to be blocked, with the elbow on the
+    /// stated side.
     fn ik_solutions(
         &self,
-        tip: Point,
+        (tip, elbow): (Point, Option<Elbow>),
         start: Configuration,
         place: &Place,
         notes: &mut Vec<String>,
     ) -> Result<GoalSet, Diagnostic> {
         let scene = &self.scene;
         let solved = inverse(scene.arm(), tip, start);
-        let at = format!("({}, {})", tip.x, tip.y);
+        let at = format!("({}, {}){}", tip.x, tip.y, Elbow::describe(elbow));
         if solved.branches.is_empty() {
             return Err(place
                 .diagnostic(describe_out_of_reach(scene, "the goal", tip))
                 .help(help_for_reach(scene, tip)));
         }
+        let other = elbow.map(|elbow| solved.clone().with_elbow(scene.arm(), Some(elbow.other())));
+        let solved = solved.with_elbow(scene.arm(), elbow);
         notes.extend(solved.free.map(|free| freedom(scene, &at, free)));
         let (allowed, outside) = within_limits(scene, &solved);
         let (mut goals, mut undecided, mut blocked) = (Vec::new(), Vec::new(), Vec::new());
@@ -341,9 +362,21 @@ impl LoadedScene {
             }
         }
         if goals.is_empty() {
-            let help = help_for_ik_solutions(scene, !outside.is_empty(), !blocked.is_empty());
+            let mut help = help_for_ik_solutions(scene, !outside.is_empty(), !blocked.is_empty());
             let reasons = listed(&[outside, blocked].concat());
-            let message = format!("no IK solution that puts the tip at {at} is allowed and free: {reasons}");
+            let mut message = format!("no IK solution that puts the tip at {at} is allowed and free: {reasons}");
+            if let (Some(elbow), Some(other)) = (elbow.map(Elbow::other), other) {
+                let free = within_limits(scene, &other).0.into_iter().map(|piece| piece.at(0.5));
+                if let Some(q) = free.into_iter().find(|q| scene.obstructions(*q).is_empty()) {
+                    let _ = write!(
+                        message,
+                        "; with the elbow on the {} there is one: {}",
+                        elbow.name(),
+                        describe(scene, q)
+                    );
+                    help = format!("choose the other side of the elbow; or {help}");
+                }
+            }
             return Err(place.diagnostic(message).help(help));
         }
         let ruled_out = |reason: String| format!("an IK solution with the tip at {at} is ruled out: {reason}");
@@ -352,6 +385,12 @@ impl LoadedScene {
         // No motion may end at these, but a proof that there is none must exclude them.
         Ok(goals.into_iter().chain(undecided).collect())
     }
+}
+
+/// Returns the reason and the hint if the arm has no elbow.
+pub(super) fn no_elbow(scene: &Scene) -> Option<(&'static str, &'static str)> {
+    let is_absent = !scene.arm().only_turns();
+    is_absent.then_some(("only arms with two revolute joints have an elbow", "leave out its side"))
 }
 
 /// Describes the freedom of the joints when the tip is at a place.

@@ -5,7 +5,7 @@ use super::joint_pair::JointPair;
 use super::notes::Corrections;
 use cplan_geometry::{Point, Pose, Vector};
 use cplan_model::space::Configuration;
-use cplan_model::{Goal, Heights};
+use cplan_model::{Elbow, Goal, Heights};
 use cplan_robot::{Diagnostic, Number, Numbers, Source, Spanned, Written};
 use std::cell::RefCell;
 use std::ops::Range;
@@ -94,6 +94,10 @@ impl Reader<'_> {
             let diagnostic = self.source.diagnostic_at(at, "the goal has `areas` and another goal");
             return Err(diagnostic.help("keep one of `joints`, `tip` and `areas`"));
         }
+        if let Some(elbow) = &goal.elbow {
+            let diagnostic = self.source.diagnostic_at(elbow.span(), "a goal of areas has no side of the elbow");
+            return Err(diagnostic.help("remove `elbow`, or give `tip`"));
+        }
         let area = |corners: &Spanned<Vec<Numbers>>| match corners.get_ref().as_slice() {
             [a, b] => {
                 let [a, b] = [self.point(a, "goal area")?, self.point(b, "goal area")?];
@@ -124,7 +128,24 @@ impl Reader<'_> {
             let help = "only [start] and [goal] of a world without steps have `stroke` and `wrist`";
             return Err(self.source.diagnostic_at(at, message).help(help));
         }
-        self.place(goal.joints.as_ref(), goal.tip.as_ref(), at, what)
+        let (place, at) = self.place(goal.joints.as_ref(), goal.tip.as_ref(), at, what)?;
+        match (place, self.elbow(goal.elbow.as_ref())?, &goal.elbow) {
+            (Goal::Tip(tip), Some(elbow), _) => Ok((Goal::TipAndElbow(tip, elbow), at)),
+            (Goal::Joints(_), Some(_), Some(elbow)) => {
+                let message = format!("the {what} has joint values, which state the side of the elbow");
+                Err(self.source.diagnostic_at(elbow.span(), message).help("remove `elbow`, or give `tip`"))
+            }
+            (place, ..) => Ok((place, at)),
+        }
+    }
+
+    /// Returns a side of the elbow.
+    pub fn elbow(&self, elbow: Option<&Spanned<String>>) -> Result<Option<Elbow>, Diagnostic> {
+        let read = |elbow: &Spanned<String>| {
+            let unknown = |message: String| self.source.diagnostic_at(elbow.span(), message).help("elbow = \"left\"");
+            elbow.get_ref().parse::<Elbow>().map_err(unknown)
+        };
+        elbow.map(read).transpose()
     }
 
     /// Returns joint values or a point for the tip from the two keys, of which exactly one must be present.

@@ -1,6 +1,7 @@
 //! Requirements of steps on the arm. Repeated steps have each of theirs once.
 
 use cplan_geometry::Point;
+use cplan_model::Elbow;
 use cplan_model::space::Configuration;
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -20,8 +21,10 @@ pub(super) struct Requirement {
 pub(super) enum Required {
     /// The arm must be able to take these joint values.
     Joints(Configuration),
-    /// The tip must be able to reach this point.
-    Tip(Point),
+    /// The tip must be able to reach this point, with the elbow on the stated side.
+    Tip(Point, Option<Elbow>),
+    /// The arm must have an elbow.
+    Elbow,
     /// The object with this index must be able to rest on something.
     Rest(usize),
 }
@@ -39,7 +42,11 @@ impl Requirements {
     pub fn add(&mut self, step: usize, required: Required, at: Range<usize>) {
         let (kind, values) = match required {
             Required::Joints(q) => (0, [q[0], q[1]].map(f64::to_bits)),
-            Required::Tip(tip) => (1, [tip.x, tip.y].map(f64::to_bits)),
+            Required::Tip(tip, elbow) => {
+                let kind = elbow.map_or(1, |elbow| 3 + elbow.solution() as u8);
+                (kind, [tip.x, tip.y].map(f64::to_bits))
+            }
+            Required::Elbow => (5, [0; 2]),
             Required::Rest(object) => (2, [object as u64, at.start as u64]),
         };
         if self.known.insert((step, kind, values)) {

@@ -51,3 +51,7 @@ stands_for! {
     /// Order of steps.
     DoneIn, { "type": "string", "enum": ["fixed", "free"] }
 }
+stands_for! {
+    /// Side of the elbow.
+    ElbowSide, { "type": "string", "enum": ["left", "right"] }
+}

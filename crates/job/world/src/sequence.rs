@@ -201,7 +201,7 @@ impl Writer<'_> {
             LeafAction::Move(goal) => {
                 let required = match *goal {
                     Goal::Joints(q) => Some(Required::Joints(q)),
-                    goal => goal.tip().map(Required::Tip),
+                    goal => goal.tip().map(|tip| Required::Tip(tip, goal.elbow())),
                 };
                 if let Some(required) = required {
                     self.requirements.add(leaf.number, required, leaf.at.clone());
@@ -210,6 +210,11 @@ impl Writer<'_> {
             }
             LeafAction::Follow(line) => Action::Follow(self.line(leaf, line)?),
         };
+        let elbow = leaf.elbow;
+        let of_line = matches!(&action, Action::Follow(line) if line.elbow.is_some());
+        if elbow.is_some() || of_line || matches!(action, Action::Move(Goal::TipAndElbow(..))) {
+            self.requirements.add(leaf.number, Required::Elbow, leaf.at.clone());
+        }
         let handled = action.picked().or(handled.filter(|_| matches!(action, Action::Place { .. })));
         let elevation = handled.map_or(0.0, |object| self.object_places[object].elevation);
         if self.cycles.len() < leaf.number {
@@ -226,6 +231,7 @@ impl Writer<'_> {
             dwell: leaf.dwell,
             tool: leaf.tool,
             elevation,
+            elbow,
         })
     }
 
@@ -300,8 +306,10 @@ impl Writer<'_> {
         }
         if object_places.moves {
             self.object_places[object].moves = false;
-        } else if let Some(tip) = object_places.point(grasp).filter(|tip| object_places.tip != Some(*tip)) {
-            self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
+        } else if let Some(tip) =
+            object_places.point(grasp).filter(|tip| leaf.elbow.is_some() || object_places.tip != Some(*tip))
+        {
+            self.requirements.add(leaf.number, Required::Tip(tip, leaf.elbow), leaf.at.clone());
         }
         self.carried = Some(CarriedObject { object, grasp, kept_by: None });
         let when = when.map_or_else(Vec::new, |when| when.times.clone());
@@ -348,7 +356,7 @@ impl Writer<'_> {
         }
         self.object_places[object] = object_places;
         if let Some(tip) = object_places.tip {
-            self.requirements.add(leaf.number, Required::Tip(tip), leaf.at.clone());
+            self.requirements.add(leaf.number, Required::Tip(tip, leaf.elbow), leaf.at.clone());
         }
         Ok(Action::Place { at, angle: asked, supports: supports.numbers.clone() })
     }

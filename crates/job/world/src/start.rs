@@ -55,8 +55,8 @@ impl LoadedScene {
         let q = match start {
             Goal::Joints(q) => *q,
             Goal::Tip(tip) => self.only_ik_solution(*tip, &place, notes)?,
-            // A start is never an area.
-            Goal::Area([corner, _]) => self.only_ik_solution(*corner, &place, notes)?,
+            // A start is never an area, and states no side of the elbow.
+            Goal::TipAndElbow(corner, _) | Goal::Area([corner, _]) => self.only_ik_solution(*corner, &place, notes)?,
         };
         Ok((q, place))
     }

@@ -11,7 +11,7 @@ use super::schema::*;
 use super::table::Table;
 use cplan_geometry::Pose;
 use cplan_handling::{MAX_STOP_TIME, Object, ToolValues};
-use cplan_model::Goal;
+use cplan_model::{Elbow, Goal};
 use cplan_robot::{Cursor, Diagnostic, Number, Numbers, Spanned, Written, toml_table};
 use std::collections::BTreeSet;
 use std::ops::Range;
@@ -24,7 +24,7 @@ toml_table! {
             { "required": ["transfer"] }, { "required": ["steps"] }
         ],
         "dependencies" = {
-            "grasp": ["pick"], "supports": ["pick"], "at": ["pick"], "window": ["pick"], "repeat": ["steps"], "order": ["steps"]
+            "grasp": ["pick"], "supports": ["pick"], "elbow": ["pick"], "at": ["pick"], "window": ["pick"], "repeat": ["steps"], "order": ["steps"]
         },
     )))]
     pub(super) struct StepTable {
@@ -50,6 +50,9 @@ toml_table! {
         grasp: Option<Numbers>,
         /// For a pick: obstacles and objects that the object may touch; by default the `supports` of the object.
         supports: Option<NameList>,
+        /// For a pick: side of the elbow, seen from joint 1 towards the tip, "left" or "right"; by default either.
+        #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
+        elbow: Option<Spanned<String>>,
         /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest one possible.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         at: Option<Numbers>,
@@ -102,6 +105,9 @@ toml_table! {
         /// Height of its bottom there along the plane's normal, m; by default that of the pallet, or of the place where it was
         /// picked.
         height: Option<Number>,
+        /// Side of the elbow there, seen from joint 1 towards the tip: "left" or "right"; by default either.
+        #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
+        elbow: Option<Spanned<String>>,
     }
 
     /// Objects that go from one pallet to another: the first one, row by row, to the first place, and so on.
@@ -115,6 +121,9 @@ toml_table! {
         angle: Option<Written>,
         /// Obstacles and objects that they may touch there; by default those of the objects.
         supports: Option<NameList>,
+        /// Side of the elbow at all picks and places, seen from joint 1 towards the tip: "left" or "right"; by default either.
+        #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
+        elbow: Option<Spanned<String>>,
     }
 
     /// Settings of all steps.
@@ -311,16 +320,26 @@ impl<'a> StepReader<'a> {
             (None, None, None, Some(Table(transfer)), None) => self.transfer(transfer),
             _ => return Err(wrong_count()),
         }?;
-        Ok(actions.into_iter().map(|(at, action)| self.leaf(at, action, pace, table.span())).collect())
+        let of_place = step.place.as_ref().and_then(|Table(place)| place.elbow.as_ref());
+        let of_transfer = step.transfer.as_ref().and_then(|Table(transfer)| transfer.elbow.as_ref());
+        let elbow = self.reader.elbow(step.elbow.as_ref().or(of_place).or(of_transfer))?;
+        let leaves = actions.into_iter().map(|(at, action)| self.leaf(at, (action, elbow), pace, table.span()));
+        Ok(leaves.collect())
     }
 
     /// Returns the next step. `at` is the position of its target, and `table` that of its table.
-    fn leaf(&mut self, at: Range<usize>, action: LeafAction, pace: Pace, table: Range<usize>) -> Node {
+    fn leaf(
+        &mut self,
+        at: Range<usize>,
+        (action, elbow): (LeafAction, Option<Elbow>),
+        pace: Pace,
+        table: Range<usize>,
+    ) -> Node {
         let position = self.cursor.position(table.start);
         let place = format!("{}:{}:{}", self.file, position.line, position.column);
         self.count += 1;
         let (speed, dwell) = (pace.speed, pace.dwell);
-        Node::Step(Leaf { number: self.count, place, at, action, speed, dwell, tool: ToolValues::default() })
+        Node::Step(Leaf { number: self.count, place, at, action, speed, dwell, tool: ToolValues::default(), elbow })
     }
 
     /// Returns the steps of a line: a move to where it begins, and the line.
@@ -332,9 +351,10 @@ impl<'a> StepReader<'a> {
     ) -> Result<Vec<Node>, Diagnostic> {
         let line = follow.get_ref().0.read(self.reader, follow.span())?;
         let start = line.path.start().map(|x| (x / PICOMETRE).round() * PICOMETRE);
-        let begin = Goal::Tip(start.into());
-        let to_line = self.leaf(follow.span(), LeafAction::Move(begin), Pace { dwell: 0.0, ..pace }, table.clone());
-        Ok(vec![to_line, self.leaf(follow.span(), LeafAction::Follow(line), pace, table)])
+        let begin = line.elbow.map_or(Goal::Tip(start.into()), |elbow| Goal::TipAndElbow(start.into(), elbow));
+        let begin = (LeafAction::Move(begin), None);
+        let to_line = self.leaf(follow.span(), begin, Pace { dwell: 0.0, ..pace }, table.clone());
+        Ok(vec![to_line, self.leaf(follow.span(), (LeafAction::Follow(line), None), pace, table)])
     }
 
     /// Checks that all keys of a step apply to its action.
@@ -355,6 +375,10 @@ impl<'a> StepReader<'a> {
             let at = step.supports.as_ref().map(Spanned::span);
             let help = "for a place write place = { at = [x, y], supports = [\"NAME\"] }";
             refuse(at, "only a pick has `supports`", help)?;
+            let at = step.elbow.as_ref().map(Spanned::span);
+            let help = "for another step write it in its table: place = { at = [x, y], elbow = \"left\" }, \
+                        move = { tip = [x, y], elbow = \"left\" }, or follow and transfer likewise";
+            refuse(at, "only a pick has `elbow` beside it", help)?;
         }
         if step.steps.is_none() {
             let help = "make it a group: [[step]] with these keys, then [[step.steps]] for each of its steps";

@@ -1,6 +1,6 @@
 //! Converts the steps of a world to a task for its arm.
 
-use super::problem::Place;
+use super::problem::{Place, no_elbow};
 use super::reasons::{
     HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, describe_out_of_reach, help_for_reach, within_limits,
 };
@@ -10,7 +10,7 @@ use super::{LoadedScene, Overrides, World};
 use cplan_geometry::Point;
 use cplan_handling::{Item, Object, Payload, Stroke, Task, ToolJoint, ToolValues};
 use cplan_model::space::{Configuration, JointRange};
-use cplan_model::{Goal, RESTING_TOLERANCE, inverse};
+use cplan_model::{Elbow, Goal, RESTING_TOLERANCE, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::{length, listed, short};
 
@@ -103,7 +103,10 @@ impl LoadedScene {
         let step = format!("step {}", requirement.step);
         let (message, help) = match requirement.required {
             Required::Joints(q) => self.beyond_limits(&step, q)?,
-            Required::Tip(tip) => self.beyond_reach(&step, tip, start)?,
+            Required::Tip(tip, elbow) => self.beyond_reach(&step, (tip, elbow), start)?,
+            Required::Elbow => {
+                no_elbow(&self.scene).map(|(message, help)| (format!("{step}: {message}"), help.to_owned()))?
+            }
             Required::Rest(object) => self.too_thin(&step, object)?,
         };
         Some(self.world.source.diagnostic_at(requirement.at.clone(), message).help(help))
@@ -115,7 +118,12 @@ impl LoadedScene {
             .then(|| (format!("{step} is outside the joint limits: {}", outside.join("; ")), HELP_FOR_LIMITS.into()))
     }
 
-    fn beyond_reach(&self, step: &str, tip: Point, start: Configuration) -> Option<(String, String)> {
+    fn beyond_reach(
+        &self,
+        step: &str,
+        (tip, elbow): (Point, Option<Elbow>),
+        start: Configuration,
+    ) -> Option<(String, String)> {
         let solved = inverse(self.scene.arm(), tip, start);
         if solved.branches.is_empty() {
             return Some((
@@ -123,13 +131,15 @@ impl LoadedScene {
                 help_for_reach(&self.scene, tip),
             ));
         }
+        let solved = solved.with_elbow(self.scene.arm(), elbow);
         // If a joint's value does not matter, another value may be within the limits.
         let (allowed, outside) = within_limits(&self.scene, &solved);
         (allowed.is_empty() && solved.free.is_none()).then(|| {
             let message = format!(
-                "{step}: no IK solution that puts the tip at ({}, {}) m is within the joint limits: {}",
+                "{step}: no IK solution that puts the tip at ({}, {}) m{} is within the joint limits: {}",
                 tip.x,
                 tip.y,
+                Elbow::describe(elbow),
                 listed(&outside)
             );
             (message, HELP_FOR_TIP.into())

@@ -97,7 +97,7 @@ impl LoadedScene {
     /// Returns the only item of the task of a world whose start or goal states values of the tool's joints: a move to the
     /// goal.
     pub(super) fn move_to_goal(goals: &[Goal], place: &Place, tool: ToolValues) -> Result<Item, Diagnostic> {
-        let &[goal @ (Goal::Joints(_) | Goal::Tip(_))] = goals else {
+        let &[goal @ (Goal::Joints(_) | Goal::Tip(_) | Goal::TipAndElbow(..))] = goals else {
             let message = "a goal of areas has no values of the tool's joints, and neither has its start";
             return Err(place.diagnostic(message.to_owned()).help("joints = [q1, q2], or tip = [x, y]"));
         };
@@ -112,6 +112,7 @@ impl LoadedScene {
             dwell: 0.0,
             tool,
             elevation: 0.0,
+            elbow: None,
         }))
     }
 }

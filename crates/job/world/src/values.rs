@@ -4,7 +4,7 @@ use super::LoadedScene;
 use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
 use cplan_model::space::Configuration;
-use cplan_model::{Joint, SceneError, check_clearance};
+use cplan_model::{Elbow, Goal, Joint, SceneError, check_clearance};
 use cplan_robot::{CalibrationTable, Diagnostic, InputError, MAX_LENGTH};
 use std::fmt;
 use std::str::FromStr;
@@ -18,10 +18,20 @@ pub struct Overrides {
     pub goal: Option<JointValues>,
     /// The value of `--goal-tip`, in plane coordinates, in metres.
     pub goal_tip: Option<TipPoint>,
+    /// The value of `--elbow`. It needs `goal_tip`.
+    pub elbow: Option<Elbow>,
     /// The value of `--clearance`, metres.
     pub clearance: Option<f64>,
     /// The value of `--calibration`.
     pub calibration: Option<CalibrationTable>,
+}
+
+impl Overrides {
+    /// Returns the goal of the tip.
+    pub(super) fn tip_goal(&self) -> Option<Goal> {
+        let TipPoint(tip) = self.goal_tip?;
+        Some(self.elbow.map_or(Goal::Tip(tip), |elbow| Goal::TipAndElbow(tip, elbow)))
+    }
 }
 
 impl LoadedScene {

@@ -245,8 +245,7 @@ impl Ledger {
 
     fn optimum(&mut self, scene: &Scene, path: &[Configuration], claim: Option<&OptimumClaim>) {
         let Some(claim) = claim.filter(|_| !path.is_empty()) else { return };
-        let speeds = scene.arm().joints.each_ref().map(|joint| joint.velocity);
-        match claim.metric(speeds) {
+        match claim.metric(scene.arm()) {
             Some(metric) => {
                 let length = metric.length(&Path::new(path.to_vec()));
                 self.number("optimum.length", Some(claim.length), length, NUMBER_TOLERANCE * (1.0 + length));

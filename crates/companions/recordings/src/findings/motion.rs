@@ -4,7 +4,7 @@ use super::{PlanFinding, StepFinding};
 use cplan_handling::{Claims, Recording};
 use cplan_model::{Joint, Scene};
 use cplan_motion::Margins;
-use cplan_motion::recorded::{CollisionCheck, Encounter, Limit, LimitViolation, Moment, Touch};
+use cplan_motion::recorded::{CollisionCheck, Encounter, FIRST_MOTOR, Limit, LimitViolation, Moment, Touch};
 use cplan_robot::AssumedLimits;
 use serde::Serialize;
 
@@ -326,7 +326,10 @@ pub(crate) fn moment(m: &Moment, timed: bool) -> MomentFinding {
 
 fn limit(joints: &[Joint; 2], excess: &LimitViolation, timed: bool) -> LimitFinding {
     LimitFinding {
-        joint: joints.get(excess.joint).map_or("elbow motor", |joint| &joint.name).to_owned(),
+        joint: match excess.joint {
+            FIRST_MOTOR => "first motor".into(),
+            joint => joints.get(joint).map_or("elbow motor", |joint| &joint.name).to_owned(),
+        },
         limit: match excess.limit {
             Limit::Position => "position",
             Limit::Velocity => "velocity",

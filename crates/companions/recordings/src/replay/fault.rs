@@ -1,5 +1,6 @@
 //! Differences between a recorded task and the requested one.
 
+use cplan_model::Elbow;
 use cplan_model::space::Configuration;
 use cplan_text::{length, length_up};
 use thiserror::Error;
@@ -23,6 +24,12 @@ pub enum Fault {
     Tip {
         /// Distance of the tip from there, metres.
         off: f64,
+    },
+    /// The elbow is on the wrong side.
+    #[error("its elbow is on the {}, not on the {}", elbow.other().name(), elbow.name())]
+    Elbow {
+        /// The required side.
+        elbow: Elbow,
     },
     /// The tip is not proven to stay within the tolerance of the line.
     #[error("the tip may leave the line by {} after sample {piece} of the step, more than {}", length_up(*off), length(*tolerance))]

@@ -17,7 +17,9 @@ pub use fault::{Fault, OrderDeviation};
 pub use tool_joints::{MisplacedJoint, StepTool, misplaced_joints};
 
 use cplan_geometry::{Interval, Point, Pose};
-use cplan_handling::{Action, ObstacleTrajectory, RecordedStep, RecordedTurn, Recording, Step, Task};
+use cplan_handling::{
+    Action, Derivative, ObstacleTrajectory, Piece, RecordedStep, RecordedTurn, Recording, Step, Task,
+};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Goal, Scene};
 use cplan_motion::recorded::{
@@ -264,6 +266,7 @@ impl<'a> Iterator for Replay<'a> {
                 self.state.moved();
             }
         }
+        faults.extend(elbow_fault(task, step, &motion));
         let asked = step.dwell
             + recorded.turn.as_ref().map_or(0.0, turning_at_rest)
             + depth.map_or(0.0, |depth| lowering_seconds(task, depth) * if handled.is_some() { 2.0 } else { 1.0 })
@@ -367,12 +370,22 @@ fn is_same_pose(task: &Task, a: Configuration, b: Configuration) -> bool {
 fn distance_from_goal(task: &Task, q: Configuration, goal: &Goal) -> Option<Fault> {
     match goal {
         Goal::Joints(target) => (!is_same_pose(task, q, *target)).then_some(Fault::Joints { is: q, target: *target }),
-        Goal::Tip(_) | Goal::Area(_) => {
+        Goal::Tip(_) | Goal::TipAndElbow(..) | Goal::Area(_) => {
             let is = task.arm.tip_at(q);
             let off = (is - goal.nearest_tip(is)?).norm();
             (off > PLACE_TOLERANCE).then_some(Fault::Tip { off })
         }
     }
+}
+
+/// Returns a fault if the elbow is on the wrong side at the end of a step, or on a part of its line.
+fn elbow_fault(task: &Task, step: &Step, motion: &Recording) -> Option<Fault> {
+    let elbow = step.required_elbow()?;
+    let is_wrong = |q: Configuration| elbow.excess(&task.arm, q) > PLACE_TOLERANCE;
+    let is_wrong_in = |piece: &Piece| piece.critical(Derivative::Position, 1).any(|u| is_wrong(piece.at(u)));
+    let along_line = matches!(step.action, Action::Follow(_)) && motion.pieces().iter().any(is_wrong_in);
+    let at_end = motion.positions().last().is_some_and(|q| is_wrong(*q));
+    (along_line || at_end).then_some(Fault::Elbow { elbow })
 }
 
 /// Returns the difference between two orientations, from zero to half a turn.

@@ -344,8 +344,8 @@ impl<'a> Search<'a> {
             require_unobstructed(&here.scene_at_rest(candidate, time).0, candidate.to, "after it")?;
         }
         let [some, each] = ROUNDED_MOTION_BUDGET;
-        let stops = Limits::from(&task.arm.joints).stops_at_corners()
-            && self.motions >= some + each * self.task.steps().count();
+        let stops =
+            Limits::from(&task.arm).stops_at_corners() && self.motions >= some + each * self.task.steps().count();
         let (options, legs) =
             if stops { (&self.stopping, &mut self.stopping_legs) } else { (&self.options, &mut self.legs) };
         // The motion without moving obstacles.

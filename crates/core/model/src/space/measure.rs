@@ -1,6 +1,6 @@
 //! Norms for shortest-path searches, which break ties of travel time.
 
-use super::{Metric, Segment};
+use super::{Metric, Segment, SumSpeed};
 use cplan_geometry::{Point, Vector, cross};
 
 /// Weight of the Euclidean length in a sum with travel time. Among paths of equal time, the sum prefers the shortest.
@@ -11,19 +11,33 @@ const TIE_BREAK_WEIGHT: f64 = 1e-10;
 /// A norm whose unit ball has no flat sides, so that pulling a path taut always shortens it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Measure {
-    /// Euclidean length of the displacement with its coordinates multiplied by these weights.
-    Ellipse([f64; 2]),
-    /// The greater of the coordinates' magnitudes multiplied by these weights, plus a small multiple of the
-    /// Euclidean length.
-    Rectangle([f64; 2]),
+    /// Euclidean length of the displacement with its coordinates multiplied by these weights. Before that, the second
+    /// coordinate is increased by a multiple of the first.
+    Ellipse {
+        /// Weight of each coordinate.
+        weights: [f64; 2],
+        /// Multiple of the first coordinate that is added to the second.
+        shear: f64,
+    },
+    /// The greatest of the coordinates' magnitudes multiplied by weights, and of the magnitude of a weighted sum of both,
+    /// plus a small multiple of the Euclidean length.
+    Polygon {
+        /// Weight of each coordinate.
+        weights: [f64; 2],
+        /// Weights of both coordinates in the sum, if there is one.
+        sum: Option<[f64; 2]>,
+    },
 }
 
 impl From<Metric> for Measure {
     fn from(metric: Metric) -> Self {
         match metric {
-            Metric::Euclidean => Self::Ellipse([1.0; 2]),
-            Metric::Weighted { weights } => Self::Ellipse(weights),
-            Metric::Time { speeds } => Self::Rectangle(speeds.map(|speed| 1.0 / speed)),
+            Metric::Euclidean => Self::Ellipse { weights: [1.0; 2], shear: 0.0 },
+            Metric::Weighted { weights } => Self::Ellipse { weights, shear: 0.0 },
+            Metric::Motor { ratio } => Self::Ellipse { weights: [1.0; 2], shear: ratio },
+            Metric::Time { speeds, sum } => {
+                Self::Polygon { weights: speeds.map(|speed| 1.0 / speed), sum: sum.map(SumSpeed::weights) }
+            }
         }
     }
 }
@@ -32,28 +46,40 @@ impl Measure {
     /// Returns the norm of a displacement.
     pub fn norm(self, d: Vector) -> f64 {
         match self {
-            Self::Ellipse([u, v]) => ((u * d.x) * (u * d.x) + (v * d.y) * (v * d.y)).sqrt(),
-            Self::Rectangle([u, v]) => {
-                (u * d.x.abs()).max(v * d.y.abs()) + TIE_BREAK_WEIGHT * u.min(v) * (d.x * d.x + d.y * d.y).sqrt()
+            Self::Ellipse { weights: [u, v], shear } => {
+                let y = shear * d.x + d.y;
+                ((u * d.x) * (u * d.x) + (v * y) * (v * y)).sqrt()
+            }
+            Self::Polygon { weights: [u, v], sum } => {
+                let of_sum = sum.map_or(0.0, |[a, b]| (a * d.x + b * d.y).abs());
+                let greatest = (u * d.x.abs()).max(v * d.y.abs()).max(of_sum);
+                greatest + TIE_BREAK_WEIGHT * u.min(v) * (d.x * d.x + d.y * d.y).sqrt()
             }
         }
     }
 
-    /// Returns the weight of each coordinate.
-    pub fn weights(self) -> [f64; 2] {
-        let (Self::Ellipse(weights) | Self::Rectangle(weights)) = self;
-        weights
+    /// Returns the inner product whose norm an ellipse is. For a polygon, that of its weights alone.
+    pub(super) fn product(self, a: Vector, b: Vector) -> f64 {
+        let ([u, v], shear) = match self {
+            Self::Ellipse { weights, shear } => (weights, shear),
+            Self::Polygon { weights, .. } => (weights, 0.0),
+        };
+        u * u * a.x * b.x + v * v * (shear * a.x + a.y) * (shear * b.x + b.y)
     }
 
-    /// Returns true for [`Measure::Ellipse`], whose balls are ellipses.
-    pub fn is_ellipse(self) -> bool {
-        matches!(self, Self::Ellipse(_))
+    /// Returns a lower bound on the norm of all displacements that move the second coordinate by 1.
+    pub fn least_of_second(self) -> f64 {
+        match self {
+            Self::Ellipse { weights: [_, v], shear: 0.0 } => v,
+            Self::Ellipse { weights: [u, v], shear } => u * v / u.hypot(v * shear),
+            Self::Polygon { weights: [_, v], .. } => v,
+        }
     }
 
     /// Returns a lower bound on the length of paths from `root` to the nearest of the `goals` that cross a segment.
     /// `ends` are the right and left end of that segment as seen from the root.
     ///
-    /// The bound is the length of the shortest such path, with one exception: [`Measure::Rectangle`] with goals on the
+    /// The bound is the length of the shortest such path, with one exception: [`Measure::Polygon`] with goals on the
     /// root's side. The segment may be a point. Therefore `line` has two points farther apart on the segment's line, in
     /// the same direction.
     pub fn bound_through(self, root: Point, ends: [Point; 2], line: [Point; 2], goals: &Segment) -> f64 {
@@ -65,9 +91,9 @@ impl Measure {
         let beyond =
             goals.where_positive(-from, -to).map_or(f64::INFINITY, |beyond| self.bound_across(root, ends, &beyond));
         let Some(before) = goals.where_positive(from, to) else { return beyond };
-        let Self::Ellipse([u, v]) = self else { return beyond.min(before.distance(self, root)) };
+        let Self::Ellipse { .. } = self else { return beyond.min(before.distance(self, root)) };
         // A path to the line and back is as long as the path to the goal's mirror image.
-        let product = |a: Vector, b: Vector| u * u * a.x * b.x + v * v * a.y * b.y;
+        let product = |a: Vector, b: Vector| self.product(a, b);
         let mirrored = |goal: Point| {
             let foot = line[0] + along * (product(goal - line[0], along) / product(along, along));
             foot + (foot - goal)
@@ -99,8 +125,31 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
+    /// Metrics of all kinds.
+    const METRICS: [Metric; 5] = [
+        Metric::Euclidean,
+        Metric::Weighted { weights: [2.0, 0.5] },
+        Metric::Motor { ratio: -1.5 },
+        Metric::Time { speeds: [0.7, 2.0], sum: None },
+        Metric::Time { speeds: [0.7, 2.0], sum: Some(SumSpeed { ratio: 0.8, speed: 0.9 }) },
+    ];
+
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
+
+        /// Compares the nearest configuration of a segment with the best of many.
+        #[test]
+        fn nearest_configurations_are_the_best_of_many(
+            p in (-3.0..3.0, -3.0..3.0f64), from in (-3.0..3.0, -3.0..3.0f64), to in (-3.0..3.0, -3.0..3.0f64),
+        ) {
+            let [p, from, to] = [p, from, to].map(|(x, y)| Point::new(x, y));
+            let segment = Segment::new(from, to);
+            for metric in METRICS {
+                let best = (0..=2000).map(|k| metric.norm(segment.at(f64::from(k) / 2000.0) - p));
+                let (best, found) = (best.fold(f64::INFINITY, f64::min), segment.distance(Measure::from(metric), p));
+                prop_assert!(found <= best + 1e-8 && best <= found + 2e-2, "{metric:?}: {found} {best}");
+            }
+        }
 
         /// Compares the bound with the shortest crossing. A ternary search over the points of the segment finds it,
         /// because the length is a convex function.
@@ -111,12 +160,7 @@ mod tests {
             // The root lies above the axis and looks down through a piece of it.
             let (root, goal) = (Point::new(root.0, root.1), Point::new(goal.0, goal.1));
             let (right, left) = (Point::new(ends.0, 0.0), Point::new(ends.0 + ends.1, 0.0));
-            let metrics = [
-                Metric::Euclidean,
-                Metric::Weighted { weights: [2.0, 0.5] },
-                Metric::Time { speeds: [0.7, 2.0] },
-            ];
-            for metric in metrics {
+            for metric in METRICS {
                 let by_way_of = |share: f64| {
                     let p = right + (left - right) * share;
                     metric.norm(p - root) + metric.norm(goal - p)
@@ -148,7 +192,7 @@ mod tests {
             let (right, left) = (Point::new(ends.0, 0.0), Point::new(ends.0 + ends.1, 0.0));
             let to = [(to.0, to.1), (from.0, to.1), (to.0, from.1)][axis];
             let goals = Segment::new(Vector::new(from.0, from.1), Vector::new(to.0, to.1));
-            for metric in [Metric::Euclidean, Metric::Weighted { weights: [2.0, 0.5] }, Metric::Time { speeds: [0.7, 2.0] }] {
+            for metric in METRICS {
                 let measure = Measure::from(metric);
                 let each = (0..=400).map(|k| Segment::point(goals.at(f64::from(k) / 400.0)));
                 let least = each

@@ -28,7 +28,7 @@ mod topology;
 pub use funnel::{Portal, funnel_path, nearest_end};
 pub use goal_set::GoalSet;
 pub use measure::Measure;
-pub use metric::Metric;
+pub use metric::{Metric, SumSpeed};
 pub use path::Path;
 pub use segment::Segment;
 pub use split_mix::SplitMix64;

@@ -117,14 +117,10 @@ impl Segment {
             return self.from;
         }
         let displacement = self.to - self.from;
-        let [u, v] = measure.weights();
-        let product = |a: Configuration, b: Configuration| u * u * a[0] * b[0] + v * v * a[1] * b[1];
         let there = p - self.from;
-        let foot = product(there, displacement) / product(displacement, displacement);
-        if measure.is_ellipse() {
-            return self.at(foot);
-        }
-        // The maximum of two terms is least at an end of the segment, where one term vanishes, or where both are
+        let foot = measure.product(there, displacement) / measure.product(displacement, displacement);
+        let Measure::Polygon { weights: [u, v], sum } = measure else { return self.at(foot) };
+        // The maximum of some terms is least at an end of the segment, where one term vanishes, or where two are
         // equal.
         let share = |rate: f64, value: f64| if rate == 0.0 { 0.0 } else { value / rate };
         let shares = [
@@ -136,10 +132,19 @@ impl Segment {
             share(u * displacement[0] - v * displacement[1], u * there[0] - v * there[1]),
             share(u * displacement[0] + v * displacement[1], u * there[0] + v * there[1]),
         ];
+        let of_sum = |[a, b]: [f64; 2]| {
+            let along = |d: Configuration| a * d[0] + b * d[1];
+            let term = |x: f64, y: f64| {
+                let of = |d: Configuration| along(d) + x * d[0] + y * d[1];
+                share(of(displacement), of(there))
+            };
+            [term(0.0, 0.0), term(u, 0.0), term(-u, 0.0), term(0.0, v), term(0.0, -v)]
+        };
+        let shares = shares.into_iter().chain(sum.map(of_sum).into_iter().flatten());
         let better = |best: Configuration, next: Configuration| {
             if measure.norm(next - p) < measure.norm(best - p) { next } else { best }
         };
-        shares.into_iter().map(|share| self.at(share)).reduce(better).unwrap_or(self.from)
+        shares.map(|share| self.at(share)).reduce(better).unwrap_or(self.from)
     }
 
     /// Returns the length of the shortest displacement from `p` to the segment.

@@ -142,7 +142,7 @@ impl PathLimits<'_> {
     /// that paths can reach.
     fn turns(&self, joint: usize, low: f64, high: f64) -> std::ops::RangeInclusive<i64> {
         let JointRange::Circle = self.topology.ranges[joint] else { return 0..=0 };
-        let reach = self.limit / self.metric.norm(Configuration::from_fn(|k, _| if k == joint { 1.0 } else { 0.0 }));
+        let reach = self.limit / self.metric.least(joint);
         let from = self.start[joint];
         ((from - reach - high) / TAU).floor() as i64..=((from + reach - low) / TAU).ceil() as i64
     }

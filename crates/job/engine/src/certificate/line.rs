@@ -8,7 +8,7 @@ use cplan_deviation::{Deviation, Foot, Kinematics, Line, Place};
 use cplan_handling::{FollowedLine, Piece};
 use cplan_judge::{Cell, CollisionBox};
 use cplan_model::space::Configuration;
-use cplan_model::{Arm, Pair, Scene};
+use cplan_model::{Arm, Elbow, Pair, Scene};
 use cplan_motion::Trajectory;
 use cplan_toolpath::{Curve, Toolpath};
 use cplan_world::{Digests, Overrides};
@@ -24,6 +24,8 @@ pub struct CertifiedLine<'a> {
     pub line: &'a Toolpath,
     /// Greatest distance between the tip and the line, metres.
     pub tolerance: f64,
+    /// The side of the elbow along the line; `None` if either side will do.
+    pub elbow: Option<Elbow>,
     /// The values that replace those of the world file.
     pub asked: &'a Overrides,
     /// The digests of the files.
@@ -80,6 +82,7 @@ impl CertifiedLine<'_> {
     /// Returns the line as a member of the certificate's JSON, with its part in the evidence.
     fn line_member(&self, evidence: Member) -> Member {
         let mut members: Evidence = vec![member("tolerance", self.tolerance)];
+        members.extend(self.elbow.map(|elbow| member("elbow", elbow.name())));
         members.extend(pieces_members(self.line));
         members.push(evidence);
         let members: Vec<String> = members.iter().map(|(name, value)| format!("\"{name}\": {value}")).collect();

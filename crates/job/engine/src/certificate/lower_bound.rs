@@ -5,7 +5,7 @@ use super::contacts::Contacts;
 use super::{Evidence, blocked_solutions, inward, lines};
 use cplan_geometry::cross;
 use cplan_judge::CollisionBox;
-use cplan_model::space::{Configuration, Metric, Segment};
+use cplan_model::space::{Configuration, Metric, Segment, SumSpeed};
 use cplan_model::{Arm, MotionProblem, inverse};
 use cplan_proofs::ClosedSegment;
 use cplan_solver::Bound;
@@ -81,7 +81,11 @@ impl LowerBound {
         let metric = match self.metric {
             Metric::Euclidean => json!("euclidean"),
             Metric::Weighted { weights } => json!({ "weights": weights }),
-            Metric::Time { speeds } => json!({ "speeds": speeds }),
+            Metric::Time { speeds, sum: None } => json!({ "speeds": speeds }),
+            Metric::Time { speeds, sum: Some(SumSpeed { ratio, speed }) } => {
+                json!({ "motor_speeds": { "speeds": speeds, "ratio": ratio, "speed": speed } })
+            }
+            Metric::Motor { ratio } => json!({ "motor": ratio }),
         };
         let to = self.to.map_or_else(String::new, |to| format!("\"to\": {}, ", json!(to)));
         let (length, walls, potentials) = (self.least.length, lines(&walls), lines(&potentials));
@@ -112,7 +116,7 @@ impl Ends {
             return None;
         }
         let goals: Vec<Configuration> = pieces.iter().map(|goal| inward(&topology, goal.ends()[0])).collect();
-        if let ([goal], None) = (&goals[..], asked.goal_tip) {
+        if let ([goal], None) = (&goals[..], asked.goal_tip.filter(|_| asked.elbow.is_none())) {
             return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
         }
         let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());

@@ -162,7 +162,8 @@ fn tip_and_clearance(asked: &Overrides) -> impl Iterator<Item = Member> + use<> 
     let tip = asked.goal_tip.map(|TipPoint(tip)| member("goal_tip", [tip.x, tip.y]));
     let clearance = asked.clearance.map(|clearance| member("clearance", clearance));
     let errors = asked.calibration.map(|errors| member("calibration", errors.to_string()));
-    tip.into_iter().chain(clearance).chain(errors)
+    let elbow = asked.elbow.map(|elbow| member("elbow", elbow.name()));
+    tip.into_iter().chain(elbow).chain(clearance).chain(errors)
 }
 
 /// Two values of a joint that differ by less than this count as equal, in radians or metres.

@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 /// tables and ROS 2 messages join samples by cubics. The JSON defines quartics between them. With limits on jerk, it
 /// defines the same cubics, and programs may also join samples by quintics, which `has_quintics` includes.
 pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory, has_quintics: bool) -> Member {
-    let is_smooth = arm.joints.iter().any(|joint| joint.jerk.is_some());
+    let is_smooth = arm.limits_jerks();
     let Trajectory { time, position, velocity, acceleration, torque: _, wrist: _ } = trajectory;
     let position = &written_inward(&arm.topology(), position);
     match (is_smooth, has_quintics) {

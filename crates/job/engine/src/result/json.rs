@@ -220,7 +220,7 @@ impl PlanResult<'_> {
 
     /// Writes the trajectory, and how to interpolate between its samples.
     fn trajectory<M: SerializeMap>(&self, fields: &mut Fields<M>, samples: Option<Samples>) -> Result<(), M::Error> {
-        fields.add_optional("interpolation", samples.as_ref().map(|_| interpolation(&self.plan.arm().joints)))?;
+        fields.add_optional("interpolation", samples.as_ref().map(|_| interpolation(self.plan.arm())))?;
         fields.add("trajectory", &samples)
     }
 }

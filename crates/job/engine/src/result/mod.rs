@@ -104,6 +104,7 @@ fn optimum(bound: Bound) -> LengthOptimality {
         Metric::Euclidean => ("euclidean", None),
         Metric::Weighted { weights } => ("weighted", Some(weights)),
         Metric::Time { .. } => ("time", None),
+        Metric::Motor { .. } => ("motor", None),
     };
     LengthOptimality { metric, weights, length: bound.upper, lower_bound: bound.lower, gap: finite(bound.gap()) }
 }

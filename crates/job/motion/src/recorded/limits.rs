@@ -3,7 +3,7 @@
 use super::collision::Moment;
 use super::precision::{JointPrecision, Precision};
 use super::torque::torque_samples;
-use cplan_dynamics::Torques;
+use cplan_dynamics::{LimitedTorque, Torques};
 use cplan_handling::{Derivative, Piece, Recording};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Arm, Joint, Motors, Scene};
@@ -41,7 +41,7 @@ pub enum Limit {
 /// A violated limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LimitViolation {
-    /// Index of the joint, 0 or 1, or [`ELBOW_MOTOR`].
+    /// Index of the joint, 0 or 1, or [`ELBOW_MOTOR`], or [`FIRST_MOTOR`].
     pub joint: usize,
     /// The violated limit.
     pub limit: Limit,
@@ -88,18 +88,22 @@ pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<Limit
 /// Index in [`LimitViolation::joint`] of the elbow's motor, where it is mounted on the base.
 pub const ELBOW_MOTOR: usize = 2;
 
+/// Index in [`LimitViolation::joint`] of the first motor, if its torque differs from that of joint 1. The torque is that
+/// without the motor's gear.
+pub const FIRST_MOTOR: usize = 3;
+
 /// Returns every violated limit of the sum of joint values that the elbow's motor turns, as [`limit_violations`] does.
 pub fn motor_violations(arm: &Arm, recording: &Recording) -> Vec<LimitViolation> {
     let Some(motors) = arm.motors else { return Vec::new() };
-    let Motors { ratio, range, velocity, acceleration, .. } = motors;
-    if range.is_none() && velocity.is_none() && acceleration.is_none() {
+    let Motors { ratio, range, velocity, acceleration, jerk, .. } = motors;
+    if range.is_none() && [velocity, acceleration, jerk].iter().all(Option::is_none) {
         return Vec::new();
     }
     let joint = Joint {
         range: range.map_or(JointRange::Circle, |[lower, upper]| JointRange::Interval { lower, upper }),
         velocity: velocity.unwrap_or(f64::INFINITY),
         acceleration: acceleration.unwrap_or(f64::INFINITY),
-        jerk: None,
+        jerk,
         ..arm.joints[1].clone()
     };
     let precision = Precision::of(recording).of_sum(ratio.abs());
@@ -107,7 +111,8 @@ pub fn motor_violations(arm: &Arm, recording: &Recording) -> Vec<LimitViolation>
     let converted = recording.mapped(|row| Configuration::new(row[0], motors.joint_sum(*row)));
     let pieces = converted.pieces();
     let mut found = Judge { joint: &joint, k: 1, pieces: &pieces, precision, worst: Vec::new() }.violations(&converted);
-    found.retain(|excess| matches!(excess.limit, Limit::Position | Limit::Velocity | Limit::Acceleration));
+    // The joints' own check reports motions that are not at rest at their ends.
+    found.retain(|excess| !matches!(excess.limit, Limit::RestAtStart | Limit::RestAtEnd));
     for excess in &mut found {
         excess.joint = ELBOW_MOTOR;
         excess.moment.at[1] -= ratio * excess.moment.at[0];
@@ -118,8 +123,8 @@ pub fn motor_violations(arm: &Arm, recording: &Recording) -> Vec<LimitViolation>
 /// Greatest change of a torque between two examined moments, as a share of the joint's effort.
 const TORQUE_TOLERANCE: f64 = 1e-4;
 
-/// Returns, for each joint, the moment at which the torque exceeds the joint's effort the most. Returns nothing if
-/// motions of the scene's arm need not respect efforts.
+/// Returns, for each joint and the first motor, the moment at which the torque exceeds the effort the most. Returns nothing
+/// if motions of the scene's arm need not respect efforts.
 ///
 /// Torques are checked if there are velocities, with the interpolation of the file's consumer, and with the same
 /// allowance for rounding as accelerations. Between the examined moments, a torque may be greater by a ten-thousandth
@@ -130,34 +135,41 @@ pub fn torque_violations(scene: &Scene, recording: &Recording) -> Vec<LimitViola
     };
     let (arm, precision, pieces) = (scene.arm(), Precision::of(recording), recording.pieces());
     let inertia = torques.greatest_inertia();
-    let mut judges = [0, 1].map(|k| {
+    let judge = |k: usize| {
         let joint = &arm.joints[k];
         Judge { joint, k, pieces: &pieces, precision: precision.of_joint(k), worst: Vec::new() }
-    });
+    };
+    let both = [judge(0), judge(1)];
+    let judged = |limited: LimitedTorque| (limited, judge(limited.joint.unwrap_or(0)));
+    let mut judges: Vec<_> = torques.limited_torques().map(judged).collect();
     if let [q] = recording.positions() {
         let holding = torques.at(*q).holding();
-        for judge in &mut judges {
-            let (value, allowed) = (holding[judge.k], torques.dynamics.effort[judge.k]);
+        for (limited, judge) in &mut judges {
+            let (value, allowed) = (limited.of(holding), limited.effort);
             if value.abs() > allowed * (1.0 + LIMIT_TOLERANCE) {
                 judge.note(value.abs() - allowed, Limit::Torque, allowed, value, judge.sample(0));
             }
         }
     }
     for (index, piece) in pieces.iter().enumerate().filter(|(_, piece)| piece.to > piece.from) {
-        let explained = judges
-            .each_ref()
-            .map(|judge| judge.rounding_part(piece, &Sensitivity::of(piece, Derivative::Acceleration)));
+        let explained =
+            both.each_ref().map(|judge| judge.rounding_part(piece, &Sensitivity::of(piece, Derivative::Acceleration)));
         for look in torque_samples(&torques, piece, TORQUE_TOLERANCE) {
-            for judge in &mut judges {
-                let (k, value, allowed) = (judge.k, look.torque[judge.k], torques.dynamics.effort[judge.k]);
-                let may = inertia[k][0] * explained[0] + inertia[k][1] * explained[1] + LIMIT_TOLERANCE * allowed;
+            for (limited, judge) in &mut judges {
+                let (value, allowed) = (limited.of(look.torque), limited.effort);
+                let errors = inertia.map(|row| row[0] * explained[0] + row[1] * explained[1]);
+                let may = limited.bound(errors) + LIMIT_TOLERANCE * allowed;
                 if value.abs() - allowed > may {
                     judge.note(value.abs() - allowed, Limit::Torque, allowed, value, judge.moment(index, look.u));
                 }
             }
         }
     }
-    judges.into_iter().flat_map(|judge| judge.worst).map(|(_, excess)| excess).collect()
+    let found = |(limited, judge): (LimitedTorque, Judge)| {
+        let joint = limited.joint.unwrap_or(FIRST_MOTOR);
+        judge.worst.into_iter().map(move |(_, excess)| LimitViolation { joint, ..excess })
+    };
+    judges.into_iter().flat_map(found).collect()
 }
 
 /// The limits of one joint, and their greatest violations.

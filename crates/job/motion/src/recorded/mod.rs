@@ -19,7 +19,9 @@ pub use collision::{
     CollisionCheck, Encounter, Moment, Touch, certify_in_time, check_collision, check_collision_with,
     first_moving_contact,
 };
-pub use limits::{ELBOW_MOTOR, Limit, LimitViolation, limit_violations, motor_violations, torque_violations};
+pub use limits::{
+    ELBOW_MOTOR, FIRST_MOTOR, Limit, LimitViolation, limit_violations, motor_violations, torque_violations,
+};
 pub use tool::swept_by_tool;
 pub use torque::torque_samples;
 pub use turning::{TurnCover, TurnDuringMotion, turn_angle, turn_profile};

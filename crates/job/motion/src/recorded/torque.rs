@@ -1,6 +1,6 @@
 //! Torques along a motion.
 
-use cplan_dynamics::{Rates, Torques};
+use cplan_dynamics::{LimitedTorque, Rates, Torques};
 use cplan_handling::{Derivative, Piece};
 use cplan_model::space::Configuration;
 
@@ -37,8 +37,9 @@ pub fn torque_samples<'a>(
         third: greatest(Derivative::Jerk),
     };
     let rate = torques.change(piece.at(0.5), duration / 2.0, &rates);
-    let share = |k: usize| rate[k] * duration / (2.0 * fine * torques.dynamics.effort[k]);
-    let count = share(0).max(share(1)).ceil().clamp(1.0, MAX_SAMPLES_PER_PIECE);
+    let share = |limited: LimitedTorque| limited.bound(rate) * duration / (2.0 * fine * limited.effort);
+    let share = torques.limited_torques().map(share).fold(0.0, f64::max);
+    let count = share.ceil().clamp(1.0, MAX_SAMPLES_PER_PIECE);
     let off = rate.map(|rate| rate * duration / (2.0 * count));
     let (torques, piece) = (*torques, *piece);
     (0..count as u32).map(move |i| {

@@ -372,9 +372,7 @@ impl<'a> ShortestPathSearch<'a> {
 /// Returns the copies of the goals, on all turns, that may be nearer than the limit.
 fn copies(topology: &Topology, metric: Metric, start: Point, goals: &[Segment], limit: f64) -> Vec<Segment> {
     let turns = |k: usize, goals: &Segment| {
-        let mut unit = Configuration::zeros();
-        unit[k] = 1.0;
-        let far = limit / metric.norm(unit);
+        let far = limit / metric.least(k);
         let [from, to] = goals.ends().map(|goal| goal[k]);
         let (least, greatest) = (from.min(to), from.max(to));
         let window = (start[k] - far - (greatest - least), start[k] + far);

@@ -147,7 +147,7 @@ impl<'s, 'a> Search<'s, 'a> {
 
     /// Finds the shortest path from `start` to one of the goals.
     pub fn run(mut self, start: Point) -> SearchResult {
-        let far = self.limit / self.measure.norm(Point::new(0.0, 1.0));
+        let far = self.limit / self.measure.least_of_second();
         self.range = [start.y - far, start.y + far];
         self.roots.push(Root { at: start, cost: 0.0, before: None });
         for strip in self.strips.strips_at(start.x) {

@@ -22,18 +22,29 @@ struct MotorLimits {
     range: Option<[f64; 2]>,
     velocity: Option<f64>,
     acceleration: Option<f64>,
+    jerk: Option<f64>,
+    /// Greatest torque of the motor, without its gear.
+    effort: Option<f64>,
 }
 
 impl Reduction<'_> {
     /// Returns the motors that the world file describes.
     pub(super) fn motors(&self) -> Result<Option<Motors>, Diagnostic> {
         let Some(given) = &self.settings.table.drives else { return Ok(None) };
-        let (motors, [_, elbow]) = self.read_drives(given)?;
+        let (motors, [first, elbow]) = self.read_drives(given)?;
         if motors.ratio == 0.0 {
             return Ok(Some(motors));
         }
-        let MotorLimits { range, velocity, acceleration } = elbow;
-        Ok(Some(Motors { range, velocity, acceleration, ..motors }))
+        let MotorLimits { range, velocity, acceleration, jerk, .. } = elbow;
+        Ok(Some(Motors { range, velocity, acceleration, jerk, effort: first.effort, ..motors }))
+    }
+
+    /// Returns the efforts of both joints that follow from those of the motors.
+    pub(super) fn motor_efforts(&self) -> Result<[Option<f64>; 2], Diagnostic> {
+        let Some(given) = &self.settings.table.drives else { return Ok([None; 2]) };
+        let (motors, limits) = self.read_drives(given)?;
+        let [first, second] = limits.map(|limit| limit.effort);
+        Ok([first.zip(second).map(|(first, second)| first + motors.ratio.abs() * second), second])
     }
 
     /// Applies the limits of motors to the joints. The sum of both joint values has the limits in [`Motors`].
@@ -103,19 +114,11 @@ impl Reduction<'_> {
                 .diagnostic(given.span(), message)
                 .help("remove drives; limits of joints are velocity = { NAME = .. }"));
         }
-        let with_ratio = |ratio: f64| Motors {
-            ratio,
-            gear: [1.0; 2],
-            zero: [0.0; 2],
-            range: None,
-            velocity: None,
-            acceleration: None,
-        };
         let table = match given.get_ref() {
             DrivesValue::Table(table) => table,
             DrivesValue::Preset(name) => match name.as_str() {
-                "standard_scara" => return Ok((with_ratio(1.0), Default::default())),
-                "direct" => return Ok((with_ratio(0.0), Default::default())),
+                "standard_scara" => return Ok((Motors::with_ratio(1.0), Default::default())),
+                "direct" => return Ok((Motors::with_ratio(0.0), Default::default())),
                 other => {
                     let message = format!("\"{other}\" is unknown");
                     return Err(self
@@ -124,7 +127,7 @@ impl Reduction<'_> {
                 }
             },
         };
-        let mut read = with_ratio(self.ratio(table)?);
+        let mut read = Motors::with_ratio(self.ratio(table)?);
         if let Some(gear) = &table.gear {
             read.gear = self.pair(gear, "gear")?;
             if let Some(k) = read.gear.iter().position(|gear| gear.abs() < 1.0 / LARGEST) {
@@ -179,24 +182,30 @@ impl Reduction<'_> {
             let message = format!("the lower limit of motor {} is not below the upper one", k + 1);
             return Err(self.diagnostic(at, message).help("write the lower one first, and the greater one second"));
         }
-        let rates = |given: &Option<Numbers>, name: &str| match given {
+        let positive = |given: &Option<Numbers>, name: &str| match given {
             None => Ok(None),
             Some(numbers) => match self.pair(numbers, name)? {
-                rates if rates.iter().all(|rate| *rate > 0.0) => {
-                    Ok(Some([0, 1].map(|k| rates[k] / motors.gear[k].abs())))
-                }
+                limits if limits.iter().all(|limit| *limit > 0.0) => Ok(Some(limits)),
                 _ => {
                     let message = format!("motors, {name}: both numbers must be above 0");
-                    Err(self.diagnostic(numbers.span(), message).help("in radians and seconds"))
+                    Err(self.diagnostic(numbers.span(), message).help("in radians, seconds and N m"))
                 }
             },
         };
         let (velocity, acceleration) =
-            (rates(&table.velocity, "velocity")?, rates(&table.acceleration, "acceleration")?);
-        Ok([0, 1].map(|k| MotorLimits {
-            range: range.map(|range| range[k]),
-            velocity: velocity.map(|velocity| velocity[k]),
-            acceleration: acceleration.map(|acceleration| acceleration[k]),
+            (positive(&table.velocity, "velocity")?, positive(&table.acceleration, "acceleration")?);
+        let (jerk, effort) = (positive(&table.jerk, "jerk")?, positive(&table.effort, "effort")?);
+        Ok([0, 1].map(|k| {
+            let gear = motors.gear[k].abs();
+            let driven = |rates: Option<[f64; 2]>| rates.map(|rates| rates[k] / gear);
+            MotorLimits {
+                range: range.map(|range| range[k]),
+                velocity: driven(velocity),
+                acceleration: driven(acceleration),
+                jerk: driven(jerk),
+                // A gear that slows down strengthens.
+                effort: effort.map(|effort| effort[k] * gear),
+            }
         }))
     }
 
@@ -250,6 +259,9 @@ impl Bounds {
         if let Some(limit) = motor.acceleration {
             self.rates.acceleration = if acceleration { limit } else { self.rates.acceleration.min(limit) };
             self.rates.assumed.acceleration = false;
+        }
+        if let Some(limit) = motor.jerk {
+            self.rates.jerk = Some(self.rates.jerk.map_or(limit, |jerk| jerk.min(limit)));
         }
         Some(())
     }

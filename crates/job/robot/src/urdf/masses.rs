@@ -43,13 +43,18 @@ pub(super) fn check(settings: RobotSettings) -> Result<(), Diagnostic> {
 }
 
 impl Bodies<'_> {
-    /// Returns masses and efforts of an arm.
+    /// Returns masses and efforts of an arm. `motors` are the efforts of the joints that follow from those of the motors.
     ///
     /// # Errors
     /// Links without mass, joints without effort, and numbers that no rigid body can have.
-    pub fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
+    pub fn dynamics(&self, arm: &Arm, assumed: [bool; 2], motors: [Option<f64>; 2]) -> Result<Dynamics, Diagnostic> {
         check(self.settings)?;
-        let effort = [self.effort(0)?, self.effort(1)?];
+        let effort = |k: usize| match (self.effort(k), motors[k]) {
+            (Ok(own), Some(motor)) => Ok(own.min(motor)),
+            (Err(_), Some(motor)) => Ok(motor),
+            (own, None) => own,
+        };
+        let effort = [effort(0)?, effort(1)?];
         let bodies = [self.body(0)?, self.body(1)?];
         let gravity = self.gravity();
         let gravity = Vector::new(gravity.dot(&self.plane.u), gravity.dot(&self.plane.v));

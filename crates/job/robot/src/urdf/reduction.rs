@@ -107,7 +107,8 @@ impl<'a> Reduction<'a> {
     /// The values that the file lacks.
     fn dynamics(&self, arm: &Arm, assumed: [bool; 2]) -> Result<Dynamics, Diagnostic> {
         let &Self { document, tree, settings, chain, ref poses } = self;
-        Bodies { document, tree, chain, settings, plane: &arm.plane, poses }.dynamics(arm, assumed)
+        let efforts = self.motor_efforts()?;
+        Bodies { document, tree, chain, settings, plane: &arm.plane, poses }.dynamics(arm, assumed, efforts)
     }
 
     /// Assembles the arm. If masses and efforts are unknown, also returns the reason.

@@ -11,8 +11,8 @@ use super::tree::{self, Tree};
 use super::{help, ignored};
 use crate::error::InputError;
 use crate::inspection::{
-    BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, OutlineEntry, PairEntry, PlaneEntry,
-    RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry, source_name,
+    BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, MotorEntry, OutlineEntry, PairEntry,
+    PlaneEntry, RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry, source_name,
 };
 use crate::quantity::find;
 use crate::robot_file::RobotFile;
@@ -146,6 +146,8 @@ fn examine_pair(report: &mut Inspection, reduction: &Reduction) {
     report.warnings.extend(advice::warnings(reduction, &arm));
     report.reach = Some(reach(&arm));
     report.frames = frames(reduction, &plane);
+    let words = arm.motors.as_ref().map_or_else(String::new, |motors| reduction.describe_motors(motors));
+    report.motors = MotorEntry::new(&arm, words);
     report.scene = Some(Scene::trusted(arm, Workspace::new([])));
 }
 

@@ -17,7 +17,7 @@ pub struct Played {
 
 /// Returns true if the jerk of a joint is limited.
 pub fn is_smooth(arm: &Arm) -> bool {
-    arm.joints.iter().any(|joint| joint.jerk.is_some())
+    arm.limits_jerks()
 }
 
 impl Played {

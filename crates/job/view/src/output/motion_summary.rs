@@ -185,6 +185,7 @@ fn optimum(bound: &Bound, is_among_movers: bool) -> String {
         Metric::Euclidean => format!("length {upper:.4}"),
         Metric::Weighted { weights: [a, b] } => format!("weighted length {upper:.4} (weights {a}, {b})"),
         Metric::Time { .. } => format!("{upper:.4} s at top speed"),
+        Metric::Motor { .. } => format!("length in motor angles {upper:.4}"),
     };
     let (lower, gap) = (round_down(lower, 4), percent(bound.gap()));
     if is_among_movers {
