@@ -71,7 +71,7 @@ pub struct GcodeArgs {
     /// tip stays within the tolerance of the line.
     #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
     segment: Option<f64>,
-    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     clearance: Option<f64>,
     /// Write the program with safe travels.

@@ -67,7 +67,7 @@ pub struct FollowArgs {
     /// New position of the line's origin, metres.
     #[arg(long = "move", value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
     pub shift: Option<[f64; 2]>,
-    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     pub clearance: Option<f64>,
     /// Time between two samples of the motion, seconds.

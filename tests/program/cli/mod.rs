@@ -48,6 +48,7 @@ mod programs;
 mod proof_sizes;
 mod reach;
 mod results;
+mod slips;
 mod supports;
 mod tolerant_reading;
 #[cfg(feature = "study")]
