@@ -42,7 +42,7 @@ pub struct CheckArgs {
     /// Time for the positions of moving obstacles, seconds since the motion begins.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.0, value_parser = time, allow_hyphen_values = true)]
     pub time: f64,
-    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
     pub clearance: Option<f64>,
     /// Errors within which the answer holds, instead of the world's, such as

@@ -61,9 +61,10 @@ pub use words::read_words;
 
 use crate::engine::Method;
 use crate::options::PlannerWords;
-use clap::error::ErrorKind;
+use clap::error::{ContextKind, ContextValue, ErrorKind};
 use clap::{Args, CommandFactory, FromArgMatches, Parser, Subcommand};
 use commands::commands;
+use cplan_text::nearest_word;
 use error_json::ErrorJson;
 use exit::USAGE;
 use files::Files;
@@ -138,7 +139,8 @@ Examples:
   cplan compare robots/planar_2r.urdf workspaces/shelf.toml
   cplan compare --suite workspaces --output report.html
 
-Lengths are in metres, angles in radians (or degrees: 30deg), times in seconds.
+Lengths are in metres (or with a unit: 20mm), angles in radians (or degrees:
+30deg), times in seconds.
 
 Exit codes: 0 found and certified, 1 bad input or I/O, 2 wrong command line, 3
 proven infeasible, 4 unknown.")]
@@ -166,6 +168,14 @@ impl Cli {
         }
     }
 
+    /// Returns the commands in groups and the first examples, for a command line without words.
+    fn overview() -> String {
+        let mut grammar = Self::for_messages();
+        let template = commands::help_template(&grammar, GROUPS).replace("\n{all-args}{after-help}", OVERVIEW_END);
+        grammar = grammar.help_template(template);
+        grammar.render_help().to_string()
+    }
+
     /// Returns the grammar for help and error messages. Subcommands are in groups. Only `cplan planners` shows the options of
     /// planners.
     fn for_messages() -> clap::Command {
@@ -180,6 +190,11 @@ impl Cli {
         })
     }
 }
+
+/// End of the overview of the commands.
+const OVERVIEW_END: &str = "
+Begin with `cplan demo`, which needs no files. `cplan --help` lists the options,
+`cplan help COMMAND` explains a command.";
 
 /// Returns the grammar of the whole command line, from which manual pages and scripts are generated.
 fn grammar() -> clap::Command {
@@ -213,14 +228,22 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     #[cfg(feature = "gpu")]
     crate::bring_gpu();
     crate::input::read_svg_lines();
+    if arguments.len() < 2 {
+        sinks::print_status(Cli::overview().trim_end());
+        return USAGE;
+    }
     let in_json = arguments.iter().any(|argument| argument == "--json");
-    let first = arguments.get(1).cloned();
-    let mut command = match read_alone(&arguments).map_or_else(|| Cli::read(&arguments), Ok) {
+    let misspelled = misspelled_command_error(&arguments);
+    let read = misspelled.map_or_else(|| read_alone(&arguments).map_or_else(|| Cli::read(&arguments), Ok), Err);
+    let mut command = match read {
         Ok(command) => command,
-        Err(error) => {
-            let is_word = matches!(error.kind(), ErrorKind::ArgumentConflict | ErrorKind::MissingRequiredArgument);
-            let misspelled = first.filter(|_| is_word).and_then(misspelled_command_error);
-            return unread(&misspelled.unwrap_or(error), in_json);
+        Err(mut error) => {
+            // A world with steps may itself have the line.
+            if arguments[1] == "follow" && error.kind() == ErrorKind::MissingRequiredArgument {
+                let tip = "PATH is the line; a world with steps needs none: `cplan plan URDF WORLD`";
+                error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+            }
+            return unread(&error, in_json);
         }
     };
     command.run(meter).unwrap_or_else(|failure: Failure| {
@@ -251,14 +274,23 @@ fn read<A: Args>(line: &[OsString]) -> Option<A> {
     A::from_arg_matches(&grammar.try_get_matches_from(line).ok()?).ok()
 }
 
-/// Returns an error if the first word is neither a subcommand nor a file. Without this check, clap would take the third
-/// of several words for a subcommand, and report a conflict with two files.
-fn misspelled_command_error(first: OsString) -> Option<clap::Error> {
-    let word = first.to_string_lossy();
-    let is_meant = Path::new(&first).extension().is_none() && !word.starts_with('-');
-    let is_known = Cli::command().find_subcommand(&*word).is_some() || Path::new(&first).exists();
-    let message = || format!("there is no command and no file {word:?}; `cplan --help` lists the commands");
-    (is_meant && !is_known).then(|| Cli::command().error(ErrorKind::InvalidSubcommand, message()))
+/// Returns an error if the first word is neither a subcommand nor a file, or if there is no such subcommand to explain.
+/// Without this check, clap would take the third of several words for a subcommand, and report a conflict with two files.
+fn misspelled_command_error(arguments: &[OsString]) -> Option<clap::Error> {
+    let is_help = arguments.get(1).is_some_and(|word| word == "help");
+    let given = arguments.get(if is_help { 2 } else { 1 })?;
+    let word = given.to_string_lossy();
+    let is_file = !is_help && (Path::new(given).extension().is_some() || Path::new(given).exists());
+    if is_file || word.is_empty() || word.starts_with('-') || word == "help" || Command::has_subcommand(&word) {
+        return None;
+    }
+    let mut grammar = Cli::command();
+    let near = nearest_word(&word, grammar.get_subcommands().map(clap::Command::get_name));
+    let tip =
+        near.map_or("`cplan --help` lists the commands".to_owned(), |near| format!("did you mean `cplan {near}`?"));
+    let what = if is_help { "no command" } else { "no command and no file" };
+    let message = format!("there is {what} {word:?}\n\n  tip: {tip}");
+    Some(grammar.error(ErrorKind::InvalidSubcommand, message))
 }
 
 /// Reports a command line that cannot be parsed. Prints help or version if the line requests them. Returns the exit

@@ -21,8 +21,9 @@ use crate::motion::{Format, write_whole};
 use crate::options::{MotionArgs, PlannerArgs, Word, planners, word};
 use crate::output::{CSpaceFormat, Line, PlanOutput as _, format_columns, summary_with};
 use crate::space::Configuration;
-use crate::view::FieldLines;
+use crate::view::{FieldLines, View};
 use clap::{Args, ValueHint};
+use cplan_explain::{MotionQuestion, TIME_LIMIT, explain as find_explanation, with_explanation};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -242,6 +243,15 @@ fn require_grid(args: &PlanArgs, outputs: &Outputs<PlanContent>, planner: &Plann
     Ok(())
 }
 
+/// Adds the cards of an explanation to the view of a motion that is proven not to exist: what blocks it, and which changes
+/// open a path.
+fn explained(plan: &Plan, view: View) -> View {
+    let problem = plan.motion().filter(|_| plan.status() == Status::Infeasible).map(|(problem, _)| problem);
+    let Some(problem) = problem.filter(|problem| problem.scene().loose_obstacles().is_empty()) else { return view };
+    let question = MotionQuestion::from(problem).with_time_limit(TIME_LIMIT);
+    with_explanation(view, &find_explanation(&question, &Options::default()))
+}
+
 /// Writes results, configuration spaces, programs, pictures and the certificate. Returns the names of the written
 /// files.
 ///
@@ -268,7 +278,7 @@ fn written(
     let mut written = files.write(plan, member)?;
     let plays = outputs.pictures.iter().any(|(_, format)| format.is_animated());
     let seen = || {
-        let mut view = if plays { plan.view_with_replay() } else { plan.view() };
+        let mut view = if plays { explained(plan, plan.view_with_replay()) } else { plan.view() };
         view.facts.extend(hint.iter().map(|hint| ["hint".to_owned(), (*hint).to_owned()]));
         args.theme.apply(view).with_field_lines(args.field_lines).with_labels_from(args.labels_from)
     };

@@ -17,13 +17,13 @@ pub struct QueryArgs {
     /// Goal configuration instead of the world's.
     #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with = "goal_tip")]
     pub goal: Option<JointValues>,
-    /// Goal position of the tip instead of the world's goal, metres. Any IK solution counts.
+    /// Goal position of the tip instead of the world's goal, metres or as in 350mm,0.5. Any IK solution counts.
     #[arg(long, value_name = "x,y", allow_hyphen_values = true)]
     pub goal_tip: Option<TipPoint>,
     /// Side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default either side will do.
     #[arg(long, value_name = "SIDE", requires = "goal_tip", conflicts_with = "goal", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
     pub elbow: Option<Elbow>,
-    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance, allow_hyphen_values = true)]
     pub clearance: Option<f64>,
     /// Errors within which the answer holds, instead of the world's, such as

@@ -48,7 +48,7 @@ pub struct ReachArgs {
     /// Side of the cells, metres [default: a 60th of the arm's reach].
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub cell: Option<f64>,
-    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     pub clearance: Option<f64>,
     /// Write the cells and their IK solutions: .json, or .csv with one line per solution. Can be repeated.

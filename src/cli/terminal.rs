@@ -32,7 +32,7 @@ pub fn summary(text: &str, code: u8) -> String {
     let stdout = std::io::stdout();
     let width = width(stdout.is_terminal(), terminal_size_of(&stdout));
     let text = width.map_or_else(|| text.to_owned(), |width| wrap_summary(text, width));
-    if AutoStream::choice(&stdout) == ColorChoice::Never { text } else { dim_notes(&color_verdict(&text, code)) }
+    if AutoStream::choice(&stdout) == ColorChoice::Never { text } else { style_lines(&color_verdict(&text, code)) }
 }
 
 /// Returns a message for stderr with a coloured label. On a terminal, its lines are wrapped.
@@ -99,15 +99,18 @@ fn color_verdict(text: &str, code: u8) -> String {
     before
 }
 
-/// Makes the notes of a summary dim, which are less important than the result.
-fn dim_notes(text: &str) -> String {
-    let style = Style::new().dimmed();
-    let mut is_note = false;
+/// Makes the notes of a summary dim, which are less important than the result, and warnings yellow.
+fn style_lines(text: &str) -> String {
+    let styles =
+        [("note ", Style::new().dimmed()), ("warning ", Style::new().fg_color(Some(AnsiColor::Yellow.into())))];
+    let mut style = None;
     let line = |line: &str| {
         // A line without a key continues the one before.
-        is_note = line.starts_with("note ") || (is_note && line.starts_with(' '));
+        if !line.starts_with(' ') {
+            style = styles.iter().find(|(key, _)| line.starts_with(key)).map(|(_, style)| style);
+        }
         let (bare, end) = line.strip_suffix('\n').map_or((line, ""), |bare| (bare, "\n"));
-        if is_note { format!("{style}{bare}{style:#}{end}") } else { line.to_owned() }
+        style.map_or_else(|| line.to_owned(), |style| format!("{style}{bare}{style:#}{end}"))
     };
     text.split_inclusive('\n').map(line).collect()
 }
@@ -125,7 +128,7 @@ mod tests {
     fn notes_are_dim_with_their_continuations() {
         let text = "result     found\nnote       a: is\n           assumed\nfile       b\n";
         let dim = "result     found\n\u{1b}[2mnote       a: is\u{1b}[0m\n\u{1b}[2m           assumed\u{1b}[0m\nfile       b\n";
-        assert_eq!(dim_notes(text), dim);
+        assert_eq!(style_lines(text), dim);
     }
 
     #[test]

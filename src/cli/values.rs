@@ -1,14 +1,16 @@
 //! Parsers for numbers on the command line.
 
 use crate::options::{finite, number_in};
-use cplan_follow::{MIN_TOLERANCE, metres};
+use cplan_follow::MIN_TOLERANCE;
+use cplan_text::metres;
 
 /// Longest time limit that a command accepts, in seconds: some thirty years.
 const MAX_JOB_SECONDS: f64 = 1e9;
 
-/// Parses a least distance from obstacles, in metres.
+/// Parses a least distance from obstacles: metres, or a length with its unit.
 pub fn clearance(text: &str) -> Result<f64, String> {
-    number_in(text, |x| x.is_finite() && x >= 0.0, "of metres, finite and not negative")
+    let range = "must be a length such as 0.02 or 20mm, finite and not negative";
+    metres(text).ok().filter(|x| x.is_finite() && *x >= 0.0).ok_or_else(|| range.to_owned())
 }
 
 /// Parses the greatest distance of the tip from a line: metres, or a length with its unit.

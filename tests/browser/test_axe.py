@@ -76,7 +76,7 @@ def test_nothing_is_found_on_pages(pages, show_file, name):
 def test_nothing_is_found_in_any_state_of_a_result(pages, show_file, scheme):
     seen = show_file(pages["task"], width=1000, height=900, color_scheme=scheme)
     for state in (
-        "cplan.tour.start()", "cplan.tour.end()", "cplan.tabs.choose('steps')", "cplan.tabs.choose('plots')", "cplan.tabs.choose('margins')", "cplan.tabs.choose('details')",
+        "cplan.tour.start()", "cplan.tour.end()", "cplan.sideView.choose('space')", "cplan.tabs.choose('plots')", "cplan.tabs.choose('margins')", "cplan.tabs.choose('details')",
         "cplan.dragTip([0.3, 0.2])", "cplan.switchTo('think')", "cplan.switchTo('learn')", "cplan.learn.open('carrying')",
         "cplan.learn.question.submit(new Event('submit'))", "cplan.learn.open('slice')", "cplan.learn.open('tests')", "document.documentElement.style.fontSize = '200%'",
     ):

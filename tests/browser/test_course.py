@@ -73,7 +73,7 @@ def test_the_chapters_of_the_book_are_those_of_the_page():
 @pytest.mark.parametrize("chapter", CHAPTERS)
 def test_a_chapter_opens_in_the_course_of_its_page(program, show, chapter):
     file = written(program, chapter)
-    assert file.stat().st_size < 550_000
+    assert file.stat().st_size < 620_000
     seen = show(f"{file.as_uri()}#learn={chapter}")
     lessons = lessons_of(seen, chapter)
     assert (seen.do("cplan.mode"), seen.do("cplan.learn.lesson")) == ("learn", lessons[0]) and len(lessons) > 1
@@ -297,3 +297,47 @@ def test_a_live_figure_takes_the_place_of_the_picture(show, tmp_path):
     seen = show(file.as_uri())
     assert seen.do("[...document.querySelectorAll('main img')].map((image) => image.alt)") == ["b"]
     assert seen.do("[...document.querySelectorAll('iframe')].map((frame) => [frame.title, frame.getAttribute('src')])") == [["a", "live/x.html#think"]]
+
+
+@pytest.mark.parametrize(("width", "room", "beside"), [(1280, 1000, True), (700, 668, True), (390, 358, False)])
+def test_a_live_figure_fits_its_frame(program, show, tmp_path, width, room, beside):
+    page, _ = program.plan("planar_2r", "shelf")
+    (tmp_path / "live").mkdir()
+    (tmp_path / "live/x.html").write_text(page.read_text())
+    script = (ROOT / "docs/live.js").as_uri()
+    figure = '<p><img src="data:," alt="a"> <!-- live: x.html#learn=c_obstacles --></p>'
+    file = tmp_path / "chapter.html"
+    file.write_text(
+        f'<meta name="viewport" content="width=device-width"><body style="margin:0"><div id="content"><main style="max-width:750px;margin:0 auto">{figure}</main></div><script src="{script}"></script>'
+    )
+    seen = show(file.as_uri(), width=width, height=800)
+    element = seen.page.locator("iframe")
+    frame = element.element_handle().content_frame()
+    frame.wait_for_selector(".embedded .course-head")
+    for lesson in ("point", "slice", "sweep"):
+        frame.evaluate("(lesson) => cplan.learn.open(lesson)", lesson)
+        seen.page.wait_for_timeout(300)
+        box, content = element.bounding_box(), frame.evaluate("document.querySelector('main').getBoundingClientRect().height")
+        assert box["width"] == pytest.approx(room, abs=2)
+        assert content <= box["height"] <= content + 8, "as high as its content"
+        assert frame.evaluate("document.documentElement.scrollWidth") <= box["width"] + 1
+        # Nothing of the page around the lesson, but both spaces in sight.
+        for left_out in ("h1", ".status", ".side", ".modes", ".cards"):
+            assert frame.locator(left_out).first.is_hidden(), left_out
+        if lesson != "sweep":
+            boxes = [frame.locator(f"canvas[aria-label='{name}']").bounding_box() for name in ("Workspace", "Configuration space")]
+            assert (boxes[1]["x"] > boxes[0]["x"] + boxes[0]["width"]) == beside
+            assert boxes[1]["y"] + boxes[1]["height"] <= box["y"] + box["height"]
+    seen.shoot(f"embedded-{width}")
+
+
+def test_the_address_names_the_lesson(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    seen.do("cplan.switchTo('learn')")
+    seen.do("cplan.learn.open('c_obstacles', 'tests')")
+    assert seen.do("location.hash") == "#learn=c_obstacles/tests"
+    seen.page.reload()
+    assert seen.do("[cplan.mode, cplan.learn.lesson]") == ["learn", "tests"], "the address opens it again"
+    seen.do("cplan.switchTo('move')")
+    assert seen.do("location.hash") == "#move"

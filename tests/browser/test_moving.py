@@ -102,7 +102,7 @@ def test_the_height_of_the_tool_is_shown_in_time(program, show_file):
     seen = show_file(page)
     height = seen.do("cplan.model.height")
     assert height["joint"] == "axis_3" and math.isclose(height["duration"], plan["duration"], abs_tol=1e-3)
-    canvas = seen.page.locator("figure[class='height height'] canvas")
+    canvas = seen.page.locator(".side-view canvas")
     assert canvas.is_visible() and "from -150 to -125 mm" in canvas.get_attribute("aria-label")
     # The tool is down when the gripper acts, and in between it is up at least once.
     at = lambda time: seen.do("(time) => Timeline.valueAt(cplan.model.height.motion, time)", time)
@@ -110,9 +110,9 @@ def test_the_height_of_the_tool_is_shown_in_time(program, show_file):
     assert all(math.isclose(at(time), -150, abs_tol=0.1) for time in times)
     for before, after in zip(times, times[1:]):
         assert max(at(before + (after - before) * k / 200) for k in range(201)) > -125.1
-    # A task without strokes has no strip of heights.
+    # A task without strokes has no side view.
     page, _ = program.plan("rrbot_vertical", "tasks/tower")
-    assert show_file(page).page.locator("figure[class='height height']").is_hidden()
+    assert show_file(page).page.locator(".side-view").is_hidden()
 
 
 def test_the_turns_of_the_wrist_are_shown_in_time(program, show_file):

@@ -30,15 +30,15 @@ def test_steps_can_be_gone_to(program, show_file, robot, world, code):
     page, result = program.plan(robot, world, code=code)
     seen = show_file(page)
     motions = seen.do("cplan.model.motions")
-    steps = seen.page.locator(".steps button")
+    steps = seen.page.locator(".gantt .bar")
     assert steps.count() == len(motions)
     begins = [motion["from"] for motion in motions]
     assert begins == sorted(begins), "in the order in which they are done"
     for k, motion in enumerate(motions):
         steps.nth(k).click()
-        assert motion["label"] in steps.nth(k).inner_text()
+        assert motion["label"] in steps.nth(k).get_attribute("aria-label")
         assert seen.do("cplan.time") == pytest.approx(min(motion["from"], seen.do("cplan.duration")))
-        assert seen.page.locator(".steps [aria-current=step]").count() == 1
+        assert seen.page.locator(".gantt [aria-current=step]").count() == 1
         assert steps.nth(k).get_attribute("aria-current") == "step"
     marks = seen.do("[...document.querySelectorAll('.ticks i')].map((mark) => Number(mark.style.getPropertyValue('--at')))")
     duration = seen.do("cplan.duration")
@@ -50,7 +50,7 @@ def test_steps_can_be_gone_to(program, show_file, robot, world, code):
 def test_a_single_motion_has_no_steps_and_phases_have_marks(program, show_file):
     page, _ = program.plan("planar_2r", "shelf")
     seen = show_file(page)
-    assert seen.page.locator(".steps").is_hidden() and seen.page.locator(".ticks i").count() == 0
+    assert seen.page.locator(".gantt").is_hidden() and seen.page.locator(".ticks i").count() == 0
     seen.page.keyboard.press("t")
     assert seen.page.locator(".ticks i").count() == seen.do("cplan.model.replay.length") - 1
 

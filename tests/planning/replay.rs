@@ -44,14 +44,14 @@ fn every_planner_has_a_replay() {
         let Some(path) = answer.path() else { panic!("{method} finds it") };
         assert_eq!(phases.last().unwrap().shows, Shows::Path, "{method}");
         assert!(phases.len() > 1, "{method} saw something before");
-        for Phase { shows, events, caption } in &phases {
+        for Phase { shows, events, caption, .. } in &phases {
             match shows {
                 Shows::Path => assert_eq!(*events, path.waypoints().len()),
                 Shows::Own(own) => {
                     assert_eq!(answer.path_kind, PathKind::Taut);
                     assert!(own.length() >= path.length() - 1e-9, "{method} pulls its path taut");
                 }
-                Shows::Slabs(_) | Shows::Sweeps(_) => {}
+                Shows::Slabs(_) | Shows::Sweeps(_) | Shows::First(_) | Shows::Bound(_) => {}
                 _ => assert_eq!(shown_count(shows, &answer.drawn()), Some(*events), "{method}: {caption}"),
             }
         }
@@ -114,6 +114,32 @@ fn boxes_of_slabs_have_true_states() {
         seen += free.len() + stuck.len();
     }
     assert!(seen > 100, "{seen} boxes");
+}
+
+/// Checks the phases in which the length is enclosed: the first path is certified again, and the bounds never fall and never
+/// exceed the length of a path. Without walls, the bound is the straight line.
+#[test]
+fn the_length_is_enclosed_from_both_sides() {
+    let mut rounds_seen = 0;
+    for (robot, world) in [("planar_2r", "shelf"), ("planar_2r", "workbench"), ("scara", "scara_cell")] {
+        let plan = plan_shipped(robot, world, Method::Shortest);
+        let (problem, answer) = plan.motion().unwrap();
+        let (phases, bound) = (replayed(&plan), answer.bound().unwrap());
+        let [.., first, Phase { shows: Shows::Bound(rounds), .. }, _, last] = &phases[..] else { panic!("{phases:?}") };
+        let Shows::First(path) = &first.shows else { panic!("{first:?}") };
+        assert!(cplan::check::certify(problem.scene(), path.clone()).is_ok(), "{world}");
+        assert_eq!((first.length, last.length), (Some(path.length()), Some(bound.upper)), "{world}");
+        assert!(path.length() >= bound.upper - 1e-9, "{world}");
+        let lower: Vec<f64> = rounds.iter().map(|round| round.lower).collect();
+        assert!(lower.is_sorted() && lower[lower.len() - 1] == bound.lower && bound.lower <= bound.upper, "{world}");
+        let ends = answer.path().unwrap().waypoints();
+        let straight = (ends[ends.len() - 1] - ends[0]).norm();
+        assert!(lower[0] <= straight && rounds[0].slices.is_empty(), "{world}: {} {straight}", lower[0]);
+        assert!(rounds.iter().all(|round| round.path.is_empty() || round.path[0] == problem.start()), "{world}");
+        assert!(rounds[1..].windows(2).all(|pair| pair[0].slices.len() <= pair[1].slices.len()), "{world}");
+        rounds_seen += rounds.len();
+    }
+    assert!(rounds_seen > 8, "{rounds_seen}");
 }
 
 #[test]

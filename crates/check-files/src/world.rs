@@ -87,6 +87,20 @@ impl Default for RobotTable {
     }
 }
 
+/// Units of length that a world file may name, and their lengths in metres.
+const LENGTH_UNITS: [(&str, &str); 10] = [
+    ("mm", "0.001"),
+    ("cm", "0.01"),
+    ("dm", "0.1"),
+    ("m", "1"),
+    ("km", "1000"),
+    ("um", "0.000001"),
+    ("mil", "0.0000254"),
+    ("in", "0.0254"),
+    ("ft", "0.3048"),
+    ("yd", "0.9144"),
+];
+
 /// Reads values of the file, and reports errors with their position.
 struct Reader<'a> {
     text: &'a str,
@@ -130,6 +144,20 @@ impl Reader<'_> {
         Decimal::read(&text.replace('_', "")).or_else(|why: String| self.error(value, &why))
     }
 
+    /// Reads a length in metres: a number, or a text with its unit, exactly.
+    fn length(&self, value: &Value) -> ReadResult<Decimal> {
+        let Some(text) = value.get_ref().as_str() else { return self.number(value) };
+        let text = text.trim();
+        let (number, unit) = text.split_at(text.trim_end_matches(|c: char| c.is_ascii_alphabetic()).len());
+        let factor =
+            LENGTH_UNITS.iter().find(|(name, _)| *name == unit).and_then(|(_, metres)| Decimal::read(metres).ok());
+        let number = Decimal::read(number.trim_end()).ok();
+        number.zip(factor).map_or_else(
+            || self.error(value, "expected a number, or a length such as \"20 mm\""),
+            |(number, factor)| Ok(&number * &factor),
+        )
+    }
+
     /// Reads a number, or a quantity in degrees, and returns an enclosure in radians or metres.
     fn quantity(&self, value: &Value) -> ReadResult<Range> {
         let Some(text) = value.get_ref().as_str() else {
@@ -151,7 +179,7 @@ impl Reader<'_> {
     }
 
     fn corners(&self, value: &Value) -> ReadResult<Vec<Corner>> {
-        self.list(value)?.into_iter().map(|p| self.pair(p, |n| self.number(n))).collect()
+        self.list(value)?.into_iter().map(|p| self.pair(p, |n| self.length(n))).collect()
     }
 
     /// Reads a ring, or a list of rings as in GeoJSON.
@@ -174,13 +202,13 @@ impl Reader<'_> {
         let mut table = self.table(value)?.clone();
         TOOL_KEYS.iter().for_each(|key| drop(table.remove(*key)));
         if let (Some(areas), 1) = (table.get("areas"), table.len()) {
-            let area = |corners: &Value| self.pair(corners, |corner| self.pair(corner, |n| self.number(n)));
+            let area = |corners: &Value| self.pair(corners, |corner| self.pair(corner, |n| self.length(n)));
             return self.list(areas)?.into_iter().map(area).collect::<ReadResult<Vec<_>>>().map(Goal::Areas);
         }
         match (table.get("joints"), table.get("tip")) {
             (Some(joints), None) if table.len() == 1 => Ok(Goal::Joints(self.pair(joints, |q| self.quantity(q))?)),
             (None, Some(tip)) if table.len() == 1 + usize::from(table.contains_key("elbow")) => {
-                Ok(Goal::Tip(self.pair(tip, |n| self.number(n))?, self.elbow(&table)?))
+                Ok(Goal::Tip(self.pair(tip, |n| self.length(n))?, self.elbow(&table)?))
             }
             _ => self.error(value, "give joints = [q1, q2] or tip = [x, y]"),
         }
@@ -209,7 +237,7 @@ impl Reader<'_> {
                     robot.limits = self.by_name(value, range)?;
                 }
                 "tip" => robot.tip = Some(self.text(value)?),
-                "at" => robot.at = self.pair(value, |n| self.number(n))?,
+                "at" => robot.at = self.pair(value, |n| self.length(n))?,
                 "angle" => robot.angle = Interval::enclosing(&self.quantity(value)?),
                 "drives" => robot.drives = self.drives(value)?,
                 "calibration" => robot.calibration = self.calibration(value)?,
@@ -217,7 +245,7 @@ impl Reader<'_> {
                 "velocity" | "acceleration" | "jerk" | "effort" | "dynamics" | "gravity" => {}
                 // These keys affect tasks only.
                 "wrist" | "stroke" | "arch" | "payload" => {}
-                "bar" => robot.bar = Some(self.number(value)?),
+                "bar" => robot.bar = Some(self.length(value)?),
                 "own_body" => match value.get_ref().as_bool() {
                     Some(own_body) => robot.own_body = own_body,
                     None => return self.error(value, "expected true or false"),
@@ -233,7 +261,7 @@ impl Reader<'_> {
     }
 
     fn heights(&self, value: &Value) -> ReadResult<Range> {
-        let [low, high] = self.pair(value, |n| self.number(n))?;
+        let [low, high] = self.pair(value, |n| self.length(n))?;
         if low > high {
             return self.error(value, "its upper end is below the lower one");
         }
@@ -261,17 +289,17 @@ impl Reader<'_> {
                     else {
                         return self.error(value, "a circle needs a center and a radius");
                     };
-                    outlines.push(Outline::Circle(self.pair(center, |n| self.number(n))?, self.number(radius)?));
+                    outlines.push(Outline::Circle(self.pair(center, |n| self.length(n))?, self.length(radius)?));
                 }
                 "image" => image = Some(self.text(value)?),
                 "unknown" => unknown_is_solid = self.text(value)? != "free",
                 "holes" => holes = self.rings(value)?,
-                "at" => at = point(&self.pair(value, |n| self.number(n))?),
+                "at" => at = point(&self.pair(value, |n| self.length(n))?),
                 "angle" => angle = Interval::enclosing(&self.quantity(value)?),
                 "height" => heights = Some(self.heights(value)?),
                 "name" => name = Some(self.text(value)?),
                 "motion" => motion = Some(value),
-                "clearance" if !is_object => stated[0] = Some(self.number(value)?),
+                "clearance" if !is_object => stated[0] = Some(self.length(value)?),
                 "calibration" if !is_object => stated[1] = Some(self.length_error(value)?),
                 // Keys of objects, which are read elsewhere.
                 "pallet" | "lift" | "mass" | "payload" | "grasp" | "supports" | "renew" if is_object => {}
@@ -337,7 +365,7 @@ impl WorldFile {
                 "robot" => reader.robot(value, &mut file.robot)?,
                 "start" => world.start = Some(reader.place(value)?),
                 "goal" => world.goal = Some(reader.place(value)?),
-                "clearance" => world.clearance = reader.number(value)?,
+                "clearance" => world.clearance = reader.length(value)?,
                 "obstacle" => reader.obstacles(value, world)?,
                 "name" | "preference" | "sensor" => {}
                 // These keys depend on all others, and are read last.

@@ -7,7 +7,7 @@ const HEAD: &str = "\
 # Every key of the world file
 
 Made from [the schema](world.schema.json) by `cargo run --example world_reference`; [the world file](world_file.md) explains it
-by examples. Unknown keys are errors. Where an angle or a length is asked for, radians or metres, an angle may be written `\"30deg\"`.
+by examples. Unknown keys are errors. An angle may be written `\"30deg\"`, a length `\"20 mm\"` (units: mm, cm, dm, m, km, um, mil, in, ft, yd).
 ";
 
 /// Returns the whole page. It describes the file itself first, and then all its tables, sorted by name.

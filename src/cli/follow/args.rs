@@ -82,7 +82,7 @@ pub struct FollowArgs {
     #[arg(long, value_name = "turn", num_args = 0..=1, require_equals = true, default_missing_value = "move",
         value_parser = word([(Freedom::Move, "move", ""), (Freedom::Turn, "turn", "")]), conflicts_with = "shift")]
     pub fit: Option<Freedom>,
-    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     pub clearance: Option<f64>,
     /// Errors within which the answer holds, instead of the world's, such as

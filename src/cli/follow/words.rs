@@ -27,7 +27,15 @@ pub fn summary(answered: &Answered) -> String {
     // The robot was read with the wrist at rest.
     let held = answered.wrist.map(|wrist| format!("joint \"{}\" is held at", wrist.joint));
     let is_true = |note: &&String| held.as_ref().is_none_or(|held| !note.starts_with(held));
-    let notes = answered.line.notes().iter().chain(answered.loaded.robot.notes.iter().filter(is_true)).chain(wrist);
+    let steps =
+        answered.loaded.has_steps().then(|| "the world's steps are left out; `cplan plan` plans them".to_owned());
+    let notes = answered
+        .line
+        .notes()
+        .iter()
+        .chain(answered.loaded.robot.notes.iter().filter(is_true))
+        .chain(wrist)
+        .chain(&steps);
     lines.extend(notes.map(|note| ("note", note.clone())));
     format!("{}\n{}", title_of(scene), format_columns(&lines))
 }

@@ -98,7 +98,7 @@ pub struct GcodeArgs {
     /// Least length of these segments, metres or with a unit; by default 0.5mm for marlin, and 0.2mm for duet.
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, requires = "segments_per_second")]
     min_segment: Option<f64>,
-    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     clearance: Option<f64>,
     /// Errors within which the answer holds, instead of the world's, such as

@@ -67,7 +67,7 @@ pub struct VerifyArgs {
     /// Topic to judge in an .mcap recording, if several contain both joints of the arm.
     #[arg(long, value_name = "NAME")]
     pub topic: Option<String>,
-    /// Least distance to keep from every obstacle, metres, instead of the world's.
+    /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.
     #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
     pub clearance: Option<f64>,
     /// Errors within which the answer holds, instead of the world's, such as

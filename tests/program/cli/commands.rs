@@ -9,7 +9,7 @@ fn wrong_command_lines_end_with_2() {
     let place = Place::new();
     let planners = Method::ALL.map(Method::name).join(", ");
     let cases = [
-        ("", "not provided"),
+        ("", "cplan help COMMAND"),
         ("--planner magic", planners.as_str()),
         ("--start 1", "two values"),
         ("--start nan,0", "finite"),
@@ -17,7 +17,7 @@ fn wrong_command_lines_end_with_2() {
         ("--goal 1,2 --goal-tip 1,2", "cannot be used with"),
         ("--goal-tip 1,2deg", "not a number"),
         ("--clearance -1", "not negative"),
-        ("--clearance nan", "number of metres"),
+        ("--clearance nan", "such as 0.02 or 20mm"),
         ("--margin -0.1", "from 0 to 0.1"),
         ("--blend 0", "greater than 0"),
         ("--blend=-0.1", "greater than 0"),

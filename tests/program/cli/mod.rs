@@ -51,6 +51,7 @@ mod programs;
 mod proof_sizes;
 mod reach;
 mod results;
+mod slips;
 mod supports;
 mod tolerant_reading;
 #[cfg(feature = "study")]

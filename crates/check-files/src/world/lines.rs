@@ -74,7 +74,8 @@ impl Reader<'_> {
             }
         }
         let number = |key: &str| table.get(key).map(|value| self.number(value)).transpose();
-        let tolerance = number("tolerance")?.unwrap_or(Decimal::power_of_ten(DEFAULT_TOLERANCE_DECIMALS));
+        let length = |key: &str| table.get(key).map(|value| self.length(value)).transpose();
+        let tolerance = length("tolerance")?.unwrap_or(Decimal::power_of_ten(DEFAULT_TOLERANCE_DECIMALS));
         if tolerance.sign() != Sign::Plus {
             return self.error(value, "the tolerance of a line must be positive");
         }
@@ -82,7 +83,7 @@ impl Reader<'_> {
         let angle =
             table.get("turn").map_or(Ok(Interval::whole(0)), |q| Ok(Interval::enclosing(&self.quantity(q)?)))?;
         let turn = angle.sin_cos();
-        let shift = table.get("move").map(|at| self.pair(at, |n| self.number(n))).transpose()?;
+        let shift = table.get("move").map(|at| self.pair(at, |n| self.length(n))).transpose()?;
         let shift = shift.as_ref().map_or([0, 0].map(Interval::whole), point);
         let points = || {
             let corners = self.corners(&table[form])?;
@@ -90,7 +91,7 @@ impl Reader<'_> {
                 corners.iter().map(|p| sum(&shift, &turned(&times(&point(p), &scale), &turn))).collect::<Vec<_>>(),
             )
         };
-        let is_round = number("radius")?.is_some_and(|radius| radius.sign() != Sign::NoSign);
+        let is_round = length("radius")?.is_some_and(|radius| radius.sign() != Sign::NoSign);
         let form = match form {
             "points" if !is_round => Some(Form::Straight(points()?)),
             "arc" => match <[Point; 3]>::try_from(points()?) {

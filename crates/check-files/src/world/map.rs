@@ -33,7 +33,7 @@ impl Reader<'_> {
                 "file" => file = Some(self.file(&self.text(value)?)?),
                 "preferences" => wishes = Some(self.file(&self.text(value)?)?),
                 "scale" => unit.scale = self.number(value)?,
-                "offset" => unit.offset = self.pair(value, |n| self.number(n))?,
+                "offset" => unit.offset = self.pair(value, |n| self.length(n))?,
                 "frame" => is_framed = value.get_ref().as_bool().unwrap_or(true),
                 "height" => heights = Some(self.heights(value)?),
                 other => return self.error(value, &format!("the checker does not know the key {other} of a map")),

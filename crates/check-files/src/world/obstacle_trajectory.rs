@@ -82,7 +82,7 @@ impl Reader<'_> {
             }
             Ok(Stop {
                 time: self.number(time)?,
-                at: stop.get("at").map_or(Ok(at.clone()), |at| Ok(point(&self.pair(at, |n| self.number(n))?)))?,
+                at: stop.get("at").map_or(Ok(at.clone()), |at| Ok(point(&self.pair(at, |n| self.length(n))?)))?,
                 angle: stop.get("angle").map_or(Ok(angle.clone()), |a| Ok(Interval::enclosing(&self.quantity(a)?)))?,
             })
         };

@@ -108,7 +108,7 @@ impl Reader<'_> {
     /// Reads the value of the stroke's joint at an end of the motion.
     fn lowered(&self, table: &DeTable, end: &str) -> ReadResult<Option<Decimal>> {
         let Some(end) = table.get(end) else { return Ok(None) };
-        self.table(end)?.get("stroke").map(|value| self.number(value)).transpose()
+        self.table(end)?.get("stroke").map(|value| self.length(value)).transpose()
     }
 
     /// Reads a whole number from 1 on.
@@ -131,7 +131,7 @@ impl Reader<'_> {
     fn stroke(&self, value: &Value, arch: Option<&Value>) -> ReadResult<Stroke> {
         let table = self.table(value)?;
         let Some(joint) = table.get("joint") else { return self.error(value, "a stroke needs a joint") };
-        let travel = table.get("travel").map(|n| self.number(n)).transpose()?;
+        let travel = table.get("travel").map(|n| self.length(n)).transpose()?;
         Ok(Stroke { joint: self.text(joint)?, travel, arch: self.arch(arch)? })
     }
 
@@ -148,7 +148,7 @@ impl Reader<'_> {
                 "fall" => &mut arch.fall,
                 other => return self.error(value, &format!("the checker does not know [robot] arch, {other}")),
             };
-            *height = self.number(value)?;
+            *height = self.length(value)?;
             if height.sign() == Sign::Minus {
                 return self.error(value, "the height of an arch is negative");
             }
@@ -167,7 +167,7 @@ impl Reader<'_> {
         if rows.saturating_mul(columns) > MAX_PLACES {
             return self.error(value, "the pallet has too many places");
         }
-        let (pitch, at) = (self.pair(pitch, |n| self.number(n))?, point(&self.pair(at, |n| self.number(n))?));
+        let (pitch, at) = (self.pair(pitch, |n| self.length(n))?, point(&self.pair(at, |n| self.length(n))?));
         let turn =
             table.get("angle").map_or(Ok(Interval::whole(0)), |a| Ok(Interval::enclosing(&self.quantity(a)?)))?;
         let turn = turn.sin_cos();
@@ -178,7 +178,7 @@ impl Reader<'_> {
         };
         let places = (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column)));
         let places = places.map(|(row, column)| place(row, column)).collect();
-        let height = table.get("height").map(|height| self.number(height)).transpose()?;
+        let height = table.get("height").map(|height| self.length(height)).transpose()?;
         Ok((self.text(name)?, Pallet { places, turn, height }))
     }
 
@@ -193,12 +193,12 @@ impl Reader<'_> {
     ) -> ReadResult<Vec<Obstacle>> {
         let (table, lying) = (self.table(value)?, self.obstacle(value, true)?);
         let Some(family) = lying.name.clone() else { return self.error(value, "an object needs a name") };
-        let number = |key: &str| table.get(key).map(|value| self.number(value)).transpose();
-        let grasp = table.get("grasp").map(|grasp| self.pair(grasp, |n| self.number(n))).transpose()?;
+        let lift = table.get("lift").map(|value| self.length(value)).transpose()?;
+        let grasp = table.get("grasp").map(|grasp| self.pair(grasp, |n| self.length(n))).transpose()?;
         let is_level = table.get("payload").map_or(Ok(is_level), |value| self.is_level(value))?;
         let renews = table.get("renew").is_some_and(|value| value.get_ref().as_bool() == Some(true));
         let zero = Decimal::whole(0);
-        let (lift, grasp) = (number("lift")?.unwrap_or(zero.clone()), grasp.unwrap_or([zero.clone(), zero]));
+        let (lift, grasp) = (lift.unwrap_or(zero.clone()), grasp.unwrap_or([zero.clone(), zero]));
         let places: Vec<Obstacle> = match (table.get("pallet"), table.get("at")) {
             (None, Some(_)) => vec![lying],
             (None, None) if lying.trajectory.is_some() => vec![lying],
@@ -315,10 +315,10 @@ impl Steps<'_, '_> {
                 let named = Some(reader.text(of)?);
                 let object = self.world.obstacles[self.first..].iter().position(|object| object.name == named);
                 let Some(object) = object else { return reader.error(of, "there is no object of this name") };
-                let grasp = table.get("grasp").map(|grasp| reader.pair(grasp, |n| reader.number(n))).transpose()?;
+                let grasp = table.get("grasp").map(|grasp| reader.pair(grasp, |n| reader.length(n))).transpose()?;
                 let passing = MovingPick {
                     window: table.get("window").map(|w| reader.pair(w, |n| reader.number(n))).transpose()?,
-                    at: table.get("at").map(|at| Ok(point(&reader.pair(at, |n| reader.number(n))?))).transpose()?,
+                    at: table.get("at").map(|at| Ok(point(&reader.pair(at, |n| reader.length(n))?))).transpose()?,
                 };
                 vec![self.pick(object, grasp, self.supports(table)?, passing)]
             }
@@ -360,7 +360,7 @@ impl Steps<'_, '_> {
     fn place(&self, value: &Value) -> ReadResult<Action> {
         let (reader, table) = (self.reader, self.reader.table(value)?);
         let (at, of_pallet) = match (table.get("at"), table.get("on")) {
-            (Some(at), None) => (point(&reader.pair(at, |n| reader.number(n))?), None),
+            (Some(at), None) => (point(&reader.pair(at, |n| reader.length(n))?), None),
             (None, Some(on)) => {
                 let wanted = reader.text(on)?;
                 let mut places =
@@ -371,7 +371,7 @@ impl Steps<'_, '_> {
             }
             _ => return reader.error(value, "a place needs either `at` or `on`"),
         };
-        let height = table.get("height").map(|height| reader.number(height)).transpose()?.or(of_pallet);
+        let height = table.get("height").map(|height| reader.length(height)).transpose()?.or(of_pallet);
         Ok(Action::Place { at, angle: self.angle(table)?, supports: self.supports(table)?, height })
     }
 

@@ -1,7 +1,7 @@
 //! Certificates of motions, written by hand, and falsified ones.
 
 use crate::common::robots::bars;
-use crate::common::verdict::{Verdict, agrees, fails, fails_with, found, holds, judge};
+use crate::common::verdict::{Verdict, agrees, fails, fails_with, found, holds, judge, refused};
 use cplan_check_files::{CheckError, Input, check};
 
 /// Returns a robot of two bars. Its base has a mesh that nobody can read.
@@ -103,6 +103,21 @@ fn falsified_parts_are_named() {
     }
     // At the limit itself, and with very long durations.
     assert_eq!(judged("[-1e9, -1, 0], [1, -1, 2.90], [2, 1, 2.9], [3e9, 1, 0]").0, 0);
+}
+
+/// Tests that lengths with units are exact, and that other units are refused.
+#[test]
+fn lengths_with_units_are_exact() {
+    for (center, is_free) in [("\"2400.001 mm\"", true), ("\"240.01cm\"", true), ("\"2300mm\"", false), ("2.3", false)]
+    {
+        passes(
+            &format!("[[obstacle]]\ncircle = {{ center = [{center}, 0], radius = \"5 dm\" }}\n"),
+            is_free,
+            "obstacle 0",
+        );
+    }
+    let foot = "[[obstacle]]\ncircle = { center = [\"9 foot\", 0], radius = 1 }\n";
+    refused(judge_straight_motion(&arm(), foot), "a length such as \"20 mm\"");
 }
 
 /// Tests an arm inside an obstacle. It does not touch the obstacle's sides, but collides.

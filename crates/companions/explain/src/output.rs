@@ -35,7 +35,11 @@ pub fn summary(explanation: &Explanation, notes: &[String]) -> String {
 
 /// Returns the content of the explanation's pictures and pages.
 pub fn view(explanation: &Explanation) -> View {
-    let view = view_of_question(explanation);
+    with_explanation(view_of_question(explanation), explanation)
+}
+
+/// Adds an explanation to the view of the same question: its cards, the obstacles in the way and the narrowest place.
+pub fn with_explanation(view: View, explanation: &Explanation) -> View {
     let section = explanation_section(explanation, view.frame());
     let view = view.with_section(section);
     match blocking(explanation) {

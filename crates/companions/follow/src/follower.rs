@@ -13,7 +13,7 @@ use cplan_geometry::Point;
 use cplan_handling::ToolAngle;
 use cplan_model::space::Configuration;
 use cplan_model::{Outcome, Scene};
-use cplan_text::{Unit, UnknownUnit, chosen_length, length};
+use cplan_text::{chosen_length, length, metres};
 
 /// Shares of the tolerance that the straight motions in joint space and the blends may use each, in the order in which they
 /// are tried until the motion is proven to be within the tolerance. Their deviations have the same direction where the line
@@ -287,19 +287,6 @@ impl Follower<'_> {
         let finer = Prover { nodes, sheets, ..*prover };
         proof::out_of_reach(self.kinematics, nodes, self.settings.tolerance).or_else(|| finer.prove())
     }
-}
-
-/// Parses a length: a number of metres, or a number with its unit, such as `0.05mm`.
-///
-/// # Errors
-/// Text that is neither.
-pub fn metres(text: &str) -> Result<f64, String> {
-    let (number, unit) = text.split_at(text.trim_end_matches(|c: char| c.is_ascii_alphabetic()).len());
-    let unit =
-        if unit.is_empty() { Unit::METER } else { unit.parse().map_err(|error: UnknownUnit| error.to_string())? };
-    let number: f64 =
-        number.trim_end().parse().map_err(|_| "must be a number of metres, or a length such as 0.05mm")?;
-    Ok(number * unit.metres())
 }
 
 impl Stuck {

@@ -61,7 +61,6 @@ mod wrist;
 pub use cplan_deviation::Place;
 pub use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
 pub use fit::{Fitted, fit};
-pub use follower::metres;
 pub use proof::{Cause, Exclusion, Infeasible, Obstacle};
 pub use proof_wrist::WristExcess;
 pub use wrist::WristAlong;

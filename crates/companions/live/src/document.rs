@@ -1,6 +1,7 @@
 //! The text of a world, edited as the page requests. Comments, names, heights and unknown keys are preserved.
 
 use super::protocol::{Begin, End, Form, JointLimits, MAX_CORNERS, MAX_OBSTACLES, Pair, Piece, State};
+use cplan_text::metres;
 use std::collections::BTreeSet;
 use toml_edit::{Array, ArrayOfTables, DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
@@ -260,8 +261,9 @@ fn pair(item: Option<&Item>) -> Option<Pair> {
 fn pair_of(array: &Array) -> Option<Pair> {
     let degrees =
         |x: &Value| x.as_str()?.trim().strip_suffix("deg")?.trim_end().parse::<f64>().ok().map(f64::to_radians);
-    let mut numbers =
-        array.iter().map(|x| x.as_float().or_else(|| x.as_integer().map(|i| i as f64)).or_else(|| degrees(x)));
+    let mut numbers = array.iter().map(|x| {
+        x.as_float().or_else(|| x.as_integer().map(|i| i as f64)).or_else(|| degrees(x)).or_else(|| length(x.as_str()))
+    });
     match (numbers.next(), numbers.next(), numbers.next()) {
         (Some(Some(a)), Some(Some(b)), None) => Some([a, b]),
         _ => None,
@@ -269,7 +271,12 @@ fn pair_of(array: &Array) -> Option<Pair> {
 }
 
 fn number(item: &Item) -> Option<f64> {
-    item.as_float().or_else(|| item.as_integer().map(|i| i as f64))
+    item.as_float().or_else(|| item.as_integer().map(|i| i as f64)).or_else(|| length(item.as_str()))
+}
+
+/// Returns a length that a text states with its unit, in metres.
+fn length(text: Option<&str>) -> Option<f64> {
+    metres(text?).ok()
 }
 
 #[cfg(test)]

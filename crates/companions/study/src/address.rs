@@ -1,7 +1,9 @@
 //! Addresses of numbers in world files and URDFs: `world.obstacle.post.at[0]`, `urdf.joint.elbow.origin.xyz[0]`.
 
+use cplan_text::metres;
 use std::fmt;
 use std::ops::Range;
+use strsim::levenshtein;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
@@ -179,8 +181,8 @@ pub(super) fn in_world(text: &str, steps: &[Step]) -> Result<FoundNumber, String
     match descend(document.get_ref(), document.span(), steps)? {
         (DeRef::Value(DeValue::Float(_)), at) => Ok(FoundNumber { at, is_whole: false }),
         (DeRef::Value(DeValue::Integer(_)), at) => Ok(FoundNumber { at, is_whole: true }),
-        // An angle such as "30deg".
-        (DeRef::Value(DeValue::String(text)), at) if text.trim_end().ends_with("deg") => {
+        // An angle such as "30deg", or a length such as "20 mm".
+        (DeRef::Value(DeValue::String(text)), at) if text.trim_end().ends_with("deg") || metres(text).is_ok() => {
             Ok(FoundNumber { at, is_whole: false })
         }
         (DeRef::Array(_), _) => Err("it is a list: name an entry, as in [0]".into()),
@@ -284,22 +286,7 @@ const MAX_COMPARED_ADDRESSES: usize = 10_000;
 
 /// Returns the known address that is closest to a wrong one.
 pub(super) fn nearest(address: &str, known: Vec<String>) -> Option<String> {
-    known.into_iter().take(MAX_COMPARED_ADDRESSES).min_by_key(|known| edits(address, known))
-}
-
-/// Returns the Levenshtein distance: the number of insertions, deletions and replacements of characters.
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut before = std::mem::replace(&mut row[0], i + 1);
-        for (j, y) in b.iter().enumerate() {
-            let replaced = before + usize::from(x != *y);
-            before = row[j + 1];
-            row[j + 1] = replaced.min(before + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
+    known.into_iter().take(MAX_COMPARED_ADDRESSES).min_by_key(|known| levenshtein(address, known))
 }
 
 /// Returns the number at an address in a URDF. The first steps are tags of elements; after `joint` and `link`, a name

@@ -216,7 +216,13 @@ impl Study {
         }
         let plan = plan(&problem, &self.options, SEARCHES, &mut |_| ()).map_err(|error| error.to_string())?;
         let measured = self.measures.iter().map(|measure| measure.of(&plan)).collect();
-        Ok((plan.status().into(), plan.reason(), measured))
+        let ending: Ending = plan.status().into();
+        // The reason of a task begins with the ending, which tables state beside it.
+        let reason = plan.reason().map(|reason| match reason.strip_prefix(&format!("{}: ", ending.name())) {
+            Some(rest) => rest.to_owned(),
+            None => reason,
+        });
+        Ok((ending, reason, measured))
     }
 
     /// Computes the rows of these layouts on `jobs` threads. Passes each row to `each`, in order, as soon as all rows

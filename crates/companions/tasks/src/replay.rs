@@ -42,7 +42,8 @@ fn replay_of_leg(task: &Task, options: &Options, leg: &Leg) -> MotionReplay {
 
 /// Returns the replay of a motion whose path was not searched for.
 fn without_search(caption: &str, leg: &Leg) -> MotionReplay {
-    let phase = Phase { caption: caption.to_owned(), shows: Shows::Path, events: leg.path().waypoints().len() };
+    let phase =
+        Phase { caption: caption.to_owned(), shows: Shows::Path, events: leg.path().waypoints().len(), length: None };
     MotionReplay { replay: Replay { phases: vec![phase] }, trace: None }
 }
 

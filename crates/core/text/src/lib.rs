@@ -1,9 +1,10 @@
 //! Formats text for people: safe names, markup, numbers, counts, long lists, columns, wrapped lines and units of
-//! length. Also reads and writes infinite numbers in data. This crate uses no other crate of the workspace.
+//! length, and finds the nearest word to a misspelled one. Also reads and writes infinite numbers in data. This crate uses no other crate of the workspace.
 
 mod base64;
 mod columns;
 mod markup;
+mod nearest;
 pub mod number;
 mod plain;
 mod rounded;
@@ -14,13 +15,14 @@ mod wrapped;
 pub use base64::base64;
 pub use columns::{Columns, SECOND_COLUMN};
 pub use markup::markup;
+pub use nearest::nearest_word;
 pub use plain::{plain, plain_json, plain_line};
 pub use rounded::{
     chosen_length, fixed, format_distinct, headline_length, headline_number, length, length_down, length_unlike,
     length_up, nonzero, percent, round_down, round_up, short,
 };
 pub use shell::for_a_shell;
-pub use unit::{Unit, UnknownUnit};
+pub use unit::{Unit, UnknownUnit, metres};
 pub use wrapped::wrapped;
 
 /// Formats a count with its noun: `1 obstacle`, `3 obstacles`, `2 boxes`.

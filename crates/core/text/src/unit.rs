@@ -59,6 +59,22 @@ impl Unit {
     }
 }
 
+/// Reads a length such as `20mm`, `0.5 in` or `0.02`, in metres.
+///
+/// # Errors
+/// The reason, without the text.
+pub fn metres(text: &str) -> Result<f64, String> {
+    let text = text.trim();
+    let (number, unit) = text.split_at(text.trim_end_matches(|c: char| c.is_ascii_alphabetic()).len());
+    let unit =
+        if unit.is_empty() { Unit::METER } else { unit.parse().map_err(|error: UnknownUnit| error.to_string())? };
+    let number: f64 =
+        number.trim_end().parse().map_err(|_| "must be a number of metres, or a length such as 0.05mm")?;
+    let per_metre = unit.metres().recip();
+    // Dividing by a whole number rounds once, so `7mm` is exactly the number 0.007.
+    Ok(if per_metre.fract() == 0.0 { number / per_metre } else { number * unit.metres() })
+}
+
 impl fmt::Display for Unit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name)
@@ -70,5 +86,29 @@ impl FromStr for Unit {
 
     fn from_str(text: &str) -> Result<Self, UnknownUnit> {
         NAMED_UNITS.into_iter().find(|unit| unit.name == text).ok_or_else(|| UnknownUnit(text.to_owned()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lengths_are_rounded_once() {
+        for (text, expected) in [
+            ("20mm", 0.02),
+            ("7 mm", 0.007),
+            ("12.3mm", 0.0123),
+            (" -1e1 cm ", -0.1),
+            ("50um", 0.000_05),
+            ("2in", 0.0508),
+            ("0.25", 0.25),
+            ("3 km", 3000.0),
+        ] {
+            assert_eq!(metres(text), Ok(expected), "{text}");
+        }
+        for text in ["", "mm", "20 m m", "20 feet", "20deg", "1,5mm"] {
+            assert!(metres(text).is_err(), "{text}");
+        }
     }
 }

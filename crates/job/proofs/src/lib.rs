@@ -47,7 +47,8 @@ pub use channel::Channel;
 pub use connectivity::{Connectivity, Exploration, Occupancy, connectivity, explore};
 pub use evidence::{BoundEvidence, ClosedSegment};
 pub use optimum::{
-    MotionQuery, NearShortestMotion, ProposedPath, RefusalReason, bound_evidence, least_length, short_motion,
+    BoundRound, MotionQuery, NearShortestMotion, ProposedPath, RefusalReason, bound_evidence, bound_rounds,
+    least_length, short_motion,
 };
 pub use slabs::{slab_boxes, slab_connectivity};
 pub use slim::slimmed;

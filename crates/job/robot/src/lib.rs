@@ -41,12 +41,12 @@ pub use inspection::{
     BodyEntry, Frame, Inspection, JointEntry, LimitEntry, LimitSource, LinkEntry, MotorEntry, OutlineEntry, PairEntry,
     PlaneEntry, RateEntry, RateSource, ReachEntry, Role, SelfObstacleEntry,
 };
-pub use quantity::{MAX_LENGTH, Number, Numbers, PerJoint, Quantity, Written};
+pub use quantity::{Length, Lengths, MAX_LENGTH, Metres, Number, Numbers, PerJoint, Quantity, Written, length};
 pub use report::RobotReport;
 pub use robot_file::{Conversion, RobotFile};
 pub use robot_table::RobotTable;
 pub use settings::RobotSettings;
-pub use source::{Cursor, Origins, Position, Source, read_bounded, read_bytes, read_recorded};
+pub use source::{Cursor, Origins, Position, Source, nearest_file, read_bounded, read_bytes, read_recorded};
 pub use spanned::Spanned;
 pub use stroke::StrokeTable;
 pub use toml_values::{Fields, FromToml, TomlError, TomlValue, key_of, number};

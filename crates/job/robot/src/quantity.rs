@@ -1,9 +1,10 @@
-//! Numbers, angles and joint values, as world files state them: `0.5` or `"30deg"`.
+//! Numbers, angles, joint values and lengths, as world files state them: `0.5`, `"30deg"` or `"20 mm"`.
 
 use super::error::Diagnostic;
 use super::source::Source;
 use super::toml_values::{FromToml, TomlError, TomlValue, number};
 use crate::Spanned;
+use cplan_text::metres;
 use std::collections::BTreeMap;
 
 /// A joint's value or an angle, in radians or metres. The file may state it in degrees.
@@ -23,6 +24,16 @@ pub type Number = Spanned<f64>;
 
 /// Several numbers, with the position of the list and of each number.
 pub type Numbers = Spanned<Vec<Number>>;
+
+/// A length in metres. The file may state it with its unit, such as "20 mm".
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Metres(pub f64);
+
+/// A length with its position in the file.
+pub type Length = Spanned<Metres>;
+
+/// Several lengths, with the position of the list and of each length.
+pub type Lengths = Spanned<Vec<Length>>;
 
 /// Values by joint name, with the position of both.
 pub type PerJoint<T> = BTreeMap<Spanned<String>, T>;
@@ -55,13 +66,36 @@ impl FromToml for Quantity {
     }
 }
 
+impl From<Metres> for f64 {
+    fn from(length: Metres) -> Self {
+        length.0
+    }
+}
+
+impl FromToml for Metres {
+    fn read(value: &TomlValue) -> Result<Self, TomlError> {
+        length(value, "a number, or a length such as \"20 mm\"").map(Self)
+    }
+}
+
+/// Returns a length in metres: a number, or a text with a unit.
+///
+/// # Errors
+/// Another value; `expected` says what it should be.
+pub fn length(value: &TomlValue, expected: &str) -> Result<f64, TomlError> {
+    let Some(text) = value.get_ref().as_str() else { return number(value, expected) };
+    let has_unit = text.trim_end().ends_with(|c: char| c.is_ascii_alphabetic()) && !text.trim_end().ends_with("px");
+    let read = metres(text).ok().filter(|_| has_unit);
+    read.ok_or_else(|| TomlError::new(value, format!("expected {expected}, found \"{text}\"")))
+}
+
 impl Source {
-    /// Returns the value of a number of this file. `what` names it in the message.
+    /// Returns the value of a number or length of this file. `what` names it in the message.
     ///
     /// # Errors
     /// A value that is not finite or exceeds [`MAX_LENGTH`].
-    pub fn finite(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
-        let value = *number.get_ref();
+    pub fn finite<T: Copy + Into<f64>>(&self, number: &Spanned<T>, what: &str) -> Result<f64, Diagnostic> {
+        let value: f64 = (*number.get_ref()).into();
         if !value.is_finite() {
             let diagnostic = self.diagnostic_at(number.span(), format!("{what}: {value} is not a finite number"));
             return Err(diagnostic.help("write a number"));

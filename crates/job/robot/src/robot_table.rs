@@ -3,7 +3,7 @@
 use crate::Spanned;
 use crate::calibration::CalibrationTable;
 use crate::drives::DrivesValue;
-use crate::quantity::{Number, Numbers, PerJoint, Written};
+use crate::quantity::{Length, Lengths, Number, Numbers, PerJoint, Written};
 #[cfg(feature = "schema")]
 use crate::schema::*;
 use crate::stroke::{ArchValue, StrokeTable};
@@ -16,8 +16,8 @@ toml_table! {
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "robot"))]
     pub struct RobotTable {
         /// Position of the robot's root frame in the world, m; by default [0, 0].
-        #[cfg_attr(feature = "schema", schemars(with = "Option<NumberPair>"))]
-        pub at: Option<Numbers>,
+        #[cfg_attr(feature = "schema", schemars(with = "Option<LengthPair>"))]
+        pub at: Option<Lengths>,
         /// Angle of its root frame, rad; by default 0.
         pub angle: Option<Written>,
         /// The two joints that move, from the base to the tip; needed only if the URDF has more than two that can.
@@ -59,8 +59,8 @@ toml_table! {
         #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<[String; 2]>>"))]
         pub ignore_contact: Option<Vec<Spanned<Vec<Spanned<String>>>>>,
         /// Radius of the capsule that stands in for a link without geometry, m.
-        #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
-        pub bar: Option<Number>,
+        #[cfg_attr(feature = "schema", schemars(with = "Option<PositiveLength>"))]
+        pub bar: Option<Length>,
         /// The wrist that keeps or changes the orientation of objects carried with payload "level".
         pub wrist: Option<WristTable>,
         /// Motion of the tool down and up at picks and places; by default it does not move.

@@ -1,6 +1,6 @@
 //! JSON schemas of files in TOML, derived from the types that read them, and their files in `docs`. Only tests need them.
 
-pub use super::quantity::Quantity;
+pub use super::quantity::{Metres, Quantity};
 use super::spanned::Spanned;
 pub use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
@@ -85,6 +85,9 @@ impl<T: JsonSchema> JsonSchema for Spanned<T> {
 /// Two numbers.
 pub type NumberPair = [f64; 2];
 
+/// Two lengths.
+pub type LengthPair = [Metres; 2];
+
 /// Defines a type that represents the values of a field in a schema: its documentation, its name and its own schema.
 #[macro_export]
 macro_rules! stands_for {
@@ -119,6 +122,17 @@ macro_rules! has_schema {
 stands_for! {
     /// A number above 0.
     Positive, { "type": "number", "exclusiveMinimum": 0 }
+}
+has_schema! {
+    Metres, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|dm|m|km|um|mil|in|ft|yd) *$" }
+}
+stands_for! {
+    /// A length above 0.
+    PositiveLength, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|dm|m|km|um|mil|in|ft|yd) *$", "exclusiveMinimum": 0 }
+}
+stands_for! {
+    /// A length of 0 or more.
+    NotNegativeLength, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|dm|m|km|um|mil|in|ft|yd) *$", "minimum": 0 }
 }
 has_schema! {
     Quantity, { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *deg *$" }

@@ -1,9 +1,10 @@
 //! Text files, and positions in them.
 
 use super::error::{Diagnostic, InputError};
+use cplan_text::nearest_word;
 use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -131,12 +132,23 @@ pub fn read_recorded(path: &Path) -> Result<Vec<u8>, InputError> {
 }
 
 fn unreadable(path: &Path, error: &io::Error, too_large: &str) -> Diagnostic {
-    let is_too_large = error.kind() == io::ErrorKind::FileTooLarge;
-    Diagnostic::new(path.display().to_string(), format!("cannot be read: {error}")).help(if is_too_large {
-        too_large
-    } else {
-        "check the path and the file's permissions"
-    })
+    let unread = Diagnostic::new(path.display().to_string(), format!("cannot be read: {error}"));
+    match (error.kind(), nearest_file(path)) {
+        (io::ErrorKind::FileTooLarge, _) => unread.help(too_large),
+        (io::ErrorKind::NotFound, Some(near)) => unread.help(format!("did you mean {}?", near.display())),
+        _ => unread.help("check the path and the file's permissions"),
+    }
+}
+
+/// Returns the file in the folder of a missing one whose name is nearest to its name.
+pub fn nearest_file(missing: &Path) -> Option<PathBuf> {
+    let folder = missing.parent().filter(|folder| !folder.as_os_str().is_empty());
+    let entries = fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
+    let mut names: Vec<String> = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+    // The order in a folder differs between machines.
+    names.sort();
+    nearest_word(missing.file_name()?.to_str()?, names.iter().map(String::as_str))
+        .map(|near| missing.with_file_name(near))
 }
 
 /// Number of characters before and after the defect that an excerpt of a long line shows.

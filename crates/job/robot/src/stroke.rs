@@ -1,6 +1,6 @@
 //! The table `stroke` of `[robot]` in the world file.
 
-use super::quantity::Number;
+use super::quantity::{Length, Number};
 #[cfg(feature = "schema")]
 use super::schema::*;
 use super::toml_values::{FromToml, TomlError, TomlValue};
@@ -17,7 +17,7 @@ toml_table! {
         /// its `fixed` value, except in the overlaps that `arch` allows.
         pub joint: Spanned<String>,
         /// Distance by which it lowers the tool, m; by default the object's lift.
-        pub travel: Option<Number>,
+        pub travel: Option<Length>,
         /// Top speed, m/s; by default the joint's.
         #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
         pub velocity: Option<Number>,
@@ -57,8 +57,8 @@ toml_table! {
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "arch"))]
     pub struct ArchTable {
         /// Height that the tool rises before the arm moves, m; by default 0.
-        pub rise: Option<Number>,
+        pub rise: Option<Length>,
         /// Height above the lowest position below which the tool moves only while the arm is at rest, m; by default 0.
-        pub fall: Option<Number>,
+        pub fall: Option<Length>,
     }
 }

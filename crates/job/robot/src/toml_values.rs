@@ -4,6 +4,7 @@
 use super::error::Diagnostic;
 use super::source::Source;
 use super::spanned::Spanned;
+use cplan_text::nearest_word;
 use serde::de::value::Error as Message;
 use serde::de::{Error as _, IntoDeserializer, Visitor};
 use serde::{Deserialize, Deserializer};
@@ -36,12 +37,14 @@ pub trait FromToml: Sized {
 pub struct TomlError {
     message: String,
     at: Range<usize>,
+    /// Hint that goes before the one of the file's reader.
+    hint: Option<String>,
 }
 
 impl TomlError {
     /// Creates an error about a value.
     pub fn new(value: &TomlValue, message: impl ToString) -> Self {
-        Self { message: message.to_string(), at: value.span() }
+        Self { message: message.to_string(), at: value.span(), hint: None }
     }
 
     /// Creates an error about a value of a wrong type.
@@ -53,7 +56,7 @@ impl TomlError {
 
 impl From<toml::de::Error> for TomlError {
     fn from(error: toml::de::Error) -> Self {
-        Self { message: error.message().to_owned(), at: error.span().unwrap_or_default() }
+        Self { message: error.message().to_owned(), at: error.span().unwrap_or_default(), hint: None }
     }
 }
 
@@ -74,11 +77,10 @@ impl Source {
     /// # Errors
     /// Malformed TOML, values of wrong types, and unknown and missing keys.
     pub fn toml<T: FromToml>(&self, hint: &dyn Fn(&str, usize) -> &'static str) -> Result<T, Diagnostic> {
-        let tree = DeTable::parse(self.text())
-            .map_err(|error| TomlError { message: error.message().to_owned(), at: error.span().unwrap_or_default() });
+        let tree = DeTable::parse(self.text()).map_err(TomlError::from);
         let read = tree.and_then(|tree| T::read(&toml::Spanned::new(tree.span(), DeValue::Table(tree.into_inner()))));
-        read.map_err(|TomlError { message, at }| {
-            let hint = hint(&message, at.start);
+        read.map_err(|TomlError { message, at, hint: nearest }| {
+            let hint = nearest.unwrap_or_else(|| hint(&message, at.start).to_owned());
             self.diagnostic_at(at, in_toml_words(&message)).help(hint)
         })
     }
@@ -208,7 +210,8 @@ impl<'a> Fields<'a> {
     pub fn unknown(&self, key: &str) -> TomlError {
         let known = self.value.get_ref().as_table().and_then(|table| table.get_key_value(key));
         let at = known.map_or(self.value.span(), |(key, _)| key.span());
-        TomlError { message: Message::unknown_field(key, self.keys).to_string(), at }
+        let hint = nearest_word(key, self.keys.iter().copied()).map(|key| format!("did you mean `{key}`?"));
+        TomlError { message: Message::unknown_field(key, self.keys).to_string(), at, hint }
     }
 
     /// Returns the value of a field that is not given.

@@ -74,6 +74,7 @@ mod thinned;
 pub use answer::{Answer, BoundedPath, Unknown};
 pub use bound::{Bound, bound};
 pub use cell_counts::CellCounts;
+pub use cplan_proofs::BoundRound;
 pub use decision::{LARGE_PROOF_BOXES, decide};
 pub use field_cells::field_on_cells;
 pub use grid_space::GridSpace;

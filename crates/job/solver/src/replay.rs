@@ -5,6 +5,8 @@
 //! pulled taut. These are computed again for the replay, so plans without a replay cost nothing extra.
 
 use super::admission::Ends;
+use super::bound::{Bound, motions};
+use super::decision::decide;
 use super::ladder::FIRST_BOXES;
 use super::{Answer, BoundedPath, Options, Space, solve};
 use cplan_fields::{Device, FieldChoice, Measure, RELATIVE_TOLERANCE, Stopping, field_domain, relax_watched};
@@ -12,8 +14,8 @@ use cplan_model::space::{Configuration, Path};
 use cplan_model::{MotionProblem, Outcome};
 use cplan_planners::cspace::ZonedGrid;
 use cplan_planners::planner::{CellKind, GraphKind, Note, PathKind, Proposal, Size, Trace};
-use cplan_proofs::{Occupancy, slab_boxes};
-use cplan_text::{counted, percent};
+use cplan_proofs::{BoundRound, Occupancy, bound_rounds, slab_boxes};
+use cplan_text::{counted, fixed, percent};
 
 /// The replay of a planner's run.
 #[derive(Debug, Clone, PartialEq)]
@@ -32,6 +34,9 @@ pub struct Phase {
     pub shows: Shows,
     /// Number of events, at least one.
     pub events: usize,
+    /// Length of the certified path that is known at the end of the phase. `None` if none is known, or if the phase does
+    /// not change it.
+    pub length: Option<f64>,
 }
 
 /// The content of a phase, shown event by event. A variant without a field stands for the corresponding part of the
@@ -51,6 +56,10 @@ pub enum Shows {
     Channel,
     /// The nodes that a search of a graph expanded.
     Expanded,
+    /// The first path that was certified, from which the search for a shorter one begins.
+    First(Path),
+    /// The rounds in which the lower bound on the length rises.
+    Bound(Vec<BoundRound>),
     /// Slices that the path crosses.
     Slices,
     /// Cells of a grid, in the order of their labels or of their expansion.
@@ -99,6 +108,9 @@ const MAX_REPLAY_PAIRS: usize = 4096;
 /// Smallest width of a box in a replay, as a share of the joint's range. Narrower boxes would be less than a pixel.
 const MIN_BOX_WIDTH: f64 = 1.0 / 1024.0;
 
+/// Largest number of rounds of the bound in a replay.
+const MAX_ROUNDS: usize = 12;
+
 /// Number of frames in the replay of a field.
 const FIELD_FRAMES: usize = 24;
 /// Number of cells of each frame along an axis.
@@ -108,7 +120,8 @@ impl Replay {
     /// Computes the replay of an answer to a problem with these options.
     pub fn new<F: AsRef<BoundedPath>>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Self {
         let mut phases = Phases(Vec::new());
-        phases.of_trace(problem, options, answer);
+        let bound = answer.outcome.found().and_then(|found| stated_bound(problem, found.as_ref()));
+        phases.of_trace(problem, options, answer, bound);
         match &answer.outcome {
             Outcome::Found(found) => phases.of_path(problem, options, answer, found.as_ref()),
             Outcome::Infeasible(proof) => phases.add(
@@ -126,6 +139,12 @@ impl Replay {
     }
 }
 
+/// Returns the bound on the length of a path. The bound ignores moving obstacles, so that it says little about a path
+/// among them.
+fn stated_bound(problem: &MotionProblem, found: &BoundedPath) -> Option<Bound> {
+    found.bound.filter(|_| problem.scene().loose_obstacles().is_empty())
+}
+
 fn boxes(count: usize) -> String {
     if count == 1 { "1 box".into() } else { format!("{count} boxes") }
 }
@@ -136,12 +155,12 @@ impl Phases {
     /// Adds a phase, unless it has no events.
     fn add(&mut self, events: usize, caption: impl Into<String>, shows: Shows) {
         if events > 0 {
-            self.0.push(Phase { caption: caption.into(), shows, events });
+            self.0.push(Phase { caption: caption.into(), shows, events, length: None });
         }
     }
 
     /// Adds the phases that show the planner's trace.
-    fn of_trace<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>) {
+    fn of_trace<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>, bound: Option<Bound>) {
         let graph = match answer.run.size {
             Size::Graph { nodes, .. } => nodes,
             _ => 0,
@@ -188,8 +207,9 @@ impl Phases {
             }
             Trace::Slices { free } => {
                 self.of_slabs(problem);
+                bound.iter().for_each(|bound| self.of_bound(problem, options, bound));
                 let caption = format!(
-                    "The shortest path passes {}, in which free space is known exactly",
+                    "The path tightens: it passes {}, in which free space is known exactly",
                     counted(free.len(), "slice")
                 );
                 self.add(free.len(), caption, Shows::Slices);
@@ -247,8 +267,33 @@ impl Phases {
             };
             kind.push([cell.lower.into(), cell.upper.into()]);
         }
-        let caption = "Strips of the first joint's values, halved where needed: free, colliding and undecided";
+        let caption = "Strips of the first joint's values are halved until free parts connect start and goal";
         self.add(seen.len(), caption, Shows::Slabs(found));
+    }
+
+    /// Adds the phases in which the length is enclosed: the first path, then the rising lower bound.
+    fn of_bound(&mut self, problem: &MotionProblem, options: &Options, bound: &Bound) {
+        if let Outcome::Found(first) = decide(problem, options.boxes.min(FIRST_BOXES)) {
+            let (path, length) = (first.path(), bound.metric.length(first.path()));
+            let caption = format!("A first path through free parts: certified, but {} long", fixed(length, 4));
+            self.add(path.waypoints().len(), caption, Shows::First(path.clone()));
+            self.0.iter_mut().last().into_iter().for_each(|phase| phase.length = Some(length));
+        }
+        let mut rounds = bound_rounds(&motions(problem, bound.metric), bound.upper, bound.gap());
+        if rounds.len() > MAX_ROUNDS {
+            // The first rounds improve the bound most.
+            let last = rounds.pop();
+            rounds.truncate(MAX_ROUNDS - 1);
+            rounds.extend(last);
+        }
+        // This search may prove a little more than the stated bound, which began with other slices.
+        rounds.iter_mut().for_each(|round| round.lower = round.lower.min(bound.lower));
+        rounds.iter_mut().last().into_iter().for_each(|last| last.lower = bound.lower);
+        let caption = format!(
+            "No motion is shorter than the line around known walls; halved strips lift it to {}",
+            fixed(bound.lower, 4)
+        );
+        self.add(rounds.len(), caption, Shows::Bound(rounds));
     }
 
     /// Adds the phase with the field after some of its sweeps, if the field is relaxed on the CPU.
@@ -264,8 +309,7 @@ impl Phases {
         let own = (answer.path_kind == PathKind::Taut && answer.method.has_own_path())
             .then(|| own_path(problem, options, answer));
         let own = own.flatten().filter(|own| own.waypoints() != path.waypoints());
-        // The bound ignores moving obstacles, so that it says little about a path among them.
-        let bound = found.bound.filter(|_| problem.scene().loose_obstacles().is_empty());
+        let bound = stated_bound(problem, found);
         let caption = match (&own, bound, answer.path_kind) {
             (Some(_), ..) => "The path, pulled taut and certified".to_owned(),
             (None, Some(bound), _) => {
@@ -277,6 +321,9 @@ impl Phases {
             self.add(own.waypoints().len(), "The path as the planner found it", Shows::Own(own));
         }
         self.add(path.waypoints().len(), caption, Shows::Path);
+        if let (Some(phase), Some(bound)) = (self.0.last_mut(), bound) {
+            phase.length = Some(bound.upper);
+        }
     }
 }
 

@@ -25,6 +25,8 @@ pub const GRAY: Rgb = Rgb(0x5c, 0x63, 0x6b);
 pub const PALE: Rgb = Rgb(0xa3, 0xaa, 0xb2);
 /// Grid lines behind a chart.
 pub const FAINT: Rgb = Rgb(0xe9, 0xeb, 0xee);
+/// Values that are valid but unwise.
+pub const WARNING: Rgb = Rgb(0x8f, 0x55, 0x00);
 /// The arm at its current configuration, lines of steepest ascent, and controls.
 pub const ACCENT: Rgb = Rgb(0x00, 0x72, 0xb2);
 /// The arm along its path.
@@ -61,7 +63,7 @@ pub const OCCUPIED: Rgb = Rgb(0xe1, 0xe4, 0xe8);
 pub const UNKNOWN: Rgb = Rgb(0xc9, 0xa7, 0xdc);
 
 /// All roles. The constants of this module are their colours on a light background.
-pub const ROLES: [Role; 23] = [
+pub const ROLES: [Role; 24] = [
     Role { name: "paper", light: WHITE, dark: Rgb(0x16, 0x19, 0x1d) },
     Role { name: "page", light: PAGE, dark: Rgb(0x0e, 0x10, 0x13) },
     Role { name: "ink", light: INK, dark: Rgb(0xec, 0xef, 0xf2) },
@@ -72,6 +74,7 @@ pub const ROLES: [Role; 23] = [
     Role { name: "ghost", light: GHOST, dark: Rgb(0x3a, 0x41, 0x49) },
     Role { name: "found", light: FOUND, dark: Rgb(0x35, 0xc7, 0x95) },
     Role { name: "infeasible", light: INFEASIBLE, dark: Rgb(0xff, 0x7b, 0x6b) },
+    Role { name: "warning", light: WARNING, dark: Rgb(0xff, 0xb9, 0x5c) },
     Role { name: "proof", light: PROOF, dark: Rgb(0xff, 0x9d, 0x45) },
     Role { name: "free", light: FREE, dark: Rgb(0x1d, 0x45, 0x34) },
     Role { name: "undecided", light: UNDECIDED, dark: Rgb(0x6f, 0x75, 0x7d) },

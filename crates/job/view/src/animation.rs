@@ -11,6 +11,9 @@ pub const FRAME_DELAY: u16 = 6;
 /// a longer one is sped up.
 const MOTION_TIMES: [f64; 2] = [2.0, 3.5];
 
+/// Longest time for which an animation shows the planner's run, in seconds.
+const MAX_REPLAY_SECONDS: f64 = 6.0;
+
 /// Time for which the last picture of a phase is shown, in hundredths of a second.
 const PHASE_DELAY: u16 = 36;
 /// Time for which the last picture of the animation is shown, in hundredths of a second.
@@ -37,8 +40,10 @@ enum MomentKind {
 pub fn moments(view: &View) -> Vec<Moment> {
     let mut moments = Vec::new();
     let frames = |seconds: f64| (seconds * 100.0 / f64::from(FRAME_DELAY)).round().max(1.0) as usize;
+    let total: f64 = view.replay.iter().map(|phase| phase.seconds).sum();
+    let time_scale = (MAX_REPLAY_SECONDS / total).min(1.0);
     for (phase, now) in view.replay.iter().enumerate() {
-        let count = frames(now.seconds);
+        let count = frames(now.seconds * time_scale);
         let shown = (1..=count).map(|k| MomentKind::Thinking(phase, k as f64 / count as f64));
         moments.extend(shown.map(|kind| Moment { kind, delay: FRAME_DELAY }));
         moments.last_mut().into_iter().for_each(|moment| moment.delay = PHASE_DELAY);

@@ -2,7 +2,7 @@
 
 #[cfg(test)]
 use super::schema::*;
-use cplan_robot::{Number, Numbers, Spanned, Written, toml_table};
+use cplan_robot::{Length, Lengths, Spanned, Written, toml_table};
 
 toml_table! {
     /// Where the arm is to go: joint values, a place for the tip in whatever IK solution is best, or areas for the tip.
@@ -12,17 +12,17 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<[Quantity; 2]>"))]
         pub joints: Option<Spanned<Vec<Written>>>,
         /// Coordinates of the tip, m.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        pub tip: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        pub tip: Option<Lengths>,
         /// Side of the elbow with `tip`, seen from joint 1 towards the tip: "left" or "right"; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         pub elbow: Option<Spanned<String>>,
         /// Rectangles for the tip, any of which will do, each by two opposite corners, m; of an arm that does not slide along both axes each
         /// counts as its middle. Not in steps.
-        #[cfg_attr(test, schemars(with = "Option<Vec<[NumberPair; 2]>>"))]
-        pub areas: Option<Spanned<Vec<Spanned<Vec<Numbers>>>>>,
+        #[cfg_attr(test, schemars(with = "Option<Vec<[LengthPair; 2]>>"))]
+        pub areas: Option<Spanned<Vec<Spanned<Vec<Lengths>>>>>,
         /// Value of the joint that lowers the tool, m; by default it is raised. Not in steps.
-        pub stroke: Option<Number>,
+        pub stroke: Option<Length>,
         /// Value of the wrist's joint, rad; by default that at the start. Not in steps.
         pub wrist: Option<Written>,
     }

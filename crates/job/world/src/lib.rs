@@ -288,7 +288,7 @@ fn scene_of_world(world: World, urdf: Source) -> Result<LoadedScene, InputError>
         pair.check(&world.source, &arm.joints)?;
     }
     let mut loaded = LoadedScene::unchecked(world, arm, robot);
-    loaded.robot.warnings.extend(nearness::warning(&loaded.scene));
+    loaded.robot.warnings.extend(nearness::warnings(&loaded.scene));
     Ok(loaded)
 }
 
@@ -321,7 +321,7 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
     if let Some(error) = unread {
         inspection.errors.insert(0, error);
     }
-    inspection.warnings.extend(inspection.scene.as_ref().and_then(nearness::warning));
+    inspection.warnings.extend(inspection.scene.as_ref().map(nearness::warnings).unwrap_or_default());
     if world.is_some() && inspection.is_plannable() {
         let loaded = inspection.scene.clone().map(|scene| {
             let arm = scene.arm().clone();

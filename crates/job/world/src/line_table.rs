@@ -6,7 +6,7 @@ use super::reader::Reader;
 use super::schema::*;
 use cplan_handling::{DEFAULT_TOLERANCE, FollowedLine, MIN_TOLERANCE};
 use cplan_robot::{
-    Diagnostic, InputError, Number, Numbers, Position, Source, Spanned, Written, read_bytes, toml_table,
+    Diagnostic, InputError, Length, Lengths, Number, Position, Source, Spanned, Written, read_bytes, toml_table,
 };
 use cplan_toolpath::{Curve, Error, Format, Leg, Piece, Placement, Toolpath, Unit, arc_through, polyline, spline};
 use std::ops::Range;
@@ -22,23 +22,23 @@ toml_table! {
         /// G-code (.gcode, .nc, .ngc, .tap) or a drawing (.svg), named relative to this file.
         file: Option<Spanned<String>>,
         /// Points that straight lines join, m.
-        #[cfg_attr(test, schemars(with = "Option<Vec<NumberPair>>", length(min = 2)))]
-        points: Option<Spanned<Vec<Numbers>>>,
+        #[cfg_attr(test, schemars(with = "Option<Vec<LengthPair>>", length(min = 2)))]
+        points: Option<Spanned<Vec<Lengths>>>,
         /// Radius of the arcs that replace the corners of `points`, m; by default 0.
-        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
-        radius: Option<Number>,
+        #[cfg_attr(test, schemars(with = "Option<NotNegativeLength>"))]
+        radius: Option<Length>,
         /// An arc of a circle from the first point through the second to the third, m.
-        #[cfg_attr(test, schemars(with = "Option<[NumberPair; 3]>"))]
-        arc: Option<Spanned<Vec<Numbers>>>,
+        #[cfg_attr(test, schemars(with = "Option<[LengthPair; 3]>"))]
+        arc: Option<Spanned<Vec<Lengths>>>,
         /// Points that a smooth curve joins, m: a cubic spline. It is closed if the last point is the first.
-        #[cfg_attr(test, schemars(with = "Option<Vec<NumberPair>>", length(min = 2)))]
-        spline: Option<Spanned<Vec<Numbers>>>,
+        #[cfg_attr(test, schemars(with = "Option<Vec<LengthPair>>", length(min = 2)))]
+        spline: Option<Spanned<Vec<Lengths>>>,
         /// Greatest speed of the tip, m/s; by default the speeds of the file, and else as fast as the joints allow.
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]
         speed: Option<Number>,
         /// Greatest distance of the tip from the line, m; by default 0.00001.
-        #[cfg_attr(test, schemars(with = "Option<Positive>"))]
-        tolerance: Option<Number>,
+        #[cfg_attr(test, schemars(with = "Option<PositiveLength>"))]
+        tolerance: Option<Length>,
         /// Unit of the file's numbers, such as "mm"; by default the unit that the file states.
         unit: Option<Spanned<String>>,
         /// Factor by which the line is scaled about its origin; by default 1.
@@ -47,8 +47,8 @@ toml_table! {
         /// Angle by which the line is turned about its origin, rad; by default 0.
         turn: Option<Written>,
         /// Position of the line's origin, m; by default [0, 0].
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        r#move: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        r#move: Option<Lengths>,
         /// Angle of the tool along the line.
         wrist: Option<Spanned<WristValue>>,
         /// Side of the elbow along the line, seen from joint 1 towards the tip: "left" or "right"; by default either.
@@ -148,7 +148,7 @@ impl LineTable {
     fn through(
         &self,
         reader: &Reader,
-        points: &Spanned<Vec<Numbers>>,
+        points: &Spanned<Vec<Lengths>>,
         placement: &Placement,
         legs: LegsThrough,
     ) -> Result<Toolpath, Diagnostic> {
@@ -182,7 +182,7 @@ pub fn line_diagnostic(file: String, error: Error) -> Diagnostic {
     Diagnostic { position, ..Diagnostic::new(file, error.message).help(error.hint) }
 }
 
-fn positive(reader: &Reader, number: &Number, what: &str) -> Result<f64, Diagnostic> {
+fn positive<T: Copy + Into<f64>>(reader: &Reader, number: &Spanned<T>, what: &str) -> Result<f64, Diagnostic> {
     let value = reader.source.finite(number, what)?;
     if value > 0.0 {
         return Ok(value);

@@ -1,12 +1,15 @@
 //! Checks whether obstacles are near the arm at all. Drawings and maps may use other units, or another origin.
 
 use cplan_geometry::{Convex, separation};
-use cplan_model::Scene;
 use cplan_model::space::JointRange;
+use cplan_model::{Obstacle, Scene};
 use cplan_text::format_distinct;
 
-/// Returns a warning if all obstacles are out of the arm's reach. Stops at the first obstacle that may be within reach.
-pub(super) fn warning(scene: &Scene) -> Option<String> {
+/// Distance, in reaches of the arm, beyond which an obstacle is probably in other units. Walls of a hall are nearer.
+const FAR_REACHES: f64 = 10.0;
+
+/// Returns a warning if all obstacles are out of the arm's reach; otherwise one for each obstacle that is far from it.
+pub(super) fn warnings(scene: &Scene) -> Vec<String> {
     let arm = scene.arm();
     let slides = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| match joint.range {
         JointRange::Interval { lower, upper } => lower.abs().max(upper.abs()),
@@ -14,18 +17,35 @@ pub(super) fn warning(scene: &Scene) -> Option<String> {
     });
     let reach = arm.reach() + slides.sum::<f64>();
     let base = Convex::trusted(vec![arm.base], 0.0);
-    let mut nearest = f64::INFINITY;
-    for piece in scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces) {
-        nearest = nearest.min(separation(&base, piece).distance);
-        if nearest <= reach + scene.workspace().clearance {
-            return None;
+    // Stops at the first piece of an obstacle that may be within reach.
+    let distance = |obstacle: &Obstacle| {
+        let mut nearest = f64::INFINITY;
+        for piece in &obstacle.pieces {
+            nearest = nearest.min(separation(&base, piece).distance);
+            if nearest <= reach + scene.workspace().clearance {
+                break;
+            }
         }
-    }
-    nearest.is_finite().then(|| {
+        nearest
+    };
+    let obstacles = &scene.workspace().obstacles;
+    let distances: Vec<f64> = obstacles.iter().map(distance).collect();
+    let nearest = distances.iter().copied().fold(f64::INFINITY, f64::min);
+    if nearest.is_finite() && nearest > reach + scene.workspace().clearance {
         let [nearest, reach] = format_distinct([nearest, reach], 4);
-        format!(
+        return vec![format!(
             "no obstacle is within the arm's reach: the nearest is {nearest} m from joint 1, no part of the arm comes farther than \
              {reach} m; is the world in metres, and [robot] `at` where the arm stands?"
+        )];
+    }
+    let is_far = |distance: f64| distance.is_finite() && distance > FAR_REACHES * reach;
+    let far = obstacles.iter().zip(distances).filter(|(_, distance)| is_far(*distance));
+    far.map(|(obstacle, distance)| {
+        let [distance, reach] = format_distinct([distance, reach], 4);
+        format!(
+            "obstacle \"{}\" is {distance} m from joint 1, and the arm reaches {reach} m; is the obstacle in metres?",
+            obstacle.name
         )
     })
+    .collect()
 }

@@ -10,7 +10,7 @@ use super::schema::*;
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{Holding, MovingObstacle, Object, ObstacleTrajectory};
 use cplan_model::{Obstacle, RESTING_TOLERANCE};
-use cplan_robot::{Diagnostic, Number, Numbers, Spanned, Written, quoted, toml_table};
+use cplan_robot::{Diagnostic, Length, Lengths, Number, Spanned, Written, quoted, toml_table};
 use cplan_text::{length, short};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -32,18 +32,18 @@ toml_table! {
         /// A disc in its own frame.
         circle: Option<CircleTable>,
         /// Initial position of its origin, m.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        at: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        at: Option<Lengths>,
         /// Instead of `at`: a pallet that has one such object on each place initially.
         pallet: Option<Spanned<String>>,
         /// Initial angle, rad, relative to the pallet if there is one; by default 0.
         angle: Option<Written>,
         /// Its extent along the plane's normal at its resting place, m; by default all heights.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        height: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        height: Option<Lengths>,
         /// Height by which it is raised while it is carried, m; by default 0.
-        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
-        lift: Option<Number>,
+        #[cfg_attr(test, schemars(with = "Option<NotNegativeLength>"))]
+        lift: Option<Length>,
         /// Its mass, kg, distributed evenly over its outline; by default 0. Used for torques.
         #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
         mass: Option<Number>,
@@ -51,8 +51,8 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<HeldAs>"))]
         payload: Option<Spanned<String>>,
         /// The point of it that the tip goes to, in its own frame, m; by default its origin.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        grasp: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        grasp: Option<Lengths>,
         /// Obstacles and objects that it may touch where it is picked and placed.
         supports: Option<NameList>,
         /// True if each repetition of the steps that pick it finds a new one at its initial place. The old one disappears

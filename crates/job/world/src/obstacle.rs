@@ -9,7 +9,7 @@ use super::schema::*;
 use cplan_geometry::{Convex, Pose};
 use cplan_handling::MovingObstacle;
 use cplan_model::{Growth, Obstacle, Shape};
-use cplan_robot::{Diagnostic, InputError, LengthError, Number, Numbers, Spanned, Written, toml_table};
+use cplan_robot::{Diagnostic, InputError, Length, LengthError, Lengths, Spanned, Written, toml_table};
 
 toml_table! {
     /// An obstacle, which the arm must not touch: exactly one of polygon, circle, polyline and image.
@@ -40,19 +40,19 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<UnknownAs>"))]
         unknown: Option<Spanned<String>>,
         /// Origin of its own frame, in which its points are given, m; by default that of the world.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        at: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        at: Option<Lengths>,
         /// Angle of its frame, rad; by default 0.
         angle: Option<Written>,
         /// Motion of its frame in time; by default it is static.
         motion: Option<Spanned<ObstacleTrajectoryTable>>,
         /// Its extent along the plane's normal, m. Only parts of the arm at these heights can touch it; by default all
         /// heights.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        height: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        height: Option<Lengths>,
         /// Least distance to keep from it, m; at least the world's `clearance`, which is the default.
-        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
-        clearance: Option<Number>,
+        #[cfg_attr(test, schemars(with = "Option<NotNegativeLength>"))]
+        clearance: Option<Length>,
         /// Greatest displacement of it in any direction for which motions stay free, m, or "1 mm"; by default that of
         /// `[robot] calibration`.
         #[cfg_attr(test, schemars(with = "Option<StatedError>"))]
@@ -63,11 +63,11 @@ toml_table! {
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "circle"))]
     pub(super) struct CircleTable {
         /// Coordinates of its centre, m.
-        #[cfg_attr(test, schemars(with = "NumberPair"))]
-        center: Numbers,
+        #[cfg_attr(test, schemars(with = "LengthPair"))]
+        center: Lengths,
         /// Radius, m.
-        #[cfg_attr(test, schemars(with = "Positive"))]
-        radius: Number,
+        #[cfg_attr(test, schemars(with = "PositiveLength"))]
+        radius: Length,
     }
 }
 

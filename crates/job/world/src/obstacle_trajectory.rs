@@ -5,7 +5,7 @@ use super::reader::Reader;
 use super::schema::*;
 use cplan_geometry::{Pose, Vector};
 use cplan_handling::{ObstacleTrajectory, ObstacleTrajectoryError, Stop};
-use cplan_robot::{Diagnostic, Number, Numbers, Spanned, Written, toml_table};
+use cplan_robot::{Diagnostic, Lengths, Number, Numbers, Spanned, Written, toml_table};
 
 toml_table! {
     /// The motion of an obstacle: straight and at constant speed from stop to stop, then at a constant velocity. At least
@@ -28,8 +28,8 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "NotNegative"))]
         time: Number,
         /// The origin of its own frame then, m; by default the obstacle's `at`.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        at: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        at: Option<Lengths>,
         /// Angle of its frame at that time, rad; by default the obstacle's `angle`. It turns by the difference, including
         /// whole turns.
         angle: Option<Written>,

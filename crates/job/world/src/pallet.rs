@@ -4,7 +4,7 @@ use super::reader::Reader;
 #[cfg(test)]
 use super::schema::*;
 use cplan_geometry::{Point, Pose};
-use cplan_robot::{Diagnostic, Number, Numbers, Spanned, Written, quoted, toml_table};
+use cplan_robot::{Diagnostic, Length, Lengths, Spanned, Written, quoted, toml_table};
 use std::collections::BTreeMap;
 
 toml_table! {
@@ -21,16 +21,16 @@ toml_table! {
         #[cfg_attr(test, schemars(range(min = 1)))]
         columns: Spanned<i64>,
         /// Distances between columns, along the pallet's x, and between rows, along its y, m; may be negative.
-        #[cfg_attr(test, schemars(with = "NumberPair"))]
-        pitch: Numbers,
+        #[cfg_attr(test, schemars(with = "LengthPair"))]
+        pitch: Lengths,
         /// Position of the place in row 1 and column 1, m.
-        #[cfg_attr(test, schemars(with = "NumberPair"))]
-        at: Numbers,
+        #[cfg_attr(test, schemars(with = "LengthPair"))]
+        at: Lengths,
         /// Angle of the pallet about that place, rad; by default 0. Objects on it turn with it.
         angle: Option<Written>,
         /// Height of its places along the plane's normal, m: the bottom of an object that is placed there; by default that of
         /// the place where it was picked.
-        height: Option<Number>,
+        height: Option<Length>,
     }
 }
 

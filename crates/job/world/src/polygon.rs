@@ -3,7 +3,7 @@
 use super::reader::Reader;
 use cplan_geometry::{Convex, Point, Polygon, Pose, RingError, SimplePolygon};
 use cplan_model::Shape;
-use cplan_robot::{Diagnostic, FromToml, Number, Spanned, TomlError, TomlValue, number};
+use cplan_robot::{Diagnostic, FromToml, Number, Spanned, TomlError, TomlValue, length};
 
 /// A number, or a list of coordinates. So it can be a point, a ring, or GeoJSON's list of rings.
 pub(super) enum Coordinates {
@@ -18,7 +18,7 @@ impl FromToml for Coordinates {
     fn read(value: &TomlValue) -> Result<Self, TomlError> {
         match value.get_ref().as_array() {
             Some(_) => FromToml::read(value).map(Self::List),
-            None => number(value, "a list of points: [[x, y], ...]").map(Self::Number),
+            None => length(value, "a list of points: [[x, y], ...]").map(Self::Number),
         }
     }
 }

@@ -3,7 +3,7 @@
 
 use super::reasons::{
     HELP_FOR_LIMITS, beyond_limits, describe, describe_out_of_reach, describe_segment, help_at, help_for_ik_solutions,
-    help_for_reach, obstructions, within_limits,
+    help_for_limits, help_for_reach, obstructions, within_limits,
 };
 use super::{AllowedErrors, LoadedProblem, LoadedScene, Overrides};
 use cplan_geometry::Point;
@@ -277,7 +277,8 @@ impl LoadedScene {
         let outside = beyond_limits(&self.scene, q);
         if !outside.is_empty() {
             let message = format!("{what} is outside the joint limits: {}", outside.join("; "));
-            return Err(place.diagnostic(message).help(HELP_FOR_LIMITS));
+            let help = help_for_limits(&self.scene, q, matches!(place, Place::World(..)));
+            return Err(place.diagnostic(message).help(help));
         }
         let hits = obstructions(&self.scene, q);
         if !hits.is_empty() {

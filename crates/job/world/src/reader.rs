@@ -6,10 +6,10 @@ use super::notes::Corrections;
 use cplan_geometry::{Point, Pose, Vector};
 use cplan_model::space::Configuration;
 use cplan_model::{Elbow, Goal, Heights};
-use cplan_robot::{Diagnostic, Number, Numbers, Source, Spanned, Written};
+use cplan_robot::{Diagnostic, Lengths, Number, Source, Spanned, Written, nearest_file};
 use std::cell::RefCell;
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// A reader that checks values of a world file. It knows the file, which its messages quote.
 pub(super) struct Reader<'a> {
@@ -33,7 +33,7 @@ impl Reader<'_> {
     ///
     /// # Errors
     /// A negative number.
-    pub fn not_negative(&self, number: &Number, what: &str) -> Result<f64, Diagnostic> {
+    pub fn not_negative<T: Copy + Into<f64>>(&self, number: &Spanned<T>, what: &str) -> Result<f64, Diagnostic> {
         let value = self.source.finite(number, what)?;
         if value < 0.0 {
             let message = format!("{what} must not be negative, is {value}");
@@ -46,7 +46,11 @@ impl Reader<'_> {
     ///
     /// # Errors
     /// A list that does not have two numbers.
-    pub fn number_pair(&self, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
+    pub fn number_pair<T: Copy + Into<f64>>(
+        &self,
+        numbers: &Spanned<Vec<Spanned<T>>>,
+        what: &str,
+    ) -> Result<[f64; 2], Diagnostic> {
         match numbers.get_ref().as_slice() {
             [a, b] => Ok([self.source.finite(a, what)?, self.source.finite(b, what)?]),
             other => {
@@ -71,12 +75,12 @@ impl Reader<'_> {
         Ok(JointPair { values, degrees: [a, b].map(|w| w.get_ref().in_degrees.then(|| w.span())) })
     }
     /// Returns a point of the plane.
-    pub fn point(&self, numbers: &Numbers, what: &str) -> Result<Point, Diagnostic> {
+    pub fn point(&self, numbers: &Lengths, what: &str) -> Result<Point, Diagnostic> {
         self.number_pair(numbers, what).map(Point::from)
     }
 
     /// Returns the pose of a frame, or `None` if neither position nor angle is given.
-    pub fn pose(&self, at: Option<&Numbers>, angle: Option<&Written>, what: &str) -> Result<Option<Pose>, Diagnostic> {
+    pub fn pose(&self, at: Option<&Lengths>, angle: Option<&Written>, what: &str) -> Result<Option<Pose>, Diagnostic> {
         let at = at.map(|at| self.point(at, &format!("{what}, at"))).transpose()?;
         let angle = angle.map(|angle| self.quantity(angle, &format!("{what}, angle"))).transpose()?;
         let is_given = at.is_some() || angle.is_some();
@@ -98,7 +102,7 @@ impl Reader<'_> {
             let diagnostic = self.source.diagnostic_at(elbow.span(), "a goal of areas has no side of the elbow");
             return Err(diagnostic.help("remove `elbow`, or give `tip`"));
         }
-        let area = |corners: &Spanned<Vec<Numbers>>| match corners.get_ref().as_slice() {
+        let area = |corners: &Spanned<Vec<Lengths>>| match corners.get_ref().as_slice() {
             [a, b] => {
                 let [a, b] = [self.point(a, "goal area")?, self.point(b, "goal area")?];
                 Ok(Goal::Area([a.inf(&b), a.sup(&b)]))
@@ -152,7 +156,7 @@ impl Reader<'_> {
     pub fn place(
         &self,
         joints: Option<&Spanned<Vec<Written>>>,
-        tip: Option<&Numbers>,
+        tip: Option<&Lengths>,
         at: Range<usize>,
         what: &str,
     ) -> Result<(Goal, Range<usize>), Diagnostic> {
@@ -186,12 +190,17 @@ impl Reader<'_> {
             self.files.borrow_mut().push(path.clone());
             return Ok(path);
         }
+        let near = nearest_file(&path).and_then(|near| near.strip_prefix(anchor.parent()?).ok().map(Path::to_owned));
+        let help = near.map_or_else(
+            || "paths are relative to the world file".to_owned(),
+            |near| format!("did you mean \"{}\"?", near.display()),
+        );
         let message = format!("{what}: there is no file {}", path.display());
-        Err(self.source.diagnostic_at(name.span(), message).help("paths are relative to the world file"))
+        Err(self.source.diagnostic_at(name.span(), message).help(help))
     }
 
     /// Returns heights, or all heights if the key is missing.
-    pub fn heights(&self, height: Option<&Numbers>, what: &str) -> Result<Heights, Diagnostic> {
+    pub fn heights(&self, height: Option<&Lengths>, what: &str) -> Result<Heights, Diagnostic> {
         let Some(height) = height else { return Ok(Heights::ALL) };
         let [lower, upper] = self.number_pair(height, &format!("{what}, height"))?;
         if lower > upper {

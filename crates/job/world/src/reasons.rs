@@ -2,8 +2,8 @@
 
 use cplan_geometry::Point;
 use cplan_model::space::{Configuration, JointRange, Segment};
-use cplan_model::{Freedom, Inverse, Obstruction, Scene, equivalent_values};
-use cplan_text::{fixed, format_distinct};
+use cplan_model::{Freedom, Inverse, Joint, Obstruction, Scene, equivalent_values};
+use cplan_text::{fixed, format_distinct, joined};
 
 /// Returns the IK solutions of `solved` that the joint limits allow, shifted by all whole turns that they allow. Also
 /// returns the reason for each solution that is outside the limits.
@@ -80,6 +80,22 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     outside
 }
 
+/// Returns the hint about a configuration outside the limits. If a value is within them in degrees, the hint asks whether
+/// degrees were meant. `in_file` is true for values in the world file, where they are texts.
+pub(super) fn help_for_limits(scene: &Scene, q: Configuration, in_file: bool) -> String {
+    let degrees = |(joint, value): (&Joint, &f64)| {
+        let is_meant =
+            joint.joint_type.is_revolute() && !joint.range.contains(*value) && joint.range.contains(value.to_radians());
+        let quote = if in_file { "\"" } else { "" };
+        is_meant.then(|| format!("{quote}{value}deg{quote}"))
+    };
+    let meant: Vec<String> = scene.arm().joints.iter().zip(q.iter()).filter_map(degrees).collect();
+    if meant.is_empty() {
+        return HELP_FOR_LIMITS.to_owned();
+    }
+    format!("if degrees are meant, write {}; angles are in radians", joined(&meant))
+}
+
 /// Hint about a configuration outside the limits.
 pub(super) const HELP_FOR_LIMITS: &str = "choose values within the limits, or change the limits in the world file: of joints in [robot] limits, of motors in [robot] drives";
 
@@ -96,14 +112,14 @@ pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
 pub(super) fn help_at(scene: &Scene, q: Configuration) -> String {
     let (mut shapes, mut links) = (Vec::new(), Vec::new());
     for Obstruction { contact, .. } in scene.obstructions(q) {
-        let Some(own) = scene.self_obstacle(contact.pair.obstacle) else { return help_for_contact(scene).to_owned() };
+        let Some(own) = scene.self_obstacle(contact.pair.obstacle) else { return help_for_contact(scene) };
         let (part, fixed) = (&scene.link(contact.pair).parts[contact.pair.part], &own.obstacle.name);
         let [of_fixed, of_part] = [own.number + 1, part.number + 1];
         shapes.push(format!("shape {of_part} of \"{}\" and shape {of_fixed} of \"{fixed}\"", part.body));
         links.push(format!("[\"{fixed}\", \"{}\"]", part.body));
     }
     if links.is_empty() {
-        return help_for_contact(scene).to_owned();
+        return help_for_contact(scene);
     }
     let (shapes, links) = (shapes.join(", "), links.join(", "));
     format!(
@@ -112,11 +128,14 @@ pub(super) fn help_at(scene: &Scene, q: Configuration) -> String {
 }
 
 /// Returns the hint about a configuration in which the arm hits or nearly hits something.
-pub(super) fn help_for_contact(scene: &Scene) -> &'static str {
-    if scene.workspace().clearance > 0.0 {
-        "move it away from the obstacle, or require less clearance"
+pub(super) fn help_for_contact(scene: &Scene) -> String {
+    let clearance = scene.workspace().clearance;
+    if clearance > scene.arm().reach() {
+        format!("the clearance is in metres; if {clearance} mm are meant, write {clearance}mm")
+    } else if clearance > 0.0 {
+        "move it away from the obstacle, or require less clearance".into()
     } else {
-        "move it away from the obstacle (touching counts as contact)"
+        "move it away from the obstacle (touching counts as contact)".into()
     }
 }
 
@@ -127,7 +146,7 @@ pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool)
     match (outside, blocked) {
         (true, false) => HELP_FOR_TIP.to_owned(),
         (true, true) => format!("{contact}, or {HELP_FOR_TIP}"),
-        (false, _) => contact.to_owned(),
+        (false, _) => contact,
     }
 }
 

@@ -16,7 +16,7 @@ stands_for! {
     Corners, {
         "type": "array",
         "minItems": 3,
-        "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }
+        "items": { "type": "array", "items": { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|dm|m|km|um|mil|in|ft|yd) *$" }, "minItems": 2, "maxItems": 2 }
     }
 }
 stands_for! {
@@ -26,14 +26,14 @@ stands_for! {
         "anyOf": [
             {
                 "minItems": 3,
-                "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }
+                "items": { "type": "array", "items": { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|dm|m|km|um|mil|in|ft|yd) *$" }, "minItems": 2, "maxItems": 2 }
             },
             {
                 "minItems": 1,
                 "items": {
                     "type": "array",
                     "minItems": 3,
-                    "items": { "type": "array", "items": { "type": "number" }, "minItems": 2, "maxItems": 2 }
+                    "items": { "type": "array", "items": { "type": ["number", "string"], "pattern": "^ *[-+]?[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|dm|m|km|um|mil|in|ft|yd) *$" }, "minItems": 2, "maxItems": 2 }
                 }
             }
         ]

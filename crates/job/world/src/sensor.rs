@@ -4,7 +4,7 @@ use super::reader::Reader;
 #[cfg(test)]
 use super::schema::*;
 use crate::{Mount, Sensor};
-use cplan_robot::{Diagnostic, Number, Spanned, Written, toml_table};
+use cplan_robot::{Diagnostic, Length, Number, Spanned, Written, toml_table};
 use std::f64::consts::TAU;
 
 /// Largest number of rays. No sensor has more.
@@ -29,19 +29,19 @@ toml_table! {
         /// Angle over which they are spread, rad, at most a whole turn, which is the default.
         field_of_view: Option<Written>,
         /// Range, m; by default half the arm's reach.
-        #[cfg_attr(test, schemars(with = "Option<Positive>"))]
-        range: Option<Number>,
+        #[cfg_attr(test, schemars(with = "Option<PositiveLength>"))]
+        range: Option<Length>,
         /// Distance between readings on the path, in joint space, mixing rad and m; by default 0.1.
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]
         step: Option<Number>,
         /// Greatest error of a distance, m: errors are uniform within it; by default 0.
-        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
-        noise: Option<Number>,
+        #[cfg_attr(test, schemars(with = "Option<NotNegativeLength>"))]
+        noise: Option<Length>,
         /// Seed of the errors; by default 0.
         seed: Option<u64>,
         /// Side of the cells of the map, m; by default a fortieth of the arm's reach.
-        #[cfg_attr(test, schemars(with = "Option<Positive>"))]
-        cell: Option<Number>,
+        #[cfg_attr(test, schemars(with = "Option<PositiveLength>"))]
+        cell: Option<Length>,
     }
 }
 
@@ -79,8 +79,8 @@ impl SensorTable {
                 Err(reader.source.diagnostic_at(rays.span(), message).help("write a number of rays, such as 360"))
             }
         };
-        let positive = |number: &Option<Number>, what: &str| {
-            let read = |number: &Number| match reader.source.finite(number, what)? {
+        let positive = |number: &Option<Length>, what: &str| {
+            let read = |number: &Length| match reader.source.finite(number, what)? {
                 value if value > 0.0 => Ok(value),
                 value => {
                     let message = format!("{what} must be positive, is {value}");

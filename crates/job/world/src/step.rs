@@ -12,7 +12,7 @@ use super::table::Table;
 use cplan_geometry::Pose;
 use cplan_handling::{MAX_STOP_TIME, Object, ToolValues};
 use cplan_model::{Elbow, Goal};
-use cplan_robot::{Cursor, Diagnostic, Number, Numbers, Spanned, Written, toml_table};
+use cplan_robot::{Cursor, Diagnostic, Length, Lengths, Number, Numbers, Spanned, Written, toml_table};
 use std::collections::BTreeSet;
 use std::ops::Range;
 
@@ -46,16 +46,16 @@ toml_table! {
         #[cfg_attr(test, schemars(length(min = 1)))]
         steps: Option<Vec<Spanned<StepTable>>>,
         /// For a pick: the point of the object to which the tip moves, in the object's frame, m; by default the `grasp` of the object.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        grasp: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        grasp: Option<Lengths>,
         /// For a pick: obstacles and objects that the object may touch; by default the `supports` of the object.
         supports: Option<NameList>,
         /// For a pick: side of the elbow, seen from joint 1 towards the tip, "left" or "right"; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
         /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest one possible.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        at: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        at: Option<Lengths>,
         /// For the pick of a moving object: the earliest and the latest time of the pick, s; by default any time.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         window: Option<Numbers>,
@@ -94,8 +94,8 @@ toml_table! {
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "place", extend("oneOf" = [{ "required": ["at"] }, { "required": ["on"] }])))]
     struct PlaceTable {
         /// Position for the object's origin, m.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        at: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        at: Option<Lengths>,
         /// The place of a pallet that its origin goes to: "NAME 2,3".
         on: Option<Spanned<String>>,
         /// Angle of a level payload there, rad; by default unchanged.
@@ -104,7 +104,7 @@ toml_table! {
         supports: Option<NameList>,
         /// Height of its bottom there along the plane's normal, m; by default that of the pallet, or of the place where it was
         /// picked.
-        height: Option<Number>,
+        height: Option<Length>,
         /// Side of the elbow there, seen from joint 1 towards the tip: "left" or "right"; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
@@ -366,7 +366,7 @@ impl<'a> StepReader<'a> {
         if step.pick.is_none() {
             let at = step.grasp.as_ref().map(Spanned::span);
             refuse(at, "only a pick has a `grasp`", "remove the key")?;
-            let at = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span);
+            let at = step.at.as_ref().map(Spanned::span).or(step.window.as_ref().map(Spanned::span));
             refuse(
                 at,
                 "only a pick has `at` and `window`",
@@ -403,7 +403,9 @@ impl<'a> StepReader<'a> {
 
     /// Returns the times at which a moving object may be picked. `None` if the step states none.
     fn read_pick_times(&self, step: &StepTable, object: &Object) -> Result<Option<When>, Diagnostic> {
-        let Some(stated) = step.at.as_ref().or(step.window.as_ref()).map(Spanned::span) else { return Ok(None) };
+        let Some(stated) = step.at.as_ref().map(Spanned::span).or(step.window.as_ref().map(Spanned::span)) else {
+            return Ok(None);
+        };
         let name = &object.name;
         let refuse = |at: Range<usize>, message: String, help: &str| {
             Err(self.reader.source.diagnostic_at(at, message).help(help))

@@ -2,7 +2,7 @@
 
 use super::problem::{Place, no_elbow};
 use super::reasons::{
-    HELP_FOR_LIMITS, HELP_FOR_TIP, beyond_limits, describe_out_of_reach, help_for_reach, within_limits,
+    HELP_FOR_TIP, beyond_limits, describe_out_of_reach, help_for_limits, help_for_reach, within_limits,
 };
 use super::requirement::{Required, Requirement};
 use super::tool_values::require_free_lowered;
@@ -114,8 +114,12 @@ impl LoadedScene {
 
     fn beyond_limits(&self, step: &str, q: Configuration) -> Option<(String, String)> {
         let outside = beyond_limits(&self.scene, q);
-        (!outside.is_empty())
-            .then(|| (format!("{step} is outside the joint limits: {}", outside.join("; ")), HELP_FOR_LIMITS.into()))
+        (!outside.is_empty()).then(|| {
+            (
+                format!("{step} is outside the joint limits: {}", outside.join("; ")),
+                help_for_limits(&self.scene, q, true),
+            )
+        })
     }
 
     fn beyond_reach(

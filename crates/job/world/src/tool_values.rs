@@ -7,7 +7,7 @@ use super::reasons::describe;
 use cplan_handling::{Action, Item, Object, Step, Task, ToolJoint, ToolValues};
 use cplan_model::Goal;
 use cplan_model::space::JointRange;
-use cplan_robot::{Diagnostic, InputError, Number, Written};
+use cplan_robot::{Diagnostic, InputError, Length, Written};
 use cplan_text::listed;
 use std::ops::Range;
 
@@ -24,7 +24,7 @@ impl StatedTool {
     /// Reads the keys `stroke` and `wrist` of a table.
     pub fn read(
         reader: &Reader,
-        stroke: Option<&Number>,
+        stroke: Option<&Length>,
         wrist: Option<&Written>,
         what: &str,
     ) -> Result<Self, Diagnostic> {

@@ -6,6 +6,7 @@ use cplan_geometry::Point;
 use cplan_model::space::Configuration;
 use cplan_model::{Elbow, Goal, Joint, SceneError, check_clearance};
 use cplan_robot::{CalibrationTable, Diagnostic, InputError, MAX_LENGTH};
+use cplan_text::metres;
 use std::fmt;
 use std::str::FromStr;
 
@@ -164,7 +165,7 @@ impl FromStr for JointValues {
     }
 }
 
-/// A point of the plane as the user writes it: `0.35,0.5`, in metres.
+/// A point of the plane as the user writes it: `0.35,0.5`, in metres, or `350mm,0.5`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TipPoint(pub Point);
 
@@ -173,7 +174,7 @@ impl FromStr for TipPoint {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let [x, y] = pair(text)?;
-        Ok(Self(Point::new(finite(x)?, finite(y)?)))
+        Ok(Self(Point::new(length(x)?, length(y)?)))
     }
 }
 
@@ -190,6 +191,10 @@ fn finite(text: &str) -> Result<f64, String> {
         Ok(_) => Err(format!("\"{text}\" is not a finite number")),
         Err(_) => Err(format!("\"{text}\" is not a number")),
     }
+}
+
+fn length(text: &str) -> Result<f64, String> {
+    metres(text).map_or_else(|_| finite(text), |value| finite(&value.to_string()))
 }
 
 #[cfg(test)]
@@ -247,5 +252,6 @@ mod tests {
         }
         assert!("1deg,2".parse::<TipPoint>().unwrap_err().contains("not a number"));
         assert_eq!("0.35, 0.5".parse::<TipPoint>().unwrap(), TipPoint(Point::new(0.35, 0.5)));
+        assert_eq!("350mm,5 dm".parse::<TipPoint>().unwrap(), TipPoint(Point::new(0.35, 0.5)));
     }
 }

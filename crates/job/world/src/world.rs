@@ -20,7 +20,7 @@ use cplan_geometry::Pose;
 use cplan_handling::{Holding, Object, TimedWorkspace, Wrist};
 use cplan_model::{Arm, Calibration, Goal, Growth, Obstacle, Scene, Workspace};
 use cplan_robot::{
-    CalibrationTable, Diagnostic, InputError, LengthError, Number, Numbers, RobotSettings, RobotTable, Source, Spanned,
+    CalibrationTable, Diagnostic, InputError, Length, LengthError, Lengths, RobotSettings, RobotTable, Source, Spanned,
     Written, toml_table,
 };
 use std::ops::Range;
@@ -171,8 +171,8 @@ toml_table! {
         /// Title of summaries and pictures; by default the file's name.
         name: Option<String>,
         /// Least distance to keep from every obstacle, m; by default 0: any proven distance above zero.
-        #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
-        clearance: Option<Number>,
+        #[cfg_attr(test, schemars(with = "Option<NotNegativeLength>"))]
+        clearance: Option<Length>,
         #[cfg_attr(test, schemars(default, with = "RobotTable"))]
         robot: Option<RobotTable>,
         #[cfg_attr(test, schemars(with = "Option<StartTable>"))]
@@ -206,10 +206,10 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<[Quantity; 2]>"))]
         joints: Option<Spanned<Vec<Written>>>,
         /// Coordinates of the tip, m. Exactly one IK solution must be within the limits and free.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        tip: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        tip: Option<Lengths>,
         /// Value of the joint that lowers the tool, m; by default it is raised.
-        stroke: Option<Number>,
+        stroke: Option<Length>,
         /// Value of the wrist's joint, rad; by default its `fixed` value.
         wrist: Option<Written>,
     }

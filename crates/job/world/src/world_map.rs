@@ -8,7 +8,7 @@ use super::reader::Reader;
 use super::schema::*;
 use cplan_geometry::{Convex, Point, SimplePolygon, Vector};
 use cplan_model::{Goal, Growth, Obstacle, Preference, Region, Shape};
-use cplan_robot::{InputError, MAX_LENGTH, Number, Numbers, Spanned, toml_table};
+use cplan_robot::{InputError, Lengths, MAX_LENGTH, Number, Spanned, toml_table};
 use std::ops::Range;
 use std::path::Path;
 
@@ -24,13 +24,13 @@ toml_table! {
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]
         scale: Option<Number>,
         /// Added to all coordinates after scaling, m; by default [0, 0].
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        offset: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        offset: Option<Lengths>,
         /// True if the bounds of the map are walls, too; by default true.
         frame: Option<bool>,
         /// Extent of the walls along the plane's normal, m; by default all heights.
-        #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
-        height: Option<Numbers>,
+        #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
+        height: Option<Lengths>,
     }
 }
 

@@ -2,9 +2,10 @@
 
 use super::{BARS, ORIGIN, check, gantry, gantry_tips, scene_of, stroke};
 use cplan_cases::dice::Dice;
-use cplan_follow::{Cause, Found, Settings, follow, metres};
+use cplan_follow::{Cause, Found, Settings, follow};
 use cplan_model::Outcome;
 use cplan_testkit::follow_oracle::{Point, pass_together, points};
+use cplan_text::metres;
 use cplan_toolpath::{Curve, Piece, Placement, Toolpath};
 use std::f64::consts::TAU;
 

@@ -101,25 +101,63 @@ pub struct MotionQuery<'a> {
 /// Walls are made of slightly eroded shapes, so every passage is some nanometres wider than in reality. Pairs of two
 /// shapes without area make no walls, which lowers the bound.
 pub fn least_length(motions: &MotionQuery, limit: f64, gap: f64, slices: &[f64]) -> f64 {
-    bounded(&MotionQuery { scene: &motions.scene.inner(), ..*motions }, limit, gap, slices).0
+    bounded(&MotionQuery { scene: &motions.scene.inner(), ..*motions }, limit, gap, slices, &mut |_| ()).0
 }
 
 /// Returns evidence for a checker: the walls and barriers that close all paths shorter than the bound that
 /// [`least_length`] finds without given slices.
 pub fn bound_evidence(motions: &MotionQuery, limit: f64, gap: f64) -> BoundEvidence {
     let scene = &*motions.scene.inner();
-    let (_, search) = bounded(&MotionQuery { scene, ..*motions }, limit, gap, &[]);
+    let (_, search) = bounded(&MotionQuery { scene, ..*motions }, limit, gap, &[], &mut |_| ());
     BoundEvidence { slices: search.strips.evidence(scene) }
 }
 
-fn bounded<'a>(motions: &MotionQuery<'a>, limit: f64, gap: f64, slices: &[f64]) -> (f64, ShortestPathSearch<'a>) {
+/// A round of the search for a lower bound.
+#[derive(Debug, Clone, PartialEq)]
+pub struct BoundRound {
+    /// The bound that is proven after the round.
+    pub lower: f64,
+    /// The shortest path around everything that is known to be closed. It may cross regions that are closed, as long as
+    /// this is not known. Empty if all paths are longer than the limit.
+    pub path: Vec<Configuration>,
+    /// Values of joint 1 at the slices, ascending.
+    pub slices: Vec<f64>,
+}
+
+/// Returns the rounds in which [`least_length`] improves the bound if it knows no slices. The bounds never fall. The
+/// first round knows no walls.
+pub fn bound_rounds(motions: &MotionQuery, limit: f64, gap: f64) -> Vec<BoundRound> {
+    let mut rounds = Vec::new();
+    bounded(&MotionQuery { scene: &motions.scene.inner(), ..*motions }, limit, gap, &[], &mut |round| {
+        rounds.push(round)
+    });
+    rounds
+}
+
+fn bounded<'a>(
+    motions: &MotionQuery<'a>,
+    limit: f64,
+    gap: f64,
+    slices: &[f64],
+    watch: &mut dyn FnMut(BoundRound),
+) -> (f64, ShortestPathSearch<'a>) {
     let mut search = ShortestPathSearch::new(*motions, limit, slices);
+    watch(search.straight_round());
     let enough = limit / (1.0 + gap);
     let (mut best, mut idle) = (0.0, 0);
     for _ in 0..MAX_REFINEMENTS {
         let (length, corners) = search.shortest();
         idle = if length - best > gap / 8.0 * limit { 0 } else { idle + 1 };
         best = f64::max(best, length);
+        watch(BoundRound {
+            lower: search.rounded(best.min(limit)),
+            path: if corners.is_empty() {
+                Vec::new()
+            } else {
+                search.path(motions.start, &corners).waypoints().to_vec()
+            },
+            slices: search.strips.slices(),
+        });
         if best >= enough
             || idle >= MAX_IDLE_ROUNDS
             || !search.refine(&corners, PathTolerance::Detour(gap * limit * MAX_STRIP_GAP_SHARE))
@@ -264,6 +302,16 @@ impl<'a> ShortestPathSearch<'a> {
         let near = if slices.is_empty() { f64::max(1.5 * nearest, limit * MIN_LIMIT_SHARE).min(limit) } else { limit };
         let vicinity = Vicinity::of(scene, strips.pairs().into());
         Self { motions, vicinity, strips, measure, start, goals, limit, near, largest, fine: RefinedPieces::default() }
+    }
+
+    /// Returns the round before any slice is known: no motion is shorter than the straight line to the nearest goal.
+    fn straight_round(&self) -> BoundRound {
+        let distance = |goals: &&Segment| OrderedF64(goals.distance(self.measure, self.start));
+        let nearest = self.goals.iter().min_by_key(distance).map(|goals| goals.nearest(self.measure, self.start));
+        let lower = nearest.map_or(self.limit, |goal| self.measure.norm(goal - self.start));
+        let path =
+            nearest.map_or_else(Vec::new, |goal| vec![self.motions.start, goal + self.motions.start - self.start]);
+        BoundRound { lower: self.rounded(lower.min(self.limit)), path, slices: Vec::new() }
     }
 
     /// Returns the length and the corners of the shortest path around the known walls and barriers. If all paths are

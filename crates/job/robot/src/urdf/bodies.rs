@@ -124,7 +124,7 @@ impl Bodies<'_> {
 
     fn bar(&self) -> Result<Option<f64>, Diagnostic> {
         let Some(bar) = &self.settings.table.bar else { return Ok(None) };
-        let radius = *bar.get_ref();
+        let radius = bar.get_ref().0;
         if radius.is_finite() && radius > 0.0 {
             return Ok(Some(radius));
         }

@@ -7,7 +7,7 @@ use super::reduction::Reduction;
 use super::tree;
 use crate::Spanned;
 use crate::error::Diagnostic;
-use crate::quantity::Number;
+use crate::quantity::{Length, Number};
 use crate::stroke::{ArchTable, ArchValue, StrokeTable};
 use cplan_handling::{Arch, Driver, RobotJoint, RobotJoints, Stroke, ToolJoint};
 use cplan_model::{Plane, assumed_acceleration};
@@ -96,7 +96,8 @@ impl Reduction<'_> {
                 }
             },
         };
-        let travel = given(&table.travel, "travel", |x| x != 0.0, "other than 0")?;
+        let travel = table.travel.as_ref().map(|travel| Number::new(travel.span(), travel.get_ref().0));
+        let travel = given(&travel, "travel", |x| x != 0.0, "other than 0")?;
         let velocity = given(&table.velocity, "velocity", |x| x > 0.0, "positive")?;
         let acceleration = given(&table.acceleration, "acceleration", |x| x > 0.0, "positive")?;
         let jerk = given(&table.jerk, "jerk", |x| x > 0.0, "positive")?;
@@ -114,7 +115,7 @@ impl Reduction<'_> {
 
     /// Returns the least heights for overlaps of strokes with motions. `None` if the arm is at rest during strokes.
     fn arch(&self) -> Result<Option<Arch>, Diagnostic> {
-        let height = |number: &Option<Number>, what: &str| match number {
+        let height = |number: &Option<Length>, what: &str| match number {
             None => Ok(0.0),
             Some(number) => match self.settings.source.finite(number, &format!("[robot] arch, {what}"))? {
                 value if value >= 0.0 => Ok(value),

@@ -104,6 +104,11 @@ impl PlanOutput for Plan {
         {
             view.title.insert(0, format!("No path: {}", names::blame_in_words(problem.scene(), &set)));
         }
+        if let Some(headline) = picture::headline(self) {
+            // The names come second, on one line with the numbers.
+            let rest = view.title.drain(..view.title.len().min(2)).collect::<Vec<_>>().join(" \u{b7} ");
+            view.title.splice(0..0, [headline, rest]);
+        }
         view
     }
 

@@ -7,10 +7,10 @@ use cplan_engine::{Detail, Motion, Plan};
 use cplan_handling::{Task, TimedScene};
 use cplan_legs::TaskAnswer;
 use cplan_model::{MotionProblem, Outcome, Scene, Status};
-use cplan_motion::PlaceTime;
+use cplan_motion::{PlaceTime, WaitReason};
 use cplan_planners::cspace::{CObstacle, c_obstacles, exact_c_obstacles};
-use cplan_solver::{Answer, Bound, Options};
-use cplan_text::{counted, length_down};
+use cplan_solver::{Answer, Bound, Options, solve};
+use cplan_text::{counted, joined, length_down, percent};
 use std::path::Path;
 use thiserror::Error;
 
@@ -131,8 +131,38 @@ impl PictureFormat {
     }
 }
 
-/// Adds a replay of the planner to a view.
-pub fn replayed(plan: &Plan, view: View) -> View {
+/// Clearance, in metres, below which no machine keeps its arm free of collision.
+const LEAST_CLEARANCE: f64 = 1e-3;
+
+/// Clearance, in metres, that is planned as an alternative to less than [`LEAST_CLEARANCE`].
+const USUAL_CLEARANCE: f64 = 0.01;
+
+/// Largest number of pairs of shapes with which the alternative is planned. With more, planning takes seconds.
+const MAX_PAIRS: usize = 1000;
+
+/// Returns true if a motion keeps less than [`LEAST_CLEARANCE`], because no clearance was required.
+pub(super) fn is_tight(plan: &Plan) -> bool {
+    let is_less = plan.clearance().is_some_and(|clearance| clearance < LEAST_CLEARANCE);
+    plan.status() == Status::Found && is_less && plan.problem().scene().workspace().clearance == 0.0
+}
+
+/// Returns [`USUAL_CLEARANCE`] and the length of the path that keeps it, for a motion that [`is_tight`]. `None` if no such
+/// path is found.
+pub(super) fn with_usual_clearance(plan: &Plan) -> Option<[f64; 2]> {
+    let (problem, _) = plan.motion().filter(|_| is_tight(plan))?;
+    let scene = problem.scene();
+    if !scene.loose_obstacles().is_empty() || scene.pairs().len() > MAX_PAIRS {
+        return None;
+    }
+    let scene = scene.clone().with_clearance(USUAL_CLEARANCE).ok()?;
+    let problem = MotionProblem::new(scene, problem.start(), problem.goals().clone()).ok()?;
+    let answer = solve(&problem, plan.options(), &mut |_| ());
+    answer.path().map(|path| [USUAL_CLEARANCE, path.length()])
+}
+
+/// Adds a replay of the planner to a view, and what the clearance could be.
+pub fn replayed(plan: &Plan, mut view: View) -> View {
+    view.figures.with_clearance = with_usual_clearance(plan);
     let view = if let Some(replay) = plan.replay() { view.with_replay(&replay) } else { view };
     if let Some(replay) = plan.task_replay() { view.with_task_replay(&replay) } else { view }
 }
@@ -162,7 +192,7 @@ fn key_figures(plan: &Plan) -> KeyFigures {
     };
     let is_static = plan.problem().timed().scene.loose_obstacles().is_empty();
     let gap = gap.filter(|gap| is_static && gap.is_finite());
-    KeyFigures { duration: plan.duration(), gap, fastest, clearance: plan.clearance() }
+    KeyFigures { duration: plan.duration(), gap, fastest, clearance: plan.clearance(), with_clearance: None }
 }
 
 fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, contours: &[CObstacle]) -> View {
@@ -225,6 +255,33 @@ fn task_picture<'a>(
         c_obstacles: contours_of(plan.options()),
         in_time: contours_in_time,
     }
+}
+
+/// Returns the result of a plan that was found in a sentence. `None` without a motion.
+pub fn headline(plan: &Plan) -> Option<String> {
+    let seconds = format!("{:.2} s", plan.duration()?);
+    if plan.status() != Status::Found {
+        return None;
+    }
+    let figures = key_figures(plan);
+    if let Some((_, answer)) = plan.task() {
+        let steps = counted(answer.legs.len(), "step");
+        let gap = figures.gap.map(|gap| format!(", proven within {} of the fastest", percent(gap)));
+        return Some(format!("All {steps} in {seconds}{}", gap.unwrap_or_default()));
+    }
+    if let Some(timing) = plan.timing() {
+        let reasons = plan.place_time().map(|plane| plane.reasons(&timing.waits)).unwrap_or_default();
+        return Some(match &reasons[..] {
+            [] => format!("Passes the moving obstacles without a wait, in {seconds}"),
+            reasons => format!("Waits {}", joined(&reasons.iter().map(WaitReason::words).collect::<Vec<_>>())),
+        });
+    }
+    let (_, answer) = plan.motion()?;
+    let length = answer.path()?.length();
+    Some(match figures.gap {
+        Some(gap) => format!("The shortest path: {length:.4} in joint space, proven within {}", percent(gap)),
+        None => format!("A path from start to goal: {length:.4} in joint space, certified"),
+    })
 }
 
 /// Returns a verdict in a word or two.

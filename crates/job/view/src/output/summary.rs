@@ -1,12 +1,13 @@
 //! The summary of a plan for people.
 
 use super::motion_summary::{self, among_movers};
+use super::picture::{is_tight, with_usual_clearance};
 use super::task_summary;
 use cplan_engine::{AllowedErrors, Detail, Plan};
 use cplan_model::space::{Configuration, GoalSet, JointRange, Segment};
 use cplan_model::{Arm, Joint, Status};
 use cplan_motion::Trajectory;
-use cplan_text::{Columns, chosen_length, counted, first_lines, short};
+use cplan_text::{Columns, chosen_length, counted, first_lines, length_down, short};
 use std::time::Duration;
 
 /// Returns the values of both joints by name.
@@ -59,6 +60,7 @@ const MAX_WAITS: usize = 3;
 pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Duration)], is_verbose: bool) -> String {
     let SummaryLines { found: mut lines, asked } = summary_lines(plan);
     add_margin(plan, &mut lines);
+    add_warning(plan, &mut lines);
     if let Some(blocked) = plan.motion().and_then(|(problem, answer)| motion_summary::blocked_by(problem, answer)) {
         lines.insert(1, blocked);
     }
@@ -116,6 +118,21 @@ pub(super) fn facts(plan: &Plan) -> Vec<[String; 2]> {
     add_margin(plan, &mut lines);
     let lines = lines.into_iter().chain(arm_lines(plan.arm()));
     lines.map(|(key, text)| [key.to_owned(), text]).collect()
+}
+
+/// Adds a line about a clearance that no machine keeps, with the length of a path that keeps a usual one.
+fn add_warning(plan: &Plan, lines: &mut Vec<Line>) {
+    let Some(clearance) = plan.clearance().filter(|_| is_tight(plan)) else { return };
+    let other = with_usual_clearance(plan).map_or_else(
+        || "--clearance requires more".to_owned(),
+        |[kept, length]| {
+            let kept = chosen_length(kept);
+            format!("--clearance {} keeps {kept}, length {length:.4}", kept.replace(' ', ""))
+        },
+    );
+    let at = lines.iter().rposition(|(key, _)| ["clearance", "margin"].contains(key)).map_or(lines.len(), |at| at + 1);
+    let text = format!("passes within {}, because no clearance was required; {other}", length_down(clearance));
+    lines.insert(at, ("warning", text));
 }
 
 /// Adds the line about margins after the clearance.

@@ -43,6 +43,10 @@ pub struct KeyFigures {
     /// Proven lower bound on the distance between arm and obstacles, in metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
+    /// For a motion that no machine can keep free of collision, because no clearance was required: a usual clearance, in
+    /// metres, and the length of the path that keeps it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub with_clearance: Option<[f64; 2]>,
 }
 
 impl KeyFigures {

@@ -2,6 +2,7 @@
 
 use super::content::{StillContent, View};
 use super::numbers::RoundingSteps;
+use super::world::ObstacleView;
 use crate::blocking::BlockingView;
 use crate::checked::CheckedView;
 use crate::section::{self, Section};
@@ -23,6 +24,9 @@ struct Document<'a> {
     checked: Option<&'a CheckedView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<Object>,
+    /// Objects where the task puts them.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    places: &'a [ObstacleView],
 }
 
 impl View {
@@ -32,9 +36,9 @@ impl View {
     /// Never: all keys are strings.
     pub fn json(&self) -> String {
         let line = self.still.line.as_ref().map(|line| followed::document(line, RoundingSteps::of(&self.arm)));
-        let StillContent { stuck, sections, checked, .. } = &self.still;
+        let StillContent { stuck, sections, checked, placed: places, .. } = &self.still;
         let (stuck, checked) = (stuck.as_ref(), checked.as_ref());
-        let document = Document { view: self, legend: legend::on_pages(self), stuck, sections, checked, line };
+        let document = Document { view: self, legend: legend::on_pages(self), stuck, sections, checked, line, places };
         serde_json::to_string(&document).expect("numbers and strings")
     }
 }

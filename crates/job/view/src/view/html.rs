@@ -6,7 +6,7 @@ use cplan_text::markup;
 const STYLE: &str = include_str!("assets/view.css");
 
 /// Code that draws a view. Each script needs only the scripts before it.
-const SCRIPTS: [&str; 38] = [
+const SCRIPTS: [&str; 40] = [
     include_str!("assets/element.js"),
     include_str!("assets/icons.js"),
     include_str!("assets/settings.js"),
@@ -24,6 +24,7 @@ const SCRIPTS: [&str; 38] = [
     include_str!("assets/plots.js"),
     include_str!("assets/timeline.js"),
     include_str!("assets/strip.js"),
+    include_str!("assets/closing.js"),
     include_str!("assets/height.js"),
     include_str!("assets/contact.js"),
     include_str!("assets/lessons/question.js"),
@@ -38,6 +39,7 @@ const SCRIPTS: [&str; 38] = [
     include_str!("assets/lessons/tasks.js"),
     include_str!("assets/learn.js"),
     include_str!("assets/steps.js"),
+    include_str!("assets/sideview.js"),
     include_str!("assets/tour.js"),
     include_str!("assets/explain.js"),
     include_str!("assets/budget.js"),

@@ -4,7 +4,7 @@ use super::numbers::{Chain, RoundingSteps};
 use crate::figure::Pen;
 use cplan_model::space::{Configuration, Path};
 use cplan_motion::Trajectory;
-use cplan_theme::{GRAY, INK, PlannerPen, Rgb, role_or_hex};
+use cplan_theme::{ACCENT, GRAY, INK, PlannerPen, Rgb, role_or_hex};
 use serde::{Serialize, Serializer};
 
 /// Number of poses of the arm that are shown between the ends of a path.
@@ -13,6 +13,9 @@ const GHOST_POSES: usize = 5;
 const HIGHLIGHTED_WIDTH: f64 = 2.4;
 /// Width of a path that is not highlighted, in pixels.
 const LINE_WIDTH: f64 = 1.6;
+
+/// Lengths of dashes and gaps in turn, in pixels, of the line of a lower bound.
+const BOUND_DASH: [f64; 2] = [7.0, 4.0];
 
 /// A path in a world.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -43,6 +46,10 @@ pub struct PathView {
 /// Serialises the colour by its name, if it has one, because it is another colour on a dark background.
 fn color_name<S: Serializer>(color: &Option<Rgb>, serializer: S) -> Result<S::Ok, S::Error> {
     color.map(role_or_hex).serialize(serializer)
+}
+
+fn is_one(round: &usize) -> bool {
+    *round == 1
 }
 
 fn is_none(step: &usize) -> bool {
@@ -102,6 +109,21 @@ impl PathView {
         }
     }
 
+    /// Returns the first certified path as a line beside this one.
+    pub fn first_line(&self, points: Chain) -> Self {
+        Self { name: "first path".to_owned(), ..self.grey_line(points) }
+    }
+
+    /// Returns the line of a lower bound beside this path.
+    pub fn bound_line(&self, points: Chain) -> Self {
+        Self {
+            name: "no motion is shorter".to_owned(),
+            color: Some(ACCENT),
+            dash: &BOUND_DASH,
+            ..self.grey_line(points)
+        }
+    }
+
     /// Returns the pen of the path.
     pub fn pen(&self) -> Pen {
         let ink = if self.width < HIGHLIGHTED_WIDTH { INK.lighter(0.3) } else { INK };
@@ -149,6 +171,12 @@ pub struct MotionView {
     pub from: f64,
     /// Description of the motion.
     pub label: String,
+    /// Number of the step's repetition, from 1. Pages show it if there are several.
+    #[serde(skip_serializing_if = "is_one")]
+    pub round: usize,
+    /// Proven lower bound on the distance between arm and obstacles, metres. `None` for the world after the last motion.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub clearance: Option<f64>,
     /// Index of the planner's replay for this motion. `None` if there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<usize>,
@@ -157,7 +185,15 @@ pub struct MotionView {
 impl MotionView {
     /// Creates the view of a plan's only motion, of `duration` seconds.
     pub fn only(duration: f64) -> Self {
-        Self { world: 0, path: Some(0), from: 0.0, label: format!("{duration:.3} s"), replay: None }
+        Self {
+            world: 0,
+            path: Some(0),
+            from: 0.0,
+            label: format!("{duration:.3} s"),
+            round: 1,
+            clearance: None,
+            replay: None,
+        }
     }
 }
 

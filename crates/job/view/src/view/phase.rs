@@ -23,8 +23,19 @@ pub struct PhaseView {
     pub events: usize,
     /// Duration of the phase, in seconds.
     pub seconds: f64,
+    /// Length of the certified path that is known at the end of the phase.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub length: Option<f64>,
     #[serde(flatten)]
     pub shows: ShowsView,
+}
+
+/// A round of the lower bound: see [`BoundRound`](cplan_solver::BoundRound).
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct RoundView {
+    pub lower: f64,
+    pub points: Chain,
+    pub slices: Vec<f64>,
 }
 
 /// The content of a phase: see [`Shows`](cplan_solver::Shows).
@@ -38,6 +49,14 @@ pub enum ShowsView {
     },
     Channel,
     Expanded,
+    /// The first certified path.
+    First {
+        points: Chain,
+    },
+    /// Rounds of the lower bound.
+    Bound {
+        rounds: Vec<RoundView>,
+    },
     Slices,
     Wave,
     Levels,

@@ -2,7 +2,7 @@
 
 use super::content::View;
 use super::numbers::{Chain, RoundingSteps};
-use super::phase::{MotionReplayView, PhaseView, ShowsView};
+use super::phase::{MotionReplayView, PhaseView, RoundView, ShowsView};
 use super::trace::TraceView;
 use super::waves::{self, Waves};
 use super::world::WorldView;
@@ -14,6 +14,9 @@ use cplan_solver::{Phase, Replay, Shows, SlabBoxes, Sweeps};
 /// square root of the number of events.
 const PHASE_SECONDS: [f64; 2] = [1.2, 2.2];
 const SECONDS_PER_ROOT: f64 = 0.1;
+
+/// Duration of the phases of a search that proves a bound, in seconds: usually, and while the bound rises.
+const PROOF_SECONDS: [f64; 2] = [4.0, 6.0];
 
 /// Longest duration of all phases together, in seconds. Nobody would watch a longer replay.
 const MAX_REPLAY_SECONDS: f64 = 6.0;
@@ -34,8 +37,15 @@ impl PhaseView {
         let seconds =
             |phase: &Phase| (SECONDS_PER_ROOT * (phase.events as f64).sqrt()).clamp(PHASE_SECONDS[0], PHASE_SECONDS[1]);
         let time_scale = (MAX_REPLAY_SECONDS / replay.phases.iter().map(seconds).sum::<f64>()).min(1.0);
+        // The phases of a proof have whole sentences to read.
+        let is_proof = replay.phases.iter().any(|phase| matches!(phase.shows, Shows::Bound(_)));
+        let read = |phase: &Phase| match phase.shows {
+            Shows::Bound(_) => PROOF_SECONDS[1],
+            _ => PROOF_SECONDS[0],
+        };
         let rounded = |seconds: f64| (seconds * 100.0).round() / 100.0;
-        let replayed = |phase| Self::new(phase, rounded(time_scale * seconds(phase)), topology, trace, grain);
+        let lasts = |phase| if is_proof { read(phase) } else { rounded(time_scale * seconds(phase)) };
+        let replayed = |phase| Self::new(phase, lasts(phase), topology, trace, grain);
         replay.phases.iter().map(replayed).collect()
     }
 
@@ -47,6 +57,21 @@ impl PhaseView {
             Shows::Cells { swept } => ShowsView::Cells { swept: *swept },
             Shows::Channel => ShowsView::Channel,
             Shows::Expanded => ShowsView::Expanded,
+            Shows::First(path) => ShowsView::First { points: grain.configurations(path.waypoints()) },
+            Shows::Bound(rounds) => ShowsView::Bound {
+                rounds: rounds
+                    .iter()
+                    .map(|round| RoundView {
+                        lower: round.lower,
+                        points: grain.configurations(&round.path),
+                        slices: round
+                            .slices
+                            .iter()
+                            .map(|&q1| grain.configuration(Configuration::new(q1, 0.0))[0])
+                            .collect(),
+                    })
+                    .collect(),
+            },
             Shows::Slices => ShowsView::Slices,
             Shows::Wave => ShowsView::Wave,
             Shows::Levels => ShowsView::Levels,
@@ -70,7 +95,7 @@ impl PhaseView {
             Shows::Path => ShowsView::Path,
             Shows::Proof => ShowsView::Proof,
         };
-        Self { caption: phase.caption.clone(), events: phase.events, seconds, shows }
+        Self { caption: phase.caption.clone(), events: phase.events, seconds, length: phase.length, shows }
     }
 }
 
@@ -173,6 +198,15 @@ impl View {
         restrict(world, now, part, &shown);
         view.paths = match &now.shows {
             ShowsView::Own { points } => vec![self.paths[0].grey_line(beginning_of(points, part))],
+            ShowsView::First { points } => vec![self.paths[0].first_line(beginning_of(points, part))],
+            ShowsView::Bound { rounds } => {
+                let round = &rounds[((part * rounds.len() as f64) as usize).min(rounds.len() - 1)];
+                if round.points.0.is_empty() {
+                    Vec::new()
+                } else {
+                    vec![self.paths[0].bound_line(round.points.clone())]
+                }
+            }
             ShowsView::Path => {
                 let own = self.replay.iter().find_map(|phase| match &phase.shows {
                     ShowsView::Own { points } => Some(self.paths[0].grey_line(points.clone())),

@@ -38,7 +38,15 @@ impl View {
         for leg in legs {
             let name = order.named(&leg.step, &task.objects);
             let world = worlds.of(&leg.scene, &leg.moving);
-            motions.push(MotionView { world, path: Some(paths.len()), from, label: name.clone(), replay: None });
+            motions.push(MotionView {
+                world,
+                path: Some(paths.len()),
+                from,
+                label: name.clone(),
+                round: leg.step.cycle,
+                clearance: Some(leg.clearance()).filter(|clearance| clearance.is_finite()),
+                replay: None,
+            });
             let carried = leg.carried.map(|object| cplan_theme::obstacle(task.obstacle_number(object)));
             let outline = leg.timed.curve.outline();
             paths.push(PathView::of_step(name, &outline, world, order.number(&leg.step), carried, grain));
@@ -57,7 +65,7 @@ impl View {
                 (worlds.of(&Arc::new(scene), &moving), "done".to_owned())
             }
         };
-        motions.push(MotionView { world, path: None, from, label, replay: None });
+        motions.push(MotionView { world, path: None, from, label, round: 1, clearance: None, replay: None });
         worlds.add_moving_obstacles(&spans);
         let placed = placed(task, legs);
         let at_first: Vec<_> = task.objects.iter().map(Object::initial_static_pose).collect();

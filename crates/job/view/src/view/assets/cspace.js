@@ -155,6 +155,24 @@ const CSpace = (() => {
     }
   }
 
+  /** Draws the slices of a round of the lower bound; those that are new in it stand out. */
+  function slices(context, panel, { slices: all, before }) {
+    const { theme, rect } = panel;
+    const known = new Set(before);
+    for (const isNew of [false, true]) {
+      context.beginPath();
+      for (const value of all.filter((one) => known.has(one) !== isNew)) {
+        const [x] = panel.at([value, 0]);
+        if (x < rect.x || x > rect.x + rect.width) continue;
+        context.moveTo(x, rect.y);
+        context.lineTo(x, rect.y + rect.height);
+      }
+      [context.globalAlpha, context.lineWidth, context.strokeStyle] = isNew ? [0.8, 1.2, theme.accent] : [0.5, 0.8, theme.grey];
+      context.stroke();
+    }
+    [context.globalAlpha, context.lineWidth, context.strokeStyle] = [0.75, 0.8, theme.edge];
+  }
+
   function above(context, panel, view, seen) {
     const { theme } = panel;
     context.strokeStyle = theme.edge;
@@ -168,6 +186,7 @@ const CSpace = (() => {
       context.stroke();
     }
     if (seen.nodes) dots(context, panel, view, seen.nodes);
+    if (seen.slices) slices(context, panel, seen);
     if (seen.kind === 'rows' && view.shows('rows')) {
       context.beginPath();
       for (let i = 0; i + 3 < seen.free.length; i += 4) {

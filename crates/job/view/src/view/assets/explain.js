@@ -68,7 +68,8 @@ class Explain {
     if (!explanation) return;
     const { headline, evidence, title, cards } = explanation;
     // On a page by itself, the headline is the title of the page.
-    this.headline.textContent = model.title[0] === headline ? '' : headline;
+    const said = headline.toLowerCase().replace(/\.$/u, '');
+    this.headline.textContent = model.title[0]?.toLowerCase().includes(said) ? '' : headline;
     this.evidence.textContent = evidence;
     this.title.textContent = title;
     this.title.hidden = cards.every((card) => card.is_place);

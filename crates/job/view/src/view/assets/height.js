@@ -88,9 +88,9 @@ const Height = (() => {
       panel.dirty = true;
     }
 
-    /** Hides the strip unless the motion is played. */
+    /** Hides the strip unless the motion is played, and if the side view shows the height. */
     function show() {
-      root.hidden = !view.model[kind] || view.mode !== 'move';
+      root.hidden = !view.model[kind] || view.mode !== 'move' || (kind === 'height' && view.sideView.isOffered);
     }
 
     return { root, panel, fit, show };

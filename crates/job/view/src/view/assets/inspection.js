@@ -17,6 +17,12 @@ class InspectionView extends View {
     return Boolean(this.probe);
   }
 
+  /** Describes the arm; at zero in grey, since a contact there is no fault. */
+  report() {
+    super.report();
+    if (!this.probe) this.parts.probe.dataset.free = '';
+  }
+
   /**
    * Says which obstacles the arm touches.
    * @param {ContactModel[]} contacts

@@ -21,6 +21,13 @@ class Keys {
     if (panel && (this.zooms(panel, event) || (panel === view.panels.cspace ? this.nudge(event) : this.nudgeTip(event)))) return;
     const control = event.target.matches?.('button, input, a, summary');
     const step = event.shiftKey ? 0.5 : 0.05;
+    const isSlider = event.target === view.parts.scrubber;
+    // In the replay, arrow keys go from phase to phase.
+    if (view.drawn === 'think' && ['ArrowRight', 'ArrowLeft'].includes(event.key) && (isSlider || !control)) {
+      view.stepPhase(event.key === 'ArrowRight' ? 1 : -1);
+      event.preventDefault();
+      return;
+    }
     const keys = {
       ' ': () => !control && view.toggle(),
       k: () => view.toggle(),
@@ -96,7 +103,7 @@ function help(view) {
     ['click, tap', 'keeps it there, or releases it'],
     ['arrow keys in the configuration space', 'move the cross by a degree (with Shift by ten)'],
     ['Space or k', 'play, pause'],
-    ['arrow keys elsewhere', 'back and forth in time (with Shift further)'],
+    ['arrow keys elsewhere', 'back and forth in time (with Shift further); in How it was found, from phase to phase'],
     ['Home, End', 'to the start, to the end'],
     ...(view.hasModes ? [['t', 'the motion, or how it was found'], ['l', 'the course: short lessons, each with a question']] : []),
     ['+, \u2212', 'faster, slower; in a panel that was clicked: zoom'],

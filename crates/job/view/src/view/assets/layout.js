@@ -1,7 +1,7 @@
 // The elements of the page and their arrangement.
 'use strict';
 
-/** Width of the page from which layers and steps stand beside the pictures. */
+/** Width of the page from which layers stand beside the pictures. */
 const WIDE = '(min-width: 77.5rem)';
 
 /** Creates the elements of the page, its panels and everything in them, as properties of the view. */
@@ -24,6 +24,7 @@ function buildPage(view) {
       oninput: (event) => view.seek(Number(event.target.value)),
     }),
     clock: element('span', { class: 'clock' }),
+    spaceTitle: element('figcaption', {}, 'Configuration space'),
     step: element('p', { class: 'step', 'aria-live': 'polite' }),
     key: element('ul', { class: 'key', 'aria-label': 'Colours', hidden: true }),
     plots: element('section', { class: 'plots', 'aria-label': 'Motion over time' }),
@@ -34,22 +35,26 @@ function buildPage(view) {
   const mode = (name, text) => element('button', { type: 'button', class: 'button', 'data-mode': name, onclick: () => view.switchTo(name) }, text);
   parts.modes = element('span', { class: 'modes', role: 'group', 'aria-label': 'What is played' }, mode('move', 'Motion'), mode('think', 'How it was found'), mode('learn', 'Learn'));
   view.steps = new Steps(view);
+  view.sideView = new SideView(view);
   view.layers = new Layers(view);
-  const track = element('div', { class: 'track' }, view.steps.timeline, element('span', { class: 'slider' }, parts.ticks, parts.scrubber));
-  const controls = element('div', { class: 'controls-of-time' }, parts.modes, parts.play, track, parts.clock, speed);
-  parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, element('div', { class: 'caption' }, parts.step, parts.key), controls);
+  parts.slider = element('span', { class: 'slider' }, parts.ticks, parts.scrubber);
+  parts.track = element('div', { class: 'track' }, parts.slider);
+  const controls = element('div', { class: 'controls-of-time' }, parts.modes, parts.play, parts.track, parts.clock, speed);
+  parts.transport = element('section', { class: 'transport', 'aria-label': 'Time' }, element('div', { class: 'caption' }, parts.step, parts.key, view.sideView.choice), controls);
   const zoom = (name, label) => Zoom.buttons(label, () => view.panels[name], () => view.zoomSpot(view.panels[name]));
   parts.panels = element(
     'section',
     { class: 'panels' },
     element('figure', {}, element('figcaption', {}, 'Workspace'), left, zoom('workspace', 'Workspace')),
-    element('figure', {}, element('figcaption', {}, 'Configuration space'), right, zoom('cspace', 'Configuration space')),
+    element('figure', {}, parts.spaceTitle, right, zoom('cspace', 'Configuration space')),
+    view.sideView.root,
     parts.probe,
   );
   view.parts = parts;
   view.tabs = buildTabs(view);
   view.tour = new Tour(view);
   view.strip = Strip.mount(view);
+  view.closing = Closing.mount(view);
   view.height = Height.mount(view, 'height');
   view.turns = Height.mount(view, 'turns');
   view.toolAngle = Height.mount(view, 'tool');
@@ -60,9 +65,9 @@ function buildPage(view) {
     element(
       'div',
       { class: 'stage' },
-      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.strip.root, view.height.root, view.turns.root, view.toolAngle.root, view.learn.foot, view.learn.steps, view.learn.details),
+      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.steps.root, view.closing.root, view.strip.root, view.height.root, view.turns.root, view.toolAngle.root, view.learn.foot, view.learn.steps, view.learn.details),
       element('div', { class: 'below' }, view.tabs.root, ...view.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
-      element('aside', { class: 'side', 'aria-label': 'Steps and layers' }, view.steps.root, view.layers.root),
+      element('aside', { class: 'side', 'aria-label': 'Layers' }, view.layers.root),
     ),
     help(view),
     view.tour.root,
@@ -84,17 +89,16 @@ function buildPage(view) {
   view.budget.watch(view.panels);
   // Texts on canvases follow the text size of the page.
   new ResizeObserver(() => view.model && view.recolor()).observe(parts.measure);
-  view.plots = [...Plots.mount(parts.plots, view), view.strip, view.height, view.turns, view.toolAngle];
+  view.plots = [...Plots.mount(parts.plots, view), view.sideView, view.closing, view.strip, view.height, view.turns, view.toolAngle];
 }
 
-/** Creates the tabs. Steps and layers stand beside the pictures if there is room. */
+/** Creates the tabs. Layers stand beside the pictures if there is room. */
 function buildTabs(view) {
   const wide = matchMedia(WIDE);
   const never = () => false;
   const isBeside = () => wide.matches;
   const tabs = new Tabs('More', [
     { name: 'layers', title: 'Layers', panel: view.layers.root, isAside: true, isOffered: () => true, isBeside },
-    { name: 'steps', title: 'Steps', panel: view.steps.root, isAside: true, isOffered: () => view.steps.buttons.length > 0, isBeside },
     { name: 'plots', title: 'Plots', panel: element('div', {}, view.parts.plots), isOffered: () => Boolean(view.model?.clock) && view.mode === 'move', isBeside: never },
     { name: 'margins', title: 'Margins', panel: view.budget.root, isOffered: () => view.budget.rows.length > 0 && view.mode === 'move', isBeside: never },
     { name: 'details', title: 'Details', panel: element('div', {}, view.parts.facts), isOffered: () => Boolean(view.model?.facts.length), isBeside: never },

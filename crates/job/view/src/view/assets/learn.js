@@ -147,8 +147,14 @@ class Learn {
     this.isOpen = true;
     view.pause();
     view.examine(null);
+    this.note(`#learn=${this.chapters[chapter].name}/${this.current.name}`);
     view.time = this.figure === 'think' ? this.duration : this.figure === 'slice' ? this.slices.richest : 0;
     view.ready();
+  }
+
+  /** Writes the place of the course into the address, so that it can be sent. Not in frames and on live pages. */
+  note(hash) {
+    if (window.parent === window && !this.view.recall && location.hash !== hash) history.replaceState(null, '', hash);
   }
 
   /** Shows the course again, or its first lesson. */

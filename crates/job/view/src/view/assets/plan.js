@@ -23,6 +23,16 @@ if (cplan.model.line) new FollowedLine(cplan);
     if (cplan.mode === 'learn' && place.length) cplan.learn.open(place[0], place[1]);
     return mode;
   };
-  if (!follow() && cplan.isMotion) cplan.tour.offer();
+  const asked = follow();
+  // As a figure of a lesson in another page, the page is as high as its content, which it reports.
+  if (window.parent !== window && cplan.mode === 'learn') {
+    cplan.root.classList.add('embedded');
+    const report = () => window.parent.postMessage({ height: Math.ceil(cplan.root.getBoundingClientRect().height) }, '*');
+    new ResizeObserver(report).observe(cplan.root);
+    for (const panel of Object.values(cplan.panels)) panel.resize();
+  }
+  // A task opens where it is hardest.
+  if (!asked && cplan.isTask && cplan.mode === 'move') cplan.seek(cplan.hardest);
+  if (!asked && cplan.isMotion) cplan.tour.offer();
   addEventListener('hashchange', follow);
 }

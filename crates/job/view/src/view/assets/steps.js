@@ -1,95 +1,131 @@
-// The steps of a task: a list by objects that follows the motion, and a timeline with a block for each object.
+// The steps of a task as a chart over time: one row for each object, rounds above them. It is the scrubber of the task.
 'use strict';
 
 class Steps {
+  /** Least time at rest that is shown as a wait, in seconds. */
+  static LEAST_WAIT = 0.1;
+
+  /** @param {View} view */
   constructor(view) {
     this.view = view;
-    this.list = element('ol', { class: 'steps' });
-    /** A picture for users of a pointer; the list has the same content. */
-    this.timeline = element('div', { class: 'timeline', 'aria-hidden': 'true', hidden: true });
-    this.root = element('section', { class: 'box', 'aria-label': 'Steps', hidden: true }, element('h2', {}, 'Steps'), this.list);
-    /** Buttons and blocks in the order of the motions. */
+    this.rounds = element('div', { class: 'rounds', 'aria-hidden': 'true', hidden: true });
+    this.rows = element('ol', { class: 'rows' });
+    this.cursor = element('div', { class: 'cursor', 'aria-hidden': 'true' });
+    /** The place of the slider that moves the time. */
+    this.head = element('div', { class: 'head' });
+    this.root = element('section', { class: 'gantt', 'aria-label': 'Steps', hidden: true }, this.rounds, this.head, this.rows, this.cursor);
+    /** Buttons in the order of the motions. */
     this.buttons = [];
-    this.blocks = [];
     this.current = -1;
-  }
-
-  /**
-   * Returns the motions by the objects that they are about, in order: { object, color, motions }. A motion without a
-   * payload belongs to the object that the next one carries.
-   */
-  static groups({ motions, worlds }) {
-    const groups = [];
-    motions.forEach((motion, k) => {
-      const held = worlds[motion.world].payload ?? worlds[motions[k + 1]?.world]?.payload;
-      const last = groups[groups.length - 1];
-      const isPick = !worlds[motion.world].payload;
-      if (last && last.object === held?.object && !isPick) last.motions.push(motion);
-      else groups.push({ object: held?.object, color: held?.color, motions: [motion] });
+    this.rows.addEventListener('pointermove', (event) => event.buttons && this.scrub(event));
+    this.rows.addEventListener('pointerdown', (event) => {
+      const isBar = /** @type {Element} */ (event.target).closest('button');
+      if (!isBar) this.scrub(event);
     });
-    return groups;
   }
 
-  /** Lists the steps of a model. */
-  update(model) {
-    const { motions } = model;
-    const isTask = motions.length > 1;
-    this.root.hidden = this.timeline.hidden = !isTask;
-    this.current = -1;
-    this.buttons = [];
-    this.blocks = [];
-    const groups = isTask ? Steps.groups(model) : [];
-    this.list.replaceChildren(...groups.map((group) => this.group(group)));
-    this.timeline.replaceChildren(...this.blocks);
-  }
-
-  /** Creates the part of the list that is about one object. */
-  group({ object, color, motions }) {
+  /** Moves the time to the place of a pointer. */
+  scrub({ clientX }) {
+    const lane = this.rows.querySelector('.lane').getBoundingClientRect();
     const { view } = this;
-    const own = motions.map((motion) => {
-      const time = element('span', { class: 'at' }, Numbers.seconds(motion.from));
-      const button = element('button', { type: 'button', onclick: () => view.go(motion) }, element('span', {}, motion.label), time);
+    if (view.drawn === 'move' && clientX >= lane.left) view.seek(((clientX - lane.left) / lane.width) * view.duration);
+  }
+
+  /** Returns the index of the object that each motion is about: the one that it carries, or that the next motion carries. */
+  static objects({ motions, worlds }) {
+    return motions.map((motion, k) => worlds[motion.world].payload ?? worlds[motions[k + 1]?.world]?.payload ?? null);
+  }
+
+  /** Returns the spans of time within a motion in which the arm and its tool rest: [from, to] in seconds. */
+  static waits({ clock, height, strip }, from, to) {
+    const spans = [];
+    let since = null;
+    const isStill = (k) => [0, 1].every((joint) => clock.velocity[2 * k + joint] === 0 && clock.position[2 * k + joint] === clock.position[2 * k + 2 + joint]);
+    const isLevel = (a, b) => !height || Math.abs(Timeline.valueAt(height.motion, a) - Timeline.valueAt(height.motion, b)) < 1e-3;
+    for (let k = 0; k + 1 < clock.time.length; k += 1) {
+      const [a, b] = [Math.max(clock.time[k], from), Math.min(clock.time[k + 1], to)];
+      const rests = b > a && isStill(k) && isLevel(a, b);
+      if (rests) since ??= a;
+      if (since !== null && (!rests || k + 2 === clock.time.length)) {
+        spans.push([since, rests ? b : a]);
+        since = null;
+      }
+    }
+    const named = (strip?.waits ?? []).filter((wait) => wait.from < to && wait.to > from).map((wait) => [Math.max(wait.from, from), Math.min(wait.to, to)]);
+    return [...named, ...spans.filter(([a, b]) => b - a >= Steps.LEAST_WAIT)];
+  }
+
+  /** Shows the steps of a model. */
+  update(model) {
+    const { view } = this;
+    const { motions, clock } = model;
+    const isTask = motions.length > 1 && Boolean(clock);
+    this.root.hidden = !isTask;
+    this.current = -1;
+    this.buttons = [];
+    // The slider of the time is above the rows.
+    (isTask ? this.head : view.parts.track)?.append(view.parts.slider);
+    view.root.classList.toggle('task', isTask);
+    if (!isTask) {
+      this.rows.replaceChildren();
+      return;
+    }
+    const duration = clock.time[clock.time.length - 1];
+    const place = (item, from, to) => {
+      item.style.setProperty('--from', String(duration ? from / duration : 0));
+      item.style.setProperty('--length', String(duration ? Math.max(0, to - from) / duration : 0));
+      return item;
+    };
+    const objects = Steps.objects(model);
+    const names = [...new Set(objects.map((object) => object?.object ?? ''))];
+    const lanes = new Map(names.map((name) => [name, element('ol', { class: 'lane' })]));
+    motions.forEach((motion, k) => {
+      const until = motions[k + 1]?.from ?? duration;
+      const held = model.worlds[motion.world].payload;
+      const title = `${motion.label}, ${Numbers.seconds(motion.from)}`;
+      const button = element('button', { type: 'button', class: held ? 'bar held' : 'bar', title, 'aria-label': title, onclick: () => view.go(motion) });
+      if (objects[k]) button.style.setProperty('--color', objects[k].color);
+      const item = place(element('li', {}, button), motion.from, until);
+      for (const [a, b] of Steps.waits(model, motion.from, until)) {
+        const mark = element('i', { class: 'wait', title: `waits ${Numbers.seconds(b - a)}` });
+        mark.style.setProperty('--from', String((a - motion.from) / (until - motion.from)));
+        mark.style.setProperty('--length', String((b - a) / (until - motion.from)));
+        button.append(mark);
+      }
       this.buttons.push(button);
-      this.blocks.push(this.block(motion, object));
-      return element('li', {}, button);
+      lanes.get(objects[k]?.object ?? '').append(item);
     });
-    if (!object) return element('li', {}, element('ol', {}, ...own));
-    const swatch = element('span', { class: 'swatch', style: `background:${color}` });
-    return element('li', {}, element('span', { class: 'object' }, swatch, object), element('ol', {}, ...own));
+    this.rows.replaceChildren(...names.map((name) => {
+      const { color } = objects.find((object) => (object?.object ?? '') === name) ?? {};
+      const swatch = color ? element('span', { class: 'swatch', style: `background:${color}` }) : null;
+      return element('li', { class: 'row' }, element('span', { class: 'object', title: name || 'the arm alone' }, swatch, name || 'arm'), lanes.get(name));
+    }));
+    const last = Math.max(...motions.map(({ round }) => round ?? 1));
+    this.rounds.hidden = last < 2;
+    this.rounds.replaceChildren(...Array.from({ length: last > 1 ? last : 0 }, (_, k) => {
+      const own = motions.filter(({ round, path }) => (round ?? 1) === k + 1 && path !== null);
+      const next = motions.find(({ round, path }) => (round ?? 1) === k + 2 && path !== null);
+      return place(element('span', {}, `round ${k + 1} of ${last}`), own[0]?.from ?? 0, next?.from ?? duration);
+    }));
   }
 
-  /** Creates the block of a motion: in the colour of the object that it carries. */
-  block(motion, object) {
-    const { motions, worlds, clock } = this.view.model;
-    const duration = clock ? clock.time[clock.time.length - 1] : 0;
-    const end = motions[motions.indexOf(motion) + 1]?.from ?? duration;
-    const held = worlds[motion.world].payload;
-    const block = element('i', { title: held ? `${motion.label}: ${object}` : motion.label, onclick: () => this.view.go(motion) });
-    block.style.setProperty('--from', String(duration ? motion.from / duration : 0));
-    block.style.setProperty('--length', String(duration ? Math.max(0, end - motion.from) / duration : 0));
-    if (held) block.style.setProperty('--color', held.color);
-    return block;
-  }
-
-  /** Marks the current step, and scrolls to it within the list. */
+  /** Marks the current step and the current time. */
   follow(current) {
-    const { view, buttons, blocks } = this;
-    this.timeline.hidden = !buttons.length || view.drawn !== 'move';
+    const { view, buttons, rows } = this;
+    this.cursor.hidden = view.drawn !== 'move';
+    this.cursor.style.setProperty('--at', String(view.duration ? view.time / view.duration : 0));
     buttons.forEach((button, k) => {
       button.setAttribute('aria-current', k === current ? 'step' : 'false');
       button.disabled = view.drawn === 'think' && !view.hasReplay(view.model.motions[k]);
     });
     if (current === this.current) return;
     this.current = current;
-    blocks.forEach((block, k) => block.classList.toggle('current', k === current));
-    const button = buttons[current];
-    if (!button) return;
+    const row = buttons[current]?.closest('.row');
+    [...rows.children].forEach((other) => other.classList.toggle('current', other === row));
     // `scrollIntoView` would also scroll the page.
-    const { list } = this;
-    const top = button.getBoundingClientRect().top - list.getBoundingClientRect().top + list.scrollTop;
-    // The first row in sight is a whole one: as far up as the current row stays about in the middle.
-    const middle = top - (list.clientHeight - button.offsetHeight) / 2;
-    const rows = [...list.querySelectorAll('.object, button')].map((row) => row.getBoundingClientRect().top - list.getBoundingClientRect().top + list.scrollTop);
-    list.scrollTo({ top: rows.find((at) => at >= middle) ?? middle, behavior: Settings.reducesMotion ? 'auto' : 'smooth' });
+    if (row && rows.scrollHeight > rows.clientHeight) {
+      const top = row.getBoundingClientRect().top - rows.getBoundingClientRect().top + rows.scrollTop;
+      rows.scrollTo({ top: top - (rows.clientHeight - row.offsetHeight) / 2, behavior: Settings.reducesMotion ? 'auto' : 'smooth' });
+    }
   }
 }

@@ -97,6 +97,7 @@ const Think = (() => {
     if (phase.kind === 'nodes') less.nodes = firstItems(trace.edges, 4, now.part);
     if (trace.expanded) less.expanded = firstItems(trace.expanded, 2, of('expanded'));
     if (trace.kind === 'rows') less.free = firstItems(trace.free, 4, of('slices'));
+    if (phase.kind === 'bound') [less.slices, less.before] = [roundOf(now).slices, roundOf(now, 1)?.slices ?? []];
     if (trace.kind === 'channel') {
       less.cells = trace.cells.slice(0, count(trace.cells.length, of('cells')));
       less.channel = trace.channel.slice(0, count(trace.channel.length, of('channel')));
@@ -113,7 +114,21 @@ const Think = (() => {
     return less;
   }
 
-  /** Returns the visible paths: the final one, and the one before it was pulled taut. */
+  /** Returns the round of the lower bound at a moment, or one that is `back` rounds earlier. */
+  const roundOf = ({ phase, part: share }, back = 0) => phase.rounds[Math.min(phase.rounds.length - 1, Math.floor(share * phase.rounds.length)) - back];
+
+  /** Returns the lines of a proof that closes: the first path, and the shortest line around known walls. */
+  function ofProof(view, { phase, part: share }) {
+    const { theme } = view.panels.cspace;
+    const first = view.replay.find(({ kind }) => kind === 'first');
+    const begins = first && phase.kind !== 'path' ? part(view, 'first') : 0;
+    const lines = begins > 0 ? [{ color: theme.grey, width: 1.6, dash: [], points: firstPart(first.points, begins) }] : [];
+    const round = phase.kind === 'bound' ? roundOf({ phase, part: share }) : null;
+    if (round?.points.length) lines.push({ color: theme.accent, width: 2, dash: [7, 4], points: round.points });
+    return lines;
+  }
+
+  /** Returns the visible paths: the final one, those of the proof, and the one before it was pulled taut. */
   function paths(view, all) {
     const { moment: now } = view;
     if (!now) return all;
@@ -121,7 +136,7 @@ const Think = (() => {
     const begins = own ? part(view, 'own') : 0;
     const before = begins > 0 ? [{ color: view.panels.cspace.theme.grey, width: 1.6, dash: [], points: firstPart(own.points, begins) }] : [];
     const share = part(view, 'path');
-    return [...before, ...(share > 0 ? all.map((path) => ({ ...path, points: firstPart(path.points, share) })) : [])]
+    return [...ofProof(view, now), ...before, ...(share > 0 ? all.map((path) => ({ ...path, points: firstPart(path.points, share) })) : [])]
       .map((path) => ({ ...path, ghosts: [] }));
   }
 
@@ -131,7 +146,7 @@ const Think = (() => {
     const looks = Math.max(1, Math.round(phase.seconds * LOOKS));
     const now = { ...view.moment, part: Math.floor(share * looks) / looks };
     const there = { replay: view.replay, panels: view.panels, moment: now };
-    if (phase.kind === 'path' || phase.kind === 'own') {
+    if (['path', 'own', 'first'].includes(phase.kind)) {
       const all = paths({ ...there, moment: view.moment }, view.pathsHere());
       return all.length ? all[all.length - 1].points.slice(-2) : null;
     }
@@ -145,7 +160,8 @@ const Think = (() => {
       case 'slices': return last(trace.free, 4);
       case 'cells': return trace.cells.length ? middle(trace.cells[trace.cells.length - 1]) : null;
       case 'channel': return trace.channel.length ? middle(trace.cells[trace.channel[trace.channel.length - 1]]) : null;
-      case 'proof': return last(firstItems(view.world.proof, 4, now.part), 4);
+      // At the end the arm is at the start again, and does not lie on what blocks it.
+      case 'proof': return now.part < 1 ? last(firstItems(view.world.proof, 4, now.part), 4) : null;
       default: return null;
     }
   }

@@ -19,11 +19,21 @@ class Tour {
 
   /** Steps: title, text, and the element that the step is about. */
   get steps() {
-    const { parts, layers, panels, tourSteps } = this.view;
+    const { view } = this;
+    const { parts, layers, panels, sideView, steps, model, tourSteps } = view;
+    const more = '\u201cHow it was found\u201d replays the search of the planner, and \u201cLearn\u201d is a course of short lessons with questions.';
+    // On a narrow page, one picture is below the other.
+    const [first, second] = [panels.workspace.canvas, sideView.isShown ? sideView.panel.canvas : panels.cspace.canvas].map((canvas) => canvas.getBoundingClientRect());
+    const [here, there] = second.top > first.top + first.height / 2 ? ['Above', 'Below'] : ['On the left', 'On the right'];
+    const seen = sideView.isShown
+      ? ['A task, step by step', `${here}, the arm and its objects; dashed outlines are the places where they will be. ${there}, the height of the tool over its way, or, after a click, the configuration space of the step.`]
+      : ['One arm, seen twice', `${here}, the arm among its obstacles. ${there}, the same arm as one point: a coordinate for each joint. Coloured regions are collisions.`];
     return tourSteps ?? [
-      ['One motion, seen twice', 'On the left, the arm among its obstacles. On the right, the same arm as one point: a coordinate for each joint. Coloured regions on the right are collisions.', parts.panels],
-      ['Take the arm', 'Drag the tip of the arm, or its dot on the right. Contacts are marked in red. Escape puts the arm back.', panels.workspace.canvas.parentElement],
-      ['Play it', 'Space plays the motion. \u201cHow it was found\u201d replays the search of the planner, and \u201cLearn\u201d is a course of short lessons with questions.', parts.transport],
+      [...seen, parts.panels],
+      ['Take the arm', 'Drag the tip of the arm, or its dot in the configuration space. Contacts are marked in red. Escape puts the arm back.', panels.workspace.canvas.parentElement],
+      view.isTask && model.clock ? ['Go to a step', `Each object has a row. A click on a step goes there, and dragging moves the time. ${more}`, steps.root]
+        : model.clock ? ['Play it', `Space plays the motion. ${more}`, parts.transport]
+          : ['See why', more, parts.transport],
       ['Choose what is drawn', 'Each layer has its sign and a checkbox. More about the result is in the tabs below the pictures.', layers.root],
     ];
   }

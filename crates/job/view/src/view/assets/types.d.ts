@@ -75,14 +75,14 @@ interface WorldModel {
 /** A path in a world. */
 interface PathModel { name: string; world: number; color?: string; width: number; dash: number[]; points: Chain; ghosts: Chain; step?: number }
 
-/** A motion from rest to rest. `replay` is the number of the planner's replay. */
-interface MotionModel { world: number; path: number | null; from: number; label: string; replay?: number }
+/** A motion from rest to rest: `round` is the number of the step's repetition, `replay` that of the planner's replay. */
+interface MotionModel { world: number; path: number | null; from: number; label: string; round?: number; clearance?: number; replay?: number }
 
 /** The arm's configuration as a function of time. */
 interface ClockModel { time: number[]; position: Chain; velocity: Chain; acceleration: Chain; torque?: Chain }
 
 /** A phase of the planner's replay. */
-interface PhaseModel { seconds: number; caption: string; [name: string]: any }
+interface PhaseModel { seconds: number; caption: string; length?: number; rounds?: { lower: number; points: Chain; slices: number[] }[]; [name: string]: any }
 
 /** A wait of the motion for a moving obstacle. `at` is the progress. */
 interface WaitModel { from: number; to: number; at: number; text: string }
@@ -105,7 +105,7 @@ interface TurnsModel { joint?: string; is_empty?: boolean; duration: number; mot
 interface ToolAngleModel { joint?: string; duration: number; motion: Chain; lines: Chain[] }
 
 /** Key figures of a result. */
-interface FiguresModel { duration?: number; gap?: number; fastest?: boolean; clearance?: number }
+interface FiguresModel { duration?: number; gap?: number; fastest?: boolean; clearance?: number; with_clearance?: [number, number] }
 
 /** Two bodies, and where they come nearest to a contact. */
 interface PlaceModel { between?: [string, string]; at?: Point; time?: number }
@@ -204,6 +204,8 @@ interface Model {
   checked?: any;
   reach?: any;
   line?: LineModel;
+  /** Objects where a task puts them. */
+  places?: ObstacleModel[];
   /** The data of an exploration, and the knowledge over time. */
   exploration?: any;
   survey?: any;

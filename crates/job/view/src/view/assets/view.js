@@ -27,6 +27,8 @@ class View {
     this.plots = [];
     /** @type {Steps} */
     this.steps = null;
+    /** The height of a task's tool over its way. @type {SideView} */
+    this.sideView = null;
     /** @type {Layers} */
     this.layers = null;
     /** @type {Tabs} */
@@ -36,6 +38,8 @@ class View {
     /** Progress against time. @type {ReturnType<typeof Strip.mount>} */
     this.strip = null;
     this.height = null;
+    /** The lengths that a search encloses. @type {ReturnType<typeof Closing.mount>} */
+    this.closing = null;
     this.turns = null;
     this.toolAngle = null;
     /** True if obstacles are written with their names; otherwise with numbers. */
@@ -100,14 +104,15 @@ class View {
     this.explain.update(model);
     this.budget.update(model);
     const count = model.worlds[0]?.obstacles.length ?? 0;
-    [this.named, this.isCrowded] = [count <= NAMED, count > CROWDED];
+    // Objects of a task are named in groups.
+    [this.named, this.isCrowded] = [count <= NAMED || this.isTask, count > CROWDED && !this.isTask];
     this.hovered = null;
     this.headings();
     this.steps.update(model);
     this.layers.update(model);
     const { workspace, cspace } = this.panels;
     const { joints, plane, one_scale: alike } = model.arm;
-    [workspace.x, workspace.y] = model.frame;
+    [workspace.x, workspace.y] = this.isTask ? this.stage() : model.frame;
     workspace.titles = plane;
     [cspace.x, cspace.y] = joints.map((joint) => joint.domain);
     cspace.degrees = joints.map((joint) => joint.unit === 'rad');
@@ -117,7 +122,7 @@ class View {
     // Both panels have the same shape, so that their edges are aligned.
     const [width, height] = [cspace.x, cspace.y].map(([low, high]) => high - low);
     const shape = width / height;
-    workspace.shape = alike && shape > 0.6 && shape < 1.7 ? shape : null;
+    workspace.shape = alike && shape > 0.6 && shape < 1.7 && !this.sideView.isOffered ? shape : null;
     // No room stays empty below a wide configuration space.
     if (alike && shape > 0) this.parts.panels.style.setProperty('--height-per-width', String(1 / shape));
     else this.parts.panels.style.removeProperty('--height-per-width');
@@ -147,6 +152,7 @@ class View {
     if (this.parts.modes.hidden || button.hidden) return;
     this.chosen = mode;
     if (mode === this.mode) return;
+    if (mode !== 'learn' && location.hash.startsWith('#learn')) this.learn.note(`#${mode}`);
     this.pause();
     if (mode === 'think' && !this.thinks) {
       this.recall();
@@ -187,6 +193,8 @@ class View {
     const { parts } = this;
     parts.plots.hidden = this.mode !== 'move' || !this.model.clock;
     this.learn.show();
+    this.sideView.show();
+    this.closing.show();
     this.strip.show();
     this.height.show();
     this.followed?.show();
@@ -375,6 +383,33 @@ class View {
     return this.relevance.pale.has(obstacle);
   }
 
+  /** Returns the part of the workspace in which a task happens: the places of tip, elbow and objects, and the base. */
+  stage() {
+    const { paths, worlds, arm, places = [], frame } = this.model;
+    const carried = new Set(worlds.map(({ payload }) => payload?.object));
+    const objects = [...places, ...worlds.flatMap(({ obstacles }) => obstacles.filter(({ name }) => carried.has(name)))];
+    const corners = objects.flatMap(({ pieces, own }) => pieces.slice(0, own)).flatMap(({ core, radius }) => [...Geometry.pointsOf(core)].flatMap(([x, y]) => [[x - radius, y - radius], [x + radius, y + radius]]));
+    const elbows = paths.flatMap(({ points: ends }) => [ends.slice(0, 2), ends.slice(-2)]).map((q) => Geometry.elbowAt(arm, q));
+    const points = [arm.base, ...corners, ...elbows, ...paths.flatMap((path) => Workspace.tipTrace(arm, path.points))];
+    return [0, 1].map((k) => {
+      const values = points.map((point) => point[k]);
+      const [low, high] = [Math.min(...values), Math.max(...values)];
+      const room = 0.08 * Math.max(high - low, 0.2 * (frame[k][1] - frame[k][0]));
+      return [low - room, high + room];
+    });
+  }
+
+  /** Returns the middle of the motion that keeps the least clearance, in seconds; of carrying motions if there are any. */
+  get hardest() {
+    const { motions, worlds } = this.model;
+    const known = motions.filter(({ clearance }) => clearance !== undefined);
+    const carrying = known.filter(({ world }) => worlds[world].payload);
+    const [first, ...others] = carrying.length ? carrying : known;
+    const hardest = others.reduce((least, motion) => (motion.clearance < least.clearance ? motion : least), first);
+    if (!hardest) return 0;
+    return (hardest.from + (motions[motions.indexOf(hardest) + 1]?.from ?? this.motionDuration)) / 2;
+  }
+
   get isTask() {
     return this.model.paths.some((path) => path.step);
   }
@@ -398,6 +433,7 @@ class View {
       return element(tag, shown === text ? {} : { title: text }, shown);
     };
     parts.title.textContent = title[0] ?? '';
+    parts.spaceTitle.textContent = this.isTask ? 'Configuration space of this step' : 'Configuration space';
     parts.lines.replaceChildren(...title.slice(1).map((text) => readable(text)));
     if (!this.judged) this.say(ending, status);
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), readable(text, 'dd')]));
@@ -413,7 +449,7 @@ class View {
   /** Fills a list with key figures. @param {HTMLElement} list @param {any[][]} cards */
   static fillCards(list, cards) {
     list.hidden = !cards.length;
-    list.replaceChildren(...cards.map(([name, value, note]) => element('div', { class: 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
+    list.replaceChildren(...cards.map(([name, value, note, kind]) => element('div', { class: kind ? `card ${kind}` : 'card' }, element('dt', {}, name), element('dd', {}, value, element('small', {}, note)))));
   }
 
   /**
@@ -426,16 +462,18 @@ class View {
 
   /**
    * Returns the key figures of a model: name, value and meaning. Proven bounds are rounded to the safe side.
-   * @param {{ figures?: FiguresModel, line?: LineModel }} model
+   * @param {{ figures?: FiguresModel, line?: LineModel, worlds?: WorldModel[] }} model
    */
-  static cards({ figures = {}, line: given }) {
-    const { duration, gap, fastest, clearance } = figures;
+  static cards({ figures = {}, line: given, worlds = [] }) {
+    const { duration, gap, fastest, clearance, with_clearance: roomier } = figures;
+    // No machine keeps less than a millimetre.
+    const isTight = clearance < 1e-3 && !given && worlds[0]?.clearance === 0;
+    const other = roomier ? `; --clearance ${Number((1000 * roomier[0]).toPrecision(3))}mm keeps that, length ${roomier[1].toFixed(4)}` : '';
     return [
       duration !== undefined && ['time', Numbers.seconds(duration), 'from rest to rest, within all limits'],
       given?.motion && ['off the line', `at most ${Numbers.length(given.motion.deviation, 0, Math.ceil)}`, `proven; the tolerance is ${Numbers.length(given.tolerance)}`],
-      duration !== undefined && !given && gap === undefined && ['over the optimum', 'not proven', 'no bound on the optimum is known'],
       gap !== undefined && ['over the optimum', gap === 0 ? '0 %' : `at most ${Numbers.percent(gap, Math.ceil)}`, fastest ? 'longer than the fastest' : 'longer than the shortest'],
-      clearance !== undefined && ['clearance', Numbers.length(clearance, 0, Math.floor), 'proven, to the nearest obstacle'],
+      clearance !== undefined && ['clearance', Numbers.length(clearance, 0, Math.floor), isTight ? `since none was asked${other}` : 'proven, to the nearest obstacle', isTight && 'warning'],
     ].filter(Boolean);
   }
 
@@ -455,6 +493,17 @@ class View {
       this.time = 0;
       this.ready();
     }
+  }
+
+  /** Goes to the end of the phase of the replay that follows (1) or precedes (-1) the current one. */
+  stepPhase(direction) {
+    let end = 0;
+    const ends = this.replay.map(({ seconds }) => (end += seconds) - 1e-3);
+    const now = Think.moment(this.replay, this.time).index;
+    const isWhole = this.time >= ends[now] - 1e-6;
+    const next = direction > 0 && !isWhole ? now : now + direction;
+    this.pause();
+    this.seek(ends[Math.min(ends.length - 1, Math.max(0, next))]);
   }
 
   /** Sets marks on the scrubber at the beginnings of steps or phases. */
@@ -540,6 +589,8 @@ class View {
     }
     const now = this.model.motions.indexOf(motion);
     this.steps.follow(now);
+    this.sideView.follow();
+    this.closing.follow();
     this.strip.follow();
     this.describe();
     for (const panel of this.allPanels()) panel.draw();

@@ -95,9 +95,11 @@ const Workspace = (() => {
       shown.push(beyond('start', view.beginning()));
     }
     if (!view.isCrowded) {
+      const written = view.isTask ? families(panel, view, world) : null;
+      if (written) shown.push(...written);
       world.obstacles.forEach((obstacle, index) => {
         if (obstacle.own === 0 || view.hidden.has(obstacle.name)) return;
-        shown.push([view.called(index), box(panel, obstacle)]);
+        if (!written) shown.push([view.called(index), box(panel, obstacle)]);
         const wall = obstacle.outline.polyline;
         if (wall) Labels.blockLine(panel, [...pointsOf(wall)].map((p) => panel.at(p)));
       });
@@ -107,6 +109,46 @@ const Workspace = (() => {
     }
     if (view.shows('frames')) for (const { name, at } of view.model.frames) shown.push([name, Labels.about(panel.at(at), 10)]);
     Labels.beside(context, panel, shown);
+  }
+
+  /** Distance between objects of one kind up to which they share a name, in pixels. */
+  const NEIGHBORS = 44;
+
+  /**
+   * Returns the names in a task, each with its box: objects whose names differ only in a number at the end, and that lie
+   * side by side, share one name with their count.
+   */
+  function families(panel, view, world) {
+    const kind = (name) => name.replace(/[\s_-]*\d+(\s*,\s*\d+)*$/u, '') || name;
+    const groups = [];
+    const current = Steps.objects(view.model)[view.model.motions.indexOf(view.motion)]?.object;
+    for (const obstacle of world.obstacles) {
+      if (obstacle.own === 0 || view.hidden.has(obstacle.name)) continue;
+      const own = box(panel, obstacle);
+      if (!groups.length || obstacle.name === current) {
+        groups.push({ name: obstacle.name, kind: obstacle.name, count: 1, box: own });
+        continue;
+      }
+      const isNear = ({ box: at }) => at.x - NEIGHBORS < own.x + own.width && own.x < at.x + at.width + NEIGHBORS && at.y - NEIGHBORS < own.y + own.height && own.y < at.y + at.height + NEIGHBORS;
+      const group = groups.find((one) => one.kind === kind(obstacle.name) && isNear(one));
+      if (!group) {
+        groups.push({ name: obstacle.name, kind: kind(obstacle.name), count: 1, box: own });
+        continue;
+      }
+      const [right, bottom] = [Math.max(group.box.x + group.box.width, own.x + own.width), Math.max(group.box.y + group.box.height, own.y + own.height)];
+      const [x, y] = [Math.min(group.box.x, own.x), Math.min(group.box.y, own.y)];
+      Object.assign(group, { count: group.count + 1, box: { x, y, width: right - x, height: bottom - y } });
+    }
+    return groups.map(({ name, kind: shared, count, box: at }) => [count > 1 ? `${count} \u00d7 ${shared}` : name, at]);
+  }
+
+  /** Draws where a task puts its objects, as dashed outlines. */
+  function destinations(context, panel, view) {
+    for (const place of view.model.places ?? []) {
+      if (view.hidden.has(place.name)) continue;
+      outline(context, panel, place);
+      dashed(context, [4, 3], 1.5, panel.theme.obstacle(place.color).line);
+    }
   }
 
   /**
@@ -164,6 +206,8 @@ const Workspace = (() => {
       context.fillStyle = look.touching?.has(k) ? look.touch : look.fill;
       context.fill();
     });
+    if (look.joints) skeleton(context, panel, model, q, look.line);
+    // Above the arm, which would cover small objects.
     if (world.payload) {
       const pose = payloadPose(model, world.payload, q, look.turned);
       const { fill, line: edge } = panel.theme.obstacle(world.payload.color);
@@ -177,7 +221,6 @@ const Workspace = (() => {
       context.fillStyle = look.touching?.has('payload') ? look.touch : fill;
       context.fill();
     }
-    if (look.joints) skeleton(context, panel, model, q, look.line);
   }
 
   function skeleton(context, panel, model, q, color) {
@@ -275,6 +318,7 @@ const Workspace = (() => {
     rounded(context, panel, model.arm.reach);
     dashed(context, [2, 4], 1, theme.pale);
     if (model.reach && view.shows('access')) cells(context, panel, model.reach);
+    if (view.isTask) destinations(context, panel, view);
     obstacles(context, panel, view, world);
     courses(context, panel, view, world);
     if (view.shows('regions')) regions(context, panel, world);
@@ -378,35 +422,36 @@ const Workspace = (() => {
   function tried(context, panel, view, { contacts, q }) {
     const { theme } = panel;
     const hits = contacts.filter((c) => c.distance <= 0);
-    if (view.marksContacts !== false) for (const { obstacle } of hits) struck(context, panel, view.world.obstacles[obstacle]);
+    const isMarked = view.marksContacts !== false;
+    if (isMarked) for (const { obstacle } of hits) struck(context, panel, view.world.obstacles[obstacle]);
     const touching = new Set(hits.map((c) => (c.carried ? 'payload' : c.link)));
     arm(context, panel, view, view.world, q, {
       fill: theme.free,
-      touch: Theme.mixed(theme.infeasible, theme.paper, 0.45),
+      touch: isMarked ? Theme.mixed(theme.infeasible, theme.paper, 0.45) : theme.ghost,
       touching,
-      line: hits.length ? theme.infeasible : theme.found,
+      line: !isMarked ? theme.grey : hits.length ? theme.infeasible : theme.found,
       width: 1.6,
       alpha: 0.92,
       joints: true,
       blocks: true,
     });
-    for (const { at } of hits) if (at) touchMark(context, panel, at);
+    for (const { at } of hits) if (at) touchMark(context, panel, at, isMarked ? theme.infeasible : theme.grey);
   }
 
   /** Marks the place of a contact. */
-  function touchMark(context, panel, at) {
+  function touchMark(context, panel, at, color) {
     const [x, y] = panel.at(at);
     Labels.blockSpot(panel, [x, y]);
-    for (const [radius, color] of [[7, panel.theme.paper], [5, panel.theme.infeasible]]) {
+    for (const [radius, fill] of [[7, panel.theme.paper], [5, color]]) {
       context.beginPath();
       context.arc(x, y, radius, 0, 2 * Math.PI);
-      context.fillStyle = color;
+      context.fillStyle = fill;
       context.fill();
     }
     context.beginPath();
     context.arc(x, y, 11, 0, 2 * Math.PI);
     context.lineWidth = 2;
-    context.strokeStyle = panel.theme.infeasible;
+    context.strokeStyle = color;
     context.stroke();
   }
 
