@@ -46,7 +46,7 @@ fn trajectory(py: Python<'_>, plan: &cplan::Plan) -> PyResult<Option<Py<PyAny>>>
         array(py, motion.acceleration)?,
         joints.each_ref().map(|joint| joint.name.clone()),
         joints.each_ref().map(|joint| joint.unit()),
-        cplan::motion::interpolation(joints),
+        cplan::motion::interpolation(plan.arm()),
     );
     Ok(Some(py.import("cplan._frames")?.call_method1("Trajectory", parts)?.unbind()))
 }
