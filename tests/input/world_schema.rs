@@ -61,7 +61,7 @@ const FULL: [&str; 3] = [
 name = "full"
 clearance = 0.01
 start = { joints = [0, 0.5], stroke = -0.05, wrist = "10deg" }
-goal = { tip = [0.3, 0.4], stroke = -0.05, wrist = 0.5 }
+goal = { tip = [0.3, 0.4], elbow = "left", stroke = -0.05, wrist = 0.5 }
 map = { file = "room.map", preferences = "wishes.map", scale = 0.001, offset = [0, 0], frame = false, height = [0.0, 3.0] }
 obstacle = [
   { circle = { center = [0, 0], radius = 0.1 }, motion = { stops = [{ time = 0, at = [3, 3] }, { time = 2, at = [3, 4], angle = "30deg" }], velocity = [0, 0.1] } },
@@ -87,7 +87,7 @@ jerk = { a = 100 }
 own_body = true
 ignore_contact = [["base", "tool"]]
 effort = { a = 50 }
-drives = { elbow = "base", ratio = 0.5, gear = [5, -5], zero = [0, "90deg"], motors = { lower = [-9, -9], upper = [9, "500deg"], velocity = [9, 9], acceleration = [90, 90] } }
+drives = { elbow = "base", ratio = 0.5, gear = [5, -5], zero = [0, "90deg"], motors = { lower = [-9, -9], upper = [9, "500deg"], velocity = [9, 9], acceleration = [90, 90], jerk = [900, 900], effort = [5, 5] } }
 dynamics = true
 gravity = [0, 0, -9.81]
 bar = 0.02
@@ -107,10 +107,10 @@ object = [
   { name = "part", polygon = [[0, 0], [1, 0], [1, 1]], at = [0.3, 0.1], angle = 1, height = [0, 0.02], lift = 0.05, mass = 1.5, payload = "rigid", grasp = [0, 0.005], supports = ["table"], renew = true },
 ]
 step = [
-  { pick = "part", grasp = [0, 0], supports = [], at = [0.3, 0.2], window = [1, 2], dwell = 0.2 },
-  { place = { at = [0.1, 0.3], angle = 1.57, supports = ["tray"], height = 0.0 }, speed = 0.5 },
+  { pick = "part", elbow = "right", grasp = [0, 0], supports = [], at = [0.3, 0.2], window = [1, 2], dwell = 0.2 },
+  { place = { at = [0.1, 0.3], angle = 1.57, supports = ["tray"], height = 0.0, elbow = "left" }, speed = 0.5 },
   { move = { joints = [0, 0.5] } },
-  { follow = { points = [[0.9, 0], [1, 0], [1, 0.1]], radius = 0.02, speed = 0.1, tolerance = 0.0001 } },
+  { follow = { points = [[0.9, 0], [1, 0], [1, 0.1]], radius = 0.02, speed = 0.1, tolerance = 0.0001, elbow = "left" } },
   { follow = { arc = [[0.9, 0], [1, 0.1], [0.9, 0.2]], scale = 1.1, turn = "10deg", move = [0.1, 0] } },
   { follow = { spline = [[0.9, 0], [1, 0.1]], turn = 0.1 } },
   { follow = { file = "plate.gcode", unit = "mm", wrist = "tangent", wrist_tolerance = 0.02 } },
@@ -120,7 +120,7 @@ step = [
   { repeat = 100, order = "free", speed = 1, steps = [{ pick = "coin" }, { place = { at = [0.2, 0.3] } }] },
   { pick = "lid 1,1" },
   { place = { on = "store 1,1" } },
-  { transfer = { objects = "lid", to = "store", angle = 0.5, supports = ["table"] } },
+  { transfer = { objects = "lid", to = "store", angle = 0.5, supports = ["table"], elbow = "right" } },
 ]
 "#,
     "goal.areas = [[[0.3, 0.4], [0.5, 0.6]]]",
