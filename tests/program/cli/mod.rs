@@ -2,6 +2,7 @@
 
 mod batch;
 mod calibration;
+mod cell;
 mod certificates;
 mod certified_lines;
 mod certified_motions;
