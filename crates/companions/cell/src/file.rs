@@ -99,7 +99,7 @@ impl Cell {
         let mut loaded = Vec::new();
         for (table, urdf) in [first, second].into_iter().zip(&robots) {
             let urdf = robot(urdf.clone()).read().map_err(|error| reader.unread(table, error))?;
-            loaded.push(reader.scene(table, &title, urdf)?.with_clearance(clearance)?);
+            loaded.push(reader.scene(table, &title, urdf)?.with_margins(clearance, None)?);
         }
         let [mut one, mut two] = <[LoadedScene; 2]>::try_from(loaded).expect("one for each arm");
         let names = [first, second].map(|table| table.name.get_ref().clone());
