@@ -84,8 +84,11 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
 /// degrees were meant. `in_file` is true for values in the world file, where they are texts.
 pub(super) fn help_for_limits(scene: &Scene, q: Configuration, in_file: bool) -> String {
     let degrees = |(joint, value): (&Joint, &f64)| {
-        let is_meant =
-            joint.joint_type.is_revolute() && !joint.range.contains(*value) && joint.range.contains(value.to_radians());
+        // Radians beyond a turn are rare.
+        let is_meant = joint.joint_type.is_revolute()
+            && value.abs() > std::f64::consts::TAU
+            && !joint.range.contains(*value)
+            && joint.range.contains(value.to_radians());
         let quote = if in_file { "\"" } else { "" };
         is_meant.then(|| format!("{quote}{value}deg{quote}"))
     };
