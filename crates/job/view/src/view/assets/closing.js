@@ -71,7 +71,7 @@ const Closing = (() => {
   function mount(view) {
     const canvas = element('canvas', { role: 'img', 'aria-label': 'Length of the best path and lower bound during the search' });
     const caption = element('figcaption', {}, 'The proof closes');
-    const now = element('p', { class: 'lens-caption', 'aria-live': 'off' });
+    const now = element('p', { class: 'lengths' });
     const root = element('figure', { class: 'closing', hidden: true }, caption, canvas, now);
     const panel = new Panel(canvas, {
       x: [0, 1],
