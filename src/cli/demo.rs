@@ -153,7 +153,7 @@ pub fn in_folder(folder: &Path, name: &str) -> PathBuf {
     if folder == Path::new(".") { name.into() } else { folder.join(name) }
 }
 
-/// Number of blanks between the longest command and what it does.
+/// Number of blanks between the longest command and its description.
 const COLUMN_GAP: usize = 5;
 
 /// Returns the lines about what to do next. Further demonstrations write into the same folder.

@@ -92,7 +92,7 @@ fn the_demo_does_not_overwrite_files() {
     assert_eq!((elsewhere.code, elsewhere.stdout.as_str()), (0, ""));
     assert_eq!(names(&place, "new/folder"), ["plan.html", "plan.json"]);
     place.run(&["demo"], "--dir new/folder").refused(1, &["plan.json and new/folder/plan.html exist already"]);
-    // What is printed to do next writes into the same folder.
+    // Further demonstrations write into the same folder.
     let elsewhere = place.run(&["demo"], "--dir other");
     elsewhere.says(&["cplan demo --kind arch --force --dir other", "the quill moves with the arm"]);
     let next = "demo --planner harmonic --force --dir other";

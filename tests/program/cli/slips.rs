@@ -1,4 +1,4 @@
-//! Slips of the keyboard and of units: the message names what was probably meant.
+//! Slips of the keyboard and of units: the message names the probable intention.
 
 use super::*;
 
@@ -109,6 +109,6 @@ fn follow_refers_worlds_with_steps_to_plan() {
     let [robot, world] = ["robots/scara.urdf", "workspaces/tasks/kitting_cell.toml"].map(shipped);
     let line = shipped("workspaces/follow/gasket.gcode");
     let done = place.run(&["follow", &robot, &world, &line], "");
-    assert!(done.stdout.contains("steps are left out; `cplan plan`"), "{}", done.stdout);
+    assert!(done.stdout.contains("ignores the world's steps; `cplan plan`"), "{}", done.stdout);
     place.run(&["follow", &robot, &world], "").refused(2, &["PATH", "cplan plan URDF WORLD"]);
 }
