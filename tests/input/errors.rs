@@ -259,7 +259,7 @@ fn robot_tables_that_do_not_fit_are_refused() {
 " => jerk = { j9 = 200 } => line 3 ... no joint "j9"
 " => at = [1000500, 0] => at most 1e6 ... from -1e6 to 1e6
 " => bar = -1 => line 3 ... bar ... bar = 0.05, metres => bar = 0.05
-" => fixd = {} => line 3, column 1 ... unknown key `fixd` ... fixd = {} ... ^^^^ ... use a known key, or remove this one
+" => fixd = {} => line 3, column 1 ... unknown key `fixd` ... fixd = {} ... ^^^^ ... did you mean `fixed`?
     => fixed = {} => nothing
 "#;
     for row in changes(&[table, &rates, &jerks.concat()].concat()) {

@@ -55,7 +55,7 @@ fn degrees_and_millimetres_are_suspected() {
     let place = Place::new();
     place.plan(FREE, "--start -51.6,0.4").refused(1, &["exceeds its limits", "write -51.6deg"]);
     place.plan(FREE.replace("-0.9", "-51.6"), "").refused(1, &["exceeds its limits", "write \"-51.6deg\""]);
-    place.plan(FREE, "--start -900,0.4").refused(1, &["exceeds its limits", "choose values within the limits"]);
+    place.plan(FREE, "--start 3.5,0.4").refused(1, &["exceeds its limits", "choose values within the limits"]);
     let post = format!("{FREE}[[obstacle]]\ncircle = {{ center = [1.2, 1.4], radius = 0.1 }}\n");
     place.plan(&post, "--clearance 20").refused(1, &["clearance of 20 m", "if 20 mm are meant, write 20mm"]);
     let far = format!("{post}[[obstacle]]\nname = \"far\"\ncircle = {{ center = [500, 0], radius = 1 }}\n");

@@ -4,6 +4,7 @@ use cplan_geometry::Point;
 use cplan_model::space::{Configuration, JointRange, Segment};
 use cplan_model::{Freedom, Inverse, Joint, Obstruction, Scene, equivalent_values};
 use cplan_text::{fixed, format_distinct, joined};
+use std::f64::consts::TAU;
 
 /// Returns the IK solutions of `solved` that the joint limits allow, shifted by all whole turns that they allow. Also
 /// returns the reason for each solution that is outside the limits.
@@ -55,6 +56,7 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     let mut outside = Vec::new();
     for (joint, value) in scene.arm().joints.iter().zip(q.iter()) {
         if let JointRange::Interval { lower, upper } = joint.range
+            && value.abs() > TAU
             && !joint.range.contains(*value)
         {
             let unit = joint.unit();
@@ -80,8 +82,8 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     outside
 }
 
-/// Returns the hint about a configuration outside the limits. If a value is within them in degrees, the hint asks whether
-/// degrees were meant. `in_file` is true for values in the world file, where they are texts.
+/// Returns the hint about a configuration outside the limits. If a value of more than a turn is within them in degrees, the
+/// hint asks whether degrees were meant. `in_file` is true for values in the world file, where they are texts.
 pub(super) fn help_for_limits(scene: &Scene, q: Configuration, in_file: bool) -> String {
     let degrees = |(joint, value): (&Joint, &f64)| {
         let is_meant =
