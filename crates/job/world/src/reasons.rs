@@ -56,7 +56,6 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     let mut outside = Vec::new();
     for (joint, value) in scene.arm().joints.iter().zip(q.iter()) {
         if let JointRange::Interval { lower, upper } = joint.range
-            && value.abs() > TAU
             && !joint.range.contains(*value)
         {
             let unit = joint.unit();
@@ -86,8 +85,10 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
 /// hint asks whether degrees were meant. `in_file` is true for values in the world file, where they are texts.
 pub(super) fn help_for_limits(scene: &Scene, q: Configuration, in_file: bool) -> String {
     let degrees = |(joint, value): (&Joint, &f64)| {
-        let is_meant =
-            joint.joint_type.is_revolute() && !joint.range.contains(*value) && joint.range.contains(value.to_radians());
+        let is_meant = joint.joint_type.is_revolute()
+            && value.abs() > TAU
+            && !joint.range.contains(*value)
+            && joint.range.contains(value.to_radians());
         let quote = if in_file { "\"" } else { "" };
         is_meant.then(|| format!("{quote}{value}deg{quote}"))
     };
