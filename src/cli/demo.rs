@@ -108,7 +108,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
         DemoKind::Follow => follow::answer(&follow_args(&mut args.plan)?, |_| kind.load(), |_| built_in_line())?,
     };
     if code == DONE && !args.plan.print.quiet && !args.plan.print.json {
-        sinks::sum_up(&next(&picture), code)?;
+        sinks::sum_up(&next(&picture, &args.dir), code)?;
     }
     Ok(code)
 }
@@ -153,20 +153,26 @@ pub fn in_folder(folder: &Path, name: &str) -> PathBuf {
     if folder == Path::new(".") { name.into() } else { folder.join(name) }
 }
 
-fn next(picture: &Path) -> String {
-    let lines = [
-        format!(
-            "open {} in a browser: move the arm, play the motion, see both in the configuration space",
-            word(picture)
-        ),
-        "cplan demo --planner harmonic --force     the same cell with another planner".into(),
-        "cplan demo --kind arch --force            pick and place: the quill moves with the arm".into(),
-        "cplan demo --kind follow --force          the tip follows a line of G-code within 0.01 mm".into(),
-        "cplan init --kind scara                   the files of this cell, to change".into(),
-        "cplan init                                a small arm and world, every line explained".into(),
-        "cplan --help                              all commands and options, with examples".into(),
+/// Number of blanks between the longest command and its description.
+const COLUMN_GAP: usize = 5;
+
+/// Returns the lines about what to do next. Further demonstrations write into the same folder.
+fn next(picture: &Path, folder: &Path) -> String {
+    let folder = if folder == Path::new(".") { String::new() } else { format!(" --dir {}", word(folder)) };
+    let commands = [
+        (format!("demo --planner harmonic --force{folder}"), "the same cell with another planner"),
+        (format!("demo --kind arch --force{folder}"), "pick and place: the quill moves with the arm"),
+        (format!("demo --kind follow --force{folder}"), "the tip follows a line of G-code within 0.01 mm"),
+        ("init --kind scara".to_owned(), "the files of this cell, to change"),
+        ("init".to_owned(), "a small arm and world, every line explained"),
+        ("--help".to_owned(), "all commands and options, with examples"),
     ];
-    let labeled: Vec<_> =
-        lines.into_iter().enumerate().map(|(i, line)| (if i == 0 { "next" } else { "" }, line)).collect();
+    let width = commands.iter().map(|(command, _)| command.len()).max().unwrap_or(0) + COLUMN_GAP;
+    let open = format!(
+        "open {} in a browser: move the arm, play the motion, see both in the configuration space",
+        word(picture)
+    );
+    let commands = commands.iter().map(|(command, about)| ("", format!("cplan {command:width$}{about}")));
+    let labeled: Vec<_> = [("next", open)].into_iter().chain(commands).collect();
     format_columns(&labeled)
 }

@@ -276,9 +276,9 @@ fn written(
     });
     let member = certificate.as_ref().and_then(|(path, text)| Some((*path, serde_json::from_str(text).ok()?)));
     let mut written = files.write(plan, member)?;
-    let plays = outputs.pictures.iter().any(|(_, format)| format.is_animated());
-    let seen = || {
-        let mut view = if plays { explained(plan, plan.view_with_replay()) } else { plan.view() };
+    // Pages and animations show the search of the planner, and pages explain why there is no motion.
+    let seen = |is_animated: bool| {
+        let mut view = if is_animated { explained(plan, plan.view_with_replay()) } else { plan.view() };
         view.facts.extend(hint.iter().map(|hint| ["hint".to_owned(), (*hint).to_owned()]));
         args.theme.apply(view).with_field_lines(args.field_lines).with_labels_from(args.labels_from)
     };
@@ -302,10 +302,12 @@ fn written(
             None => sinks::warn_unwritten(path, lacks),
         }
     }
-    let mut view = None;
+    let mut views = [None, None];
     for (path, format) in &outputs.pictures {
         let mut progress = progress::pictures_done(path, &args.print);
-        write(path, &format.bytes_with(view.get_or_insert_with(seen), &mut progress)?)?;
+        let is_animated = format.is_animated();
+        let view = views[usize::from(is_animated)].get_or_insert_with(|| seen(is_animated));
+        write(path, &format.bytes_with(view, &mut progress)?)?;
     }
     Ok(written)
 }

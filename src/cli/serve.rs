@@ -10,7 +10,7 @@ use crate::motion::write_whole;
 use crate::options::number_in;
 use clap::{Args, ValueHint};
 use std::io::ErrorKind;
-use std::net::{IpAddr, Ipv4Addr, SocketAddr, TcpListener};
+use std::net::{IpAddr, Ipv4Addr, Ipv6Addr, SocketAddr, TcpListener, UdpSocket};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -100,11 +100,28 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     }
     let host = Host::new(urdf, world, scene, args.with.clone(), args.time_limit)
         .ok_or_else(|| Failure::Refused("the world is no TOML".into()))?;
-    sinks::print(&format!("http://{address}/\n"))?;
+    sinks::print(&format!("http://{}/\n", reachable(address)))?;
     sinks::print_status("open this address in a browser; Ctrl-C ends the server");
     signals::run_before_exit(&[signals::SIGTERM], || DONE.into());
     serve::run(&listener, host).map_err(|error| Failure::Io(format!("cannot serve: {error}")))?;
     Ok(DONE)
+}
+
+/// Returns an address that a browser can open. A server that listens at all addresses of the machine has no address of its own;
+/// then it is the one by which the machine reaches others.
+fn reachable(address: SocketAddr) -> SocketAddr {
+    if !address.ip().is_unspecified() {
+        return address;
+    }
+    // A connection of UDP sends nothing. The address of the other end is reserved for documentation (RFC 5737, 3849).
+    let (here, other) = match address {
+        SocketAddr::V4(_) => ("0.0.0.0:0", "192.0.2.1:9"),
+        SocketAddr::V6(_) => ("[::]:0", "[2001:db8::1]:9"),
+    };
+    let socket = UdpSocket::bind(here).and_then(|socket| socket.connect(other).and_then(|()| socket.local_addr()));
+    let own = if address.is_ipv4() { IpAddr::V4(Ipv4Addr::LOCALHOST) } else { IpAddr::V6(Ipv6Addr::LOCALHOST) };
+    let ip = socket.map_or(own, |local| local.ip());
+    SocketAddr::new(if ip.is_unspecified() { own } else { ip }, address.port())
 }
 
 /// The first bytes of a file packed by gzip.

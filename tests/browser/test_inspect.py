@@ -75,3 +75,16 @@ def test_a_robot_without_a_planar_arm_has_a_page(program, show_file):
     assert all(f"{joint} (revolute)" in tree for joint in "jk")
     assert seen.page.locator("canvas").count() == 0
     seen.shoot("inspect_defects")
+
+
+def test_a_contact_at_zero_is_grey_and_one_of_the_moved_arm_is_red(program, show_file):
+    page = program.folder / "inspect_touching.html"
+    program.run("inspect", ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/no_path.toml", "--picture", page)
+    seen = show_file(page)
+    probe = seen.page.locator(".probe")
+    color = lambda: probe.evaluate("(text) => getComputedStyle(text).color")
+    ink = seen.do("getComputedStyle(document.body).color")
+    assert "touches the front wall" in probe.inner_text() and "does not prevent planning" in probe.inner_text()
+    assert color() == ink
+    seen.do("cplan.place([0, 0])")
+    assert "touches" in probe.inner_text() and color() != ink

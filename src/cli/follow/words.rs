@@ -27,8 +27,10 @@ pub fn summary(answered: &Answered) -> String {
     // The robot was read with the wrist at rest.
     let held = answered.wrist.map(|wrist| format!("joint \"{}\" is held at", wrist.joint));
     let is_true = |note: &&String| held.as_ref().is_none_or(|held| !note.starts_with(held));
-    let steps =
-        answered.loaded.has_steps().then(|| "the world's steps are left out; `cplan plan` plans them".to_owned());
+    let steps = answered
+        .loaded
+        .has_steps()
+        .then(|| "`cplan follow` ignores the world's steps; `cplan plan` plans them".to_owned());
     let notes = answered
         .line
         .notes()

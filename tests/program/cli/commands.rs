@@ -9,7 +9,6 @@ fn wrong_command_lines_end_with_2() {
     let place = Place::new();
     let planners = Method::ALL.map(Method::name).join(", ");
     let cases = [
-        ("", "cplan help COMMAND"),
         ("--planner magic", planners.as_str()),
         ("--start 1", "two values"),
         ("--start nan,0", "finite"),
@@ -50,8 +49,7 @@ fn wrong_command_lines_end_with_2() {
     ];
     for (options, part) in cases {
         // The files do not exist: the command line is checked first.
-        let files: &[&str] = if options.is_empty() { &[] } else { &["no.urdf", "no.toml"] };
-        place.run(files, options).refused(2, &[part]);
+        place.run(&["no.urdf", "no.toml"], options).refused(2, &[part]);
     }
     place.run(&["check", "no.urdf", "no.toml"], "").refused(2, &["--at"]);
     place.run(&["check", "no.urdf", "no.toml"], "--at 0,0 --clearance inf").refused(2, &["finite"]);

@@ -92,6 +92,11 @@ fn the_demo_does_not_overwrite_files() {
     assert_eq!((elsewhere.code, elsewhere.stdout.as_str()), (0, ""));
     assert_eq!(names(&place, "new/folder"), ["plan.html", "plan.json"]);
     place.run(&["demo"], "--dir new/folder").refused(1, &["plan.json and new/folder/plan.html exist already"]);
+    // Further demonstrations write into the same folder.
+    let elsewhere = place.run(&["demo"], "--dir other");
+    elsewhere.says(&["cplan demo --kind arch --force --dir other", "the quill moves with the arm"]);
+    let next = "demo --planner harmonic --force --dir other";
+    place.run(&next.split(' ').collect::<Vec<_>>(), "").exits(0);
     let forced = place.run(&["demo"], "--force --json --output more.csv");
     assert_eq!((forced.code, place.read("plan.json")), (0, forced.stdout));
     assert!(place.read("more.csv").starts_with("time,axis_1,"));

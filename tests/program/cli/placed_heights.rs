@@ -143,7 +143,7 @@ fn hints_about_heights_can_be_followed() {
         place.write("world.toml", text.replacen(from, to, 1));
         place.run(&[&shipped("robots/scara.urdf"), "world.toml"], "")
     };
-    let done = run("height = 0.02\n", "height = \"20mm\"\n");
+    let done = run("height = 0.02\n", "height = \"20 feet\"\n");
     assert!(done.code == 1 && done.stderr.contains("hint: height = 0.02, metres"), "{}", done.stderr);
     let done = run("height = [0.02, 0.03]", "height = [0.03, 0.02]");
     assert!(done.code == 1 && !done.stderr.contains("but its pallet has"), "{}", done.stderr);

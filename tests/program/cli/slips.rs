@@ -1,4 +1,4 @@
-//! Slips of the keyboard and of units: the message names what was probably meant.
+//! Slips of the keyboard and of units: the message names the probable intention.
 
 use super::*;
 
@@ -55,12 +55,12 @@ fn degrees_and_millimetres_are_suspected() {
     let place = Place::new();
     place.plan(FREE, "--start -51.6,0.4").refused(1, &["exceeds its limits", "write -51.6deg"]);
     place.plan(FREE.replace("-0.9", "-51.6"), "").refused(1, &["exceeds its limits", "write \"-51.6deg\""]);
-    place.plan(FREE, "--start -900,0.4").refused(1, &["exceeds its limits", "choose values within the limits"]);
-    let post = format!("{FREE}[[obstacle]]\ncircle = {{ center = [2.5, 0], radius = 0.1 }}\n");
+    place.plan(FREE, "--start 3.5,0.4").refused(1, &["exceeds its limits", "choose values within the limits"]);
+    let post = format!("{FREE}[[obstacle]]\ncircle = {{ center = [1.2, 1.4], radius = 0.1 }}\n");
     place.plan(&post, "--clearance 20").refused(1, &["clearance of 20 m", "if 20 mm are meant, write 20mm"]);
     let far = format!("{post}[[obstacle]]\nname = \"far\"\ncircle = {{ center = [500, 0], radius = 1 }}\n");
     let done = place.plan(far, "");
-    assert!(done.stderr.contains("obstacle \"far\" is 499 m from joint 1"), "{}", done.stderr);
+    assert!(done.stderr.contains("obstacle \"far\" is 499.0000 m from joint 1"), "{}", done.stderr);
     assert!(!place.plan(post, "").stderr.contains("warning"));
 }
 
@@ -109,6 +109,6 @@ fn follow_refers_worlds_with_steps_to_plan() {
     let [robot, world] = ["robots/scara.urdf", "workspaces/tasks/kitting_cell.toml"].map(shipped);
     let line = shipped("workspaces/follow/gasket.gcode");
     let done = place.run(&["follow", &robot, &world, &line], "");
-    assert!(done.stdout.contains("steps are left out; `cplan plan`"), "{}", done.stdout);
+    assert!(done.stdout.contains("ignores the world's steps; `cplan plan`"), "{}", done.stdout);
     place.run(&["follow", &robot, &world], "").refused(2, &["PATH", "cplan plan URDF WORLD"]);
 }

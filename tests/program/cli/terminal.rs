@@ -73,7 +73,12 @@ fn the_verdict_comes_first_and_assumptions_last() {
         keys.map(str::to_owned).collect::<Vec<_>>()
     };
     let done = Place::new().run(&shelf(), "");
-    assert_eq!(keys(&done.stdout), ["result", "optimum", "motion", "clearance", "margin", "note"], "{}", done.stdout);
+    assert_eq!(
+        keys(&done.stdout),
+        ["result", "optimum", "motion", "clearance", "margin", "warning", "note"],
+        "{}",
+        done.stdout
+    );
     let verbose = Place::new().run(&shelf(), "-v").stdout;
     let order = [
         "result",
@@ -81,6 +86,7 @@ fn the_verdict_comes_first_and_assumptions_last() {
         "motion",
         "clearance",
         "margin",
+        "warning",
         "planner",
         "time",
         "world",

@@ -81,7 +81,7 @@ impl FromToml for Metres {
 /// Returns a length in metres: a number, or a text with a unit.
 ///
 /// # Errors
-/// Another value; `expected` says what it should be.
+/// Another value. The message names the `expected` one.
 pub fn length(value: &TomlValue, expected: &str) -> Result<f64, TomlError> {
     let Some(text) = value.get_ref().as_str() else { return number(value, expected) };
     let has_unit = text.trim_end().ends_with(|c: char| c.is_ascii_alphabetic()) && !text.trim_end().ends_with("px");

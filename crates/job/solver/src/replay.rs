@@ -34,7 +34,7 @@ pub struct Phase {
     pub shows: Shows,
     /// Number of events, at least one.
     pub events: usize,
-    /// Length of the certified path that is known at the end of the phase. `None` if none is known, or if the phase does
+    /// Length of the certified path that is known at the end of the phase. `None` without a path, or if the phase does
     /// not change it.
     pub length: Option<f64>,
 }

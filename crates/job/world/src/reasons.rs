@@ -4,6 +4,7 @@ use cplan_geometry::Point;
 use cplan_model::space::{Configuration, JointRange, Segment};
 use cplan_model::{Freedom, Inverse, Joint, Obstruction, Scene, equivalent_values};
 use cplan_text::{fixed, format_distinct, joined};
+use std::f64::consts::TAU;
 
 /// Returns the IK solutions of `solved` that the joint limits allow, shifted by all whole turns that they allow. Also
 /// returns the reason for each solution that is outside the limits.
@@ -80,13 +81,12 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     outside
 }
 
-/// Returns the hint about a configuration outside the limits. If a value is within them in degrees, the hint asks whether
-/// degrees were meant. `in_file` is true for values in the world file, where they are texts.
+/// Returns the hint about a configuration outside the limits. If a value of more than a turn is within them in degrees, the
+/// hint asks whether degrees were meant. `in_file` is true for values in the world file, where they are texts.
 pub(super) fn help_for_limits(scene: &Scene, q: Configuration, in_file: bool) -> String {
     let degrees = |(joint, value): (&Joint, &f64)| {
-        // Radians beyond a turn are rare.
         let is_meant = joint.joint_type.is_revolute()
-            && value.abs() > std::f64::consts::TAU
+            && value.abs() > TAU
             && !joint.range.contains(*value)
             && joint.range.contains(value.to_radians());
         let quote = if in_file { "\"" } else { "" };

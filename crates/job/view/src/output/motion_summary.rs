@@ -162,7 +162,7 @@ fn corners(curve: &CertifiedCurve) -> String {
     let blended = radii.iter().filter(|radius| **radius > 0.0).count();
     match blended {
         _ if corners == 0 => String::new(),
-        0 => format!("; stops at {corners} corners"),
+        0 => format!("; stops at {}", counted(corners, "corner")),
         _ => {
             let largest = radii.iter().copied().fold(0.0, f64::max);
             format!("; {blended} of {corners} corners blended, radius up to {largest:.4}")

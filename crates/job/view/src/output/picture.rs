@@ -160,7 +160,7 @@ pub(super) fn with_usual_clearance(plan: &Plan) -> Option<[f64; 2]> {
     answer.path().map(|path| [USUAL_CLEARANCE, path.length()])
 }
 
-/// Adds a replay of the planner to a view, and what the clearance could be.
+/// Adds a replay of the planner to a view, and the length of a path with a usual clearance.
 pub fn replayed(plan: &Plan, mut view: View) -> View {
     view.figures.with_clearance = with_usual_clearance(plan);
     let view = if let Some(replay) = plan.replay() { view.with_replay(&replay) } else { view };

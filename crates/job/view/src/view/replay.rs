@@ -200,12 +200,12 @@ impl View {
             ShowsView::Own { points } => vec![self.paths[0].grey_line(beginning_of(points, part))],
             ShowsView::First { points } => vec![self.paths[0].first_line(beginning_of(points, part))],
             ShowsView::Bound { rounds } => {
-                let round = &rounds[((part * rounds.len() as f64) as usize).min(rounds.len() - 1)];
-                if round.points.0.is_empty() {
-                    Vec::new()
-                } else {
-                    vec![self.paths[0].bound_line(round.points.clone())]
-                }
+                // In the first half of each round its line grows.
+                let shown = part * rounds.len() as f64;
+                let number = (shown as usize).min(rounds.len() - 1);
+                let points = &rounds[number].points;
+                let grown = beginning_of_any(points, (2.0 * (shown - number as f64)).min(1.0));
+                grown.map(|points| self.paths[0].bound_line(points)).into_iter().collect()
             }
             ShowsView::Path => {
                 let own = self.replay.iter().find_map(|phase| match &phase.shows {
@@ -299,6 +299,11 @@ fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
     }
     let [free, stuck, mixed, rest] = found.map(Chain);
     TraceView::Boxes { free, stuck, mixed, rest }
+}
+
+/// Does the same as [`beginning_of`]. `None` without points.
+fn beginning_of_any(points: &Chain, part: f64) -> Option<Chain> {
+    (!points.0.is_empty()).then(|| beginning_of(points, part))
 }
 
 /// Returns the beginning of a path, with the fraction `part` of its length.

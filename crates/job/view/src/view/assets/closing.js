@@ -42,7 +42,7 @@ const Closing = (() => {
     const { upper, lower, duration } = found;
     const since = Math.max(upper[0][0], lower[0][0]);
     const spots = (steps) => corners(steps, duration).map((corner) => panel.at(corner));
-    // What is not known yet lies between the curves.
+    // The true length lies between the curves.
     context.beginPath();
     const edge = (steps) => corners(steps, duration).map(([at, value]) => panel.at([Math.max(at, since), value]));
     for (const [k, spot] of [...edge(upper), ...edge(lower).reverse()].entries()) if (k) context.lineTo(spot[0], spot[1]); else context.moveTo(spot[0], spot[1]);
@@ -71,7 +71,7 @@ const Closing = (() => {
   function mount(view) {
     const canvas = element('canvas', { role: 'img', 'aria-label': 'Length of the best path and lower bound during the search' });
     const caption = element('figcaption', {}, 'The proof closes');
-    const now = element('p', { class: 'lens-caption', 'aria-live': 'off' });
+    const now = element('p', { class: 'lengths' });
     const root = element('figure', { class: 'closing', hidden: true }, caption, canvas, now);
     const panel = new Panel(canvas, {
       x: [0, 1],

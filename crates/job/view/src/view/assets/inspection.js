@@ -20,7 +20,7 @@ class InspectionView extends View {
   /** Describes the arm; at zero in grey, since a contact there is no fault. */
   report() {
     super.report();
-    if (!this.probe) this.parts.probe.dataset.free = '';
+    if (!this.probe && this.parts.probe.dataset.free === 'false') this.parts.probe.dataset.free = '';
   }
 
   /**

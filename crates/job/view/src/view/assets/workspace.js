@@ -429,7 +429,7 @@ const Workspace = (() => {
       fill: theme.free,
       touch: isMarked ? Theme.mixed(theme.infeasible, theme.paper, 0.45) : theme.ghost,
       touching,
-      line: !isMarked ? theme.grey : hits.length ? theme.infeasible : theme.found,
+      line: !hits.length ? theme.found : isMarked ? theme.infeasible : theme.grey,
       width: 1.6,
       alpha: 0.92,
       joints: true,
