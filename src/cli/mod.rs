@@ -2,6 +2,7 @@
 
 mod arm_numbers;
 mod batch;
+mod cell;
 mod check;
 mod compare;
 mod commands;
@@ -85,6 +86,7 @@ commands! { meter:
         Explore(explore::ExploreArgs),
         Follow(follow::FollowArgs),
         Gcode(gcode::GcodeArgs),
+        Cell(cell::CellArgs),
         Batch(batch::BatchArgs),
     }
     "Understand" {

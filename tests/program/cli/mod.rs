@@ -1,6 +1,7 @@
 //! The program from outside: arguments, streams, files and exit codes.
 
 mod batch;
+mod cell;
 mod certificates;
 mod certified_lines;
 mod certified_motions;

@@ -47,7 +47,7 @@ mod preferences;
 mod rasterizer;
 mod regions;
 mod section;
-mod shapes;
+pub mod shapes;
 mod steps;
 mod strip;
 mod blocking;
@@ -58,6 +58,7 @@ mod view;
 mod wave_numbers;
 mod workspace;
 
+pub use axes::{Frame, Unit};
 pub use blocking::BlockingView;
 pub use checked::CheckedView;
 pub use compared::{ComparedPaths, SmallPicture, compared};

@@ -1,0 +1,92 @@
+//! The motion of one arm as a curve in time, for searches over the times of both arms.
+
+use cplan_handling::Piece;
+use cplan_judge::Deviation;
+use cplan_model::space::Configuration;
+use cplan_motion::{Place, Span, Trajectory};
+
+/// A motion of one arm: pieces in the order of time. It may consist of legs, each from rest to rest.
+#[derive(Debug, Clone)]
+pub(crate) struct Curve {
+    pieces: Vec<Piece>,
+    /// For each leg, the number of its first piece, and that of the piece after it.
+    legs: Vec<[usize; 2]>,
+}
+
+impl Curve {
+    /// Creates the curve of legs that follow each other without rests. The first begins at time 0.
+    pub fn of_legs<'a>(legs: impl IntoIterator<Item = &'a Trajectory>) -> Self {
+        let (mut pieces, mut ranges, mut begin) = (Vec::new(), Vec::new(), 0.0);
+        for leg in legs {
+            let first = pieces.len();
+            let later = |mut piece: Piece| {
+                (piece.from, piece.to) = (begin + piece.from, begin + piece.to);
+                piece
+            };
+            pieces.extend(leg.pieces().into_iter().map(later));
+            // A leg without motion has a single sample.
+            if pieces.len() == first {
+                let q = leg.position.first().copied().unwrap_or_default().into();
+                pieces.push(Piece::line(begin, begin, q, q));
+            }
+            ranges.push([first, pieces.len()]);
+            begin += leg.duration();
+        }
+        Self { pieces, legs: ranges }
+    }
+
+    /// Creates the curve of one motion that is preceded and followed by rests, from `begin` (not after 0) to `end`.
+    pub fn resting(trajectory: &Trajectory, begin: f64, end: f64) -> Self {
+        let Self { mut pieces, .. } = Self::of_legs([trajectory]);
+        let (first, last) = (pieces[0].at(0.0), pieces[pieces.len() - 1].at(1.0));
+        let (starts, ends) = (pieces[0].from, pieces[pieces.len() - 1].to);
+        if begin < starts {
+            pieces.insert(0, Piece::line(begin, starts, first, first));
+        }
+        if end > ends {
+            pieces.push(Piece::line(ends, end, last, last));
+        }
+        let legs = vec![[0, pieces.len()]];
+        Self { pieces, legs }
+    }
+
+    /// Returns the number of legs.
+    pub fn legs(&self) -> usize {
+        self.legs.len()
+    }
+
+    /// Returns the span of a leg.
+    pub fn leg(&self, leg: usize) -> Span {
+        let [first, end] = self.legs[leg];
+        if end - first == 1 { Span::Part(first, 0.0, 1.0) } else { Span::Pieces(first, end) }
+    }
+
+    /// Returns the times at which a span begins and ends, seconds.
+    pub fn times(&self, span: Span) -> [f64; 2] {
+        span.ends().map(|place| self.time(place))
+    }
+
+    /// Returns the time in the middle of a span, at the configuration of [`Curve::deviation`].
+    pub fn middle(&self, span: Span) -> Option<f64> {
+        // The middle of a box about several pieces is no configuration of the motion.
+        matches!(span, Span::Part(..)).then(|| self.time(span.middle()))
+    }
+
+    fn time(&self, (piece, share): Place) -> f64 {
+        self.pieces[piece].time(share)
+    }
+
+    /// Returns the configuration in the middle of a span, and the deviations from it in the whole span.
+    pub fn deviation(&self, span: Span) -> (Configuration, Deviation) {
+        span.deviation(&self.pieces)
+    }
+
+    /// Returns the configuration at a time. Before the beginning and after the end the arm rests.
+    pub fn at(&self, time: f64) -> Configuration {
+        let next = self.pieces.partition_point(|piece| piece.to < time).min(self.pieces.len() - 1);
+        let piece = &self.pieces[next];
+        let lasts = piece.to - piece.from;
+        let share = if lasts > 0.0 { ((time - piece.from) / lasts).clamp(0.0, 1.0) } else { 0.0 };
+        piece.at(share)
+    }
+}

@@ -1,0 +1,66 @@
+//! The coordination diagram: the times of one arm along its motion against those of the other, and the rectangles in which
+//! the arms are not proven to be apart.
+
+use crate::between::{Between, Placed};
+use crate::curve::Curve;
+use cplan_interrupt::checkpoint;
+use cplan_motion::Span;
+use std::rc::Rc;
+
+/// A rectangle of the diagram in which the arms are not proven to keep their clearance.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Rectangle {
+    /// For each arm, the times at which the rectangle begins and ends, seconds.
+    pub times: [[f64; 2]; 2],
+    /// For each arm, the leg to which it belongs.
+    pub legs: [usize; 2],
+    /// True if the arms are proven to be too near to each other in the whole rectangle.
+    pub is_collision: bool,
+}
+
+/// A span of one arm's motion, with its links.
+#[derive(Clone)]
+struct Side {
+    span: Span,
+    placed: Rc<Placed>,
+}
+
+/// Returns the rectangles in which two motions are not proven to keep the clearance, and `margin` metres more. The links of
+/// each arm move by at most `resolution` metres within a rectangle, unless a collision is proven in all of it.
+pub(crate) fn rectangles(between: &Between, curves: [&Curve; 2], margin: f64, resolution: f64) -> Vec<Rectangle> {
+    let side = |arm: usize, span: Span| {
+        let (middle, deviation) = curves[arm].deviation(span);
+        Side { span, placed: Rc::new(between.placed(arm, middle, deviation)) }
+    };
+    let required = between.clearance + margin;
+    let mut found = Vec::new();
+    for (one, two) in (0..curves[0].legs()).flat_map(|one| (0..curves[1].legs()).map(move |two| (one, two))) {
+        let legs = [one, two];
+        let mut open = vec![[0, 1].map(|arm| side(arm, curves[arm].leg(legs[arm])))];
+        while let Some(sides) = open.pop() {
+            checkpoint();
+            let placed = sides.each_ref().map(|side| &*side.placed);
+            let least = between.distance(placed, required).least;
+            if least > 0.0 && least >= required {
+                continue;
+            }
+            let moves = placed.map(Placed::farthest_motion);
+            let is_collision = between.surely_collide(placed);
+            let order = if moves[0] >= moves[1] { [0, 1] } else { [1, 0] };
+            let halves = order.into_iter().filter(|arm| moves[*arm] > resolution && !is_collision);
+            let halves = halves.filter_map(|arm| Some((arm, sides[arm].span.halves()?))).next();
+            match halves {
+                Some((arm, halves)) => open.extend(halves.map(|span| {
+                    let mut sides = sides.clone();
+                    sides[arm] = side(arm, span);
+                    sides
+                })),
+                None => {
+                    let times = [0, 1].map(|arm| curves[arm].times(sides[arm].span));
+                    found.push(Rectangle { times, legs, is_collision });
+                }
+            }
+        }
+    }
+    found
+}

@@ -1,0 +1,110 @@
+//! The final judgement: two motions on two clocks keep their distance for every skew of the clocks within a bound.
+
+use crate::between::{Between, Placed};
+use crate::curve::Curve;
+use cplan_interrupt::checkpoint;
+use cplan_motion::{Span, Trajectory};
+use std::rc::Rc;
+
+/// A lower bound on the distance is accepted if it is at least this share of the least distance seen.
+const TIGHTNESS: f64 = 0.9;
+
+/// Greatest number of pairs of spans that are examined. They take some seconds.
+const MAX_EVALUATIONS: usize = 2_000_000;
+
+/// Number of times that are sampled before the search. They show how near the arms come, and thus how finely they must be
+/// examined.
+const SAMPLES: usize = 128;
+
+/// The nearest place of two motions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct NearestPlace {
+    /// The time on the clock of each arm, seconds.
+    pub times: [f64; 2],
+    /// The distance there, metres. It is an upper bound on the least distance.
+    pub distance: f64,
+    /// The bodies, one of each arm.
+    pub(crate) pair: [usize; 2],
+}
+
+/// The judgement about two motions.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Judgement {
+    /// Proven: for all skews, the arms keep the clearance, and this distance. It is infinite if no links can meet.
+    Apart { clearance: f64, nearest: Option<NearestPlace> },
+    /// The arms are too near to each other at this place.
+    TooClose(NearestPlace),
+    /// The search gave up.
+    Undecided,
+}
+
+/// Judges two motions on two clocks, if either clock may be ahead of the other by `skew` seconds. Each arm rests at its start
+/// before its motion, and at its goal after it.
+///
+/// The pairs of times that differ by at most the skew form a strip. It is covered by rectangles: the motions of all links in
+/// a rectangle are bounded, and if the bound does not decide, the rectangle is halved.
+pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> Judgement {
+    let end = motions.map(Trajectory::duration).into_iter().fold(0.0, f64::max) + skew;
+    let curves = motions.map(|motion| Curve::resting(motion, -skew, end));
+    let mut nearest = sampled(between, &curves, end, skew);
+    let is_collision = |place: &NearestPlace| place.distance <= 0.0 || place.distance < between.clearance;
+    if let Some(place) = nearest.filter(is_collision) {
+        return Judgement::TooClose(place);
+    }
+    let side = |arm: usize, span: Span| {
+        let (middle, deviation) = curves[arm].deviation(span);
+        (span, Rc::new(between.placed(arm, middle, deviation)))
+    };
+    let mut open = vec![[0, 1].map(|arm| side(arm, curves[arm].leg(0)))];
+    let (mut clearance, mut evaluations) = (f64::INFINITY, 0);
+    while let Some(sides) = open.pop() {
+        checkpoint();
+        let [a, b] = [0, 1].map(|arm| curves[arm].times(sides[arm].0));
+        if a[0] - b[1] > skew || b[0] - a[1] > skew {
+            continue;
+        }
+        evaluations += 1;
+        let placed = sides.each_ref().map(|(_, placed)| &**placed);
+        let target = nearest.map_or(0.0, |place| TIGHTNESS * place.distance).max(between.clearance);
+        let distance = between.distance(placed, target);
+        let middles = [0, 1].map(|arm| curves[arm].middle(sides[arm].0));
+        if let ([Some(one), Some(two)], Some((here, pair))) = (middles, distance.here)
+            && (one - two).abs() <= skew
+            && nearest.is_none_or(|known| here < known.distance)
+        {
+            let place = NearestPlace { times: [one, two], distance: here, pair };
+            if is_collision(&place) {
+                return Judgement::TooClose(place);
+            }
+            nearest = Some(place);
+        }
+        let target = nearest.map_or(0.0, |place| TIGHTNESS * place.distance).max(between.clearance);
+        if distance.least > 0.0 && distance.least >= target {
+            clearance = clearance.min(distance.least);
+            continue;
+        }
+        let moves = placed.map(Placed::farthest_motion);
+        let order = if moves[0] >= moves[1] { [0, 1] } else { [1, 0] };
+        let halves = order.into_iter().find_map(|arm| Some((arm, sides[arm].0.halves()?)));
+        match halves.filter(|_| evaluations < MAX_EVALUATIONS) {
+            Some((arm, halves)) => open.extend(halves.map(|span| {
+                let mut sides = sides.clone();
+                sides[arm] = side(arm, span);
+                sides
+            })),
+            None => return Judgement::Undecided,
+        }
+    }
+    Judgement::Apart { clearance, nearest }
+}
+
+/// Returns the nearest place among samples of two motions that end at `end`, seconds.
+fn sampled(between: &Between, curves: &[Curve; 2], end: f64, skew: f64) -> Option<NearestPlace> {
+    let times = (0..=SAMPLES).map(|k| end * (k as f64 / SAMPLES as f64));
+    let places = times.flat_map(|time| [-skew, 0.0, skew].map(|shift| [time, time + shift])).filter_map(|times| {
+        let placed = [0, 1].map(|arm| between.at_rest(arm, curves[arm].at(times[arm])));
+        let (distance, pair) = between.distance(placed.each_ref(), f64::INFINITY).here?;
+        Some(NearestPlace { times, distance, pair })
+    });
+    places.reduce(|nearest, place| if place.distance < nearest.distance { place } else { nearest })
+}

@@ -1,0 +1,38 @@
+//! Two planar arms in one cell: motions of both on one clock, certified among the obstacles and between the arms; or a proof
+//! of infeasibility.
+//!
+//! [`Cell::load`] reads a cell file. [`plan_cell`] plans it. The steps are:
+//! - Each arm alone: the engine's plan gives the path, and the bound on its duration.
+//! - Two paths are coordinated in the plane of both arms' times (`diagram`): rectangles cover the times at which the arms
+//!   are not proven to be apart. A monotone route through the plane decides which arm passes first (`order`), and a graph of
+//!   differences gives the earliest departures. If necessary, arms wait on their paths (`coordinate`).
+//! - If these paths block each other or lose time, one arm is planned among the other at rest, in both orders and for all IK
+//!   solutions (`plan`), and then both at once in four joints (`joint_tree`).
+//! - The final motions are judged for all skews of the two clocks within a bound (`judged`). Signals between the
+//!   controllers make them hold for any skew (`interlock`).
+//! - If nothing is found, boxes in four joints may prove that there is nothing (`refutation`).
+//!
+//! All verdicts about two arms rest on `between`: the distance of the links, with bounds on the motion of both.
+#![forbid(unsafe_code)]
+
+mod between;
+mod coordinate;
+mod curve;
+mod diagram;
+mod excerpt;
+mod file;
+mod interlock;
+mod joint_tree;
+mod judged;
+mod order;
+mod picture;
+mod plan;
+mod refutation;
+
+pub use coordinate::Coordination;
+pub use file::{Cell, CellArm};
+pub use interlock::Interlock;
+pub use judged::NearestPlace;
+pub use picture::{figure, page};
+pub use plan::{CellPlan, Refutation, Settings, plan_cell};
+pub use refutation::Boxes;

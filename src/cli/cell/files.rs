@@ -1,0 +1,62 @@
+//! The motions of both arms as files.
+
+use crate::model::RobotJoints;
+use crate::motion::{Format, JointMotion, Trajectory, csv_of_joints, ros_yaml};
+use crate::space::{Derivative, Piece};
+use cplan_cell::{Cell, Coordination};
+use std::path::Path;
+
+/// Returns a motion as CSV or YAML. A YAML file whose name ends in that of an arm has the motion of this arm alone.
+pub fn motion(cell: &Cell, found: &Coordination, path: &Path, format: Format) -> String {
+    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+    let named = |arm: &usize| stem.ends_with(&cell.arms[*arm].name);
+    match (format, (0..2).find(named)) {
+        (Format::Yaml, Some(arm)) => ros_yaml(&alone(cell, found, arm)),
+        (Format::Yaml, None) => ros_yaml(&both(cell, found)),
+        _ => csv_of_joints(&both(cell, found), &[], None),
+    }
+}
+
+/// Returns the motion of one arm. It names all joints of its robot, unless the other arm moves some of them.
+fn alone(cell: &Cell, found: &Coordination, arm: usize) -> JointMotion {
+    let problem = &cell.arms[arm].problem;
+    let own = RobotJoints::only_planned(&problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone()));
+    let joints = if cell.is_one_robot { &own } else { &problem.robot().joints };
+    JointMotion::new(joints, &found.motions[arm].trajectory, false)
+}
+
+/// Returns the motion of both arms on one clock. The samples are those of both motions; between them, both move as before.
+fn both(cell: &Cell, found: &Coordination) -> JointMotion {
+    let motions = found.motions.each_ref().map(|motion| &motion.trajectory);
+    let mut time: Vec<f64> = motions.iter().flat_map(|motion| motion.time.iter().copied()).collect();
+    time.sort_by(f64::total_cmp);
+    time.dedup();
+    let name = |arm: usize, joint: &str| match cell.is_one_robot {
+        true => joint.to_owned(),
+        false => format!("{}/{joint}", cell.arms[arm].name),
+    };
+    let of_arm =
+        |arm: usize| cell.arms[arm].problem.scene().arm().joints.iter().map(move |joint| name(arm, &joint.name));
+    let states = motions.map(|motion| states(motion, &time));
+    let rows = |of: usize| {
+        (0..time.len()).map(|k| states.iter().flat_map(|states| states[k][of]).collect::<Vec<f64>>()).collect()
+    };
+    let (position, velocity) = (rows(0), rows(1));
+    JointMotion { joints: of_arm(0).chain(of_arm(1)).collect(), time, position, velocity, acceleration: None }
+}
+
+/// Returns positions and velocities of a motion at these times. After its end, the arm rests.
+fn states(motion: &Trajectory, times: &[f64]) -> Vec<[[f64; 2]; 2]> {
+    let pieces = motion.pieces();
+    let state = |time: &f64| {
+        let known = motion.time.partition_point(|other| other < time);
+        if motion.time.get(known) == Some(time) || known == motion.time.len() {
+            let known = known.min(motion.time.len() - 1);
+            return [motion.position[known], motion.velocity[known]];
+        }
+        let piece: &Piece = &pieces[known - 1];
+        let share = (time - piece.from) / (piece.to - piece.from);
+        [Derivative::Position, Derivative::Velocity].map(|of| piece.derivative(of, share).into())
+    };
+    times.iter().map(state).collect()
+}

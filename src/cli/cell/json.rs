@@ -1,0 +1,103 @@
+//! The answer about a cell as JSON.
+
+use super::Answered;
+use crate::model::Outcome;
+use crate::space::Configuration;
+use cplan_cell::{CellArm, Coordination, Refutation};
+use serde_json::{Value, json};
+
+impl Answered<'_> {
+    /// Returns the answer.
+    pub fn json(&self) -> Value {
+        let Self { args, cell, plan } = self;
+        let found = plan.outcome.found();
+        let arms: Vec<Value> = cell.arms.iter().enumerate().map(|(k, arm)| self.arm(k, arm, found)).collect();
+        let mut answer = json!({
+            "status": plan.status().name(),
+            "name": cell.name,
+            "arms": arms,
+            "duration": found.map(|found| found.duration),
+            "lower_bound": plan.lower_bound,
+            "gap": found.zip(plan.lower_bound).filter(|(_, bound)| *bound > 0.0).map(|(found, bound)| found.duration / bound - 1.0),
+            "skew": args.skew,
+            "clearance": cell.arms[0].problem.scene().workspace().clearance,
+            "clearance_between": found.map(|found| finite(found.clearance)),
+            "nearest": found.and_then(|found| found.nearest).map(|place| json!({ "times": place.times, "distance": place.distance })),
+            "interlocks": found.map(|found| self.interlocks(found)),
+            "interpolation": "cubic",
+            "tried": plan.tried,
+        });
+        match &plan.outcome {
+            Outcome::Found(_) => {}
+            Outcome::Infeasible(proof) => answer["proof"] = self.proof(proof),
+            Outcome::Unknown(why) => answer["reason"] = json!(why),
+        }
+        answer
+    }
+
+    fn arm(&self, k: usize, CellArm { name, problem }: &CellArm, found: Option<&Coordination>) -> Value {
+        let motion = self.plan.alone[k].as_ref().and_then(|plan| plan.motion()?.1.outcome.found());
+        let alone = motion.map(|motion| {
+            let bound = motion.fastest.map(|fastest| fastest.lower_bound);
+            json!({ "duration": motion.timed.trajectory.duration(), "lower_bound": bound })
+        });
+        let mut arm = json!({
+            "name": name,
+            "robot": problem.scene().arm().name,
+            "joints": problem.scene().arm().joints.each_ref().map(|joint| joint.name.as_str()),
+            "start": row(problem.query().start()),
+            "alone": alone,
+        });
+        if let Some(found) = found {
+            let motion = &found.motions[k];
+            let trajectory = &motion.trajectory;
+            arm["clearance"] = json!(finite(motion.curve.clearance()));
+            arm["path"] =
+                json!(motion.curve.straight().path().waypoints().iter().copied().map(row).collect::<Vec<_>>());
+            arm["waits"] = json!(found.waits[k]);
+            arm["trajectory"] = json!({
+                "time": trajectory.time,
+                "position": trajectory.position,
+                "velocity": trajectory.velocity,
+            });
+        }
+        arm
+    }
+
+    fn interlocks(&self, found: &Coordination) -> Value {
+        let named = |arm: usize| &self.cell.arms[arm].name;
+        let place = |arm: usize, time: f64| json!({ "time": time, "position": row(found.place(arm, time)) });
+        let interlocks = found.interlocks.as_ref().map(|interlocks| {
+            let one = |(number, interlock): (usize, &cplan_cell::Interlock)| {
+                let sets = 1 - interlock.waits;
+                json!({
+                    "signal": number + 1,
+                    "waits": named(interlock.waits),
+                    "at": place(interlock.waits, interlock.at),
+                    "sets": named(sets),
+                    "after": place(sets, interlock.set),
+                })
+            };
+            interlocks.iter().enumerate().map(one).collect::<Vec<_>>()
+        });
+        json!(interlocks)
+    }
+
+    fn proof(&self, proof: &Refutation) -> Value {
+        match proof {
+            Refutation::Alone { arm, .. } => json!({ "kind": "alone", "arm": self.cell.arms[*arm].name }),
+            Refutation::Starts(what) => json!({ "kind": "starts", "contact": what }),
+            Refutation::Goals(what) => json!({ "kind": "goals", "contact": what }),
+            Refutation::Boxes(boxes) => json!({ "kind": "boxes", "examined": boxes.examined, "cells": boxes.cells }),
+        }
+    }
+}
+
+fn row(q: Configuration) -> [f64; 2] {
+    [q[0], q[1]]
+}
+
+/// Returns a distance. `None` if no links can meet.
+fn finite(distance: f64) -> Option<f64> {
+    Some(distance).filter(|distance| distance.is_finite())
+}

@@ -1,0 +1,114 @@
+//! The answer about a cell for people.
+
+use super::Answered;
+use crate::model::Outcome;
+use crate::motion::Wait;
+use crate::output::format_columns;
+use crate::text::{counted, length_down, percent};
+use cplan_cell::{Coordination, Interlock, Refutation};
+
+/// Greatest number of interlocks and attempts in the summary.
+const MAX_SHOWN: usize = 8;
+
+impl Answered<'_> {
+    /// Returns the summary.
+    pub fn summary(&self) -> String {
+        let Self { args, cell, plan } = self;
+        let mut lines = vec![("result", self.result())];
+        if let Some(found) = plan.outcome.found() {
+            lines.push(("cycle", self.cycle(found)));
+            let between = match found.clearance {
+                clearance if clearance.is_finite() => format!("at least {}", length_down(clearance)),
+                _ => "no links can meet".into(),
+            };
+            let clocks = if args.skew > 0.0 {
+                format!(", for clocks that differ by up to {} s", args.skew)
+            } else {
+                String::new()
+            };
+            lines.push(("between", format!("{between}{clocks}")));
+            for (arm, waits) in cell.arms.iter().zip(&found.waits) {
+                lines.extend(waits.iter().map(|wait| ("wait", format!("{} {}", arm.name, waiting(wait)))));
+            }
+            match &found.interlocks {
+                None => lines.push(("signals", "no signals make the motions safe for any skew".into())),
+                Some(interlocks) if interlocks.is_empty() => {
+                    lines.push(("signals", "none needed: the motions are safe for any skew".into()));
+                }
+                Some(interlocks) => {
+                    let shown = interlocks.iter().take(MAX_SHOWN).enumerate();
+                    lines.extend(shown.map(|(k, interlock)| ("signal", self.interlock(k + 1, interlock, found))));
+                }
+            }
+        } else {
+            lines.extend(plan.tried.iter().take(MAX_SHOWN).map(|tried| ("tried", tried.clone())));
+        }
+        let [one, two] = cell
+            .arms
+            .each_ref()
+            .map(|arm| arm.problem.robot().notes.iter().chain(arm.problem.notes()).collect::<Vec<_>>());
+        let of_both = |note: &&String| one.contains(note) && two.contains(note);
+        lines.extend(one.iter().filter(|note| of_both(note)).map(|note| ("note", format!("both arms: {note}"))));
+        for (arm, notes) in cell.arms.iter().zip([&one, &two]) {
+            let own = notes.iter().filter(|note| !of_both(note));
+            lines.extend(own.map(|note| ("note", format!("{}: {note}", arm.name))));
+        }
+        format!("{}\n{}", cell.name, format_columns(&lines))
+    }
+
+    /// Returns the answer in one line.
+    fn result(&self) -> String {
+        let names = self.cell.arms.each_ref().map(|arm| arm.name.as_str());
+        match &self.plan.outcome {
+            Outcome::Found(_) => "found: both motions are certified, among the obstacles and between the arms".into(),
+            Outcome::Infeasible(proof) => match proof {
+                Refutation::Alone { arm, .. } => {
+                    format!(
+                        "infeasible: {} cannot reach its goal, even without {}; proven",
+                        names[*arm],
+                        names[1 - *arm]
+                    )
+                }
+                Refutation::Starts(what) => format!("infeasible: at the starts, {what}; proven"),
+                Refutation::Goals(what) => {
+                    format!("infeasible: the arms collide at every pair of goals, for example {what}; proven")
+                }
+                Refutation::Boxes(boxes) => {
+                    let count = counted(boxes.examined, "box");
+                    format!("infeasible: no motions of both arms exist; proven with {count} in four joints")
+                }
+            },
+            Outcome::Unknown(why) => format!("unknown: {why}"),
+        }
+    }
+
+    fn cycle(&self, found: &Coordination) -> String {
+        let bound = self.plan.lower_bound.filter(|bound| *bound > 0.0);
+        let bound = bound.map_or(String::new(), |bound| {
+            format!(", at most {} above the least possible", percent((found.duration / bound - 1.0).max(0.0)))
+        });
+        format!("{:.3} s{bound}", found.duration)
+    }
+
+    fn interlock(&self, number: usize, interlock: &Interlock, found: &Coordination) -> String {
+        let (waits, sets) = (interlock.waits, 1 - interlock.waits);
+        let name = |arm: usize| &self.cell.arms[arm].name;
+        let place = |arm: usize, time: f64| {
+            let q = found.place(arm, time);
+            format!("({:.3}, {:.3}), {time:.3} s", q[0], q[1])
+        };
+        format!(
+            "{} waits for signal {number} at {}; {} sets it after {}",
+            name(waits),
+            place(waits, interlock.at),
+            name(sets),
+            place(sets, interlock.set)
+        )
+    }
+}
+
+/// Describes a wait.
+fn waiting(Wait { from, to, at }: &Wait) -> String {
+    let place = if *from == 0.0 { "at its start".into() } else { format!("at ({:.3}, {:.3})", at[0], at[1]) };
+    format!("{place} from {from:.3} s to {to:.3} s")
+}
