@@ -113,6 +113,7 @@ impl Legs {
 }
 
 /// Coordinates pairs of paths.
+#[derive(Clone, Copy)]
 pub(crate) struct Coordinator<'a> {
     pub between: &'a Between<'a>,
     pub drive: Drive,

@@ -15,6 +15,9 @@ const STEP: f64 = 0.15;
 /// Number of attempts to shorten the paths.
 const SHORTCUTS: usize = 400;
 
+/// Time that a corner costs, as a share of the time in which the joints reach their top speed.
+const CORNER_SHARE: f64 = 0.5;
+
 /// Distances between the arms to keep in addition to their clearance, as shares of their reach: one for each search, in
 /// turn. Rounded corners and clocks that differ need room.
 const MARGINS: [f64; 4] = [0.05, 0.02, 0.0, 0.1];
@@ -198,8 +201,19 @@ impl Space<'_> {
         time(0).max(time(1))
     }
 
+    /// Returns the time along a route at top speed, seconds.
     fn route_time(&self, route: &[Both]) -> f64 {
         route.windows(2).map(|ends| self.straight_time(ends[0], ends[1])).sum()
+    }
+
+    /// Estimates the duration along a route, seconds. At each waypoint, the arms lose a share of the time in which they reach
+    /// top speed.
+    fn cost(&self, route: &[Both]) -> f64 {
+        let ramp = |arm: usize| {
+            let joints = &self.between.scenes[arm].arm().joints;
+            joints.iter().map(|joint| joint.velocity / joint.acceleration).fold(0.0, f64::max)
+        };
+        self.route_time(route) + CORNER_SHARE * ramp(0).max(ramp(1)) * route.len() as f64
     }
 
     /// Shortens a route: replaces parts of it by straight motions of both arms, or of one arm while the other moves as before.
@@ -218,10 +232,10 @@ impl Space<'_> {
             }
             let middle = &route[first + 1..=last];
             let part: Vec<Both> = [from].into_iter().chain(middle.iter().copied()).chain([to]).collect();
-            let known = self.route_time(&part);
+            let known = self.cost(&part);
             let replaced =
                 if attempt % 3 == 0 { vec![from, to] } else { self.with_one_straight(&part, attempt % 3 - 1) };
-            if self.route_time(&replaced) <= known && replaced.windows(2).all(|ends| self.is_free(ends[0], ends[1])) {
+            if self.cost(&replaced) < known && replaced.windows(2).all(|ends| self.is_free(ends[0], ends[1])) {
                 route.splice(first + 1..=last, replaced);
             }
         }

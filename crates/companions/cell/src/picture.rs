@@ -38,12 +38,19 @@ const MARGIN: f64 = 0.04;
 
 /// Draws the answer about a cell. `skew` is the difference of the clocks for which the motions are certified, seconds.
 pub fn figure(cell: &Cell, plan: &CellPlan, skew: f64) -> Figure {
-    let found = plan.outcome.found();
-    let mut items = vec![
+    let title = [
         bold([WORKSPACE.x, 40.0], &cell.name, 20.0, Anchor::Start, INK),
         label([WORKSPACE.x, 64.0], result(plan), 15.0, Anchor::Start, GRAY),
     ];
-    items.extend(workspace(cell, found));
+    let mut figure = untitled(cell, plan, skew);
+    figure.items.extend(title);
+    figure
+}
+
+/// Draws the same without a title.
+fn untitled(cell: &Cell, plan: &CellPlan, skew: f64) -> Figure {
+    let found = plan.outcome.found();
+    let mut items = workspace(cell, found);
     if let Some(found) = found {
         items.extend(diagram(cell, found, skew));
         items.extend(rows(cell, found));
@@ -54,7 +61,7 @@ pub fn figure(cell: &Cell, plan: &CellPlan, skew: f64) -> Figure {
 /// Returns a page that shows the answer about a cell. The reader chooses the time at which both arms are drawn.
 pub fn page(cell: &Cell, plan: &CellPlan, skew: f64) -> String {
     let mut colors: Vec<Rgb> = Vec::new();
-    let svg = cplan_theme::recolored(&figure(cell, plan, skew).svg(), |color| {
+    let svg = cplan_theme::recolored(&untitled(cell, plan, skew).svg(), |color| {
         let name = cplan_theme::variable(color).unwrap_or_else(|| {
             if !colors.contains(&color) {
                 colors.push(color);

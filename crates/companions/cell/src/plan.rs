@@ -23,7 +23,7 @@ const MAX_PAIRS: usize = 12;
 const MAX_GOAL_PAIRS: usize = 4;
 
 /// Number of searches with all four joints, each with other samples.
-const JOINT_SEARCHES: u64 = 8;
+const JOINT_SEARCHES: u64 = 12;
 
 /// Settings of a coordination.
 #[derive(Debug, Clone, Copy, PartialEq)]
