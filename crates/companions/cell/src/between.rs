@@ -160,8 +160,8 @@ impl<'a> Between<'a> {
         format!("{} and {}", link(0, i), link(1, j))
     }
 
-    /// Returns the links of an arm at a configuration, as obstacles of the other arm. Links that the other arm cannot meet
-    /// are left out.
+    /// Returns the links of an arm at a configuration, as obstacles of the other arm. Omits links that
+    /// the other arm cannot meet.
     pub fn obstacles(&self, side: usize, name: &str, at: Configuration) -> Vec<Obstacle> {
         let poses = self.scenes[side].arm().poses(at);
         let mut obstacles = Vec::new();

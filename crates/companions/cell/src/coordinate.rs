@@ -16,7 +16,7 @@ const RESOLUTION: f64 = 1.0 / 250.0;
 /// Share of the proven clearance by which links may move in a rectangle of the final diagram.
 const CLEARANCE_SHARE: f64 = 0.3;
 
-/// Greatest number of places, besides its ends, at which an arm may wait on its path.
+/// Greatest number of inner places of a path at which an arm may wait.
 const MAX_STOPS: usize = 4;
 
 /// Share of the duration of the longer motion that waits may cost without a second attempt.
@@ -27,7 +27,7 @@ const ACCEPTED_LOSS: f64 = 0.005;
 pub struct Coordination {
     /// The motion of each arm, in the order of the file. It is certified among the obstacles.
     pub motions: [TimedMotion; 2],
-    /// The waits of each arm: at its start, and on its way.
+    /// The waits of each arm: at its start, and on its route.
     pub waits: [Vec<Wait>; 2],
     /// Time until both arms are at their goals, seconds.
     pub duration: f64,
@@ -113,6 +113,7 @@ impl Legs {
 }
 
 /// Coordinates pairs of paths.
+#[derive(Clone, Copy)]
 pub(crate) struct Coordinator<'a> {
     pub between: &'a Between<'a>,
     pub drive: Drive,
@@ -143,7 +144,8 @@ impl Coordinator<'_> {
             return Ok(Err(Conflict::Slower));
         }
         let diagram = self.diagram(&whole);
-        let direct = diagram.way(Waits::BetweenLegs).and_then(|way| diagram.departures(&way, self.skew));
+        let direct =
+            diagram.route(Waits::BetweenLegs, self.skew).and_then(|route| diagram.departures(&route, self.skew));
         let duration = |legs: &[Legs; 2], departures: &[Vec<f64>; 2]| {
             let ends = [0, 1].map(|arm| {
                 let lasts = legs[arm].0.last().map_or(0.0, |leg| leg.trajectory.duration());
@@ -158,7 +160,9 @@ impl Coordinator<'_> {
             }
             if let Some(legs) = self.with_stops(paths, &diagram)? {
                 let diagram = self.diagram(&legs);
-                let departures = diagram.way(Waits::BetweenLegs).and_then(|way| diagram.departures(&way, self.skew));
+                let departures = diagram
+                    .route(Waits::BetweenLegs, self.skew)
+                    .and_then(|route| diagram.departures(&route, self.skew));
                 if let Some(departures) = departures {
                     let lasts = duration(&legs, &departures);
                     if best.as_ref().is_none_or(|(known, ..)| lasts < *known) {
@@ -181,14 +185,15 @@ impl Coordinator<'_> {
         Diagram { legs: legs.each_ref().map(Legs::times), rectangles }
     }
 
-    /// Divides the paths where the fastest way through the diagram waits. `None` if there is no way, or no wait on a path.
+    /// Divides the paths where the fastest route through the diagram waits. Returns `None` without a route, or without waits on
+    /// the paths.
     fn with_stops(&self, paths: [&CertifiedPath; 2], diagram: &Diagram) -> Result<Option<[Legs; 2]>, TimingError> {
         let cost = self.between.scenes.map(|scene| {
             let braking = scene.arm().joints.each_ref().map(|joint| joint.velocity / joint.acceleration);
             braking[0].max(braking[1])
         });
-        let Some(way) = diagram.way(Waits::Anywhere { cost }) else { return Ok(None) };
-        let waits = way.waits();
+        let Some(route) = diagram.route(Waits::Anywhere { cost }, self.skew) else { return Ok(None) };
+        let waits = route.waits();
         if waits.iter().all(Vec::is_empty) {
             return Ok(None);
         }

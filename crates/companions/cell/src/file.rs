@@ -1,4 +1,4 @@
-//! Reads cell files. Each arm becomes the text of a world of its own, so all keys mean what they mean in a world file.
+//! Reads cell files. Each arm becomes the text of a world of its own, and all keys are those of world files.
 
 use crate::excerpt::{Composition, Excerpt};
 use cplan_engine::Problem;

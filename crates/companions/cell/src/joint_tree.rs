@@ -15,6 +15,9 @@ const STEP: f64 = 0.15;
 /// Number of attempts to shorten the paths.
 const SHORTCUTS: usize = 400;
 
+/// Time that a corner costs, as a share of the time in which the joints reach their top speed.
+const CORNER_SHARE: f64 = 0.5;
+
 /// Distances between the arms to keep in addition to their clearance, as shares of their reach: one for each search, in
 /// turn. Rounded corners and clocks that differ need room.
 const MARGINS: [f64; 4] = [0.05, 0.02, 0.0, 0.1];
@@ -37,7 +40,7 @@ struct Space<'a> {
 }
 
 /// Returns certified paths from the starts to the goals, which depend on the seed. There is a timing along them, up to the rounding of corners: both
-/// arms move at once, straight from each waypoint to the next. `None` if none are found.
+/// arms move at once, straight from each waypoint to the next. Returns `None` if the search fails.
 pub(crate) fn both_paths(between: &Between, starts: Both, goals: Both, seed: u64) -> Option<[CertifiedPath; 2]> {
     let alone = between.scenes.map(|scene| StraightMotions::new(scene, between.clearance));
     let reach = between.scenes.map(|scene| scene.arm().reach()).into_iter().fold(0.0, f64::max);
@@ -51,7 +54,7 @@ pub(crate) fn both_paths(between: &Between, starts: Both, goals: Both, seed: u64
     let space = Space { between, required, alone };
     let mut random = SplitMix64::new(seed);
     let mut trees = [Tree(vec![(starts, None)]), Tree(vec![(goals, None)])];
-    let mut way = None;
+    let mut route = None;
     for sample in 0..MAX_SAMPLES {
         checkpoint();
         let grown = sample % 2;
@@ -69,17 +72,17 @@ pub(crate) fn both_paths(between: &Between, starts: Both, goals: Both, seed: u64
         }
         if let Some(met) = at.filter(|&at| space.distance(trees[1 - grown].0[at].0, goal) == 0.0) {
             let ends = if grown == 0 { [reached, met] } else { [met, reached] };
-            let mut nodes = trees[0].way_to(ends[0]);
+            let mut nodes = trees[0].route_to(ends[0]);
             nodes.reverse();
-            nodes.extend(trees[1].way_to(ends[1]).into_iter().skip(1));
-            way = Some(nodes);
+            nodes.extend(trees[1].route_to(ends[1]).into_iter().skip(1));
+            route = Some(nodes);
             break;
         }
     }
-    let mut way = space.unwrapped(way?);
-    space.shorten(&mut way, &mut random);
+    let mut route = space.unwrapped(route?);
+    space.shorten(&mut route, &mut random);
     let path = |arm: usize| {
-        let path = Path::new(way.iter().map(|both| both[arm]).collect());
+        let path = Path::new(route.iter().map(|both| both[arm]).collect());
         certify(between.scenes[arm], path).ok()
     };
     Some([path(0)?, path(1)?])
@@ -87,14 +90,14 @@ pub(crate) fn both_paths(between: &Between, starts: Both, goals: Both, seed: u64
 
 impl Tree {
     /// Returns the configurations from a node to the root.
-    fn way_to(&self, node: usize) -> Vec<Both> {
-        let mut way = Vec::new();
+    fn route_to(&self, node: usize) -> Vec<Both> {
+        let mut route = Vec::new();
         let mut at = Some(node);
         while let Some(node) = at {
-            way.push(self.0[node].0);
+            route.push(self.0[node].0);
             at = self.0[node].1;
         }
-        way
+        route
     }
 }
 
@@ -164,9 +167,9 @@ impl Space<'_> {
     }
 
     /// Returns the same configurations with values that continue across the seams of circles.
-    fn unwrapped(&self, way: Vec<Both>) -> Vec<Both> {
-        let mut unwrapped: Vec<Both> = Vec::with_capacity(way.len());
-        for both in way {
+    fn unwrapped(&self, route: Vec<Both>) -> Vec<Both> {
+        let mut unwrapped: Vec<Both> = Vec::with_capacity(route.len());
+        for both in route {
             let lifted = match unwrapped.last() {
                 None => both,
                 Some(last) => [0, 1].map(|arm| self.between.scenes[arm].arm().topology().lift(both[arm], last[arm])),
@@ -176,9 +179,9 @@ impl Space<'_> {
         unwrapped
     }
 
-    /// Returns the place on a way at a time since its beginning, at top speed, and the number of the waypoint before it.
-    fn place(&self, way: &[Both], mut time: f64) -> (usize, Both) {
-        for (k, ends) in way.windows(2).enumerate() {
+    /// Returns the place on a route at a time since its beginning, at top speed, and the number of the waypoint before it.
+    fn place(&self, route: &[Both], mut time: f64) -> (usize, Both) {
+        for (k, ends) in route.windows(2).enumerate() {
             let lasts = self.straight_time(ends[0], ends[1]);
             if time <= lasts {
                 let share = if lasts > 0.0 { time / lasts } else { 0.0 };
@@ -186,7 +189,7 @@ impl Space<'_> {
             }
             time -= lasts;
         }
-        (way.len() - 2, way[way.len() - 1])
+        (route.len() - 2, route[route.len() - 1])
     }
 
     /// Returns the time of a straight motion at top speed, without turns around circles, seconds.
@@ -198,36 +201,47 @@ impl Space<'_> {
         time(0).max(time(1))
     }
 
-    fn way_time(&self, way: &[Both]) -> f64 {
-        way.windows(2).map(|ends| self.straight_time(ends[0], ends[1])).sum()
+    /// Returns the time along a route at top speed, seconds.
+    fn route_time(&self, route: &[Both]) -> f64 {
+        route.windows(2).map(|ends| self.straight_time(ends[0], ends[1])).sum()
     }
 
-    /// Shortens a way: replaces parts of it by straight motions of both arms, or of one arm while the other moves as before.
-    fn shorten(&self, way: &mut Vec<Both>, random: &mut SplitMix64) {
+    /// Estimates the duration along a route, seconds. At each waypoint, the arms lose a share of the time in which they reach
+    /// top speed.
+    fn cost(&self, route: &[Both]) -> f64 {
+        let ramp = |arm: usize| {
+            let joints = &self.between.scenes[arm].arm().joints;
+            joints.iter().map(|joint| joint.velocity / joint.acceleration).fold(0.0, f64::max)
+        };
+        self.route_time(route) + CORNER_SHARE * ramp(0).max(ramp(1)) * route.len() as f64
+    }
+
+    /// Shortens a route: replaces parts of it by straight motions of both arms, or of one arm while the other moves as before.
+    fn shorten(&self, route: &mut Vec<Both>, random: &mut SplitMix64) {
         for attempt in 0..SHORTCUTS {
             checkpoint();
-            let whole = self.way_time(way);
-            if way.len() < 3 || whole == 0.0 {
+            let whole = self.route_time(route);
+            if route.len() < 3 || whole == 0.0 {
                 return;
             }
             let times = [random.unit() * whole, random.unit() * whole];
-            let (first, from) = self.place(way, times[0].min(times[1]));
-            let (last, to) = self.place(way, times[0].max(times[1]));
+            let (first, from) = self.place(route, times[0].min(times[1]));
+            let (last, to) = self.place(route, times[0].max(times[1]));
             if first == last {
                 continue;
             }
-            let middle = &way[first + 1..=last];
+            let middle = &route[first + 1..=last];
             let part: Vec<Both> = [from].into_iter().chain(middle.iter().copied()).chain([to]).collect();
-            let known = self.way_time(&part);
+            let known = self.cost(&part);
             let replaced =
                 if attempt % 3 == 0 { vec![from, to] } else { self.with_one_straight(&part, attempt % 3 - 1) };
-            if self.way_time(&replaced) <= known && replaced.windows(2).all(|ends| self.is_free(ends[0], ends[1])) {
-                way.splice(first + 1..=last, replaced);
+            if self.cost(&replaced) < known && replaced.windows(2).all(|ends| self.is_free(ends[0], ends[1])) {
+                route.splice(first + 1..=last, replaced);
             }
         }
     }
 
-    /// Returns a part of a way on which one arm moves straight, and the other as before.
+    /// Returns a part of a route on which one arm moves straight, and the other as before.
     fn with_one_straight(&self, part: &[Both], arm: usize) -> Vec<Both> {
         let (from, to) = (part[0][arm], part[part.len() - 1][arm]);
         let other = 1 - arm;

@@ -38,7 +38,7 @@ pub(crate) enum Judgement {
     Undecided,
 }
 
-/// Judges two motions on two clocks, each of which may be ahead of the other by `skew` seconds. Each arm rests at its start
+/// Judges two motions on two clocks, if either clock may be ahead of the other by `skew` seconds. Each arm rests at its start
 /// before its motion, and at its goal after it.
 ///
 /// The pairs of times that differ by at most the skew form a strip. It is covered by rectangles: the motions of all links in
@@ -46,26 +46,8 @@ pub(crate) enum Judgement {
 pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> Judgement {
     let end = motions.map(Trajectory::duration).into_iter().fold(0.0, f64::max) + skew;
     let curves = motions.map(|motion| Curve::resting(motion, -skew, end));
-    let mut nearest: Option<NearestPlace> = None;
-    let mut look = |times: [f64; 2], placed: [&Placed; 2]| {
-        let here = between.distance(placed, f64::INFINITY).here;
-        if let Some((distance, pair)) = here
-            && nearest.is_none_or(|known| distance < known.distance)
-        {
-            nearest = Some(NearestPlace { times, distance, pair });
-        }
-        nearest
-    };
-    for k in 0..=SAMPLES {
-        let time = end * (k as f64 / SAMPLES as f64);
-        for shift in [-skew, 0.0, skew] {
-            let times = [time, time + shift];
-            let placed = [0, 1].map(|arm| between.at_rest(arm, curves[arm].at(times[arm])));
-            look(times, placed.each_ref());
-        }
-    }
+    let mut nearest = sampled(between, &curves, end, skew);
     let is_collision = |place: &NearestPlace| place.distance <= 0.0 || place.distance < between.clearance;
-    let mut nearest = nearest;
     if let Some(place) = nearest.filter(is_collision) {
         return Judgement::TooClose(place);
     }
@@ -114,4 +96,15 @@ pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> 
         }
     }
     Judgement::Apart { clearance, nearest }
+}
+
+/// Returns the nearest place among samples of two motions that end at `end`, seconds.
+fn sampled(between: &Between, curves: &[Curve; 2], end: f64, skew: f64) -> Option<NearestPlace> {
+    let times = (0..=SAMPLES).map(|k| end * (k as f64 / SAMPLES as f64));
+    let places = times.flat_map(|time| [-skew, 0.0, skew].map(|shift| [time, time + shift])).filter_map(|times| {
+        let placed = [0, 1].map(|arm| between.at_rest(arm, curves[arm].at(times[arm])));
+        let (distance, pair) = between.distance(placed.each_ref(), f64::INFINITY).here?;
+        Some(NearestPlace { times, distance, pair })
+    });
+    places.reduce(|nearest, place| if place.distance < nearest.distance { place } else { nearest })
 }

@@ -1,10 +1,10 @@
 //! Two planar arms in one cell: motions of both on one clock, certified among the obstacles and between the arms; or a proof
-//! that there are none.
+//! of infeasibility.
 //!
 //! [`Cell::load`] reads a cell file. [`plan_cell`] plans it. The steps are:
 //! - Each arm alone: the engine's plan gives the path, and the bound on its duration.
 //! - Two paths are coordinated in the plane of both arms' times (`diagram`): rectangles cover the times at which the arms
-//!   are not proven to be apart. A monotone way through the plane decides which arm passes first (`order`), and a graph of
+//!   are not proven to be apart. A monotone route through the plane decides which arm passes first (`order`), and a graph of
 //!   differences gives the earliest departures. If necessary, arms wait on their paths (`coordinate`).
 //! - If these paths block each other or lose time, one arm is planned among the other at rest, in both orders and for all IK
 //!   solutions (`plan`), and then both at once in four joints (`joint_tree`).

@@ -1,11 +1,12 @@
-//! Which arm passes first: a monotone way through the coordination diagram, and the earliest departures that follow it.
+//! Decides which arm passes first: a monotone route through the coordination diagram, and the earliest departures that follow it.
 //!
-//! Both motions consist of legs from rest to rest. A way through the diagram from the beginning of both to the end of both
+//! Both motions consist of legs from rest to rest. A route through the diagram from the beginning of both to the end of both
 //! passes each rectangle on one side, so one arm leaves it before the other enters. For these orders, the earliest
 //! departures of all legs are the longest paths in a graph of differences.
 
 use crate::diagram::Rectangle;
 use cplan_interrupt::checkpoint;
+use std::ops::Range;
 
 /// Greatest number of cells of the grid along the longer motion. It only decides about orders, not about times.
 const CELLS: usize = 160;
@@ -24,9 +25,9 @@ pub(crate) struct Diagram {
     pub rectangles: Vec<Rectangle>,
 }
 
-/// A way through the diagram: the times of both arms, each never decreasing.
+/// A route through the diagram: the times of both arms, each never decreasing.
 #[derive(Debug, Clone)]
-pub(crate) struct Way {
+pub(crate) struct Route {
     places: Vec<[f64; 2]>,
 }
 
@@ -42,13 +43,14 @@ pub(crate) enum Waits {
     },
 }
 
-/// Motion of the arms in one step of the way.
+/// Motion of the arms in one step of the route.
 const BOTH: usize = 2;
 
 impl Diagram {
-    /// Returns the fastest way through the diagram, as far as the grid shows. `None` if there is none.
-    pub fn way(&self, waits: Waits) -> Option<Way> {
-        let grid = Grid::new(self);
+    /// Returns the fastest route through the diagram, as far as the grid shows, for clocks that differ by `skew` seconds.
+    /// Returns `None` if all routes are blocked.
+    pub fn route(&self, waits: Waits, skew: f64) -> Option<Route> {
+        let grid = Grid::new(self, skew + 2.0 * SPARE);
         let [n, m] = [0, 1].map(|arm| grid.bounds[arm].len() - 1);
         let is_stop = |arm: usize, k: usize| {
             let at = grid.bounds[arm][k];
@@ -97,7 +99,7 @@ impl Diagram {
             loop {
                 places.push([grid.bounds[0][i], grid.bounds[1][j]]);
                 if (i, j) == (n, m) {
-                    return Way { places };
+                    return Route { places };
                 }
                 let step = costs[index(i, j, before)].1;
                 (i, j, before) = (i + usize::from(step != 1), j + usize::from(step != 0), step);
@@ -128,9 +130,10 @@ impl Diagram {
         false
     }
 
-    /// Returns the earliest departures of all legs of both arms that follow a way, although the clock of one arm may be ahead
-    /// of the other's by `skew` seconds. `None` if there are none.
-    pub fn departures(&self, way: &Way, skew: f64) -> Option<[Vec<f64>; 2]> {
+    /// Returns the earliest departures of all legs of both arms that follow a route, although the clock of one arm may be ahead
+    /// of the other's by `skew` seconds. Returns `None` if the orders contradict
+    /// each other.
+    pub fn departures(&self, route: &Route, skew: f64) -> Option<[Vec<f64>; 2]> {
         let counts = self.legs.each_ref().map(|legs| legs.len() - 1);
         let node = |arm: usize, leg: usize| if arm == 0 { leg } else { counts[0] + leg };
         // Each entry states that the second node is later than the first by at least some seconds.
@@ -141,7 +144,7 @@ impl Diagram {
             }
         }
         for rectangle in &self.rectangles {
-            let (first, second) = if way.passes_first(rectangle) == 0 { (0, 1) } else { (1, 0) };
+            let (first, second) = if route.passes_first(rectangle) == 0 { (0, 1) } else { (1, 0) };
             let [leaves, enters] = [rectangle.times[first][1], rectangle.times[second][0]];
             let since = |arm: usize, time: f64| time - self.legs[arm][rectangle.legs[arm]];
             let gap = since(first, leaves) - since(second, enters) + skew + SPARE;
@@ -172,14 +175,14 @@ impl Diagram {
     }
 }
 
-impl Way {
+impl Route {
     /// Returns the arm that passes a rectangle first.
     fn passes_first(&self, rectangle: &Rectangle) -> usize {
         let [x, y] = rectangle.times.map(|[from, to]| f64::midpoint(from, to));
         let next = self.places.partition_point(|[a, _]| *a < x).clamp(1, self.places.len() - 1);
         let [[a, b], [c, d]] = [self.places[next - 1], self.places[next]];
         let along = if c > a { b + (d - b) * ((x - a) / (c - a)) } else { b };
-        // Where the way is above, the second arm is farther.
+        // Where the route is above, the second arm is farther.
         usize::from(along > y)
     }
 
@@ -202,11 +205,16 @@ struct Grid {
     bounds: [Vec<f64>; 2],
     /// Length of a cell, seconds.
     step: f64,
+    /// For each cell, true if both arms must not move in it.
     is_blocked: Vec<bool>,
+    /// For each arm that waits at a boundary while the other moves through a cell: true if rectangles lie before the
+    /// boundary, and after it.
+    beside: [Vec<[bool; 2]>; 2],
 }
 
 impl Grid {
-    fn new(diagram: &Diagram) -> Self {
+    /// Creates the grid. Rectangles are longer by `wider` seconds for steps of both arms.
+    fn new(diagram: &Diagram, wider: f64) -> Self {
         let end = |arm: usize| *diagram.legs[arm].last().expect("an end");
         let step = (end(0).max(end(1)) / CELLS as f64).max(f64::MIN_POSITIVE);
         let bounds = diagram.legs.each_ref().map(|legs| {
@@ -220,35 +228,54 @@ impl Grid {
             bounds
         });
         let [n, m] = [0, 1].map(|arm| bounds[arm].len() - 1);
-        let mut is_blocked = vec![false; n * m];
+        // Before the start and after the goal, there is no route.
+        let beside = [(0, n, m), (1, m, n)].map(|(_, own, other)| {
+            let boundary = |k: usize| [k == 0, k == own];
+            (0..=own).flat_map(|k| std::iter::repeat_n(boundary(k), other)).collect::<Vec<_>>()
+        });
+        let mut grid = Self { bounds, step, is_blocked: vec![false; n * m], beside };
         for rectangle in &diagram.rectangles {
-            let cells = [0, 1].map(|arm| {
-                let [from, to] = rectangle.times[arm];
+            let [from, to] = rectangle.times[0];
+            for i in grid.cells(0, [from - wider, to + wider]) {
+                grid.cells(1, rectangle.times[1]).for_each(|j| grid.is_blocked[i * m + j] = true);
+            }
+            for arm in 0..2 {
+                let other = 1 - arm;
+                let ([from, to], others) = (rectangle.times[arm], grid.bounds[other].len() - 1);
                 let near = CELL_ROUNDING * step;
-                let first = bounds[arm].partition_point(|at| *at <= from + near).max(1) - 1;
-                let end = bounds[arm].partition_point(|at| *at < to - near).min(bounds[arm].len() - 1);
-                first..end
-            });
-            for i in cells[0].clone() {
-                cells[1].clone().for_each(|j| is_blocked[i * m + j] = true);
+                for k in 0..grid.bounds[arm].len() {
+                    let at = grid.bounds[arm][k];
+                    let sides = [from + near < at && at <= to + near, from - near <= at && at < to - near];
+                    if sides[0] || sides[1] {
+                        for cell in grid.cells(other, rectangle.times[other]) {
+                            let known = &mut grid.beside[arm][k * others + cell];
+                            *known = [known[0] || sides[0], known[1] || sides[1]];
+                        }
+                    }
+                }
             }
         }
-        Self { bounds, step, is_blocked }
+        grid
+    }
+
+    /// Returns the cells of an arm that an interval of time meets.
+    fn cells(&self, arm: usize, [from, to]: [f64; 2]) -> Range<usize> {
+        let (bounds, near) = (&self.bounds[arm], CELL_ROUNDING * self.step);
+        let first = bounds.partition_point(|at| *at <= from + near).max(1) - 1;
+        first..bounds.partition_point(|at| *at < to - near).min(bounds.len() - 1)
     }
 
     fn is_free(&self, i: usize, j: usize) -> bool {
         !self.is_blocked[i * (self.bounds[1].len() - 1) + j]
     }
 
-    /// Returns true if an arm may move alone from a node to the next one: if a cell beside the step is free.
-    fn is_open(&self, [i, j]: [usize; 2], arm: usize) -> bool {
-        let [n, m] = [0, 1].map(|arm| self.bounds[arm].len() - 1);
-        let beside = |k: usize, count: usize| [k.checked_sub(1), Some(k).filter(|k| *k < count)];
-        if arm == 0 {
-            beside(j, m).into_iter().flatten().any(|j| self.is_free(i, j)) || m == 0
-        } else {
-            beside(i, n).into_iter().flatten().any(|i| self.is_free(i, j)) || n == 0
-        }
+    /// Returns true if an arm may move alone from a node to the next one, while the other one waits: if no rectangle lies
+    /// before the place of the other arm, or none after it.
+    fn is_open(&self, node: [usize; 2], arm: usize) -> bool {
+        let other = 1 - arm;
+        let cells = self.bounds[arm].len() - 1;
+        let [before, after] = self.beside[other][node[other] * cells + node[arm]];
+        !(before && after) || self.bounds[other].len() == 1
     }
 }
 
@@ -271,13 +298,12 @@ mod tests {
         Diagram { legs: ends.map(|end| vec![0.0, end]), rectangles }
     }
 
-    /// Returns true if the motions with these departures avoid all rectangles, in steps of a twentieth of a second.
+    /// Returns true if no rectangle has both arms in it at once with these departures.
     fn is_safe(diagram: &Diagram, departs: [f64; 2]) -> bool {
-        let at = |time: f64| [0, 1].map(|arm| (time - departs[arm]).clamp(0.0, diagram.legs[arm][1]));
-        let is_inside = |at: [f64; 2], rectangle: &Rectangle| {
-            (0..2).all(|arm| rectangle.times[arm][0] < at[arm] && at[arm] < rectangle.times[arm][1])
-        };
-        (0..=1200).all(|k| !diagram.rectangles.iter().any(|rectangle| is_inside(at(f64::from(k) / 20.0), rectangle)))
+        diagram.rectangles.iter().all(|rectangle| {
+            let [one, two] = [0, 1].map(|arm| rectangle.times[arm].map(|time| departs[arm] + time));
+            one[0].max(two[0]) >= one[1].min(two[1])
+        })
     }
 
     #[test]
@@ -287,12 +313,13 @@ mod tests {
             let diagram = random(seed);
             let ends = diagram.legs.each_ref().map(|legs| legs[1]);
             let last = |departs: [f64; 2]| (departs[0] + ends[0]).max(departs[1] + ends[1]);
-            // Only the difference of the departures matters. A way through a single point of the diagram is none.
+            // Only the difference of the departures matters. A route through a single point of the diagram does not count.
             let delays = [0.0].into_iter().chain((0..=20).map(|delay| f64::from(delay) + 0.02));
             let candidates = delays.flat_map(|delay| [[delay, 0.0], [0.0, delay]]);
             let best = candidates.filter(|departs| is_safe(&diagram, *departs)).map(last).fold(f64::INFINITY, f64::min);
-            let way = diagram.way(Waits::BetweenLegs);
-            let found = way.and_then(|way| diagram.departures(&way, 0.0)).map(|departs| [departs[0][0], departs[1][0]]);
+            let route = diagram.route(Waits::BetweenLegs, 0.0);
+            let found =
+                route.and_then(|route| diagram.departures(&route, 0.0)).map(|departs| [departs[0][0], departs[1][0]]);
             let Some(departs) = found else {
                 assert!(best.is_infinite(), "seed {seed}: {best}, {diagram:?}");
                 continue;
@@ -308,9 +335,9 @@ mod tests {
     fn skew_delays_the_second_arm() {
         let rectangles = vec![Rectangle { times: [[4.0, 6.0], [4.0, 6.0]], legs: [0, 0], is_collision: true }];
         let diagram = Diagram { legs: [vec![0.0, 10.0], vec![0.0, 10.0]], rectangles };
-        let way = diagram.way(Waits::BetweenLegs).unwrap();
+        let route = diagram.route(Waits::BetweenLegs, 0.0).unwrap();
         let later = |skew: f64| {
-            let [one, two] = diagram.departures(&way, skew).unwrap();
+            let [one, two] = diagram.departures(&route, skew).unwrap();
             one[0].max(two[0])
         };
         assert!((later(0.0) - 2.0).abs() < 0.01 && (later(0.5) - 2.5).abs() < 0.01);
@@ -325,7 +352,7 @@ mod tests {
             wall([[4.0, 7.0], [4.0, 6.0]]),
             wall([[6.0, 8.0], [0.0, 4.5]]),
         ]);
-        assert!(closed.is_deadlock() && closed.way(Waits::Anywhere { cost: [0.1; 2] }).is_none());
+        assert!(closed.is_deadlock() && closed.route(Waits::Anywhere { cost: [0.1; 2] }, 0.0).is_none());
         let open = diagram(vec![
             wall([[0.0, 4.0], [5.0, 6.0]]),
             wall([[4.5, 7.0], [4.0, 6.0]]),
@@ -343,17 +370,17 @@ mod tests {
         let second = Rectangle { times: [[6.0, 10.0], [6.0, 7.0]], legs: [1, 0], is_collision: true };
         let legs = [vec![0.0, 5.0, 10.0], vec![0.0, 10.0]];
         let diagram = Diagram { legs, rectangles: vec![first, second] };
-        let way = diagram.way(Waits::BetweenLegs).unwrap();
-        let [one, two] = diagram.departures(&way, 0.0).unwrap();
+        let route = diagram.route(Waits::BetweenLegs, 0.0).unwrap();
+        let [one, two] = diagram.departures(&route, 0.0).unwrap();
         // The first arm waits at its stop until the second has passed.
         assert!(two[0] < 0.01 && one[0] == 0.0 && (one[1] - 6.0).abs() < 0.01, "{one:?} {two:?}");
         let without = Diagram {
             legs: [vec![0.0, 10.0], vec![0.0, 10.0]],
             rectangles: vec![first, Rectangle { legs: [0, 0], ..second }],
         };
-        let way = without.way(Waits::BetweenLegs).and_then(|way| without.departures(&way, 0.0));
-        assert!(way.is_none(), "{way:?}");
-        let stops = without.way(Waits::Anywhere { cost: [0.5; 2] }).unwrap().waits();
+        let route = without.route(Waits::BetweenLegs, 0.0).and_then(|route| without.departures(&route, 0.0));
+        assert!(route.is_none(), "{route:?}");
+        let stops = without.route(Waits::Anywhere { cost: [0.5; 2] }, 0.0).unwrap().waits();
         assert!(!stops[0].is_empty() && stops[1].is_empty(), "{stops:?}");
     }
 }

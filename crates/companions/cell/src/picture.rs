@@ -38,12 +38,19 @@ const MARGIN: f64 = 0.04;
 
 /// Draws the answer about a cell. `skew` is the difference of the clocks for which the motions are certified, seconds.
 pub fn figure(cell: &Cell, plan: &CellPlan, skew: f64) -> Figure {
-    let found = plan.outcome.found();
-    let mut items = vec![
+    let title = [
         bold([WORKSPACE.x, 40.0], &cell.name, 20.0, Anchor::Start, INK),
         label([WORKSPACE.x, 64.0], result(plan), 15.0, Anchor::Start, GRAY),
     ];
-    items.extend(workspace(cell, found));
+    let mut figure = untitled(cell, plan, skew);
+    figure.items.extend(title);
+    figure
+}
+
+/// Draws the same without a title.
+fn untitled(cell: &Cell, plan: &CellPlan, skew: f64) -> Figure {
+    let found = plan.outcome.found();
+    let mut items = workspace(cell, found);
     if let Some(found) = found {
         items.extend(diagram(cell, found, skew));
         items.extend(rows(cell, found));
@@ -54,7 +61,7 @@ pub fn figure(cell: &Cell, plan: &CellPlan, skew: f64) -> Figure {
 /// Returns a page that shows the answer about a cell. The reader chooses the time at which both arms are drawn.
 pub fn page(cell: &Cell, plan: &CellPlan, skew: f64) -> String {
     let mut colors: Vec<Rgb> = Vec::new();
-    let svg = cplan_theme::recolored(&figure(cell, plan, skew).svg(), |color| {
+    let svg = cplan_theme::recolored(&untitled(cell, plan, skew).svg(), |color| {
         let name = cplan_theme::variable(color).unwrap_or_else(|| {
             if !colors.contains(&color) {
                 colors.push(color);
@@ -173,7 +180,7 @@ fn workspace_frame(cell: &Cell, found: Option<&Coordination>) -> Frame {
     Frame::filling(WORKSPACE, x, y)
 }
 
-/// Draws the cell with both arms: at their starts pale, at their goals opaque, and the ways of their tips.
+/// Draws the cell with both arms: at their starts pale, at their goals opaque, and the paths of their tips.
 fn workspace(cell: &Cell, found: Option<&Coordination>) -> Vec<Item> {
     let scenes = cell.arms.each_ref().map(|arm| arm.problem.scene());
     let frame = workspace_frame(cell, found);
@@ -191,14 +198,14 @@ fn workspace(cell: &Cell, found: Option<&Coordination>) -> Vec<Item> {
         let goal = found.map(|found| found.place(arm, found.duration));
         items.extend(goal.map(|goal| union(&arm_shapes(scenes[arm], goal), strong)));
     }
-    let ways = found.into_iter().flat_map(|found| [(0, found), (1, found)]).map(|(arm, found)| {
+    let paths = found.into_iter().flat_map(|found| [(0, found), (1, found)]).map(|(arm, found)| {
         let tips = tips(scenes[arm], found, arm);
         (
             chain(tips.iter().map(|tip| frame.at(tip.x, tip.y)), false),
             Pen { color: ARM_COLORS[arm], width: 2.0, dash: &[] },
         )
     });
-    items.extend(lines(ways));
+    items.extend(lines(paths));
     let mut items = vec![Item::Clip(frame.rect, items)];
     items.extend(frame.border([Unit::Meters; 2], ["x (m)", "y (m)"].map(str::to_owned), [false; 2]));
     for (arm, color) in ARM_COLORS.into_iter().enumerate() {
@@ -239,7 +246,7 @@ fn diagram(cell: &Cell, found: &Coordination, skew: f64) -> Vec<Item> {
         "the arms may be too near to each other".into(),
         vec![Item::Outline(filled, Style::fill(UNDECIDED))],
     ));
-    let way = |shift: f64| {
+    let route = |shift: f64| {
         let places = (0..=2 * TIP_PLACES).map(|k| {
             let time = found.duration * k as f64 / (2 * TIP_PLACES) as f64;
             frame.at(moved(found, 0, (time + shift).max(0.0)), moved(found, 1, time))
@@ -248,9 +255,9 @@ fn diagram(cell: &Cell, found: &Coordination, skew: f64) -> Vec<Item> {
     };
     let beside = Pen { color: INK, width: 0.8, dash: &[4.0, 3.0] };
     items.extend(lines([
-        (way(-skew), beside),
-        (way(skew), beside),
-        (way(0.0), Pen { color: INK, width: 2.2, dash: &[] }),
+        (route(-skew), beside),
+        (route(skew), beside),
+        (route(0.0), Pen { color: INK, width: 2.2, dash: &[] }),
     ]));
     for interlock in found.interlocks.iter().flatten() {
         let mut times = [interlock.at; 2];
@@ -259,7 +266,7 @@ fn diagram(cell: &Cell, found: &Coordination, skew: f64) -> Vec<Item> {
         items.push(Item::Disc(spot, 5.0, Style::fill(ARM_COLORS[interlock.waits])));
     }
     let mut items = vec![Item::Clip(frame.rect, items)];
-    let title = |arm: usize| format!("{}: time on its way (s)", cell.arms[arm].name);
+    let title = |arm: usize| format!("{}: time on its path (s)", cell.arms[arm].name);
     items.extend(frame.border([Unit::Seconds; 2], [title(0), title(1)], [false; 2]));
     items
 }

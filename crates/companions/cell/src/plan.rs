@@ -1,4 +1,4 @@
-//! The search: which paths are coordinated, in which order, and what is proven if none are.
+//! The search for a coordination: pairs of paths in a fixed order, then proofs of infeasibility.
 
 use crate::between::Between;
 use crate::coordinate::{Conflict, Coordination, Coordinator};
@@ -23,7 +23,7 @@ const MAX_PAIRS: usize = 12;
 const MAX_GOAL_PAIRS: usize = 4;
 
 /// Number of searches with all four joints, each with other samples.
-const JOINT_SEARCHES: u64 = 8;
+const JOINT_SEARCHES: u64 = 12;
 
 /// Settings of a coordination.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -64,13 +64,13 @@ pub enum Refutation {
 /// The answer about a cell.
 #[derive(Debug, Clone)]
 pub struct CellPlan {
-    /// The motions; a proof that there are none; or the reason why neither is known.
+    /// The motions, a proof that no motions exist, or the reason for an unknown answer.
     pub outcome: Outcome<Coordination, Refutation>,
     /// The plan of each arm without the other.
     pub alone: [Option<Plan>; 2],
     /// Proven lower bound on the time until both arms are at their goals, seconds. `None` if it is not known.
     pub lower_bound: Option<f64>,
-    /// What was tried, in words, in order.
+    /// Attempts with their results, in words, in order.
     pub tried: Vec<String>,
 }
 
@@ -150,7 +150,7 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
                 Ok(boxes) => Outcome::Infeasible(Refutation::Boxes(boxes)),
                 Err(why) => {
                     tried.push(why);
-                    Outcome::Unknown("no coordination was found, and none is ruled out".into())
+                    Outcome::Unknown("neither a coordination nor a proof was found".into())
                 }
             }
         }

@@ -2,8 +2,8 @@
 //! goals.
 //!
 //! The joint ranges form a box with four sides. A grid divides it. Boxes in which a collision is proven are removed, and so
-//! are those that the others do not connect with the starts. If a goal is in a box that is left, one axis of the grid is
-//! halved. If none is, there is no motion. Boxes that have a face in common are connected. A point where boxes meet only at
+//! are those that the others do not connect with the starts. If a remaining box contains a goal, one axis of the grid is
+//! halved. Otherwise no motion exists. Boxes that have a face in common are connected. A point where boxes meet only at
 //! an edge or a corner is in all boxes around it, so if one of these is a collision, the point is one as well.
 
 use crate::between::{Between, Placed};

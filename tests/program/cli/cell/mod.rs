@@ -129,6 +129,27 @@ fn two_arms_on_one_column_are_one_robot() {
     check_found(&answer, &[lower, upper], SKEW);
 }
 
+/// Checks that an arm stands still during its waits. Returns the number of waits on its path.
+fn check_waits(arm: &Value, motion: &Motion) -> usize {
+    let waits = arm["waits"].as_array().unwrap();
+    for wait in waits {
+        for share in [0.0, 0.5, 1.0] {
+            let time = number(&wait["from"]) * (1.0 - share) + number(&wait["to"]) * share;
+            let q = motion.at(time);
+            assert!((0..2).all(|k| (q[k] - number(&wait["at"][k])).abs() < 1e-9), "{q:?} {wait}");
+        }
+    }
+    waits.iter().filter(|wait| number(&wait["from"]) > 0.0).count()
+}
+
+#[test]
+fn arms_that_use_one_place_move_at_the_same_time() {
+    let answer = answer(&shipped_cell("relay", &[]));
+    check_found(&answer, &crossing_arms(), SKEW);
+    let alone = |k: usize| number(&answer["arms"][k]["alone"]["duration"]);
+    assert!(number(&answer["duration"]) < alone(0) + alone(1), "{answer}");
+}
+
 #[test]
 fn arms_that_block_each_other_make_room() {
     let answer = answer(&shipped_cell("swap", &[]));

@@ -213,7 +213,7 @@ impl Flood<'_> {
     pub fn connects(&self, starts: [[f64; 2]; 2], goals: [[f64; 2]; 2]) -> bool {
         let size = [0, 1, 2, 3].map(|k| (self.ranges[k][1] - self.ranges[k][0]) / self.cells as f64);
         let center = |index: [usize; 4]| [0, 1, 2, 3].map(|k| self.ranges[k][0] + (index[k] as f64 + 0.5) * size[k]);
-        // Within a cell, and on the way to a neighbour's centre, no point moves farther than this.
+        // Within a cell, and from its centre to a neighbour's, no point moves farther than this.
         let reach = |arm: &Arm| arm.inner_length + arm.outer_length + 0.1;
         let far = [0, 1].map(|arm| (size[2 * arm] + size[2 * arm + 1]) / 2.0 * reach(&self.arms[arm]));
         let is_free = |index: [usize; 4]| {

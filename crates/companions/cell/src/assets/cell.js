@@ -22,7 +22,7 @@
             return parent.appendChild(made);
         };
         const links = arms.map(({ color, links }) => links.map((paths) => {
-            const group = element("g", { fill: `var(--${color})`, stroke: `var(--${color})`, "fill-opacity": 0.85, "stroke-linejoin": "round" }, svg);
+            const group = element("g", { fill: `var(--${color})`, stroke: `var(--${color})`, opacity: 0.85, "stroke-linejoin": "round", "stroke-linecap": "round" }, svg);
             for (const { d, width } of paths) element("path", { d, "stroke-width": width }, group);
             return group;
         }));
