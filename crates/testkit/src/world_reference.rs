@@ -76,7 +76,14 @@ fn kind(value: &Value, number: Number) -> String {
         return listed(&words, "or");
     }
     match &value["type"] {
-        Value::Array(_) => noun("an angle or a length", "angles or lengths"),
+        Value::Array(_) => {
+            let unit = |unit: &str| value["pattern"].as_str().is_some_and(|pattern| pattern.contains(unit));
+            match (unit("deg"), unit("rad")) {
+                (true, true) => noun("an error of a length, of an angle, or of both", "errors"),
+                (true, false) => noun("an angle or a length", "angles or lengths"),
+                (false, _) => noun("a length", "lengths"),
+            }
+        }
         Value::String(name) => match name.as_str() {
             "number" => noun("a number", "numbers") + &range(value),
             "integer" => noun("a whole number", "whole numbers") + &range(value),
