@@ -88,6 +88,7 @@ own_body = true
 ignore_contact = [["base", "tool"]]
 effort = { a = 50 }
 drives = { elbow = "base", ratio = 0.5, gear = [5, -5], zero = [0, "90deg"], motors = { lower = [-9, -9], upper = [9, "500deg"], velocity = [9, 9], acceleration = [90, 90], jerk = [900, 900], effort = [5, 5] } }
+calibration = { base = "0.5 mm, 0.05deg", links = 2e-4, zeros = "0.02deg", obstacles = "1 mm" }
 dynamics = true
 gravity = [0, 0, -9.81]
 bar = 0.02
