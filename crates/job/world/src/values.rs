@@ -66,7 +66,7 @@ impl LoadedScene {
         let Self { scene, world, arm, robot, .. } = self;
         let mut changed = Self::unchecked(world, arm, robot);
         let limited = changed.scene.arm_mut();
-        (limited.joints, limited.dynamics) = (scene.arm().joints.clone(), scene.arm().dynamics.clone());
+        (limited.joints, limited.dynamics) = (scene.arm().joints.clone(), scene.arm().dynamics);
         Ok(changed)
     }
 
