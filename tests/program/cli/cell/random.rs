@@ -101,7 +101,7 @@ impl Cell {
 #[test]
 fn random_cells_agree_with_the_oracle() {
     let mut counts = [0; 3];
-    for seed in cplan_cases::seeds(30) {
+    for seed in cplan_cases::seeds(100) {
         let cell = Cell::new(&mut Dice::new(seed));
         let place = Place::new()
             .with("left.urdf", cell.urdf(0))
@@ -133,7 +133,7 @@ fn random_cells_agree_with_the_oracle() {
         }
     }
     if cplan_cases::uses_default_cases() {
-        assert!(counts[0] >= 18 && counts[1] >= 2 && counts[2] <= 8, "found, infeasible, unknown: {counts:?}");
+        assert!(counts[0] >= 60 && counts[1] >= 6 && counts[2] <= 25, "found, infeasible, unknown: {counts:?}");
     }
 }
 
