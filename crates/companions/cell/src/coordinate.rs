@@ -13,6 +13,10 @@ use cplan_motion::{CertifiedCurve, Drive, TimedMotion, TimingError, Trajectory, 
 /// Motion of the links in a rectangle of the diagram that is not examined further, as a share of the reach of the arms.
 const RESOLUTION: f64 = 1.0 / 250.0;
 
+/// Distance between the arms beyond their clearance, as a share of the resolution. Without it, an arm may wait so near to the
+/// other one that no proof succeeds.
+const MARGIN_SHARE: f64 = 0.5;
+
 /// Share of the proven clearance by which links may move in a rectangle of the final diagram.
 const CLEARANCE_SHARE: f64 = 0.3;
 
@@ -135,6 +139,20 @@ impl Coordinator<'_> {
         paths: [&CertifiedPath; 2],
         before: f64,
     ) -> Result<Result<Coordination, Conflict>, TimingError> {
+        let found = self.along_with(paths, before, MARGIN_SHARE * self.resolution())?;
+        match found {
+            Err(Conflict::NoTiming | Conflict::NotCertified) => self.along_with(paths, before, 0.0),
+            _ => Ok(found),
+        }
+    }
+
+    /// Does the same with a distance of `margin` metres beyond the clearance.
+    fn along_with(
+        &self,
+        paths: [&CertifiedPath; 2],
+        before: f64,
+        margin: f64,
+    ) -> Result<Result<Coordination, Conflict>, TimingError> {
         let whole = [
             Legs(vec![self.drive.along(self.between.scenes[0], paths[0], 1.0)?]),
             Legs(vec![self.drive.along(self.between.scenes[1], paths[1], 1.0)?]),
@@ -143,7 +161,7 @@ impl Coordinator<'_> {
         if longest >= before {
             return Ok(Err(Conflict::Slower));
         }
-        let diagram = self.diagram(&whole);
+        let diagram = self.diagram(&whole, margin);
         let direct =
             diagram.route(Waits::BetweenLegs, self.skew).and_then(|route| diagram.departures(&route, self.skew));
         let duration = |legs: &[Legs; 2], departures: &[Vec<f64>; 2]| {
@@ -159,7 +177,7 @@ impl Coordinator<'_> {
                 return Ok(Err(Conflict::Deadlock));
             }
             if let Some(legs) = self.with_stops(paths, &diagram)? {
-                let diagram = self.diagram(&legs);
+                let diagram = self.diagram(&legs, margin);
                 let departures = diagram
                     .route(Waits::BetweenLegs, self.skew)
                     .and_then(|route| diagram.departures(&route, self.skew));
@@ -179,9 +197,9 @@ impl Coordinator<'_> {
     }
 
     /// Returns the diagram of these legs.
-    fn diagram(&self, legs: &[Legs; 2]) -> Diagram {
+    fn diagram(&self, legs: &[Legs; 2], margin: f64) -> Diagram {
         let curves = legs.each_ref().map(Legs::curve);
-        let rectangles = rectangles(self.between, curves.each_ref(), 0.0, self.resolution());
+        let rectangles = rectangles(self.between, curves.each_ref(), margin, self.resolution());
         Diagram { legs: legs.each_ref().map(Legs::times), rectangles }
     }
 
@@ -267,4 +285,68 @@ fn distance_near(path: &Path, q: Configuration) -> f64 {
         gone += length;
     }
     best.1
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cplan_geometry::{Convex, Point, Vector};
+    use cplan_judge::certify;
+    use cplan_model::{Arm, Joint, Link, Scene, Workspace};
+
+    const RADIUS: f64 = 0.1;
+
+    /// Returns a disc that slides in the plane.
+    fn sliding_disc() -> Scene {
+        let joints = [Joint::sliding("x", Vector::x(), -3.0, 3.0), Joint::sliding("y", Vector::y(), -3.0, 3.0)];
+        let disc = Convex::disc(Point::zeros(), RADIUS).unwrap();
+        let arm = Arm::new(joints, [Link::of("x", []), Link::of("y", [disc])], [0.0, 0.0]);
+        Scene::new(arm, Workspace::new([])).unwrap()
+    }
+
+    fn path(scene: &Scene, corners: &[[f64; 2]]) -> CertifiedPath {
+        certify(scene, Path::new(corners.iter().map(|corner| (*corner).into()).collect())).unwrap()
+    }
+
+    fn along(paths: [&[[f64; 2]]; 2], skew: f64) -> Result<Coordination, Conflict> {
+        let scene = sliding_disc();
+        let between = Between::new([&scene, &scene], false, 0.0);
+        let coordinator = Coordinator { between: &between, drive: Drive::default(), skew };
+        let paths = paths.map(|corners| path(&scene, corners));
+        coordinator.along(paths.each_ref(), f64::INFINITY).unwrap()
+    }
+
+    /// Returns the least distance of the discs on clocks that differ by up to `skew`.
+    fn least_distance(found: &Coordination, skew: f64) -> f64 {
+        let times = (0..=4000).map(|k| found.duration * f64::from(k) / 4000.0);
+        let pairs = times.flat_map(|time| [-skew, 0.0, skew].map(|shift| [time, time + shift]));
+        let distance = |times: [f64; 2]| (found.place(0, times[0]) - found.place(1, times[1])).norm() - 2.0 * RADIUS;
+        pairs.map(distance).fold(f64::INFINITY, f64::min)
+    }
+
+    #[test]
+    fn an_arm_makes_room_and_waits_on_its_path() {
+        // The second disc passes the start and the goal of the first.
+        let first: &[[f64; 2]] = &[[0.0, 0.0], [0.5, 1.0], [1.0, 0.0]];
+        let second: &[[f64; 2]] = &[[-1.0, 0.0], [2.0, 0.0]];
+        for skew in [0.0, 0.05] {
+            let found = along([first, second], skew).unwrap();
+            let wait = found.waits[0].iter().find(|wait| wait.from > 0.0).expect("a wait on the path");
+            assert!(wait.at[1] > 0.2, "{wait:?}");
+            let least = least_distance(&found, skew);
+            assert!(0.0 < found.clearance && found.clearance <= least + 1e-9, "{} {least}", found.clearance);
+            assert!(found.clearance > 0.5 * least, "{} {least}", found.clearance);
+        }
+    }
+
+    #[test]
+    fn discs_that_change_places_on_one_line_are_a_deadlock() {
+        let [one, two]: [&[[f64; 2]]; 2] = [&[[0.0, 0.0], [1.0, 0.0]], &[[1.0, 0.0], [0.0, 0.0]]];
+        assert_eq!(along([one, two], 0.0).unwrap_err(), Conflict::Deadlock);
+        // Beside each other, they pass at once.
+        let two: &[[f64; 2]] = &[[1.0, 0.3], [0.0, 0.3]];
+        let found = along([one, two], 0.5).unwrap();
+        assert!(found.waits.iter().all(Vec::is_empty), "{:?}", found.waits);
+        assert_eq!(found.interlocks, Some(vec![]));
+    }
 }

@@ -66,12 +66,6 @@ impl Curve {
         span.ends().map(|place| self.time(place))
     }
 
-    /// Returns the time in the middle of a span, at the configuration of [`Curve::deviation`].
-    pub fn middle(&self, span: Span) -> Option<f64> {
-        // The middle of a box about several pieces is no configuration of the motion.
-        matches!(span, Span::Part(..)).then(|| self.time(span.middle()))
-    }
-
     fn time(&self, (piece, share): Place) -> f64 {
         self.pieces[piece].time(share)
     }

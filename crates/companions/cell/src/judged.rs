@@ -67,21 +67,22 @@ pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> 
         let placed = sides.each_ref().map(|(_, placed)| &**placed);
         let target = nearest.map_or(0.0, |place| TIGHTNESS * place.distance).max(between.clearance);
         let distance = between.distance(placed, target);
-        let middles = [0, 1].map(|arm| curves[arm].middle(sides[arm].0));
-        if let ([Some(one), Some(two)], Some((here, pair))) = (middles, distance.here)
-            && (one - two).abs() <= skew
+        if distance.least > 0.0 && distance.least >= target {
+            clearance = clearance.min(distance.least);
+            continue;
+        }
+        // A place of the strip within the rectangle shows whether the bound is too low or the arms are near.
+        let first = f64::midpoint(a[0].max(b[0] - skew), a[1].min(b[1] + skew));
+        let times = [first, first.clamp(b[0], b[1])];
+        let seen = [0, 1].map(|arm| between.at_rest(arm, curves[arm].at(times[arm])));
+        if let Some((here, pair)) = between.distance(seen.each_ref(), f64::INFINITY).here
             && nearest.is_none_or(|known| here < known.distance)
         {
-            let place = NearestPlace { times: [one, two], distance: here, pair };
+            let place = NearestPlace { times, distance: here, pair };
             if is_collision(&place) {
                 return Judgement::TooClose(place);
             }
             nearest = Some(place);
-        }
-        let target = nearest.map_or(0.0, |place| TIGHTNESS * place.distance).max(between.clearance);
-        if distance.least > 0.0 && distance.least >= target {
-            clearance = clearance.min(distance.least);
-            continue;
         }
         let moves = placed.map(Placed::farthest_motion);
         let order = if moves[0] >= moves[1] { [0, 1] } else { [1, 0] };

@@ -129,17 +129,16 @@ fn two_arms_on_one_column_are_one_robot() {
     check_found(&answer, &[lower, upper], SKEW);
 }
 
-/// Checks that an arm stands still during its waits. Returns the number of waits on its path.
-fn check_waits(arm: &Value, motion: &Motion) -> usize {
-    let waits = arm["waits"].as_array().unwrap();
-    for wait in waits {
+/// Checks that an arm stands still during its waits.
+#[track_caller]
+fn check_waits(arm: &Value, motion: &Motion) {
+    for wait in arm["waits"].as_array().unwrap() {
         for share in [0.0, 0.5, 1.0] {
             let time = number(&wait["from"]) * (1.0 - share) + number(&wait["to"]) * share;
             let q = motion.at(time);
             assert!((0..2).all(|k| (q[k] - number(&wait["at"][k])).abs() < 1e-9), "{q:?} {wait}");
         }
     }
-    waits.iter().filter(|wait| number(&wait["from"]) > 0.0).count()
 }
 
 #[test]
