@@ -83,7 +83,7 @@ impl Arm {
 
     /// Creates a SCARA by the numbers of its data sheet, as `cplan init --kind scara` does: lengths of both links and travel
     /// of the quill in metres, `limits` ((lower, upper) of "axis_1" and "axis_2", radians) and their top speeds `velocity`
-    /// (rad/s). Numbers that are left out are those of `cplan init`. Its quill is "axis_3", its wrist "axis_4" and its tip
+    /// (rad/s). Missing numbers are those of `cplan init`. Its quill is "axis_3", its wrist "axis_4" and its tip
     /// the link "flange", for `stroke`, `wrist` and `tip` of the world's robot.
     #[staticmethod]
     #[pyo3(signature = (links = None, stroke = None, *, limits = None, velocity = None))]

@@ -135,7 +135,7 @@ fn check_certificate(args: &RecheckArgs, what: &str, certificate: &str) -> Resul
     })
 }
 
-/// Reads the lower bound that a result file states. Returns `None` if there is none.
+/// Reads the lower bound that a result file states; `None` without a bound.
 fn read_stated_bound(args: &RecheckArgs, scene: &LoadedScene) -> Result<Option<Bound>, Failure> {
     let claims = input::load_recording(&args.proof, scene)?.claims.unwrap_or_default();
     Ok(claims.optimum.and_then(|optimum| {

@@ -137,8 +137,7 @@ fn a_displacement_of_the_base_is_a_clearance() {
     assert!(found > 50 && infeasible > 0, "{found} found, {infeasible} infeasible");
 }
 
-/// What is proven impossible with displaced obstacles and a turned, wrong robot is impossible with the displacements alone,
-/// since only these are exact.
+/// A problem that is infeasible within errors is infeasible with the displacements alone, since only these are exact.
 #[test]
 fn proofs_use_displacements_alone() {
     let mut proven = 0;

@@ -59,7 +59,7 @@ fn spiky(choice: u64, count: usize) -> Obstacle {
         let (sin, cos) = (k as f64 / count as f64 * TAU).sin_cos();
         CENTER + Vector::new(cos, sin) * (0.1 + 0.1 * dice(choice, k))
     };
-    let polygon = SimplePolygon::new((0..count).map(corner).collect()).expect("corners go round the centre");
+    let polygon = SimplePolygon::new((0..count).map(corner).collect()).expect("corners surround the centre");
     let pieces = polygon.convex_pieces();
     Obstacle {
         name: "spikes".into(),

@@ -33,8 +33,8 @@ fn errors_in_the_world_and_in_the_option_have_the_same_answer() {
     assert_eq!((number(&calibration["links"]), number(&calibration["obstacles"])), (2e-4, 1e-3));
     assert_eq!(calibration["drawn"], "found");
     assert!(calibration["proves"].as_str().unwrap().contains("free for every robot"), "{calibration}");
-    assert!(number(&option["length"]) > number(&drawn["length"]), "the way is no longer");
-    // Every margin of the drawn robot is at least what the errors need.
+    assert!(number(&option["length"]) > number(&drawn["length"]), "the path is not longer");
+    // Margins of the drawn robot cover the errors.
     for margin in option["margins"].as_array().unwrap() {
         assert!(
             margin["kind"] != "obstacle" || margin["clearance"].as_f64().is_none_or(|kept| kept >= 0.9 * 1.5e-3),
@@ -77,7 +77,7 @@ fn the_checker_knows_errors_and_clearances_of_obstacles() {
     assert!(judged(&near.replace("clearance = 0.03", "clearance = 0.06"), &kept).is_err());
 }
 
-/// Where only the errors are in the way, the answer says so; and the proof holds for the checker.
+/// An answer states that only the errors exclude motions, and the checker accepts its proof.
 #[test]
 fn no_motion_for_all_robots_is_apart_from_none_for_the_drawn_one() {
     let place = Place::new();

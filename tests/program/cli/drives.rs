@@ -169,7 +169,7 @@ fn torques_of_motors_are_limited() {
         [0, 1].map(|k| torques.iter().map(|row| of(*row)[k].abs()).fold(0.0, f64::max))
     };
     let [first, second] = shafts(&place.json("free.json"));
-    // Weaker than what the motion without motors needs, but strong enough to hold the arm.
+    // Weaker than the motion without motors requires, but strong enough to hold the arm.
     let efforts = [0.97 * first, 0.97 * second];
     let limited = format!("ratio = 1.0, gear = [2.0, -3.0], motors = {{ effort = [{}, {}] }}", efforts[0], efforts[1]);
     place.write("limited.toml", with(&limited));

@@ -1,4 +1,4 @@
-//! The side of the elbow at goals, steps and lines: on which side motions end, and what the checker says about it.
+//! The side of the elbow at goals, steps and lines, through the program and the checker.
 
 use super::certificates::without_digests;
 use super::*;

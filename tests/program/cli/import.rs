@@ -398,7 +398,7 @@ fn projected_coordinates_are_moved_as_the_hint_says() {
     assert!(cure.contains("--unit") && !cure.contains("--move"), "{cure}");
 }
 
-/// Parts are left out by their size in the world, after scaling and turning; walls, circles and blocks alike.
+/// Options leave parts out by their size in the world, after scaling and turning; walls, circles and blocks alike.
 #[test]
 fn parts_are_left_out_by_size() {
     // A tray of 100 mm, a pocket of 30 by 20 mm, a screw of 6 mm, and a wall of 50 mm.

@@ -100,7 +100,7 @@ impl Scene {
         changed.with_loose(|obstacle| place(obstacle, f64::INFINITY))
     }
 
-    /// Returns the scene as it is drawn: without growth for errors and for obstacles' own clearances. Pairs keep their
+    /// Returns the scene without growth for errors and for obstacles' own clearances. Pairs keep their
     /// numbers.
     pub fn drawn(&self) -> Cow<'_, Self> {
         let is_padded = |link: usize| self.own_parts(link).iter().any(|part| part.padding > 0.0);

@@ -144,7 +144,7 @@ fn walls(points: &[Point]) -> Result<Vec<Convex>, ConvexError> {
     }
 }
 
-/// How much larger an obstacle's pieces are than its shape. All lengths in metres.
+/// The growth of an obstacle's pieces beyond its shape. All lengths in metres.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Growth {
@@ -159,7 +159,7 @@ pub struct Growth {
 }
 
 impl Growth {
-    /// Returns true if the pieces are as large as the shape, whatever the clearance.
+    /// Returns true if the pieces are as large as the shape for every clearance.
     pub fn is_none(&self) -> bool {
         *self == Self::default()
     }
@@ -178,7 +178,7 @@ pub struct Obstacle {
     pub pieces: Vec<Convex>,
     /// Extent along the plane's normal, metres.
     pub heights: Heights,
-    /// How much larger the pieces are than the shape, and why.
+    /// The growth of the pieces beyond the shape.
     #[serde(default, skip_serializing_if = "Growth::is_none")]
     pub growth: Growth,
 }

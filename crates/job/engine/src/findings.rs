@@ -85,7 +85,7 @@ pub struct PairFinding {
     pub depth: f64,
     /// The distance that the two must keep, metres: a clearance, and what stated errors need.
     pub required: f64,
-    /// The same in words.
+    /// Description of that distance.
     #[serde(skip)]
     pub least: String,
     /// Corners of the link that lie in the obstacle. Empty for rounded shapes.

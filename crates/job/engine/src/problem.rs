@@ -25,7 +25,7 @@ pub struct Problem {
     trajectories: Arc<[ObstacleTrajectory]>,
     robot: Arc<RobotReport>,
     notes: Arc<[String]>,
-    /// The errors for which the motion must be free. `None` if there are none, or the problem was restored.
+    /// The errors for which the motion must be free. `None` without errors, and for a restored problem.
     errors: Option<AllowedErrors>,
     /// Time that reading the files took. `None` if the problem was created in code.
     read_in: Option<Duration>,
@@ -140,7 +140,7 @@ impl Problem {
         &self.notes
     }
 
-    /// Returns the errors of the robot and the world for which the motion must be free. `None` if there are none.
+    /// Returns the errors of the robot and the world for which the motion must be free; `None` without errors.
     pub fn errors(&self) -> Option<&AllowedErrors> {
         self.errors.as_ref()
     }

@@ -119,7 +119,7 @@ pub struct LoadedProblem {
     pub robot: RobotReport,
     /// Notes for the user: defaults, blocked IK solutions of the goal, joints whose value does not matter.
     pub notes: Vec<String>,
-    /// The errors of the robot and the world for which the motion must be free; `None` if there are none.
+    /// The errors of the robot and the world for which the motion must be free; `None` without errors.
     pub errors: Option<AllowedErrors>,
 }
 

@@ -94,7 +94,7 @@ impl LoadedScene {
         Ok(LoadedProblem { problem, stated_goals, task, trajectories, robot, notes, errors })
     }
 
-    /// Returns the errors for which motions must be free, with the problem without them. `None` if there are none.
+    /// Returns the errors for which motions must be free, with the problem without them.
     fn allowed_errors(&self, overrides: &Overrides, rules: Rules) -> Option<AllowedErrors> {
         if !self.world.has_errors() || !matches!(rules, Rules::Plan | Rules::Motion) {
             return None;
@@ -383,7 +383,7 @@ impl LoadedScene {
         let ruled_out = |reason: String| format!("an IK solution with the tip at {at} is ruled out: {reason}");
         let reasons = outside.into_iter().chain(blocked).map(ruled_out).collect();
         notes.extend(first_lines(reasons, |more| format!("and so are {more} more")));
-        // No motion may end at these, but a proof that there is none must exclude them.
+        // Motions cannot end at these, but proofs of infeasibility must exclude them.
         Ok(goals.into_iter().chain(undecided).collect())
     }
 }

@@ -52,7 +52,7 @@ impl Replay<'_> {
             carried_shapes::solids(own)
                 .map(|all| all.iter().map(|shape| Solid::new(chain, on.clone(), shape, kept)).collect())
         };
-        // Supports are grown by their own clearance, which need not be kept from what rests on them.
+        // Supports are grown by their own clearance. Objects that rest on them need not keep it.
         let grown = supports.iter().map(|support| &self.all[*support].grown[1].lower).min();
         let kept = guard() - grown.cloned().unwrap_or_default();
         Ok([solids(hanging, &self.kept)?, pressed.map_or(Ok(Vec::new()), |own| solids(own, &kept))?])

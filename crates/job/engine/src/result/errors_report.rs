@@ -5,7 +5,7 @@ use cplan_model::Status;
 use cplan_world::AllowedErrors;
 use serde::Serialize;
 
-/// The errors for which a motion must be free, and what the answer says about them.
+/// The errors for which a motion must be free, with the claims of the answer.
 #[derive(Serialize)]
 pub(super) struct ErrorsReport {
     base: ErrorReport,
@@ -14,7 +14,7 @@ pub(super) struct ErrorsReport {
     zeros: ErrorReport,
     /// Greatest displacement of an obstacle, metres.
     obstacles: f64,
-    /// What the answer proves.
+    /// The proven statement.
     proves: Option<&'static str>,
     /// Status of the problem without errors. `None` if its start or all of its goals are not free.
     drawn: Option<Status>,
@@ -43,8 +43,8 @@ impl ErrorsReport {
 }
 
 impl Plan {
-    /// Returns what the answer proves about the errors for which the motion must be free. `None` if there are none, or the
-    /// answer proves nothing.
+    /// Returns the proven statement about the errors for which the motion must be free. `None` without errors, and for an
+    /// unknown answer.
     pub fn claim_about_errors(&self) -> Option<&'static str> {
         self.problem().errors()?;
         match self.status() {

@@ -147,7 +147,7 @@ impl<'a> MarginSearch<'a> {
         Self { arm, kinds, bodies: Bodies::new(names), distances: Vec::new(), errors, checks: 0 }
     }
 
-    /// Examines a stretch of the motion, with the shapes as they are drawn. Permitted contacts, such as those of a payload
+    /// Examines a stretch of the motion, with shapes that are not grown. Permitted contacts, such as those of a payload
     /// with its supports, do not count.
     pub fn examine(&mut self, stretch: &MotionStretch) {
         let scene = &*stretch.scene.scene.drawn();

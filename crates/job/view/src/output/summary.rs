@@ -176,7 +176,7 @@ fn summary_lines(plan: &Plan) -> SummaryLines {
     SummaryLines { found, asked }
 }
 
-/// Describes the errors for which the motion must be free, and what the answer says about them.
+/// Describes the errors for which the motion must be free, and the claims of the answer about them.
 fn errors_line(plan: &Plan) -> Option<Line> {
     let AllowedErrors { robot, obstacles, .. } = plan.problem().errors()?;
     let angle = |radians: f64| format!("{} deg", short(radians.to_degrees()));

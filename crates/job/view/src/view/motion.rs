@@ -177,7 +177,7 @@ pub struct MotionView {
     /// Proven lower bound on the distance between arm and obstacles, metres. `None` for the world after the last motion.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// Index of the planner's replay for this motion. `None` if there is none.
+    /// Index of the planner's replay for this motion; `None` without a replay.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<usize>,
 }

@@ -1,4 +1,4 @@
-// The side view of a task's motion: the height of the tool over the way of its tip. Arches look like arches.
+// The side view of a task's motion: the height of the tool along the path of its tip. Arches look like arches.
 'use strict';
 
 class SideView {
