@@ -101,6 +101,14 @@ const LENGTH_UNITS: [(&str, &str); 10] = [
     ("yd", "0.9144"),
 ];
 
+/// Reads a length with its unit, metres.
+fn length_with_unit(text: &str) -> Option<Decimal> {
+    let text = text.trim();
+    let (number, unit) = text.split_at(text.trim_end_matches(|c: char| c.is_ascii_alphabetic()).len());
+    let (_, metres) = LENGTH_UNITS.iter().find(|(name, _)| *name == unit)?;
+    Some(&Decimal::read(number.trim_end()).ok()? * &Decimal::read(metres).ok()?)
+}
+
 /// Reads values of the file, and reports errors with their position.
 struct Reader<'a> {
     text: &'a str,
@@ -147,15 +155,7 @@ impl Reader<'_> {
     /// Reads a length in metres: a number, or a text with its unit, exactly.
     fn length(&self, value: &Value) -> ReadResult<Decimal> {
         let Some(text) = value.get_ref().as_str() else { return self.number(value) };
-        let text = text.trim();
-        let (number, unit) = text.split_at(text.trim_end_matches(|c: char| c.is_ascii_alphabetic()).len());
-        let factor =
-            LENGTH_UNITS.iter().find(|(name, _)| *name == unit).and_then(|(_, metres)| Decimal::read(metres).ok());
-        let number = Decimal::read(number.trim_end()).ok();
-        number.zip(factor).map_or_else(
-            || self.error(value, "expected a number, or a length such as \"20 mm\""),
-            |(number, factor)| Ok(&number * &factor),
-        )
+        length_with_unit(text).map_or_else(|| self.error(value, "expected a number, or a length such as \"20 mm\""), Ok)
     }
 
     /// Reads a number, or a quantity in degrees, and returns an enclosure in radians or metres.

@@ -1,6 +1,6 @@
 //! Errors of the robot and the world for which motions stay free, and clearances of single obstacles.
 
-use super::{ReadResult, Reader, Value};
+use super::{ReadResult, Reader, Value, length_with_unit};
 use cplan_check::arm::{Arm, Joint, Motion};
 use cplan_check::decimal::Decimal;
 use cplan_check::interval::{Interval, Point, length, minus};
@@ -22,24 +22,17 @@ pub struct Calibration {
     obstacles: Option<[Decimal; 2]>,
 }
 
-/// Units, each with the number of decimals by which it is smaller than a metre. Angles have none.
-const UNITS: [(&str, Option<u32>); 6] =
-    [("mm", Some(3)), ("um", Some(6)), ("cm", Some(2)), ("m", Some(0)), ("deg", None), ("rad", None)];
-
 /// Reads the errors of a length and of an angle: `0.5 mm, 0.05deg`. The angle is rounded up.
 fn errors(text: &str) -> Result<[Decimal; 2], String> {
     let mut errors = [Decimal::whole(0), Decimal::whole(0)];
     for item in text.split(',').map(str::trim) {
-        let unit = UNITS.iter().find_map(|unit| Some((unit, item.strip_suffix(unit.0)?.trim_end())));
-        let Some(((name, decimals), number)) = unit else { return Err(format!("\"{item}\" has no unit")) };
-        let number = Decimal::read(number)?;
-        match (decimals, *name) {
-            (Some(decimals), _) => errors[0] = &number * &Decimal::power_of_ten(*decimals),
-            (None, "rad") => errors[1] = number,
-            (None, _) => {
-                let [_, most] = (&Interval::from(&number) * &Interval::pi().over(180)).ends();
-                errors[1] = most;
-            }
+        if let Some(number) = item.strip_suffix("rad") {
+            errors[1] = Decimal::read(number.trim_end())?;
+        } else if let Some(number) = item.strip_suffix("deg") {
+            let [_, most] = (&Interval::from(&Decimal::read(number.trim_end())?) * &Interval::pi().over(180)).ends();
+            errors[1] = most;
+        } else {
+            errors[0] = length_with_unit(item).ok_or_else(|| format!("\"{item}\" is no length with a unit"))?;
         }
     }
     match errors.iter().any(|error| *error < Decimal::whole(0)) {

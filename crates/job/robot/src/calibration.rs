@@ -1,12 +1,13 @@
 //! Errors of a robot and its world that a motion must allow for: `[robot] calibration`, an obstacle's `calibration`, and the
 //! option `--calibration`.
 
-use super::quantity::MAX_LENGTH;
+use super::quantity::{MAX_LENGTH, Quantity};
 #[cfg(feature = "schema")]
 use super::schema::*;
 use super::toml_values::{FromToml, TomlError, TomlValue, number};
 use crate::toml_table;
 use cplan_model::Calibration;
+use cplan_text::metres;
 use std::fmt;
 use std::str::FromStr;
 
@@ -22,29 +23,21 @@ pub struct ErrorBound {
 /// Greatest error of an angle: a quarter turn.
 const MAX_ANGLE: f64 = std::f64::consts::FRAC_PI_2;
 
-/// Units of lengths and angles, each with its size in metres or radians. Longer names stand before their ends.
-const UNITS: [(&str, bool, f64); 6] = [
-    ("mm", false, 1e-3),
-    ("um", false, 1e-6),
-    ("cm", false, 1e-2),
-    ("m", false, 1.0),
-    ("deg", true, std::f64::consts::PI / 180.0),
-    ("rad", true, 1.0),
-];
-
 impl FromStr for ErrorBound {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
+        let no_number = |number: &str| format!("\"{}\" is not a number", number.trim());
         let mut bound = [None; 2];
         for item in text.split(',').map(str::trim) {
-            let unit = UNITS.iter().find_map(|unit| Some((unit, item.strip_suffix(unit.0)?.trim_end())));
-            let Some(((_, is_angle, size), digits)) = unit else {
-                return Err(format!("\"{item}\" has no unit: write 0.5 mm or 0.05deg"));
+            let (is_angle, value) = match (item.strip_suffix("deg"), item.strip_suffix("rad")) {
+                (Some(number), _) => (true, Quantity::degrees(item).ok_or_else(|| no_number(number))?.value),
+                (None, Some(number)) => (true, number.trim_end().parse().map_err(|_| no_number(number))?),
+                (None, None) if item.ends_with(|c: char| c.is_ascii_alphabetic()) => (false, metres(item)?),
+                (None, None) => return Err(format!("\"{item}\" has no unit: write 0.5 mm or 0.05deg")),
             };
-            let value: f64 = digits.parse().map_err(|_| format!("\"{digits}\" is not a number"))?;
-            if bound[usize::from(*is_angle)].replace(value * size).is_some() {
-                let twice = if *is_angle { "angles" } else { "lengths" };
+            if bound[usize::from(is_angle)].replace(value).is_some() {
+                let twice = if is_angle { "angles" } else { "lengths" };
                 return Err(format!("\"{text}\" has two {twice}"));
             }
         }
@@ -222,8 +215,9 @@ mod tests {
             ("links=1deg", "links: this is the error of a length"),
             ("bases=1mm", "none of base, links, zeros, obstacles"),
             ("zeros=-1deg", "from 0 to 90 degrees"),
-            ("links=nanmm", "from 0"),
+            ("links=nanm", "links: "),
             ("zeros=xdeg", "\"x\" is not a number"),
+            ("zeros=xrad", "\"x\" is not a number"),
         ] {
             let error = read(text).unwrap_err();
             assert!(error.contains(why), "{text}: {error}");

@@ -139,7 +139,7 @@ has_schema! {
 }
 stands_for! {
     /// The greatest error of a length, of an angle, or of both.
-    StatedError, { "type": ["number", "string"], "minimum": 0, "pattern": "^ *[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|um|m|deg|rad) *(, *[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|um|m|deg|rad) *)?$" }
+    StatedError, { "type": ["number", "string"], "minimum": 0, "pattern": "^ *[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|dm|m|km|um|mil|in|ft|yd|deg|rad) *(, *[0-9.]+([eE][-+]?[0-9]+)? *(mm|cm|dm|m|km|um|mil|in|ft|yd|deg|rad) *)?$" }
 }
 stands_for! {
     /// Grip of objects.
