@@ -134,6 +134,14 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let loaded =
         input::load_scene(args.files.robot(), &args.files.world)?.with_margins(args.clearance, args.calibration)?;
     loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
+    // A move that only comes near within the padding is not proven to collide.
+    let padded = loaded.scene.arm().links.iter().flat_map(|link| &link.parts).any(|part| part.padding > 0.0)
+        || loaded.scene.workspace().obstacles.iter().any(|obstacle| obstacle.growth.padding > 0.0);
+    if padded {
+        let message = "G-code is judged for displacements of the base and of obstacles; for errors of angles, lengths and zeros, \
+                       give a clearance that covers them";
+        return Err(Failure::Refused(message.into()));
+    }
     let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();
     refuse_to_overwrite_inputs(outputs.paths(), &read)?;
     loaded.robot.warnings.iter().for_each(|warning| args.print.print_status(&format!("warning: {warning}")));

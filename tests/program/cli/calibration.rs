@@ -145,6 +145,11 @@ fn mistakes_have_a_place_and_a_hint() {
     refused.warns(&["its clearance of 0.01 m is less than the world's of 0.02 m", "hint"]);
     let refused = place.run(&[&urdf, &world, "--calibration", "base=1"], "").exits(2);
     refused.warns(&["--calibration", "no unit"]);
+    let job = ["gcode", "labels.toml", "labels.gcode"].map(|name| shipped(&format!("workspaces/gcode/{name}")));
+    let scara = shipped("robots/scara.urdf");
+    let judged = |errors| place.run(&["gcode", &scara, &job[1], &job[2], "--check", "--calibration", errors], "");
+    judged("zeros=0.02deg").exits(1).warns(&["G-code is judged for displacements"]);
+    judged("obstacles=1mm").exits(3);
     let task = [shipped("robots/scara.urdf"), shipped("workspaces/tasks/feeder.toml")];
     let refused = place.run(&[&task[0], &task[1], "--calibration", "base=1mm"], "").exits(1);
     refused.warns(&["errors (calibration) are for motions between a start and a goal", "hint"]);
