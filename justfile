@@ -44,9 +44,11 @@ deny:
 bench NAME="":
     cargo bench --locked {{ if NAME == "" { "" } else { "--bench " + NAME } }}
 
-# The pictures of the documentation, drawn again
+# The pictures of the documentation, drawn again; those of pages need what .ci/browser installs
 pictures:
     cargo run --locked --release --example pictures
+    cargo build --locked
+    CPLAN_WRITE_PICTURES=1 target/python/bin/python -m pytest -q tests/browser/test_front_page.py
 
 # Schemas of files, reference of world files, the pages of the library; and the book, where mdBook is installed
 docs:
