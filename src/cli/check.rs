@@ -14,7 +14,7 @@ use crate::output::{checked_words, configuration, contours, range};
 use crate::space::{Configuration, JointRange};
 use crate::text::{Columns, fixed, length, length_down, length_unlike};
 use crate::view::{CheckedView, Picture, View};
-use clap::{Args, ValueHint};
+use clap::{Args, ValueEnum, ValueHint};
 use std::path::PathBuf;
 
 /// Report why a configuration is free or not.
@@ -30,9 +30,11 @@ Examples:
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 0.14,0 \\
     --clearance 0.02 --picture why.html
   cplan check robots/scara.urdf workspaces/scara_cell.toml --at=-1,-0.9 --json
+  cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 8deg,0deg \\
+    --expect blocked
 
 Exit codes: 0 the configuration was checked, free or not, 1 bad input or I/O, 2
-wrong command line.")]
+wrong command line, 3 the answer is not that of --expect.")]
 pub struct CheckArgs {
     #[command(flatten)]
     pub files: Files,
@@ -49,6 +51,9 @@ pub struct CheckArgs {
     /// "base=0.5mm,0.05deg; links=0.2mm; zeros=0.02deg; obstacles=1mm".
     #[arg(long, value_name = "KEY=VALUE,..")]
     pub calibration: Option<CalibrationTable>,
+    /// Expected answer: if the configuration is not so, the exit code is 3. For the grading of exercises.
+    #[arg(long, value_name = "ANSWER")]
+    pub expect: Option<Expected>,
     /// Draw workspace and configuration space with the configuration: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub picture: Vec<PathBuf>,
@@ -59,6 +64,15 @@ pub struct CheckArgs {
     pub json: bool,
 }
 
+/// An expected answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Expected {
+    /// Free: within the limits, with the clearance from all obstacles
+    Free,
+    /// Not free
+    Blocked,
+}
+
 fn time(text: &str) -> Result<f64, String> {
     number_in(text, |x| x.is_finite() && x >= 0.0, "of seconds, finite and not negative")
 }
@@ -66,7 +80,8 @@ fn time(text: &str) -> Result<f64, String> {
 /// Checks a configuration and prints the report.
 ///
 /// # Errors
-/// Bad input and I/O. A configuration that is not free is no error, because the report states it.
+/// Bad input and I/O. A configuration that is not free is no error, because the report states it. An answer that differs from
+/// the expected one has its own exit code.
 pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let outputs = Outputs::of_pictures(&args.picture, [])?;
     let mut loaded =
@@ -78,14 +93,18 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
     let q = args.at.resolve(&scene.arm().joints, "--at").map_err(input::InputError::from)?;
     let findings = check(scene, q);
     outputs.write_pictures(vec![], drawn(|| args.theme.apply(view(args, &loaded, q, &findings))))?;
+    let is_expected = args.expect.map(|expected| (expected == Expected::Free) == findings.free);
     if args.json {
         sinks::print_json(&sinks::pretty(&findings)?)?;
     } else {
         let mut columns = Columns::default();
         report(&loaded, q, &findings).iter().for_each(|(key, value)| columns.add(key, value));
+        if let Some(is_expected) = is_expected {
+            columns.add("expected", if is_expected { "yes" } else { "no" });
+        }
         sinks::sum_up(&columns.into_text(), if findings.free { DONE } else { REFUTED })?;
     }
-    Ok(DONE)
+    Ok(if is_expected == Some(false) { REFUTED } else { DONE })
 }
 
 fn view(args: &CheckArgs, loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings) -> View {

@@ -10,7 +10,8 @@ pub const BAD_INPUT: u8 = 1;
 pub const USAGE: u8 = 2;
 /// Exit code: it is proven that there is no path.
 pub const INFEASIBLE: u8 = 3;
-/// Exit code of `verify`: a proven collision, a violated limit, or a task that differs from the requested one.
+/// Exit code of `verify`: a proven collision, a violated limit, or a task that differs from the requested one. Of `check`: not
+/// the expected answer.
 pub const REFUTED: u8 = 3;
 /// Exit code: neither a path nor a proof was found.
 pub const UNKNOWN: u8 = 4;

@@ -8,6 +8,8 @@ mod compare;
 mod commands;
 mod completions;
 mod converge;
+#[cfg(feature = "serve")]
+mod course;
 mod data_sheet;
 mod demo;
 mod error_json;
@@ -99,6 +101,8 @@ commands! { meter:
         Inspect(inspect::InspectArgs),
         #[cfg(feature = "serve")]
         Serve(serve::ServeArgs),
+        #[cfg(feature = "serve")]
+        Course(course::CourseArgs),
     }
     "Verify" {
         Verify(verify::VerifyArgs),

@@ -243,9 +243,10 @@ fn require_grid(args: &PlanArgs, outputs: &Outputs<PlanContent>, planner: &Plann
     Ok(())
 }
 
-/// Adds the cards of an explanation to the view of a motion that is proven not to exist: what blocks it, and which changes
-/// open a path.
-fn explained(plan: &Plan, view: View) -> View {
+/// Returns the view for a page: with the search of the planner and, for a motion that is proven not to exist, the cards of an
+/// explanation: what blocks it, and which changes open a path.
+pub(super) fn page_view(plan: &Plan) -> View {
+    let view = plan.view_with_replay();
     let problem = plan.motion().filter(|_| plan.status() == Status::Infeasible).map(|(problem, _)| problem);
     let Some(problem) = problem.filter(|problem| problem.scene().loose_obstacles().is_empty()) else { return view };
     let question = MotionQuestion::from(problem).with_time_limit(TIME_LIMIT);
@@ -278,7 +279,7 @@ fn written(
     let mut written = files.write(plan, member)?;
     // Pages and animations show the search of the planner, and pages explain why there is no motion.
     let seen = |is_animated: bool| {
-        let mut view = if is_animated { explained(plan, plan.view_with_replay()) } else { plan.view() };
+        let mut view = if is_animated { page_view(plan) } else { plan.view() };
         view.facts.extend(hint.iter().map(|hint| ["hint".to_owned(), (*hint).to_owned()]));
         args.theme.apply(view).with_field_lines(args.field_lines).with_labels_from(args.labels_from)
     };

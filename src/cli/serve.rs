@@ -60,6 +60,9 @@ pub struct ServeArgs {
     pub engine: Option<PathBuf>,
 }
 
+/// Time limit for each plan of a page.
+pub const DEFAULT_TIME_LIMIT: Duration = Duration::from_secs(20);
+
 fn time_limit(text: &str) -> Result<Duration, String> {
     let seconds = number_in(text, |x| (0.01..=3600.0).contains(&x), "of seconds, from 0.01 to 3600")?;
     Ok(Duration::from_secs_f64(seconds))
@@ -129,15 +132,30 @@ const GZIP_MAGIC: [u8; 2] = [0x1f, 0x8b];
 
 /// Writes the page with the program inside it.
 fn export(args: &ServeArgs, [urdf, world]: [Source; 2], page: &Path, engine: &Path) -> Result<u8, Failure> {
+    let texts = [urdf, world].map(|source| source.text().to_owned());
+    let text = page_with_engine(texts, &args.with, args.time_limit, engine)?;
+    write_whole(page, text.as_bytes())?;
+    sinks::print_status(&format!("{} written", page.display()));
+    Ok(DONE)
+}
+
+/// Returns the page with the program inside it. `files` are the texts of the robot and the world.
+///
+/// # Errors
+/// A program that cannot be read.
+pub fn page_with_engine(
+    files: [String; 2],
+    with: &str,
+    time_limit: Duration,
+    engine: &Path,
+) -> Result<String, Failure> {
     let cure = "\n  hint: build it with .ci/page in cplan's sources";
     let wrong = |what: String| Failure::Io(format!("{}: {what}{cure}", engine.display()));
     let program = std::fs::read(engine).map_err(|error| wrong(format!("cannot be read: {error}")))?;
     if !program.starts_with(&GZIP_MAGIC) {
         return Err(wrong("is not packed by gzip".into()));
     }
-    let text = |source: &Source| source.text().to_owned();
-    let files = Files { urdf: text(&urdf), world: text(&world), options: args.with.clone() };
-    write_whole(page, standalone_page(files, args.time_limit, &program).as_bytes())?;
-    sinks::print_status(&format!("{} written", page.display()));
-    Ok(DONE)
+    let [urdf, world] = files;
+    let files = Files { urdf, world, options: with.to_owned() };
+    Ok(standalone_page(files, time_limit, &program))
 }

@@ -5,6 +5,7 @@ use super::files::Files;
 use super::message_args::MessageArgs;
 use super::plan::{self, PlanArgs};
 use super::query_args::QueryArgs;
+use super::verify::Settings;
 use crate::engine::{Method, Options};
 use crate::input::Overrides;
 use crate::options::{MotionArgs, PlannerArgs, planners, word};
@@ -52,6 +53,23 @@ pub(super) fn parse_settings(words: &[String]) -> Result<ParsedWords, Failure> {
     let Words { planner, query, motion, message, options: given } = words;
     let options = plan::options(planner, &given, &motion, &message)?;
     Ok(ParsedWords { options, overrides: query.overrides() })
+}
+
+/// Settings of a judgement, in the grammar of `cplan verify`.
+#[derive(Debug, Parser)]
+#[command(no_binary_name = true, disable_help_flag = true)]
+struct VerifyWords {
+    #[command(flatten)]
+    settings: Settings,
+}
+
+/// Parses words such as `--clearance=0.01` and `--unwrap`, which `cplan verify` knows.
+///
+/// # Errors
+/// The defect, in a line or two.
+pub(super) fn parse_verify_settings(words: &[String]) -> Result<Settings, Failure> {
+    let refused = |error: clap::Error| Failure::Usage(message(&error));
+    VerifyWords::try_parse_from(words).map(|words| words.settings).map_err(refused)
 }
 
 /// Returns a message if an option concerns files and printing instead of planning. Returns `None` for other errors.

@@ -9,13 +9,15 @@ use super::failure::Failure;
 use super::sinks;
 use super::values::time_limit;
 use crate::engine::Plan;
+use crate::engine::findings::MotionFindings;
 use crate::model::Status;
 use crate::text::plain_json;
 use clap::builder::PossibleValuesParser;
 use clap::{Args, ValueHint};
 use lines::Input;
 use reader::{Answer, ProblemOutcome, Reader};
-use serde::Serialize;
+use serde::ser::Error as _;
+use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 use std::collections::BTreeSet;
 use std::fs::File;
@@ -24,7 +26,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Plan for many problems: JSON lines in, JSON lines out.
+/// Plan for many problems, or judge many motions: JSON lines in, JSON lines out.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Each line of the input is a JSON object with these members:
@@ -33,6 +35,9 @@ Each line of the input is a JSON object with these members:
   world        path of the world file, or its content as an object
   world_text   text of the world file (TOML), instead of world
   options      options of `cplan plan`, as a list or as an object
+  verify       instead of planning, judge this motion: a path as in `cplan
+               verify`, or an object such as {\"path\": [[0, 0], [1, 1]]};
+               `options` are then those of `verify`
   id           any value; the result repeats it
 
 For example:
@@ -41,7 +46,7 @@ For example:
   {\"urdf\": \"arm.urdf\", \"world\": \"world.toml\",
    \"options\": {\"goal\": [1.2, -0.3], \"clearance\": 0.01}}
 (each on one line). Each line gives one line of output, in the same order: the
-result of `cplan plan`, or an error. Output does not depend on --jobs. A robot
+result of `cplan plan` or `cplan verify`, or an error. Output does not depend on --jobs. A robot
 that occurs again is read once. Blank lines are skipped. With --time SECONDS, a
 problem that takes longer gets the status `unknown` with that reason.
 
@@ -62,11 +67,17 @@ pub struct BatchArgs {
     pub jobs: u16,
     /// Fields of the results to write, such as status,length [default: all].
     #[arg(long, value_name = "NAMES", value_delimiter = ',', hide_possible_values = true,
-        value_parser = PossibleValuesParser::new(Plan::FIELD_NAMES))]
+        value_parser = PossibleValuesParser::new(field_names()))]
     pub fields: Vec<String>,
     /// Time limit for each problem, seconds [default: no limit].
     #[arg(long, value_name = "SECONDS", value_parser = time_limit, allow_hyphen_values = true)]
     pub time: Option<f64>,
+}
+
+/// Returns the names of all fields of plans and of findings about motions, each once.
+fn field_names() -> Vec<&'static str> {
+    let is_new = |name: &&str| !Plan::FIELD_NAMES.contains(name);
+    Plan::FIELD_NAMES.into_iter().chain(MotionFindings::FIELD_NAMES.into_iter().filter(is_new)).collect()
 }
 
 /// The answer to a line, as JSON.
@@ -76,6 +87,25 @@ struct Row<T> {
     id: Option<Box<RawValue>>,
     #[serde(flatten)]
     answer: T,
+}
+
+/// Some fields of findings about a motion, in their usual order.
+struct Selected<'a> {
+    findings: &'a MotionFindings,
+    /// Names of the fields. Empty for all.
+    fields: &'a [String],
+}
+
+impl Serialize for Selected<'_> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        if self.fields.is_empty() {
+            return self.findings.serialize(serializer);
+        }
+        let all = serde_json::to_value(self.findings).map_err(S::Error::custom)?;
+        let is_selected = |name: &&str| self.fields.iter().any(|field| field == name);
+        let selected = MotionFindings::FIELD_NAMES.into_iter().filter(is_selected);
+        serializer.collect_map(selected.filter_map(|name| Some((name, all.get(name)?))))
+    }
 }
 
 /// The answer to a problem whose time was up.
@@ -135,6 +165,7 @@ fn row(answer: Answer, fields: &[String]) -> (String, bool) {
     let Answer { id, is_object, plan } = answer;
     let text = match plan {
         Ok(ProblemOutcome::Done(plan)) => text(&Row { id, answer: plan.result(fields) }),
+        Ok(ProblemOutcome::Judged(findings)) => text(&Row { id, answer: Selected { findings: &findings, fields } }),
         Ok(ProblemOutcome::Stopped(reason)) => text(&Row { id, answer: Stopped { status: Status::Unknown, reason } }),
         Err(failure) => text(&Row { id, answer: ErrorJson::of_failure(&failure) }),
     };

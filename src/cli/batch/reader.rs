@@ -2,7 +2,9 @@
 
 use super::lines::Line;
 use crate::cli::failure::Failure;
+use crate::cli::verify::{RecordingSource, judge};
 use crate::cli::words::{self, ParsedWords};
+use crate::engine::findings::MotionFindings;
 use crate::engine::{Plan, Problem, plan};
 use crate::input::{self, Diagnostic, InputError, LoadedScene, Position, RobotFile, Source, scene_from};
 use crate::interrupt::{Instant, Interrupt};
@@ -32,8 +34,16 @@ struct LineKeys {
     xacro_args: BTreeMap<String, String>,
     world: Option<World>,
     world_text: Option<String>,
+    verify: Option<Motion>,
     #[serde(default)]
     options: Options,
+}
+
+#[derive(Deserialize)]
+#[serde(untagged, expecting = "`verify` is a path, or a motion as an object, as in a result of cplan")]
+enum Motion {
+    Path(PathBuf),
+    Keys(Map<String, Value>),
 }
 
 #[derive(Deserialize)]
@@ -78,6 +88,8 @@ pub struct Answer {
 pub enum ProblemOutcome {
     /// The finished plan.
     Done(Box<Plan>),
+    /// The findings about a recorded motion.
+    Judged(Box<MotionFindings>),
     /// The time limit was reached. Contains the reason in words.
     Stopped(String),
 }
@@ -153,7 +165,22 @@ impl Reader {
             (None, Some(text)) => Named::Text(text),
             _ => return Err(one("world")),
         };
-        let ParsedWords { options, overrides } = self.parse_options(given.options, refused)?;
+        let words = written_options(given.options, refused)?;
+        if let Some(motion) = given.verify {
+            let settings = words::parse_verify_settings(&words)?;
+            let scene = self.scene(robot, world)?;
+            let source = match motion {
+                Motion::Path(path) => RecordingSource::File(path),
+                Motion::Keys(mut keys) => {
+                    // Values without names are in the order of the joints.
+                    let names = scene.scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
+                    keys.entry("joints").or_insert_with(|| names.as_slice().into());
+                    RecordingSource::Text(Value::Object(keys).to_string())
+                }
+            };
+            return Ok(ProblemOutcome::Judged(Box::new(judge(scene, &source, &settings)?.findings)));
+        }
+        let ParsedWords { options, overrides } = self.parse_options(words)?;
         let problem = Problem::of_scene(self.scene(robot, world)?, &overrides)?;
         Ok(ProblemOutcome::Done(Box::new(plan(&problem, &options)?)))
     }
@@ -173,22 +200,7 @@ impl Reader {
         Ok(scene)
     }
 
-    fn parse_options(
-        &mut self,
-        options: Options,
-        refused: &dyn Fn(String, &str) -> Failure,
-    ) -> Result<ParsedWords, Failure> {
-        let words = match options {
-            Options::Words(words) => words,
-            Options::Named(named) => {
-                let words: Result<Vec<_>, String> = named.iter().map(|(name, value)| word(name, value)).collect();
-                words
-                    .map_err(|message| refused(message, "give numbers, words, lists of them, or true"))?
-                    .into_iter()
-                    .flatten()
-                    .collect()
-            }
-        };
+    fn parse_options(&mut self, words: Vec<String>) -> Result<ParsedWords, Failure> {
         if let Some(asked) = self.words.get(&words) {
             return Ok(asked.clone());
         }
@@ -196,6 +208,18 @@ impl Reader {
         clear_if_full(&mut self.words);
         self.words.insert(words, asked.clone());
         Ok(asked)
+    }
+}
+
+/// Returns options as words of the command line.
+fn written_options(options: Options, refused: &dyn Fn(String, &str) -> Failure) -> Result<Vec<String>, Failure> {
+    match options {
+        Options::Words(words) => Ok(words),
+        Options::Named(named) => {
+            let words: Result<Vec<_>, String> = named.iter().map(|(name, value)| word(name, value)).collect();
+            let words = words.map_err(|message| refused(message, "give numbers, words, lists of them, or true"))?;
+            Ok(words.into_iter().flatten().collect())
+        }
     }
 }
 

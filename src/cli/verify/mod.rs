@@ -1,7 +1,10 @@
 //! `cplan verify`: checks if a recorded motion is free of collision and within the limits, or if a recorded task is
 //! also the one that the world describes.
 
+mod settings;
 mod text;
+
+pub use settings::{JudgedRecording, RecordingSource, Settings, judge};
 
 use super::exit::{DONE, REFUTED, UNKNOWN};
 use super::failure::Failure;
@@ -12,12 +15,9 @@ use super::print_args::PrintArgs;
 use super::sinks;
 use super::theme::ThemeArgs;
 use crate::engine::certificate_of_recording;
-use crate::engine::findings::{Judgement, MotionFindings, PlanFinding, verify};
-use crate::input::{
-    self, CalibrationTable, Digests, JointValues, LoadedRecording, LoadedScene, Overrides, Rules, TipPoint,
-};
-use crate::model::{Elbow, TimedScene};
-use crate::options::word;
+use crate::engine::findings::{Judgement, MotionFindings, PlanFinding};
+use crate::input::{self, Digests, LoadedRecording, LoadedScene, Rules};
+use crate::model::TimedScene;
 use crate::output::{contours, title_of};
 use crate::space::Recording;
 use crate::view::{Picture, View};
@@ -64,38 +64,8 @@ pub struct VerifyArgs {
     /// Motion: .json (a result of cplan), .csv, .yaml (ROS 2 JointTrajectory) or .mcap (ROS 2 recording).
     #[arg(value_name = "TRAJECTORY", value_hint = ValueHint::FilePath)]
     pub trajectory: PathBuf,
-    /// Topic to judge in an .mcap recording, if several contain both joints of the arm.
-    #[arg(long, value_name = "NAME")]
-    pub topic: Option<String>,
-    /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.
-    #[arg(long, value_name = "METRES", allow_hyphen_values = true)]
-    pub clearance: Option<f64>,
-    /// Errors within which the answer holds, instead of the world's, such as
-    /// "base=0.5mm,0.05deg; links=0.2mm; zeros=0.02deg; obstacles=1mm".
-    #[arg(long, value_name = "KEY=VALUE,..")]
-    pub calibration: Option<CalibrationTable>,
-    /// Required start configuration instead of the world's, such as 0.3,-1 or 20deg,-60deg.
-    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with = "anywhere")]
-    pub start: Option<JointValues>,
-    /// Required goal configuration instead of the world's.
-    #[arg(long, value_name = "q1,q2", allow_hyphen_values = true, conflicts_with_all = ["goal_tip", "anywhere"])]
-    pub goal: Option<JointValues>,
-    /// Required final position of the tip instead of the world's goal, metres.
-    #[arg(long, value_name = "x,y", allow_hyphen_values = true, conflicts_with = "anywhere")]
-    pub goal_tip: Option<TipPoint>,
-    /// Required side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default either side will do.
-    #[arg(long, value_name = "SIDE", requires = "goal_tip", conflicts_with = "goal", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
-    pub elbow: Option<Elbow>,
-    /// Ignore the world's start and goal: the motion may begin and end anywhere.
-    #[arg(long)]
-    pub anywhere: bool,
-    /// Take the shorter direction between samples of continuous joints. For angles recorded within one turn.
-    #[arg(long)]
-    pub unwrap: bool,
-    /// Check the joints' torques against the effort limits of the URDF or the world, even if the world does not ask for it.
-    /// Files with torques are always checked.
-    #[arg(long)]
-    pub torque: bool,
+    #[command(flatten)]
+    pub settings: Settings,
     /// Plan to compare with: .json (a result of cplan), .csv or .yaml. Reports the greatest distances of the motion from it,
     /// in joint space and of the tip.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -120,30 +90,17 @@ pub struct VerifyArgs {
 /// check.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let outputs = Outputs::of_pictures(&args.picture, args.certificate.clone())?;
-    let mut loaded =
-        input::load_scene(args.files.robot(), &args.files.world)?.with_margins(args.clearance, args.calibration)?;
+    let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     loaded.robot.warnings.iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
-    let mut recorded = match &args.topic {
-        None => input::load_recording(&args.trajectory, &loaded)?,
-        Some(topic) => input::load_topic(&args.trajectory, topic, &loaded)?,
-    };
-    if args.torque || recorded.has_torques {
-        loaded = loaded.keeping_efforts()?;
-    }
     let inputs: Vec<_> = loaded.files().into_iter().chain([args.trajectory.clone()]).chain(args.plan.clone()).collect();
     refuse_to_overwrite_inputs(outputs.paths(), &inputs)?;
-    let scene = &loaded.scene;
-    if args.unwrap {
-        recorded.recording = recorded.recording.unwrapped(&scene.arm().topology());
-    }
+    let source = RecordingSource::File(args.trajectory.clone());
+    let JudgedRecording { loaded, recorded, mut findings } = judge(loaded, &source, &args.settings)?;
     if recorded.steps.is_some() && !args.picture.is_empty() {
         let message = "--picture draws one motion, not a task; `cplan plan` draws tasks";
         return Err(Failure::Usage(message.into()));
     }
-    if recorded.steps.is_some() && args.anywhere {
-        return Err(Failure::Usage("--anywhere is for motions: a task must begin at its start".into()));
-    }
-    let mut findings = verify(&loaded, &recorded, &overrides(args), args.anywhere)?;
+    let scene = &loaded.scene;
     let recording = &recorded.recording;
     if let Some(plan) = &args.plan {
         let plan = input::load_recording(plan, &loaded)?.recording;
@@ -184,20 +141,15 @@ fn certificate(
     if verdict != Judgement::Free {
         return Ok(Err("the motion is not accepted".into()));
     }
-    let asked = overrides(args);
+    let asked = args.settings.overrides();
     let about = Digests::of(&args.files.robot(), &args.files.world, &loaded.files())?;
-    let (start, goals) = if args.anywhere { (None, Vec::new()) } else { loaded.ends(&asked)? };
+    let (start, goals) = if args.settings.anywhere { (None, Vec::new()) } else { loaded.ends(&asked)? };
     let steps = recorded.steps.as_deref();
     let task = steps.map(|_| loaded.clone().resolve(&asked, Rules::Plan)).transpose()?;
     let steps = task.as_ref().and_then(|loaded| loaded.task.as_ref()).zip(steps);
     let (ends, recording) = ([start, goals.first().copied()], &recorded.recording);
     let certificate = certificate_of_recording(&loaded.scene, recording, steps, (&asked, &about), ends);
     Ok(certificate.map_err(|why| why.to_string()))
-}
-
-fn overrides(args: &VerifyArgs) -> Overrides {
-    let &VerifyArgs { start, goal, goal_tip, elbow, clearance, calibration, .. } = args;
-    Overrides { start, goal, goal_tip, elbow, clearance, calibration }
 }
 
 /// Returns the view of a recorded motion.

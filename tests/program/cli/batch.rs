@@ -75,6 +75,63 @@ fn worlds_are_files_texts_and_objects() {
 }
 
 #[test]
+fn rows_equal_the_findings_of_verify() {
+    let place = Place::new();
+    let [urdf, world] = shelf();
+    place.run(&shelf(), "--quiet --output plan.json --output plan.csv").exits(0);
+    let kit = [shipped("robots/scara.urdf"), shipped("workspaces/tasks/kitting_cell.toml")];
+    place.run(&kit, "--quiet --output kit.json").exits(0);
+    place.write("cut.csv", "shoulder,elbow\n-0.9,0.4\n1.55,-0.35\n");
+    let jobs = [
+        ("plan.json", vec![], [&urdf, &world]),
+        ("plan.csv", vec![], [&urdf, &world]),
+        ("cut.csv", vec![], [&urdf, &world]),
+        ("cut.csv", vec!["--anywhere", "--clearance=0.01"], [&urdf, &world]),
+        ("plan.json", vec!["--goal=1,1", "--unwrap"], [&urdf, &world]),
+        ("kit.json", vec![], [&kit[0], &kit[1]]),
+    ];
+    let lines = jobs.clone().map(|(motion, options, [urdf, world])| {
+        json!({"id": motion, "urdf": urdf, "world": world, "verify": motion, "options": options})
+    });
+    let rows = run_batch(&place, &lines, "--jobs 2").exits(0).rows();
+    let mut verdicts = Vec::new();
+    for ((motion, options, [urdf, world]), mut row) in jobs.iter().zip(rows.clone()) {
+        assert_eq!(row.as_object_mut().unwrap().remove("id"), Some(json!(motion)));
+        let words = [vec!["--json"], options.clone()].concat().join(" ");
+        let alone = place.run(&["verify", urdf, world, motion], &words).json();
+        assert_eq!(row, alone, "{motion} {options:?}");
+        verdicts.push(row["verdict"].as_str().unwrap().to_owned());
+    }
+    assert_eq!(verdicts, ["free", "free", "collision", "collision", "ends", "free"]);
+    // Every field can be selected.
+    let names: std::collections::BTreeSet<_> =
+        rows.iter().flat_map(|row| row.as_object().unwrap().keys()).filter(|name| *name != "id").collect();
+    let names = names.into_iter().map(String::as_str).collect::<Vec<_>>().join(",");
+    assert_eq!(run_batch(&place, &lines, &format!("--fields {names}")).rows(), rows);
+    let short = run_batch(&place, &lines, "--fields samples,status,verdict").stdout;
+    assert!(short.starts_with("{\"id\":\"plan.json\",\"verdict\":\"free\",\"samples\":"), "{short}");
+    // A motion as an object, and lines that plan beside lines that judge.
+    let path: Value = serde_json::from_str::<Value>(&place.read("plan.json")).unwrap()["path"].clone();
+    let mut cut = path.clone();
+    cut.as_array_mut().unwrap().drain(1..path.as_array().unwrap().len() - 1);
+    let judged = |motion: Value| json!({"urdf": urdf, "world": world, "verify": motion});
+    let lines = [
+        judged(json!({"path": path})),
+        json!({"urdf": urdf, "world": world}),
+        judged(json!({"path": cut})),
+        judged(json!(7)),
+        judged(json!("none.csv")),
+        json!({"urdf": urdf, "world": world, "verify": "plan.csv", "options": ["--planner=wavefront"]}),
+    ];
+    let rows = run_batch(&place, &lines, "--fields status,verdict").exits(0).rows();
+    assert_eq!(rows[..3], [json!({"verdict": "free"}), json!({"status": "found"}), json!({"verdict": "collision"})]);
+    let messages = rows[3..].iter().map(|row| row["message"].as_str().unwrap());
+    for (message, part) in messages.zip(["`verify` is a path", "cannot be read", "--planner"]) {
+        assert!(message.contains(part), "{message}");
+    }
+}
+
+#[test]
 fn a_bad_line_is_a_row() {
     let place = Place::new();
     let [urdf, world] = shelf();

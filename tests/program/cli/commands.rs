@@ -230,6 +230,17 @@ fn check_states_the_reason() {
     let depth = json["contacts"][0]["depth"].as_f64().unwrap();
     assert!((depth - (0.05 + beyond)).abs() < 1e-9, "{depth} {beyond}");
     place.run(&files, "--at 9,0").exits(0).says(&["OUTSIDE", "not free"]);
+    for (at, expected, code, answer) in [
+        ("10deg,45deg", "free", 0, "expected   yes"),
+        ("10deg,45deg", "blocked", 3, "expected   no"),
+        ("0.14,0.35", "free", 3, "expected   no"),
+        ("0.14,0.35", "blocked", 0, "expected   yes"),
+        ("9,0", "blocked", 0, "expected   yes"),
+    ] {
+        place.run(&files, &format!("--at {at} --expect {expected}")).exits(code).says(&[answer]);
+        place.run(&files, &format!("--at {at} --expect {expected} --json")).exits(code);
+    }
+    place.run(&files, "--at 0,0 --expect fre").refused(2, &["fre", "free"]);
     place.run(&files, "--at 10deg,45deg --clearance 0.05").says(&["less than the clearance of 50 mm"]);
 }
 

@@ -13,6 +13,8 @@ mod commands;
 mod compare;
 mod controller_languages;
 mod converge;
+#[cfg(feature = "serve")]
+mod course;
 mod cspace;
 mod demo_and_init;
 mod diagnostics;

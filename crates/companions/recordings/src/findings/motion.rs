@@ -87,6 +87,35 @@ pub struct MotionFindings {
     pub notes: Vec<String>,
 }
 
+impl MotionFindings {
+    /// The names of all fields, in their order in JSON.
+    pub const FIELD_NAMES: [&str; 23] = [
+        "verdict",
+        "joints",
+        "units",
+        "samples",
+        "duration",
+        "required",
+        "clearance",
+        "nearest",
+        "touches",
+        "shortfall",
+        "first_contact",
+        "free_until",
+        "deepest",
+        "undecided",
+        "margins",
+        "tolerances",
+        "limits_broken",
+        "assumed_exceeded",
+        "faults",
+        "not_judged",
+        "plan",
+        "steps",
+        "notes",
+    ];
+}
+
 /// Collisions and clearance along a motion.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct CollisionFinding {

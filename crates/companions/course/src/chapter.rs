@@ -1,0 +1,77 @@
+//! A chapter: its explanation, its live figure, and its exercises with and without answers.
+
+/// A chapter of the course, as Markdown.
+#[derive(Debug, Clone, Copy)]
+pub struct Chapter<'a> {
+    /// Name of the file, without extension.
+    pub name: &'a str,
+    /// The whole text.
+    pub text: &'a str,
+}
+
+/// The live figure of a chapter.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Figure {
+    /// Name of the page, with the place at which it opens: `proofs.html#learn=proofs`.
+    pub address: String,
+    /// Path of the robot.
+    pub robot: String,
+    /// Path of the world.
+    pub world: String,
+    /// Options of the planner.
+    pub options: Vec<String>,
+}
+
+/// The comment that precedes the name of a live figure.
+const LIVE: &str = "<!-- live: ";
+
+/// Heading of the exercises.
+const EXERCISES: &str = "\n## Exercises\n";
+
+impl<'a> Chapter<'a> {
+    /// Returns the title: the first heading.
+    pub fn title(&self) -> &'a str {
+        self.text.lines().find_map(|line| line.strip_prefix("# ")).unwrap_or(self.name)
+    }
+
+    /// Returns the explanation: the text before the exercises, without the title.
+    pub fn explanation(&self) -> &'a str {
+        let before = self.text.split_once(EXERCISES).map_or(self.text, |(before, _)| before);
+        before.split_once('\n').map_or("", |(_, rest)| rest)
+    }
+
+    /// Returns the exercises with their answers.
+    pub fn answers(&self) -> &'a str {
+        self.text.split_once(EXERCISES).map_or("", |(_, exercises)| exercises)
+    }
+
+    /// Returns the exercises without their answers.
+    pub fn exercises(&self) -> String {
+        let mut questions = String::new();
+        let mut rest = self.answers();
+        while let Some((before, after)) = rest.split_once("<details>") {
+            questions += before;
+            rest = after.split_once("</details>").map_or("", |(_, after)| after);
+        }
+        questions + rest
+    }
+
+    /// Returns the live figure. `None` if the chapter has no figure, or no command that writes it.
+    pub fn figure(&self) -> Option<Figure> {
+        let address = self.text.lines().find_map(|line| line.strip_prefix(LIVE)?.strip_suffix(" -->"))?;
+        let page = address.split('#').next()?;
+        let is_command = |line: &&str| line.starts_with("cplan ") && line.ends_with(&format!(" --picture {page}"));
+        let command = self.text.lines().find(is_command)?;
+        let words: Vec<&str> = command.strip_suffix(page)?.strip_suffix(" --picture ")?.split_whitespace().collect();
+        let [_, robot, world, options @ ..] = words.as_slice() else { return None };
+        let options = options.iter().filter(|word| **word != "--quiet").map(|word| (*word).to_owned()).collect();
+        Some(Figure { address: address.to_owned(), robot: (*robot).to_owned(), world: (*world).to_owned(), options })
+    }
+}
+
+impl Figure {
+    /// Returns the name of the page.
+    pub fn page(&self) -> &str {
+        self.address.split('#').next().unwrap_or_default()
+    }
+}

@@ -1,0 +1,46 @@
+//! The texts of the course, and the files that its figures need, within the program.
+
+use crate::input::Source;
+use std::path::Path;
+
+/// The chapters in their order: the name, and the text.
+pub const CHAPTERS: [(&str, &str); 7] = [
+    ("c_obstacles", include_str!("../../../docs/c_obstacles.md")),
+    ("roadmaps", include_str!("../../../docs/roadmaps.md")),
+    ("cells", include_str!("../../../docs/cells.md")),
+    ("waves", include_str!("../../../docs/waves.md")),
+    ("fields", include_str!("../../../docs/fields.md")),
+    ("proofs", include_str!("../../../docs/proofs.md")),
+    ("tasks", include_str!("../../../docs/tasks.md")),
+];
+
+/// The pictures of the chapters that are not replaced by live figures.
+pub const PICTURES: [(&str, &str); 3] = [
+    ("khatib_blocked.svg", include_str!("../../../docs/pictures/khatib_blocked.svg")),
+    ("khatib_cured.svg", include_str!("../../../docs/pictures/khatib_cured.svg")),
+    ("khatib_trapped.svg", include_str!("../../../docs/pictures/khatib_trapped.svg")),
+];
+
+/// The robot and the world of the laboratory.
+pub const LAB: [&str; 2] = ["robots/planar_2r.urdf", "workspaces/workbench.toml"];
+
+/// The robots and worlds of the live figures, by their paths in the chapters.
+const FILES: [(&str, &str); 8] = [
+    ("robots/planar_2r.urdf", include_str!("../../../robots/planar_2r.urdf")),
+    ("robots/planar_2r_continuous.urdf", include_str!("../../../robots/planar_2r_continuous.urdf")),
+    ("robots/rrbot_vertical.urdf", include_str!("../../../robots/rrbot_vertical.urdf")),
+    ("workspaces/no_path.toml", include_str!("../../../workspaces/no_path.toml")),
+    ("workspaces/shelf.toml", include_str!("../../../workspaces/shelf.toml")),
+    ("workspaces/tasks/tower.toml", include_str!("../../../workspaces/tasks/tower.toml")),
+    ("workspaces/u_trap.toml", include_str!("../../../workspaces/u_trap.toml")),
+    ("workspaces/workbench.toml", include_str!("../../../workspaces/workbench.toml")),
+];
+
+/// Returns an embedded robot or world.
+///
+/// # Panics
+/// If the file is not embedded: a chapter names it in the command of its figure.
+pub fn source(path: &str) -> Source {
+    let (_, text) = FILES.iter().find(|(name, _)| *name == path).unwrap_or_else(|| panic!("{path} is not embedded"));
+    Source::in_memory(Path::new(path), (*text).to_owned())
+}
