@@ -12,11 +12,12 @@ def tables(settings: Settings) -> list[Table]:
     """One table: problems A and W20, two sizes."""
     table = Table(
         "Building a configuration space",
-        "Times are milliseconds on one core in one process: medians, with quartiles in brackets. parry2d makes a "
-        "collision test at the centre of every cell; the first link decides whole rows, discs are tested before "
-        "exact shapes, and the first hit counts. cplan's bitmap and rows answer the same question from exact "
-        "contact angles, with a bit or a byte per cell. In cplan's outer grid all of each free cell is free. "
-        "cplan's polygons are the free space with a margin of 1 mm, for any number of cells.",
+        "Times are milliseconds on one core in one process: medians, with quartiles in brackets. parry2d tests "
+        "the centre of each cell for collision. If the first link collides, one test decides a whole row. Discs "
+        "are tested before exact shapes, and a test ends at the first hit. cplan's bitmap and rows answer the "
+        "same question from exact contact angles, with a bit or a byte per cell. In cplan's outer grid all of "
+        "each free cell is free. cplan's polygons are the free space with a margin of 1 mm, for any number of "
+        "cells.",
         [
             "problem",
             "cells",
@@ -40,8 +41,8 @@ def tables(settings: Settings) -> list[Table]:
             table.rows.append(row)
             table.leads.append(Lead(f"C-space of {name}, {cells} x {cells}", "parry2d", "cplan bitmap", ratio))
             table.note(
-                f"{name}, {cells} x {cells}: {report['blocked']} of {report['cells']} cells blocked; parry2d, in "
-                f"single precision, differs in {report['differ']} of them, and in double precision in "
-                f"{report['differ_double']} of those."
+                f"{name}, {cells} x {cells}: {report['blocked']} of {report['cells']} cells are blocked. In single "
+                f"precision, parry2d differs from cplan in {report['differ']} cells; in double precision, it differs "
+                f"in {report['differ_double']} of these cells."
             )
     return [table]

@@ -13,10 +13,10 @@ def table() -> Table:
     """Empty."""
     return Table(
         "Distances on a grid",
-        "Times are milliseconds from one goal to all free cells: medians, with quartiles in brackets. Steps "
-        "are moves to four neighbours. With eight neighbours, a diagonal move costs the square root of 2; "
-        "cplan allows it only if both cells beside it are free, scikit-image everywhere. Any direction is the "
-        "distance around the walls, to first order, which cplan does not offer.",
+        "Times are milliseconds from one goal to all free cells: medians, with quartiles in brackets. Steps are "
+        "moves to four neighbours. With eight neighbours, a diagonal move costs the square root of 2; cplan "
+        "allows such a move only if both cells beside it are free; scikit-image always allows it. Any direction "
+        "is the distance around the walls by moves in all directions, to first order; cplan does not offer it.",
         ["grid", "quantity", "program", "time", "over cplan's", "same values"],
     )
 

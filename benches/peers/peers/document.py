@@ -25,7 +25,7 @@ def markdown(machine: list[str], versions: list[str], tested: list[str], tables:
 def _summary(leads: list[Lead]) -> str:
     """Who is faster at what."""
     lines = ["### Where another program is faster", ""]
-    lines += ["The numbers are its time over cplan's, by medians of this run.", ""]
+    lines += ["The numbers are the other program's time over cplan's, by medians of this run.", ""]
     lines += _grouped([lead for lead in leads if lead.ratio < 1]) or ["Nowhere in this run."]
     lines += ["", "### Where cplan is faster", ""]
     lines += ["<details><summary>The other program's time over cplan's, by medians of this run</summary>", ""]

@@ -44,17 +44,17 @@ def table() -> Table:
     return Table(
         "Harmonic fields",
         "The problem is Laplace's equation on the free cells: 1 at the goal, 0 on walls and beyond the edge. "
-        "Times are milliseconds: medians, with quartiles in brackets. Setup is all work that depends only on "
-        "the walls; a goal is the work after the setup. The other programs get their matrix, and its assembly "
-        "is not counted. Errors are relative to scipy's direct solver, if it ran; the iterative solvers stop "
-        "at 1e-6. Dead ends are cells from which the goal can be reached, but which have no greater "
+        "Times are milliseconds: medians, with quartiles in brackets. Setup is all work that depends only on the "
+        "walls; a goal is the remaining work for one goal. The times of the other programs do not include the "
+        "assembly of their matrix. Errors are relative to scipy's direct solver, if it ran; the iterative solvers "
+        "stop at 1e-6. Dead ends are cells from which the goal can be reached, but which have no greater "
         "neighbour: a robot that climbs the field gets stuck there.",
         ["grid", "solver", "setup", "a goal", "setup and goal", "greatest error", "dead ends"],
         notes=[
             "cplan multigrid is the library's solver for one equation, accurate to 1e-6 of the goal's value. "
-            "cplan harmonic is the planner's solver: each value agrees with its neighbours to a relative error of "
-            "1.5e-14, however small it is (the judge gets its logarithms). It takes more time, and has no dead "
-            "ends.",
+            "cplan harmonic is the planner's solver: each value satisfies the equation to a relative error of "
+            "1.5e-14. Some values are so small that the judge gets their logarithms. This solver takes more time, "
+            "and has no dead ends.",
         ],
     )
 

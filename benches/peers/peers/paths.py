@@ -99,10 +99,10 @@ def paths_table(listed: list[Entry], verdicts: Verdicts) -> Table:
         "Paths: problems A and B",
         "Times are milliseconds from the scene in memory to the answer, by each program's own clock: medians, "
         "with quartiles in brackets. Length is the median of the valid paths over the proven lower bound (A "
-        f"{bounds['A']:.4f} rad, B {bounds['B']:.4f} rad, by `cplan --gap 1e-4`). Valid counts the paths that "
-        "are free of collision at every 1e-4 rad, by the harness's own judge. Process is the time from the "
-        "start of the process to its end on A; cplan reads URDF and TOML and writes the timed trajectory in "
-        "it, the others print waypoints.",
+        f"{bounds['A']:.4f} rad, B {bounds['B']:.4f} rad, by `cplan --gap 1e-4`). Valid counts the paths that are "
+        "free of collision at every 1e-4 rad, by the harness's own judge. Process is the time of the whole "
+        "process on A. In this time cplan also reads URDF and TOML and writes the timed trajectory; the others "
+        "print waypoints.",
         [
             "planner",
             "A ms",
@@ -172,8 +172,8 @@ def impossible_table(listed: list[Entry], verdicts: Verdicts) -> Table:
     """Problems that have none."""
     table = Table(
         "No path: problems INF and T",
-        "The table has each program's own answers with their numbers, and the times in milliseconds: medians, "
-        "with quartiles in brackets. Every returned path is wrong, and the judge rejects each one.",
+        "The table shows how often each program gave which answer, in its own words. Times are milliseconds: "
+        "medians, with quartiles in brackets. Every returned path is wrong, and the judge rejects each one.",
         ["planner", "INF: answer", "INF ms", "T: answer", "T ms", "paths returned", "of these valid"],
     )
     for entry in listed:
@@ -207,5 +207,5 @@ def tables(settings: Settings, problems: dict[str, Problem]) -> list[Table]:
     ]
     paths = [(name, path) for name, path in own if path is not None]
     wrong = sum(not verdicts.valid(name, path) for name, path in paths)
-    found[0].note(f"Of cplan's {len(paths)} paths {wrong} fail the judge.")
+    found[0].note(f"The judge rejects {wrong} of cplan's {len(paths)} paths.")
     return found

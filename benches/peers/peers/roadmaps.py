@@ -21,10 +21,10 @@ def tables(settings: Settings) -> list[Table]:
     """One table, by number of corners."""
     table = Table(
         "Shortest paths among polygons",
-        "The polygons are random and disjoint, have ten corners each, are mostly not convex, and fill a fifth "
-        "of the area. Build times are in milliseconds and query times in microseconds: medians, with "
-        "quartiles over the rounds of the mean of 32 queries. cplan triangulates, and searches cones of "
-        "sight; a query does not need its visibility graph. pyvisgraph builds the graph.",
+        "The polygons are random and disjoint, have ten corners each, are mostly not convex, and fill a fifth of "
+        "the area. Build times are in milliseconds and query times in microseconds: medians, with quartiles in "
+        "brackets. A query time is the mean of 32 queries in each round. cplan triangulates, and its queries "
+        "search cones of sight in the triangulation, without the visibility graph. pyvisgraph builds the graph.",
         ["corners", "program", "build ms", "whole visibility graph ms", "query us", "greatest difference in length"],
     )
     sizes = [(100, settings.choose(20, 5), True), (1000, settings.choose(10, 3), not settings.quick)]

@@ -26,10 +26,10 @@ def table(settings: Settings, problems: dict[str, Problem], verdicts: Verdicts, 
     """cplan's library calls beside OMPL's planners."""
     table = Table(
         "Answers from a warm process",
-        "The table shows library calls in one process, one after the other and without files. `decide` is a "
-        "certified path, or a proof that has passed its check; `shortest` is the planner without its bound, "
-        "and with it; OMPL returns first solutions with different seeds. Times are milliseconds: medians, "
-        "with quartiles in brackets. Length is relative to the proven lower bound.",
+        "The table shows library calls in one process, one after the other and without files. `decide` returns a "
+        "certified path or a checked proof. `shortest` is the default planner, without its bound and with it. "
+        "OMPL returns its first solutions, for different seeds. Times are milliseconds: medians, with quartiles "
+        "in brackets. Length is relative to the proven lower bound.",
         ["problem", "program", "ms", "answer", "length", "valid"],
     )
     for name, problem in problems.items():
