@@ -68,9 +68,8 @@ fn meet_at_axis(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool
     turns && (meet(sides) || meet([sides[1], sides[0]]))
 }
 
-/// Returns true if the shapes overlap in every box of configurations, among boxes that cover all configurations. A
-/// box in which they may be apart is halved. The search ends at the first middle of a box at which they are not
-/// proven to overlap.
+/// Returns true if boxes are found that cover all configurations, and in each of which the shapes overlap. A box in
+/// which they may be apart is halved. The search fails at the first box in whose middle they are not proven to overlap.
 fn meet_in_boxes(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool {
     let (mover, beside) = (MovingBody::new(arm, &own.within), other.owner());
     let cell = |ranges: &Rectangle| Cell::from(ranges).for_link(Some(&beside));

@@ -258,7 +258,7 @@ impl<'a> CurveSearch<'a> {
         self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
     }
 
-    /// Returns the value at which a bound is accepted, if the least distance seen so far includes `distance`.
+    /// Returns the least bound that is accepted, if `distance` counts among the distances seen so far.
     fn target(&self, distance: f64) -> f64 {
         if self.tightness > 0.0 {
             (self.tightness * self.least_distance().min(distance)).max(self.required)

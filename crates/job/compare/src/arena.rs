@@ -24,7 +24,7 @@ const OMPL_STATUS_WORDS: [&str; 10] = [
     "Infeasible",
 ];
 
-/// Computes the value of a column from a run: its number from 1, its problem and its row.
+/// Computes the value of a column from the number of a run (from 1), its problem and its row.
 type Value = fn(usize, &Comparison, &Row) -> Option<String>;
 
 /// The properties of each run. First come those that OMPL's planners also have, with OMPL's names and units (seconds,

@@ -81,9 +81,9 @@ impl Comparison {
         })
     }
 
-    /// Returns a table for a terminal, with an emphasis on the best value of each column, and below it the planners' remarks.
-    /// Unless it may be of any width, it has only the leading columns. Control characters in names are escaped, and the text
-    /// ends in a newline.
+    /// Returns a table for a terminal, with an emphasis on the best value of each column, and below it the planners'
+    /// remarks. If the width is limited, the table has only the leading columns. Control characters in names are
+    /// escaped, and the text ends in a newline.
     pub fn to_text(&self, is_wide: bool, emphasis: Emphasis) -> String {
         let remarks = self.rows.iter().flat_map(Row::remarks);
         if is_wide {

@@ -260,8 +260,8 @@ impl Plan {
         }
     }
 
-    /// Returns the status of the problem without the errors for which the motion must be free. Plans it at the first call,
-    /// unless a motion was found, which is one for it, too. `None` if there are no errors.
+    /// Returns the status of the problem without the errors for which the motion must be free. If a motion was found,
+    /// it also solves that problem. Otherwise plans that problem at the first call. `None` if there are no errors.
     pub fn status_as_drawn(&self) -> Option<Status> {
         *self.drawn.get_or_init(|| {
             let errors = self.problem.errors()?;

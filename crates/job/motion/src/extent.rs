@@ -28,9 +28,9 @@ struct Position {
     off: f64,
 }
 
-/// Returns the extent of a motion at each waypoint of its path: the motion is off the path only within this distance of
-/// the waypoint, its distance from the path is at most half of it, and so is that from the waypoint. It is 0 at waypoints
-/// that the motion does not round, and positive at all others.
+/// Returns the extent of a motion at each waypoint of its path. The motion is off the path only within this distance of
+/// the waypoint. It is never farther from the path than half of this distance, and passes the waypoint within half of
+/// it. The extent is 0 at waypoints that the motion does not round, and positive at all others.
 pub(super) fn extents(path: &Path, pieces: &[Piece], is_rounded: impl Fn(usize) -> bool) -> Vec<f64> {
     let q = path.waypoints();
     let corners: Vec<usize> = (0..q.len()).filter(|&w| is_rounded(w)).collect();

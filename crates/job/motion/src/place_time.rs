@@ -30,8 +30,9 @@ pub struct MotionPart<'a> {
     pub awaited: Option<&'a str>,
 }
 
-/// Computes the times at which moving obstacles block the arm: for each configuration, for each loose obstacle of the
-/// scene, in order and disjoint, in seconds. The clearance of the world counts as blocked.
+/// Computes the intervals of time, in seconds, in which moving obstacles block the arm. There is a list for each
+/// configuration and each loose obstacle of the scene, in order and disjoint. The clearance of the world counts as
+/// blocked.
 pub type BlockedTimes<'a> = dyn Fn(TimedScene, &[Configuration]) -> Vec<Vec<Vec<Interval>>> + 'a;
 
 /// A place on a motion.

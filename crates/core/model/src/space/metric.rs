@@ -15,8 +15,8 @@ pub enum Metric {
         /// A positive weight for each joint.
         weights: [f64; 2],
     },
-    /// The greater of `|d1| / v1` and `|d2| / v2`: the time, seconds, in which both joints move together at their
-    /// top speeds. If the speed of a sum of both joints is limited, too, `|ratio d1 + d2| / speed` if that is greater.
+    /// The greatest of `|d1| / v1`, `|d2| / v2` and, if the speed of a sum of both joints is limited,
+    /// `|ratio d1 + d2| / speed`: the time, seconds, in which both joints move together at their top speeds.
     Time {
         /// Top speed of each joint, rad/s or m/s; positive.
         speeds: [f64; 2],

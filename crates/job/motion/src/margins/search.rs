@@ -14,7 +14,7 @@ const TIGHTNESS: f64 = 0.96;
 /// Number of places that are sampled first.
 const INITIAL_SAMPLES: usize = 32;
 
-/// Greatest number of samples of a piece among those.
+/// Greatest number of these samples on one piece.
 const SAMPLES_PER_PIECE: usize = 4;
 
 /// Number of checks of a pair of shapes on a span after which every bound is accepted. They take some seconds.

@@ -118,8 +118,8 @@ impl TurnDuringMotion<'_> {
         turn_angle(&self.profile(), self.ends, time - self.begin)
     }
 
-    /// Returns the span of a motion in which the payload does not have the orientation of the rest of the motion. `None`
-    /// if it always has it.
+    /// Returns the span of a motion in which the payload's orientation differs from that in the rest of the motion.
+    /// `None` if there is no such span.
     fn window(&self, motion: &Recording) -> Option<[f64; 2]> {
         let times = motion.times()?;
         let [first, last] = [times[0], times[times.len() - 1]];
@@ -170,8 +170,8 @@ impl TurnDuringMotion<'_> {
         Ok(least)
     }
 
-    /// Returns true if the payload is quickly proven to keep at least `clearance` metres from obstacles in the part of
-    /// the motion in which it does not have the orientation of the rest of the motion.
+    /// Returns true if the payload is quickly proven to keep at least `clearance` metres from obstacles while its
+    /// orientation differs from that in the rest of the motion.
     pub fn keeps(&self, motion: &Recording, clearance: f64) -> bool {
         self.proven(motion, clearance, TRIAL).is_ok()
     }

@@ -85,7 +85,7 @@ impl<'a> SecondLinkWalls<'a> {
         }
     }
 
-    /// Returns the pairs in use, in order: the pairs of link 1, unless they are too many, then the pairs of link 2.
+    /// Returns the pairs in use, in order: first those of link 1 (none if they are too many), then those of link 2.
     pub fn pairs(&self) -> Vec<Pair> {
         let first = self.contacts.second_link_pairs().start;
         let few = first <= MAX_PAIRS;
@@ -141,7 +141,7 @@ impl<'a> SecondLinkWalls<'a> {
         pairs.into_iter().map(|(_, pair)| pair).collect()
     }
 
-    /// Returns the number of a pair. Returns `None` if it is not in use.
+    /// Returns the index of a pair in `self.pairs`. `None` if the pair has not been added.
     pub fn number(&self, pair: Pair) -> Option<usize> {
         self.numbers.get(&pair).copied()
     }
