@@ -32,8 +32,8 @@ pub(super) fn ignore_permanent_contacts(arm: &mut Arm) {
     }
 }
 
-/// Returns true if a moving shape and one that is an obstacle for it certainly share heights, and are proven to meet
-/// in every configuration.
+/// Returns true if `other` is an obstacle for the moving shape `own`, the two certainly share heights, and they are
+/// proven to meet in every configuration.
 fn is_permanent(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool {
     let is_obstacle = other.last.is_none() || own.last == Some(1);
     let heights = other.within.inset_heights(Outline::Within);
@@ -110,7 +110,8 @@ fn is_same_shape(a: &CollisionShape, b: &CollisionShape) -> bool {
     (&a.link, a.kind, a.number) == (&b.link, b.kind, b.number)
 }
 
-/// Returns the mesh that consists of these layers, ordered from the lowest on. Its convex hull counts.
+/// Returns the mesh that consists of these layers, which are ordered from the lowest to the highest. The mesh counts as
+/// its convex hull.
 fn uncut(layers: &[CollisionShape]) -> CollisionShape {
     let mut whole = layers[0].clone();
     for layer in &layers[1..] {

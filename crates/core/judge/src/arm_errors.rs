@@ -17,7 +17,7 @@ pub struct ArmErrors {
     pub base: f64,
     /// Rotation of the base about the origin of the plane, radians.
     pub base_angle: f64,
-    /// Error of the distance from joint 1 to joint 2, and of that from joint 2 to the tip, metres. Each point of a link
+    /// Errors of two distances, metres: from joint 1 to joint 2, and from joint 2 to the tip. Each point of a link
     /// moves along the link by at most this.
     pub lengths: [f64; 2],
     /// Error of the zero of each joint, radians or metres.

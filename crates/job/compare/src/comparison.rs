@@ -44,8 +44,8 @@ impl Comparison {
         quotient(row.length?, self.bound?)
     }
 
-    /// Returns true if one planner found a certified path and another proved that no path exists, so that one of them is
-    /// wrong.
+    /// Returns true if one planner found a certified path and another one proved that no path exists. One of the two is
+    /// then wrong.
     pub fn is_contradictory(&self) -> bool {
         let has = |outcome| self.rows.iter().any(|row| row.outcome == outcome);
         has(Status::Found) && has(Status::Infeasible)

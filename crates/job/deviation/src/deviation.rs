@@ -113,7 +113,7 @@ impl Deviation<'_> {
         self.with_bounds(pieces, pairs.collect())
     }
 
-    /// Returns the share of a piece of the motion at which the tip has covered a share of the chord of one of its parts.
+    /// Returns the share of a piece of the motion at which the tip has covered `share` of the chord of `part`.
     fn moment(&self, piece: &Piece, part: &Part, share: f64) -> f64 {
         let Part { shares, ends: [a, b], .. } = *part;
         let (along, square) = (b - a, (b - a).norm_squared());
@@ -142,8 +142,8 @@ impl Deviation<'_> {
         self.pairing(pieces).bounds
     }
 
-    /// Pairs each moment with the place of the line that comes next and is near. Near a hairpin that is narrower than the
-    /// tolerance, or a piece much shorter than it, these may be the wrong ones.
+    /// Pairs each moment with the place of the line that comes next and is near. Near a hairpin that is narrower than
+    /// the tolerance, or near a piece much shorter than the tolerance, these may be the wrong places.
     fn advanced(&self, pieces: &[Piece]) -> Vec<(f64, Foot)> {
         let [mut foot, last] = self.ends;
         let mut pairs = vec![(0.0, foot)];

@@ -118,7 +118,7 @@ impl LimitedTorque {
         self.weights[0] * torques[0] + self.weights[1] * torques[1]
     }
 
-    /// Returns the greatest magnitude of the sum, given those of the joints' torques.
+    /// Returns the greatest magnitude of the sum, given the greatest magnitudes of the joints' torques.
     pub fn bound(&self, torques: [f64; 2]) -> f64 {
         self.weights[0].abs() * torques[0] + self.weights[1].abs() * torques[1]
     }

@@ -337,8 +337,8 @@ impl Plan {
         self.searches.tasks.map(|search| search.replay(task, &self.options, answer))
     }
 
-    /// Returns the times at which moving obstacles block places on the motion, or on that of the steps before the one that
-    /// fails. `None` if nothing moves beside the arm, or if there is no motion. Computed at each call.
+    /// Returns the times at which moving obstacles block places on the motion. If a step fails, the motion is that of
+    /// the steps before it. `None` if nothing moves beside the arm, or if there is no motion. Computed at each call.
     pub fn place_time(&self) -> Option<PlaceTime> {
         let movers = self.searches.movers?;
         let blocked_times: &BlockedTimes = &|timed, configurations| movers.blocked_times(timed, configurations);

@@ -26,7 +26,7 @@ pub struct Recording {
     rests: Vec<usize>,
 }
 
-/// The motion of all joints of a robot, as a file states it beside that of the arm's two joints.
+/// The motion of all joints of a robot, as a file states it beside the motion of the arm's two joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedJoints {
     /// The motion of the arm's two joints.

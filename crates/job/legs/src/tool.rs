@@ -73,7 +73,7 @@ impl Overlap {
 pub struct WristMotion {
     /// Signed angle, radians.
     pub angle: f64,
-    /// Time from the beginning of the task to that of the turn, in seconds.
+    /// Time from the beginning of the task to the beginning of the turn, in seconds.
     pub begin: f64,
     /// Duration, in seconds. The wrist turns with its fastest motion, or with that motion stretched evenly in time.
     pub seconds: f64,

@@ -16,7 +16,7 @@ const DISTANCE_MARGIN: f64 = 0.01;
 /// Number of halvings with which the place is found at which a motion leaves its path.
 const PLACE_HALVINGS: u32 = 24;
 
-/// Greatest number of legs between the leg of one position and that of the next one.
+/// Greatest number of legs between the legs of two consecutive positions.
 const MAX_LEGS_AHEAD: usize = 8;
 
 /// A motion's position, compared with a path.

@@ -201,8 +201,8 @@ impl Limits<'_> {
         Self { jerk: [None; 2], sum: self.sum.map(|sum| SumLimit { jerk: None, ..sum }), ..self }
     }
 
-    /// Iterates over the times in which the jerk of a joint or of the sum builds up the full acceleration, for those with a
-    /// limit on their jerks.
+    /// Iterates over the times in which a limited jerk builds up the full acceleration: one for each joint with such a
+    /// limit, and one for the sum if it has one.
     pub(super) fn growths(&self) -> impl Iterator<Item = f64> + use<> {
         let of_joints = self.sum.map_or(0.0, |sum| sum.ratio.abs() * self.acceleration[0] + self.acceleration[1]);
         self.axes().filter_map(move |axis| {
@@ -212,7 +212,7 @@ impl Limits<'_> {
         })
     }
 
-    /// Returns the greatest of these times; 0 without limits on jerks.
+    /// Returns the greatest time in which a limited jerk builds up the full acceleration; 0 without limits on jerks.
     pub(super) fn longest_growth(&self) -> f64 {
         self.growths().fold(0.0, f64::max)
     }

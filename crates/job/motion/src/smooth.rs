@@ -25,8 +25,7 @@ const MIN_SPEED_SHARE: f64 = 1.0 / 128.0;
 /// Number of rounds in which the speeds at corners are reduced. After that, the arm stops at all corners.
 const MAX_ROUNDS: usize = 24;
 
-/// Ratio of an acceleration limit to the one tried before it. With a lower acceleration, the jerk needs less time to
-/// reverse it.
+/// Ratio of an acceleration limit to the limit tried before. The jerk needs less time to reverse a lower acceleration.
 const ACCELERATION_FACTOR: f64 = 0.8;
 
 /// Least acceleration limit that is tried, as a share of the full limit.

@@ -108,7 +108,7 @@ toml_table! {
 }
 
 impl CalibrationTable {
-    /// Returns the table in which the errors that `other` states replace those of this one.
+    /// Returns this table with its errors replaced by those that `other` states.
     #[must_use]
     pub fn replaced_by(self, other: Self) -> Self {
         Self {

@@ -96,8 +96,8 @@ const SIMPLE_POLYGON_HINT: &str =
     "list the corners in order round the shape (and round each hole), each once; a wall without area is a polyline";
 
 impl ObstacleTable {
-    /// Reads the obstacle with this index in its file. Unless it says otherwise, it has the `world`'s displacement; its own
-    /// clearance is at least that of the world. Both in metres.
+    /// Reads the obstacle with this index in its file. `world` has the obstacle's least clearance, and its displacement
+    /// unless the table states one, both in metres.
     ///
     /// # Errors
     /// A table without exactly one shape, values that are not finite, invalid shapes, and unusable files.

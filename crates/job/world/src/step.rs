@@ -330,7 +330,7 @@ impl<'a> StepReader<'a> {
         Ok(leaves.collect())
     }
 
-    /// Returns the next step. `at` is the position of its target, and `table` that of its table.
+    /// Returns the next step. `at` is the position of its target, and `table` the position of its table.
     fn leaf(
         &mut self,
         at: Range<usize>,

@@ -119,8 +119,8 @@ impl World {
         if errors == Calibration::default() { drawn } else { drawn.within_errors(&errors) }
     }
 
-    /// Replaces errors for which motions stay free by those that an option states. Its displacement of obstacles
-    /// applies to all of them.
+    /// Replaces the errors for which motions stay free by those that an option states. If the option states a
+    /// displacement of obstacles, it applies to all obstacles.
     pub(super) fn replace_errors(&mut self, stated: CalibrationTable) {
         self.calibration = self.calibration.replaced_by(stated);
         if let Some(LengthError(error)) = stated.obstacles {

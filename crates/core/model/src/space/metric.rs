@@ -96,8 +96,8 @@ mod tests {
         );
     }
 
-    /// The least norms are those of the best of many displacements that move a joint by 1. That of time does not count the
-    /// sum, so it is a lower bound.
+    /// Compares the least norm with the least one of many displacements that move a joint by 1. The least norm of
+    /// [`Metric::Time`] ignores the sum, so it is only a lower bound.
     #[test]
     fn least_norms_are_those_of_the_best_displacements() {
         let sum = Some(SumSpeed { ratio: -1.5, speed: 0.4 });

@@ -24,7 +24,8 @@ const TRIAL: Effort = Effort { spans: 48, evaluations: 1_000 };
 /// Greatest number of spans that a proof examines, and greatest number of checks of pairs in each of them.
 const PROOF: Effort = Effort { spans: 4_096, evaluations: 50_000 };
 
-/// Number of times that a clearance is halved until a lower one is accepted.
+/// Number of times that a sought clearance is halved if it is not proven. After that, only the required clearance is
+/// tried.
 const CLEARANCE_HALVINGS: u8 = 3;
 
 /// Number of times that a span is halved to bound the speed of the wrist.
@@ -89,8 +90,8 @@ pub fn turn_profile(wrist: &Wrist, distance: f64, seconds: f64) -> Vec<[f64; 3]>
     fastest.into_iter().map(|[time, angle, speed]| [time * stretch, angle, speed / stretch]).collect()
 }
 
-/// A turn of the payload that begins or ends during a motion of the arm. Before it the payload has the orientation of
-/// its beginning, and after it that of its end.
+/// A turn of the payload that begins or ends during a motion of the arm. Before the turn the payload has the
+/// orientation of the turn's beginning, and after the turn that of its end.
 #[derive(Debug, Clone)]
 pub struct TurnDuringMotion<'a> {
     /// The payload and its obstacles.

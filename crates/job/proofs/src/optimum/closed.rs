@@ -1,5 +1,5 @@
-//! *Closed* configurations, in which shapes are too near. Finds the closed values of joint 1, and those of joint 2 at
-//! one value of joint 1. Proves that straight motions are closed.
+//! *Closed* configurations, in which shapes are too near. Finds the closed values of joint 1, and the closed values of
+//! joint 2 at one value of joint 1. Proves that straight motions are closed.
 
 use crate::slab::{CLOSED_FORM_ERROR, ErodedShape};
 use cplan_geometry::{Convex, Hits, Point, Pose, Vector, common, merge_in_place, perpendicular, separation};
@@ -11,7 +11,7 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Number of times that a motion is halved. If it is not proven then, it counts as not proven.
+/// Number of times that a motion is halved. If that does not prove it closed, it counts as not proven.
 const MAX_MOTION_HALVINGS: usize = 4;
 
 /// An interval of joint 2 in which a pair is too near. For a joint with limits it lies within the domain. For a

@@ -27,8 +27,8 @@ const MAX_REPLAY_BYTES: usize = 200_000;
 /// Largest number of slab boxes, for all motions of a task together.
 const MAX_BOXES: usize = 5_000;
 
-/// Fractions of a joint's range for the case that there are more boxes than `MAX_BOXES`. The replay omits boxes
-/// narrower than one of these: the first fraction that suffices.
+/// Fractions of a joint's range for the case that there are more boxes than `MAX_BOXES`. The replay then omits boxes
+/// narrower than the first of these fractions that suffices.
 const BOX_WIDTH_LIMITS: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
 
 impl PhaseView {
