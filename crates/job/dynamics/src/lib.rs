@@ -26,8 +26,8 @@ pub struct Rates {
     pub third: [f64; 2],
 }
 
-/// Upper bounds that say how much torques bend along a curve. Each joint's torque is a sum of three parts, and these
-/// are bounds on the second derivatives of the parts by the parameter of the curve.
+/// Upper bounds on how much torques bend along a curve. Each joint's torque is a sum of three parts, and these are
+/// bounds on the second derivatives of the parts by the parameter of the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Curvature {
     /// Bound for the first part: the torque that accelerates the joints along the curve's first derivative.

@@ -31,7 +31,7 @@ pub struct Recording {
 pub struct RecordedJoints {
     /// The motion of the arm's two joints.
     pub arm: Recording,
-    /// Names of the other joints, each with its values at the same samples as the first coordinate.
+    /// Names of the other joints, each with its values at the same samples. The values are first coordinates.
     pub others: Vec<(String, Recording)>,
 }
 

@@ -115,7 +115,7 @@ impl ToolValues {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Arch {
-    /// Height above the lowest position that the tool reaches before the arm moves.
+    /// Height above the lowest position. The tool reaches it before the arm moves.
     pub rise: f64,
     /// Height above the lowest position. Below it, the tool is lowered only while the arm is at rest.
     pub fall: f64,

@@ -217,8 +217,8 @@ impl Limits<'_> {
         self.growths().fold(0.0, f64::max)
     }
 
-    /// Returns the greatest distance over both joints that a joint moves at top speed while a jerk builds up the full
-    /// acceleration.
+    /// Returns the distance that a joint moves at top speed while its jerk builds up the full acceleration: the greater
+    /// one of both joints.
     pub(super) fn reversal(&self) -> f64 {
         let of_joint = |k: usize| self.jerk[k].map_or(0.0, |j| self.acceleration[k] / j * self.velocity[k]);
         let is_limited = self.sum.is_some_and(|sum| sum.jerk.is_some());
@@ -226,7 +226,7 @@ impl Limits<'_> {
         of_joint(0).max(of_joint(1)).max(of_sum)
     }
 
-    /// Returns the greatest distance over both joints that a joint moves until it reaches its top speed.
+    /// Returns the distance that a joint moves until it reaches its top speed: the greater one of both joints.
     pub(super) fn ramp(&self) -> f64 {
         let torque = self.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
         let acceleration = |k: usize| self.acceleration[k].min(torque[k]);

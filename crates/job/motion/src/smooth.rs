@@ -34,7 +34,8 @@ const MIN_ACCELERATION_SHARE: f64 = 1e-3;
 /// A path that is timed within limits.
 struct Smoothing<'a> {
     limits: Limits<'a>,
-    /// The limits without those on jerks, and possibly with lower accelerations than the joints allow.
+    /// The limits on speeds and accelerations, without limits on jerks. Accelerations may be lower than the joints
+    /// allow.
     base: Limits<'a>,
     /// Least time between acceleration and deceleration on a straight piece, seconds.
     coast: f64,

@@ -132,7 +132,8 @@ impl Look<'_> {
         self.posture.is_apart_with_errors(during, self.beside, errors, self.known)
     }
 
-    /// Returns a lower bound on the distance over the deviation. It may be below the greatest one once it is `enough`.
+    /// Returns a lower bound on the distance over the deviation. If the bound is at least `enough`, it need not be the
+    /// greatest one.
     fn bound(&self, enough: f64) -> SeparationBound {
         let bound = self.posture.bound_during(self.during, self.deviation, |_| enough);
         SeparationBound { least: bound.least.max(self.known), ..bound }

@@ -104,8 +104,8 @@ pub struct TurnDuringMotion<'a> {
     pub seconds: f64,
     /// Time at which the turn begins, on the clock of the motion, seconds.
     pub begin: f64,
-    /// True for a turn before a place, which leaves another orientation for the end of the motion. False for a turn
-    /// after a pick, before which the payload has another orientation from the beginning of the motion on.
+    /// True for a turn before a place: the payload keeps its last orientation until the end of the motion. False for a
+    /// turn after a pick: the payload has its first orientation from the beginning of the motion.
     pub is_before_place: bool,
 }
 

@@ -21,7 +21,7 @@ const PROOF_SECONDS: [f64; 2] = [4.0, 6.0];
 /// Longest duration of all phases together, in seconds. Nobody would watch a longer replay.
 const MAX_REPLAY_SECONDS: f64 = 6.0;
 
-/// Size of the replays for the motions of a task on a page, in bytes, from which on later motions have no replay.
+/// Largest size of all replays of a task on a page together, in bytes. The motions after that have no replay.
 const MAX_REPLAY_BYTES: usize = 200_000;
 
 /// Largest number of slab boxes, for all motions of a task together.
