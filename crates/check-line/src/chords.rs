@@ -14,7 +14,7 @@ const MAX_HALVINGS: u32 = 12;
 /// Maximum number of chords of a stretch. Stretches of usual evidence have less than a hundred.
 const MAX_CHORDS: usize = 20_000;
 
-/// Binary digits of the deviation of chords as a share of the tolerance: a quarter.
+/// Negative binary logarithm of the greatest deviation of chords, as a share of the tolerance: a quarter of it.
 const DEVIATION_BITS: u32 = 2;
 
 /// A segment, and a bound on the distance of the line's part from it. Numbers are in units of [`Interval`].

@@ -27,8 +27,9 @@ impl<'a> Measure<'a> {
         }
     }
 
-    /// Returns the measure of the tip for all values of joint 2 in a range. With `f` the measure or its square, `m` the
-    /// middle of the range and `f'` the derivative in the range, the values are in `f(m) + f' (range - m)`.
+    /// Returns the measure of the tip for all values of joint 2 in a range. Let `f` be the measure or its square, `m`
+    /// the middle of the range, and `f'` the derivative in the range. Then the values of `f` are in
+    /// `f(m) + f' (range - m)`.
     pub fn of_tip(&self, range: &Interval) -> Interval {
         let [zero, one] = [0, 1].map(Interval::whole);
         let state = |value: Interval| {

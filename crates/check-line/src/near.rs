@@ -77,7 +77,7 @@ pub fn follows(arm: &Arm, world: &World, certificate: &Certificate, line: &Line)
 /// side.
 ///
 /// # Errors
-/// Those of [`spans`], and the first part of the motion for which it is not shown.
+/// Those of [`spans`], and the first part of the motion on which the tip is not shown to follow the line.
 pub fn stays_near(arm: &Arm, line: &Line, pieces: &[Piece]) -> Result<(), CheckError> {
     if let Some(elbow) = line.elbow {
         elbow.of_arm(arm)?;
@@ -94,7 +94,8 @@ pub fn stays_near(arm: &Arm, line: &Line, pieces: &[Piece]) -> Result<(), CheckE
 /// Pairs parts of the motion with parts of the line, from the beginning to the end of both.
 ///
 /// # Errors
-/// Places that do not begin or end with the motion and the line, that return, or that omit a knot or the end of a piece.
+/// Places that do not begin or end with the motion and the line, that move backwards, or that omit a knot or the end of
+/// a piece.
 fn spans(line: &Line, knots: usize) -> Result<Vec<Span>, CheckError> {
     let places = &line.places;
     let is_at = |place: Option<&[Decimal; 2]>, ends: [usize; 2]| {
@@ -161,9 +162,10 @@ impl Follower<'_> {
         Ok(())
     }
 
-    /// Returns a bound on the second derivative of the difference between the tip and its place on the line, by the share
-    /// `s` of the part, in units. The place at `s` has the parameter `from + (to - from) (s + delay s (1 - s))`, where the
-    /// delay is from -1 to 1. So it never returns. Also returns the delay, which is guessed so that the bound is small.
+    /// Bounds the difference between the tip and its place on the line, as a function of the share `s` of the part.
+    /// Returns a bound on its second derivative, in units. The place at `s` has the parameter
+    /// `from + (to - from) (s + delay s (1 - s))`, with a delay between -1 and 1, so the place never moves backwards.
+    /// Also returns the delay, which is guessed so that the bound is small.
     fn bend(&self, curve: &Curve, joints: &[Point], [from, to]: [&BigInt; 2]) -> (BigInt, f64) {
         let rates = bezier::derivative(joints);
         let bends = bezier::enclosure(&bezier::derivative(&rates));
@@ -180,8 +182,8 @@ impl Follower<'_> {
         (length(&minus(&minus(&tip, &place[0]), &place[1])).upper, delay)
     }
 
-    /// Returns the pairing for the middle of a part. Its place is between those of the part's ends, near the place that is
-    /// nearest to the tip.
+    /// Returns the pairing for the middle of a part. Its place on the line lies between the places at the ends of the
+    /// part, close to the point nearest to the tip.
     fn middle(&self, curve: &Curve, q: &Point, [from, to]: [&BigInt; 2], delay: f64) -> Pairing {
         let tip = tip::at(self.arm, q);
         let u = from + (((to - from) * units(0.5 + delay / 4.0)) >> BITS);

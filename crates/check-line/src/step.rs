@@ -12,8 +12,8 @@ use cplan_check::{CheckError, Input};
 use num_bigint::BigInt;
 use std::fmt;
 
-/// Number of parts of an arc among which the point nearest to a given point is searched. Each is at most a sixth of a
-/// radian, from where [`REFINEMENTS`] reach the point to far below a picometre.
+/// Number of parts of an arc whose ends are tried as guesses for the point nearest to a given point. Each part is at
+/// most a sixth of a radian long. From the best end, [`REFINEMENTS`] steps find the point to far below a picometre.
 const ARC_PARTS: u32 = 40;
 
 /// Number of steps of Newton's method for a point of an arc.
@@ -54,7 +54,8 @@ impl StepLine {
     /// of the step, from knot to knot.
     ///
     /// # Errors
-    /// Places that omit a knot or the end of a piece of the line, and the first part for which it is not shown.
+    /// Places that omit a knot or the end of a piece of the line, and the first part of the motion on which the tip is
+    /// not shown to follow the line.
     pub fn check(&self, arm: &Arm, motion: &[Piece]) -> Result<(), CheckError> {
         near::stays_near(arm, &self.0, motion)
     }

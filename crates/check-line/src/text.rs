@@ -10,7 +10,8 @@ use num_bigint::BigInt;
 use serde::Deserialize;
 use std::fmt;
 
-/// Number of decimals of the greatest distance between two points that count as the same, as a share of one metre and the distance from the origin.
+/// Number of decimals of the greatest distance between two points that count as the same, as a share of the sum of one
+/// metre and the distance from the origin.
 const GAP_DECIMALS: u32 = 8;
 
 #[derive(Deserialize)]

@@ -10,8 +10,8 @@ use crate::interval::{BITS, Interval, length, minus};
 use num_bigint::BigInt;
 use serde::Deserialize;
 
-/// Number of decimals of the sine of the angle by which an arm may be bent to the wrong side: that of the greatest error of
-/// a motion at its end.
+/// Number of decimals of the greatest sine of the angle by which an arm may be bent to the wrong side: `10^-5`, like
+/// the greatest error of a motion at its end.
 const BEND_DECIMALS: u32 = 5;
 
 /// Greatest range of joint 2, radians, on which the sides at both ends decide. It is less than half a turn.
@@ -53,8 +53,8 @@ impl Elbow {
         }
     }
 
-    /// Returns the product of both links' lengths and the sine of the angle by which the arm is bent to the other side, for
-    /// all values of joint 2 in a range; and the product of the lengths.
+    /// Returns two enclosures for all values of joint 2 in a range. The second is the product of both links' lengths.
+    /// The first is that product times the sine of the angle by which the arm is bent to the other side.
     fn bend(self, arm: &Arm, second: &Interval) -> [Interval; 2] {
         let values = [Interval::whole(0), second.clone()];
         let tip = Chain::from(arm).point_at(&Attachment::Link(1), &arm.tip.shape.points[0], &values);

@@ -21,8 +21,8 @@ impl JointSum {
         &(&self.ratio * first) + second
     }
 
-    /// Returns rectangles of the domain in which no sum is allowed. Each reaches over one of many parts of joint 1's range,
-    /// which begin and end where `boxes` do.
+    /// Returns rectangles of the domain in which no sum is allowed. Each spans one of many parts of joint 1's range.
+    /// Parts also begin and end where `boxes` do.
     pub fn outside(&self, domain: &Domain, boxes: &[Rectangle]) -> Vec<Rectangle> {
         let [[left, right], [bottom, top]] = &domain.ranges;
         let width = &(right - left) * &Decimal::dyadic(&BigInt::from(1), HALVINGS);

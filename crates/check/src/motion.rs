@@ -174,7 +174,7 @@ pub fn fine(sixty: &Decimal) -> Option<i128> {
 }
 
 /// Returns true if a curve stays between `low` and `high`, ends included. First tests the control points of the curve.
-/// If these do not decide, tests those of its halves, up to `halvings` times.
+/// If these do not decide, halves the curve and tests the control points of the halves, up to `halvings` times.
 fn is_curve_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u32) -> bool {
     let is_within = |value: &Decimal| low <= value && value <= high;
     if control.iter().all(is_within) {

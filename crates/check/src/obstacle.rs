@@ -60,8 +60,8 @@ pub trait ObstacleTrajectory {
 
 /// The solid squares of a picture, in the frame of its obstacle. A picture is an occupancy map.
 pub trait Squares {
-    /// Returns the corners of the rectangle of solid squares that is meant by four points: its corners are those
-    /// nearest to them. Returns `None` if there is no such rectangle.
+    /// Returns the corners of a rectangle of solid squares, given four points. The corners of the rectangle are the
+    /// corners of squares nearest to these points. Returns `None` if there is no such rectangle.
     fn part(&self, given: &[Point]) -> Option<Vec<Point>>;
 
     /// Returns the border between solid and free squares, as straight pieces.

@@ -102,7 +102,7 @@ impl fmt::Display for CollisionShape {
 }
 
 impl CollisionShape {
-    /// Returns the shape as the origin of an obstacle.
+    /// Describes the shape for an obstacle that is made from it.
     pub fn owner(&self) -> Owner {
         Owner { shape: self.to_string(), is_carried: self.last.is_some() }
     }

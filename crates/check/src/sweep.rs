@@ -22,8 +22,8 @@ struct Gaps {
     values: [Vec<Decimal>; 2],
 }
 
-/// The gaps within one strip. They are given by the indices of their ends in the values of joint 2, and the index of
-/// the first gap.
+/// The gaps within one strip. Each gap is given by the indices of its ends in the values of joint 2. `first` is the
+/// index of the first gap.
 struct Strip {
     first: usize,
     gaps: Vec<[usize; 2]>,

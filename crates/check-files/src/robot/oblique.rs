@@ -11,8 +11,8 @@ const ELLIPSE_STEPS: i32 = 16;
 /// a disc by less, a disc replaces it. If the projection is flatter than this share, a rectangle replaces the cylinder.
 const PROJECTION_TOLERANCE_DIVISOR: u32 = 200;
 
-/// Negative binary logarithm of the greatest slope between a cylinder's axis and the plane for which the axis counts as
-/// lying in the plane.
+/// Negative binary logarithm of a slope. If a cylinder's axis has at most this slope to the plane, it counts as lying
+/// in the plane.
 const IN_PLANE_BITS: u64 = 44;
 
 /// Returns the core and the radius of the projection of an oblique cylinder. The projection is the convex hull of two

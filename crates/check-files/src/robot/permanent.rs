@@ -32,8 +32,8 @@ pub(super) fn ignore_permanent_contacts(arm: &mut Arm) {
     }
 }
 
-/// Returns true if a moving shape and one that is an obstacle for it certainly share heights, and are proven to meet
-/// in every configuration.
+/// Returns true if `other` is an obstacle for the moving shape `own`, the two certainly share heights, and they are
+/// proven to meet in every configuration.
 fn is_permanent(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool {
     let is_obstacle = other.last.is_none() || own.last == Some(1);
     let heights = other.within.inset_heights(Outline::Within);
@@ -68,9 +68,8 @@ fn meet_at_axis(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool
     turns && (meet(sides) || meet([sides[1], sides[0]]))
 }
 
-/// Returns true if the shapes overlap in every box of configurations, among boxes that cover all configurations. A
-/// box in which they may be apart is halved. The search ends at the first middle of a box at which they are not
-/// proven to overlap.
+/// Returns true if boxes are found that cover all configurations, and in each of which the shapes overlap. A box in
+/// which they may be apart is halved. The search fails at the first box in whose middle they are not proven to overlap.
 fn meet_in_boxes(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool {
     let (mover, beside) = (MovingBody::new(arm, &own.within), other.owner());
     let cell = |ranges: &Rectangle| Cell::from(ranges).for_link(Some(&beside));
@@ -111,7 +110,8 @@ fn is_same_shape(a: &CollisionShape, b: &CollisionShape) -> bool {
     (&a.link, a.kind, a.number) == (&b.link, b.kind, b.number)
 }
 
-/// Returns the mesh that consists of these layers, ordered from the lowest on. Its convex hull counts.
+/// Returns the mesh that consists of these layers, which are ordered from the lowest to the highest. The mesh counts as
+/// its convex hull.
 fn uncut(layers: &[CollisionShape]) -> CollisionShape {
     let mut whole = layers[0].clone();
     for layer in &layers[1..] {

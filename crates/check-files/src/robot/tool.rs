@@ -172,13 +172,14 @@ impl LiftAxis {
     }
 }
 
-/// Returns the least and the greatest height above its raised position of a tool that is lowered by a length.
+/// Returns the least and the greatest height of a tool that is lowered by a length, relative to its raised position.
 pub fn swept_heights(by: &Decimal) -> [Decimal; 2] {
     let [raised, lowered] = [Decimal::whole(0), -by];
     if lowered < raised { [lowered, raised] } else { [raised, lowered] }
 }
 
-/// Returns the least and the greatest height of a tool between its raised position and a height above it.
+/// Returns the least and the greatest height of a tool that moves between its raised position and a height. All heights
+/// are relative to the raised position.
 pub fn heights_to(height: &Interval) -> [Decimal; 2] {
     let zero = BigInt::ZERO;
     Interval { lower: height.lower.clone().min(zero.clone()), upper: height.upper.clone().max(zero) }.ends()

@@ -261,7 +261,8 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Returns the limits of a joint: those of the world, or else those of the URDF, reduced by its soft limits.
+    /// Returns the limits of a joint. The world states them; otherwise they are the limits of the URDF, narrowed by its
+    /// soft limits.
     pub fn limits(&self, joint: Node<'a, 'a>, world: &WorldFile) -> ReadResult<Limits> {
         let turns = joint.attribute("type") != Some("prismatic");
         if let Some(ends) = world.robot.limits.get(self.text(joint, "name")?) {

@@ -10,7 +10,7 @@ use std::collections::BTreeMap;
 /// Reads the line of an executed step. Returns `None` if the step follows no line.
 ///
 /// # Errors
-/// If a step has a line but follows none, or the reverse, and if the line is not that of the world.
+/// If only the step or only its execution has a line, or if the line is not that of the world.
 pub(super) fn read(step: &Step, done: &ExecutedStep) -> Result<Option<StepLine>, CheckError> {
     let number = step.number;
     let wrong = |message| Err(CheckError::in_file(Input::Certificate, message));

@@ -65,12 +65,12 @@ pub(super) struct Replay<'a> {
     lift: Option<LiftAxis>,
     /// The stroke and the turn after the previous step, if they end during the motion of the next one.
     before: EndCurves,
-    /// Heights of the lowered tool at the start and at the goal, relative to the raised one. `None` if it is raised there,
-    /// or has been raised.
+    /// Heights of the lowered tool at the start and at the goal, relative to the raised tool. `None` if the tool is
+    /// raised there, or has been raised since.
     lowered: [Option<Interval>; 2],
-    /// Height of each object above its initial one, metres, where it lies or where it was picked.
+    /// Height of each object relative to its initial height, metres, at the place where it lies or was picked.
     elevations: Vec<Decimal>,
-    /// Height of the object of the present step above its initial one, metres, where it is picked or placed.
+    /// Height of the present step's object relative to its initial height, metres, at the pick or the place.
     elevation: Decimal,
     /// Objects that lie at other heights than initially, by their indices among the obstacles.
     elevated: BTreeMap<usize, Obstacle>,
@@ -259,7 +259,7 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// Returns the height of a step's object above its initial one, where it is picked or placed, metres.
+    /// Returns the height of a step's object relative to its initial height, metres, at the pick or the place.
     fn elevation_of(&self, step: &Step) -> Decimal {
         match (&step.action, &self.held) {
             (Action::Pick { object, .. }, _) => self.elevations[*object].clone(),

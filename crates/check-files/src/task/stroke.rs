@@ -109,7 +109,8 @@ impl StrokeCurve {
         &self.times[self.times.len() - 1]
     }
 
-    /// Returns the height at a time. Before the stroke it is that of the first knot, and after it that of the last.
+    /// Returns the height at a time. Before the stroke, this is the height of the first knot, and after the stroke, the
+    /// height of the last knot.
     fn height_at(&self, time: &Decimal) -> Interval {
         let next = self.times.partition_point(|knot| knot <= time);
         if next == 0 || next == self.times.len() {

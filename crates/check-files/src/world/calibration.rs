@@ -170,8 +170,8 @@ impl Lengths {
         Self { links, between, reach }
     }
 
-    /// Returns bounds on how far points of both links are from where they would be without errors of lengths and zeros,
-    /// relative to the base. `docs/certificate_checks.md` derives them.
+    /// Returns bounds on the displacements of points of both links that errors of lengths and zeros cause, relative to
+    /// the base. `docs/certificate_checks.md` derives them.
     fn displacements(&self, error: &Interval, [slides, turns]: &[Interval; 2], joints: &[Joint; 2]) -> [Interval; 2] {
         let zero = |joint: &Joint, lever: &Interval| match joint.motion {
             Motion::Turn(_) => turns * lever,

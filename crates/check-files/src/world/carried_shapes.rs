@@ -29,8 +29,8 @@ pub fn solids(obstacle: &Obstacle) -> ReadResult<Vec<Shape>> {
 }
 
 /// Returns the part of an object that must keep away from its supports. Each corner is moved inwards along the bisector
-/// of its angle. The length is `by`, or up to `2^-30` of `by` less. The radius of a disc is reduced by this length, at
-/// most to 0.
+/// of its angle. It moves by `by`, or by up to `2^-30` of `by` less. The radius of a disc is reduced by `by`, at most
+/// to 0.
 ///
 /// # Errors
 /// If the object has no interior, or is too thin.

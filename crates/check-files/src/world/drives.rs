@@ -73,7 +73,8 @@ impl Reader<'_> {
     }
 }
 
-/// Returns the limits of a joint value, or of the sum, from those of the shaft. `None` if the gear is 0.
+/// Returns the limits of a joint value, or of the sum, that follow from the limits of the shaft. `None` if the gear is
+/// 0.
 fn limits(gear: &Decimal, zero: &Range, ends: [&Range; 2]) -> Option<[Range; 2]> {
     let is_one = *gear == Decimal::whole(1) && zero.iter().all(|zero| zero.sign() == Sign::NoSign);
     if is_one {

@@ -129,7 +129,7 @@ pub enum Action {
         at: Point,
         angle: Option<Interval>,
         supports: Option<Vec<usize>>,
-        /// Height of the object's bottom there, metres. `None` if it is the one where the object was picked.
+        /// Height of the object's bottom there, metres. `None` if it is the height at which the object was picked.
         height: Option<Decimal>,
     },
     Move(Goal),

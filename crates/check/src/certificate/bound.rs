@@ -31,10 +31,10 @@ pub enum Metric {
     Weights([Decimal; 2]),
     /// The greater of the two times, seconds, that the joints need at these speeds.
     Speeds([Decimal; 2]),
-    /// The greatest of these times and of the time that a motor of the elbow on the base needs.
+    /// The greatest of three times, seconds: those of the two joints, and that of an elbow motor on the base.
     MotorSpeeds(MotorSpeeds),
     /// Root of the sum of squares of the angles of both motors. The number is the factor of joint 1 in the angle of the
-    /// second one.
+    /// second motor.
     Motor(Decimal),
 }
 

@@ -1,4 +1,4 @@
-//! Parts to which evidence refers and that are links of the robot.
+//! Links of the robot to which evidence refers as parts.
 
 use super::{Evident, PART_HINT};
 use crate::arm::Arm;

@@ -73,8 +73,9 @@ pub(super) fn plan_among_few(
     None
 }
 
-/// Returns the problem of a motion, and the planner's answer to it, computed as for the motions of a task. `None` if the path
-/// is straight, which needs no planner.
+/// Plans a motion of a task again, with the same steps as before: first among few objects, then among all. Returns the
+/// problem and the planner's answer. `None` if an optimising planner is chosen and the straight path is certified, as
+/// no planner ran then.
 pub(super) fn planned_again(
     scene: &Scene,
     own: usize,

@@ -5,8 +5,8 @@ use super::polygon::without_straight_corners;
 use super::{Convex, Orientation, Point, SimplePolygon, orientation};
 use cplan_interrupt::checkpoint;
 
-/// Largest number of corners of a piece. A query takes time that grows with the corners of the pieces that it examines.
-/// Of many small pieces it examines only those nearby.
+/// Largest number of corners of a piece. The time of a query grows with the corners of the pieces that it examines. If
+/// pieces are small, it examines only those nearby.
 pub const MAX_CORNERS: usize = 64;
 
 /// Decomposes a polygon into strictly convex polygons (of radius 0) with disjoint interiors, each of at most

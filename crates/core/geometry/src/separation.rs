@@ -100,8 +100,8 @@ struct Face {
     is_beside: bool,
 }
 
-/// Returns the side of `a` that `b` is farthest outside of (or least deep inside). Returns `None` if no side exceeds
-/// `most`.
+/// Returns the side of `a` that has the greatest signed distance to `b`, which is positive outside. Returns `None` if
+/// no side exceeds `most`.
 fn best_face(a: &[Point], b: &[Point], mut most: f64) -> Option<Face> {
     let mut best: Option<(f64, Vector, [&Point; 3])> = None;
     for (p, q) in sides(a) {

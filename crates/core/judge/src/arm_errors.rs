@@ -17,7 +17,7 @@ pub struct ArmErrors {
     pub base: f64,
     /// Rotation of the base about the origin of the plane, radians.
     pub base_angle: f64,
-    /// Error of the distance from joint 1 to joint 2, and of that from joint 2 to the tip, metres. Each point of a link
+    /// Errors of two distances, metres: from joint 1 to joint 2, and from joint 2 to the tip. Each point of a link
     /// moves along the link by at most this.
     pub lengths: [f64; 2],
     /// Error of the zero of each joint, radians or metres.
@@ -56,7 +56,7 @@ struct Changes {
     turns: [f64; 2],
     /// Motion of the link's points along the link, metres.
     stretch: f64,
-    /// Places to which the first and the second turn lead back.
+    /// Positions of joint 1 and of the link's joint, about which the first and the second turn lead back.
     pivots: [Point; 2],
 }
 
@@ -121,9 +121,9 @@ impl Changes {
 }
 
 impl Posture<'_> {
-    /// Returns true if a pair is proven to be apart during a span of a motion ([`Posture::bound_during`]), whatever errors
-    /// up to these the arm has. `known` is a distance, in metres, that the pair is known to keep without errors; 0 if
-    /// none is known. Links of the robot move with its base.
+    /// Returns true if a pair is proven to be apart during a span of a motion ([`Posture::bound_during`]), for each arm
+    /// within these errors. `known` is a distance, in metres, that the pair is known to keep without errors; 0 if none
+    /// is known. Links of the robot move with its base.
     pub fn is_apart_with_errors(&self, during: SpanPair, deviation: Deviation, errors: &ArmErrors, known: f64) -> bool {
         let SpanPair { pair, part, drift } = during;
         let Pair { link, .. } = pair;
@@ -182,15 +182,17 @@ impl Posture<'_> {
         })
     }
 
-    /// Returns deviations that contain those of prismatic joints. Rotations do not change how far errors move a point.
+    /// Returns a box of deviations that contains those of prismatic joints. Deviations of revolute joints are 0 in it,
+    /// because rotations do not change how far errors move a point.
     fn slides(&self, deviation: Deviation) -> Deviation {
         let greatest = deviation.greatest_components();
         let joints = &self.scene.arm().joints;
         Deviation::Box([0, 1].map(|k| if joints[k].joint_type.is_revolute() { 0.0 } else { greatest[k] }))
     }
 
-    /// Returns the unit vectors along the links, from joint to joint and from joint 2 to the tip, that move the parts of a
-    /// link. Zero for a link without a length, and for one that is farther along the chain.
+    /// Returns, for each link, the direction in which an error of its length moves the parts of link `link`: from joint
+    /// 1 to joint 2, and from joint 2 to the tip. Zero for a link without a length, and for one farther along the
+    /// chain.
     fn lengthwise(&self, link: usize) -> [Vector; 2] {
         let arm: &Arm = self.scene.arm();
         let unit = |v: Vector| v.try_normalize(0.0).unwrap_or_default();

@@ -57,7 +57,7 @@ impl Deviation {
         }
     }
 
-    /// Returns the sums of these deviations and all that change each joint by at most `by`.
+    /// Returns all sums of one of these deviations and one that changes each joint by at most `by`.
     #[must_use]
     pub fn widened(self, by: f64) -> Self {
         match self {
@@ -305,7 +305,8 @@ impl<'a> Posture<'a> {
     }
 
     /// Returns a lower bound on the distance, computed along a direction that is fixed in the link. Seen from the link,
-    /// the obstacle's corners move. Each has the opposite of the velocity of the link's point at the same place.
+    /// the obstacle's corners move. The velocity of each corner is the opposite of the velocity that a point of the
+    /// link has at the same place.
     fn least_in_link(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, piece, .. } = shapes;
         let line = corners.iter().map(|p| n.dot(p)).fold(f64::NEG_INFINITY, f64::max);

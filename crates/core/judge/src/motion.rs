@@ -58,8 +58,8 @@ impl CertifiedPath {
         &self.path
     }
 
-    /// Returns the same path for a motion that deviates from it. The nearest approach is replaced, and the clearance is
-    /// lowered to `clearance` if that is less.
+    /// Returns the same path for a motion that deviates from it. Replaces the nearest approach, and lowers the
+    /// clearance to `clearance` if `clearance` is less.
     #[must_use]
     pub fn within(self, clearance: f64, nearest: Option<Nearest>) -> Self {
         Self { clearance: self.clearance.min(clearance), nearest, ..self }
@@ -84,9 +84,9 @@ impl CertifiedPath {
         Self { path: Path::new(waypoints), clearance: self.clearance.min(next.clearance), nearest }
     }
 
-    /// Returns the part between two distances along the path, reversed if the first is greater. A part of a
-    /// certified path is certified, in either direction. Its reported clearance is that of the whole path, which is
-    /// a lower bound.
+    /// Returns the part between two distances along the path, reversed if the first is greater. A part of a certified
+    /// path is certified, in either direction. Its reported clearance is the clearance of the whole path, which is a
+    /// lower bound.
     #[must_use]
     pub fn part(&self, from: f64, to: f64) -> Self {
         Self { path: self.path.part(from, to), ..self.clone() }
@@ -258,7 +258,7 @@ impl<'a> CurveSearch<'a> {
         self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
     }
 
-    /// Returns the value at which a bound is accepted, if the least distance seen so far includes `distance`.
+    /// Returns the least bound that is accepted, if `distance` counts among the distances seen so far.
     fn target(&self, distance: f64) -> f64 {
         if self.tightness > 0.0 {
             (self.tightness * self.least_distance().min(distance)).max(self.required)

@@ -14,7 +14,7 @@ const TOUCHING: f64 = 2.0 * ROUNDING;
 const MAX_CELLS: usize = 4096;
 
 /// Returns the pairs with links of the robot that are proven to meet in every configuration within the joints' limits.
-/// Shapes that certainly lie within the real ones decide.
+/// The proof uses shapes that certainly lie within the real ones.
 pub fn permanent_contacts(scene: &Scene) -> Vec<Pair> {
     let inner = scene.inner();
     let contacts = Contacts::new(&inner);

@@ -30,8 +30,8 @@ impl<'a> Vicinity<'a> {
         Self { pairs, parts }
     }
 
-    /// Calls `f`, in the order of the pairs, with every pair that is within `distance` of each other at some deviation
-    /// from the posture. Other pairs may be included. Stops at the first error of `f`.
+    /// Calls `f`, in the order of the pairs, with every pair whose shapes are within `distance` of each other at some
+    /// deviation from the posture. Calls it with some other pairs, too. Stops at the first error of `f`.
     pub fn near<E>(
         &self,
         posture: &Posture,

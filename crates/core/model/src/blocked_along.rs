@@ -10,8 +10,8 @@ const MAX_CHECKED_CONFIGURATIONS: usize = 1000;
 /// Largest number of times that a segment is halved.
 const MAX_HALVINGS: u32 = 20;
 
-/// Fraction of the lengths in a comparison of a collision's depth with the arm's motion by which the depth must
-/// exceed the motion. It is far above the rounding of both.
+/// Margin by which a collision's depth must exceed the arm's motion, as a fraction of the lengths in their comparison.
+/// It is far above the rounding of the two values.
 const ROUNDING: f64 = 1e-12;
 
 /// A part of a segment on which one obstruction is proven to remain.

@@ -15,8 +15,8 @@ pub struct Calibration {
     pub base_shift: f64,
     /// Rotation of the whole robot about joint 1, radians.
     pub base_turn: f64,
-    /// Change of each link's length, metres: by this distance, joint 2 differs from its place on link 1, and each point
-    /// of a link from its place on the link.
+    /// Error of each link's length, metres: the greatest displacement of joint 2 on link 1, and of each point of a link
+    /// on the link.
     pub links: f64,
     /// Offset of the zero of a joint that turns, radians.
     pub zero_turn: f64,
@@ -25,8 +25,8 @@ pub struct Calibration {
 }
 
 impl Calibration {
-    /// Returns, for each link, a bound on the distance of its points from where they would be without errors of lengths and
-    /// zeros, relative to the robot's base, metres.
+    /// Returns, for each link, a bound on the displacement of its points that errors of lengths and zeros cause,
+    /// relative to the robot's base, metres.
     ///
     /// With `e` the error of lengths, `z1` and `z2` those of zeros, `r1` and `r2` the greatest distances of the links'
     /// points from their joints, and `d` that of joint 2 from joint 1:

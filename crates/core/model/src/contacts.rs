@@ -149,8 +149,8 @@ impl<'a> Contacts<'a> {
         part.near(if part.link == 2 { self.at_zero.0 } else { elbow }, grow, found);
     }
 
-    /// Returns the place of joint 2, and the direction of link 1's x axis, to use for pair `index` of link 2. Both
-    /// are `here` as given, or, if joint 1 carries the obstacle as well, those with joint 1 at zero.
+    /// Returns the place of joint 2, and the direction of link 1's x axis, to use for pair `index` of link 2. They are
+    /// `here`, with one exception: if joint 1 also carries the obstacle, they are those with joint 1 at zero.
     pub fn frame(&self, index: usize, here: (Point, Vector)) -> (Point, Vector) {
         if self.pairs[index].link == 2 { self.at_zero } else { here }
     }

@@ -21,8 +21,8 @@ pub struct Inverse {
     /// The solutions, at most two; empty if the tip cannot reach the target.
     pub branches: Vec<Configuration>,
     /// The freedom of the joints that leaves the tip at the target; `None` if the solutions are isolated. With a
-    /// freedom there are infinitely many solutions. `branches` then has the one or two with the preferred value of the
-    /// free quantity.
+    /// freedom there are infinitely many solutions. `branches` then has the one or two solutions with the preferred
+    /// value of the free quantity.
     pub free: Option<Freedom>,
 }
 

@@ -14,17 +14,17 @@ use serde::{Deserialize, Serialize};
 /// equal pulleys leads to the elbow: the motor's angle then is that of link 2 against the base. The sum
 /// `ratio q1 + q2` is the *joint sum*.
 ///
-/// The torques of the joints, `tau1` and `tau2`, take the torques `(tau1 - ratio tau2) / gear[0]` and `tau2 / gear[1]` of
-/// the shafts.
+/// For the torques `tau1` and `tau2` of the joints, the shafts need the torques `(tau1 - ratio tau2) / gear[0]` and
+/// `tau2 / gear[1]`.
 ///
-/// Limits of the first motor's motion, those of the second motor's torque, and all those of motors with `ratio` 0, are limits
-/// of joints and not repeated here.
+/// Some limits of motors are stored as limits of joints, and not repeated here: those of the first motor's motion, that
+/// of the second motor's torque, and all limits if `ratio` is 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Motors {
     /// Turns of the elbow's motor, without its gear, for each turn of joint 1.
     pub ratio: f64,
-    /// Turns of each motor's shaft for each turn that it drives. Negative if they turn in opposite directions.
+    /// Turns of each motor's shaft per turn of its output. Negative if the two turn in opposite directions.
     pub gear: [f64; 2],
     /// Angles of both shafts at joint values of zero, radians.
     pub zero: [f64; 2],

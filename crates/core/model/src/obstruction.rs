@@ -35,7 +35,7 @@ impl Scene {
         self.worst(q, static_obstacles.chain(loose))
     }
 
-    /// Returns what identifies the two bodies that are too close: the link, whether its payload is, and the obstacle.
+    /// Returns the two bodies that are too close: the link, true if its payload is meant instead, and the obstacle.
     pub(super) fn bodies(&self, obstruction: &Obstruction) -> (usize, bool, usize) {
         let pair = obstruction.contact.pair;
         (pair.link, self.is_attached(pair), pair.obstacle)

@@ -92,8 +92,8 @@ pub(super) struct Pairing<'a> {
 }
 
 impl Pairing<'_> {
-    /// Returns the pairs with all but loose obstacles, and those with loose ones. Each list is ordered by link,
-    /// part, obstacle and piece.
+    /// Returns two lists: the pairs with obstacles that are not loose, and the pairs with loose obstacles. Each list is
+    /// ordered by link, part, obstacle and piece.
     pub fn pairs(&self) -> [Vec<Pair>; 2] {
         let excluded_pieces = self.excluded_pieces();
         // For each attached part, the derived shapes are one full set of pieces, numbered after the pieces.

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 pub enum Carrier {
     /// The robot's base: the link is fixed.
     Base,
-    /// Joint 1. Only link 2 and its attachment can hit such a link; whether they do depends on joint 2 alone.
+    /// Joint 1. Only link 2 and its attachment can hit such a link. Joint 2 alone determines if they do.
     FirstJoint,
 }
 

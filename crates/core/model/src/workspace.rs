@@ -152,7 +152,7 @@ pub struct Growth {
     pub clearance: f64,
     /// Greatest displacement of the obstacle in any direction, relative to the arm.
     pub error: f64,
-    /// Distance that covers all other errors, so that nearer configurations need not be in collision.
+    /// Distance that covers all other errors. Configurations within this distance need not be collisions.
     pub padding: f64,
     /// The distance by which the pieces have been grown: the clearance beyond the workspace's, the error and the padding.
     pub total: f64,

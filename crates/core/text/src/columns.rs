@@ -6,7 +6,7 @@ use std::fmt::Write;
 /// Column in which the second column starts.
 pub const SECOND_COLUMN: usize = 11;
 
-/// Lines with a key in a first column. If a key equals that of the line before, it is left blank.
+/// Lines with a key in a first column. A key that equals the key of the line before is left blank.
 #[derive(Debug, Default)]
 pub struct Columns {
     text: String,

@@ -1,4 +1,4 @@
-//! Numbers that may be infinite, for `#[serde(with = "crate::number")]`. JSON cannot represent infinity, so that it is
+//! Numbers that may be infinite, for `#[serde(with = "crate::number")]`. JSON cannot represent infinity, so it is
 //! written as `"inf"` or `"-inf"`. NaN is refused.
 
 use serde::de::Error;

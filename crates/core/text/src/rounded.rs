@@ -66,8 +66,8 @@ pub fn length_up(metres: f64) -> String {
     format!("{} {unit}", round_until(scale * metres, decimals, |shown| shown / scale >= metres, 1.0))
 }
 
-/// Formats a length in metres as [`length`] does, with as many more decimals as needed to look different from another
-/// length that is not equal.
+/// Formats a length in metres as [`length`] does. If another length is not equal but would look the same, adds decimals
+/// until the two look different.
 pub fn length_unlike(metres: f64, other: f64) -> String {
     let (scale, decimals, unit) = in_unit(metres);
     let [text, _] = format_distinct([scale * metres, scale * other], decimals);
@@ -102,7 +102,8 @@ pub fn headline_length(metres: f64, up: bool) -> String {
     format!("{} {unit}", headline_number(scale * metres, up))
 }
 
-/// Returns the unit in which a length is displayed: how many a metre has, the number of decimals, and the name.
+/// Returns the unit in which a length is displayed: the number of units per metre, the number of decimals, and the
+/// name.
 fn in_unit(metres: f64) -> (f64, usize, &'static str) {
     match 1e3 * metres.abs() {
         mm if mm < 10.0 => (1e3, 3, "mm"),

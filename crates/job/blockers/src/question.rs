@@ -73,7 +73,7 @@ pub struct MotionQuestion {
     /// elements are removed.
     beyond: [f64; 2],
     /// Least clearance in a world without some elements: [`MIN_CLEARANCE`], or 0 if start and goals are nearer to
-    /// obstacles than that.
+    /// obstacles than this.
     least_clearance: f64,
     /// Time limit for all decisions together. `None` for no limit.
     time_limit: Option<Duration>,

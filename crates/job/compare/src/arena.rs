@@ -24,11 +24,11 @@ const OMPL_STATUS_WORDS: [&str; 10] = [
     "Infeasible",
 ];
 
-/// Computes the value of a column from a run: its number from 1, its problem and its row.
+/// Computes the value of a column from the number of a run (from 1), its problem and its row.
 type Value = fn(usize, &Comparison, &Row) -> Option<String>;
 
-/// The properties of each run. First come those that OMPL's planners also have, with OMPL's names and units (seconds,
-/// megabytes of a million bytes). Those of cplan follow.
+/// The properties of each run. First come the properties that OMPL's planners also have, with OMPL's names and units
+/// (seconds, megabytes of a million bytes). Then come properties that only cplan has.
 const RUN_PROPERTIES: [(&str, Value); 18] = [
     ("time REAL", |_, _, row| real(row.total)),
     ("memory REAL", |_, _, row| real(row.memory.map(|bytes| bytes as f64 / 1e6))),

@@ -44,8 +44,8 @@ impl Comparison {
         quotient(row.length?, self.bound?)
     }
 
-    /// Returns true if one planner found a certified path and another proved that no path exists, so that one of them is
-    /// wrong.
+    /// Returns true if one planner found a certified path and another one proved that no path exists. One of the two is
+    /// then wrong.
     pub fn is_contradictory(&self) -> bool {
         let has = |outcome| self.rows.iter().any(|row| row.outcome == outcome);
         has(Status::Found) && has(Status::Infeasible)
@@ -81,9 +81,9 @@ impl Comparison {
         })
     }
 
-    /// Returns a table for a terminal, with an emphasis on the best value of each column, and below it the planners' remarks.
-    /// Unless it may be of any width, it has only the leading columns. Control characters in names are escaped, and the text
-    /// ends in a newline.
+    /// Returns a table for a terminal, with an emphasis on the best value of each column, and below it the planners'
+    /// remarks. If the width is limited, the table has only the leading columns. Control characters in names are
+    /// escaped, and the text ends in a newline.
     pub fn to_text(&self, is_wide: bool, emphasis: Emphasis) -> String {
         let remarks = self.rows.iter().flat_map(Row::remarks);
         if is_wide {

@@ -1,8 +1,8 @@
 //! Short names of planners, for charts and legends that have no room for all options.
 
 /// Shortens the names of rows, which are planners with their options, and keeps them distinct. Omits an option that
-/// occurs in all rows of a planner, if the rows have other options. A name stays as it is if its short form equals that
-/// of another row.
+/// occurs in all rows of a planner, if the rows have other options. A name stays as it is if the short forms of two
+/// rows would be equal.
 pub fn labels(names: &[&str]) -> Vec<String> {
     let parts: Vec<(&str, Vec<String>)> = names.iter().map(|name| options(name)).collect();
     let short = |(planner, options): &(&str, Vec<String>)| {

@@ -67,9 +67,9 @@ impl Table {
         self.to_text_within(usize::MAX, PLAIN)
     }
 
-    /// Returns the table as aligned text of at most this width, with an emphasis on the best values, which takes no room.
-    /// If it is too wide, its headings have two lines, and if that does not suffice, it is split: each part begins with the
-    /// first column.
+    /// Returns the table as aligned text of at most this width, with an emphasis on the best values, which takes no
+    /// room. If the table is too wide, its headings have two lines. If that does not suffice, the table is split, and
+    /// each part begins with the first column.
     pub fn to_text_within(&self, width: usize, emphasis: Emphasis) -> String {
         let table = self.with_cells(|cell| plain_line(cell).into_owned());
         let whole = |emphasis| table.text_under(&[table.header()], emphasis);

@@ -1,12 +1,12 @@
 //! The proven distance between a line and a motion in polynomial pieces.
 //!
-//! Let a part of the motion lead the tip from `A` to `B`, and let a part of the
-//! line lead from `P` to `Q`. The tip's path deviates from the straight line `A B` by at most an eighth of its second
-//! derivative across that line, and the part of the line from `P Q` by an eighth of its own. If the tip never moves
-//! backwards along `A B`, then both parts can be passed from the first to the last point together, never farther apart
-//! than the greater one of `|A P|` and `|B Q|`, plus the two deviations. (That is a bound on the Fréchet distance, which
-//! counts the order of the points.) If the tip may move backwards, an eighth of the second derivative along `A B` is
-//! added. A part whose bound is too large is halved.
+//! Let a part of the motion lead the tip from `A` to `B`, and let a part of the line lead from `P` to `Q`. The tip's
+//! path deviates from the chord `A B` by at most an eighth of its second derivative across the chord. In the same way,
+//! the part of the line deviates from its chord `P Q` by at most an eighth of its second derivative. Suppose that the
+//! tip never moves backwards along `A B`. Then both parts can be passed together, from the first to the last point.
+//! Their distance never exceeds the greater one of `|A P|` and `|B Q|`, plus the two deviations. (That is a bound on
+//! the Fréchet distance, which counts the order of the points.) If the tip may move backwards, an eighth of the second
+//! derivative along `A B` is added. A part whose bound is too large is halved.
 //!
 //! The second derivative of the tip is `J q'' + H(q', q')`, with the Jacobian `J` and the Hessian `H` of the arm's
 //! kinematics. Both change along a part by at most the bounds of [`Kinematics`]. So no sample counts by itself, and the
@@ -30,7 +30,7 @@ const FINEST_SHARE: f64 = 1.0 / 32.0;
 /// Greatest number of parts of a curve of the line in the diagram.
 const MAX_PARTS: f64 = 4096.0;
 
-/// Share of the tolerance up to which the moment of a place in the diagram is sought, along the motion.
+/// Precision of the moment of a place in the diagram: a distance along the motion, as a share of the tolerance.
 const MOMENT_SHARE: f64 = 1e-3;
 
 /// Greatest number of steps of this search.
@@ -78,8 +78,9 @@ pub struct Foot {
 
 /// The places of a motion and of a line that belong together.
 pub struct Pairing {
-    /// Moments of the motion at the ends of its pieces and at the corners of the line, each with the place on the line that
-    /// counts then. A moment is a piece of the motion plus the share of its duration. Both never return.
+    /// Moments of the motion at the ends of its pieces and at the corners of the line, each with the place on the line
+    /// that counts then. A moment is a piece of the motion plus the share of its duration. Neither moments nor places
+    /// ever decrease.
     pub pairs: Vec<(f64, Foot)>,
     /// For each piece of the motion, an upper bound on its distance from the line, metres.
     pub bounds: Vec<f64>,
@@ -112,7 +113,7 @@ impl Deviation<'_> {
         self.with_bounds(pieces, pairs.collect())
     }
 
-    /// Returns the share of a piece of the motion at which the tip has covered a share of the chord of one of its parts.
+    /// Returns the share of a piece of the motion at which the tip has covered `share` of the chord of `part`.
     fn moment(&self, piece: &Piece, part: &Part, share: f64) -> f64 {
         let Part { shares, ends: [a, b], .. } = *part;
         let (along, square) = (b - a, (b - a).norm_squared());
@@ -141,8 +142,8 @@ impl Deviation<'_> {
         self.pairing(pieces).bounds
     }
 
-    /// Pairs each moment with the place of the line that comes next and is near. Near a hairpin that is narrower than the
-    /// tolerance, or a piece much shorter than it, these may be the wrong ones.
+    /// Pairs each moment with the place of the line that comes next and is near. Near a hairpin that is narrower than
+    /// the tolerance, or near a piece much shorter than the tolerance, these may be the wrong places.
     fn advanced(&self, pieces: &[Piece]) -> Vec<(f64, Foot)> {
         let [mut foot, last] = self.ends;
         let mut pairs = vec![(0.0, foot)];
@@ -324,9 +325,9 @@ fn gap(line: &Line, piece: usize, u: f64, tip: Point) -> f64 {
     (Point::from(line.curve(piece).at(u)) - tip).norm()
 }
 
-/// Returns the place of a line that is near the next position of the tip, which is `step` metres away. It is between the
-/// places `from` and `last`, so that it never returns. The tip deviates from the line by at most `tolerance`, metres. It
-/// takes `O(1)` if no piece is passed.
+/// Returns the place of a line that is near the next position of the tip, which is `step` metres away. It is between
+/// the places `from` and `last`, so it never moves backwards. The tip deviates from the line by at most `tolerance`,
+/// metres. It takes `O(1)` if no piece is passed.
 pub fn advance(line: &Line, tolerance: f64, [from, last]: [Foot; 2], tip: Point, step: f64) -> Foot {
     let near = |piece: usize, least: f64| line.curve(piece).nearest([tip.x, tip.y], least);
     let mut foot = Foot { u: near(from.piece, from.u), ..from };

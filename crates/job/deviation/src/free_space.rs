@@ -1,10 +1,10 @@
 //! Pairs a motion with a line wherever that is possible within a tolerance.
 //!
 //! The free-space diagram (Alt and Godau, 1995) has a row for each part of the motion and a column for each part of the
-//! line. A pair of places is free if they are within the tolerance. The motion follows the line exactly if a path in the
-//! free space leads from the beginning of both to their ends and never returns. Parts are so short that they count as
-//! straight. Their deviation from chords reduces the tolerance in their cells. In a cell the free space is convex.
-//! So the places that can be reached on a side of a cell form one interval.
+//! line. A pair of places is free if they are within the tolerance. The motion follows the line exactly if a path in
+//! the free space leads from the beginning of both to their ends and never goes back. Parts are so short that they
+//! count as straight. Their deviation from chords reduces the tolerance in their cells. In a cell the free space is
+//! convex. So the places that can be reached on a side of a cell form one interval.
 
 use crate::deviation::Foot;
 use cplan_geometry::Point;

@@ -45,8 +45,8 @@ impl<'a> Kinematics<'a> {
         (self.arm.offset + direction * q2 + self.arm.tip).norm() + beside
     }
 
-    /// Returns a bound on the second derivative of the tip's position while the joint values deviate from `q` by at most
-    /// `beside`: the greatest length of its value for the two displacements `a` and `b`, metres.
+    /// Applies the second derivative of the tip's position to the displacements `a` and `b`, and returns a bound on the
+    /// length of the result, metres. It holds while the joint values deviate from `q` by at most `beside`.
     pub fn bend(&self, q: Configuration, beside: Configuration, a: Configuration, b: Configuration) -> f64 {
         use JointType::{Prismatic, Revolute};
         let [a1, a2, b1, b2] = [a[0].abs(), a[1].abs(), b[0].abs(), b[1].abs()];
@@ -75,8 +75,8 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// Returns a bound on the displacement of the tip for a displacement whose magnitude in each joint is at most `d`,
-    /// to first order, while the joint values are at most `beside` from `q`.
+    /// Returns a bound on the displacement of the tip, to first order, if each joint moves by at most `d`. It holds
+    /// while the joint values are at most `beside` from `q`.
     pub fn motion_within(&self, q: Configuration, beside: Configuration, d: Configuration) -> f64 {
         use JointType::{Prismatic, Revolute};
         let d = d.abs();

@@ -1,12 +1,13 @@
 //! The proven difference between the angle of a tool and the one that is required along a line.
 //!
-//! A part of the motion belongs to a part of the line, in the order of both ([`Deviation::pairing`]). The angle of the tool
-//! is a polynomial in time, so its control points bound it on the part. The line's headings on its part are bounded, too
-//! ([`cplan_toolpath::Curve::headings`]). So however both parts are passed together, the difference is at most that between the ends of both
-//! bounds. A part whose bound is too large is halved. No sample counts by itself.
+//! A part of the motion belongs to a part of the line, in the order of both ([`Deviation::pairing`]). The angle of the
+//! tool is a polynomial in time, so its control points bound it on the part. The line's headings on its part are
+//! bounded, too ([`cplan_toolpath::Curve::headings`]). So in whichever way both parts are passed together, the
+//! difference is at most the greatest one between the two ranges. A part whose bound is too large is halved. No sample
+//! counts by itself.
 //!
-//! At a sharp corner, the arm rests while the tool turns, and before and after the line it may do so. So the motion is
-//! divided at these rests. A fixed angle holds during rests and travels, too, except before and after the line.
+//! At a sharp corner, the arm rests while the tool turns. Before and after the line, it may do so, too. So the motion
+//! is divided at these rests. A fixed angle holds during rests and travels, too, except before and after the line.
 
 use crate::deviation::{Deviation, Foot};
 use cplan_geometry::Point;
@@ -163,7 +164,7 @@ fn moving(pieces: &[Piece]) -> Range<usize> {
     start..end
 }
 
-/// Returns the middle of bounds on the first component of a piece between two shares, and half of their distance.
+/// Returns bounds on the first component of a piece between two shares, as their middle and half of their difference.
 fn bounds(piece: &Piece, shares: [f64; 2]) -> [f64; 2] {
     let [low, high] = if piece.to > piece.from {
         piece.bounds_of_sum(Derivative::Position, [1.0, 0.0], shares)

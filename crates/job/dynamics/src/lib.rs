@@ -26,8 +26,8 @@ pub struct Rates {
     pub third: [f64; 2],
 }
 
-/// Upper bounds that say how much torques bend along a curve. Each joint's torque is a sum of three parts, and these
-/// are bounds on the second derivatives of the parts by the parameter of the curve.
+/// Upper bounds on how much torques bend along a curve. Each joint's torque is a sum of three parts, and these are
+/// bounds on the second derivatives of the parts by the parameter of the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Curvature {
     /// Bound for the first part: the torque that accelerates the joints along the curve's first derivative.
@@ -118,7 +118,7 @@ impl LimitedTorque {
         self.weights[0] * torques[0] + self.weights[1] * torques[1]
     }
 
-    /// Returns the greatest magnitude of the sum, given those of the joints' torques.
+    /// Returns the greatest magnitude of the sum, given the greatest magnitudes of the joints' torques.
     pub fn bound(&self, torques: [f64; 2]) -> f64 {
         self.weights[0].abs() * torques[0] + self.weights[1].abs() * torques[1]
     }

@@ -68,7 +68,7 @@ fn of_task(task: &Task, answer: &TaskAnswer) -> Margins {
 struct ToolStretch {
     scene: Scene,
     pieces: Vec<Piece>,
-    /// Time from the beginning of the task to that of the pieces, seconds.
+    /// Time from the beginning of the task to the beginning of the pieces, seconds.
     begin: f64,
     /// Distance that is proven at the heights and angles of each moment, metres.
     known: f64,

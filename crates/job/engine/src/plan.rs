@@ -260,8 +260,8 @@ impl Plan {
         }
     }
 
-    /// Returns the status of the problem without the errors for which the motion must be free. Plans it at the first call,
-    /// unless a motion was found, which is one for it, too. `None` if there are no errors.
+    /// Returns the status of the problem without the errors for which the motion must be free. If a motion was found,
+    /// it also solves that problem. Otherwise plans that problem at the first call. `None` if there are no errors.
     pub fn status_as_drawn(&self) -> Option<Status> {
         *self.drawn.get_or_init(|| {
             let errors = self.problem.errors()?;
@@ -337,8 +337,8 @@ impl Plan {
         self.searches.tasks.map(|search| search.replay(task, &self.options, answer))
     }
 
-    /// Returns the times at which moving obstacles block places on the motion, or on that of the steps before the one that
-    /// fails. `None` if nothing moves beside the arm, or if there is no motion. Computed at each call.
+    /// Returns the times at which moving obstacles block places on the motion. If a step fails, the motion is that of
+    /// the steps before it. `None` if nothing moves beside the arm, or if there is no motion. Computed at each call.
     pub fn place_time(&self) -> Option<PlaceTime> {
         let movers = self.searches.movers?;
         let blocked_times: &BlockedTimes = &|timed, configurations| movers.blocked_times(timed, configurations);

@@ -53,7 +53,8 @@ pub trait MoverSearch: Debug + Sync {
         options: &Options,
     ) -> Result<MotionAmongMovers, TimingError>;
 
-    /// Returns the times at which moving obstacles block the arm: for each configuration, for each loose obstacle of the
-    /// scene, in order and disjoint, in seconds. The clearance of the world counts as blocked.
+    /// Returns the intervals of time, in seconds, in which moving obstacles block the arm. There is a list for each
+    /// configuration and each loose obstacle of the scene, in order and disjoint. The clearance of the world counts as
+    /// blocked.
     fn blocked_times(&self, timed: TimedScene, configurations: &[Configuration]) -> Vec<Vec<Vec<Interval>>>;
 }

@@ -36,7 +36,7 @@ pub struct RecordedWrist {
     pub from: f64,
     /// The joint's value at the end, radians.
     pub to: f64,
-    /// Time from the beginning of the recording to that of the turn, seconds.
+    /// Time from the beginning of the recording to the beginning of the turn, seconds.
     pub begin: f64,
     /// Duration, seconds.
     pub seconds: f64,

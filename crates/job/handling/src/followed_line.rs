@@ -37,7 +37,7 @@ impl From<Toolpath> for FollowedLine {
     }
 }
 
-/// Number of chords whose lengths bound that of a curved piece from below.
+/// Number of chords of a curved piece. The sum of their lengths is a lower bound on the length of the piece.
 const CHORDS: u32 = 16;
 
 impl FollowedLine {

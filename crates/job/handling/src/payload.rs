@@ -133,8 +133,9 @@ impl Task {
         Some(self.scene_of(arm, self.obstacles(poses), None, allowed_contacts))
     }
 
-    /// Returns the scenes for strokes to these depths, in metres, during a motion of the arm. Link 2 may touch those of the
-    /// objects `touched` that it meets with the raised tool, too: others must be free whenever the arm moves.
+    /// Returns the scenes for strokes to these depths, in metres, during a motion of the arm. Link 2 may touch those of
+    /// the objects `touched` that it also meets with the raised tool. It must be free of the others whenever the arm
+    /// moves.
     pub fn arch_scene(
         &self,
         (stroke, depths): (&Stroke, &[f64]),

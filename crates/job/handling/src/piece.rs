@@ -111,7 +111,7 @@ impl Piece {
     }
 
     /// Returns bounds on a weighted sum of both joints' derivatives by time, between two shares of the piece. They are
-    /// those of the control points, so they are exact for linear derivatives. Zero for a piece without duration.
+    /// the bounds on the control points, so they are exact for linear derivatives. Zero for a piece without duration.
     pub fn bounds_of_sum(&self, of: Derivative, weights: [f64; 2], [from, to]: [f64; 2]) -> [f64; 2] {
         let (order, duration) = (of as usize, self.to - self.from);
         let Some(scaled) = self.curve.differences(order).filter(|_| duration > 0.0) else { return [0.0; 2] };

@@ -26,12 +26,12 @@ pub struct Recording {
     rests: Vec<usize>,
 }
 
-/// The motion of all joints of a robot, as a file states it beside that of the arm's two joints.
+/// The motion of all joints of a robot, as a file states it beside the motion of the arm's two joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedJoints {
     /// The motion of the arm's two joints.
     pub arm: Recording,
-    /// Names of the other joints, each with its values at the same samples as the first coordinate.
+    /// Names of the other joints, each with its values at the same samples. The values are first coordinates.
     pub others: Vec<(String, Recording)>,
 }
 

@@ -111,13 +111,13 @@ impl ToolValues {
     }
 }
 
-/// Least heights for the overlap of strokes with motions of the arm, metres.
+/// Least heights of the tool at which its strokes may overlap with motions of the arm, metres.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Arch {
-    /// Height above the lowest position that the tool reaches before the arm moves.
+    /// Height above the lowest position. The tool reaches it before the arm moves.
     pub rise: f64,
-    /// Height above the lowest position below which the tool moves only while the arm is at rest.
+    /// Height above the lowest position. Below it, the tool is lowered only while the arm is at rest.
     pub fall: f64,
 }
 

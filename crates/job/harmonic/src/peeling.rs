@@ -175,8 +175,8 @@ impl<'a> Peeling<'a> {
         path.is_some_and(|path| path.iter().all(|&at| at < self.component.goals || !self.is_front(at)))
     }
 
-    /// Solves all unknown cells as one window that is not cut off. If `last` is given, values below that of `last` need
-    /// not be precise. Works row by row in grid order, without a list of cells.
+    /// Solves all unknown cells as one window that is not cut off. If `last` is given, values below the value at `last`
+    /// need not be precise. Works row by row in grid order, without a list of cells.
     fn solve_whole(&mut self, last: Option<usize>) {
         let component = self.component;
         let cells = component.goals as u32..component.len() as u32;
@@ -381,8 +381,8 @@ impl<'a> Peeling<'a> {
         taken
     }
 
-    /// Queues a position from which the next window may start, that is, if its value is known and that of a neighbour
-    /// is not.
+    /// Queues a position if the next window may start there: if its value is known, and the value of a neighbour is
+    /// unknown.
     fn push_front(&mut self, position: u32) {
         if self.is_known(position as usize) && self.is_front(position as usize) {
             let log2 = self.potential.at(position as usize).log2();

@@ -16,7 +16,7 @@ const MIN_MANTISSA: f64 = f64::from_bits((1023 - 192) << 52);
 const MAX_MANTISSA: f64 = f64::from_bits((1023 + 192) << 52);
 
 /// A positive number `mantissa * 2^(256 exponent)`. A harmonic potential falls to about a quarter per cell in a narrow
-/// corridor, so doubles would underflow after 540 cells. These numbers do not within 10^9 cells.
+/// corridor, so doubles would underflow after 540 cells. These numbers do not underflow within 10^9 cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ScaledNumber {
     pub mantissa: f64,

@@ -22,7 +22,7 @@ pub struct RefusedIkSolution {
 /// task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailedStep {
-    /// The first step that cannot be done. It is the one before which the most steps can be done.
+    /// The first step that cannot be done, in the order in which the most steps can be done before that.
     pub step: Step,
     /// Reasons in words, with the motions that were tried. Some of these motions begin with other IK solutions or other
     /// grips than those at the end of the answer's steps.
@@ -36,8 +36,8 @@ pub struct FailedStep {
     /// The IK solutions to which motions from there were tried. Empty if no IK solution within the joint limits reaches
     /// the target.
     pub ik_solutions: Vec<RefusedIkSolution>,
-    /// Standstills before the motions that were tried, while the tool is raised, and after them, while it is lowered or
-    /// when objects have changed. A solution with several standstills can be used if one of them is free.
+    /// Standstills before and after the motions that were tried. Before them, the tool is raised. After them, the tool
+    /// is lowered, or objects have changed. A solution with several standstills can be used if one of them is free.
     pub standstills: [Vec<Standstill>; 2],
 }
 

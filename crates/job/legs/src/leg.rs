@@ -69,12 +69,12 @@ pub struct Leg {
     pub overlap: Overlap,
     /// Proven upper bound on the distance between the tip's path and the line, in metres, if the step follows one.
     pub deviation: Option<f64>,
-    /// Proven upper bound on the difference between the tool's angle and the one that the line asks for, in radians.
+    /// Proven upper bound on the difference between the tool's angle and the angle that the line asks for, in radians.
     /// `None` if the step follows no such line.
     pub tool_deviation: Option<f64>,
     /// The event while the tool is lowered.
     pub event: Option<Event>,
-    /// Time from the beginning of the task to that of the motion, in seconds.
+    /// Time from the beginning of the task to the beginning of the motion, in seconds.
     pub begin: f64,
 }
 
@@ -89,8 +89,8 @@ impl Leg {
         self.begin + self.timed.trajectory.duration()
     }
 
-    /// Returns the time from the end of the motion to that of the step, when the tool is raised and turned, in seconds.
-    /// The next motion may begin earlier: see [`Overlap::departure`].
+    /// Returns the time from the end of the motion to the end of the step, when the tool is raised and turned, in
+    /// seconds. The next motion may begin earlier: see [`Overlap::departure`].
     pub fn rest(&self) -> f64 {
         let strokes = if self.event.is_some() { 2.0 } else { 1.0 };
         let waiting = self.wrist.map_or(0.0, |wrist| wrist.waiting);
@@ -128,8 +128,8 @@ impl Leg {
         strokes
     }
 
-    /// Returns the time from the beginning of the motion back to that of the raising before it, in seconds. 0 if the tool is
-    /// raised, or if it is raised while the arm already moves.
+    /// Returns the time from the beginning of the raising to the beginning of the motion after it, in seconds. 0 if the
+    /// tool is raised, or if it is raised while the arm already moves.
     pub fn raising_at_rest(&self) -> f64 {
         self.raising.map_or(0.0, |raising| raising.seconds - self.overlap.raising)
     }

@@ -9,8 +9,8 @@ use cplan_motion::recorded::{turn_angle, turn_profile};
 pub struct TimedTurn {
     /// The index of the object in the task.
     pub object: usize,
-    /// Times between which the object's orientation may differ from that in the scenes of the motions, in seconds: from
-    /// the grasp to the end of the turn, or from the beginning of the turn to the release.
+    /// Times between which the object's orientation may differ from its orientation in the scenes of the motions, in
+    /// seconds: from the grasp to the end of the turn, or from the beginning of the turn to the release.
     pub span: [f64; 2],
     /// Time at which the turn begins, in seconds.
     pub begin: f64,

@@ -73,7 +73,7 @@ impl Overlap {
 pub struct WristMotion {
     /// Signed angle, radians.
     pub angle: f64,
-    /// Time from the beginning of the task to that of the turn, in seconds.
+    /// Time from the beginning of the task to the beginning of the turn, in seconds.
     pub begin: f64,
     /// Duration, in seconds. The wrist turns with its fastest motion, or with that motion stretched evenly in time.
     pub seconds: f64,
@@ -82,8 +82,9 @@ pub struct WristMotion {
 }
 
 impl WristMotion {
-    /// Creates the turn for an arm that moves from `departure` to `arrival`, and a tool that is at rest from `end` on, all
-    /// in seconds. The wrist turns while the arm moves. If it needs longer, it begins earlier, and then also ends later.
+    /// Creates the turn for an arm that moves from `departure` to `arrival`, and a tool that is at rest from `end` on,
+    /// all in seconds. The wrist turns while the arm moves. If that time is too short, the turn begins before the
+    /// departure. If it would have to begin before time 0, it begins then and ends after the arrival.
     pub fn new(wrist: &Wrist, angle: f64, departure: f64, [arrival, end]: [f64; 2]) -> Self {
         let fastest = single(angle.abs(), &wrist.limits());
         let least = fastest.last().map_or(0.0, |[seconds, ..]| *seconds);

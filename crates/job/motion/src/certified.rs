@@ -87,7 +87,8 @@ impl CertifiedCurve {
         self.driven.as_ref().map_or_else(|| self.curve.outline(), |(_, outline)| outline.clone())
     }
 
-    /// Returns this motion followed by another one that begins where this one ends. The arm is at rest between them.
+    /// Returns this motion followed by another motion, which begins where this motion ends. The arm is at rest between
+    /// them.
     #[must_use]
     pub fn then(self, next: &Self) -> Self {
         let driven = (self.driven.is_some() || next.driven.is_some()).then(|| {
@@ -218,8 +219,8 @@ impl<'a> Rounding<'a> {
     }
 }
 
-/// Returns the result of `judge` for the largest radius that it accepts, among those that are tried. The first one is
-/// `most`.
+/// Returns the result of `judge` for the largest radius that it accepts, among the radii that are tried. The first of
+/// these is `most`.
 fn largest<T>(most: f64, judge: impl Fn(f64) -> Option<T>) -> Option<T> {
     let mut refused = f64::INFINITY;
     let mut radius = most;

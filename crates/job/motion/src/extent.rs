@@ -16,7 +16,7 @@ const DISTANCE_MARGIN: f64 = 0.01;
 /// Number of halvings with which the place is found at which a motion leaves its path.
 const PLACE_HALVINGS: u32 = 24;
 
-/// Greatest number of legs between the leg of one position and that of the next one.
+/// Greatest number of legs between the legs of two consecutive positions.
 const MAX_LEGS_AHEAD: usize = 8;
 
 /// A motion's position, compared with a path.
@@ -28,9 +28,9 @@ struct Position {
     off: f64,
 }
 
-/// Returns the extent of a motion at each waypoint of its path: the motion is off the path only within this distance of
-/// the waypoint, its distance from the path is at most half of it, and so is that from the waypoint. It is 0 at waypoints
-/// that the motion does not round, and positive at all others.
+/// Returns the extent of a motion at each waypoint of its path. The motion is off the path only within this distance of
+/// the waypoint. It is never farther from the path than half of this distance, and passes the waypoint within half of
+/// it. The extent is 0 at waypoints that the motion does not round, and positive at all others.
 pub(super) fn extents(path: &Path, pieces: &[Piece], is_rounded: impl Fn(usize) -> bool) -> Vec<f64> {
     let q = path.waypoints();
     let corners: Vec<usize> = (0..q.len()).filter(|&w| is_rounded(w)).collect();

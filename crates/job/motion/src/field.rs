@@ -29,7 +29,7 @@ pub struct FieldReport {
     /// True if over-relaxation multiplies preferences by its factor, too; omitted if it adds them without the factor.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relaxes_preferences: Option<bool>,
-    /// `low` if free cells start at the value of goals; omitted if they start at that of obstacles.
+    /// `low` if free cells start at the value of goals; omitted if they start at the value of obstacles.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub initial: Option<&'static str>,
     /// `anisotropic` if the equation takes the shape of cells into account; omitted if cells count as square.

@@ -201,8 +201,8 @@ impl Limits<'_> {
         Self { jerk: [None; 2], sum: self.sum.map(|sum| SumLimit { jerk: None, ..sum }), ..self }
     }
 
-    /// Iterates over the times in which the jerk of a joint or of the sum builds up the full acceleration, for those with a
-    /// limit on their jerks.
+    /// Iterates over the times in which a limited jerk builds up the full acceleration: one for each joint with such a
+    /// limit, and one for the sum if it has one.
     pub(super) fn growths(&self) -> impl Iterator<Item = f64> + use<> {
         let of_joints = self.sum.map_or(0.0, |sum| sum.ratio.abs() * self.acceleration[0] + self.acceleration[1]);
         self.axes().filter_map(move |axis| {
@@ -212,13 +212,13 @@ impl Limits<'_> {
         })
     }
 
-    /// Returns the greatest of these times; 0 without limits on jerks.
+    /// Returns the greatest time in which a limited jerk builds up the full acceleration; 0 without limits on jerks.
     pub(super) fn longest_growth(&self) -> f64 {
         self.growths().fold(0.0, f64::max)
     }
 
-    /// Returns the greatest distance over both joints that a joint moves at top speed while a jerk builds up the full
-    /// acceleration.
+    /// Returns the distance that a joint moves at top speed while its jerk builds up the full acceleration: the greater
+    /// one of both joints.
     pub(super) fn reversal(&self) -> f64 {
         let of_joint = |k: usize| self.jerk[k].map_or(0.0, |j| self.acceleration[k] / j * self.velocity[k]);
         let is_limited = self.sum.is_some_and(|sum| sum.jerk.is_some());
@@ -226,7 +226,7 @@ impl Limits<'_> {
         of_joint(0).max(of_joint(1)).max(of_sum)
     }
 
-    /// Returns the greatest distance over both joints that a joint moves until it reaches its top speed.
+    /// Returns the distance that a joint moves until it reaches its top speed: the greater one of both joints.
     pub(super) fn ramp(&self) -> f64 {
         let torque = self.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
         let acceleration = |k: usize| self.acceleration[k].min(torque[k]);

@@ -13,8 +13,8 @@ const PLACES: usize = 120;
 /// Shortest wait that is worth a word, in seconds. Shorter ones come from rounding.
 const MIN_WAIT: f64 = 5e-3;
 
-/// Fractions of a wait by which the motion behind it is begun earlier, to find the obstacle that it would meet. The first
-/// fraction stands for a motion without the wait, the last one for a motion that departs a little too early.
+/// Fractions of a wait by which the motion after it begins earlier, to find the obstacle that the motion would meet.
+/// The first fraction stands for a motion without the wait, the last one for a motion that departs a little too early.
 const EARLIER: [f64; 6] = [1.0, 0.75, 0.5, 0.25, 0.1, 0.02];
 
 /// A part of a motion: the whole motion, or one step of a task.
@@ -30,8 +30,9 @@ pub struct MotionPart<'a> {
     pub awaited: Option<&'a str>,
 }
 
-/// Computes the times at which moving obstacles block the arm: for each configuration, for each loose obstacle of the
-/// scene, in order and disjoint, in seconds. The clearance of the world counts as blocked.
+/// Computes the intervals of time, in seconds, in which moving obstacles block the arm. There is a list for each
+/// configuration and each loose obstacle of the scene, in order and disjoint. The clearance of the world counts as
+/// blocked.
 pub type BlockedTimes<'a> = dyn Fn(TimedScene, &[Configuration]) -> Vec<Vec<Vec<Interval>>> + 'a;
 
 /// A place on a motion.

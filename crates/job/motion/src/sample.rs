@@ -65,7 +65,7 @@ pub struct Trajectory {
     pub wrist: Vec<[f64; 3]>,
 }
 
-/// Writes the motion of a wrist in the form of those of the arm: positions, velocities and accelerations.
+/// Writes the motion of a wrist in the form of the arm's motion: positions, velocities and accelerations.
 fn wrist_columns<S: Serializer>(rows: &[[f64; 3]], serializer: S) -> Result<S::Ok, S::Error> {
     let mut columns = serializer.serialize_struct("wrist", 3)?;
     for (name, k) in [("position", 0), ("velocity", 1), ("acceleration", 2)] {
@@ -247,7 +247,7 @@ fn pause_length(pause: f64) -> f64 {
 /// A motion in time, and the curve that it follows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimedMotion {
-    /// The path, with the blends in use: those that would not make the motion faster are removed.
+    /// The path, with the blends in use. Blends that would not make the motion faster are removed.
     pub curve: CertifiedCurve,
     /// The motion as samples in time.
     pub trajectory: Trajectory,

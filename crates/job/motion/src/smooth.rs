@@ -25,8 +25,7 @@ const MIN_SPEED_SHARE: f64 = 1.0 / 128.0;
 /// Number of rounds in which the speeds at corners are reduced. After that, the arm stops at all corners.
 const MAX_ROUNDS: usize = 24;
 
-/// Ratio of an acceleration limit to the one tried before it. With a lower acceleration, the jerk needs less time to
-/// reverse it.
+/// Ratio of an acceleration limit to the limit tried before. The jerk needs less time to reverse a lower acceleration.
 const ACCELERATION_FACTOR: f64 = 0.8;
 
 /// Least acceleration limit that is tried, as a share of the full limit.
@@ -35,7 +34,8 @@ const MIN_ACCELERATION_SHARE: f64 = 1e-3;
 /// A path that is timed within limits.
 struct Smoothing<'a> {
     limits: Limits<'a>,
-    /// The limits without those on jerks, and possibly with lower accelerations than the joints allow.
+    /// The limits on speeds and accelerations, without limits on jerks. Accelerations may be lower than the joints
+    /// allow.
     base: Limits<'a>,
     /// Least time between acceleration and deceleration on a straight piece, seconds.
     coast: f64,

@@ -2,8 +2,8 @@
 //!
 //! Let `x_j` be the configurations of a motion at the multiples of a step `h`, and `y_j` the mean of `n` consecutive
 //! ones. The uniform cubic B-spline with the control points `y_j` is the smoothed motion. Its derivatives are weighted
-//! means of those of the motion, with non-negative weights that add up to 1. So it is within every limit on speed and
-//! acceleration that the motion respects, and stays in the convex hull of the motion within `(n + 3) h`.
+//! means of the derivatives of the motion, with non-negative weights that add up to 1. So it is within every limit on
+//! speed and acceleration that the motion respects, and stays in the convex hull of the motion within `(n + 3) h`.
 //!
 //! Its jerk is constant over each step, `(a_j - a_(j - n)) / (n h)` with the second differences `a` of `x` divided by
 //! `h^2`. So a window of `n h` seconds is long enough if the acceleration changes within it by at most the effect of

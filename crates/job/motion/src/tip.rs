@@ -18,8 +18,8 @@ pub struct TipSpeed<'a> {
     pub arm: &'a Arm,
     /// Greatest speed, metres per second, positive.
     pub speed: f64,
-    /// Shares of that speed that each leg of the path allows, greater than 0 and at most 1; empty if all allow the
-    /// whole speed. Only [`super::time`] uses them, and a blend has the lower speed of its two legs.
+    /// For each leg of the path, the share of the speed that it allows, greater than 0 and at most 1; empty if all legs
+    /// allow the whole speed. Only [`super::time`] uses them, and a blend has the lower speed of its two legs.
     pub legs: &'a [f64],
 }
 

@@ -162,8 +162,8 @@ impl<'a> TorqueLimit<'a> {
         safe
     }
 
-    /// Returns an acceleration of each joint. If both accelerations change by these at once, no torque changes by more
-    /// than its effort.
+    /// Returns an acceleration for each joint: if the accelerations of both joints change by these at once, no torque
+    /// changes by more than its effort.
     pub(super) fn accelerations(&self) -> [f64; 2] {
         let inertia = self.torques.greatest_inertia();
         let share =

@@ -9,7 +9,7 @@ use std::ops::{Add, Mul, Sub};
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Singles(V3, f32x8);
 
-/// Eight numbers in double precision, in two vectors, with the same token.
+/// Eight numbers in double precision, in two vectors, with a token as in [`Singles`].
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Doubles(V3, [f64x4; 2]);
 

@@ -8,7 +8,8 @@ use std::ops::Range;
 pub enum Ends {
     /// Beyond the limit the value is 0, as in walls (Dirichlet).
     High,
-    /// Beyond the limit the value is that of the cell at the limit, so nothing flows across the limit (Neumann).
+    /// Beyond the limit, the cell at the limit has a mirror image with the same value, so nothing flows across the
+    /// limit (Neumann).
     Reflecting,
     /// The axis is a circle, so the two ends are neighbours.
     Joined,

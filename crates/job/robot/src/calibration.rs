@@ -87,8 +87,8 @@ impl FromToml for LengthError {
 }
 
 toml_table! {
-    /// Errors within which a motion stays free, for every robot and every place of the obstacles. Lengths in m, or with
-    /// their unit.
+    /// Errors of the robot and of the places of obstacles. A motion is free for every robot and all places within these
+    /// errors. Lengths are in m unless they have a unit.
     #[derive(Debug, Clone, Copy, Default, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "calibration"))]
     pub struct CalibrationTable {
@@ -98,7 +98,7 @@ toml_table! {
         /// Error of each link's length: `"0.2 mm"`.
         #[cfg_attr(feature = "schema", schemars(with = "Option<StatedError>"))]
         pub links: Option<LengthError>,
-        /// Errors of the joints' zeros: of joints that turn, and of joints that slide: `"0.02deg, 0.1 mm"`.
+        /// Error of each joint's zero, for joints that turn and for joints that slide: `"0.02deg, 0.1 mm"`.
         #[cfg_attr(feature = "schema", schemars(with = "Option<StatedError>"))]
         pub zeros: Option<ErrorBound>,
         /// Displacement of each obstacle in any direction; an obstacle's own `calibration` replaces it.
@@ -108,7 +108,7 @@ toml_table! {
 }
 
 impl CalibrationTable {
-    /// Returns the table in which the errors that `other` states replace those of this one.
+    /// Returns this table with its errors replaced by those that `other` states.
     #[must_use]
     pub fn replaced_by(self, other: Self) -> Self {
         Self {

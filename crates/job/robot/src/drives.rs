@@ -7,7 +7,8 @@ use super::toml_values::{FromToml, TomlError, TomlValue};
 use crate::Spanned;
 use crate::toml_table;
 
-/// The motors of the two joints: a table, or one of the names that firmware uses.
+/// The motors of the two joints: a table; or "standard_scara" if the elbow's motor is mounted on the base; or "direct"
+/// if it is mounted on link 1.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(inline, untagged))]
 pub enum DrivesValue {
@@ -34,9 +35,11 @@ toml_table! {
     pub struct DrivesTable {
         /// Place where the elbow's motor is mounted: `"base"` or `"link"`; by default `"base"`.
         pub elbow: Option<Spanned<String>>,
-        /// Turns of the elbow's motor on the base for each turn of joint 1; by default 1, for equal pulleys.
+        /// `ratio` in the formula `gear[1] (ratio q1 + q2)`, for an elbow's motor on the base; by default 1, for equal
+        /// pulleys.
         pub ratio: Option<Number>,
-        /// Turns of each shaft for each turn that it drives, negative for the opposite direction; by default [1, 1].
+        /// Gear ratios: turns of each motor's shaft per turn of its output; negative for the opposite direction; by
+        /// default [1, 1].
         #[cfg_attr(feature = "schema", schemars(with = "Option<NumberPair>"))]
         pub gear: Option<Numbers>,
         /// Angles of the shafts at joint values of zero, rad; by default [0, 0].

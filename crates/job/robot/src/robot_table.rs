@@ -20,7 +20,8 @@ toml_table! {
         pub at: Option<Lengths>,
         /// Angle of its root frame, rad; by default 0.
         pub angle: Option<Written>,
-        /// The two joints that move, from the base to the tip; needed only if the URDF has more than two that can.
+        /// The two joints that move, from the base to the tip; needed only if the URDF has more than two movable
+        /// joints.
         #[cfg_attr(feature = "schema", schemars(with = "Option<[String; 2]>"))]
         pub joints: Option<Spanned<Vec<Spanned<String>>>>,
         /// Link whose origin is the tip; by default the end of the chain.
@@ -34,14 +35,15 @@ toml_table! {
         /// Top speed of a joint, by name, rad/s or m/s, instead of the URDF's.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
         pub velocity: PerJoint<Number>,
-        /// Greatest acceleration of a joint, by name, rad/s2 or m/s2; by default top speed is reached in 0.25 s.
+        /// Greatest acceleration of a joint, by name, rad/s2 or m/s2; by default the joint reaches its top speed in
+        /// 0.25 s.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
         pub acceleration: PerJoint<Number>,
         /// Motors of two joints that turn, with their limits: a table, "standard_scara" or "direct".
         pub drives: Option<Spanned<DrivesValue>>,
-        /// Errors of the robot and its place within which motions stay free; by default none.
+        /// Errors of the robot and of the places of obstacles, for which motions stay free; by default none.
         pub calibration: Option<Spanned<CalibrationTable>>,
-        /// Greatest jerk of a joint, by name, rad/s3 or m/s3; a joint without has no such limit.
+        /// Greatest jerk of a joint, by name, rad/s3 or m/s3; by default without limit.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
         pub jerk: PerJoint<Number>,
         /// Greatest torque or force of a joint, by name, N m or N, instead of the URDF's.
@@ -53,7 +55,7 @@ toml_table! {
         /// Acceleration of free fall in the robot's root frame, m/s2; by default [0, 0, -9.81].
         #[cfg_attr(feature = "schema", schemars(with = "Option<[f64; 3]>"))]
         pub gravity: Option<Numbers>,
-        /// Whether links of the robot are obstacles to its other links; by default true.
+        /// True if links of the robot are obstacles to its other links; by default true.
         pub(crate) own_body: Option<bool>,
         /// Pairs of the robot's links that may touch each other.
         #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<[String; 2]>>"))]
@@ -63,11 +65,11 @@ toml_table! {
         pub bar: Option<Length>,
         /// The wrist that keeps or changes the orientation of objects carried with payload "level".
         pub wrist: Option<WristTable>,
-        /// Motion of the tool down and up at picks and places; by default it does not move.
+        /// Motion of the tool down and up at picks and places; by default the tool stays at its height.
         pub stroke: Option<StrokeTable>,
         /// Overlap of strokes and turns of the wrist with motions of the arm.
         pub(crate) arch: Option<Spanned<ArchValue>>,
-        /// How objects are held unless they say otherwise; by default "rigid".
+        /// How the gripper holds objects that do not state it; by default "rigid".
         #[cfg_attr(feature = "schema", schemars(with = "Option<HeldAs>"))]
         pub payload: Option<Spanned<String>>,
     }

@@ -36,7 +36,8 @@ pub fn compare_with_file(schema: Schema, name: &str) {
     assert_eq!(text, fs::read_to_string(file).unwrap(), "run `just docs`");
 }
 
-/// Takes back that optional keys may be null, as TOML has no null, and the formats of numbers, which are Rust's.
+/// Adapts a schema to TOML. Removes `null` from the types of optional keys, because TOML has no null, and number
+/// formats such as `double`, which are Rust's.
 #[derive(Debug, Clone)]
 struct TomlSchema;
 

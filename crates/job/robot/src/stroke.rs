@@ -13,8 +13,8 @@ toml_table! {
     #[derive(Debug, Clone, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "stroke"))]
     pub struct StrokeTable {
-        /// The joint that lowers the tool: it slides along the plane's normal, beyond the two that move. While the arm moves it stays at
-        /// its `fixed` value, except in the overlaps that `arch` allows.
+        /// The joint that lowers the tool. It slides along the plane's normal, and the two joints of the arm carry it.
+        /// While the arm moves, it stays at its `fixed` value, except where `arch` allows overlaps.
         pub joint: Spanned<String>,
         /// Distance by which it lowers the tool, m; by default the object's lift.
         pub travel: Option<Length>,
@@ -30,8 +30,8 @@ toml_table! {
     }
 }
 
-/// Least heights that the tool rises before the arm moves, and below which the tool moves only while the arm is at rest; by
-/// default both 0. With false, the arm is at rest during strokes and turns of the wrist.
+/// Heights of the tool from which its strokes may overlap with motions of the arm; by default any height. With false,
+/// the arm is at rest during strokes and turns of the wrist.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(inline, untagged))]
 pub enum ArchValue {
@@ -52,13 +52,14 @@ impl FromToml for ArchValue {
 }
 
 toml_table! {
-    /// Least heights for the overlap of strokes with motions of the arm.
+    /// Heights of the tool from which its strokes may overlap with motions of the arm.
     #[derive(Debug, Clone, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "arch"))]
     pub struct ArchTable {
-        /// Height that the tool rises before the arm moves, m; by default 0.
+        /// Height by which the tool rises before the arm moves, m; by default 0.
         pub rise: Option<Length>,
-        /// Height above the lowest position below which the tool moves only while the arm is at rest, m; by default 0.
+        /// Height above the tool's lowest position, m; by default 0. Below this height, the tool is lowered only while
+        /// the arm is at rest.
         pub fall: Option<Length>,
     }
 }

@@ -37,7 +37,7 @@ pub trait FromToml: Sized {
 pub struct TomlError {
     message: String,
     at: Range<usize>,
-    /// Hint that goes before the one of the file's reader.
+    /// Hint that precedes the hint of the file's reader.
     hint: Option<String>,
 }
 

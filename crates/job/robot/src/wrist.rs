@@ -12,14 +12,14 @@ use cplan_handling::Wrist;
 use cplan_model::assumed_acceleration;
 
 toml_table! {
-    /// The wrist's limits. It keeps the orientation of objects that are carried level, and turns them before a place with
-    /// another angle. It turns while the arm moves, as far as that is free and both motions together are within these limits;
-    /// with `arch = false`, while the arm is at rest.
+    /// The wrist's limits. The wrist keeps the orientation of objects that are carried level, and turns them before a
+    /// place with another angle. It turns them while the arm moves if this is free, and if keeping the orientation and
+    /// turning together stay within these limits. With `arch = false`, it turns them while the arm is at rest.
     #[derive(Debug, Clone, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "wrist"))]
     pub struct WristTable {
-        /// The joint that it is, so that ROS 2 files have its values; without it they hold it still. Lines along which the tool
-        /// has an angle need it.
+        /// The joint of the wrist, whose values ROS 2 files then contain. Without it, these files hold the wrist still.
+        /// Lines along which the tool has an angle need it.
         pub joint: Option<Spanned<String>>,
         /// Top speed, rad/s.
         #[cfg_attr(feature = "schema", schemars(with = "Positive"))]

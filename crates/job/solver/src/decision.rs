@@ -11,7 +11,7 @@ use cplan_proofs::{Connectivity, connectivity, slab_connectivity, slimmed};
 const MAX_SLABS: usize = 10_000;
 
 /// Budgets of slabs and of boxes in a first round that tries both methods. Either method may need ten times as much as
-/// the other. Slabs do along a slanted passage that is narrowly closed, and boxes in a narrow passage.
+/// the other. Slabs need more along a slanted passage that is narrowly closed, and boxes need more in a narrow passage.
 const INITIAL_BUDGETS: [usize; 2] = [1000, 4000];
 
 /// Number of boxes of a proof by slabs above which subdivision into boxes is tried as well. Subdivision sometimes needs

@@ -87,8 +87,8 @@ impl From<Method> for Options {
 }
 
 impl Options {
-    /// Replaces the arm's jerk limits by those of these options. If the options or the arm ask for it, motions must
-    /// also respect the joints' efforts.
+    /// Replaces the arm's jerk limits by the limits in these options. If the options or the arm ask for it, motions
+    /// must also respect the joints' efforts.
     pub fn override_limits(&self, arm: &mut Arm) {
         Joint::override_jerks(&mut arm.joints, self.jerk);
         if self.drive.torque || arm.dynamics.is_some_and(|dynamics| dynamics.limits) {

@@ -149,7 +149,7 @@ impl Planner {
         self.settings.field.as_ref()
     }
 
-    /// Returns true if the planner computes a potential between that of goals and that of obstacles.
+    /// Returns true if the planner computes a potential, with values between those of goals and obstacles.
     pub fn has_potential(&self) -> bool {
         let is_relaxed = |field: &FieldPlanner| matches!(field.field, FieldChoice::Relaxed { .. });
         self.method.reads(Setting::Field) && self.field().is_none_or(is_relaxed)

@@ -21,7 +21,8 @@ const LEAST_TURN: f64 = 1e-9;
 const RADIUS_ROUNDING: f64 = 1e-3;
 
 /// Returns the arc about a centre, or the distances of both ends from the centre if they differ too much. The radius
-/// changes linearly from the one to the other. If both ends are in the same direction from the centre, it is a whole turn.
+/// changes linearly from the first end to the second. If both ends are in the same direction from the centre, the arc
+/// is a whole turn.
 pub(crate) fn about(from: Point, to: Point, center: Point, is_left: bool) -> Result<Curve, [f64; 2]> {
     let radii = [from, to].map(|end| norm(minus(end, center)));
     let growth = radii[1] - radii[0];

@@ -42,7 +42,7 @@ pub enum Curve {
         from: f64,
         /// Angle about the centre from the first end to the other, radians; positive counter-clockwise.
         by: f64,
-        /// Difference between the radius at the other end and that at the first end, metres; 0 for a circle.
+        /// Radius at the other end minus radius at the first end, metres; 0 for a circle.
         #[serde(default, skip_serializing_if = "is_zero")]
         growth: f64,
     },

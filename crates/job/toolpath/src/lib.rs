@@ -99,7 +99,8 @@ pub fn read_svg_by(reader: LineReader) {
 }
 
 /// Reads a G-code program move by move, for a machine with its own kinematics. It may contain moves to places of the
-/// machine (G28), after which the tip is at `home`, metres, as at the beginning. With `None`, its place there is unknown.
+/// machine (G28). After such a move, the tip is at `home`, metres, as at the beginning. If `home` is `None`, the place
+/// of the tip is then unknown.
 ///
 /// # Errors
 /// If the file is broken, has something that cannot be followed, or has no move.

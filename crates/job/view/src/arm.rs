@@ -16,7 +16,8 @@ pub struct ArmStyle {
     width: f64,
     opacity: f64,
     joints: bool,
-    /// True if no name may lie on the arm. Names may lie on it, but avoid its outline, if it covers too much otherwise.
+    /// True if no name may lie on the arm. If false, names may lie on the arm but avoid its outline, because the arm
+    /// covers too much.
     blocks: bool,
 }
 

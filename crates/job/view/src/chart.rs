@@ -67,8 +67,8 @@ impl Chart {
         window.shifts(corners).into_iter().flat_map(copy).collect()
     }
 
-    /// Returns contours with their copies as one outline. With a style that draws the pen below the fill, the outline
-    /// looks like that of their union.
+    /// Returns contours with their copies as one outline. With a style that draws the pen below the fill, it looks like
+    /// the outline of their union.
     pub fn c_obstacle<'a>(&self, contours: impl Iterator<Item = &'a ContourView>, style: Style) -> Item {
         let mut steps = Vec::new();
         for Chain(contour) in contours.map(|c| &c.contour) {

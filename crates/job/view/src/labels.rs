@@ -118,8 +118,8 @@ impl Placer {
         }
     }
 
-    /// Places names, each with the box of its shape: on the shape or, if that is smaller, beside it, where the name
-    /// covers least of the others.
+    /// Places names, each with the box of its shape. A name lies on its shape. If the shape is too small, the name lies
+    /// beside it, where it covers least of the other shapes.
     pub fn beside(&mut self, names: &[Named]) {
         for (index, (name, of)) in names.iter().enumerate() {
             let others = names.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, (_, place))| place);

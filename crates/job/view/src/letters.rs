@@ -152,7 +152,8 @@ mod tests {
         assert!((middle[0] + middle[1] - 1000.0).abs() < 2.0, "{middle:?}");
     }
 
-    /// Compares the position with that of HarfBuzz for this font: the second of the letters "AV" overlaps the first.
+    /// Compares the position with the one that HarfBuzz computes for this font: the second of the letters "AV" overlaps
+    /// the first.
     #[test]
     fn pairs_of_letters_are_kerned() {
         let Fonts { regular: font, .. } = Fonts::built_in();

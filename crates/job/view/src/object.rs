@@ -20,7 +20,7 @@ impl Object {
         self
     }
 
-    /// Returns the object with another value. A missing or empty value is left out, and false.
+    /// Returns the object with another value. Leaves out a value that is missing, empty or false.
     #[must_use]
     pub fn with_any(self, name: &'static str, value: &impl Serialize) -> Self {
         let mut object = self.with(name, value);

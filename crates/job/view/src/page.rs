@@ -97,8 +97,8 @@ fn pair(view: &View, top: f64, height: f64) -> [Rect; 2] {
     [Rect { x, y: top, width, height }, Rect { x: x + width + PAIR_GAP, y: top, width: right, height }]
 }
 
-/// Draws the strip of a motion among moving obstacles from `top` downwards, or that of a motion along a line; returns its
-/// height, or 0 without one.
+/// Draws the strip over time, with its upper edge at `top`: for a motion along a line if there is one, otherwise for a
+/// motion among moving obstacles. Returns the strip's height; 0 if there is no strip.
 fn strips(view: &View, [left, right]: [f64; 2], top: f64, items: &mut Vec<Item>) -> f64 {
     let area = Rect { x: left, y: top, width: right - left, height: 0.0 };
     if let Some(line) = view.still.line.as_ref().filter(|line| line.motion.is_some()) {
@@ -177,8 +177,9 @@ struct Layout {
     height: f64,
 }
 
-/// Places the list of steps below the workspace, below the configuration spaces, which are `grid` pixels high, or first
-/// below the one and then below the other. Chooses the place for which the page is lower. A short list is not divided.
+/// Places the list of steps below the workspace, or below the configuration spaces, or divides it between these two
+/// places. The configuration spaces are `grid` pixels high. Chooses the place for which the page is lower. A short list
+/// is not divided.
 fn layout(top: f64, grid: f64, rows: usize) -> Layout {
     const MIN_DIVIDED_ROWS: usize = 9;
     let list = |rows: usize| if rows == 0 { 0.0 } else { AXES_HEIGHT + steps::ROW_HEIGHT * (rows + 1) as f64 };

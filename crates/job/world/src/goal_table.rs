@@ -5,7 +5,8 @@ use super::schema::*;
 use cplan_robot::{Length, Lengths, Spanned, Written, toml_table};
 
 toml_table! {
-    /// Where the arm is to go: joint values, a place for the tip in whatever IK solution is best, or areas for the tip.
+    /// Goal of the arm: joint values, a position of the tip, or areas for the tip. For a position, cplan chooses the
+    /// best IK solution.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "goal", extend("oneOf" = [{ "required": ["joints"] }, { "required": ["tip"] }, { "required": ["areas"] }], "dependencies" = { "elbow": ["tip"] })))]
     pub(super) struct GoalTable {
         /// Values of both joints, base to tip, rad or m.
@@ -14,16 +15,16 @@ toml_table! {
         /// Coordinates of the tip, m.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         pub tip: Option<Lengths>,
-        /// Side of the elbow with `tip`, seen from joint 1 towards the tip: "left" or "right"; by default either.
+        /// With `tip`: side of the elbow, seen from joint 1 towards the tip, "left" or "right"; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         pub elbow: Option<Spanned<String>>,
-        /// Rectangles for the tip, any of which will do, each by two opposite corners, m; of an arm that does not slide along both axes each
-        /// counts as its middle. Not in steps.
+        /// Rectangles, each given by two opposite corners, m. The tip must reach any one of them. If a joint of the arm
+        /// turns, a rectangle stands for its middle. Not in steps.
         #[cfg_attr(test, schemars(with = "Option<Vec<[LengthPair; 2]>>"))]
         pub areas: Option<Spanned<Vec<Spanned<Vec<Lengths>>>>>,
         /// Value of the joint that lowers the tool, m; by default it is raised. Not in steps.
         pub stroke: Option<Length>,
-        /// Value of the wrist's joint, rad; by default that at the start. Not in steps.
+        /// Value of the wrist's joint, rad; by default its value at the start. Not in steps.
         pub wrist: Option<Written>,
     }
 }

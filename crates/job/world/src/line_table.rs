@@ -19,9 +19,9 @@ toml_table! {
         "dependencies" = { "radius": ["points"], "unit": ["file"], "wrist_tolerance": ["wrist"] },
     )))]
     pub(super) struct LineTable {
-        /// G-code (.gcode, .nc, .ngc, .tap) or a drawing (.svg), named relative to this file.
+        /// File with G-code (.gcode, .nc, .ngc, .tap) or a drawing (.svg). The name is relative to the world file.
         file: Option<Spanned<String>>,
-        /// Points that straight lines join, m.
+        /// Points that are joined by straight lines, m.
         #[cfg_attr(test, schemars(with = "Option<Vec<LengthPair>>", length(min = 2)))]
         points: Option<Spanned<Vec<Lengths>>>,
         /// Radius of the arcs that replace the corners of `points`, m; by default 0.
@@ -30,10 +30,11 @@ toml_table! {
         /// An arc of a circle from the first point through the second to the third, m.
         #[cfg_attr(test, schemars(with = "Option<[LengthPair; 3]>"))]
         arc: Option<Spanned<Vec<Lengths>>>,
-        /// Points that a smooth curve joins, m: a cubic spline. It is closed if the last point is the first.
+        /// Points that are joined by a cubic spline, m. The spline is closed if the last point equals the first.
         #[cfg_attr(test, schemars(with = "Option<Vec<LengthPair>>", length(min = 2)))]
         spline: Option<Spanned<Vec<Lengths>>>,
-        /// Greatest speed of the tip, m/s; by default the speeds of the file, and else as fast as the joints allow.
+        /// Greatest speed of the tip, m/s; by default the speeds stated in the file. Without them, the tip moves as
+        /// fast as the joints allow.
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]
         speed: Option<Number>,
         /// Greatest distance of the tip from the line, m; by default 0.00001.
@@ -54,8 +55,8 @@ toml_table! {
         /// Side of the elbow along the line, seen from joint 1 towards the tip: "left" or "right"; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
-        /// Greatest difference from that angle, rad; by default 0.01. The arm rests at corners where the line turns by more,
-        /// while the tool turns.
+        /// Greatest deviation of the tool from the angle `wrist`, rad; by default 0.01. At corners where the line turns
+        /// by more, the arm rests while the tool turns.
         wrist_tolerance: Option<Written>,
     }
 }

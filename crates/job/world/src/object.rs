@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 toml_table! {
-    /// Something that can be picked and placed; an obstacle wherever it lies.
+    /// An object that can be picked and placed. It is an obstacle wherever it lies.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "object", extend("allOf" = [
         { "oneOf": [{ "required": ["polygon"] }, { "required": ["circle"] }] },
         { "oneOf": [{ "required": ["at"] }, { "required": ["pallet"] }] }
@@ -25,16 +25,16 @@ toml_table! {
         /// Unique name among objects and obstacles. For objects on a pallet it is the part before row and column: "NAME
         /// 2,3".
         name: Spanned<String>,
-        /// Corners in its own frame, in order round the shape, m; may be non-convex and touch itself in points, but not cross
-        /// itself. Or a list of such rings: the outer one, then holes.
+        /// Corners of the outline in its own frame, in order, m. The outline may be non-convex and touch itself in
+        /// points, but must not cross itself. Or a list of such outlines: the outer one, then those of holes.
         #[cfg_attr(test, schemars(with = "Option<Rings>"))]
         polygon: Option<Ring>,
-        /// A disc in its own frame.
+        /// A disc, in the object's own frame.
         circle: Option<CircleTable>,
         /// Initial position of its origin, m.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         at: Option<Lengths>,
-        /// Instead of `at`: a pallet that has one such object on each place initially.
+        /// Instead of `at`: a pallet. Initially, one such object lies on each place of the pallet.
         pallet: Option<Spanned<String>>,
         /// Initial angle, rad, relative to the pallet if there is one; by default 0.
         angle: Option<Written>,
@@ -50,13 +50,13 @@ toml_table! {
         /// How the gripper holds the object; by default as `payload` in [robot] says.
         #[cfg_attr(test, schemars(with = "Option<HeldAs>"))]
         payload: Option<Spanned<String>>,
-        /// The point of it that the tip goes to, in its own frame, m; by default its origin.
+        /// Point of the object to which the tip moves, in the object's own frame, m; by default its origin.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         grasp: Option<Lengths>,
         /// Obstacles and objects that it may touch where it is picked and placed.
         supports: Option<NameList>,
-        /// True if each repetition of the steps that pick it finds a new one at its initial place. The old one disappears
-        /// when the arm moves on.
+        /// True if a new object is at the initial place whenever the steps that pick it are repeated. The old one
+        /// disappears when the arm moves on.
         #[cfg_attr(test, schemars(default))]
         renew: bool,
         /// Its motion from `at`, until it is picked; by default it is static.

@@ -22,21 +22,22 @@ toml_table! {
     pub(super) struct ObstacleTable {
         /// Name in messages and pictures. Several obstacles may have the same name.
         name: Option<String>,
-        /// Corners in order round the shape, m; may be non-convex and touch itself in points, but not cross itself. Or, as in
-        /// GeoJSON, a list of such rings: the outer one, then holes.
+        /// Corners of the outline in order, m. The outline may be non-convex and touch itself in points, but must not
+        /// cross itself. Or, as in GeoJSON, a list of such outlines: the outer one, then those of holes.
         #[cfg_attr(test, schemars(with = "Option<Rings>"))]
         polygon: Option<Ring>,
-        /// Rings of corners inside the polygon, whose insides are free.
+        /// Holes of the polygon, each a list of corners, m. The inside of a hole is free.
         #[cfg_attr(test, schemars(with = "Option<Vec<Corners>>"))]
         holes: Option<Spanned<Vec<Ring>>>,
         /// A disc.
         circle: Option<CircleTable>,
-        /// Points of a thin wall, m: no area, still solid.
+        /// Points of a thin wall, m. The wall has no area, but is an obstacle.
         #[cfg_attr(test, schemars(with = "Option<Vec<NumberPair>>", length(min = 2)))]
         polyline: Option<Ring>,
-        /// An occupancy map: the YAML of ROS's map server, which names a PGM or PNG. Relative to this file.
+        /// An occupancy map: a YAML file of ROS's map server, which names a PGM or PNG. The name is relative to the
+        /// world file.
         image: Option<Spanned<String>>,
-        /// Kind of the unknown cells of an image; by default "solid".
+        /// Whether unknown cells of an image are obstacles: "solid" or "free"; by default "solid".
         #[cfg_attr(test, schemars(with = "Option<UnknownAs>"))]
         unknown: Option<Spanned<String>>,
         /// Origin of its own frame, in which its points are given, m; by default that of the world.
@@ -53,8 +54,8 @@ toml_table! {
         /// Least distance to keep from it, m; at least the world's `clearance`, which is the default.
         #[cfg_attr(test, schemars(with = "Option<NotNegativeLength>"))]
         clearance: Option<Length>,
-        /// Greatest displacement of it in any direction for which motions stay free, m, or "1 mm"; by default that of
-        /// `[robot] calibration`.
+        /// Greatest displacement of the obstacle in any direction, m, or "1 mm". Motions stay free for each such
+        /// displacement. By default `obstacles` of `[robot] calibration`.
         #[cfg_attr(test, schemars(with = "Option<StatedError>"))]
         calibration: Option<LengthError>,
     }
@@ -95,8 +96,8 @@ const SIMPLE_POLYGON_HINT: &str =
     "list the corners in order round the shape (and round each hole), each once; a wall without area is a polyline";
 
 impl ObstacleTable {
-    /// Reads the obstacle with this index in its file. Unless it says otherwise, it has the `world`'s displacement; its own
-    /// clearance is at least that of the world. Both in metres.
+    /// Reads the obstacle with this index in its file. `world` has the obstacle's least clearance, and its displacement
+    /// unless the table states one, both in metres.
     ///
     /// # Errors
     /// A table without exactly one shape, values that are not finite, invalid shapes, and unusable files.

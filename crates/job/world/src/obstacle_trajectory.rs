@@ -8,15 +8,15 @@ use cplan_handling::{ObstacleTrajectory, ObstacleTrajectoryError, Stop};
 use cplan_robot::{Diagnostic, Lengths, Number, Numbers, Spanned, Written, toml_table};
 
 toml_table! {
-    /// The motion of an obstacle: straight and at constant speed from stop to stop, then at a constant velocity. At least
-    /// one of both keys.
+    /// The motion of an obstacle: straight and at constant speed from stop to stop, then at a constant velocity. At
+    /// least one of the two keys is required.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "motion", extend("anyOf" = [{ "required": ["stops"] }, { "required": ["velocity"] }])))]
     pub(super) struct ObstacleTrajectoryTable {
-        /// Positions at increasing times. Before the first the obstacle waits there. By default there is a single stop at
-        /// time 0.
+        /// Positions at increasing times. Before the first of these times, the obstacle waits at the first stop. By
+        /// default there is a single stop at time 0.
         #[cfg_attr(test, schemars(length(min = 1)))]
         stops: Option<Spanned<Vec<Spanned<StopTable>>>>,
-        /// Velocity after the last stop, m/s, as on a conveyor. By default the obstacle stays there.
+        /// Velocity after the last stop, m/s, as on a conveyor. By default the obstacle stays at the last stop.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         velocity: Option<Numbers>,
     }
@@ -27,11 +27,11 @@ toml_table! {
         /// Seconds since the arm's motion begins.
         #[cfg_attr(test, schemars(with = "NotNegative"))]
         time: Number,
-        /// The origin of its own frame then, m; by default the obstacle's `at`.
+        /// Origin of its own frame at that time, m; by default the obstacle's `at`.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         at: Option<Lengths>,
-        /// Angle of its frame at that time, rad; by default the obstacle's `angle`. It turns by the difference, including
-        /// whole turns.
+        /// Angle of its frame at that time, rad; by default the obstacle's `angle`. Between two stops the obstacle
+        /// turns by the difference, including whole turns.
         angle: Option<Written>,
     }
 }

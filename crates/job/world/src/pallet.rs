@@ -8,11 +8,11 @@ use cplan_robot::{Diagnostic, Length, Lengths, Spanned, Written, quoted, toml_ta
 use std::collections::BTreeMap;
 
 toml_table! {
-    /// Places in rows and columns, for objects to lie on and to be placed on: "NAME 1,1", "NAME 1,2", and so on, row and column
-    /// from 1.
+    /// Places in rows and columns, on which objects lie or are placed. They are named "NAME 1,1", "NAME 1,2", and so
+    /// on: row and column, counted from 1.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "pallet"))]
     pub(super) struct PalletTable {
-        /// A name that no other pallet has.
+        /// Unique name among pallets.
         name: Spanned<String>,
         /// Number of rows.
         #[cfg_attr(test, schemars(range(min = 1)))]
@@ -26,10 +26,11 @@ toml_table! {
         /// Position of the place in row 1 and column 1, m.
         #[cfg_attr(test, schemars(with = "LengthPair"))]
         at: Lengths,
-        /// Angle of the pallet about that place, rad; by default 0. Objects on it turn with it.
+        /// Angle of the pallet about its place in row 1 and column 1, rad; by default 0. Objects on the pallet turn
+        /// with it.
         angle: Option<Written>,
-        /// Height of its places along the plane's normal, m: the bottom of an object that is placed there; by default that of
-        /// the place where it was picked.
+        /// Height of its places along the plane's normal, m. The bottom of a placed object is at this height; by
+        /// default it is at the height at which the object was picked.
         height: Option<Length>,
     }
 }

@@ -9,20 +9,22 @@ use cplan_model::{Preference, Region};
 use cplan_robot::{Diagnostic, Number, Numbers, Spanned, toml_table};
 
 toml_table! {
-    /// A region that field planners prefer or avoid: where the tip is, or a region in joint space. Where several overlap the last one counts.
+    /// A region that field planners prefer or avoid: a region of tip positions, or a region in joint space. Where
+    /// regions overlap, the last one counts.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "preference", extend("oneOf" = [{ "required": ["configurations"] }, { "required": ["polygon"] }])))]
     pub(super) struct PreferenceTable {
         /// Name in messages and pictures.
         name: Option<String>,
-        /// Strength per grid cell; fields bvp and bvp2 avoid a region above 0 and seek one below.
+        /// Strength per grid cell. The fields `bvp` and `bvp2` avoid a region if its strength is above 0, and seek it
+        /// if its strength is below 0.
         epsilon: Number,
-        /// Direction in joint space, of any length, for the field local.
+        /// Direction in joint space for the field `local`. Its length does not matter.
         #[cfg_attr(test, schemars(with = "Option<NumberPair>"))]
         direction: Option<Numbers>,
         /// Corners of a region in joint space, rad or m.
         #[cfg_attr(test, schemars(with = "Option<Corners>"))]
         configurations: Option<Ring>,
-        /// Corners of the region where the tip is, m.
+        /// Corners of a region of tip positions, m.
         #[cfg_attr(test, schemars(with = "Option<Corners>"))]
         polygon: Option<Ring>,
     }

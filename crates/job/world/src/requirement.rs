@@ -1,4 +1,4 @@
-//! Requirements of steps on the arm. Repeated steps have each of theirs once.
+//! Requirements of steps on the arm. Each requirement of a repeated step is listed once.
 
 use cplan_geometry::Point;
 use cplan_model::Elbow;

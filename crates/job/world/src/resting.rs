@@ -8,11 +8,11 @@ use cplan_robot::Diagnostic;
 use cplan_text::{length, short};
 
 impl Writer<'_> {
-    /// Returns the elevation of an object at a place where its bottom is to be at a height, in metres. Without a height, it
-    /// is the one where the object was picked.
+    /// Returns the elevation of an object at a place where its bottom is to be at a height, in metres. Without a
+    /// height, it is the elevation at which the object was picked.
     ///
     /// # Errors
-    /// An object without heights of its own, and a height above the one at which the object is carried.
+    /// An object without heights of its own, and a height above that at which the object is carried.
     pub(super) fn elevation(&self, leaf: &Leaf, object: usize, height: Option<f64>) -> Result<f64, Diagnostic> {
         let Some(height) = height else { return Ok(self.object_places[object].elevation) };
         let object = &self.objects[object].object;

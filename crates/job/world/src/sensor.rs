@@ -20,13 +20,14 @@ toml_table! {
     #[derive(Debug, Clone)]
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "sensor"))]
     pub(super) struct SensorTable {
-        /// Where it is attached: "tip" (the default; straight ahead is from joint 2 to the tip) or "base".
+        /// Place where the sensor is attached: "tip" or "base"; by default "tip". At the tip, it looks in the direction
+        /// from joint 2 to the tip.
         #[cfg_attr(test, schemars(with = "Option<SensorOn>"))]
         on: Option<Spanned<String>>,
         /// Number of rays; by default 360.
         #[cfg_attr(test, schemars(range(min = 1, max = 100_000)))]
         rays: Option<Spanned<u64>>,
-        /// Angle over which they are spread, rad, at most a whole turn, which is the default.
+        /// Angle over which the rays are spread, rad; by default a whole turn, which is also the greatest value.
         field_of_view: Option<Written>,
         /// Range, m; by default half the arm's reach.
         #[cfg_attr(test, schemars(with = "Option<PositiveLength>"))]
@@ -34,7 +35,7 @@ toml_table! {
         /// Distance between readings on the path, in joint space, mixing rad and m; by default 0.1.
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]
         step: Option<Number>,
-        /// Greatest error of a distance, m: errors are uniform within it; by default 0.
+        /// Greatest error of a distance, m; by default 0. Errors are distributed uniformly.
         #[cfg_attr(test, schemars(with = "Option<NotNegativeLength>"))]
         noise: Option<Length>,
         /// Seed of the errors; by default 0.

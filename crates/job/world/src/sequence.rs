@@ -235,11 +235,11 @@ impl Writer<'_> {
         })
     }
 
-    /// Returns the line of a step. With a level payload, the angle of the tool means that of the payload, which keeps it
-    /// anyway.
+    /// Returns the line of a step. With a level payload, the angle of the tool means the angle of the payload, which
+    /// stays the same anyway.
     ///
     /// # Errors
-    /// An angle of the tool without a known wrist, or one that would turn the payload.
+    /// An angle of the tool without a known wrist, or an angle that would turn the payload.
     fn line(&mut self, leaf: &Leaf, line: &FollowedLine) -> Result<FollowedLine, Diagnostic> {
         let Some(guide) = line.wrist else { return Ok(line.clone()) };
         let refuse = |message: String, help: &str| {

@@ -17,7 +17,7 @@ use std::collections::BTreeSet;
 use std::ops::Range;
 
 toml_table! {
-    /// A step or several: exactly one of pick, place, move, follow, transfer and steps.
+    /// A step or a group of steps: exactly one of pick, place, move, follow, transfer and steps.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "step", extend(
         "oneOf" = [
             { "required": ["pick"] }, { "required": ["place"] }, { "required": ["move"] }, { "required": ["follow"] },
@@ -33,16 +33,17 @@ toml_table! {
         /// Where to place the carried object.
         #[cfg_attr(test, schemars(with = "Option<PlaceTable>"))]
         place: Option<Table<PlaceTable>>,
-        /// Where to move, with or without an object.
+        /// Goal of a motion, with or without a carried object.
         #[cfg_attr(test, schemars(with = "Option<GoalTable>"))]
         r#move: Option<Spanned<Table<GoalTable>>>,
-        /// A line for the tip, with or without an object. These are two steps: a move to where the line begins, and the line.
+        /// A line for the tip, with or without a carried object. It counts as two steps: a move to the beginning of the
+        /// line, and the line.
         #[cfg_attr(test, schemars(with = "Option<LineTable>"))]
         follow: Option<Spanned<Table<LineTable>>>,
-        /// Picks and places, one after the other: all objects on a pallet, to the places of another.
+        /// Picks and places that move all objects on a pallet to the places of another, one after the other.
         #[cfg_attr(test, schemars(with = "Option<TransferTable>"))]
         transfer: Option<Table<TransferTable>>,
-        /// A group; its speed and dwell are the defaults of its steps.
+        /// A group of steps. The speed and dwell of the group are the defaults for its steps.
         #[cfg_attr(test, schemars(length(min = 1)))]
         steps: Option<Vec<Spanned<StepTable>>>,
         /// For a pick: the point of the object to which the tip moves, in the object's frame, m; by default the `grasp` of the object.
@@ -53,7 +54,8 @@ toml_table! {
         /// For a pick: side of the elbow, seen from joint 1 towards the tip, "left" or "right"; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
-        /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest one possible.
+        /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest possible
+        /// one.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         at: Option<Lengths>,
         /// For the pick of a moving object: the earliest and the latest time of the pick, s; by default any time.
@@ -96,43 +98,44 @@ toml_table! {
         /// Position for the object's origin, m.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         at: Option<Lengths>,
-        /// The place of a pallet that its origin goes to: "NAME 2,3".
+        /// Place of a pallet for the object's origin: "NAME 2,3".
         on: Option<Spanned<String>>,
         /// Angle of a level payload there, rad; by default unchanged.
         angle: Option<Written>,
-        /// Obstacles and objects that it may touch there; by default those of the object.
+        /// Obstacles and objects that the object may touch there; by default the `supports` of the object.
         supports: Option<NameList>,
-        /// Height of its bottom there along the plane's normal, m; by default that of the pallet, or of the place where it was
-        /// picked.
+        /// Height of the object's bottom there along the plane's normal, m; by default the height of the pallet, or
+        /// else the height at which the object was picked.
         height: Option<Length>,
         /// Side of the elbow there, seen from joint 1 towards the tip: "left" or "right"; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
     }
 
-    /// Objects that go from one pallet to another: the first one, row by row, to the first place, and so on.
+    /// Objects that are moved from one pallet to another, row by row: the first object to the first place, and so on.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "transfer"))]
     struct TransferTable {
         /// Name of the objects, without row and column.
         objects: Spanned<String>,
-        /// Name of the pallet that they go to, which has as many places.
+        /// Name of the pallet to which they are moved. It must have as many places as there are objects.
         to: Spanned<String>,
-        /// Angle of level payloads there, rad; by default unchanged.
+        /// Angle of level payloads at the places, rad; by default unchanged.
         angle: Option<Written>,
-        /// Obstacles and objects that they may touch there; by default those of the objects.
+        /// Obstacles and objects that the moved objects may touch at their new places; by default the `supports` of the
+        /// objects.
         supports: Option<NameList>,
         /// Side of the elbow at all picks and places, seen from joint 1 towards the tip: "left" or "right"; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
     }
 
-    /// Settings of all steps.
+    /// Settings that apply to all steps.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "task"))]
     pub(super) struct TaskTable {
         /// Number of repetitions of the steps; by default one.
         #[cfg_attr(test, schemars(range(min = 1)))]
         repeat: Option<Spanned<i64>>,
-        /// "free" for pairs of a pick and a place in the order that is fastest; by default "fixed".
+        /// "free" to do pairs of a pick and a place in the fastest order; by default "fixed".
         #[cfg_attr(test, schemars(with = "Option<DoneIn>"))]
         order: Option<Spanned<String>>,
         /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
@@ -327,7 +330,7 @@ impl<'a> StepReader<'a> {
         Ok(leaves.collect())
     }
 
-    /// Returns the next step. `at` is the position of its target, and `table` that of its table.
+    /// Returns the next step. `at` is the position of its target, and `table` the position of its table.
     fn leaf(
         &mut self,
         at: Range<usize>,

@@ -119,8 +119,8 @@ impl World {
         if errors == Calibration::default() { drawn } else { drawn.within_errors(&errors) }
     }
 
-    /// Replaces errors for which motions stay free by those that an option states. Its displacement of obstacles
-    /// applies to all of them.
+    /// Replaces the errors for which motions stay free by those that an option states. If the option states a
+    /// displacement of obstacles, it applies to all obstacles.
     pub(super) fn replace_errors(&mut self, stated: CalibrationTable) {
         self.calibration = self.calibration.replaced_by(stated);
         if let Some(LengthError(error)) = stated.obstacles {
@@ -162,15 +162,16 @@ impl World {
 }
 
 toml_table! {
-    /// A workspace for cplan: obstacles, where the arm starts and where it is to go, or the steps that it is to do. Lengths are
-    /// in metres, angles in radians, coordinates in the arm's plane.
+    /// A world for cplan: obstacles, the start of the arm, and its goal or the steps of its task. Lengths are in
+    /// metres, angles in radians, coordinates in the arm's plane.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "cplan world", extend("dependencies" = {
         "task": ["step"], "step": { "not": { "required": ["goal"] } }
     })))]
     pub(super) struct WorldFile {
         /// Title of summaries and pictures; by default the file's name.
         name: Option<String>,
-        /// Least distance to keep from every obstacle, m; by default 0: any proven distance above zero.
+        /// Least distance between the arm and every obstacle, m; by default 0, so that any proven distance above zero
+        /// suffices.
         #[cfg_attr(test, schemars(with = "Option<NotNegativeLength>"))]
         clearance: Option<Length>,
         #[cfg_attr(test, schemars(default, with = "RobotTable"))]
@@ -184,7 +185,7 @@ toml_table! {
         /// Obstacles, which the arm must not touch.
         #[cfg_attr(test, schemars(default, with = "Vec<ObstacleTable>"))]
         obstacle: Vec<Spanned<ObstacleTable>>,
-        /// Regions that field planners prefer or avoid; other planners do not look at them.
+        /// Regions that field planners prefer or avoid; other planners ignore them.
         #[cfg_attr(test, schemars(default, with = "Vec<PreferenceTable>"))]
         preference: Vec<Spanned<PreferenceTable>>,
         /// Places in rows and columns.

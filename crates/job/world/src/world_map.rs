@@ -13,17 +13,18 @@ use std::ops::Range;
 use std::path::Path;
 
 toml_table! {
-    /// Walls from a line map as MobileSim draws them. Files are named relative to this one.
+    /// Walls from a line map in the format of MobileSim. File names are relative to the world file.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "map"))]
     pub(super) struct MapTable {
         /// The line map.
         file: Spanned<String>,
-        /// A preference file: its alternative goals, unless the world has a goal, and rectangles for field planners.
+        /// A preference file. It has rectangles for field planners, and alternative goals, which are used unless the
+        /// world has a goal.
         preferences: Option<Spanned<String>>,
-        /// Metres a unit, of both files; by default 0.001.
+        /// Metres per unit of the map and of the preference file; by default 0.001.
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]
         scale: Option<Number>,
-        /// Added to all coordinates after scaling, m; by default [0, 0].
+        /// Offset that is added to all coordinates after scaling, m; by default [0, 0].
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         offset: Option<Lengths>,
         /// True if the bounds of the map are walls, too; by default true.

@@ -139,8 +139,8 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Turns the carried object about the tip by the step's angle, while the arm is at rest. A turn that overlaps with a
-    /// motion must be free there, too.
+    /// Turns the carried object about the tip by the step's angle, while the arm is at rest. A turn that overlaps with
+    /// a motion must also be free with the arm at rest.
     pub(super) fn turn(&mut self, done: &ExecutedStep, at: &Point) -> Result<(), CheckError> {
         let Some(by) = &done.turn else { return Ok(()) };
         self.require_static("a turn of the wrist")?;

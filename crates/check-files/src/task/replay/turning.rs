@@ -83,7 +83,7 @@ impl Replay<'_> {
     }
 
     /// Returns the strokes that overlap with motions, lowering first, together with the turn. Checks that the tool is
-    /// raised during the turn, and lowered for the step's dwell without it.
+    /// raised during the turn.
     pub(super) fn with_turn(
         &self,
         matched: &MatchedStep,
@@ -122,8 +122,9 @@ impl Replay<'_> {
     /// Checks the carried object, at the angles of the turns that overlap with the beginning and the end of a motion.
     /// `pieces` are the motion from the departure to the arrival.
     ///
-    /// The motion was checked with the object at the angle that it has between both turns. At one end of each turn, the
-    /// object has that angle. From there on its border touches no obstacle, so neither of both can get inside the other.
+    /// The motion was checked with the object at the angle that it has between the two turns. At one end of each turn,
+    /// the object has that angle. During the turn, its border touches no obstacle, so neither the object nor an
+    /// obstacle can get inside the other.
     pub(super) fn free_during_turns(&self, [before, own]: [&EndCurves; 2], pieces: &[Piece]) -> Result<(), CheckError> {
         let none = Interval::whole(0);
         let ends_before = |(turn, angle): &(StrokeCurve, Interval), next: &Option<&StrokeCurve>| {

@@ -4,9 +4,9 @@
 //! right. A diagonal is not needed if an edge already leads there, or if the hole touches a corner of its surroundings
 //! there.
 //!
-//! Then no single vertex separates the graph inside an outer loop. Suppose a vertex cuts off a part. The neighbours
-//! outside of the leftmost and of the rightmost vertex of that part would both be this vertex, so it would lie both
-//! left and right of the part.
+//! Then no single vertex separates the graph inside an outer loop. Suppose that a vertex cuts off a part. The leftmost
+//! vertex of the part has a neighbour further left, and the rightmost one a neighbour further right. Both neighbours
+//! would be the cutting vertex, so it would lie both left and right of the part.
 
 use super::super::Point;
 use super::super::box_tree::BoxTree;
@@ -31,7 +31,8 @@ pub(super) struct Bridge {
 /// Connects every hole with its surroundings by diagonals.
 ///
 /// # Errors
-/// If on one side of a hole nothing is visible from it, because the hole is not inside.
+/// [`RingError::Misplaced`] if a hole's leftmost vertex sees no vertex to its left, or its rightmost none to its right:
+/// such a hole is not inside the outer ring.
 pub(super) fn join_holes(noded: NodedGraph) -> Result<BridgedGraph, RingError> {
     let NodedGraph { points, edges, around, loops } = &noded;
     let sight = Visibility::new(points, edges);

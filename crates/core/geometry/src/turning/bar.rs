@@ -6,8 +6,8 @@
 //!
 //! Let `K` be the part of the polygon within that reach. Suppose `K` is farther from the joint than the bar's rear
 //! corners and at least as close as its front side. Then the directions at which the bar meets it are *one* arc, from
-//! the least to the greatest such direction over the points of `K`: between any two of them, the segment to the nearest
-//! point of `K` leaves no gap.
+//! the least to the greatest such direction over the points of `K`. There is no gap between them, because `K` contains
+//! the segments from each of its points to the one nearest to the joint.
 //!
 //! Both ends are attained at corners of `K`: corners of the polygon, and points where its sides cross the circle of the
 //! reach. All these directions lie within a right angle of the direction to the polygon, so signs of cross products

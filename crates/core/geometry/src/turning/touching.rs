@@ -210,9 +210,9 @@ impl Placement<'_> {
 }
 
 /// Returns the positions where a circle about the origin crosses a side, at most two. The side is at `along` on its
-/// normal, from `from` to `to` on its tangent. Each position has its value of `start`: the first value for the positive
-/// root, the second for the negative one. Positions clearly off the side are omitted. Undecided if the circle grazes
-/// the side.
+/// normal, from `from` to `to` on its tangent. Each position comes with a value of `start`: the first one for the
+/// positive root, the second one for the negative root. Positions clearly off the side are omitted. Undecided if the
+/// circle grazes the side.
 fn crossings(
     distance2: f64,
     along: f64,

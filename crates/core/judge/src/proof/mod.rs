@@ -20,8 +20,8 @@ use serde::{Serialize, Serializer};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Fraction of the lengths in a comparison of a depth with a motion by which the depth must exceed the motion. It is
-/// far above the rounding of both.
+/// Margin by which a depth must exceed a motion, as a fraction of the lengths in their comparison. It is far above the
+/// rounding of the two values.
 const ROUNDING: f64 = 1e-12;
 
 /// A box of configurations in which one pair of shapes is too near everywhere.

@@ -23,8 +23,8 @@ pub(super) fn not_separated(
     goals.wrapped(topology).position(joined)
 }
 
-/// Number of parts into which the range of joint 1 is cut, in addition to the cuts at the ends of boxes, to cover by boxes
-/// the configurations with sums of joint values that are not allowed.
+/// Number of parts into which the range of joint 1 is cut, in addition to the cuts at the ends of boxes. In each part,
+/// boxes cover the configurations whose sum of joint values is not allowed.
 const SUM_PARTS: u32 = 4096;
 
 /// Returns boxes in which the sum of joint values is not allowed anywhere.

@@ -19,8 +19,8 @@ pub enum Measure {
         /// Multiple of the first coordinate that is added to the second.
         shear: f64,
     },
-    /// The greatest of the coordinates' magnitudes multiplied by weights, and of the magnitude of a weighted sum of both,
-    /// plus a small multiple of the Euclidean length.
+    /// The greatest of up to three values, plus a small multiple of the Euclidean length. The values are the magnitudes
+    /// of both coordinates times their weights, and the magnitude of a weighted sum of both.
     Polygon {
         /// Weight of each coordinate.
         weights: [f64; 2],
@@ -58,7 +58,8 @@ impl Measure {
         }
     }
 
-    /// Returns the inner product whose norm an ellipse is. For a polygon, that of its weights alone.
+    /// Returns the inner product that belongs to the norm of an ellipse. For a polygon, returns that of its weights
+    /// alone.
     pub(super) fn product(self, a: Vector, b: Vector) -> f64 {
         let ([u, v], shear) = match self {
             Self::Ellipse { weights, shear } => (weights, shear),

@@ -15,8 +15,8 @@ pub enum Metric {
         /// A positive weight for each joint.
         weights: [f64; 2],
     },
-    /// The greater of `|d1| / v1` and `|d2| / v2`: the time, seconds, in which both joints move together at their
-    /// top speeds. If the speed of a sum of both joints is limited, too, `|ratio d1 + d2| / speed` if that is greater.
+    /// The greatest of `|d1| / v1`, `|d2| / v2` and, if the speed of a sum of both joints is limited,
+    /// `|ratio d1 + d2| / speed`: the time, seconds, in which both joints move together at their top speeds.
     Time {
         /// Top speed of each joint, rad/s or m/s; positive.
         speeds: [f64; 2],
@@ -96,8 +96,8 @@ mod tests {
         );
     }
 
-    /// The least norms are those of the best of many displacements that move a joint by 1. That of time does not count the
-    /// sum, so it is a lower bound.
+    /// Compares the least norm with the least one of many displacements that move a joint by 1. The least norm of
+    /// [`Metric::Time`] ignores the sum, so it is only a lower bound.
     #[test]
     fn least_norms_are_those_of_the_best_displacements() {
         let sum = Some(SumSpeed { ratio: -1.5, speed: 0.4 });

@@ -217,8 +217,8 @@ impl Topology {
         joint.or_else(|| self.sum.is_some_and(|sum| !sum.contains(q)).then_some(LimitedValue::Sum))
     }
 
-    /// Returns the intervals of joint 2's range in which the sum of joint values is allowed at neither of two values of joint
-    /// 1, and so at none between them.
+    /// Returns the intervals of joint 2's range in which the sum of joint values is not allowed at either of two values
+    /// of joint 1. So it is not allowed for any value between these two.
     pub fn closed_by_sum(&self, q1: [f64; 2]) -> impl Iterator<Item = [f64; 2]> + use<> {
         let (bottom, top) = self.ranges[1].domain();
         let outside = self.sum.map(|sum| {
@@ -228,7 +228,7 @@ impl Topology {
         outside.into_iter().flatten().filter(|[from, to]| from < to)
     }
 
-    /// Returns the joint value of a configuration that has this limit, or the sum.
+    /// Returns the value of a configuration to which this limit applies: a joint value, or the sum.
     pub fn value(&self, limited: LimitedValue, q: Configuration) -> f64 {
         match (limited, self.sum) {
             (LimitedValue::Joint(joint), _) => q[joint],

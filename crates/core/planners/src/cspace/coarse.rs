@@ -9,8 +9,8 @@ use std::borrow::Cow;
 /// Shapes with at most this many corners stay unchanged, since simpler ones would hardly save time.
 const MAX_UNCHANGED_CORNERS: usize = 16;
 
-/// Number of pieces of a simplified obstacle above which a covering by small cells is tried. It is used if it has fewer
-/// pieces.
+/// Number of pieces of a simplified obstacle above which a covering by small cells is tried. The covering is used if it
+/// has fewer pieces.
 const MAX_PIECES: usize = 512;
 
 /// Number of attempts to simplify a polygon whose coarse outline crosses itself. Each attempt has a quarter of the

@@ -57,9 +57,9 @@ impl<'a> Curves<'a> {
         contours(&mut &*self, &self.breaks(), Flattening { turning, min_width: self.min_width, overlap })
     }
 
-    /// Returns the values of `q1` of the initial slices, in ascending order. Some are evenly spaced. Others are
-    /// those at which the pair begins or ceases to be at `level`, or at `floor`; contours keep a vertex at the
-    /// latter. Of values nearer together than contours overlap, only one is returned.
+    /// Returns the values of `q1` of the initial slices, in ascending order. Some are evenly spaced. Others are those
+    /// at which the pair begins or ceases to be at `level`, or at `floor`; contours keep a vertex at the latter. If
+    /// several values are nearer together than the overlap of contours, returns only one of them.
     fn breaks(&self) -> Vec<Breakpoint> {
         let scene = self.slices.scene();
         let pair = scene.pairs()[self.index];

@@ -114,8 +114,8 @@ impl Turning<'_> {
         }
     }
 
-    /// Adds the values at which a corner of the piece is at `distance` from the elbow and has the direction between
-    /// them among its normals.
+    /// Adds the values at which a corner of the piece is at `distance` from the elbow, and the direction from one to
+    /// the other is among the corner's normals.
     fn corners_at(&mut self, distance: f64, feature: &Radial) {
         let core = self.piece.core();
         let n = core.len();

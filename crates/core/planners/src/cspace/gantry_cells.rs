@@ -4,11 +4,11 @@
 //! part within a row of cells spans one interval of joint 2. The ends of this interval are those at the row's two
 //! sides, unless the highest or lowest point of the C-obstacle lies between them.
 //!
-//! A cell is blocked if its *interior* meets a C-obstacle. C-obstacles often end where cells begin, and a cell that
-//! one of them only touches is usable: the straight move between the centres of two neighbouring free cells is free.
-//! For, an obstacle with area that meets the move also meets the interior of one of the two cells. An obstacle without
-//! width, such as a thin wall for a tool that is a point, may lie between two cells. It blocks all cells that it
-//! touches.
+//! A cell is blocked if its *interior* meets a C-obstacle. C-obstacles often end where cells begin, and a cell that one
+//! of them only touches is usable: the straight move between the centres of two neighbouring free cells is free. The
+//! reason: an obstacle with area that meets the move also meets the interior of one of the two cells. An obstacle
+//! without width, such as a thin wall for a tool that is a point, may lie between two cells. It blocks all cells that
+//! it touches.
 
 use super::slabs::Columns;
 use super::{Grid, Proves, translation};

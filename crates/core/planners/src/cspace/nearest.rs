@@ -154,8 +154,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Returns the values of joint 1 of the local minima: samples whose distance is at most that of both neighbours. The
-/// least distance comes first.
+/// Returns the values of joint 1 at the local minima. These are the samples whose distance is not greater than the
+/// distance of either neighbour. The least distance comes first.
 fn minima(mut samples: Vec<(f64, f64)>) -> Vec<f64> {
     samples.sort_by(|a, b| a.0.total_cmp(&b.0));
     let distance = |i: Option<usize>| i.and_then(|i| samples.get(i)).map_or(f64::INFINITY, |s| s.1);

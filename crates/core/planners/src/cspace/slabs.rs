@@ -43,8 +43,8 @@ pub(super) fn block_centers(
     forbid_in_rows(&slices, &rows, is_banned, |_| clearance, 0.0, |row, range| block(row, columns.centers(range)));
 }
 
-/// Calls `forbid` with each row and each forbidden range of joint 2 at the row's centre, where pair `index` is grown by
-/// `grow(index)` and each range widened by `widening`. In a banned row all values are forbidden.
+/// Calls `forbid` with each row, and with each range of joint 2 that is forbidden at the row's centre. Pair `index` is
+/// grown by `grow(index)`, and each range is widened by `widening`. In a banned row all values are forbidden.
 ///
 /// Each pair is examined only in the rows where link 2 can reach its piece.
 fn forbid_in_rows(
@@ -91,8 +91,8 @@ fn forbid_in_rows(
 ///
 /// Each obstacle is examined only in the rows where link 2 can reach it: `O(reached slices * contacts + cells)`.
 ///
-/// The cells of a gantry are exact: a cell is blocked only if a C-obstacle reaches into it. One that touches its side
-/// leaves it free, see `gantry_cells`.
+/// The cells of a gantry are exact: a cell is blocked only if a C-obstacle reaches into it. A C-obstacle that only
+/// touches the cell's side leaves the cell free, see `gantry_cells`.
 pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
     if let Some(map) = translation::joint_map(scene.arm()) {

@@ -8,7 +8,7 @@ use std::sync::{Arc, LazyLock};
 pub enum FieldQuantity {
     /// Natural logarithm of a potential that paths ascend: 0 at the goal, lower farther away.
     Logarithm,
-    /// Estimate of such a logarithm, only for pictures.
+    /// Estimate of the logarithm of a potential, only for pictures.
     EstimatedLogarithm,
     /// A potential that paths descend.
     Height,

@@ -38,8 +38,8 @@ fn from_lattice(grid: &Grid, at: [f64; 2]) -> Configuration {
     Configuration::new(a, b)
 }
 
-/// Returns the centres of neighbouring `cells`, unwrapped. The first is the copy nearest to `near`. Each following
-/// one is one cell away from the one before, also across a seam.
+/// Returns the centres of neighbouring `cells`, unwrapped. The first is the copy nearest to `near`. Each further centre
+/// is one cell away from the centre before it, also across a seam.
 pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     let columns = grid.cells[1];
     let near = to_lattice(grid, near);

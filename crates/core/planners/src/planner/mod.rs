@@ -291,7 +291,7 @@ pub enum Note {
         /// The measured change in the last pass.
         change: f64,
     },
-    /// The path left local minima of the potential by moves in other directions than that of the forces.
+    /// The path left local minima of the potential by moves that do not follow the forces.
     Escaped {
         /// How the path left them, in words that follow "escaped from a local minimum".
         how: &'static str,

@@ -1,7 +1,7 @@
 //! Classical searches over the cells of a grid, which expand no more cells than necessary.
 //!
-//! petgraph's searches do not report the number of expanded cells, offer rules for ties, or use exact costs. Its
-//! hash tables are slower than arrays. The tests compare the costs with petgraph's.
+//! petgraph's searches report no number of expanded cells, have no rules for ties, and have no exact costs. Its hash
+//! tables are slower than arrays. The tests compare the costs with petgraph's.
 
 use super::deepening::deepen;
 use super::{FreeCells, Neighborhood, UNREACHED};

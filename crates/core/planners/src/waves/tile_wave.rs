@@ -43,7 +43,8 @@ pub(super) fn tile_wave(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
 struct Tile {
     /// Free cells that the wave has not reached.
     waiting: u64,
-    /// Cells that the wave has reached but not left: those of even levels, and those of odd levels.
+    /// Cells that the wave has reached but not left. One list has the cells of even levels, the other those of odd
+    /// levels.
     front: [u64; 2],
     /// Index of the tile's first cell in the grid.
     corner: u32,

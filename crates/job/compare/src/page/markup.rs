@@ -10,7 +10,7 @@ const MAX_NAME_CHARACTERS: usize = 24;
 const NAME_LINE_HEIGHT: f64 = 13.0;
 
 /// Writes a name before a line of a chart: right-aligned at `right`, and centred about the height `middle`. A long name
-/// takes two lines. Of a name that is still longer, the second line shows the end.
+/// takes two lines. If the name is too long for two lines, the second line shows its end.
 pub fn name_before(name: &str, right: f64, middle: f64) -> String {
     let lines = name_lines(name);
     let first = middle - NAME_LINE_HEIGHT * 0.5 * (lines.len() - 1) as f64;

@@ -96,8 +96,8 @@ struct DoneStep {
     turn: Option<(f64, f64, [f64; 2])>,
     /// The joint's value while the tool is lowered, in metres, and the overlaps of the strokes.
     stroke: Option<(f64, [f64; 2])>,
-    /// The joint's value in metres at which the tool begins to rise before the first step, and the time in seconds at which
-    /// it is raised, if that is during the motion.
+    /// If the tool rises before the first step: the joint's value in metres from which it rises, and the time in
+    /// seconds at which it is raised.
     first: Option<[f64; 2]>,
 }
 

@@ -67,7 +67,7 @@ impl Plan {
         Some(text.into_iter().map(String::into_bytes).collect())
     }
 
-    /// Returns the motion of all joints, if a joint of the tool moves too, without accelerations.
+    /// Returns the motion of all joints, without accelerations. `None` unless it is a task and the tool has joints.
     pub(super) fn motion_with_tool(&self) -> Option<JointMotion> {
         if !self.moves_tool() {
             return None;

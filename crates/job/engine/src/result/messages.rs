@@ -197,8 +197,8 @@ impl Row {
 struct Rows(Vec<Row>);
 
 impl Rows {
-    /// Adds a row. It replaces an earlier row with the same time, because its acceleration is that of the interval that
-    /// begins then.
+    /// Adds a row. It replaces an earlier row with the same time, because only its acceleration applies to the interval
+    /// that begins then.
     fn push(&mut self, row: Row) {
         self.0.pop_if(|last| last.at == row.at);
         self.0.push(row);

@@ -76,7 +76,7 @@ pub struct WristReport {
     pub from: f64,
     /// The joint's value at the end, radians.
     pub to: f64,
-    /// Time from the beginning of the task to that of the turn, in seconds.
+    /// Time from the beginning of the task to the beginning of the turn, in seconds.
     pub begin: f64,
     /// Duration, in seconds.
     pub seconds: f64,
@@ -85,7 +85,7 @@ pub struct WristReport {
 /// The motion of the wrist's joint along a line, at the samples of the step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WristMotionReport {
-    /// Proven upper bound on the difference between the tool's angle and the one that the line asks for, radians.
+    /// Proven upper bound on the difference between the tool's angle and the angle that the line asks for, radians.
     pub deviation: f64,
     /// Values of the joint, radians.
     pub position: Vec<f64>,
@@ -115,7 +115,7 @@ pub struct StepReport {
     pub object: Option<String>,
     /// The object that is carried during the motion.
     pub carried: Option<String>,
-    /// Time from the beginning of the task to that of the motion, in seconds.
+    /// Time from the beginning of the task to the beginning of the motion, in seconds.
     pub begin: f64,
     /// Time from the beginning of the task to the end of the motion, in seconds.
     pub arrival: f64,

@@ -162,7 +162,7 @@ impl Domain {
         Self { levels: Levels { free, ..self.levels }, ..self }
     }
 
-    /// Returns the width of a cell along axis 1 divided by that along axis 2; 1 if cells count as square.
+    /// Returns the width of a cell along axis 1 divided by its width along axis 2; 1 if cells count as square.
     pub fn beta(&self) -> f64 {
         self.beta
     }

@@ -10,8 +10,8 @@ pub enum Measure {
     SumOfChange,
     /// Sum of `change^2`.
     SumOfSquares,
-    /// Difference between the sum of `|change|` and that of the sweep before. The literature uses this measure, but it
-    /// is not a good rule: two equal sums end the relaxation, however large they are.
+    /// Difference between the sum of `|change|` in this sweep and in the sweep before. The literature uses this
+    /// measure, but it is not a good rule: two equal sums end the relaxation even if they are large.
     DifferenceOfSums,
     /// The greatest `|change|` of any cell.
     GreatestChange,

@@ -214,7 +214,7 @@ pub(super) fn hint(domain: &Domain, equation: &Equation, relaxation: &Relaxation
     }
 }
 
-/// Returns, for each free cell, the unit direction in which its value rises towards that of obstacles, by central
+/// Returns, for each free cell, the unit direction in which values rise towards the value of obstacles, by central
 /// differences. It is 0 where values are level.
 pub(super) fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 2]> {
     let levels = domain.levels();

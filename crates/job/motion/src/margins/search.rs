@@ -14,7 +14,7 @@ const TIGHTNESS: f64 = 0.96;
 /// Number of places that are sampled first.
 const INITIAL_SAMPLES: usize = 32;
 
-/// Greatest number of samples of a piece among those.
+/// Greatest number of these samples on one piece.
 const SAMPLES_PER_PIECE: usize = 4;
 
 /// Number of checks of a pair of shapes on a span after which every bound is accepted. They take some seconds.
@@ -132,7 +132,8 @@ impl Look<'_> {
         self.posture.is_apart_with_errors(during, self.beside, errors, self.known)
     }
 
-    /// Returns a lower bound on the distance over the deviation. It may be below the greatest one once it is `enough`.
+    /// Returns a lower bound on the distance over the deviation. If the bound is at least `enough`, it need not be the
+    /// greatest one.
     fn bound(&self, enough: f64) -> SeparationBound {
         let bound = self.posture.bound_during(self.during, self.deviation, |_| enough);
         SeparationBound { least: bound.least.max(self.known), ..bound }

@@ -113,7 +113,7 @@ impl CollisionCheck {
         self.clearance().is_some()
     }
 
-    /// Returns true if the other motion is free, and this one is not or has a smaller clearance.
+    /// Returns true if the other motion is free, and this motion is not free or has a smaller clearance.
     pub fn is_worse_than(&self, other: &Self) -> bool {
         other.clearance().is_some_and(|least| self.clearance().is_none_or(|clearance| clearance < least))
     }
@@ -201,8 +201,8 @@ fn searched<'a>(search: impl Fn(f64) -> Search<'a>, clearance: f64) -> Collision
 /// Greatest number of checks of a pair of shapes on a span in [`keeps_during_stroke`]. They take a few milliseconds.
 const TRIAL_EVALUATIONS: usize = 4_000;
 
-/// Returns true if the pairs of [`check_stroke`] are proven to keep a clearance during a stroke of the tool. Gives up at
-/// the first contact, and after few checks, so it is faster than that.
+/// Returns true if the pairs of [`check_stroke`] are proven to keep a clearance during a stroke of the tool. Gives up
+/// at the first contact, and after few checks, so it is faster than [`check_stroke`].
 pub(super) fn keeps_during_stroke(scene: &ArchScene, recording: &Recording, held: &HeldMotion, clearance: f64) -> bool {
     let tool = ToolMotion::of_stroke(scene, held);
     let pieces = recording.pieces();

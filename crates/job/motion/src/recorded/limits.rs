@@ -12,8 +12,8 @@ use cplan_model::{Arm, Joint, Motors, Scene};
 /// printing six digits. No drive can distinguish such values.
 const LIMIT_TOLERANCE: f64 = 1e-6;
 
-/// Largest share of a speed limit by which a speed between samples may exceed it because of rounded positions and
-/// times. With six decimals at a kilohertz, rounding causes a thousandth of a radian per second. Numbers that are
+/// Largest excess over a speed limit between samples, as a share of the limit, that rounded positions and times may
+/// explain. With six decimals at a kilohertz, rounding causes a thousandth of a radian per second. Numbers that are
 /// coarser for their spacing define another motion, and a controller executes that motion.
 const MAX_ROUNDING_SHARE: f64 = 0.01;
 
@@ -88,8 +88,8 @@ pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<Limit
 /// Index in [`LimitViolation::joint`] of the elbow's motor, where it is mounted on the base.
 pub const ELBOW_MOTOR: usize = 2;
 
-/// Index in [`LimitViolation::joint`] of the first motor, if its torque differs from that of joint 1. The torque is that
-/// without the motor's gear.
+/// Index in [`LimitViolation::joint`] of the first motor, if its torque differs from the torque of joint 1. The torque
+/// is stated without the motor's gear.
 pub const FIRST_MOTOR: usize = 3;
 
 /// Returns every violated limit of the sum of joint values that the elbow's motor turns, as [`limit_violations`] does.

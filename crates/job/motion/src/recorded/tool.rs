@@ -2,7 +2,8 @@
 //!
 //! During a span of time, a lifted part counts with all its heights from the least to the greatest. This is enough to
 //! prove that a span is free. A contact is reported only if the heights meet at one moment. A part that a wrist turns
-//! counts with all its orientations from the least angle to the greatest, and with that of the moment for a contact.
+//! counts with all its orientations from the least angle to the greatest. For a contact, it counts with its orientation
+//! at the moment.
 
 use super::cover::cover_about;
 use crate::{Place, Span};
@@ -182,7 +183,7 @@ impl<'a> ToolMotion<'a> {
         self.lifts.iter().map(|lift| lift.joint.extent(span)).collect()
     }
 
-    /// Returns the heights of a pair's part with these lifts, and those of its obstacle.
+    /// Returns the heights of a pair's part with these lifts, and the heights of its obstacle.
     fn heights(&self, pair: Pair, extents: &[[f64; 2]]) -> [Heights; 2] {
         let part = &self.still.link(pair).parts[pair.part];
         let is_attached = self.still.is_attached(pair);

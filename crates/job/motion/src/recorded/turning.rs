@@ -24,7 +24,8 @@ const TRIAL: Effort = Effort { spans: 48, evaluations: 1_000 };
 /// Greatest number of spans that a proof examines, and greatest number of checks of pairs in each of them.
 const PROOF: Effort = Effort { spans: 4_096, evaluations: 50_000 };
 
-/// Number of times that a clearance is halved until a lower one is accepted.
+/// Number of times that a sought clearance is halved if it is not proven. After that, only the required clearance is
+/// tried.
 const CLEARANCE_HALVINGS: u8 = 3;
 
 /// Number of times that a span is halved to bound the speed of the wrist.
@@ -89,8 +90,8 @@ pub fn turn_profile(wrist: &Wrist, distance: f64, seconds: f64) -> Vec<[f64; 3]>
     fastest.into_iter().map(|[time, angle, speed]| [time * stretch, angle, speed / stretch]).collect()
 }
 
-/// A turn of the payload that begins or ends during a motion of the arm. Before it the payload has the orientation of
-/// its beginning, and after it that of its end.
+/// A turn of the payload that begins or ends during a motion of the arm. Before the turn the payload has the
+/// orientation of the turn's beginning, and after the turn that of its end.
 #[derive(Debug, Clone)]
 pub struct TurnDuringMotion<'a> {
     /// The payload and its obstacles.
@@ -103,8 +104,8 @@ pub struct TurnDuringMotion<'a> {
     pub seconds: f64,
     /// Time at which the turn begins, on the clock of the motion, seconds.
     pub begin: f64,
-    /// True for a turn before a place, which leaves another orientation for the end of the motion. False for a turn
-    /// after a pick, before which the payload has another orientation from the beginning of the motion on.
+    /// True for a turn before a place: the payload keeps its last orientation until the end of the motion. False for a
+    /// turn after a pick: the payload has its first orientation from the beginning of the motion.
     pub is_before_place: bool,
 }
 
@@ -118,8 +119,8 @@ impl TurnDuringMotion<'_> {
         turn_angle(&self.profile(), self.ends, time - self.begin)
     }
 
-    /// Returns the span of a motion in which the payload does not have the orientation of the rest of the motion. `None`
-    /// if it always has it.
+    /// Returns the span of a motion in which the payload's orientation differs from that in the rest of the motion.
+    /// `None` if there is no such span.
     fn window(&self, motion: &Recording) -> Option<[f64; 2]> {
         let times = motion.times()?;
         let [first, last] = [times[0], times[times.len() - 1]];
@@ -170,8 +171,8 @@ impl TurnDuringMotion<'_> {
         Ok(least)
     }
 
-    /// Returns true if the payload is quickly proven to keep at least `clearance` metres from obstacles in the part of
-    /// the motion in which it does not have the orientation of the rest of the motion.
+    /// Returns true if the payload is quickly proven to keep at least `clearance` metres from obstacles while its
+    /// orientation differs from that in the rest of the motion.
     pub fn keeps(&self, motion: &Recording, clearance: f64) -> bool {
         self.proven(motion, clearance, TRIAL).is_ok()
     }

@@ -1,5 +1,5 @@
-//! *Closed* configurations, in which shapes are too near. Finds the closed values of joint 1, and those of joint 2 at
-//! one value of joint 1. Proves that straight motions are closed.
+//! *Closed* configurations, in which shapes are too near. Finds the closed values of joint 1, and the closed values of
+//! joint 2 at one value of joint 1. Proves that straight motions are closed.
 
 use crate::slab::{CLOSED_FORM_ERROR, ErodedShape};
 use cplan_geometry::{Convex, Hits, Point, Pose, Vector, common, merge_in_place, perpendicular, separation};
@@ -11,7 +11,7 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Number of times that a motion is halved. If it is not proven then, it counts as not proven.
+/// Number of times that a motion is halved. If that does not prove it closed, it counts as not proven.
 const MAX_MOTION_HALVINGS: usize = 4;
 
 /// An interval of joint 2 in which a pair is too near. For a joint with limits it lies within the domain. For a
@@ -85,7 +85,7 @@ impl<'a> SecondLinkWalls<'a> {
         }
     }
 
-    /// Returns the pairs in use, in order: the pairs of link 1, unless they are too many, then the pairs of link 2.
+    /// Returns the pairs in use, in order: first those of link 1 (none if they are too many), then those of link 2.
     pub fn pairs(&self) -> Vec<Pair> {
         let first = self.contacts.second_link_pairs().start;
         let few = first <= MAX_PAIRS;
@@ -141,7 +141,7 @@ impl<'a> SecondLinkWalls<'a> {
         pairs.into_iter().map(|(_, pair)| pair).collect()
     }
 
-    /// Returns the number of a pair. Returns `None` if it is not in use.
+    /// Returns the index of a pair in `self.pairs`. `None` if the pair has not been added.
     pub fn number(&self, pair: Pair) -> Option<usize> {
         self.numbers.get(&pair).copied()
     }

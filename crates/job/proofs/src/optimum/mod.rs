@@ -275,8 +275,8 @@ struct ShortestPathSearch<'a> {
     /// Copies of the goals on all turns.
     goals: Vec<Segment>,
     limit: f64,
-    /// Length below which paths are searched in the first place. Longer paths could reach goals and portals on more
-    /// turns, which costs time.
+    /// Length below which paths are searched first. Longer paths could reach goals and portals on more turns, which
+    /// costs time.
     near: f64,
     /// Greatest absolute coordinate of start and goals.
     largest: f64,

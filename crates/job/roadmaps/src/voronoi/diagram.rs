@@ -185,8 +185,8 @@ impl Diagram {
     }
 }
 
-/// Returns a distance from the boundary that no configuration exceeds. The limits of an interval are nearer than that,
-/// and on two circles so are the copies of any site.
+/// Returns a distance from the boundary that no configuration exceeds. On an interval, a limit is nearer than that. On
+/// two circles, a copy of any site is.
 fn farthest(space: &Regions) -> f64 {
     let extents = [0, 1].map(|k| space.window[k].1 - space.window[k].0);
     let circles = space.topology.ranges.map(JointRange::is_circle);

@@ -41,8 +41,8 @@ fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, O
     (within > 0.0).then(|| (disc(shape.reach_from(axis)), Some(disc(within))))
 }
 
-/// Tolerance for a shape that is a disc about an axis. For the centre of a disc, it is the distance from the axis in
-/// metres. For other shapes, it is relative.
+/// Tolerance for a shape that counts as a disc about an axis. For a disc, it is the distance of the centre from the
+/// axis, in metres. For other shapes, it is relative.
 const AXIS_TOLERANCE: f64 = 1e-9;
 
 /// The outlines of both links, the robot's links that are obstacles, and notes for the user.

@@ -251,7 +251,9 @@ impl Chooser<'_> {
         Err(self.document.source.diagnostic(message).help(help))
     }
 
-    /// Checks that no other joint moves with one of the two joints.
+    /// Checks that the two joints are independent: neither mimics another joint, no joint that carries the arm, belongs
+    /// to it or moves shapes mimics one of them, and no joint with several degrees of freedom is in the arm or carries
+    /// it.
     fn independent(&self, chosen: [usize; 2]) -> Result<(), Diagnostic> {
         let reason = "an arm with coupled joints (a parallelogram or other linkage) is no serial two-joint arm";
         for j in chosen {

@@ -39,7 +39,7 @@ impl Reduction<'_> {
         Ok(Some(Motors { range, velocity, acceleration, jerk, effort: first.effort, ..motors }))
     }
 
-    /// Returns the efforts of both joints that follow from those of the motors.
+    /// Returns the efforts of both joints that follow from the efforts of the motors.
     pub(super) fn motor_efforts(&self) -> Result<[Option<f64>; 2], Diagnostic> {
         let Some(given) = &self.settings.table.drives else { return Ok([None; 2]) };
         let (motors, limits) = self.read_drives(given)?;

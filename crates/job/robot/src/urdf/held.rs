@@ -47,7 +47,7 @@ impl Chooser<'_> {
         Ok((leader, value.factor, value.offset))
     }
 
-    /// Returns the value of every joint, and notes about those that matter to the arm.
+    /// Returns the value of every joint, and notes about the joints that matter to the arm.
     pub(super) fn values(&self, chosen: [usize; 2]) -> Result<HeldValues, InputError> {
         for name in self.settings.table.fixed.keys() {
             if chosen.iter().any(|j| self.all()[*j].name == *name.get_ref()) {

@@ -43,7 +43,8 @@ pub(super) fn check(settings: RobotSettings) -> Result<(), Diagnostic> {
 }
 
 impl Bodies<'_> {
-    /// Returns masses and efforts of an arm. `motors` are the efforts of the joints that follow from those of the motors.
+    /// Returns masses and efforts of an arm. `motors` are the efforts of the joints that follow from the efforts of the
+    /// motors.
     ///
     /// # Errors
     /// Links without mass, joints without effort, and numbers that no rigid body can have.

@@ -21,7 +21,7 @@ pub(super) const PARALLEL_TOLERANCE: f64 = 1e-9;
 /// Largest distance in metres from the wrist's axis at which the tip counts as on the axis. It covers rounding.
 const AXIS_TOLERANCE: f64 = 1e-6;
 
-/// Least length of the projection of a frame's x axis into the plane for which it gives the direction of the tool.
+/// A frame's x axis gives the direction of the tool if the projection of the axis into the plane is longer than this.
 const LEAST_PROJECTION: f64 = 1e-3;
 
 /// The function of a tool's joint.

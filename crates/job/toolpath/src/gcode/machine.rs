@@ -75,8 +75,8 @@ impl Machine {
         Self { placement, unit, system: 54.0, ..Self::default() }
     }
 
-    /// Allows moves to places of the machine. They lead to `home`, where the program also begins; or if it is `None`, to an
-    /// unknown place.
+    /// Allows moves to places of the machine. They lead to `home`, where the program also begins. If `home` is `None`,
+    /// they lead to an unknown place.
     pub fn with_homing(mut self, home: Option<Point>) -> Self {
         (self.home, self.remarks.allows_homes) = (home, true);
         self.go_home();
@@ -119,8 +119,8 @@ impl Machine {
         Ok(false)
     }
 
-    /// Returns an error about lines after the end of the program, which some machines run, for a machine that knows its own
-    /// places. `end` is the number of the line with the end.
+    /// Returns an error if lines follow the end of the program, because some machines run them. It is only for machines
+    /// that know their own places. `end` is the number of the line with the end.
     pub fn after_end<'l>(
         &self,
         end: usize,
@@ -272,7 +272,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Runs the first move, which begins where the program does not say. The line begins at its end.
+    /// Runs the first move, whose beginning the program does not state. The line begins at the end of this move.
     fn begin(&mut self, block: &Block, first: &Word, motion: Move, to: Point) -> Result<(), Error> {
         let word = block.get(Slot::Motion).unwrap_or(first);
         if matches!(motion, Move::Arc { .. }) {

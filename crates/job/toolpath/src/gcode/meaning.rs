@@ -96,8 +96,8 @@ const REPEAT: Reason = reason("repeats the line", NUMBERS);
 const UNKNOWN: Reason =
     reason("is not a word that cplan knows", "write the line with G0 to G3; following.md lists what cplan reads");
 
-/// Returns the reason why cplan cannot follow a move to a place of the machine. Where nothing is drawn before or after it,
-/// it need not be there.
+/// Returns the reason why cplan cannot follow a move to a place of the machine. Unless `is_inside`, nothing is drawn
+/// before or after the move, so the program does not need it.
 pub(super) fn machine_place(is_inside: bool) -> Reason {
     let hint = match is_inside {
         true => "write a move (G0) to that place, in the coordinates of the file",

@@ -52,8 +52,8 @@ impl Origin {
         self.stored = self.shift;
     }
 
-    /// Returns the origin to where it was before G92, and forgets the moved origin if it is not `kept`. Returns false if
-    /// the program has not stated where that is.
+    /// Moves the origin back to where it was before G92, and forgets the moved origin unless `is_kept`. Returns false
+    /// if the program has not stated where that is.
     pub fn reset(&mut self, is_kept: bool) -> bool {
         self.shift = [0.0; 2];
         if !is_kept {

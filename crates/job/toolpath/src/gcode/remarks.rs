@@ -21,7 +21,7 @@ pub(super) struct Remarks {
     pub drawn: usize,
     /// True if moves to places of the machine are allowed. Then they are listed.
     pub allows_homes: bool,
-    /// True if the last line was such a move.
+    /// True if the last line was a move to a place of the machine.
     pub is_home: bool,
 }
 

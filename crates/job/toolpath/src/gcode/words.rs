@@ -171,8 +171,8 @@ fn has_exponent(rest: &[char]) -> bool {
     }
 }
 
-/// Returns the length of a comment that a text begins with: up to the parenthesis that closes the first one, or up to the
-/// first that closes any.
+/// Returns the length of the comment with which a text begins. The comment ends with the parenthesis that closes the
+/// first one. If there is none, it ends with the first closing parenthesis.
 fn comment_end(text: &[char]) -> Option<usize> {
     let mut depth = 0_usize;
     let closes = |c: &char| {

@@ -103,8 +103,8 @@ pub fn place(line: &LineView, frame: &Frame) -> Vec<Item> {
     line.place.map_or_else(Vec::new, |at| cross(frame.at(at.x, at.y)))
 }
 
-/// Returns the arms to draw: at the place that is farthest from the line, and the other IK solution there; or those that
-/// are excluded.
+/// Returns the arms to draw: the arm at the place that is farthest from the line, and the other IK solution there. If
+/// no motion is possible, returns the excluded IK solutions.
 pub fn arms(line: &LineView, view: &View, frame: &Frame) -> Vec<Item> {
     let payload = view.first_world().payload.as_ref();
     let excluded = line.excluded.iter().flat_map(|&q| arm::items(frame, &view.arm, payload, q, &UNREACHED_LOOK));

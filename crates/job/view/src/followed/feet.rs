@@ -14,7 +14,7 @@ pub struct Foot {
     pub offset: f64,
 }
 
-/// Follows the nearest place of a line while the tip moves along it. It never returns.
+/// Follows the nearest place of a line while the tip moves along it. The place never moves backwards.
 pub struct Tracker<'a> {
     line: Line<'a>,
     tolerance: f64,

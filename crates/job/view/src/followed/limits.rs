@@ -43,8 +43,9 @@ pub struct Stretch {
 /// Returns the limit that each piece of a motion reaches: the greatest value on the piece is within two per cent of the
 /// bound. `tip_limits` has the greatest speed of the tip on each piece, metres per second; `None` if there is no such limit.
 ///
-/// A piece that reaches several limits counts for the first of them in this order: speeds, accelerations, jerks; of
-/// equal kind, the one with the greatest share. (A joint at top speed cannot be faster with any acceleration.)
+/// A piece that reaches several limits counts for the first of them in this order: speeds, accelerations, jerks. Among
+/// limits of one kind, it counts for the one with the greatest share. (A joint at top speed cannot be faster with any
+/// acceleration.)
 pub fn active_limits(arm: &Arm, pieces: &[Piece], tip_limits: &[Option<f64>]) -> Vec<ActiveLimit> {
     pieces.iter().zip(tip_limits).map(|(piece, tip)| active_limit(arm, piece, *tip)).collect()
 }

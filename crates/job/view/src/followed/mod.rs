@@ -131,8 +131,8 @@ fn filled(measured: Vec<Option<[f64; 2]>>) -> Vec<[f64; 2]> {
     filled.collect()
 }
 
-/// Returns the speed of the tip at both ends of pieces. Of many pieces, it chooses those that divide the motion evenly, and
-/// for each group the least and the greatest speed, so that no stop is lost.
+/// Returns the speed of the tip at both ends of pieces. If there are many pieces, divides the motion evenly into
+/// groups, and returns the least and the greatest speed of each group, so that no stop is lost.
 fn speeds(arm: &Arm, pieces: &[Piece]) -> Vec<[f64; 2]> {
     let ends = pieces.iter().map(|piece| (piece, 1.0));
     let first = pieces.first().map(|piece| (piece, 0.0));

@@ -69,8 +69,8 @@ fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     Some(("cells", format!("{used}: {asked} show no certified path")))
 }
 
-/// Returns a description of the planner's cells if it was the second attempt that decided them, by their centres. `None`
-/// if the cells are those that were requested.
+/// Describes the planner's cells if they are from the second attempt, in which the centres decide about cells. `None`
+/// if the cells are as requested.
 pub(super) fn second_attempt(plan: &Plan, answer: &Answer<Motion>) -> Option<String> {
     let is_second =
         |grid: &Grid| grid.proves == Proves::Sampled && plan.options().planner.space() == Some(GridSpace::Rows);

@@ -96,8 +96,8 @@ fn motion_lines(task: &Task, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Li
     lines
 }
 
-/// Describes the motions that the bound is about, unless it holds for all. A tool that is lowered at both ends of the first
-/// motion is raised in between, by the rules of tasks.
+/// Describes the motions for which the bound holds, unless it holds for all. A tool that is lowered at both ends of the
+/// first motion is raised in between, by the rules of tasks.
 fn bounded_motions(leg: &Leg) -> Option<String> {
     let (first, last) = leg.raising.zip(leg.stroke)?;
     let is_same_side = (first.lowered - first.raised) * (last.lowered - last.raised) > 0.0;

@@ -12,7 +12,7 @@ const STEP_LENGTH: f64 = 0.5;
 const MIN_STEP_LENGTH: f64 = 0.03;
 /// Greatest length of a line, in widths of the grid. A longer line winds around and makes the picture no clearer.
 const MAX_LINE_LENGTH: f64 = 4.0;
-/// Number of consecutive points of a line of which one is kept.
+/// Number of consecutive points of a line, of which only one is kept.
 const POINTS_PER_KEPT_POINT: usize = 4;
 
 /// Returns lines of steepest ascent, as polylines. A line ends at the goal, at a local maximum, or where the field has

@@ -21,14 +21,14 @@ const PROOF_SECONDS: [f64; 2] = [4.0, 6.0];
 /// Longest duration of all phases together, in seconds. Nobody would watch a longer replay.
 const MAX_REPLAY_SECONDS: f64 = 6.0;
 
-/// Size of the replays for the motions of a task on a page, in bytes, from which on later motions have no replay.
+/// Largest size of all replays of a task on a page together, in bytes. The motions after that have no replay.
 const MAX_REPLAY_BYTES: usize = 200_000;
 
 /// Largest number of slab boxes, for all motions of a task together.
 const MAX_BOXES: usize = 5_000;
 
-/// Fractions of a joint's range for the case that there are more boxes than `MAX_BOXES`. The replay omits boxes
-/// narrower than one of these: the first fraction that suffices.
+/// Fractions of a joint's range for the case that there are more boxes than `MAX_BOXES`. The replay then omits boxes
+/// narrower than the first of these fractions that suffices.
 const BOX_WIDTH_LIMITS: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
 
 impl PhaseView {

@@ -24,8 +24,8 @@ struct File {
 const READ_KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
 
 /// Darkness, from 0 to 255, of cells that nobody has seen in pictures of ROS's map savers: the shade 205. The map
-/// savers write it whatever `free_thresh` is. With the `free_thresh: 0.25` that they usually write beside it, such a
-/// cell would count as free.
+/// savers write it whatever `free_thresh` is. With `free_thresh: 0.25`, which they usually write, such a cell would
+/// count as free.
 const UNSEEN_DARKNESS: f64 = 50.0;
 
 /// The key `negate`. ROS writes 0 or 1, and people also write false or true.

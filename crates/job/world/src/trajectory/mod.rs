@@ -125,7 +125,7 @@ pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedReco
     }
 }
 
-/// Reads a JSON file. Without steps, a motion of all joints counts instead of that of the arm's two joints.
+/// Reads a JSON file. Without steps, a motion of all joints counts instead of the motion of the arm's two joints.
 fn read_json(source: &Source, scene: &LoadedScene, names: &Names) -> Result<LoadedRecording, InputError> {
     let samples = document::json(source)?;
     let steps = if scene.is_task() { steps::json(source, &samples)? } else { None };

@@ -6,8 +6,8 @@ use cplan_model::space::Configuration;
 use cplan_model::{OutlineSource, Scene};
 use cplan_robot::{Diagnostic, Source};
 
-/// Largest deviation of a recorded value from the value at which the world holds the joint, in radians or metres, for
-/// the joint to count as still. It exceeds a controller's jitter and the rounding to six digits. It is too small to
+/// Largest deviation of recorded values from the value at which the world holds a joint, in radians or metres, with
+/// which the joint counts as still. It exceeds a controller's jitter and the rounding to six digits. It is too small to
 /// cause a collision.
 const HELD_TOLERANCE: f64 = 1e-4;
 

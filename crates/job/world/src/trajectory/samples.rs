@@ -19,7 +19,7 @@ pub(super) struct Series {
 pub(super) struct Samples {
     pub time: Option<Vec<f64>>,
     pub joints: Vec<Series>,
-    /// Positions of joints at times that are not those of the samples.
+    /// Positions of joints at other times than those of the samples.
     pub other_series: Vec<Series>,
     /// Interpolation of samples with accelerations. `None` if accelerations do not determine the motion between
     /// samples.
