@@ -7,9 +7,11 @@ JSON itself.
 import csv
 import io
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import KW_ONLY, dataclass, field, fields, is_dataclass
 from os import PathLike
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import UnionType
 from typing import Any, TypeVar, get_args, get_origin, get_type_hints, overload
 
@@ -17,9 +19,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from cplan import _frames
-from cplan._cplan import Arm, Plan, World
+from cplan._cplan import Arm, Plan, Problem, World
 from cplan._cplan import check as _check
 from cplan._cplan import compare as _compare
+from cplan._cplan import compared_problems as _compared_problems
 from cplan._cplan import verify as _verify
 from cplan._frames import Trajectory
 from cplan.planning import options, words
@@ -452,19 +455,35 @@ def _document(joints: list[str], rows: Sequence[Any], interpolation: str | None)
     return json.dumps({"joints": joints, "interpolation": interpolation, "trajectory": samples})
 
 
+Planner = Callable[[Problem], ArrayLike | tuple[ArrayLike, ...] | Plan | Trajectory | None]
+"""A planner in Python: a function from a problem to a motion, as `verify` takes it; None if it finds no motion."""
+
+
 @overload
 def compare(
-    arm: Arm, world: World, *, planners: Sequence[str] = (), variants: Sequence[str] = (), queries: None = None, **more: Any
+    arm: Arm,
+    world: World,
+    *,
+    planners: Sequence[str] | Mapping[str, Planner | None] = (),
+    variants: Sequence[str] = (),
+    queries: None = None,
+    **more: Any,
 ) -> Comparison: ...
 @overload
 def compare(
-    arm: Arm, world: World, *, planners: Sequence[str] = (), variants: Sequence[str] = (), queries: int, **more: Any
+    arm: Arm,
+    world: World,
+    *,
+    planners: Sequence[str] | Mapping[str, Planner | None] = (),
+    variants: Sequence[str] = (),
+    queries: int,
+    **more: Any,
 ) -> Comparisons: ...
 def compare(
     arm: Arm,
     world: World,
     *,
-    planners: Sequence[str] = (),
+    planners: Sequence[str] | Mapping[str, Planner | None] = (),
     variants: Sequence[str] = (),
     queries: int | None = None,
     **more: Any,
@@ -476,14 +495,35 @@ def compare(
     own". `queries` is a number of random start-goal pairs, which replace those of the world. All other options are
     those of `cplan compare`, by name, such as the `seed` of the pairs. Ctrl-C ends it, except with `jobs=2` and more.
 
+    Your own planners are functions from a `Problem` to a motion: `planners={"mine": f}`. Names with None are planners
+    of cplan, `{"mine": f, "shortest": None}`; without any, all run beside yours. Each motion is judged as by `verify`.
+
     >>> arm = Arm.rr([1.0, 0.8], width=0.06)
     >>> world = World({"circle": {"center": [1.6, 0.0], "radius": 0.1}}, start=[1.0, 0.2], goal=[-1.0, -0.2])
     >>> compared = compare(arm, world, planners=["visibility", "wavefront"], cells=64)
     >>> [(run.planner, run.outcome) for run in compared.planners]
     [('visibility', 'found'), ('wavefront', 'found')]
+    >>> own = {"straight": lambda problem: [problem.start, problem.goals[0]], "shortest": None}
+    >>> [(run.planner, run.outcome, run.reason) for run in compare(arm, world, planners=own).planners]
+    [('shortest', 'found', None), ('straight', 'unknown', 'the path collides: link "link 2" and obstacle "obstacle 1"')]
     """
-    asked = [f"--planner={name}" for name in planners] + [f"--with={variant}" for variant in variants]
-    texts = _compare(arm, world, asked + words(queries=queries, **more))
+    own = {name: f for name, f in planners.items() if f is not None} if isinstance(planners, Mapping) else {}
+    asked = [f"--planner={name}" for name in planners if name not in own]
+    asked += [f"--with={variant}" for variant in variants] + words(queries=queries, **more)
+    with TemporaryDirectory() as folder:
+        if own:
+            ends = {name: more.get(name) for name in ("start", "goal", "goal_tip", "clearance")}
+            for file, query in _compared_problems(arm, world, asked):
+                start, goal = query or (ends["start"], ends["goal"])
+                problem = Problem(arm, world, options(**{**ends, "start": start, "goal": goal}))
+                for name, planner in own.items():
+                    place = Path(folder, name)
+                    place.mkdir(exist_ok=True)
+                    motion = planner(problem)
+                    if motion is not None:
+                        Path(place, f"{file}.json").write_text(_motion(arm, world, motion))
+            asked.append(f"--paths={folder}")
+        texts = _compare(arm, world, asked)
     given = dict(zip(["_json", "_text", "_markdown", "_csv"], texts))
     data = json.loads(texts[0])
     return _made(Comparison, data, **given) if queries is None else _made(Comparisons, data, **given)

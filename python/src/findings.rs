@@ -103,6 +103,24 @@ pub fn compare(py: Python<'_>, arm: &Arm, world: &World, words: Vec<String>) -> 
     }
 }
 
+/// The name of a problem's files, and its start and goal if they were drawn.
+type ComparedProblem = (String, Option<([f64; 2], [f64; 2])>);
+
+/// Returns the problems that `compare` compares with these words.
+#[pyfunction]
+pub fn compared_problems(
+    py: Python<'_>,
+    arm: &Arm,
+    world: &World,
+    words: Vec<String>,
+) -> PyResult<Vec<ComparedProblem>> {
+    let found = interruptible(py, |_| cplan::cli::compared_problems(arm.among(world)?, &words))?;
+    let problem = |(file, query): (String, Option<[cplan::space::Configuration; 2]>)| {
+        (file, query.map(|[start, goal]| (start.into(), goal.into())))
+    };
+    Ok(found.map_err(|failure| failed(py, failure))?.into_iter().map(problem).collect())
+}
+
 /// Stubs copy defaults from signatures, so the signatures repeat the limit as a number.
 const _: () = assert!(TIME_LIMIT.as_secs() == 5);
 

@@ -37,6 +37,7 @@ fn _cplan(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(findings::slices, module)?)?;
     module.add_function(wrap_pyfunction!(findings::verify, module)?)?;
     module.add_function(wrap_pyfunction!(findings::compare, module)?)?;
+    module.add_function(wrap_pyfunction!(findings::compared_problems, module)?)?;
     module.add_function(wrap_pyfunction!(findings::explain, module)?)?;
     module.add_function(wrap_pyfunction!(findings::explain_drawn, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::penetration_depth, module)?)?;

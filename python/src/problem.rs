@@ -1,9 +1,11 @@
 //! Problems: an arm, a world, options.
 
 use crate::error::{raised, refused};
+use crate::geometry::array;
 use cplan::Joint;
 use cplan::cli::scara_urdf;
 use cplan::input::{self, InputError, LoadedScene, Overrides, RobotFile, Source, scene_from, scene_of};
+use numpy::PyArray2;
 use pyo3::PyClass;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
@@ -280,6 +282,18 @@ impl Problem {
     #[getter]
     fn kind(&self) -> &'static str {
         self.problem.scene().arm().kind()
+    }
+
+    /// The start, base to tip, radians or metres.
+    #[getter]
+    fn start(&self) -> [f64; 2] {
+        self.problem.query().start().into()
+    }
+
+    /// The goals, shape (n, 2): each is enough. Goals that leave a joint free are not listed.
+    #[getter]
+    fn goals(&self, py: Python<'_>) -> PyResult<Py<PyArray2<f64>>> {
+        array(py, self.problem.query().goals().points().map(Into::into).collect())
     }
 
     /// Returns the object itself, because it never changes.

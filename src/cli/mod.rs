@@ -55,7 +55,7 @@ mod variant;
 mod verify;
 mod words;
 
-pub use compare::compare_in;
+pub use compare::{compare_in, compared_problems};
 pub use data_sheet::scara_urdf;
 pub use explain::ExplanationResult;
 pub use failure::Failure;

@@ -26,6 +26,7 @@ Examples:
     --output arena.log
   cplan compare robots/scara.urdf --suite my_worlds \\
     --planner visibility --planner wavefront
+  cplan compare robots/planar_2r.urdf workspaces/shelf.toml --paths results
 
 A suite is a folder with a suite.toml, which names a robot and a world for each
 problem:
@@ -78,6 +79,10 @@ pub struct CompareArgs {
     /// --direction 0,-1" or --with "trapezoid --path own"; can be repeated.
     #[arg(long, value_name = "PLANNER OPTIONS", value_parser = Variant::parse, help_heading = COMPARISON)]
     pub with: Vec<Variant>,
+    /// Add the paths of other planners: a folder with one folder for each planner, which has a file for each problem, such as
+    /// DIR/mine/shelf.csv (or .json, .yaml). They are judged as by `cplan verify`.
+    #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, help_heading = COMPARISON)]
+    pub paths: Option<PathBuf>,
     #[command(flatten)]
     pub query: QueryArgs,
     #[command(flatten)]

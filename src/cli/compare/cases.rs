@@ -2,6 +2,7 @@
 
 use super::args::CompareArgs;
 use super::pairs::free_pairs;
+use super::recorded::file_stem;
 use crate::cli::failure::Failure;
 use crate::compare::{Refusal, Sampling};
 use crate::input::{self, DiagnosticKind, ExcludedWorld, LoadedScene, Overrides, RefusedProblem, Suite};
@@ -9,6 +10,7 @@ use crate::model::MotionProblem;
 use crate::output::title_of;
 use crate::space::Configuration;
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -31,11 +33,16 @@ pub struct Cases {
 }
 
 /// A problem of the comparison: a robot in a world.
+#[derive(Clone)]
 pub struct Case {
     /// Name of the problem in tables.
     pub name: String,
+    /// Name of files about the problem, without extension.
+    pub file: String,
     /// Index of the case's world, from 0.
     pub world: usize,
+    /// The robot and the world, as they are read.
+    pub scene: Arc<LoadedScene>,
     /// The problem with the world's own start and goal. For random queries, start and goal have no meaning.
     pub base: Arc<MotionProblem>,
     /// Start and goal of a random query. `None` for the world's own query.
@@ -91,6 +98,8 @@ impl Cases {
             member.scene.require_static_obstacles("comparisons are for worlds without moving obstacles")?;
         }
         let (mut name, files) = (suite.name.clone(), suite.files.clone());
+        let read: HashMap<String, Arc<LoadedScene>> =
+            suite.members.iter().map(|member| (member.name.clone(), Arc::new(member.scene.clone()))).collect();
         let overrides = args.query.overrides();
         let (bases, refused) =
             if args.queries.is_some() { scenes(suite, &overrides)? } else { problems(suite, &overrides)? };
@@ -104,9 +113,12 @@ impl Cases {
         let mut cases = Vec::new();
         // Worlds have consecutive numbers.
         let mut world = 0;
-        for (name, problem) in bases {
-            let name = if args.is_single() { title_of(problem.scene()) } else { name };
-            match drawn(&name, world, Arc::new(problem), sampling) {
+        for (member, problem) in bases {
+            let scene = read[&member].clone();
+            let name = if args.is_single() { title_of(problem.scene()) } else { member.clone() };
+            let file = file_stem(&member);
+            let whole = Case { name: name.clone(), file, world, scene, base: Arc::new(problem), query: None };
+            match drawn(whole, sampling) {
                 Ok(drawn) => {
                     cases.extend(drawn);
                     world += 1;
@@ -183,19 +195,23 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure
 ///
 /// # Errors
 /// A message if hardly any configuration is free.
-fn drawn(name: &str, world: usize, base: Arc<MotionProblem>, sampling: Option<Sampling>) -> Result<Vec<Case>, String> {
-    let Some(Sampling { queries, seed }) = sampling else {
-        return Ok(vec![Case { name: name.to_owned(), world, base, query: None }]);
-    };
-    let Some(pairs) = free_pairs(base.scene(), queries, seed) else {
+fn drawn(whole: Case, sampling: Option<Sampling>) -> Result<Vec<Case>, String> {
+    let Some(Sampling { queries, seed }) = sampling else { return Ok(vec![whole]) };
+    let scene = whole.base.scene();
+    let Some(pairs) = free_pairs(scene, queries, seed) else {
         return Err(format!(
-            "--queries: {name} has almost no configuration that keeps the clearance of {} m; a smaller --clearance or \
+            "--queries: {} has almost no configuration that keeps the clearance of {} m; a smaller --clearance or \
              other obstacles leave room for random queries",
-            base.scene().workspace().clearance
+            whole.name,
+            scene.workspace().clearance
         ));
     };
     let width = queries.to_string().len();
-    let case =
-        |(i, pair)| Case { name: format!("{name} #{:0width$}", i + 1), world, base: base.clone(), query: Some(pair) };
+    let case = |(i, pair)| Case {
+        name: format!("{} #{:0width$}", whole.name, i + 1),
+        file: format!("{}_{:0width$}", whole.file, i + 1),
+        query: Some(pair),
+        ..whole.clone()
+    };
     Ok(pairs.into_iter().enumerate().map(case).collect())
 }

@@ -10,6 +10,7 @@ mod args;
 mod cases;
 mod drawings;
 mod pairs;
+mod recorded;
 mod runner;
 mod started;
 
@@ -27,8 +28,10 @@ use super::words::message;
 use crate::compare::{Comparison, Emphasis, Page, Refusal, Study};
 use crate::engine::{Method, Options, Planner};
 use crate::input::LoadedScene;
+use crate::space::Configuration;
 use cases::{Case, Cases};
 use clap::Parser;
+use recorded::planners_in;
 use runner::{ComparisonResults, Entry, Runner};
 use std::path::Path;
 
@@ -96,6 +99,28 @@ pub fn run(args: &CompareArgs, meter: Option<MemoryMeter>) -> Result<u8, Failure
 /// # Errors
 /// Invalid words, and defects of start and goal.
 pub fn compare_in(scene: LoadedScene, words: &[String]) -> Result<Study, Failure> {
+    let args = args_of(words)?;
+    Ok(run_planners(&args, &Cases::of_scene(scene, &args)?, None)?.0)
+}
+
+/// Returns the problems that [`compare_in`] compares with these words: for each, the name of files with its paths, without
+/// extension, and its start and goal. They are `None` if they are those of the world.
+///
+/// # Errors
+/// Those of [`compare_in`].
+pub fn compared_problems(
+    scene: LoadedScene,
+    words: &[String],
+) -> Result<Vec<(String, Option<[Configuration; 2]>)>, Failure> {
+    let cases = Cases::of_scene(scene, &args_of(words)?)?.cases;
+    Ok(cases.into_iter().map(|case| (case.file, case.query)).collect())
+}
+
+/// Returns the arguments of `cplan compare` for callers from a library.
+///
+/// # Errors
+/// Invalid words, and options about files and printing.
+fn args_of(words: &[String]) -> Result<CompareArgs, Failure> {
     let words = ["URDF", "WORLD", "--quiet"].into_iter().chain(words.iter().map(String::as_str));
     let CompareWords { args } = CompareWords::try_parse_from(words).map_err(|error| Failure::Usage(message(&error)))?;
     if args.json || args.csv || args.markdown || !args.output.is_empty() || !args.picture.is_empty() {
@@ -103,7 +128,7 @@ pub fn compare_in(scene: LoadedScene, words: &[String]) -> Result<Study, Failure
             "options for printed output, files and pictures are for the program, not for callers of the library";
         return Err(Failure::Usage(message.into()));
     }
-    Ok(run_planners(&args, &Cases::of_scene(scene, &args)?, None)?.0)
+    Ok(args)
 }
 
 /// The arguments of `cplan compare`, for callers from a library.
@@ -128,7 +153,8 @@ fn run_planners(
     let progress = Progress::new(total, "runs", args.is_single(), args.quiet);
     let jobs = usize::from(args.jobs);
     let meter = runner::meter(meter, jobs, args.quiet);
-    let runner = Runner { entries: &entries, jobs, meter, progress: &progress };
+    let overrides = args.query.overrides();
+    let runner = Runner { entries: &entries, overrides: &overrides, jobs, meter, progress: &progress };
     let mut done = runner.run(cases).map_err(|(name, error)| match error {
         error if args.is_single() => Failure::Plan(error),
         error => Failure::Refused(format!("{name}: {error}")),
@@ -163,12 +189,13 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let plain = methods.iter().map(|&method| {
         let planner = args.effort.apply_to(Planner::named(method));
-        Entry { label: method.to_string(), options: options(args, planner, args.effort.levels(&planner)) }
+        Entry::planner(method.to_string(), options(args, planner, args.effort.levels(&planner)))
     });
     let plain: Vec<Entry> = plain.collect();
     if let Some(missing) = args.with.iter().find_map(Variant::missing) {
         return Err(Failure::Refused(missing));
     }
+    let recorded = args.paths.as_deref().map_or(Ok(Vec::new()), planners_in)?;
     let of = |case: &Case| {
         let mut entries = plain.clone();
         for variant in &args.with {
@@ -177,8 +204,9 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
             if let Some(lack) = planner.missing_preference(preferences) {
                 return Err(Failure::Usage(if args.is_single() { lack } else { format!("{}: {lack}", case.name) }));
             }
-            entries.push(Entry { label: variant.label.clone(), options: options(args, planner, levels) });
+            entries.push(Entry::planner(variant.label.clone(), options(args, planner, levels)));
         }
+        entries.extend(recorded.iter().cloned().map(Entry::Recorded));
         Ok(entries)
     };
     cases.cases.chunk_by(|a, b| a.world == b.world).map(|world| of(&world[0])).collect()

@@ -1,11 +1,13 @@
 //! Runs every planner on every problem, on several threads if requested.
 
 use super::cases::{Case, Cases};
+use super::recorded::RecordedPlanner;
 use crate::cli::memory::MemoryMeter;
 use crate::cli::progress::Progress;
 use crate::cli::sinks;
 use crate::compare::{Comparison, OtherPath, Row};
 use crate::engine::{Motion, Options, PlanError, Problem, bound, plan};
+use crate::input::Overrides;
 use crate::model::{MotionProblem, Outcome, Status};
 use crate::parallel::run_in_order;
 use crate::planner::PathKind;
@@ -15,11 +17,31 @@ use std::time::{Duration, Instant};
 
 /// A planner that is compared.
 #[derive(Debug, Clone)]
-pub struct Entry {
-    /// Name of the planner in tables.
-    pub label: String,
-    /// The planner and its options.
-    pub options: Options,
+pub enum Entry {
+    /// A planner of cplan.
+    Planner {
+        /// Name of the planner in tables.
+        label: String,
+        /// The planner and its options.
+        options: Box<Options>,
+    },
+    /// Paths of another planner, from files.
+    Recorded(RecordedPlanner),
+}
+
+impl Entry {
+    /// Returns an entry for a planner of cplan.
+    pub fn planner(label: String, options: Options) -> Self {
+        Self::Planner { label, options: Box::new(options) }
+    }
+
+    /// Returns the gap that the planner must reach. `None` if it has no gap.
+    fn gap(&self) -> Option<f64> {
+        match self {
+            Self::Planner { options, .. } => options.planner.gap(),
+            Self::Recorded(_) => None,
+        }
+    }
 }
 
 /// The results of all runs.
@@ -36,6 +58,8 @@ pub struct ComparisonResults {
 pub struct Runner<'a> {
     /// The planners for each world. All worlds have the same number of planners.
     pub entries: &'a [Vec<Entry>],
+    /// The start, the goal and the margins that replace those of the world.
+    pub overrides: &'a Overrides,
     /// Number of runs at the same time.
     pub jobs: usize,
     /// Counter of allocated bytes. `None` if several runs take place at the same time.
@@ -84,7 +108,7 @@ impl Runner<'_> {
             });
             paths.push(found);
         }
-        let gaps = self.entries.iter().flatten().filter_map(|entry| entry.options.planner.gap());
+        let gaps = self.entries.iter().flatten().filter_map(Entry::gap);
         let gap = gaps.map(|gap| gap / 2.0).fold(BOUND_GAP, f64::min);
         let lower = |i: usize| lower_bound(&cases.cases[i].problem(), paths[i].iter().flatten(), gap);
         let bounds = self.results_in_order(cases.cases.len(), lower);
@@ -108,11 +132,19 @@ impl Runner<'_> {
     /// Measures one run. Before the very first one, it makes a coarse run, so that the measured time does not include
     /// loading the program.
     fn measure_run(&self, case: &Case, entry: &Entry, is_first: bool) -> RunResult {
-        self.progress.begin(&case.name, &entry.label);
+        let (label, options) = match entry {
+            Entry::Planner { label, options } => (label, options),
+            Entry::Recorded(planner) => {
+                self.progress.begin(&case.name, &planner.label);
+                let judged = planner.judged(case, self.overrides);
+                self.progress.done();
+                return Ok(judged);
+            }
+        };
+        self.progress.begin(&case.name, label);
         let problem = Problem::from(case.problem().into_owned());
-        let options = &entry.options;
         if is_first {
-            plan(&problem, &Options { levels: 1, boxes: WARM_UP_BOXES, ..*options })?;
+            plan(&problem, &Options { levels: 1, boxes: WARM_UP_BOXES, ..**options })?;
         }
         let work = || plan(&problem, options);
         let (made, memory) = match self.meter {
@@ -122,7 +154,7 @@ impl Runner<'_> {
             }
             None => (work()?, None),
         };
-        let mut row = Row::new(entry.label.clone(), options.planner.method().descriptor().family, Status::Unknown);
+        let mut row = Row::new(label.clone(), options.planner.method().descriptor().family, Status::Unknown);
         let mut path = None;
         if let Some((_, answer)) = made.motion() {
             let stages = answer.stages;

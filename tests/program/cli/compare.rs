@@ -373,3 +373,76 @@ fn pictures_and_charts_distinguish_variants() {
         assert!(page.contains(&format!("<span class=\"name\">{name}</span>")), "{name}");
     }
 }
+
+/// Writes paths of two planners for the shelf: one that is free, one that collides.
+fn recorded_paths(place: &Place) -> f64 {
+    let found = place.run(&shelf(), "--planner first --json --quiet").json();
+    let (path, joints) = (&found["path"], &found["joints"]);
+    for folder in ["careful", "straight"] {
+        std::fs::create_dir_all(place.path(&format!("paths/{folder}"))).unwrap();
+    }
+    place.write("paths/careful/shelf.json", json!({"joints": joints, "path": path}).to_string());
+    place.write("paths/straight/shelf.csv", "shoulder,elbow\n-0.9,0.4\n1.55,-0.35\n");
+    place.write("paths/notes.txt", "not a folder");
+    found["length"].as_f64().unwrap()
+}
+
+#[test]
+fn paths_of_others_are_rows() {
+    let place = Place::new();
+    let length = recorded_paths(&place);
+    let [urdf, world] = shelf();
+    let words = "--planner shortest --paths paths --quiet";
+    let json = place.run(&["compare", &urdf, &world], &format!("{words} --json --output all.html")).exits(0).json();
+    let rows = json["planners"].as_array().unwrap();
+    let names: Vec<_> =
+        rows.iter().map(|row| (row["planner"].as_str().unwrap(), row["outcome"].as_str().unwrap())).collect();
+    assert_eq!(names, [("shortest", "found"), ("careful", "found"), ("straight", "unknown")]);
+    assert!((rows[1]["length"].as_f64().unwrap() - length).abs() < 1e-9, "{}", rows[1]);
+    let over = length / json["lower_bound"].as_f64().unwrap();
+    assert!((rows[1]["over_optimum"].as_f64().unwrap() - over).abs() < 1e-9, "{}", rows[1]);
+    // The clearance is that of `verify`.
+    let verified = place.run(&["verify", &urdf, &world, "paths/careful/shelf.json"], "--json").json();
+    assert_eq!(rows[1]["clearance"], verified["clearance"]);
+    assert!(
+        rows[2]["reason"].as_str().unwrap().contains("collides: link \"forearm\" and obstacle \"shelf\""),
+        "{}",
+        rows[2]
+    );
+    assert!(place.read("all.html").contains("other programs"));
+    place.run(&["compare", &urdf, &world], words).exits(0).says(&["careful", "straight"]);
+}
+
+#[test]
+fn paths_of_suites_and_of_random_queries_have_the_names_of_their_problems() {
+    let place = Place::new();
+    suite(&place);
+    std::fs::create_dir_all(place.path("paths/mine")).unwrap();
+    place.write("paths/mine/open.csv", "shoulder,elbow\n-0.9,0.4\n1.55,-0.35\n");
+    place.write("paths/mine/closed.csv", "shoulder,elbow\n-0.9,0\n0.9,0\n");
+    let options = "--planner visibility --cells 64 --quiet --json --paths paths";
+    let json = place.run(&["compare", "--suite", "worlds"], options).exits(0).json();
+    let mine = |problem: usize| &json["problems"][problem]["planners"][1];
+    assert_eq!((&mine(0)["outcome"], &mine(1)["outcome"]), (&json!("found"), &json!("unknown")));
+    assert!(mine(1)["reason"].as_str().unwrap().contains("collides"), "{}", mine(1));
+    // Random queries: the file of the second one is missing, and the first is not a path to its goal.
+    let [urdf, world] = shelf();
+    place.write("paths/mine/shelf_1.csv", "shoulder,elbow\n-0.9,0.4\n-0.9,0.5\n");
+    let json = place.run(&["compare", &urdf, &world], &format!("{options} --queries 2")).exits(0).json();
+    let reason = |problem: usize| json["problems"][problem]["planners"][1]["reason"].as_str().unwrap().to_owned();
+    assert!(reason(0).contains("start") && reason(1).contains("no file paths/mine/shelf_2.csv"), "{json}");
+}
+
+#[test]
+fn defective_paths_are_named() {
+    let place = Place::new();
+    recorded_paths(&place);
+    let [urdf, world] = shelf();
+    place.write("paths/straight/shelf.csv", "shoulder,elbow\n-0.9,x\n");
+    let json =
+        place.run(&["compare", &urdf, &world], "--planner shortest --paths paths --quiet --json").exits(0).json();
+    let reason = json["planners"][2]["reason"].as_str().unwrap();
+    assert!(reason.contains("shelf.csv: line 2") && !reason.contains('\n'), "{reason}");
+    place.run(&["compare", &urdf, &world], "--paths none").refused(1, &["--paths none", "cannot be read", "hint"]);
+    place.run(&["compare", &urdf, &world], "--paths paths/careful").refused(1, &["has no folder", "mine/shelf.csv"]);
+}

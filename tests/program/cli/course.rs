@@ -74,7 +74,8 @@ fn live_figures_are_the_pages_of_the_chapters_commands() {
     for (name, [robot, world], options) in commands {
         let files = [shipped(&format!("robots/{robot}.urdf")), shipped(&format!("workspaces/{world}.toml"))];
         place.run(&files, &format!("{options} --quiet --picture {name}.html"));
-        let [figure, page] = [format!("lessons/live/{name}.html"), format!("{name}.html")].map(|page| place.read(&page));
+        let [figure, page] =
+            [format!("lessons/live/{name}.html"), format!("{name}.html")].map(|page| place.read(&page));
         assert!(figure == page, "{name}: the page is another one");
     }
     // The page of a proof says what blocks the arm.

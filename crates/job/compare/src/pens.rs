@@ -24,5 +24,6 @@ pub fn hue(family: Family) -> PlannerFamily {
         Family::Roadmap => PlannerFamily::Roadmap,
         Family::Field => PlannerFamily::Field,
         Family::Exact => PlannerFamily::Exact,
+        Family::Other => PlannerFamily::Other,
     }
 }

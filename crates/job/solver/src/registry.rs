@@ -46,11 +46,13 @@ pub enum Family {
     Field,
     /// Planners that work on the scene itself: by exact slices, slabs or boxes.
     Exact,
+    /// Planners of other programs, whose paths are read from files.
+    Other,
 }
 
 impl Family {
     /// All families, in the order of the tables.
-    pub const ALL: [Family; 3] = [Family::Roadmap, Family::Field, Family::Exact];
+    pub const ALL: [Family; 4] = [Family::Roadmap, Family::Field, Family::Exact, Family::Other];
 
     /// Returns the name of the family's planners, in the plural.
     pub fn name(self) -> &'static str {
@@ -58,6 +60,7 @@ impl Family {
             Family::Roadmap => "roadmaps",
             Family::Field => "fields",
             Family::Exact => "exact planners",
+            Family::Other => "other programs",
         }
     }
 }

@@ -11,11 +11,14 @@ pub enum PlannerFamily {
     Field,
     /// Planners that work on the scene itself: blue.
     Exact,
+    /// Planners of other programs: green.
+    Other,
 }
 
 impl PlannerFamily {
     /// All families.
-    pub const ALL: [PlannerFamily; 3] = [PlannerFamily::Roadmap, PlannerFamily::Field, PlannerFamily::Exact];
+    pub const ALL: [PlannerFamily; 4] =
+        [PlannerFamily::Roadmap, PlannerFamily::Field, PlannerFamily::Exact, PlannerFamily::Other];
 
     /// Returns the word with which the names of this family's variables in style sheets begin.
     pub fn name(self) -> &'static str {
@@ -23,6 +26,7 @@ impl PlannerFamily {
             PlannerFamily::Roadmap => "roadmap",
             PlannerFamily::Field => "field",
             PlannerFamily::Exact => "exact",
+            PlannerFamily::Other => "other",
         }
     }
 
@@ -49,6 +53,13 @@ impl PlannerFamily {
                 (Rgb(0x3d, 0x92, 0xdd), Rgb(0x3a, 0x84, 0xd0)),
                 (Rgb(0x0a, 0x20, 0x38), Rgb(0xe0, 0xf0, 0xff)),
                 (Rgb(0x2a, 0x7c, 0xc9), Rgb(0x7c, 0xc4, 0xff)),
+            ],
+            PlannerFamily::Other => [
+                (Rgb(0x0f, 0x78, 0x4a), Rgb(0x4f, 0xc8, 0x8c)),
+                (Rgb(0x0a, 0x4a, 0x2e), Rgb(0xa8, 0xee, 0xcc)),
+                (Rgb(0x24, 0x9a, 0x62), Rgb(0x2f, 0x9e, 0x66)),
+                (Rgb(0x06, 0x26, 0x18), Rgb(0xdd, 0xfb, 0xec)),
+                (Rgb(0x18, 0x88, 0x55), Rgb(0x78, 0xdc, 0xac)),
             ],
         }
     }
@@ -139,6 +150,7 @@ mod tests {
                     PlannerFamily::Roadmap => r > g && g > b,
                     PlannerFamily::Field => r > g && b > g && r.abs_diff(b) <= 16,
                     PlannerFamily::Exact => b > g && g > r,
+                    PlannerFamily::Other => g > b && b > r,
                 };
                 assert!(is_of_family, "{}", pen.name());
             }
