@@ -80,7 +80,7 @@ pub fn check_parts_clear(
     kept.map_err(|EvidenceGap { knot, solid, edge }| {
         let Part { name, keeps, .. } = &parts[solid];
         CheckError::Fails(format!(
-            "from knot {knot} to the next {name} is not shown to stay {keeps} {}",
+            "after knot {knot}, {name} is not proven to stay {keeps} {}",
             called(owners[edge])
         ))
     })?;

@@ -63,11 +63,11 @@ fn the_checker_knows_errors_and_clearances_of_obstacles() {
     let within = certified(&["--calibration", ALL]);
     assert!(judged(&text, &drawn).is_ok());
     let said = judged(&text, &within).unwrap();
-    assert!(said.contains("this is about all robots and worlds within the stated errors"), "{said}");
+    assert!(said.contains("this holds for all robots and worlds within the stated errors"), "{said}");
     let table =
         with("shelf", "[robot]\ncalibration = { base = \"0.5 mm, 0.05deg\", links = \"0.2 mm\", zeros = \"0.02deg\" }");
     let refuted = judged(&table, &drawn).unwrap_err().to_string();
-    assert!(refuted.contains("is not shown") || refuted.contains("farther than"), "{refuted}");
+    assert!(refuted.contains("is not proven") || refuted.contains("farther than"), "{refuted}");
     let near = text.replace("[[obstacle]]\nname = \"shelf\"\n", "[[obstacle]]\nname = \"shelf\"\nclearance = 0.03\n");
     assert_ne!(near, text);
     place.write("world.toml", &near);

@@ -199,7 +199,7 @@ fn lines_are_followed_on_one_side() {
         let mut wrong = certificate.clone();
         wrong["line"]["elbow"] = if elbow == "left" { "right".into() } else { "left".into() };
         let wrong = judged(START, &wrong).unwrap_err().to_string();
-        assert!(wrong.contains("the elbow leaves"), "{wrong}");
+        assert!(wrong.contains("the elbow does not stay on"), "{wrong}");
     }
     // A post that only the arm with its elbow on the left meets.
     let post = format!("{START}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [0.09, 0.85], radius = 0.03 }}\n");

@@ -104,7 +104,7 @@ fn a_task_with_lines_has_a_certificate() {
             "within 0.0001 of the line",
         ]);
         // The checker reads the arc of step 4 from the world.
-        assert_eq!(done.stdout.matches("which is taken from the certificate").count(), 3, "{}", done.stdout);
+        assert_eq!(done.stdout.matches("as the certificate states it").count(), 3, "{}", done.stdout);
     }
     // A sample of the last line is moved by a tenth of a millimetre.
     let mut moved: Value = place.json("c.json");

@@ -17,7 +17,7 @@ impl Files {
     pub fn path(&self, input: Input) -> Result<&Path, CheckError> {
         let path = self.given[usize::from(input == Input::World)].as_deref();
         path.ok_or_else(|| {
-            CheckError::in_file(input, "it names other files: `check_files` reads them, by the paths of URDF and world")
+            CheckError::in_file(input, "this text names other files: call `check_files` with the paths of URDF and world")
         })
     }
 
@@ -43,7 +43,7 @@ impl Files {
         match self.others.as_ref().is_none_or(is_said) {
             true => Ok(bytes),
             false => {
-                CheckError::fails(format!("it is for another {name}: the SHA-256 of this one is not in \"others\""))
+                CheckError::fails(format!("the certificate is about another {name}: \"others\" does not contain the SHA-256 of this file"))
             }
         }
     }
