@@ -117,7 +117,7 @@ fn configurations_and_recordings_are_judged_within_the_errors() {
     let free = place.run(&["check", &urdf, &world, &at], "").exits(0);
     assert!(free.stdout.contains("free"), "{}", free.stdout);
     let near = place.run(&["check", &urdf, &world, &at, "--calibration", ALL], "");
-    assert!(near.stdout.contains("that the stated errors need"), "{}", near.stdout);
+    assert!(near.stdout.contains("for the stated errors"), "{}", near.stdout);
     assert!(!near.stdout.contains("penetrates"), "{}", near.stdout);
 }
 

@@ -164,7 +164,7 @@ fn steps_have_their_sides() {
             place.write("other.toml", task(changed));
             let verified = place.run(&["verify", &robot, "other.toml", "m.json"], "");
             assert_ne!(verified.code, 0, "{k}");
-            verified.says(&[&format!("its elbow is on the {}, not on the {}", sides[k], changed[k])]);
+            verified.says(&[&format!("the elbow is on the {}, not on the {}", sides[k], changed[k])]);
         }
     }
     place.write("task.toml", task(["left", "up", "left", "left"]));

@@ -273,8 +273,8 @@ fn at_the_time_limit_partial_results_are_reported() {
     let done = place.run(&["explain", "a.urdf", "world.toml"], "--time 0.000001").exits(3);
     for words in [
         "infeasible: proven; blocked by",
-        "collision boxes prove it without anything else; not proven irreducible",
-        "stopped    after 0.000001 s, before the explanation was complete; --time 5 allows more time",
+        "collision boxes, even if nothing else is in the way; not proven irreducible",
+        "stopped    the explanation is incomplete, because its time of 0.000001 s was up; --time 5 allows more time",
     ] {
         done.says(&[words]);
     }

@@ -273,7 +273,7 @@ fn on_map(map: &str, options: &str) -> (u64, u64) {
     let all = result["size"]["sweeps"].as_u64().unwrap();
     let text = place.run(&files, &format!("--planner harmonic --cells 100 --verbose {options}")).stdout;
     let first =
-        text.split_once("the measure was met after ").and_then(|(_, rest)| rest.split(' ').next()?.parse().ok());
+        text.split_once("the tolerance was met after ").and_then(|(_, rest)| rest.split(' ').next()?.parse().ok());
     (first.unwrap_or(all), all)
 }
 
@@ -364,7 +364,7 @@ fn published_sweeps(map: &str, cells: usize, order: &str) -> usize {
     let relaxation = format!("--relaxation gauss-seidel --order {order} --initial low --measure absolute");
     let options = format!("--planner harmonic --cells {cells} --space centers --levels 1 --verbose {relaxation}");
     let done = place.run(&files, &options);
-    let (_, rest) = done.stdout.split_once("the measure was met after ").unwrap_or_else(|| panic!("{}", done.stdout));
+    let (_, rest) = done.stdout.split_once("the tolerance was met after ").unwrap_or_else(|| panic!("{}", done.stdout));
     rest.split(' ').next().unwrap().parse().unwrap()
 }
 

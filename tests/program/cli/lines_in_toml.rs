@@ -87,7 +87,7 @@ fn a_task_follows_lines_of_all_kinds() {
     *value = (number(value) + 1e-4).into();
     place.write("moved.json", moved.to_string());
     let refused = place.run(&["verify", &files[0], &files[1], "moved.json"], "");
-    assert!(refused.code != 0 && refused.stdout.contains("leave the line"), "{} {}", refused.code, refused.stdout);
+    assert!(refused.code != 0 && refused.stdout.contains("from the line"), "{} {}", refused.code, refused.stdout);
 }
 
 #[test]

@@ -293,7 +293,7 @@ fn errors_in_a_study_have_a_place_and_a_hint() {
     // Each row has a line of the head, changes to the parameter, lines after it, and the message.
     let table = r#"
  =>  => draw = "latin" => does not state how often ... draws = 1000
- =>  =>  => line 4, column 1 ... parameter "x" does not define its values ... from, to and steps
+ =>  =>  => line 4, column 1 ... parameter "x" needs values, steps or draw ... from, to and steps
  =>  => steps = 1 => line 9 ... 1 values from 0 to 1
  =>  => steps = 200000000 => 200000000 values
  =>  => draw = "sobol" => "uniform" or "latin", not "sobol"

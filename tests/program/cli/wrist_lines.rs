@@ -177,7 +177,7 @@ fn errors_name_the_wrist() {
             &format!("{named}\njerk = {{ axis_1 = 100, axis_2 = 100 }}"),
             line,
             "--wrist tangent",
-            ["limits on jerks", "a fixed angle"],
+            ["jerks are limited", "a fixed angle"],
         ),
     ] {
         place.write("world.toml", world(wrist));
@@ -201,7 +201,7 @@ fn a_joint_that_cannot_turn_as_far_makes_the_line_infeasible() {
     place.write("circle.gcode", "G21 G0 X360 Y0\nG3 I-25 F6000\nG3 I-25\n");
     let arguments = ["follow", &shipped("robots/scara.urdf"), "world.toml", "circle.gcode"];
     let done = place.run(&arguments, "--wrist tangent --certificate c.json").exits(3);
-    done.says(&["the wrist cannot turn as far as the tool needs"]);
+    done.says(&["the wrist cannot turn far enough for the tool's angle"]);
     done.warns(&["certificates of lines do not judge the wrist"]);
     // Without the tool's angle, the line can be followed.
     place.run(&arguments, "").exits(0);
@@ -259,7 +259,7 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
     let changes: [(Change, &str); 6] = [
         (
             |wrist, k| wrist["position"][k / 2] = (wrist["position"][k / 2].as_f64().unwrap() + 0.05).into(),
-            "rad from the angle",
+            "the angle of the tool may be wrong by",
         ),
         (|wrist, k| wrist["velocity"][k / 2] = 30.0.into(), "exceeds its top speed"),
         (|wrist, k| wrist["acceleration"][k / 2] = 300.0.into(), "exceeds its greatest acceleration"),

@@ -85,7 +85,7 @@ fn describe_contact(scene: &Scene, hit: &Obstruction) -> String {
     if !hit.touches {
         let wanted = millimetres(scene.workspace().clearance);
         return format!(
-            "{part} is {} from \"{obstacle}\", nearer than the clearance of {wanted}",
+            "{part} is {} from \"{obstacle}\", less than the clearance of {wanted}",
             millimetres(distance)
         );
     }

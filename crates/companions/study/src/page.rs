@@ -105,7 +105,7 @@ impl Study {
             return maps;
         }
         let what = self.objective.map_or_else(String::new, |objective| {
-            format!("The colour shows the {objective} of the layouts in a cell that meet the conditions; ")
+            format!("The colour shows the {objective} of the layouts in a cell, of those that meet the conditions; ")
         });
         let key = |(color, text): (&str, &str)| {
             format!(

@@ -343,7 +343,7 @@ impl MotionCache {
         };
         let turning = TurnAtRest::new(task, &task.obstacles(&with.poses).fixed, held, *point, candidate.to);
         let found =
-            turning.free(turn).ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
+            turning.free(turn).ok_or_else(|| unproven("the object cannot be turned at this place, in either direction"))?;
         let turning = single((found.to - found.from).abs(), &wrist.limits());
         Ok((found, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }
@@ -390,7 +390,7 @@ fn wrist_along(task: &Task, guide: WristGuide) -> Result<WristAlong, Refusal> {
         let (velocity, acceleration) = (wrist.velocity, wrist.acceleration);
         Some(WristAlong { guide, joint: wrist.joint?, velocity, acceleration })
     });
-    along.ok_or_else(|| Refusal::new("the line asks for an angle of the tool, but the arm has no known wrist", false))
+    along.ok_or_else(|| Refusal::new("the line requires an angle of the tool, but the world names no wrist", false))
 }
 
 /// Returns the data that determines the scene of a motion, without objects for which `matters` is false.

@@ -126,7 +126,7 @@ impl Ledger {
                 let (pair, at) = (scene.describe(nearest.contact.pair), nearest.at);
                 let distance = nearest.contact.separation.distance;
                 let why =
-                    format!("it is not free: {pair}, {} apart at ({}, {})", cplan_text::length(distance), at[0], at[1]);
+                    format!("the path is not free: {pair} are {} apart at ({}, {})", cplan_text::length(distance), at[0], at[1]);
                 self.note("path", why);
             }
             Err(Rejection::OutOfLimits { waypoint, limited }) => {
@@ -164,7 +164,7 @@ impl Ledger {
             let pair = scene.describe(nearest.pair);
             return self.note(
                 "clearance",
-                format!("stated as null, which means no obstacle within reach, but {pair} can meet"),
+                format!("stated as null (no obstacle within reach), but {pair} can meet"),
             );
         };
         if let Some((distance, pair)) = nearer(timed, recording, stated, nearest.separation.distance, nearest.pair) {
