@@ -195,7 +195,7 @@ fn lines_among_moving_obstacles_are_refused() {
     let world = "[start]\njoints = [0.3, 1.2]\n[[obstacle]]\nname = \"cart\"\ncircle = { center = [0, 1], radius = 0.1 }\n\
                  motion = { velocity = [0.1, 0] }\n[[step]]\nfollow = { points = [[1.2, 0], [1.3, 0]] }\n";
     let error = load(world).unwrap_err().to_string();
-    assert!(error.contains("\"cart\" moves, and a line is followed among obstacles at rest"), "{error}");
+    assert!(error.contains("\"cart\" moves, and lines can be followed only if all obstacles are static"), "{error}");
 }
 
 /// The line is straight in joint space too, and both of its ends are free.

@@ -169,7 +169,7 @@ fn malformed_maps_are_refused_with_their_line() {
         ("-1500 0", "-1500 zero", &["line 8, column 7", "\"zero\""]),
         ("-1500 0", "-1500 inf", &["line 8, column 7", "finite"]),
         ("-1500 0", "-2500 0", &["line 8", "(-2500, 0) lies outside", "widen"]),
-        ("DATA\n", "", &["the file ends where a line or \"DATA\" should come"]),
+        ("DATA\n", "", &["the file ends too early: a line or \"DATA\" is expected here"]),
         ("DATA\n", "END\n", &["line 9", "\"END\""]),
         ("DATA\n", "DATA\n1 2\n", &["line 10", "follows the end of the map"]),
     ] {

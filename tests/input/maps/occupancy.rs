@@ -101,10 +101,10 @@ fn a_world_has_the_picture_as_one_obstacle() {
 fn worlds_that_misuse_pictures_are_refused() {
     for (from, to, parts) in [
         ("room.yaml", "attic.yaml", &["world.toml: line 3, column 9", "no file", "attic.yaml", "relative"][..]),
-        ("\"room.yaml\"", "\"room.pgm\"", &["world.toml: line 3", "needs the YAML"]),
+        ("\"room.yaml\"", "\"room.pgm\"", &["world.toml: line 3", "must name the YAML"]),
         ("\"room.yaml\"", "\"room.yaml\"\nunknown = \"maybe\"", &["line 4", "\"solid\" or \"free\", not \"maybe\""]),
         ("\"room.yaml\"", "\"room.yaml\"\npolygon = []", &["exactly one shape, but has 2"]),
-        ("image = \"room.yaml\"", "polyline = [[0, 0], [1, 1]]\nunknown = \"free\"", &["line 4", "only an image"]),
+        ("image = \"room.yaml\"", "polyline = [[0, 0], [1, 1]]\nunknown = \"free\"", &["line 4", "`unknown` needs `image`"]),
     ] {
         let world = WORLD.replace(from, to);
         let files = [("room.pgm", PGM), ("room.yaml", YAML.as_bytes()), ("world.toml", world.as_bytes())];

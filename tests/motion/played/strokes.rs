@@ -302,7 +302,7 @@ fn run_json(world: &str) -> String {
 fn strokes_that_cannot_be_are_refused() {
     for (stroke, words) in [
         ("stroke = { joint = \"axis_9\" }", ["no joint \"axis_9\"", "axis_3"]),
-        ("stroke = { joint = \"axis_1\" }", ["axis_1", "one of the two that move"]),
+        ("stroke = { joint = \"axis_1\" }", ["axis_1", "one of the two planned joints"]),
         ("stroke = { joint = \"axis_4\" }", ["axis_4", "slides"]),
         ("stroke = { joint = \"axis_3\", travel = 0.0 }", ["travel", "other than 0"]),
         ("stroke = { joint = \"axis_3\", velocity = -1.0 }", ["velocity", "positive"]),

@@ -93,7 +93,7 @@ fn no_motion_for_all_robots_is_apart_from_none_for_the_drawn_one() {
     assert!(judged(&certificate).is_ok(), "{:?}", judged(&certificate));
     assert!(judged(&certificate.replace("obstacles=0.2m", "obstacles=0.001m")).is_err());
     let words = place.run(&[&[&urdf as &str, &world], &errors[..]].concat(), "").exits(3);
-    assert!(words.stdout.contains("; there is one for the robot and the world as drawn"), "{}", words.stdout);
+    assert!(words.stdout.contains("; without errors, there is one"), "{}", words.stdout);
 }
 
 /// `verify` and `check` ask for the same distances, and state those of the real shapes.
@@ -142,7 +142,7 @@ fn mistakes_have_a_place_and_a_hint() {
     let lower = with("shelf", "").replace("name = \"crate\"\n", "name = \"crate\"\nclearance = 0.01\n");
     place.write("world.toml", format!("clearance = 0.02\n{lower}"));
     let refused = place.run(&[&urdf, "world.toml"], "").exits(1);
-    refused.warns(&["its clearance of 0.01 m is less than the world's of 0.02 m", "hint"]);
+    refused.warns(&["the clearance of 0.01 m is less than the world's clearance of 0.02 m", "hint"]);
     let refused = place.run(&[&urdf, &world, "--calibration", "base=1"], "").exits(2);
     refused.warns(&["--calibration", "no unit"]);
     let job = ["gcode", "labels.toml", "labels.gcode"].map(|name| shipped(&format!("workspaces/gcode/{name}")));
@@ -152,5 +152,5 @@ fn mistakes_have_a_place_and_a_hint() {
     judged("obstacles=1mm").exits(3);
     let task = [shipped("robots/scara.urdf"), shipped("workspaces/tasks/feeder.toml")];
     let refused = place.run(&[&task[0], &task[1], "--calibration", "base=1mm"], "").exits(1);
-    refused.warns(&["errors (calibration) are for motions between a start and a goal", "hint"]);
+    refused.warns(&["errors (calibration) do not apply to worlds with steps", "hint"]);
 }

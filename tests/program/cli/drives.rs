@@ -84,7 +84,7 @@ fn mistakes_in_the_table_of_motors_have_a_place_and_a_hint() {
     for (drives, message) in [
         ("\"standard\"", "\"standard\" is unknown"),
         ("{ elbow = \"wrist\" }", "elbow is \"wrist\""),
-        ("{ elbow = \"link\", ratio = 2.0 }", "a motor on the link has no ratio"),
+        ("{ elbow = \"link\", ratio = 2.0 }", "elbow = \"link\" cannot have a ratio"),
         ("{ gear = [1.0, 0.0] }", "the gear of motor 2 must be from 1e-6"),
         ("{ gear = [1.0] }", "gear has 1 numbers, but there are two motors"),
         ("{ motors = { lower = [-1.0, -1.0] } }", "motors need both lower and upper limits"),
@@ -287,7 +287,7 @@ fn lengths_and_times_count_the_motors() {
     let world = read(shipped("workspaces/shelf.toml"));
     place.write("world.toml", world);
     let refused = place.run(&[&robot, "world.toml"], "--metric motor");
-    refused.refused(1, &["--metric motor needs the motors", "[robot] drives"]);
+    refused.refused(1, &["--metric motor needs two joints that turn, with motors", "[robot] drives"]);
 }
 
 /// Past the shelf, bounds in both metrics have certificates, and the paths are compared with those of other metrics.

@@ -66,7 +66,7 @@ fn mistakes_about_the_side_have_a_place_and_a_hint() {
     let both = "joints = [1.0, 0.2]\nelbow = \"left\"";
     goal(both).refused(1, &["line 5, column 9: the goal has joint values", "hint: remove `elbow`"]);
     goal("tip = [0.9, 0.9]\nelbow = \"up\"").refused(1, &["line 5", "\"up\" is no side of the elbow", "hint"]);
-    goal("areas = [[[0.8, 0.8], [1, 1]]]\nelbow = \"left\"").refused(1, &["areas has no side", "hint"]);
+    goal("areas = [[[0.8, 0.8], [1, 1]]]\nelbow = \"left\"").refused(1, &["`areas` cannot have `elbow`", "hint"]);
     place.plan(START, "--elbow left --goal 0,0").refused(2, &["--elbow", "--goal"]);
     // The bar of the arm would hit the post with the elbow on the left.
     let post = "[[obstacle]]\nname = \"post\"\ncircle = { center = [0.09, 0.85], radius = 0.03 }\n";

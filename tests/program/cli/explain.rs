@@ -139,7 +139,7 @@ fn an_unknown_task_stays_unknown_and_names_what_blocks_the_step() {
     assert_eq!((codes, &result["status"]), ([4, 4], &"unknown".into()), "{words}");
     assert_eq!(result["blocking"], serde_json::json!(["wall"]));
     assert!(result["reason"].as_str().expect("a reason").contains("while the tool is lowered"), "{result}");
-    assert!(words.contains("result     unknown: no motion was found for step 1"), "{words}");
+    assert!(words.contains("result     unknown: neither a motion for step 1"), "{words}");
 }
 
 /// Checks steps that fail for another reason than an obstacle: the explanation has the planner's reason and exit code.

@@ -280,7 +280,7 @@ fn probable_mistakes_are_noted_with_a_hint() {
     place.run(&["import", "w.dxf"], "--unit m --start 0,1 --goal 1,0.5 --output far.toml").exits(0);
     let robot = shipped("robots/planar_2r.urdf");
     let planned = place.run(&[robot.as_str(), "far.toml"], "");
-    let part = "no obstacle is within the arm's reach: the nearest is 480.0000 m from joint 1";
+    let part = "no obstacle is within reach: the nearest is 480.0000 m from joint 1";
     assert!(planned.code == 0 && planned.stderr.contains(part), "{}", planned.stderr);
     place.run(&["inspect", robot.as_str(), "far.toml"], "").says(&[part]);
     place.run(&["import", "w.dxf"], "--start 0,1 --goal 1,0.5 --output near.toml").exits(0);

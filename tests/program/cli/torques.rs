@@ -94,7 +94,7 @@ fn missing_and_invalid_settings_are_named() {
     let cases = [
         ("shoulder = 36", "shoulder = 0", "effort of \"shoulder\" must be positive"),
         ("shoulder = 36", "wrist = 36", "has no joint \"wrist\""),
-        ("shoulder = 36", "shoulder = 9", "joint \"shoulder\" has an effort of 9 N m, and the arm takes"),
+        ("shoulder = 36", "shoulder = 9", "joint \"shoulder\" has an effort of 9 N m, but holding the arm at"),
         ("dynamics = true", "dynamics = true\ngravity = [0, 1]", "gravity: expected three finite numbers"),
         ("dynamics = true", "dynamics = 1", "dynamics"),
     ];

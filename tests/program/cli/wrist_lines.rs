@@ -160,7 +160,7 @@ fn errors_name_the_wrist() {
             "wrist = { joint = \"axis_4\", velocity = 9, jerk = 900 }",
             line,
             "--wrist tangent",
-            ["do not keep limits on the jerk of the wrist", "hint: remove the wrist's `jerk`"],
+            ["limits on the wrist's jerk cannot be kept", "hint: remove the wrist's `jerk`"],
         ),
         (named, line, "--wrist-tolerance 0.01", ["--wrist-tolerance needs an angle", "--wrist"]),
         (named, line, "--wrist tangents", ["signed angle", "tangent+90deg"]),
@@ -202,7 +202,7 @@ fn a_joint_that_cannot_turn_as_far_makes_the_line_infeasible() {
     let arguments = ["follow", &shipped("robots/scara.urdf"), "world.toml", "circle.gcode"];
     let done = place.run(&arguments, "--wrist tangent --certificate c.json").exits(3);
     done.says(&["the wrist cannot turn far enough for the tool's angle"]);
-    done.warns(&["certificates of lines do not judge the wrist"]);
+    done.warns(&["certificates of lines do not cover the wrist"]);
     // Without the tool's angle, the line can be followed.
     place.run(&arguments, "").exits(0);
 }
@@ -281,7 +281,7 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
     }
     let mut changed = result.clone();
     changed["steps"][index]["wrist_motion"]["position"].as_array_mut().unwrap().pop();
-    verify(&changed).exits(1).warns(&["its wrist_motion has"]);
+    verify(&changed).exits(1).warns(&["wrist_motion has"]);
 }
 
 #[test]
@@ -299,10 +299,10 @@ fn a_payload_must_not_be_turned_along_a_line() {
     for (text, message) in [
         (tangent.clone(), "step 3: object \"part\" is carried level, so the tool cannot turn"),
         (rigid, "object \"part\" is held rigidly, so the wrist must not turn it"),
-        (task(&format!("{PICK}{}{end}", line("0.5"))), "carried level at 0 rad, but the line asks for 0.5 rad"),
+        (task(&format!("{PICK}{}{end}", line("0.5"))), "carried level at 0 rad, but the line requires 0.5 rad"),
         (task(&format!("{PICK}{}{turned}", line("0"))), "is turned to 1 rad, but step 3 keeps it"),
         (tangent.replace("joint = \"axis_4\", ", ""), "does not name the wrist's joint"),
-        (tangent.replace("acceleration = 200.0 }", "jerk = 900.0 }"), "do not keep limits on the jerk of the wrist"),
+        (tangent.replace("acceleration = 200.0 }", "jerk = 900.0 }"), "limits on the wrist's jerk cannot be kept"),
     ] {
         plan(&text).exits(1).warns(&[message]);
     }

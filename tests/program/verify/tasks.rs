@@ -373,7 +373,7 @@ fn steps_that_are_none_are_refused() {
     for member in ["/trajectory/velocity", "/trajectory"] {
         let (owner, key) = member.rsplit_once('/').unwrap();
         let done = with(&|result| drop(result.pointer_mut(owner).unwrap().as_object_mut().unwrap().remove(key)));
-        done.exits(1).warns(&["no trajectory with time, position and velocity"]);
+        done.exits(1).warns(&["lacks time, position or velocity"]);
     }
     // No steps, or numbers that the world does not have, are not the task.
     for steps in [json!([]), step(json!({"step": 99})), step(json!({"cycle": 0}))] {

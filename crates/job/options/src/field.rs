@@ -167,7 +167,7 @@ impl FieldArgs {
         };
         if self.saturated && self.escape.is_some() {
             return Err(
-                "--escape needs a potential, which the forces of --saturated lack; leave out one of the two".into()
+                "--escape needs a potential, but the forces of --saturated have none; leave out one of the two".into()
             );
         }
         let limits = self.limits.unwrap_or_default();

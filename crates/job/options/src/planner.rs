@@ -64,7 +64,7 @@ impl EffortArgs {
         let is_ignored = |settings: &[Setting]| !settings.iter().any(|&setting| planner.reads(setting));
         let ignored = options.into_iter().filter(|(_, is_given, settings)| *is_given && is_ignored(settings));
         let warning = |(option, _, settings): (&str, bool, &[Setting])| {
-            format!("{option} has no effect: planner {planner} does not read it, only {}", readers(settings, " and "))
+            format!("{option} has no effect on planner {planner}, only on {}", readers(settings, " and "))
         };
         ignored.map(warning).collect()
     }
@@ -219,7 +219,7 @@ impl PlannerArgs {
         let search = self.roadmap.search(method, self.path.search)?;
         if self.optimum.gap.is_some() && !search.order.is_optimal() {
             return Err(format!(
-                "--gap needs a search for the shortest path, but --search {} finds any path; leave out one of the two",
+                "--gap needs a search for the shortest path, but --search {} may find longer ones; leave out one of the two",
                 search.order.name()
             ));
         }
@@ -295,7 +295,7 @@ impl PathArgs {
             return Err(format!("--path middles needs --planner trapezoid: {planner} has no vertical portals"));
         }
         if self.path == Some(PathKind::Own) && !planner.has_own_path() {
-            return Err(format!("--path own does not apply to planner {planner}: its only path is the taut one"));
+            return Err(format!("--path own does not apply to planner {planner}, whose only path is taut"));
         }
         Ok(())
     }
@@ -310,8 +310,7 @@ impl PathArgs {
         }
         match self.search.unwrap_or_default() {
             GridSearch::Wave => Err(
-                "--forward needs --search bfs, dfs, dijkstra, astar, greedy or deepening: the search `wave` labels \
-                     cells with their steps to the goal and begins there"
+                "--forward needs --search bfs, dfs, dijkstra, astar, greedy or deepening: the search `wave` always begins at the goal"
                     .into(),
             ),
             _ => Ok(()),

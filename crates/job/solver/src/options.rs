@@ -114,7 +114,7 @@ impl Options {
             Some(format!("speed and jerk: {wrong} must be finite and positive"))
         } else if has_steps && self.planner.gap().is_some() {
             Some(
-                "--gap is for single motions, not for worlds with steps, whose results always state the proven gap"
+                "--gap does not apply to worlds with steps; their results always state the proven gap"
                     .into(),
             )
         } else {

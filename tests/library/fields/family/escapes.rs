@@ -50,7 +50,7 @@ fn escapes_from_the_u_are_reported() {
         );
         assert_eq!(run(field_planner(Some(escape)), &zoned, start, goal), out, "{escape:?} is the same each time");
         let text = out.note.unwrap().to_string();
-        let method = if escape == Escape::Wave { "by a wave over the basin" } else { "by random walks" };
+        let method = if escape == Escape::Wave { "by a wave through the minimum's basin" } else { "by random walks" };
         assert!(text.starts_with("escaped from ") && text.contains(method), "{text}");
     }
     let [one, two] =

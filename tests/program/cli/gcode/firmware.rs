@@ -24,7 +24,7 @@ const REFUSED: [(&str, &[&str], &str); 13] = [
     ("G0 X240 Y265\nG1 Y275 (F900)\n", &["marlin", "klipper"], "not know comments in parentheses"),
     ("G0 X240 Y265\nM3 G1 Y275\n", &["klipper"], "G1 is not the first command of its line"),
     ("G91\nG1 X240 Y265\nG1 Y10\n", &["marlin", "duet"], "--home"),
-    ("G90\nG0 X240\nG1 X250\n", &["marlin", "grbl"], "for none of its moves where it begins"),
+    ("G90\nG0 X240\nG1 X250\n", &["marlin", "grbl"], "does not state where its moves begin"),
 ];
 
 /// Judges a program on the tray of `labels.toml`, and returns the exit code and the message.

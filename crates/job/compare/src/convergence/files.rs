@@ -16,13 +16,13 @@ impl Convergence {
         let [rows, columns] = self.cells;
         let mut text = format!("{}\n", plain_line(&self.title));
         text += &format!(
-            "{rows} x {columns} cells, {} free; until the {} of a sweep\nis below {:e}, {} sweeps at the most\n",
+            "{rows} x {columns} cells, {} free; sweeps end when their {}\nis below {:e}, or after {} sweeps\n",
             self.free,
             measure_words(self.stopping.measure),
             self.stopping.below,
             self.stopping.max_sweeps
         );
-        text += "\nrate: final error factor per sweep; error: greatest, over the initial greatest\n";
+        text += "\nrate: final error factor per sweep; error: greatest error / greatest initial error\n";
         text += &self.table().to_text();
         text +=
             &format!("\nsweeps of SOR ({}) by its factor: best of a scan, by the formula for an empty\n", self.order);
@@ -249,7 +249,7 @@ fn sweeps(count: usize, ending: Ending) -> String {
 
 fn describe_divergence(name: &str, scan: &ParameterScan) -> String {
     match scan.divergence_start() {
-        None => format!("{name}: converge at the last epsilon tried\n"),
+        None => format!("{name}: converge for all epsilons tried\n"),
         Some(point) => {
             let how = if point.ending == Ending::Diverged { "diverge" } else { "do not converge" };
             format!("{name}: {how} from epsilon {:.1} on\n", point.at)
@@ -279,7 +279,7 @@ fn measure_words(measure: Measure) -> &'static str {
     match measure {
         Measure::SumOfChange => "sum of changes",
         Measure::SumOfSquares => "sum of squared changes",
-        Measure::DifferenceOfSums => "difference of the sum of changes and that before",
+        Measure::DifferenceOfSums => "difference to the sum of changes of the previous sweep",
         Measure::GreatestChange => "greatest change",
         Measure::GreatestRelativeChange => "greatest relative change",
     }
