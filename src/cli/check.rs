@@ -31,8 +31,8 @@ Examples:
     --clearance 0.02 --picture why.html
   cplan check robots/scara.urdf workspaces/scara_cell.toml --at=-1,-0.9 --json
 
-Exit codes: 0 the configuration was checked, free or not, 1 bad input or I/O, 2
-wrong command line.")]
+Exit codes: 0 the configuration was checked, free or not, 1 bad input, or a file
+cannot be read or written, 2 wrong command line.")]
 pub struct CheckArgs {
     #[command(flatten)]
     pub files: Files,
@@ -192,10 +192,10 @@ fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindin
             let step = format!("{resolution:.2e} {}", first.unit());
             line(
                 "",
-                format!("(searched values of {} in steps of {step}; {} is exact for each)", first.name, second.name),
+                format!("(nearest for values of {} in steps of {step}; all values of {} are considered)", first.name, second.name),
             );
         }
-        None if !findings.free => line("nearest", "the search found no free configuration; that is not proven".into()),
+        None if !findings.free => line("nearest", "the search found no free configuration (not proven)".into()),
         None => {}
     }
     line("arm", format!("{} ({})", arm.name, arm.kind()));

@@ -109,7 +109,7 @@ impl DataSheet {
             if let Some(lower) = limit.and_then(|limit| limit.lower) {
                 if !turns {
                     let message =
-                        format!("--limits: joint {} slides from 0; give its travel alone, such as 0.8", k + 1);
+                        format!("--limits: joint {} slides, beginning at 0; give only its travel, such as 0.8", k + 1);
                     return Err(Failure::Usage(message));
                 }
                 check("limits", Some(lower), [-range[1], -range[0]], unit)?;
@@ -142,7 +142,7 @@ impl DataSheet {
             ([], _) => Ok(usual),
             (&[first], 1) => Ok([first, 0.0]),
             (&[first, second], 2) => Ok([first, second]),
-            (_, 0) => Err(Failure::Usage(format!("--links: {} has none; --limits are its travels", kind.name()))),
+            (_, 0) => Err(Failure::Usage(format!("--links does not apply to {}, which has no links; --limits states its travels", kind.name()))),
             (given, _) => Err(Failure::Usage(format!("--links: {} needs {count}, not {}", kind.name(), given.len()))),
         }
     }

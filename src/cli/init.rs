@@ -224,7 +224,7 @@ impl InitArgs {
     fn sheet_numbers(&self) -> Result<ArmNumbers, Failure> {
         match self.kind {
             Kind::Pr | Kind::Arch => {
-                let message = "the numbers of a data sheet are for --kind rr, rp, pp and scara";
+                let message = "numbers of a data sheet need --kind rr, rp, pp or scara";
                 Err(Failure::Usage(message.to_owned()))
             }
             kind => self.sheet.numbers(kind),
@@ -236,11 +236,11 @@ impl InitArgs {
 /// `numbers` are those of a data sheet.
 fn description([robot, world, schema]: [&Path; 3], numbers: Option<&str>) -> String {
     let both = format!("{} {}", word(robot), word(world));
-    let bodies = numbers.map(|numbers| format!("; {numbers}; its bodies are simple envelopes")).unwrap_or_default();
+    let bodies = numbers.map(|numbers| format!("; {numbers}; the shapes are simple envelopes")).unwrap_or_default();
     format_columns(&[
         ("file", format!("{}: the robot{bodies}", robot.display())),
-        ("file", format!("{}: start, goal and obstacles, every key explained", world.display())),
-        ("file", format!("{}: lets editors complete and explain the keys of the world", schema.display())),
+        ("file", format!("{}: start, goal and obstacles, with every key explained", world.display())),
+        ("file", format!("{}: with this file, editors complete and explain the keys of the world", schema.display())),
         ("next", format!("cplan {both} --picture plan.html")),
         ("next", format!("cplan check {both} --at 0.3,0.4")),
         ("next", format!("cplan inspect {both}")),

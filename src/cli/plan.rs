@@ -228,13 +228,13 @@ fn require_grid(args: &PlanArgs, outputs: &Outputs<PlanContent>, planner: &Plann
         let PlanContent::CSpace(format) = content else { continue };
         let needed = match format {
             CSpaceFormat::Csv if planner.space().is_none() => {
-                "holds the values of a grid and needs --planner wavefront or harmonic"
+                "holds the values of a grid, so it needs --planner wavefront or harmonic"
             }
             CSpaceFormat::PotentialCsv if !planner.has_potential() => {
-                "holds the potential of a field and needs --planner harmonic, with any field except khatib"
+                "holds the potential of a field, so it needs --planner harmonic, with any field except khatib"
             }
             CSpaceFormat::HeuristicCsv if !planner.estimates_costs() => {
-                "holds the estimates of a search and needs --planner wavefront --search astar or greedy"
+                "holds the estimates of a search, so it needs --planner wavefront --search astar or greedy"
             }
             _ => continue,
         };

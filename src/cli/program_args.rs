@@ -55,7 +55,7 @@ impl ProgramArgs {
         match (&error, &self.template) {
             (FormatError::Unknown { .. }, Some(_)) => Ok(PlanContent::Program),
             (FormatError::Unknown { .. }, None) => {
-                let hint = "with --template, files with other extensions are programs for a controller";
+                let hint = "to write a program for a controller, add --template; other extensions are then allowed";
                 Err(Failure::Usage(format!("{error}\n  hint: {hint}")))
             }
             _ => Err(error.into()),
@@ -70,7 +70,7 @@ impl ProgramArgs {
         let Some(name) = &self.template else { return Ok(None) };
         if !outputs.results.iter().any(|(_, content)| *content == PlanContent::Program) {
             let message =
-                "--template needs an --output file with an extension of its own, such as --output program.prg";
+                "--template needs an --output file with the extension of the program, such as --output program.prg";
             return Err(Failure::Usage(message.into()));
         }
         if blend > 0.0 && blend.is_finite() {
@@ -102,7 +102,7 @@ impl ProgramWriter {
         self.room = self.tolerance.room(&exact);
         asked.clearance = Some(self.clearance + self.room);
         Problem::of_scene(loaded, asked).map_err(|error| {
-            let hint = format!("{}; a smaller --joint-tolerance adds less", self.describe_room());
+            let hint = format!("{}; use a smaller --joint-tolerance", self.describe_room());
             let hinted = |found: &Diagnostic| found.clone().help(hint.clone());
             let hinted = InputError::check(error.diagnostics().iter().map(hinted).collect());
             Failure::Input(hinted.err().unwrap_or(error))

@@ -34,16 +34,16 @@ problem:
   world = \"tray.toml\"
 Worlds with steps are left out: only `cplan plan` plans tasks.
 
-Each run is complete, from the problem to a certificate or a proof. A run builds
-its own maps; their time is reported separately (build, query, certify). The
+Each run begins with the problem and ends with a certificate or a proof. It builds
+its own maps; times for build, query and certify are reported separately. The
 table compares each length with a proven lower bound on the length of all
 motions. Memory is the peak of a run's allocations.
 
-Exit codes: for one problem 0 found, 3 infeasible: proven that there is no path,
-4 unknown, by the best answer; for several problems 0 all runs were made; for
-both 1 bad input, contradicting planners, or, after all other runs, problems of
-a suite that cannot be read or whose start or goal is blocked; 2 wrong command
-line.")]
+Exit codes for one problem: 0 a planner found a path, 3 a planner proved that
+there is none, 4 unknown. For several problems: 0 all runs were made. For both:
+1 bad input, planners that contradict each other, or (after all other runs)
+problems of a suite that cannot be read or whose start or goal is blocked; 2
+wrong command line.")]
 pub struct CompareArgs {
     /// Robot: a URDF or xacro file. With --suite: the robot for all worlds of the folder.
     #[arg(value_name = "URDF", required_unless_present = "suite")]

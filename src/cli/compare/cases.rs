@@ -88,7 +88,7 @@ impl Cases {
             }
         }
         for member in &suite.members {
-            member.scene.require_static_obstacles("comparisons are for worlds without moving obstacles")?;
+            member.scene.require_static_obstacles("comparisons need static obstacles")?;
         }
         let (mut name, files) = (suite.name.clone(), suite.files.clone());
         let overrides = args.query.overrides();
@@ -189,8 +189,7 @@ fn drawn(name: &str, world: usize, base: Arc<MotionProblem>, sampling: Option<Sa
     };
     let Some(pairs) = free_pairs(base.scene(), queries, seed) else {
         return Err(format!(
-            "--queries: {name} has almost no configuration that keeps the clearance of {} m; a smaller --clearance or \
-             other obstacles leave room for random queries",
+            "--queries: almost no configuration of {name} keeps the clearance of {} m; use a smaller --clearance, or a world with more room",
             base.scene().workspace().clearance
         ));
     };

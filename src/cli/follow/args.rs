@@ -19,10 +19,10 @@ use std::path::PathBuf;
 /// Move the tip along a line: G-code, SVG or TOML.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The motion stays within the tolerance of the line, in the line's order, between
-samples too. It is certified free of collision, and as fast as the limits of the
-joints and of the tip allow. If there is none, the answer names the place. The
-line is scaled, then turned, then moved.
+The tip stays within the tolerance of the line and follows it in its order, also
+between samples. The motion is certified free of collision, and as fast as the
+limits of the joints and of the tip allow. If there is no motion, the answer
+names the place. The line is scaled, then turned, then moved.
 
 Examples:
   cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \\

@@ -36,11 +36,11 @@ const ARC_SEGMENT: f64 = 1e-3;
 /// Prove G-code for machines with their own kinematics.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The firmware moves the tip along each line, and keeps the side of its elbow.
-Drawing moves (G1, G2, G3) remain unchanged, and are proven to be within reach and
-limits, and free of collisions. Travels (G0) that are not are replaced by others.
-The coordinates of the file are those of the world, turned by --turn and then
-moved by --move.
+The machine's firmware moves the tip along each line, with the elbow always on the
+same side. Drawing moves (G1, G2, G3) remain unchanged; cplan proves that they are
+within reach and limits, and free of collisions. Travels (G0) for which this does
+not hold are replaced by others. Coordinates of the file, turned by --turn and
+then moved by --move, are those of the world.
 
 Examples:
   cplan gcode robots/scara.urdf workspaces/gcode/labels.toml \\
@@ -133,13 +133,12 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let job = Job::read(&bytes, &setup).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
     let loaded =
         input::load_scene(args.files.robot(), &args.files.world)?.with_margins(args.clearance, args.calibration)?;
-    loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
+    loaded.require_static_obstacles("G-code can be judged only if all obstacles are static")?;
     // A move that only comes near within the padding is not proven to collide.
     let padded = loaded.scene.arm().links.iter().flat_map(|link| &link.parts).any(|part| part.padding > 0.0)
         || loaded.scene.workspace().obstacles.iter().any(|obstacle| obstacle.growth.padding > 0.0);
     if padded {
-        let message = "G-code is judged for displacements of the base and of obstacles; for errors of angles, lengths and zeros, \
-                       give a clearance that covers them";
+        let message = "G-code is judged only for errors of the places of base and obstacles; replace errors of angles, lengths and zeros by a clearance that covers them";
         return Err(Failure::Refused(message.into()));
     }
     let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();
@@ -154,7 +153,7 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     })?;
     let code = code_of(answer.status());
     let named = found.map(|(dialect, source)| {
-        format!("line {} of the program names the dialect {dialect}; --dialect states another one", source.line)
+        format!("the dialect is {dialect}, because line {} of the program names it; --dialect overrides this", source.line)
     });
     let notes = named.into_iter().chain(pen_note(args, &job, &answer)).collect();
     let answered = Answered { args, loaded: &loaded, job: &job, answer: &answer, dialect, notes };
@@ -228,7 +227,7 @@ impl Answered<'_> {
         if let Some((other, first)) = other.as_ref().and_then(|other| Some((other, other.failed.first()?))) {
             let side = other.elbow.map_or("other solution", Elbow::name);
             let count = counted(other.failed.len(), "move");
-            lines.push((side, format!("{count} would fail; the first one: {}", described(first))));
+            lines.push((side, format!("with this side of the elbow, {count} would fail; the first one: {}", described(first))));
         }
         let [drawing, travels] = self.job.counts();
         let tolerance = chosen_length(self.args.tolerance);
@@ -259,9 +258,9 @@ impl Answered<'_> {
         let failed = &self.answer.failed;
         let proven = failed.iter().filter(|failed| failed.fault.is_proven).count();
         match self.answer.status() {
-            Status::Found if self.args.check => "found: the machine can play all moves; proven".to_owned(),
-            Status::Found => "found: the machine can play all moves of the written program; proven".to_owned(),
-            Status::Infeasible => format!("infeasible: the machine cannot play {}; proven", counted(proven, "move")),
+            Status::Found if self.args.check => "found: the machine can run all moves; proven".to_owned(),
+            Status::Found => "found: the machine can run all moves of the written program; proven".to_owned(),
+            Status::Infeasible => format!("infeasible: the machine cannot run {}; proven", counted(proven, "move")),
             Status::Unknown => format!("unknown: {} not proven to be safe", counted(failed.len(), "move")),
         }
     }
@@ -278,7 +277,7 @@ fn pen_note(args: &GcodeArgs, job: &Job, answer: &Answer) -> Option<String> {
     is_open.then(|| {
         let (line, words) = (first.own.piece.source.line, words.join(" or "));
         format!(
-            "if {words} lifts the pen for line {line}, state its words by --pen-up and --pen-down: then it is a travel"
+            "if {words} lifts the pen before line {line}, name the words by --pen-up and --pen-down; then the line counts as a travel"
         )
     })
 }
@@ -290,7 +289,7 @@ fn unstated(sources: &[Source]) -> Option<String> {
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
     let (moves, begin) = if sources.len() == 1 { ("move in line", "begins") } else { ("moves in lines", "begin") };
     let stated =
-        format!("the {moves} {}{more} {begin} at a place that the file does not state: not judged", shown.join(", "));
+        format!("not judged: the {moves} {}{more} {begin} at a place that the file does not state", shown.join(", "));
     (!sources.is_empty()).then_some(stated)
 }
 

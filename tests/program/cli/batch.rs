@@ -86,7 +86,7 @@ fn a_bad_line_is_a_row() {
         (r#"{"id": 1}"#, "input", &["give either `urdf` or `urdf_text`"]),
         (r#"{"urdf": "U", "id": 2}"#, "input", &["give either `world` or `world_text`"]),
         (r#"{"urdf": "U", "world": "W", "wrold": 1}"#, "input", &["unknown field `wrold`"]),
-        (r#"{"urdf": "U", "world": 7}"#, "input", &["`world` is a path"]),
+        (r#"{"urdf": "U", "world": 7}"#, "input", &["`world` must be a path"]),
         (r#"{"urdf": "U", "world": {"start": null}}"#, "input", &["cannot be written as TOML"]),
         (r#"{"urdf": "U", "world": "W", "options": ["--planer=x"]}"#, "usage", &["--planer"]),
         (r#"{"urdf": "U", "world": "W", "options": {"cells": {"a": 1}}}"#, "input", &["cells cannot be"]),

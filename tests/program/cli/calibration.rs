@@ -148,7 +148,7 @@ fn mistakes_have_a_place_and_a_hint() {
     let job = ["gcode", "labels.toml", "labels.gcode"].map(|name| shipped(&format!("workspaces/gcode/{name}")));
     let scara = shipped("robots/scara.urdf");
     let judged = |errors| place.run(&["gcode", &scara, &job[1], &job[2], "--check", "--calibration", errors], "");
-    judged("zeros=0.02deg").exits(1).warns(&["G-code is judged for displacements"]);
+    judged("zeros=0.02deg").exits(1).warns(&["G-code is judged only for errors of the places"]);
     judged("obstacles=1mm").exits(3);
     let task = [shipped("robots/scara.urdf"), shipped("workspaces/tasks/feeder.toml")];
     let refused = place.run(&[&task[0], &task[1], "--calibration", "base=1mm"], "").exits(1);

@@ -268,7 +268,7 @@ fn recheck_accepts_true_bounds_and_no_others() {
         assert_eq!((holds.code, holds.stdout.starts_with("the bound holds")), (0, true), "{world}: {}", holds.stderr);
         // One bound is too high, one is without a length, and one is that of another world.
         let lower = made["optimum"]["lower_bound"].as_f64().unwrap();
-        for (wrong, report) in [(lower * (1.0 + 2e-4), "are not bounds"), (lower * 1.01, "not confirmed")] {
+        for (wrong, report) in [(lower * (1.0 + 2e-4), "are not valid bounds"), (lower * 1.01, "not confirmed")] {
             made["optimum"]["lower_bound"] = wrong.into();
             place.write("wrong.json", made.to_string());
             place.run(&recheck, "--proof wrong.json").refused(1, &["wrong.json", report]);

@@ -242,7 +242,7 @@ fn compare_takes_rows_with_options() {
         ("trapezoid --space sampled", "--space needs --planner wavefront or harmonic"),
         ("magic", "invalid value 'magic' for '<PLANNER>' [possible values: shortest, "),
         ("harmonic --frobnicate", "unexpected argument '--frobnicate'"),
-        ("", "names no planner"),
+        ("", "no planner is named"),
     ] {
         let done = place.command().args(["compare", "no.urdf", "no.toml", "--with", with]).output().unwrap();
         let text = String::from_utf8(done.stderr).unwrap();

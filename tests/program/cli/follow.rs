@@ -147,7 +147,7 @@ fn ros_messages_and_pages_are_written() {
     let place = Place::new();
     let done =
         follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200\n", "--output m.yaml --picture m.html --verbose").exits(0);
-    done.says(&["found and certified: at most", "line 2: straight of"]);
+    done.says(&["found and certified: the tip is at most", "line 2: straight of"]);
     let message = place.read("m.yaml");
     assert!(message.contains("joint_names") && message.contains("elbow") && message.contains("velocities"));
     let page = place.read("m.html");
@@ -204,7 +204,7 @@ fn unusable_options_are_refused_before_any_work() {
         ("--unit furlong", "\"furlong\" is not a known unit"),
         ("--move 1", "two numbers separated by a comma"),
         ("--output m.txt", "must end in .json, .csv, .yaml or .yml"),
-        ("--picture m.gif", "a line is drawn as .svg, .png or .html"),
+        ("--picture m.gif", "a picture of a line must be .svg, .png or .html"),
     ] {
         follow(&place, "line.gcode", options).refused(2, &[message]);
     }

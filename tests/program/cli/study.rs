@@ -158,7 +158,7 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     let mut text = read(&part);
     text.truncate(text.len() - 7);
     std::fs::write(&part, &text).unwrap();
-    run(&place, "--output t.csv --jobs 2").exits(0).warns(&["layouts of the stopped study"]);
+    run(&place, "--output t.csv --jobs 2").exits(0).warns(&["continues the stopped study after"]);
     assert_eq!(place.read("t.csv"), place.read("whole.csv"));
     assert!(!part.exists());
     // Rows of another study are neither used nor lost.
@@ -263,7 +263,7 @@ fn failed_layouts_have_rows_and_a_study_may_have_no_best_layout() {
     }
     study(&place, "conditions = [\"duration <= 0.01\"]\ndraws = 3", CRATE);
     let done = run(&place, "--output t.csv --output best.toml --json").exits(0);
-    done.warns(&["best.toml is not written: no layout meets the requirements"]);
+    done.warns(&["best.toml is not written, because no layout meets the conditions"]);
     assert!(!place.path("best.toml").exists() && rows(&place.read("t.csv")).len() == 12);
     assert_eq!(done.json()["best"], Value::Null);
 }
@@ -457,7 +457,7 @@ fn ctrl_c_reports_the_stored_rows() {
     assert_eq!(done.status.code(), Some(130), "{report}");
     let kept = report.split("stopped: ").nth(1).unwrap().split(' ').next().unwrap().parse::<usize>().unwrap();
     assert!(
-        kept > 0 && report.contains(" of 8000 rows are kept in t.csv.part; the same command continues"),
+        kept > 0 && report.contains(" of 8000 rows are in t.csv.part; the same command continues from there"),
         "{report}"
     );
     // The file also has a line that names the study of the rows.

@@ -258,7 +258,7 @@ fn the_first_step_that_fails_is_named() {
         assert_eq!(result["events"].as_array().unwrap().len(), 1);
         assert!(
             done.stderr.contains(
-                "a.csv is not written: the result has no trajectory; the existing file is from an earlier run"
+                "a.csv is not written: the result has no trajectory; the existing file of this name is from an earlier run"
             ),
             "{}",
             done.stderr

@@ -88,7 +88,7 @@ fn a_knife_turns_along_the_outline() {
     let place = Place::new();
     let done =
         follow(&place, "--wrist tangent+0.2 --output m.csv --output m.yaml --output m.json --picture m.html").exits(0);
-    assert!(done.stdout.contains("joint \"axis_4\" turns the tool along the line, 0.2 rad from it, within 0.0"));
+    assert!(done.stdout.contains("joint \"axis_4\" keeps the tool at 0.2 rad to the line, within 0.0"));
     assert!(!done.stdout.contains("\"axis_4\" is held"), "{}", done.stdout);
     let rows = rows(&place.read("m.csv"), COLUMNS);
     assert!(rows.iter().all(|row| row[6].abs() <= 20.0 * (1.0 + 1e-9)), "too fast");

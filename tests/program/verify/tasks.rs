@@ -329,7 +329,7 @@ fn a_different_start_is_found() {
     tower.report("--start 0.6,0.7").exits(3).says(&["step 1 (cycle 1): the motion does not begin at the start"]);
     tower.report("--picture a.svg").exits(2).warns(&["--picture"]);
     // A clearance that is greater than the actual distance.
-    shipped_task("sorting").report("--clearance 0.01").exits(3).says(&["nearer than the required clearance"]);
+    shipped_task("sorting").report("--clearance 0.01").exits(3).says(&["too near by"]);
 }
 
 #[test]

@@ -157,7 +157,9 @@ impl<'a> Names<'a> {
         }
         let message = format!("there is no object \"{wanted}\"");
         let help = match (self.obstacles.contains_key(wanted), self.families.get(wanted)) {
-            (true, _) => "\"{wanted}\" is an obstacle, and steps move only objects: write [[object]] instead of [[obstacle]]".to_owned(),
+            (true, _) => {
+                format!("\"{wanted}\" is an obstacle, and steps move only objects: write [[object]] instead of [[obstacle]]")
+            }
             (_, Some(all)) => format!(
                 "{} of this name are on a pallet: name one of them, such as \"{wanted} 1,1\", or move all: transfer = {{ objects = \"{wanted}\", to = \"PALLET\" }}",
                 all.len()

@@ -182,7 +182,7 @@ impl Reader<'_> {
     pub fn path_of_named_file(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Diagnostic> {
         let anchor = self.source.anchor();
         let anchor = anchor.map_err(|why| {
-            let help = "save the world as a file: \"{name}\" is found relative to it";
+            let help = format!("save the world as a file: \"{}\" is found relative to it", name.get_ref());
             self.source.diagnostic_at(name.span(), format!("{what}: {why}")).help(help)
         })?;
         let path = anchor.with_file_name(name.get_ref());
