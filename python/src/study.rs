@@ -81,7 +81,10 @@ impl Study {
     /// Returns the values of a layout, by the names of the parameters.
     fn values<'py>(&self, py: Python<'py>, layout: usize) -> PyResult<Bound<'py, PyDict>> {
         if layout >= self.study.count() {
-            return Err(PyValueError::new_err(format!("the study has {} layouts, numbered from 0", self.study.count())));
+            return Err(PyValueError::new_err(format!(
+                "the study has {} layouts, numbered from 0",
+                self.study.count()
+            )));
         }
         let values = PyDict::new(py);
         for (parameter, value) in self.study.parameters.iter().zip(self.study.values(layout)) {

@@ -192,7 +192,10 @@ fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindin
             let step = format!("{resolution:.2e} {}", first.unit());
             line(
                 "",
-                format!("(nearest for values of {} in steps of {step}; all values of {} are considered)", first.name, second.name),
+                format!(
+                    "(nearest for values of {} in steps of {step}; all values of {} are considered)",
+                    first.name, second.name
+                ),
             );
         }
         None if !findings.free => line("nearest", "the search found no free configuration (not proven)".into()),

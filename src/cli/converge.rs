@@ -50,7 +50,7 @@ pub struct ConvergeArgs {
     #[command(flatten)]
     pub query: QueryArgs,
     /// Number of grid cells along each axis, 8 to 256, or one number per joint, such as 80x40. Except for SOR, the
-    /// number of sweeps grows with its square: 256 cells take minutes.
+    /// number of sweeps grows with the square of this number: 256 cells take minutes.
     #[arg(long, value_name = "N|AxB", default_value = "64", value_parser = cells, allow_hyphen_values = true)]
     #[arg(help_heading = RELAXATION)]
     pub cells: CellCounts,
@@ -62,7 +62,7 @@ pub struct ConvergeArgs {
     #[arg(long, value_name = "v1,v2", default_value = "1,0", value_parser = direction, allow_hyphen_values = true)]
     #[arg(help_heading = RELAXATION)]
     pub direction: Direction,
-    /// Order of the cells in the scans over factor and epsilon.
+    /// Order of the cells in a sweep, in the measurements with many factors and epsilons.
     #[arg(long, value_parser = word(ORDERS), value_name = "NAME", default_value = "rows", help_heading = RELAXATION)]
     pub order: Order,
     /// Effect of the joint limits on the field.

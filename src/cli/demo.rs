@@ -62,8 +62,8 @@ const PICTURE_FILE: &str = "plan.html";
 
 /// Plan in a built-in cell; write plan.json and plan.html.
 ///
-/// All options of `cplan plan` also apply; `cplan help planners` lists those of planners. With `--kind follow`, only those
-/// apply that `cplan follow` has as well.
+/// All options of `cplan plan` also apply; `cplan help planners` lists the options of planners. With `--kind follow`,
+/// only options that `cplan follow` has as well apply.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 `cplan init --kind scara` writes the files of this cell.
@@ -138,7 +138,8 @@ fn follow_args(plan: &mut PlanArgs) -> Result<FollowArgs, Failure> {
 /// Returns the arguments of a command line.
 fn of_words<A: Args>(words: impl IntoIterator<Item = &'static str>) -> Result<A, Failure> {
     let words: Vec<OsString> = words.into_iter().map(OsString::from).collect();
-    super::read(&words).ok_or_else(|| Failure::Usage("internal error: the options of the demonstration have no defaults".into()))
+    super::read(&words)
+        .ok_or_else(|| Failure::Usage("internal error: the options of the demonstration have no defaults".into()))
 }
 
 /// Reads the line of the demonstration.

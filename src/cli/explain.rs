@@ -58,13 +58,13 @@ pub struct ExplainArgs {
     pub files: Files,
     #[command(flatten)]
     pub query: QueryArgs,
-    /// Draw workspace and configuration space with the blockers and the end of the reachable space: .svg, .png, .gif or
-    /// .html. Can be repeated.
+    /// Draw workspace and configuration space with the blockers and the place where reachable space ends: .svg, .png,
+    /// .gif or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
     pub theme: ThemeArgs,
-    /// Time limit for the explanation, seconds, counted from the moment when the existence of a path is decided.
+    /// Time limit for the explanation, seconds, counted from the moment when it is decided whether a path exists.
     #[arg(long, value_name = "SECONDS", default_value_t = TIME_LIMIT.as_secs_f64(), value_parser = time_limit, allow_hyphen_values = true)]
     #[arg(help_heading = QUERY)]
     pub time: f64,

@@ -61,7 +61,7 @@ pub struct ExploreArgs {
     /// Number of grid cells along each axis of joint space. Their centres are the configurations that the search considers.
     #[arg(long, value_name = "N|AxB", default_value = "96", help_heading = EXPLORATION)]
     pub grid: CellCounts,
-    /// Distance from the arm within which the world is known initially, metres [default: two cells of the map].
+    /// Distance from the arm within which the world is known at the beginning, metres [default: two cells of the map].
     #[arg(long, value_name = "METRES", value_parser = positive, help_heading = EXPLORATION)]
     pub surveyed: Option<f64>,
     /// Map of known space (FILE.yaml) that an earlier exploration of this world wrote with --map.
@@ -101,7 +101,11 @@ const STRATEGIES: [Word<Strategy>; 5] = [
     (Strategy::Goal, "goal", "Toward the goal, as far as the path is known to be free"),
     (Strategy::View, "view", "To a configuration that shows all that the nearest one shows, and more"),
     (Strategy::Nearest, "nearest", "To the nearest configuration that shows something new"),
-    (Strategy::Harmonic, "harmonic", "Up the harmonic potential, whose sources are all configurations that show something new"),
+    (
+        Strategy::Harmonic,
+        "harmonic",
+        "Up the harmonic potential, whose sources are all configurations that show something new",
+    ),
     (Strategy::Wall, "wall", "Along the wall on the right, to the first configuration that shows something new"),
 ];
 
@@ -276,7 +280,10 @@ fn facts(done: &Exploration) -> Vec<Line> {
         ("readings", format!("{}, {}", done.readings.len(), counted(done.decisions.len(), "decision"))),
     ];
     if let Some(known) = done.known_length.filter(|&known| known > 0.0) {
-        facts.push(("known", format!("{:.2} times the length of a plan in the fully known world ({known:.4})", done.length / known)));
+        facts.push((
+            "known",
+            format!("{:.2} times the length of a plan in the fully known world ({known:.4})", done.length / known),
+        ));
     }
     facts
 }

@@ -64,7 +64,7 @@ pub enum Kind {
     /// Two turning joints; 2r is the same.
     #[value(alias = "2r")]
     Rr,
-    /// A turret with a ram that slides out of it: turning, then sliding; polar is the same.
+    /// A turret with a ram that slides out: turning, then sliding; polar is the same.
     #[value(alias = "polar")]
     Rp,
     /// An arm on a rail: sliding, then turning.
@@ -72,7 +72,8 @@ pub enum Kind {
     /// A gantry: two sliding joints; gantry is the same.
     #[value(alias = "gantry")]
     Pp,
-    /// The cell of `cplan demo`, a SCARA among six obstacles; with the numbers of a data sheet, that SCARA among two.
+    /// The cell of `cplan demo`, a SCARA among six obstacles; with numbers of a data sheet, a SCARA of these numbers
+    /// among two obstacles.
     Scara,
     /// The pick-and-place cycle of `cplan demo --kind arch`.
     Arch,

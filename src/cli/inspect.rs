@@ -89,8 +89,8 @@ pub struct InspectArgs {
     pub world: Option<PathBuf>,
     #[command(flatten)]
     pub xacro: XacroArgs,
-    /// Write the URDF that a xacro robot expands to (.urdf), for `cplan-check` and other programs. In the folder of the
-    /// xacro file it finds the same meshes.
+    /// Write the URDF to which a xacro robot expands (.urdf), for `cplan-check` and other programs. Write it into the
+    /// folder of the xacro file, so that its meshes are found.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub expanded: Option<PathBuf>,
     /// Draw the arm at zero with the frames of its joints: .svg or .png, or .html with the whole report. Can be repeated.
@@ -149,7 +149,9 @@ fn write_expanded(robot: &RobotFile, path: &Path) -> Result<(), Failure> {
     write_whole(path, source.text().as_bytes())?;
     for mesh in input::meshes_elsewhere(&source, path) {
         let [file, robot] = [path, &robot.path].map(|path| path.display().to_string());
-        sinks::print_status(&format!("warning: mesh \"{mesh}\" cannot be found from the folder of {file}; write {file} beside {robot}"));
+        sinks::print_status(&format!(
+            "warning: mesh \"{mesh}\" cannot be found from the folder of {file}; write {file} beside {robot}"
+        ));
     }
     Ok(())
 }

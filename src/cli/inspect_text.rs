@@ -24,7 +24,10 @@ pub fn text(report: &Inspection) -> String {
     );
     let name = report.robot.as_deref().unwrap_or("(no name)");
     lines.add("robot", &format!("{name}, {}", report.urdf));
-    lines.add("world", report.world.as_deref().unwrap_or("none given, so no world chooses joints, holds them or changes their limits"));
+    lines.add(
+        "world",
+        report.world.as_deref().unwrap_or("none given, so no world chooses joints, holds them or changes their limits"),
+    );
     match &report.root {
         Some(root) => tree(&mut lines, report, root, 0),
         None => report.joints.iter().for_each(|j| lines.add("joints", &branch(report, j))),
@@ -51,7 +54,10 @@ pub fn text(report: &Inspection) -> String {
         if let Some([least, most]) = reach.distances {
             lines.add("reach", &format!("without joint limits, the tip is {least:.4} to {most:.4} m from joint 1"));
         }
-        lines.add("reach", &format!("all parts are within {:.4} m of joint 1, if sliding joints are at zero", reach.outline));
+        lines.add(
+            "reach",
+            &format!("all parts are within {:.4} m of joint 1, if sliding joints are at zero", reach.outline),
+        );
     }
     report.ignored.iter().for_each(|i| lines.add("ignored", i));
     report.warnings.iter().for_each(|w| lines.add("warning", w));
@@ -59,7 +65,10 @@ pub fn text(report: &Inspection) -> String {
         diagnostic.to_string().lines().for_each(|line| lines.add("defect", line));
     }
     if let Some(help) = &report.help {
-        lines.add("remedy", "with these entries in the world file, cplan can read the robot (the numbers are examples):");
+        lines.add(
+            "remedy",
+            "with these entries in the world file, cplan can read the robot (the numbers are examples):",
+        );
         lines.add("remedy", "[robot]");
         help.lines().for_each(|line| lines.add("remedy", line));
     }

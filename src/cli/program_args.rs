@@ -18,13 +18,13 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = OUTPUT)]
 pub struct ProgramArgs {
-    /// With --output NAME.EXT: a program for a controller, written by the template. The program consists of joint moves that
-    /// stop at each target, and is certified as written. FILE can also be the name of a shipped template: epson (SPEL+), rapid
-    /// (ABB) or list (a table). EXT is any extension without another meaning, such as .prg.
+    /// With --output NAME.EXT: write a program for a controller by this template. The program consists of joint moves
+    /// that stop at each target; it is certified as written. FILE can also be the name of a shipped template: epson
+    /// (SPEL+), rapid (ABB) or list (a table). EXT can be any extension without another meaning, such as .prg.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub template: Option<String>,
-    /// Deviation from straight joint lines within which the program is certified: an angle, a length for sliding joints, or
-    /// both [default: 0.05deg,0.05mm].
+    /// Deviation from straight lines in joint space that the certificate of the program allows: an angle, a length for
+    /// sliding joints, or both [default: 0.05deg,0.05mm].
     #[arg(long, value_name = "TOLERANCE", requires = "template", allow_hyphen_values = true)]
     pub joint_tolerance: Option<JointTolerance>,
 }

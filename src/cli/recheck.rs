@@ -154,8 +154,7 @@ fn proof_holds(
     stuck: &[CollisionBox],
     asked: &Overrides,
 ) -> Result<String, Failure> {
-    let never =
-        |odd| evidence_failure(args, format!("the proof does not hold: the shapes of box {odd} cannot meet"));
+    let never = |odd| evidence_failure(args, format!("the proof does not hold: the shapes of box {odd} cannot meet"));
     let certificate = certificate_of_boxes(problem, stuck, asked).map_err(never)?;
     check_certificate(args, "proof", &certificate)?;
     let count = counted(stuck.len(), "box");
@@ -195,5 +194,8 @@ fn bound_holds(
     } else {
         ("holds".to_owned(), String::new())
     };
-    Ok(format!("the bound {holds}: no motion is shorter than {:.6}{stated}; proven by {segments} of colliding configurations", found.length))
+    Ok(format!(
+        "the bound {holds}: no motion is shorter than {:.6}{stated}; proven by {segments} of colliding configurations",
+        found.length
+    ))
 }

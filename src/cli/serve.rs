@@ -52,7 +52,7 @@ pub struct ServeArgs {
     /// Time limit for each plan, seconds.
     #[arg(long, value_name = "SECONDS", default_value = "20", value_parser = time_limit, allow_hyphen_values = true)]
     pub time_limit: Duration,
-    /// Write the page with the program inside it, as one file that needs no server, instead of serving it.
+    /// Instead of serving the page, write it with the program as one file that needs no server.
     #[arg(long, value_name = "FILE", requires = "engine", conflicts_with_all = ["port", "bind"], value_hint = ValueHint::FilePath)]
     pub export: Option<PathBuf>,
     /// Program for the exported page: WebAssembly packed by gzip, as `.ci/page` builds it.

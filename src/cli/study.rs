@@ -67,7 +67,7 @@ pub struct StudyArgs {
     /// Discard the rows of a stopped study, and begin again.
     #[arg(long)]
     pub fresh: bool,
-    /// Print tables in their full width, not in parts of 80 columns.
+    /// Print tables in their full width, instead of parts of 80 columns.
     #[arg(long, help_heading = OUTPUT)]
     pub wide: bool,
     #[command(flatten)]
@@ -173,8 +173,7 @@ fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Outputs<Content>, Fa
     }
     #[cfg(not(feature = "parquet"))]
     refuse_parquet(outputs)?;
-    let expected =
-        "the name must end in .csv, .parquet, .html or .json for the table of the study, or in .toml or .urdf for the best layout";
+    let expected = "the name must end in .csv, .parquet, .html or .json for the table of the study, or in .toml or .urdf for the best layout";
     Outputs::new(outputs, by_extension(&[&whole[..], &layout].concat(), expected), &[], [])
 }
 

@@ -331,7 +331,10 @@ fn tools_turn_along_the_lines_of_tasks() {
             rows[middle][0] += 0.03;
             let refused = cplan::check::replay(&task, &recording, &changed).nth(index).expect("the same step");
             let words: Vec<String> = refused.faults.iter().map(ToString::to_string).collect();
-            assert!(words.iter().any(|text| text.contains("the angle of the tool may be wrong by")), "seed {seed}: {words:?}");
+            assert!(
+                words.iter().any(|text| text.contains("the angle of the tool may be wrong by")),
+                "seed {seed}: {words:?}"
+            );
         }
     }
     println!("found {found} of {total} with {lines} lines");

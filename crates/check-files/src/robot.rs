@@ -84,7 +84,9 @@ impl<'a> Robot<'a> {
                 return Err(CheckError::in_file(Input::World, message));
             }
             if is_implied {
-                return CheckError::fails("\"joints\" of the certificate: the second joint carries the first; swap them");
+                return CheckError::fails(
+                    "\"joints\" of the certificate: the second joint carries the first; swap them",
+                );
             }
             joints.swap(0, 1);
         }
@@ -134,7 +136,9 @@ impl<'a> Robot<'a> {
             let motion = match (slides[k], plane.direction(&axes[k])) {
                 (false, _) => Motion::Turn(sign),
                 (true, Some(direction)) => Motion::Slide(direction),
-                (true, None) => return tree.error(nodes[k], "the direction of this sliding joint does not follow from the URDF"),
+                (true, None) => {
+                    return tree.error(nodes[k], "the direction of this sliding joint does not follow from the URDF");
+                }
             };
             let (axis, within) = match tree.ends(nodes[k], world)? {
                 Some([outer, inner]) => (Axis::Line(outer), Some(inner)),

@@ -75,7 +75,9 @@ impl<'a> Contacts<'a> {
         for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {
             let Pair { body, part, beside } = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
             if !MovingBody::new(arm, body).overlaps(part, &Cell::from(ranges).for_link(beside)) {
-                return CheckError::fails(format!("box {number}: the shape does not touch the part everywhere in the box"));
+                return CheckError::fails(format!(
+                    "box {number}: the shape does not touch the part everywhere in the box"
+                ));
             }
         }
         Ok(())

@@ -118,7 +118,9 @@ pub fn check_knots(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> R
         return bad(format!("knot {odd} has {} numbers, but the interpolation needs {columns}", knots[odd].len()));
     }
     match knots.windows(2).position(|k| k[0][0] >= k[1][0]) {
-        Some(late) => CheckError::fails(format!("the time of knot {} is not after that of the previous knot", late + 1)),
+        Some(late) => {
+            CheckError::fails(format!("the time of knot {} is not after that of the previous knot", late + 1))
+        }
         None => Ok(()),
     }
 }

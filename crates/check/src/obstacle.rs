@@ -162,9 +162,7 @@ impl Obstacle {
                 let is_side = |side: &[Corner]| part == side || part.iter().rev().eq(side);
                 match points.windows(2).any(is_side) {
                     true => Ok(shape(&part, thin)),
-                    false => {
-                        CheckError::fails("the corners are not two consecutive points of the polyline")
-                    }
+                    false => CheckError::fails("the corners are not two consecutive points of the polyline"),
                 }
             }
             Outline::Polygon(rings) => {

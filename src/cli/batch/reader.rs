@@ -44,7 +44,10 @@ enum World {
 }
 
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "`options` must be a list of words such as \"--cells=80\", or an object of names and values")]
+#[serde(
+    untagged,
+    expecting = "`options` must be a list of words such as \"--cells=80\", or an object of names and values"
+)]
 enum Options {
     Words(Vec<String>),
     Named(Map<String, Value>),
@@ -106,7 +109,9 @@ impl Reader {
             Ok(keys) => keys,
             Err(error) => {
                 let failure = match error.classify() {
-                    Category::Data => refused("this is not a JSON object".into(), "write an object with `urdf` and `world`"),
+                    Category::Data => {
+                        refused("this is not a JSON object".into(), "write an object with `urdf` and `world`")
+                    }
                     _ => refused(
                         format!("this is not JSON: {}", json_error(error)),
                         "write each problem as one line of JSON",

@@ -53,7 +53,8 @@ pub struct CompareArgs {
     pub world: Option<PathBuf>,
     #[command(flatten)]
     pub xacro: XacroArgs,
-    /// Folder with many problems: those of its suite.toml or, if a URDF is given, all its worlds with that robot.
+    /// Folder with many problems. Without a URDF: the problems in its suite.toml. With a URDF: all worlds of the folder
+    /// with this robot.
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, conflicts_with_all = ["start", "goal", "goal_tip"])]
     #[arg(help_heading = COMPARISON)]
     pub suite: Option<PathBuf>,
@@ -62,16 +63,16 @@ pub struct CompareArgs {
     #[arg(long, value_name = "N", conflicts_with_all = ["start", "goal", "goal_tip"],
           value_parser = clap::value_parser!(u32).range(1..=MAX_QUERIES), help_heading = COMPARISON)]
     pub queries: Option<u32>,
-    /// Seed of the random pairs. The same seed gives the same pairs in this and all later versions; a run with fewer
-    /// queries uses the first of them.
+    /// Seed of the random pairs. The same seed gives the same pairs in this and all later versions; fewer queries are
+    /// the first of these pairs.
     #[arg(long, value_name = "S", default_value_t = 1, requires = "queries", help_heading = COMPARISON)]
     pub seed: u64,
-    /// Number of runs at the same time. Several runs disturb each other's times; memory is reported only with --jobs 1.
+    /// Number of simultaneous runs. With more than one, computing times are less exact, and memory is not reported.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     #[arg(help_heading = COMPARISON)]
     pub jobs: u16,
-    /// Run only this planner; can be repeated. Each row is about the planner's default path. For planners with two kinds of
-    /// paths (see --path in `cplan help planners`), length and clearance of both are listed.
+    /// Run only this planner; can be repeated. Each row is about the planner's default path. For planners with two
+    /// kinds of paths (see --path in `cplan help planners`), the report lists length and clearance of both kinds.
     #[arg(long, value_parser = word(planners()), value_name = "NAME", help_heading = COMPARISON)]
     pub planner: Vec<Method>,
     /// Add a row for a planner with its own options, such as --with "harmonic --field oriented --epsilon 0.5
@@ -84,8 +85,8 @@ pub struct CompareArgs {
     pub effort: EffortArgs,
     #[command(flatten)]
     pub motion: MotionArgs,
-    /// Print tables with all columns, wider than 80 characters: also the size of the searched space, the time of each
-    /// stage, and both paths.
+    /// Print tables with all columns, wider than 80 characters. The additional columns are the size of the searched
+    /// space, the time of each stage, and both kinds of paths.
     #[arg(long, help_heading = OUTPUT)]
     pub wide: bool,
     /// Print the results as JSON. For several problems: all runs, distributions and the summary.

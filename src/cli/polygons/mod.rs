@@ -19,8 +19,8 @@ use std::path::PathBuf;
 
 /// Report if two polygons meet, how deep, and their difference.
 ///
-/// The report has the three conditions of the penetration test: a corner of A in B, a corner of B in A, and sides that
-/// cross. It also has the Minkowski difference B - A: the places of A's origin at which A meets B.
+/// The report states the three conditions of the penetration test: a corner of A in B, a corner of B in A, and sides
+/// that cross. It also states the Minkowski difference B - A, the area in which A's origin is if A meets B.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 A polygon is the name of a file, or a list of corners. A file has one corner per

@@ -24,7 +24,7 @@ use crate::view::{Picture, View};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-/// Judge anyone's motion: the whole motion, not samples of it.
+/// Judge a motion from any source: the whole motion, not only samples.
 ///
 /// The motion is a joint path, a trajectory, or a recorded task.
 #[derive(Debug, Args)]
@@ -84,21 +84,22 @@ pub struct VerifyArgs {
     /// Required final position of the tip instead of the world's goal, metres.
     #[arg(long, value_name = "x,y", allow_hyphen_values = true, conflicts_with = "anywhere")]
     pub goal_tip: Option<TipPoint>,
-    /// Required side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default either side will do.
+    /// Required side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default, both sides are allowed.
     #[arg(long, value_name = "SIDE", requires = "goal_tip", conflicts_with = "goal", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
     pub elbow: Option<Elbow>,
     /// Ignore the world's start and goal: the motion may begin and end anywhere.
     #[arg(long)]
     pub anywhere: bool,
-    /// Take the shorter direction between samples of continuous joints. For angles recorded within one turn.
+    /// Assume that continuous joints take the shorter direction between samples. Use this for angles that were recorded
+    /// within one turn.
     #[arg(long)]
     pub unwrap: bool,
-    /// Check the joints' torques against the effort limits of the URDF or the world, even if the world does not ask for it.
-    /// Files with torques are always checked.
+    /// Check the joints' torques against the effort limits of the URDF or the world, even if the world does not require
+    /// this. Files with torques are always checked.
     #[arg(long)]
     pub torque: bool,
-    /// Plan to compare with: .json (a result of cplan), .csv or .yaml. Reports the greatest distances of the motion from it,
-    /// in joint space and of the tip.
+    /// Plan to compare with: .json (a result of cplan), .csv or .yaml. The report states the greatest distance of the
+    /// motion from the plan, in joint space and for the tip.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub plan: Option<PathBuf>,
     /// Draw workspace and configuration space with the motion: .svg, .png or .html. Can be repeated.

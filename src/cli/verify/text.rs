@@ -20,8 +20,9 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFinding
     lines.extend(findings.margins.iter().filter_map(|margins| Some(("margin", margins.describe()?))));
     lines.extend(findings.steps.iter().flatten().filter_map(turn));
     lines.extend(findings.limits_broken.iter().map(|limit| ("limit", broken(arm, limit))));
-    let exceeds =
-        |limit| ("assumed", format!("{}; this does not count, because the files state no such limit", broken(arm, limit)));
+    let exceeds = |limit| {
+        ("assumed", format!("{}; this does not count, because the files state no such limit", broken(arm, limit)))
+    };
     lines.extend(findings.assumed_exceeded.iter().map(exceeds));
     let of = if findings.steps.is_some() { "task" } else { "fault" };
     lines.extend(findings.faults.iter().map(|fault| (of, fault.clone())));

@@ -104,7 +104,11 @@ fn worlds_that_misuse_pictures_are_refused() {
         ("\"room.yaml\"", "\"room.pgm\"", &["world.toml: line 3", "must name the YAML"]),
         ("\"room.yaml\"", "\"room.yaml\"\nunknown = \"maybe\"", &["line 4", "\"solid\" or \"free\", not \"maybe\""]),
         ("\"room.yaml\"", "\"room.yaml\"\npolygon = []", &["exactly one shape, but has 2"]),
-        ("image = \"room.yaml\"", "polyline = [[0, 0], [1, 1]]\nunknown = \"free\"", &["line 4", "`unknown` needs `image`"]),
+        (
+            "image = \"room.yaml\"",
+            "polyline = [[0, 0], [1, 1]]\nunknown = \"free\"",
+            &["line 4", "`unknown` needs `image`"],
+        ),
     ] {
         let world = WORLD.replace(from, to);
         let files = [("room.pgm", PGM), ("room.yaml", YAML.as_bytes()), ("world.toml", world.as_bytes())];

@@ -302,7 +302,10 @@ fn defects_of_the_file_of_a_line_are_reported_there() {
     let error = load("bad.gcode").unwrap_err();
     assert!(error.contains("bad.gcode: line 2, column 10: A turns the tool"), "{error}");
     let error = load("line.txt").unwrap_err();
-    assert!(error.contains("world.toml: line 4") && error.contains("the format of the line's file is unknown"), "{error}");
+    assert!(
+        error.contains("world.toml: line 4") && error.contains("the format of the line's file is unknown"),
+        "{error}"
+    );
     let error = load("none.svg").unwrap_err();
     assert!(error.contains("there is no file") && error.contains("none.svg"), "{error}");
 }

@@ -204,9 +204,15 @@ fn limits_and_speeds_of_data_sheets_are_those_of_the_joints() {
         ("--kind scara --limits 10:130,145", "a range must contain 0, such as -100:130"),
         ("--kind scara --limits=-100:x,145", "x"),
         ("--kind scara --limits=-9000:130,145", "--limits -9000 is not from -3600 to -0.1 degrees"),
-        ("--kind gantry --limits=1,-1:2", "--limits: joint 2 slides, beginning at 0; give only its travel, such as 0.8"),
+        (
+            "--kind gantry --limits=1,-1:2",
+            "--limits: joint 2 slides, beginning at 0; give only its travel, such as 0.8",
+        ),
         ("--kind rr --links 0.2", "--links: an arm of two turning joints needs 2, not 1"),
-        ("--kind gantry --links 0.2,0.1", "--links does not apply to a gantry, which has no links; --limits states its travels"),
+        (
+            "--kind gantry --links 0.2,0.1",
+            "--links does not apply to a gantry, which has no links; --limits states its travels",
+        ),
         ("--kind rr --stroke 0.2", "--stroke needs --kind scara"),
         ("--kind scara --limits 130", "--limits needs two numbers separated by a comma"),
         ("--kind scara --links 225,225", "--links 225 is not from 0.001 to 100 metres"),

@@ -30,7 +30,10 @@ fn limits_that_look_like_degrees_are_refused_with_both_readings() {
     let place = Place::new()
         .with("arm.urdf", arm(&[("lower=\"-2.9\" upper=\"2.9\"", "lower=\"-150\" upper=\"150\"")]))
         .with("world.toml", TO_A_TIP);
-    let parts = ["joint \"shoulder\" has limits from -150 to 150 rad, which are 48 turns; probably degrees are meant", "\"150deg\""];
+    let parts = [
+        "joint \"shoulder\" has limits from -150 to 150 rad, which are 48 turns; probably degrees are meant",
+        "\"150deg\"",
+    ];
     place.run(&["arm.urdf", "world.toml"], "").refused(1, &parts);
     place.run(&["reach", "arm.urdf", "world.toml"], "").refused(1, &parts);
     let inspected = place.run(&["inspect", "arm.urdf"], "");
@@ -53,7 +56,11 @@ fn limits_that_look_like_degrees_are_refused_with_both_readings() {
 #[test]
 fn robots_in_millimetres_are_noticed() {
     let lengths = [("xyz=\"1.0 0 0\"", "xyz=\"625 0 0\""), ("xyz=\"0.8 0 0\"", "xyz=\"425 0 0\"")];
-    check_hint(&lengths, TO_A_TIP, &["625 m from joint to joint, 425 m from joint to tip", "if these are millimetres, divide them by 1000"]);
+    check_hint(
+        &lengths,
+        TO_A_TIP,
+        &["625 m from joint to joint, 425 m from joint to tip", "if these are millimetres, divide them by 1000"],
+    );
     let shapes = [("size=\"1.0 0.1 0.1\"", "size=\"1000 100 100\"")];
     check_hint(&shapes, FREE, &["the shape of link \"upper_arm\" reaches", "scale=\"0.001 0.001 0.001\""]);
     let slides = [

@@ -342,7 +342,11 @@ fn errors_state_their_place_and_a_hint() {
         "",
         &["far.dxf: line 16, column 1: CIRCLE has a coordinate of 1.00e12 m (at most 1e6 is allowed)", "--move"],
     );
-    refused("high.dxf", "", &["high.dxf: line 16, column 1: CIRCLE has a height of 1.00e297 m (at most 1e6 is allowed)"]);
+    refused(
+        "high.dxf",
+        "",
+        &["high.dxf: line 16, column 1: CIRCLE has a height of 1.00e297 m (at most 1e6 is allowed)"],
+    );
     let done = place.run(&["import", "tiny.geojson"], "");
     done.refused(1, &["this drawing contains no obstacle", "parts without length or area: left out"]);
     assert!(!done.stderr.contains("taken as"), "{}", done.stderr);

@@ -270,7 +270,10 @@ fn motions_of_a_controller_in_a_namespace_are_judged() {
         ("/joint_states", STATES, 10, state(11, [0.43, -0.9])),
     ]);
     let message = message_of(&jumps, None);
-    assert!(message.contains("has different values at the end of a motion") && message.contains("--topic"), "{message}");
+    assert!(
+        message.contains("has different values at the end of a motion") && message.contains("--topic"),
+        "{message}"
+    );
     assert_eq!(judge_recording(&jumps, Some("/joint_states")).unwrap()["verdict"], "free");
 }
 

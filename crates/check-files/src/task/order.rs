@@ -89,7 +89,9 @@ pub(super) fn rest_durations(motion: &Motion, steps: &[MatchedStep]) -> Result<V
         if let Some(step) = steps.get(index) {
             last = step.done.knots[1];
             if last < first || last > end {
-                return CheckError::fails(format!("steps[{index}] ends before its own beginning, or after the end of the motion"));
+                return CheckError::fails(format!(
+                    "steps[{index}] ends before its own beginning, or after the end of the motion"
+                ));
             }
         }
     }

@@ -328,8 +328,7 @@ impl<'a> Replay<'a> {
             Part { name: "the payload".to_owned(), keeps, solid, meets }
         };
         let [others, supports] = solids;
-        let supported =
-            supports.iter().map(|solid| part(solid, "within the allowed depth in", ContactRule::Pressed));
+        let supported = supports.iter().map(|solid| part(solid, "within the allowed depth in", ContactRule::Pressed));
         let round = held.round.iter().map(|solid| part(solid, &*self.keeps, ContactRule::Round));
         others.iter().map(|solid| part(solid, &*self.keeps, ContactRule::Off)).chain(supported).chain(round).collect()
     }

@@ -74,7 +74,9 @@ impl StrokeCurve {
         height: impl Fn(&Decimal) -> Interval,
         upward: impl Fn(&Interval) -> Interval,
     ) -> Result<Self, CheckError> {
-        let [[_, first, v], .., [_, last, w]] = knots else { return CheckError::fails("there are fewer than two knots") };
+        let [[_, first, v], .., [_, last, w]] = knots else {
+            return CheckError::fails("there are fewer than two knots");
+        };
         let along = last - first;
         if [v, w].iter().any(|rate| rate.sign() != Sign::NoSign) || along.sign() == Sign::NoSign {
             return CheckError::fails("the knots do not begin and end at rest, or both ends have the same value");

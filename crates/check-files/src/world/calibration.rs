@@ -32,7 +32,8 @@ fn errors(text: &str) -> Result<[Decimal; 2], String> {
             let [_, most] = (&Interval::from(&Decimal::read(number.trim_end())?) * &Interval::pi().over(180)).ends();
             errors[1] = most;
         } else {
-            errors[0] = length_with_unit(item).ok_or_else(|| format!("\"{item}\" is not a length with a unit, such as 0.5 mm"))?;
+            errors[0] = length_with_unit(item)
+                .ok_or_else(|| format!("\"{item}\" is not a length with a unit, such as 0.5 mm"))?;
         }
     }
     match errors.iter().any(|error| *error < Decimal::whole(0)) {
@@ -59,7 +60,8 @@ impl Reader<'_> {
         let mut calibration = Calibration::default();
         for (key, value) in self.table(value)? {
             let Some(stated) = calibration.stated(key.get_ref()) else {
-                return self.error(value, &format!("the checker does not know the key {} of a calibration", key.get_ref()));
+                return self
+                    .error(value, &format!("the checker does not know the key {} of a calibration", key.get_ref()));
             };
             *stated = Some(self.errors(value)?);
         }

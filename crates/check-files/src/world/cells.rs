@@ -154,10 +154,8 @@ impl Squares for Cells {
             }
         }
         if border.len() > MAX_PIECES {
-            let message = format!(
-                "the border of a picture has {} pieces; the checker allows at most {MAX_PIECES}",
-                border.len()
-            );
+            let message =
+                format!("the border of a picture has {} pieces; the checker allows at most {MAX_PIECES}", border.len());
             return Err(CheckError::in_file(Input::World, message));
         }
         Ok(border.into_iter().map(|ends| ends.map(|end| self.corner(end))).collect())

@@ -48,7 +48,8 @@ impl Reader<'_> {
                             // These keys do not affect the positions of shapes.
                             "velocity" | "acceleration" | "jerk" | "effort" => {}
                             other => {
-                                return self.error(value, &format!("the checker does not know the key {other} of motors"));
+                                return self
+                                    .error(value, &format!("the checker does not know the key {other} of motors"));
                             }
                         }
                     }

@@ -146,7 +146,9 @@ impl Reader<'_> {
             let height = match &**key.get_ref() {
                 "rise" => &mut arch.rise,
                 "fall" => &mut arch.fall,
-                other => return self.error(value, &format!("the checker does not know the key {other} of [robot] arch")),
+                other => {
+                    return self.error(value, &format!("the checker does not know the key {other} of [robot] arch"));
+                }
             };
             *height = self.length(value)?;
             if height.sign() == Sign::Minus {

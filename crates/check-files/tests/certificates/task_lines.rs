@@ -128,7 +128,10 @@ fn other_lines_are_taken_from_the_certificate() {
     let world = ANGLE.replace("]] }", "]], wrist = \"tangent\", wrist_tolerance = 0.02 }");
     assert!(holds(judge(&world, KNOTS, &both_steps())).ends_with("; the angle of the tool there is not judged"));
     for (form, part) in [
-        ("points = [[1, 1], [3, 1]], arc = [[1, 1], [2, 1], [3, 2]]", "exactly one of `points`, `arc`, `spline` and `file`"),
+        (
+            "points = [[1, 1], [3, 1]], arc = [[1, 1], [2, 1], [3, 2]]",
+            "exactly one of `points`, `arc`, `spline` and `file`",
+        ),
         ("speed = 1", "exactly one of `points`, `arc`, `spline` and `file`"),
         ("points = [[1, 1], [3, 1]], feed = 1", "does not know the key feed of a line"),
         ("points = [[1, 1], [3, 1]], unit = \"mm\"", "only a line with `file` has a `unit`"),
@@ -224,12 +227,19 @@ fn random_arcs_hold_and_no_others() {
         let mut dice = dice(seed);
         let placed = PlacedArc::random(&mut dice);
         let (code, report) = placed.judge(placed.arc);
-        assert!(code == 0 && !report.contains("as the certificate states it"), "seed {seed}: {report}\n{}", placed.world);
+        assert!(
+            code == 0 && !report.contains("as the certificate states it"),
+            "seed {seed}: {report}\n{}",
+            placed.world
+        );
         let by = placed.arc[4];
         // The rest of the circle, and a whole turn more.
         for other in [by - TAU * by.signum(), by + TAU * by.signum()] {
             let [x, y, radius, from, _] = placed.arc;
-            fails(placed.judge([x, y, radius, from, other]), "the certificate and the world have different lines for step 2");
+            fails(
+                placed.judge([x, y, radius, from, other]),
+                "the certificate and the world have different lines for step 2",
+            );
         }
         for number in 0..5 {
             let mut other = placed.arc;
@@ -276,7 +286,10 @@ fn only_steps_along_lines_have_lines() {
     let along = line(2, [1, 3], PIECES, PLACES);
     refused(judge(ANGLE, KNOTS, &format!("{MOVE}, {{\"step\": 2, \"knots\": [1, 3]}}")), "has no \"line\"");
     let first = line(1, [0, 1], PIECES, "[0, 0], [1, 1]");
-    refused(judge(ANGLE, KNOTS, &format!("{first}, {along}")), "step 1 follows no line, but the certificate has a \"line\" for it");
+    refused(
+        judge(ANGLE, KNOTS, &format!("{first}, {along}")),
+        "step 1 follows no line, but the certificate has a \"line\" for it",
+    );
 }
 
 #[test]

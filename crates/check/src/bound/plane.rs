@@ -47,7 +47,12 @@ impl<'a> Plane<'a> {
     ) -> Result<Self, CheckError> {
         let metric = &bound.metric;
         let length = Interval::from(&bound.length);
-        let too_long = || CheckError::Fails(format!("the length {} is too large: the checker would have too many cases", bound.length));
+        let too_long = || {
+            CheckError::Fails(format!(
+                "the length {} is too large: the checker would have too many cases",
+                bound.length
+            ))
+        };
         let from = Place::new(metric, start, [0, 0]).ok_or_else(too_long)?;
         // The copies of a rectangle that paths of this length can reach.
         let copies = |rectangle: &Rectangle| -> Option<Vec<([i64; 2], Place)>> {

@@ -127,8 +127,14 @@ impl Cell {
         let arms = [CellArm { name: first, problem: one? }, CellArm { name: second, problem: two? }];
         for arm in &arms {
             if arm.problem.motion().is_none() {
-                let message = format!("arm \"{}\" has steps or values of the tool's joints, which cells do not support", arm.name);
-                return Err(source.diagnostic(message).help("give the arm a goal: goal = { joints = [q1, q2] }").into());
+                let message = format!(
+                    "arm \"{}\" has steps or values of the tool's joints, which cells do not support",
+                    arm.name
+                );
+                return Err(source
+                    .diagnostic(message)
+                    .help("give the arm a goal: goal = { joints = [q1, q2] }")
+                    .into());
             }
         }
         Ok(Self { name: title, arms, is_one_robot, files })
@@ -183,7 +189,8 @@ impl Reader<'_> {
         }
         for key in ["at", "angle"] {
             if let Some(at) = robot.and_then(|robot| robot.key(key)) {
-                let message = format!("the robot of arm \"{name}\" has `{key}`, but the place of an arm is stated by `base`");
+                let message =
+                    format!("the robot of arm \"{name}\" has `{key}`, but the place of an arm is stated by `base`");
                 return Err(self.error(at, message, "write base = { at = [x, y], angle = \"0deg\" }"));
             }
         }
@@ -214,9 +221,9 @@ impl Reader<'_> {
         let shared = one.iter().find(|joint| two.iter().any(|other| other.name == joint.name));
         shared.map_or(Ok(()), |joint| {
             let at = second.robot.as_ref().map_or(second.urdf.span(), Spanned::span);
-            let message = format!("both arms are the same robot at the same place, and both move joint \"{}\"", joint.name);
-            let hint =
-                "give this arm other joints, robot = { joints = [\"j3\", \"j4\"] }, or another base";
+            let message =
+                format!("both arms are the same robot at the same place, and both move joint \"{}\"", joint.name);
+            let hint = "give this arm other joints, robot = { joints = [\"j3\", \"j4\"] }, or another base";
             Err(self.error(at, message, hint))
         })
     }

@@ -117,12 +117,18 @@ pub fn evidence(explanation: &Explanation) -> String {
             });
             let proven = format!("proven{}", boxes.unwrap_or_default());
             match (set.blockers.len(), set.is_irreducible()) {
-                (1, true) => format!("Even if nothing else is in the way, there is no path ({proven}). Without it, there is a certified path."),
+                (1, true) => format!(
+                    "Even if nothing else is in the way, there is no path ({proven}). Without it, there is a certified path."
+                ),
                 (_, true) => {
-                    format!("Even if nothing else is in the way, there is no path ({proven}). Without any one of them, there is a certified path.")
+                    format!(
+                        "Even if nothing else is in the way, there is no path ({proven}). Without any one of them, there is a certified path."
+                    )
                 }
                 (1, false) => format!("Even if nothing else is in the way, there is no path ({proven})."),
-                (_, false) => format!("Even if nothing else is in the way, there is no path ({proven}). Perhaps fewer of them block it, too."),
+                (_, false) => format!(
+                    "Even if nothing else is in the way, there is no path ({proven}). Perhaps fewer of them block it, too."
+                ),
             }
         }
     }

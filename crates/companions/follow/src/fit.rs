@@ -105,8 +105,7 @@ pub fn fit(
         let best = candidates.iter_mut().reduce(|a, b| if more(a, b) { b } else { a }).expect("a turn");
         if best.room <= 0.0 {
             let count = |noun: &str| counted(turns.len(), noun);
-            let searched =
-                format!("the search tried {}, with cells of {}", count("turn"), length(best.field.cell));
+            let searched = format!("the search tried {}, with cells of {}", count("turn"), length(best.field.cell));
             let why = match first_reason {
                 Some(why) => format!("{} tried without success; the first one: {why}", counted(followed, "placement")),
                 None => {

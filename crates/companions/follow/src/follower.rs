@@ -293,7 +293,9 @@ impl Stuck {
     fn describe(&self, tolerance: f64) -> String {
         let place = self.place;
         if self.is_wrist {
-            return format!("the wrist would leave its range at {place}; neither another motion nor a proof of infeasibility was found");
+            return format!(
+                "the wrist would leave its range at {place}; neither another motion nor a proof of infeasibility was found"
+            );
         }
         if self.out_of_reach > 0.0 {
             let [by, within] = [self.out_of_reach, tolerance].map(length);

@@ -308,7 +308,9 @@ impl Infeasible {
             Cause::OutOfReach { by } => format!("the line is {} out of reach at {at}", length_down(*by)),
             Cause::TooLarge { width, reach } => {
                 let [width, reach] = [length_down(*width), length(*reach)];
-                format!("the line is too large: two of its points are {width} apart, but the places of the tip are at most {reach} apart")
+                format!(
+                    "the line is too large: two of its points are {width} apart, but the places of the tip are at most {reach} apart"
+                )
             }
             Cause::Excluded(_) => format!("no IK solution is possible at {at}"),
             Cause::NoChange(list) if list.iter().all(|e| matches!(e.by, Obstacle::Wrist(WristExcess::Turn(..)))) => {

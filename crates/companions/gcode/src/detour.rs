@@ -141,8 +141,12 @@ impl<'a> Detours<'a> {
         let goals: GoalSet =
             goals.iter().zip(&travel.goals).filter(is_near).map(|(goal, _)| Segment::point(*goal)).collect();
         MotionProblem::new(scene, start, goals).map_err(|error| match error {
-            MotionProblemError::StartBlocked { why } => blocked(curve.start(), format!("the start of the travel is not free: {why}")),
-            MotionProblemError::GoalBlocked { why, .. } => blocked(curve.end(), format!("the end of the travel is not free: {why}")),
+            MotionProblemError::StartBlocked { why } => {
+                blocked(curve.start(), format!("the start of the travel is not free: {why}"))
+            }
+            MotionProblemError::GoalBlocked { why, .. } => {
+                blocked(curve.end(), format!("the end of the travel is not free: {why}"))
+            }
             error => Fault::undecided(curve.start().into(), error.to_string()),
         })
     }

@@ -260,7 +260,9 @@ impl LiveSession {
         let loaded = self.scene.with_world_text(&self.host.urdf, source).map_err(|error| error.to_string())?;
         match deadlines.plan.run(|| files::content(loaded, &options, format)) {
             Ok(content) => Ok((format!("plan.{format}"), content?)),
-            Err(Interrupted::Set) => Err("the file is not written, because the page has changed in the meantime".into()),
+            Err(Interrupted::Set) => {
+                Err("the file is not written, because the page has changed in the meantime".into())
+            }
             Err(Interrupted::TimeUp) => Err(format!("the file is not written: {}", time_up(self.host.time))),
         }
     }

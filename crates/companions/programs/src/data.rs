@@ -39,8 +39,9 @@ impl Program {
             "The controller chooses speeds and times; these are not certified.".to_owned(),
         ];
         if self.needs_wrist {
-            statement
-                .push("The program does not turn the wrist. The controller must keep the orientation of objects.".to_owned());
+            statement.push(
+                "The program does not turn the wrist. The controller must keep the orientation of objects.".to_owned(),
+            );
         }
         let files =
             self.digests.iter().map(|[name, digest]| context! { name => clean(name), sha256 => digest.as_str() });

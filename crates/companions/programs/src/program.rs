@@ -50,7 +50,9 @@ impl Program {
         }
         let mut steps = problem.task().into_iter().flat_map(Task::steps);
         match steps.find(|step| matches!(step.action, Action::Follow(_))) {
-            Some(step) => unsuitable(format!("step {} follows a line, but a program consists of joint moves", step.number)),
+            Some(step) => {
+                unsuitable(format!("step {} follows a line, but a program consists of joint moves", step.number))
+            }
             None => Ok(()),
         }
     }
@@ -119,7 +121,9 @@ impl Program {
             false => "are free of collision".to_owned(),
         };
         let tolerance = self.tolerance;
-        format!("certified: straight moves in joint space, each of which ends at rest, {kept}, within a tolerance of {tolerance}")
+        format!(
+            "certified: straight moves in joint space, each of which ends at rest, {kept}, within a tolerance of {tolerance}"
+        )
     }
 
     /// Describes a target for messages.

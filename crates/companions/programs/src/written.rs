@@ -67,7 +67,9 @@ impl Written {
             }
             let joins = |c: char, letters: &str| c.is_ascii_digit() || letters.contains(c);
             if text.ends_with(|c| joins(c, "+-.")) || rest.starts_with(|c| joins(c, ".eE")) {
-                return Err(format!("the template puts a digit, sign, point or exponent directly beside a joint value of {expected}"));
+                return Err(format!(
+                    "the template puts a digit, sign, point or exponent directly beside a joint value of {expected}"
+                ));
             }
             text.push_str(number.digits);
             text.push_str(rest);

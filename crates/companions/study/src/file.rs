@@ -300,8 +300,10 @@ impl Reader<'_> {
             )),
             (None, Some(number)) => {
                 let name = &file.parameter[number].get_ref().name;
-                let message =
-                    format!("parameter \"{}\" is drawn at random, but the study does not state the number of draws", name.get_ref());
+                let message = format!(
+                    "parameter \"{}\" is drawn at random, but the study does not state the number of draws",
+                    name.get_ref()
+                );
                 Err(self.wrong(name.span(), message, "write draws = 1000 above the first [[parameter]]"))
             }
         }

@@ -342,8 +342,9 @@ impl MotionCache {
             return Err(unproven("the arm has no wrist that could turn the object"));
         };
         let turning = TurnAtRest::new(task, &task.obstacles(&with.poses).fixed, held, *point, candidate.to);
-        let found =
-            turning.free(turn).ok_or_else(|| unproven("the object cannot be turned at this place, in either direction"))?;
+        let found = turning
+            .free(turn)
+            .ok_or_else(|| unproven("the object cannot be turned at this place, in either direction"))?;
         let turning = single((found.to - found.from).abs(), &wrist.limits());
         Ok((found, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }

@@ -123,7 +123,8 @@ fn no_tool() -> Refusal {
 fn clearance_at(StandstillScene { when, scene }: &StandstillScene, q: Configuration) -> Result<f64, Refusal> {
     require_unobstructed(scene, q, when)?;
     let certified = certify(scene, Path::new(vec![q, q]));
-    let certified = certified.map_err(|_| Refusal::new(format!("not proven to be free of collisions {when}"), false))?;
+    let certified =
+        certified.map_err(|_| Refusal::new(format!("not proven to be free of collisions {when}"), false))?;
     Ok(certified.clearance())
 }
 

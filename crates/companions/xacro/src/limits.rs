@@ -27,7 +27,8 @@ pub(crate) struct Budget {
     depth: usize,
 }
 
-const RECURSION_HINT: &str = "a macro or an included file may call itself without end; add a condition that ends this (xacro:if)";
+const RECURSION_HINT: &str =
+    "a macro or an included file may call itself without end; add a condition that ends this (xacro:if)";
 
 impl Budget {
     /// Counts a step whose result is a text of this many bytes.

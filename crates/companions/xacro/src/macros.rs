@@ -190,7 +190,8 @@ impl Expander<'_> {
         let mut elements = children.iter().filter_map(Node::element);
         for parameter in called.parameters.iter().filter(|p| p.name.starts_with('*')) {
             let Some(block) = elements.next() else {
-                let message = format!("the call of the macro \"{name}\" lacks the element for its block \"{}\"", parameter.name);
+                let message =
+                    format!("the call of the macro \"{name}\" lacks the element for its block \"{}\"", parameter.name);
                 return Err(self.error(&element.place, Fault::with_hint(message, "write the element into the call")));
             };
             let nodes = match parameter.name.starts_with("**") {

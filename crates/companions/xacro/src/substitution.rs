@@ -136,9 +136,11 @@ impl Expander<'_> {
             return Ok(known.clone());
         }
         let found = packages(name, &self.files[file].path).next().ok_or_else(|| {
-            let message =
-                format!("package \"{name}\" was not found: no package.xml near this file has this name");
-            Fault::with_hint(message, "put the package's folder beside that of this file, or add its parent folder to ROS_PACKAGE_PATH")
+            let message = format!("package \"{name}\" was not found: no package.xml near this file has this name");
+            Fault::with_hint(
+                message,
+                "put the package's folder beside that of this file, or add its parent folder to ROS_PACKAGE_PATH",
+            )
         })?;
         let found = found.to_string_lossy().into_owned();
         self.packages.insert((name.to_owned(), file), found.clone());

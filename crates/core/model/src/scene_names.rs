@@ -71,11 +71,9 @@ impl Scene {
         match (clearance > 0.0, errors > 0.0) {
             (_, false) => format!("the clearance of {}", chosen_length(clearance)),
             (false, true) => format!("the {} for the stated errors", length(errors)),
-            (true, true) => format!(
-                "the clearance of {} plus {} for the stated errors",
-                chosen_length(clearance),
-                length(errors)
-            ),
+            (true, true) => {
+                format!("the clearance of {} plus {} for the stated errors", chosen_length(clearance), length(errors))
+            }
         }
     }
 

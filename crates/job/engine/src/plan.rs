@@ -164,7 +164,9 @@ fn curved_because(curved: NotPolygons, scene: &Scene) -> String {
         NotPolygons::Clearance => {
             format!("a clearance of {} rounds the corners of C-obstacles", length(scene.workspace().clearance))
         }
-        NotPolygons::RoundLink(pair) => format!("{} is round, which rounds the corners of C-obstacles", scene.describe_part(pair)),
+        NotPolygons::RoundLink(pair) => {
+            format!("{} is round, which rounds the corners of C-obstacles", scene.describe_part(pair))
+        }
         NotPolygons::RoundObstacle(pair) => {
             format!("{} is round, which rounds the corners of C-obstacles", scene.describe_obstacle(pair.obstacle))
         }

@@ -205,8 +205,7 @@ fn describe_unconverged(domain: &Domain, equation: &Equation, relaxation: &Relax
     let hint = match relaxation.scheme {
         _ if !equation.is_monotone_on(domain) => not_monotone(equation),
         Scheme::Successive { .. } if factor > 1.0 && equation.has_preferences() && relaxation.relaxes_preferences => {
-            "the factor also multiplies the preferences; leave out --relax-preferences, or take a smaller factor"
-                .into()
+            "the factor also multiplies the preferences; leave out --relax-preferences, or take a smaller factor".into()
         }
         Scheme::Successive { .. } if factor > 1.0 => {
             format!("allow more sweeps or a larger tolerance, or take a factor below {factor:.4}")
@@ -221,7 +220,10 @@ fn explain_dead_end(stuck: &DeadEnd, domain: &Domain, equation: &Equation, on: D
     match stuck {
         _ if !equation.is_monotone_on(domain) => not_monotone(equation),
         DeadEnd { value: 0.0, .. } => format!("the values of the field are too small for {}", on.precision()),
-        DeadEnd { value, .. } => format!("the values around {value} differ so little that {} cannot represent the differences", on.precision()),
+        DeadEnd { value, .. } => format!(
+            "the values around {value} differ so little that {} cannot represent the differences",
+            on.precision()
+        ),
     }
 }
 

@@ -65,7 +65,10 @@ pub(super) fn path_kinds() -> [Word<PathKind>; 3] {
 pub(super) fn visibility_graphs() -> [Word<VisibilityGraph>; 2] {
     let full = "The textbook definition: an arc between any two corners that see each other, and every side";
     [
-        (VisibilityGraph::Reduced, "Only arcs that a shortest path can use, which are tangent to the obstacles at both ends"),
+        (
+            VisibilityGraph::Reduced,
+            "Only arcs that a shortest path can use, which are tangent to the obstacles at both ends",
+        ),
         (VisibilityGraph::Full, full),
     ]
     .map(|(graph, help)| (graph, graph.name(), help))
@@ -90,7 +93,10 @@ pub(super) fn searches() -> [Word<GridSearch>; 7] {
 
 pub(super) fn grid_spaces() -> [Word<GridSpace>; 4] {
     [
-        (GridSpace::Rows, "By exact slices: first only wholly free cells, in a second attempt also cells with a free centre"),
+        (
+            GridSpace::Rows,
+            "By exact slices: first only wholly free cells, in a second attempt also cells with a free centre",
+        ),
         (GridSpace::Whole, "By exact slices: only wholly free cells, in every attempt"),
         (GridSpace::Centers, "By exact slices: cells with a free centre, in every attempt"),
         (GridSpace::Sampled, "By parry2d's collision checks at the cells' centres"),

@@ -117,8 +117,7 @@ const LINE_INDEX_INTERVAL: usize = 4096;
 /// # Errors
 /// I/O errors, and a file larger than 256 MiB.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
-    read_bounded(path)
-        .map_err(|error| unreadable(path, &error, "check that this is the right file").into())
+    read_bounded(path).map_err(|error| unreadable(path, &error, "check that this is the right file").into())
 }
 
 /// Reads a recording, which may be larger than other files.

@@ -130,7 +130,12 @@ fn checked_answer(
 ) -> Outcome<CertifiedPath, CheckedProof> {
     match answer {
         Connectivity::Connected(channel) => certify_shortest_in_channel(problem, &channel).map_or_else(
-            |rejection| Outcome::Unknown(format!("the path of the planner is not certified: {}", explain(problem.scene(), rejection))),
+            |rejection| {
+                Outcome::Unknown(format!(
+                    "the path of the planner is not certified: {}",
+                    explain(problem.scene(), rejection)
+                ))
+            },
             Outcome::Found,
         ),
         Connectivity::Disconnected(proof) => accepted_smaller_proof(problem, proof.of_pairs(original_pair))

@@ -163,7 +163,8 @@ where
     let has_minima = options.planner.field().is_some_and(|planner| matches!(planner.field, FieldChoice::Khatib(_)));
     let is_coarse = options.planner.cells().is_some() && history.len() == options.levels && !has_minima;
     let hint = if is_coarse && !sweeps_end { "; more --cells or --levels may find one" } else { "" };
-    let finest = if sweeps_end { "the finest resolution for which its sweeps suffice" } else { "its finest resolution" };
+    let finest =
+        if sweeps_end { "the finest resolution for which its sweeps suffice" } else { "its finest resolution" };
     let unknown = || format!("{method} found no certified path at {finest} ({}){hint}", why());
     let outcome = match (path, known) {
         (Some(path), _) => Outcome::Found(path),

@@ -190,7 +190,11 @@ impl Phases {
                     };
                     self.add(edges.len(), format!("The {name}: {}", counted(edges.len(), "edge")), Shows::Edges);
                 }
-                self.add(expanded.len(), "The search: configurations in the order in which it reaches them", Shows::Expanded);
+                self.add(
+                    expanded.len(),
+                    "The search: configurations in the order in which it reaches them",
+                    Shows::Expanded,
+                );
             }
             Trace::Channel { kind, cells, channel, expanded, .. } => {
                 let caption = match kind {
@@ -275,7 +279,10 @@ impl Phases {
     fn of_bound(&mut self, problem: &MotionProblem, options: &Options, bound: &Bound) {
         if let Outcome::Found(first) = decide(problem, options.boxes.min(FIRST_BOXES)) {
             let (path, length) = (first.path(), bound.metric.length(first.path()));
-            let caption = format!("A first path through the free parts, of length {}: certified, but not the shortest", fixed(length, 4));
+            let caption = format!(
+                "A first path through the free parts, of length {}: certified, but not the shortest",
+                fixed(length, 4)
+            );
             self.add(path.waypoints().len(), caption, Shows::First(path.clone()));
             self.0.iter_mut().last().into_iter().for_each(|phase| phase.length = Some(length));
         }

@@ -171,7 +171,9 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let world = world::read(world)?;
     let refused = |message: String, help: &str| Diagnostic::new(world.source.name(), message).help(help);
     if world.robot.unplaced() != RobotTable::default() {
-        let message = "[robot] may have only `at`, `angle` and `calibration`, because this arm was made in code, without a URDF".into();
+        let message =
+            "[robot] may have only `at`, `angle` and `calibration`, because this arm was made in code, without a URDF"
+                .into();
         return Err(refused(message, "remove the other keys of [robot]").into());
     }
     for pair in &world.in_degrees {

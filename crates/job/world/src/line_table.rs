@@ -122,7 +122,9 @@ impl LineTable {
         match &self.tolerance {
             Some(number) if line.tolerance < MIN_TOLERANCE => {
                 let message = format!("the tolerance is {} m, less than {MIN_TOLERANCE} m", line.tolerance);
-                Err(source.diagnostic_at(number.span(), message).help("use a greater tolerance; no robot is so accurate"))
+                Err(source
+                    .diagnostic_at(number.span(), message)
+                    .help("use a greater tolerance; no robot is so accurate"))
             }
             _ => Ok(line),
         }

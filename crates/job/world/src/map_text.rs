@@ -171,7 +171,10 @@ impl MapText {
             None => Ok(()),
             Some((_, at)) => {
                 let message = "text follows the end of the map";
-                Err(self.source.diagnostic_at(at, message).help("remove the text, or move it before the last word of the map"))
+                Err(self
+                    .source
+                    .diagnostic_at(at, message)
+                    .help("remove the text, or move it before the last word of the map"))
             }
         }
     }

@@ -158,7 +158,9 @@ impl<'a> Names<'a> {
         let message = format!("there is no object \"{wanted}\"");
         let help = match (self.obstacles.contains_key(wanted), self.families.get(wanted)) {
             (true, _) => {
-                format!("\"{wanted}\" is an obstacle, and steps move only objects: write [[object]] instead of [[obstacle]]")
+                format!(
+                    "\"{wanted}\" is an obstacle, and steps move only objects: write [[object]] instead of [[obstacle]]"
+                )
             }
             (_, Some(all)) => format!(
                 "{} of this name are on a pallet: name one of them, such as \"{wanted} 1,1\", or move all: transfer = {{ objects = \"{wanted}\", to = \"PALLET\" }}",
@@ -280,7 +282,8 @@ fn require_height(reader: &Reader, given: &ObjectTable, pallet: &Pallet, what: &
     if (lower - height).abs() <= RESTING_TOLERANCE || upper <= lower {
         return Ok(());
     }
-    let message = format!("{what} begins at a height of {}, but the height of its pallet is {}", length(lower), length(height));
+    let message =
+        format!("{what} begins at a height of {}, but the height of its pallet is {}", length(lower), length(height));
     let help = format!("height = [{}, {}], or the height of the pallet", short(height), short(height + upper - lower));
     Err(reader.source.diagnostic_at(numbers.span(), message).help(help))
 }

@@ -189,7 +189,9 @@ fn image(
     };
     let path = reader.path_of_named_file(image, what)?;
     if path.extension().is_some_and(|e| e != "yaml" && e != "yml") {
-        let message = format!("{what}: `image` must name the YAML file of ROS's map server, which states the size of the picture");
+        let message = format!(
+            "{what}: `image` must name the YAML file of ROS's map server, which states the size of the picture"
+        );
         let help = "name the YAML file instead of the picture";
         return Err(reader.source.diagnostic_at(image.span(), message).help(help).into());
     }

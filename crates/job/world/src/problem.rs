@@ -197,7 +197,8 @@ impl LoadedScene {
             }
         }
         if goals.is_empty() {
-            let message = format!("the tip cannot enter {shown}, because its whole boundary is blocked: {}", listed(&blocked));
+            let message =
+                format!("the tip cannot enter {shown}, because its whole boundary is blocked: {}", listed(&blocked));
             return Err(place.diagnostic(message).help("move the area or the obstacles"));
         }
         Ok(goals.into_iter().collect())
@@ -369,12 +370,7 @@ impl LoadedScene {
             if let (Some(elbow), Some(other)) = (elbow.map(Elbow::other), other) {
                 let free = within_limits(scene, &other).0.into_iter().map(|piece| piece.at(0.5));
                 if let Some(q) = free.into_iter().find(|q| scene.obstructions(*q).is_empty()) {
-                    let _ = write!(
-                        message,
-                        "; with the elbow on the {}, {} is free",
-                        elbow.name(),
-                        describe(scene, q)
-                    );
+                    let _ = write!(message, "; with the elbow on the {}, {} is free", elbow.name(), describe(scene, q));
                     help = format!("choose the other side of the elbow; or {help}");
                 }
             }

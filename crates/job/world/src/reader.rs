@@ -136,7 +136,8 @@ impl Reader<'_> {
         match (place, self.elbow(goal.elbow.as_ref())?, &goal.elbow) {
             (Goal::Tip(tip), Some(elbow), _) => Ok((Goal::TipAndElbow(tip, elbow), at)),
             (Goal::Joints(_), Some(_), Some(elbow)) => {
-                let message = format!("the {what} has `elbow`, but its joint values already determine the side of the elbow");
+                let message =
+                    format!("the {what} has `elbow`, but its joint values already determine the side of the elbow");
                 Err(self.source.diagnostic_at(elbow.span(), message).help("remove `elbow`, or give `tip`"))
             }
             (place, ..) => Ok((place, at)),

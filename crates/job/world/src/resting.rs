@@ -83,7 +83,8 @@ impl Writer<'_> {
             object.name,
             length(object.heights_at(place.elevation).lower)
         );
-        let help = "state the height of the surface: place = { at = [x, y], height = 0.0 }, or height = 0.0 in the [[pallet]]";
+        let help =
+            "state the height of the surface: place = { at = [x, y], height = 0.0 }, or height = 0.0 in the [[pallet]]";
         self.reader.source.diagnostic_at(leaf.at.clone(), message).help(help)
     }
 }

@@ -300,7 +300,8 @@ impl Writer<'_> {
         let object_places = self.object_places[object];
         if let Some(when) = when.filter(|_| !object_places.moves) {
             let name = self.in_words(Some(object));
-            let message = format!("step {}: {name} no longer moves, because an earlier step has picked it", leaf.number);
+            let message =
+                format!("step {}: {name} no longer moves, because an earlier step has picked it", leaf.number);
             let diagnostic = self.reader.source.diagnostic_at(when.at.clone(), message);
             return Err(diagnostic.help("remove `at` and `window`; only the first pick of a moving object has them"));
         }
@@ -334,8 +335,10 @@ impl Writer<'_> {
             && asked != self.object_places[object].angle
         {
             let name = self.in_words(Some(object));
-            let message =
-                format!("step {}: object {name} is turned to {angle} rad, but step {kept_by} keeps its orientation", leaf.number);
+            let message = format!(
+                "step {}: object {name} is turned to {angle} rad, but step {kept_by} keeps its orientation",
+                leaf.number
+            );
             let help = "remove `wrist` from the line before, or the angle from this step";
             return Err(self.reader.source.diagnostic_at(place.clone(), message).help(help));
         }

@@ -104,8 +104,7 @@ impl LoadedScene {
         let (free, blocked): (Vec<_>, Vec<_>) = allowed.into_iter().partition(|q| obstructions(scene, *q).is_empty());
         match free[..] {
             [only] => {
-                notes
-                    .push(format!("the start is {}, the only IK solution for the tip at {at}", describe(scene, only)));
+                notes.push(format!("the start is {}, the only IK solution for the tip at {at}", describe(scene, only)));
                 Ok(only)
             }
             [] => {
@@ -113,7 +112,8 @@ impl LoadedScene {
                     |q: &Configuration| format!("({}): {}", describe(scene, *q), listed(&obstructions(scene, *q)));
                 let help = help_for_ik_solutions(scene, !outside.is_empty(), !blocked.is_empty());
                 let why: Vec<String> = outside.into_iter().chain(blocked.iter().map(hits)).collect();
-                let message = format!("no IK solution for the tip at {at} is within the limits and free: {}", listed(&why));
+                let message =
+                    format!("no IK solution for the tip at {at} is within the limits and free: {}", listed(&why));
                 Err(place.diagnostic(message).help(help))
             }
             _ => {

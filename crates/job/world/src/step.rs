@@ -255,8 +255,7 @@ impl<'a> StepReader<'a> {
     /// Returns the pairs of pick and place of a group in free order.
     fn pairs(&self, nodes: Vec<Node>) -> Result<Vec<[Leaf; 2]>, Diagnostic> {
         let source = self.reader.source;
-        let help =
-            "a group in free order has the steps pick, place, pick, place, and so on; put other steps before or after the group";
+        let help = "a group in free order has the steps pick, place, pick, place, and so on; put other steps before or after the group";
         let mut picked = BTreeSet::new();
         let mut pairs = Vec::new();
         let mut nodes = nodes.into_iter();
@@ -419,7 +418,11 @@ impl<'a> StepReader<'a> {
             times.iter_mut().flatten().for_each(|time| *time = time.min(MAX_STOP_TIME));
             if times.is_empty() {
                 let message = format!("object \"{name}\" does not pass this point");
-                return refuse(at.span(), message, "choose a point within a millimetre of the path of the object's origin");
+                return refuse(
+                    at.span(),
+                    message,
+                    "choose a point within a millimetre of the path of the object's origin",
+                );
             }
         }
         if let Some(window) = &step.window {

@@ -128,5 +128,6 @@ pub(super) fn require_free_lowered(task: &Task, refused: Diagnostic) -> Result<(
     }
     let at = describe(&scene, task.start);
     let message = format!("the start ({at}) is not free while the tool is lowered: {}", listed(&hits));
-    Err(Diagnostic { message, ..refused }.help("raise the tool at the start, choose another start, or move the obstacle"))
+    Err(Diagnostic { message, ..refused }
+        .help("raise the tool at the start, choose another start, or move the obstacle"))
 }

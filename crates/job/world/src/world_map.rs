@@ -57,7 +57,9 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
         if farthest <= MAX_LENGTH {
             return Ok(());
         }
-        let message = format!("the map is too large: with {scale} m per unit, it extends to {farthest:e} m (at most {MAX_LENGTH:e})");
+        let message = format!(
+            "the map is too large: with {scale} m per unit, it extends to {farthest:e} m (at most {MAX_LENGTH:e})"
+        );
         Err(reader.source.diagnostic_at(file.span(), message).help("set `scale` in [map], metres per unit of the file"))
     };
 
@@ -104,7 +106,8 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
             let name = format!("{name}, rectangle {}", i + 1);
             let corners = [a, Point::new(b.x, a.y), b, Point::new(a.x, b.y)].map(place);
             let polygon = SimplePolygon::new(corners.to_vec()).map_err(|diagnostic| {
-                let message = format!("with {scale} m per unit, preference \"{name}\" is not a rectangle: {diagnostic}");
+                let message =
+                    format!("with {scale} m per unit, preference \"{name}\" is not a rectangle: {diagnostic}");
                 reader
                     .source
                     .diagnostic_at(file.span(), message)

@@ -50,7 +50,9 @@ impl Replay<'_> {
             return CheckError::fails("this step has a stroke, but the robot has no joint that lowers the tool");
         };
         let Some(arch) = self.task.stroke.as_ref().and_then(|stroke| stroke.arch.as_ref()) else {
-            return CheckError::fails("a stroke overlaps with a motion, but the world requires the arm to rest during strokes");
+            return CheckError::fails(
+                "a stroke overlaps with a motion, but the world requires the arm to rest during strokes",
+            );
         };
         if done.turn.is_some() && turn.is_none() && given[usize::from(!is_place)].is_some() {
             return CheckError::fails("a stroke overlaps with a motion, but the wrist turns in between");
@@ -93,7 +95,9 @@ impl Replay<'_> {
         }
         if let Some(raising) = &raising {
             if *raising.begin() > &departure + &tolerance || !raising.is_at(down, &lowered) {
-                return CheckError::fails("the raising does not begin between the lowering and the departure of the arm");
+                return CheckError::fails(
+                    "the raising does not begin between the lowering and the departure of the arm",
+                );
             }
             if !raising.is_away(&departure, &lowered, &arch.rise) {
                 return CheckError::fails(format!("the arm departs before the tool has risen by {} m", arch.rise));
@@ -120,7 +124,9 @@ impl Replay<'_> {
         let tolerance = Decimal::power_of_ten(REST_TOLERANCE_DECIMALS);
         let departure = self.time(knot);
         if curve.begin() + &tolerance < Decimal::whole(0) || *curve.begin() > &departure + &tolerance {
-            return CheckError::fails("\"raising_first\" does not begin between the start and the departure of the arm");
+            return CheckError::fails(
+                "\"raising_first\" does not begin between the start and the departure of the arm",
+            );
         }
         if !curve.is_away(&departure, &height, &arch.rise) {
             return CheckError::fails(format!("the arm departs before the tool has risen by {} m", arch.rise));
@@ -139,7 +145,9 @@ impl Replay<'_> {
         let tolerance = Decimal::power_of_ten(REST_TOLERANCE_DECIMALS);
         let (arrival, end) = (self.time(done.knots[1]), self.time(self.motion.knots.len() - 1));
         if curve.end() + &tolerance < arrival || *curve.end() > &end + &tolerance {
-            return CheckError::fails("the lowering does not end between the arrival of the arm and the end of the motion");
+            return CheckError::fails(
+                "the lowering does not end between the arrival of the arm and the end of the motion",
+            );
         }
         if !curve.is_away(&arrival, height, &arch.fall) {
             return CheckError::fails(format!("the arm arrives with the tool lower than {} m", arch.fall));
@@ -152,7 +160,9 @@ impl Replay<'_> {
         let arch = self.task.stroke.as_ref().and_then(|stroke| stroke.arch.as_ref());
         match (&self.lift, arch) {
             (Some(axis), Some(arch)) => Ok((axis, arch)),
-            _ => CheckError::fails("a stroke overlaps with a motion, but the world requires the arm to rest during strokes"),
+            _ => CheckError::fails(
+                "a stroke overlaps with a motion, but the world requires the arm to rest during strokes",
+            ),
         }
     }
 

@@ -147,7 +147,9 @@ impl Replay<'_> {
         let Some(mut held) =
             self.held.take_if(|held| held.carrying.may_turn && matches!(held.on, Attachment::Level(_)))
         else {
-            return CheckError::fails("the step turns an object, but there is no wrist, or the tool holds no level object");
+            return CheckError::fails(
+                "the step turns an object, but there is no wrist, or the tool holds no level object",
+            );
         };
         let wrist = Chain::turning_about(&self.chain.point_at(&Attachment::Link(1), &self.tip, at));
         let Some(end) = fine(&(by * &Decimal::whole(CONTROL_POINT_FACTOR)))

@@ -45,7 +45,9 @@ impl Replay<'_> {
         let Some(knots) = &done.turning else { return Ok(None) };
         let Some(by) = &done.turn else { return CheckError::fails("this step has \"turning\" without \"turn\"") };
         if !self.task.wrist.as_ref().is_some_and(|wrist| wrist.turns_on_the_way) {
-            return CheckError::fails("a turn of the wrist overlaps with a motion, but the world requires the arm to rest during turns");
+            return CheckError::fails(
+                "a turn of the wrist overlaps with a motion, but the world requires the arm to rest during turns",
+            );
         }
         self.require_static("a turn of the wrist")?;
         let angle = Interval::from(by);

@@ -230,11 +230,13 @@ impl<'a, 'i> Reader<'a, 'i> {
         let (kind, line) = (node.tag_name().name(), self.line(node));
         self.elements += 1;
         if depth > MAX_ELEMENT_DEPTH {
-            let message = format!("<{kind}> is nested more than {MAX_ELEMENT_DEPTH} deep, or contains itself through <use>");
+            let message =
+                format!("<{kind}> is nested more than {MAX_ELEMENT_DEPTH} deep, or contains itself through <use>");
             return Err(Error::new(line, message, "ungroup elements, or remove the <use> that closes the loop"));
         }
         if self.elements > MAX_ELEMENTS {
-            let message = format!("the drawing has more than {MAX_ELEMENTS} elements, with the copies that <use> makes");
+            let message =
+                format!("the drawing has more than {MAX_ELEMENTS} elements, with the copies that <use> makes");
             return Err(Error::new(line, message, "remove parts that the arm cannot reach"));
         }
         let style = around.style.of(node, &self.styles);

@@ -64,7 +64,10 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
     }
     let first = legs.last().map_or(0, |leg| leg + 1);
     if let Some(missed) = q[first..].iter().find(|corner| (*corner - before).norm() > within) {
-        return Err(format!("the motion does not follow the path to the end: it does not reach ({}, {})", missed[0], missed[1]));
+        return Err(format!(
+            "the motion does not follow the path to the end: it does not reach ({}, {})",
+            missed[0], missed[1]
+        ));
     }
     Ok(())
 }

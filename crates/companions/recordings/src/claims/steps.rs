@@ -120,7 +120,10 @@ impl Ledger {
 
     fn events(&mut self, task: &Task, stated: &[EventClaim], happened: &[GripperEvent]) {
         if stated.len() != happened.len() {
-            self.note("events", format!("{} events are stated, but the gripper acts {} times", stated.len(), happened.len()));
+            self.note(
+                "events",
+                format!("{} events are stated, but the gripper acts {} times", stated.len(), happened.len()),
+            );
         }
         for (index, (event, is)) in stated.iter().zip(happened).enumerate() {
             self.within = format!("events[{index}].");

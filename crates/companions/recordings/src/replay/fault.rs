@@ -50,7 +50,9 @@ pub enum Fault {
         most: f64,
     },
     /// The file does not state the wrist's motion along a line for which the tool has an angle.
-    #[error("the world requires an angle of the tool along the line, but the step does not state the motion of the wrist")]
+    #[error(
+        "the world requires an angle of the tool along the line, but the step does not state the motion of the wrist"
+    )]
     NoWristMotion,
     /// The tool is not proven to keep the angle that the line asks for.
     #[error(

@@ -242,7 +242,8 @@ impl<'a> Search<'a> {
             (Stage::Reached(state, _), _) => state.candidates(self.task).first().map(|next| (index, next.step)),
         };
         if let Some((node, step)) = next.filter(|_| !is_known) {
-            let refusal = Refusal::new(format!("the search ended at its limit of {} timed motions", self.motions), false);
+            let refusal =
+                Refusal::new(format!("the search ended at its limit of {} timed motions", self.motions), false);
             self.refuse(node, step, None, refusal);
         }
     }

@@ -310,9 +310,8 @@ fn position(index: i64, length: usize) -> Option<usize> {
 }
 
 fn item(of: &Value, index: &Value) -> Result<Value, Fault> {
-    let beyond = |length: usize| {
-        Fault::from(format!("index {} is out of range: the sequence has {length} items", short(index)))
-    };
+    let beyond =
+        |length: usize| Fault::from(format!("index {} is out of range: the sequence has {length} items", short(index)));
     match (of, index) {
         (Value::Dict(items), key) => of.item(key).cloned().ok_or_else(|| {
             let keys: Vec<String> = items.iter().take(12).map(|(key, _)| key.printed()).collect();

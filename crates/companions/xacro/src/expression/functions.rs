@@ -211,7 +211,8 @@ fn extreme(name: &str, items: &[Value]) -> Result<Value, Fault> {
     let (first, others) = items.split_first().ok_or_else(|| format!("{name}() needs an item"))?;
     let mut best = first;
     for item in others {
-        let order = item.compare(best).ok_or_else(|| format!("{name}(): the items cannot be compared with each other"))?;
+        let order =
+            item.compare(best).ok_or_else(|| format!("{name}(): the items cannot be compared with each other"))?;
         if order == wanted {
             best = item;
         }

@@ -66,9 +66,10 @@ impl<'t> Parser<'t> {
     fn expects(&mut self, sign: &str) -> Result<(), Fault> {
         match self.takes_sign(sign) {
             true => Ok(()),
-            false => Err(self
-                .peek()
-                .map_or_else(|| format!("\"{sign}\" is missing at the end of the expression").into(), |t| self.unexpected(t))),
+            false => Err(self.peek().map_or_else(
+                || format!("\"{sign}\" is missing at the end of the expression").into(),
+                |t| self.unexpected(t),
+            )),
         }
     }
 

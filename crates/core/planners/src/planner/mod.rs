@@ -334,7 +334,10 @@ impl std::fmt::Display for Note {
                 write!(f, "escaped from {minima} {how}, by {} that the forces do not cause", counted(*moves, "move"))
             }
             Self::Floor { sweeps, change } => {
-                write!(f, "stopped after {sweeps} sweeps, at a change of {change:.1e}: single precision allows no more progress")
+                write!(
+                    f,
+                    "stopped after {sweeps} sweeps, at a change of {change:.1e}: single precision allows no more progress"
+                )
             }
         }
     }

@@ -181,8 +181,13 @@ pub fn of_study(study: &Study) -> String {
         wins("shortest", "Number of problems with no shorter path", Purpose::Shortest),
         wins("safest", "Number of problems with no greater clearance", Purpose::Safest),
         wins("quickest", "Number of problems with no quicker path", Purpose::Quickest),
-        median("over optimum", "Median of the proven bounds on how much longer the paths are than the optimum", Measure::OverOptimum, excess)
-            .measured_from(1.0),
+        median(
+            "over optimum",
+            "Median of the proven bounds on how much longer the paths are than the optimum",
+            Measure::OverOptimum,
+            excess,
+        )
+        .measured_from(1.0),
         median("clearance", "Median of the proven clearance", Measure::Clearance, clearance),
         median("motion", "Median of the motions' durations", Measure::Duration, duration),
         median("computed in", "Median of the computing times", Measure::Total, computing_time),

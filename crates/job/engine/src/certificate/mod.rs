@@ -41,7 +41,9 @@ pub enum NoCertificate {
     #[error("there are no certificates for infeasible tasks; the result states the step that fails, and the reason")]
     Task,
     /// The goal of a task is on the command line.
-    #[error("the certificate includes the tool's joints, so the goal must be in the world file, not on the command line")]
+    #[error(
+        "the certificate includes the tool's joints, so the goal must be in the world file, not on the command line"
+    )]
     Goal,
     /// An object rests on another one, and its outline has corners that a checker cannot move inwards.
     #[error(

@@ -63,15 +63,19 @@ fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
         return Some(format!("{given} counts as missing; {help}"));
     }
     let degrees = if turns { format!(" ({} deg/s)", short(velocity.to_degrees())) } else { String::new() };
-    (velocity > fastest)
-        .then(|| format!("{given} means {velocity} {unit}/s{degrees}, faster than any drive, so times are too short; {help}"))
+    (velocity > fastest).then(|| {
+        format!("{given} means {velocity} {unit}/s{degrees}, faster than any drive, so times are too short; {help}")
+    })
 }
 
 /// Returns the warning about a prismatic joint whose limits seem to be in millimetres.
 fn slide(joint: &Joint) -> Option<String> {
     let JointRange::Interval { lower, upper } = joint.range else { return None };
     (!joint.joint_type.is_revolute() && upper - lower > 2.0 * MAX_PLAUSIBLE_LENGTH).then(|| {
-        format!("joint \"{}\" slides from {lower} to {upper} m; if the limits are in millimetres, divide them by 1000", joint.name)
+        format!(
+            "joint \"{}\" slides from {lower} to {upper} m; if the limits are in millimetres, divide them by 1000",
+            joint.name
+        )
     })
 }
 

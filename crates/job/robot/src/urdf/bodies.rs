@@ -267,7 +267,8 @@ impl Bodies<'_> {
                 let message = format!(
                     "link \"{body}\" turns with the wrist, but its shape is not centred on the wrist's axis, so it covers a different area at each angle"
                 );
-                let help = "add <collision> geometry that covers all angles: a <cylinder> along the axis of the wrist's joint";
+                let help =
+                    "add <collision> geometry that covers all angles: a <cylinder> along the axis of the wrist's joint";
                 Err(self.document.diagnostic_at(&shape.at, message).help(help))
             }
         }

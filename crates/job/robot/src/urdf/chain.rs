@@ -36,7 +36,8 @@ pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) 
     let mut chain = with_joints(document, tree, settings, joints)?;
     if !reason.is_empty() {
         let [first, second] = joints.map(|j| document.robot.joints[j].name.as_str());
-        let note = format!("cplan plans for the joints \"{first}\" and \"{second}\"{reason}; choose others by [robot] joints");
+        let note =
+            format!("cplan plans for the joints \"{first}\" and \"{second}\"{reason}; choose others by [robot] joints");
         chain.notes.insert(0, note);
     }
     Ok(chain)
@@ -162,9 +163,8 @@ impl Chooser<'_> {
         match &self.settings.table.joints {
             None if swapped => Ok(implied([b, a])),
             Some(names) if swapped => {
-                let message = format!(
-                    "[robot] joints: the order is wrong, because joint \"{second}\" carries joint \"{first}\""
-                );
+                let message =
+                    format!("[robot] joints: the order is wrong, because joint \"{second}\" carries joint \"{first}\"");
                 Err(self.in_world(names, message).help(format!("swap them: joints = [\"{second}\", \"{first}\"]")))
             }
             names => {

@@ -101,7 +101,9 @@ impl Limits<'_> {
             )));
         }
         if upper - lower > if slides { MAX_SLIDE } else { MAX_TURN_RANGE } {
-            return Ok(Range::Unset(format!("has limits from {lower} to {upper}; this range is too long for planning")));
+            return Ok(Range::Unset(format!(
+                "has limits from {lower} to {upper}; this range is too long for planning"
+            )));
         }
         Ok(Range::Known(JointRange::Interval { lower, upper }))
     }

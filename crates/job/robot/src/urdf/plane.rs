@@ -59,7 +59,9 @@ pub(super) fn deviation(plane: &Plane, axes: [SpatialAxis; 2]) -> Option<String>
     };
     let off = axes.iter().map(off).fold(0.0, f64::max);
     (off > NOTICED_DEVIATION).then(|| {
-        format!("the joints' axes deviate from the assumed plane of motion by up to {off:.1e} rad ({off:.1e} m per metre)")
+        format!(
+            "the joints' axes deviate from the assumed plane of motion by up to {off:.1e} rad ({off:.1e} m per metre)"
+        )
     })
 }
 

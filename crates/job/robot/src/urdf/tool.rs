@@ -183,7 +183,10 @@ impl Reduction<'_> {
         }
         if let Some(follower) = self.follower_with_shapes(chooser, index)? {
             let why = format!("is mimicked by joint \"{follower}\", but cplan would not move the links of that joint");
-            return diagnostic(&why, "in a copy of the file, make that joint fixed, or remove the geometry of its links");
+            return diagnostic(
+                &why,
+                "in a copy of the file, make that joint fixed, or remove the geometry of its links",
+            );
         }
         let direction = self.poses[self.tree.child[index]] * tree::axis(joint);
         let along = direction.dot(&plane.normal);

@@ -173,7 +173,8 @@ fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Resul
                     links[*link],
                     document.joint_line(first)
                 );
-                let help = "give one of the joints its own child link; closed chains (parallelogram, delta) are not supported";
+                let help =
+                    "give one of the joints its own child link; closed chains (parallelogram, delta) are not supported";
                 diagnostics.push(document.diagnostic_at(&document.joints[j].child, message).help(help));
             }
         }

@@ -296,7 +296,9 @@ impl Machine {
         }
         if motion == Move::Line {
             let line = word.source.line;
-            self.notes.push(format!("the first move (G1, line {line}) is left out, because the file does not state where it begins"));
+            self.notes.push(format!(
+                "the first move (G1, line {line}) is left out, because the file does not state where it begins"
+            ));
         }
         self.origin.advance(to);
         Ok(())

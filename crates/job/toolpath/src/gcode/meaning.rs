@@ -69,8 +69,7 @@ const OFFSET: Reason = reason(
     "offsets the line by the tool's radius",
     "let the program that writes the file compute the offset line, and use G40",
 );
-const FRAME: Reason =
-    reason("moves, turns, scales or mirrors the coordinates", "write the resulting coordinates");
+const FRAME: Reason = reason("moves, turns, scales or mirrors the coordinates", "write the resulting coordinates");
 pub(super) const OTHER_SYSTEM: Reason = reason(
     "selects a coordinate system whose origin the file does not state",
     "write all coordinates in one system, such as G54",

@@ -131,7 +131,10 @@ fn add_warning(plan: &Plan, lines: &mut Vec<Line>) {
         },
     );
     let at = lines.iter().rposition(|(key, _)| ["clearance", "margin"].contains(key)).map_or(lines.len(), |at| at + 1);
-    let text = format!("the arm passes within {} of an obstacle, because no clearance was required; {other}", length_down(clearance));
+    let text = format!(
+        "the arm passes within {} of an obstacle, because no clearance was required; {other}",
+        length_down(clearance)
+    );
     lines.insert(at, ("warning", text));
 }
 

@@ -14,7 +14,9 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
     // The header may look like a comment.
     let header = records.find(|record| !is_comment(record) || names_joints(record, names));
     let header = header.ok_or_else(|| {
-        source.diagnostic("is empty").help("write a header with the names of the columns, such as time,joint1,joint2, and then the samples")
+        source
+            .diagnostic("is empty")
+            .help("write a header with the names of the columns, such as time,joint1,joint2, and then the samples")
     })?;
     let mut columns = Columns::new(source, names, &header)?;
     let mut samples = Samples { what: "sample".into(), ..Samples::default() };
@@ -137,7 +139,8 @@ impl Columns {
                 [] => unknown.push(name),
                 [meaning] => {
                     if let Some(other) = used.iter().find(|column| column.meaning == meaning) {
-                        let message = format!("columns \"{}\" and \"{name}\" have the same meaning", header[other.index].text);
+                        let message =
+                            format!("columns \"{}\" and \"{name}\" have the same meaning", header[other.index].text);
                         return Err(source.diagnostic_at(field.range.clone(), message).help("keep one of them"));
                     }
                     let unit = unit.map(|unit| unit_of(source, names, field, unit, meaning)).transpose()?.flatten();

@@ -26,7 +26,8 @@ use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;
 
 /// Note about accelerations that do not determine the motion between samples.
-const STATED_ACCELERATIONS_NOTE: &str = "positions and velocities determine the motion; accelerations in the file are only compared with the limits";
+const STATED_ACCELERATIONS_NOTE: &str =
+    "positions and velocities determine the motion; accelerations in the file are only compared with the limits";
 
 /// A recorded motion, and how it was read.
 #[derive(Debug, Clone, PartialEq)]

@@ -88,14 +88,18 @@ impl StepMember {
         };
         if first > last || last >= count {
             let help = "state the first and the last sample of the step, counted from 0";
-            return Err(wrong(&format!("the samples of the step are {first} to {last}, but the trajectory has {count} samples"), help));
+            return Err(wrong(
+                &format!("the samples of the step are {first} to {last}, but the trajectory has {count} samples"),
+                help,
+            ));
         }
         let overlap = |of: &str, before_arrival: f64, after_departure: f64| {
             let parts = [("before_arrival", before_arrival), ("after_departure", after_departure)];
             match parts.into_iter().find(|(_, value)| !(0.0..=MAX_NUMBER).contains(value)) {
-                Some((what, value)) => {
-                    Err(wrong(&format!("the {of}'s {what} is {value}"), &format!("write the seconds of the overlap, 0 or more")))
-                }
+                Some((what, value)) => Err(wrong(
+                    &format!("the {of}'s {what} is {value}"),
+                    &format!("write the seconds of the overlap, 0 or more"),
+                )),
                 None => Ok(RecordedOverlap { before_arrival, after_departure }),
             }
         };
@@ -133,10 +137,14 @@ impl StepMember {
             None => None,
             Some(WristMotionMember { position, velocity, acceleration }) => {
                 let columns = [position, velocity, acceleration];
-                let help = "write one position, velocity and acceleration of the wrist's joint for each sample of the step";
+                let help =
+                    "write one position, velocity and acceleration of the wrist's joint for each sample of the step";
                 if let Some(column) = columns.into_iter().find(|column| column.len() != last - first + 1) {
-                    let message =
-                        format!("wrist_motion has {} values, but the step has {} samples", column.len(), last - first + 1);
+                    let message = format!(
+                        "wrist_motion has {} values, but the step has {} samples",
+                        column.len(),
+                        last - first + 1
+                    );
                     return Err(wrong(&message, help));
                 }
                 if let Some(value) = columns.into_iter().flatten().find(|x| x.is_nan() || x.abs() > MAX_RATE) {

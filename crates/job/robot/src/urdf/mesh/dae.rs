@@ -97,8 +97,7 @@ impl<'a, 'i> Scene<'a, 'i> {
                     self.children(target, &(pose * transform(target)?), depth + 1)?;
                 }
                 "instance_geometry" => {
-                    let geometry =
-                        self.target(child).ok_or("a node refers to a geometry that does not exist")?;
+                    let geometry = self.target(child).ok_or("a node refers to a geometry that does not exist")?;
                     self.geometry(geometry, pose)?;
                 }
                 "instance_controller" => {

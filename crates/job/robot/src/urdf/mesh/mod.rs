@@ -54,8 +54,7 @@ impl From<String> for UnreadableMesh {
 pub(super) fn read(filename: &str, scale: [f64; 3], document: &Document) -> Result<Mesh, UnreadableMesh> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !["stl", "dae", "obj"].contains(&extension.as_str()) {
-        let message =
-            format!("mesh \"{filename}\": cplan reads only meshes in STL, Collada (.dae) and OBJ");
+        let message = format!("mesh \"{filename}\": cplan reads only meshes in STL, Collada (.dae) and OBJ");
         return Err(message.into());
     }
     let anchor = document.source.anchor().map_err(|why| format!("mesh \"{filename}\" cannot be found: {why}"))?;

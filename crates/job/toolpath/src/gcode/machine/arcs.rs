@@ -42,8 +42,11 @@ impl Machine {
     /// Returns the arc about a centre.
     fn about(&self, word: &Word, to: Point, center: Point, is_left: bool) -> Result<Curve, Error> {
         arc::about(self.origin.at, to, center, is_left).map_err(|[first, last]| {
-            let message =
-                format!("begins at a distance of {} from the centre, but ends at {}", self.shown(first), self.shown(last));
+            let message = format!(
+                "begins at a distance of {} from the centre, but ends at {}",
+                self.shown(first),
+                self.shown(last)
+            );
             let hint = match self.has_absolute_centers {
                 true => "write I and J, the coordinates of the centre (G90.1), with more digits",
                 false => "write I and J, which count from the start of the arc (G91.1), with more digits",

@@ -26,8 +26,7 @@ impl Machine {
         let mut times = block.with_letters("PSXUF");
         let (time, another) = (times.next(), times.next());
         if let Some(another) = another {
-            return Err(another
-                .error("is a second time for this dwell", "write G4 with one time on a line of its own"));
+            return Err(another.error("is a second time for this dwell", "write G4 with one time on a line of its own"));
         }
         let unit = match (time, self.is_firmware) {
             (Some(Word { letter: 'P', .. }), is_firmware) => {
@@ -62,7 +61,8 @@ impl Machine {
         let inner =
             (!rests.is_empty()).then(|| format!("{} of {} in all (G4)", counted(rests.len(), "stop"), shown(rest)));
         let is_left_out = left_out > MIN_DWELL;
-        let ends = is_left_out.then(|| format!("stops (G4) before and after the line, {} in all, are left out", shown(left_out)));
+        let ends = is_left_out
+            .then(|| format!("stops (G4) before and after the line, {} in all, are left out", shown(left_out)));
         let parts: Vec<String> = inner.into_iter().chain(ends).collect();
         (!parts.is_empty()).then(|| format!("{}{unit}", parts.join("; ")))
     }

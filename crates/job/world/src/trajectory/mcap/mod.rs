@@ -163,8 +163,10 @@ impl<'a> Table<'a> {
         for row in message.rows {
             let nanoseconds = row.nanoseconds.saturating_add(time);
             if !row.values.iter().enumerate().all(|(k, values)| values.len() == width || k > 0 && values.is_empty()) {
-                let what =
-                    format!("a sample on {} at {nanoseconds} ns has too few or too many values; it needs one for each joint", self.topic);
+                let what = format!(
+                    "a sample on {} at {nanoseconds} ns has too few or too many values; it needs one for each joint",
+                    self.topic
+                );
                 return Err(self
                     .source
                     .diagnostic(what)
