@@ -399,7 +399,7 @@ fn the_page_distinguishes_what_colours_mean() {
     let unfit = "fill=\"var(--unknown)\" data-layout=";
     assert!(!html.contains(unfit));
     let (html, _) = page("conditions = [\"duration <= 0.01\"]");
-    assert!(html.contains(unfit) && html.contains("a motion, but not one that meets the conditions"));
+    assert!(html.contains(unfit) && html.contains("a motion that does not meet the conditions"));
     assert!(!html.contains("<title>best: layout "));
 }
 

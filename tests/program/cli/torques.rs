@@ -141,7 +141,7 @@ fn the_efforts_hold_the_arm_at_the_end() {
     let robot = shipped("robots/rrbot_vertical.urdf");
     place.run(&[&robot, "light.toml"], "--quiet --output held.json").exits(0);
     let heavy = place.run(&[&robot, "heavy.toml"], "").exits(4);
-    heavy.says(&["after it joint \"shoulder\" has an effort of 45 N m"]);
+    heavy.says(&["after this step, joint \"shoulder\" has an effort of 45 N m"]);
     // The same motion is judged as one with the heavier block.
     for (world, code) in [("light.toml", 0), ("heavy.toml", 3)] {
         let verified = place.run(&["verify", &robot, world, "held.json"], "").exits(code);

@@ -205,7 +205,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
         format!("the angle of the elbow's motor is {:.2} deg ({angle:.4} rad) beyond its range", angle.to_degrees())
     });
     let reasons: Vec<String> = beyond.chain(motor).chain(blocked.hits.iter().map(|hit| scene.explain(hit))).collect();
-    let when = blocked.standing.as_ref().map_or_else(String::new, |standing| format!("{} ", standing.when));
+    let when = blocked.standing.as_ref().map_or_else(String::new, |standing| format!("{}, ", standing.when));
     let mut lines = vec![(key, format!("{}: {when}{}", configuration(arm, blocked.at), listed(&reasons)))];
     if blocked.standing.is_some() {
         return lines;

@@ -67,7 +67,7 @@ fn judge_motion(
             "the world has steps, but the file has none: one motion without a payload is judged, with all objects at their initial positions; to judge the steps, verify a task's result in .json"
                 .into(),
         );
-        notes.extend((!held.is_empty()).then(|| "the motion of the tool is judged among the obstacles alone".into()));
+        notes.extend((!held.is_empty()).then(|| "the motion with the moving tool is judged only among obstacles, without objects".into()));
     }
     let scene = &loaded.scene;
     let (start, goals) = if anywhere { (None, Vec::new()) } else { loaded.ends(overrides)? };
@@ -83,7 +83,7 @@ fn judge_motion(
     });
     let has_moving_obstacles = !loaded.trajectories.is_empty();
     if has_moving_obstacles {
-        notes.push("obstacles move on the recording's clock, from its first sample on".into());
+        notes.push("moving obstacles start with the first sample of the recording".into());
     }
     let untold = [
         (has_moving_obstacles && recording.times().is_none())

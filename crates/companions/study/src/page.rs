@@ -226,7 +226,7 @@ const NO_MOTION_COLOR: &str = "var(--undecided)";
 
 /// Meaning of the colours of a map, other than those of the objective.
 const MAP_LEGEND: [(&str, &str); 3] = [
-    (UNFIT_COLOR, "a motion, but not one that meets the conditions"),
+    (UNFIT_COLOR, "a motion that does not meet the conditions"),
     (INFEASIBLE_COLOR, "proven infeasible, in all layouts"),
     (NO_MOTION_COLOR, "nothing to plan, or unknown"),
 ];

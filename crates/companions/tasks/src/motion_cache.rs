@@ -364,7 +364,7 @@ fn require_free_after(task: &Task, from: &State, candidate: &Candidate) -> Resul
     require_unobstructed(&scene, candidate.to, when)?;
     if from.after_step(task, candidate, candidate.to).is_done(task) {
         let held = TorqueLimit::check_holding_at(&scene, candidate.to);
-        held.map_err(|error| Refusal::new(format!("{when} {error}"), false))?;
+        held.map_err(|error| Refusal::new(format!("{when}, {error}"), false))?;
     }
     Ok(())
 }
@@ -382,7 +382,7 @@ pub(super) fn scene_after(task: &Task, from: &State, candidate: &Candidate) -> O
     } else {
         return None;
     };
-    Some(StandstillScene { when: "after it", scene })
+    Some(StandstillScene { when: "after this step", scene })
 }
 
 /// Returns the wrist that turns the tool along a line.

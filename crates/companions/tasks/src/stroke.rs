@@ -88,7 +88,7 @@ pub(super) fn stroke_scene(task: &Task, from: &State, candidate: &Candidate) -> 
         let after = from.after_step(task, candidate, candidate.to);
         return empty_stroke_scene(task, &after, candidate.depth(task)?);
     };
-    let when = if task.stroke.is_some() { WHILE_LOWERED } else { "lying there" };
+    let when = if task.stroke.is_some() { WHILE_LOWERED } else { "where the object is put down" };
     lowered(task, from, candidate, event).map(|scene| StandstillScene { when, scene })
 }
 

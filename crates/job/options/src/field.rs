@@ -248,7 +248,7 @@ impl FieldArgs {
         }
         if self.relax_preferences && name != RelaxationName::Sor {
             return Err(
-                "--relax-preferences needs --relaxation sor: other relaxations have no factor to leave out".into()
+                "--relax-preferences needs --relaxation sor: other relaxations have no factor for preferences".into()
             );
         }
         let sor = |factor: Factor| {

@@ -342,7 +342,7 @@ impl<'a> Search<'a> {
         let (candidate, step) = (&choice.candidate, choice.candidate.step);
         if matches!(candidate.event, Some(Event::Grasp { .. })) {
             // If the payload would touch something here, the object may still be picked elsewhere on its path.
-            require_unobstructed(&here.scene_at_rest(candidate, time).0, candidate.to, "after it")?;
+            require_unobstructed(&here.scene_at_rest(candidate, time).0, candidate.to, "after this step")?;
         }
         let [some, each] = ROUNDED_MOTION_BUDGET;
         let stops =

@@ -33,7 +33,7 @@ impl Convergence {
         text += &self.weight_table().to_text();
         let leaps = self.leap_table();
         if !leaps.rows.is_empty() {
-            text += "\nwhere preferences begin: squared changes of the sweeps before and after, and\nsweeps from there on\n";
+            text += "\nwhere preferences begin: squared changes of the sweeps just before and after,\nand number of the remaining sweeps\n";
             text += &leaps.to_text();
         }
         let [a, b] = self.direction;
