@@ -298,7 +298,7 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
     }
     let spoilt = |this: &str, that: &str| COLLADA.replace(this, that);
     for (mesh, text, message) in [
-        ("t.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "line 2: no vertex \"2\" precedes"),
+        ("t.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "line 2: vertex \"2\" is not defined"),
         ("t.obj", "v 0 0\n".to_owned(), "line 1: a vertex needs three numbers"),
         ("t.obj", "v 0 0 0\n".to_owned(), "no face"),
         ("t.obj", "v 0 nan 0\nf 1 1 1\n".to_owned(), "not finite"),

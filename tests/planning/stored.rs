@@ -129,7 +129,7 @@ fn changed_results_are_refused_with_their_place() {
     let ends = json!([valid["result"]["path"][0], valid["result"]["path"].as_array().unwrap().last().unwrap()]);
     for (place, other, part) in [
         ("/result/path", ends, "result.path has 2 entries, but planning gives"),
-        ("/result/path/1/0", json!(0.5), "result.path[1][0] is 0.5, and planning gives"),
+        ("/result/path/1/0", json!(0.5), "result.path[1][0] is 0.5, but planning gives"),
         ("/result/status", json!("infeasible"), "result.status is \"infeasible\", but planning gives \"found\""),
         ("/result/trajectory/velocity/3/1", json!(9.0), "result.trajectory.velocity[3][1]"),
         ("/result/clearance", json!(0.5), "result.clearance is 0.5"),

@@ -207,7 +207,7 @@ fn lines_that_need_a_change_of_the_solution_have_certificates() {
     let line = "G21 G0 X808.1 Y1018.3\nG1 X1540 Y840\nG1 X1650 Y0\n";
     let judged = Judged::of(&robot(), world, line, "", 3);
     let proven = judged.proven();
-    assert!(proven.contains("none stays within 0.00001 of it from"), "{proven}");
+    assert!(proven.contains("keeps the tip within 0.00001 of the line"), "{proven}");
     let stretch = judged.certificate["line"]["stretch"].clone();
     assert!(stretch[0].as_f64().unwrap() + 0.5 < stretch[1].as_f64().unwrap(), "{stretch}");
     judged.fails(|c| c["line"]["stretch"][1] = stretch[0].clone(), "not prove that the tip cannot follow");

@@ -90,7 +90,7 @@ fn mistakes_in_the_table_of_motors_have_a_place_and_a_hint() {
         ("{ motors = { lower = [-1.0, -1.0] } }", "motors need both lower and upper limits"),
         ("{ motors = { lower = [-1.0, 1.0], upper = [1.0, 0.5] } }", "the lower limit of motor 2 is not below"),
         ("{ motors = { velocity = [1.0, 0.0] } }", "velocity: both numbers must be above 0"),
-        ("{ motors = { lower = [3.0, -1.0], upper = [4.0, 1.0] } }", "leave joint \"shoulder\" no values"),
+        ("{ motors = { lower = [3.0, -1.0], upper = [4.0, 1.0] } }", "no value of joint \"shoulder\""),
         ("{ motors = { speed = [1.0, 2.0] } }", "unknown key `speed`"),
     ] {
         place.write("world.toml", world.replace("[start]", &format!("[robot]\ndrives = {drives}\n[start]")));

@@ -75,7 +75,7 @@ fn mistakes_about_the_side_have_a_place_and_a_hint() {
     let parts = [
         "(0.9, 0.9) with the elbow on the left is allowed and free",
         "\"post\"",
-        "with the elbow on the right there is one: shoulder 0.10",
+        "with the elbow on the right, shoulder 0.10",
         "hint: choose the other side of the elbow; or",
     ];
     blocked.refused(1, &parts);

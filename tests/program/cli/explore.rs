@@ -81,7 +81,7 @@ fn an_earlier_map_is_used() {
     assert!(text.contains(one));
     place.write("moved.toml", text.replace(one, "[0.65, -0.1], [0.7, -0.1], [0.7, 0.4], [0.65, 0.4]"));
     let moved = place.run(&["explore", &robot, "moved.toml"], &format!("{COARSE} --known rooms.yaml"));
-    moved.refused(1, &["rooms.yaml", "has occupied space near (0.6", "the world has free space", "hint"]);
+    moved.refused(1, &["rooms.yaml", "shows occupied space near (0.6", "the world has free space", "hint"]);
     place.write("finer.toml", text.replace("cell = 0.025", "cell = 0.02"));
     let finer = place.run(&["explore", &robot, "finer.toml"], &format!("{COARSE} --known rooms.yaml"));
     finer.refused(1, &["rooms.yaml", "has other cells"]);

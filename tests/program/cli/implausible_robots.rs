@@ -62,7 +62,7 @@ fn robots_in_millimetres_are_noticed() {
         &["625 m from joint to joint, 425 m from joint to tip", "if these are millimetres, divide them by 1000"],
     );
     let shapes = [("size=\"1.0 0.1 0.1\"", "size=\"1000 100 100\"")];
-    check_hint(&shapes, FREE, &["the shape of link \"upper_arm\" reaches", "scale=\"0.001 0.001 0.001\""]);
+    check_hint(&shapes, FREE, &["the shape of link \"upper_arm\" extends", "scale=\"0.001 0.001 0.001\""]);
     let slides = [
         ("type=\"revolute\"", "type=\"prismatic\""),
         ("lower=\"-2.9\" upper=\"2.9\"", "lower=\"0\" upper=\"600\""),
@@ -73,7 +73,7 @@ fn robots_in_millimetres_are_noticed() {
         .run(&["inspect", "arm.urdf"], "")
         .stdout;
     assert!(
-        inspected.contains("joint \"shoulder\" slides from 0 to 600 m: divide limits in millimetres"),
+        inspected.contains("joint \"shoulder\" slides from 0 to 600 m; if the limits are in millimetres"),
         "{inspected}"
     );
 }
@@ -101,11 +101,11 @@ fn speeds_that_no_drive_has_are_noticed() {
 
 #[test]
 fn joints_without_an_axis_are_noticed() {
-    let parts = ["joint \"shoulder\" has no <axis>, which means the x axis", "joint \"elbow\" has no <axis>"];
+    let parts = ["joint \"shoulder\" has no <axis>, so the x axis", "joint \"elbow\" has no <axis>"];
     check_hint(&[("<axis xyz=\"0 0 1\"/>", "")], TO_A_TIP, &parts);
     let place =
         Place::new().with("arm.urdf", arm(&[]).replacen("<axis xyz=\"0 0 1\"/>", "", 1)).with("world.toml", FREE);
-    let parts = ["do not move in one common plane", "joint \"shoulder\" has no <axis>, which means the x axis"];
+    let parts = ["do not move in one common plane", "joint \"shoulder\" has no <axis>, so the x axis"];
     place.run(&["arm.urdf", "world.toml"], "").refused(1, &parts);
 }
 

@@ -233,7 +233,7 @@ fn picks_that_make_no_sense_are_refused_with_their_place() {
         (
             moves,
             "at = [1.3, 0.1]\nwindow = [1, 2]",
-            ["line 11, column 10", "at that place at 4.000 s, outside the window"],
+            ["line 11, column 10", "at this place at 4.000 s, outside the window"],
         ),
         ("at = [1.3, -0.9]", "window = [1, 2]", ["line 9, column 10", "object \"bottle\" does not move"]),
         (
@@ -244,7 +244,7 @@ fn picks_that_make_no_sense_are_refused_with_their_place() {
         (
             moves,
             "[[step]]\nplace = { at = [0.5, 1.0] }\n[[step]]\npick = \"bottle\"\nat = [1.3, 0.1]",
-            ["line 14, column 6", "\"bottle\" was picked before"],
+            ["line 14, column 6", "\"bottle\" no longer moves"],
         ),
         (
             moves,
@@ -271,7 +271,7 @@ fn objects_never_within_reach_are_proven_and_missed_ones_reported() {
     let place = Place::new();
     let away = belt("at = [2.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "");
     let done = place.plan(away, "--certificate c.json").exits(3);
-    done.says(&["\"bottle\" is never within the arm's reach"]);
+    done.says(&["\"bottle\" is not within the arm's reach"]);
     done.warns(&["no certificates for infeasible tasks"]);
     assert!(!place.path("c.json").exists());
     let done = place.plan(belt("at = [1.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "window = [0, 0.3]"), "");

@@ -365,7 +365,11 @@ fn the_quill_of_a_table_of_a_task_is_judged() {
     let verify = |file: &str| place.run(&["verify", &shipped("robots/scara.urdf"), &world, file], "--anywhere");
     for file in ["kit.txt", "kit.csv"] {
         let done = verify(file);
-        assert!(done.code == 0 && done.stdout.contains("moving tool is judged only among obstacles"), "{}", done.stdout);
+        assert!(
+            done.code == 0 && done.stdout.contains("moving tool is judged only among obstacles"),
+            "{}",
+            done.stdout
+        );
     }
     let text = place.read("kit.txt");
     let header = text.lines().find(|line| line.contains("axis_3 [mm]")).expect("a header").to_owned();

@@ -164,7 +164,7 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     // Rows of another study are neither used nor lost.
     std::fs::write(&part, &text).unwrap();
     study(&place, "draws = 61", CRATE);
-    run(&place, "--output t.csv").refused(1, &["t.csv.part has rows of another study", "--fresh"]);
+    run(&place, "--output t.csv").refused(1, &["t.csv.part contains rows of another study", "--fresh"]);
     assert_eq!(read(&part), text);
     run(&place, "--output t.csv --fresh --quiet").exits(0);
     assert_eq!(rows(&place.read("t.csv")).len(), 244);
@@ -410,7 +410,7 @@ fn a_best_layout_at_the_end_of_a_range_is_noted() {
         speed_study(&place, values);
         run(&place, "")
     };
-    let edge = "speed = 1 of at most 1: a wider range may give a better layout\n";
+    let edge = "the best speed is 1, at the end of its range (of at most 1): a wider range may give a better layout\n";
     speed("from = 0.5\nto = 1\nsteps = 3").says(&[edge]);
     assert!(!speed("values = [0.5, 1]").stdout.contains("a wider range"));
 }

@@ -57,7 +57,7 @@ fn preferred_regions_are_read_like_obstacles_and_noted_by_verify() {
         ),
         (
             "polygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.3], [0.5, 0.6]]",
-            "preference \"wish\": points that repeat the one",
+            "preference \"wish\": points that repeat the previous",
         ),
         ("configurations = [[0, 0], [1, 0], [1, 1], [0, 0]]", "preference \"wish\": the last point of a ring repeats"),
     ] {

@@ -74,7 +74,7 @@ fn claims_about_a_missing_motion_are_named() {
     assert!(found["not_judged"].to_string().contains("trajectory.torque"), "{found:#}");
     result["units"] = json!(["rad"]);
     let error = upright.findings(&result);
-    assert!(error.as_str().is_some_and(|error| error.contains("2 joints are named")), "{error:#}");
+    assert!(error.as_str().is_some_and(|error| error.contains("there are 2 joints")), "{error:#}");
 }
 
 #[test]

@@ -261,7 +261,7 @@ fn motions_of_a_controller_in_a_namespace_are_judged() {
     assert_eq!(found["verdict"], "free", "{found:#}");
     // The samples: two points, the waiting position, the next beginning, two points.
     assert_eq!((&found["samples"], &found["duration"]), (&json!(5), &json!(9.0)), "{found:#}");
-    assert!(found["notes"].to_string().contains("2 motions, one after the other"), "{found:#}");
+    assert!(found["notes"].to_string().contains("2 motions in sequence"), "{found:#}");
 
     let jumps = recording_of(&[
         (topic, MOTIONS, 1_000_000_000, motion(&joints, &[(0, [0.4, -0.9]), (2, [0.41, -0.9])])),

@@ -366,7 +366,7 @@ fn steps_that_are_none_are_refused() {
     refused(step(json!({"step": 1.5})), &["line 1"]);
     refused(step(json!({"cycle": "one"})), &["line 1"]);
     refused(step(json!({"first_sample": null})), &["steps[0]", "first_sample or last_sample is missing"]);
-    refused(step(json!({"first_sample": 1, "last_sample": 0})), &["steps[0]", "samples are 1 to 0"]);
+    refused(step(json!({"first_sample": 1, "last_sample": 0})), &["steps[0]", "samples of the step are 1 to 0"]);
     refused(step(json!({"last_sample": u64::MAX})), &["steps[0]", "the trajectory has"]);
     refused(step(json!({"turn": {"from": 0.0, "to": 1.0}})), &["missing field `seconds`"]);
     refused(step(json!({"turn": {"from": 0.0, "to": 1e300, "seconds": 1.0}})), &["the turn's to is 1"]);

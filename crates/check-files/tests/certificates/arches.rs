@@ -149,11 +149,11 @@ fn strokes_are_smooth_and_lead_from_end_to_end() {
         ("[[2.9, 0, 0.1], [3.3, 0.3, 0]]", "do not begin and end at rest"),
         ("[[2.9, 0, 0], [3.3, 0.3, 1e-300]]", "do not begin and end at rest"),
         ("[[2.9, 0, 0], [3.3, 0, 0]]", "do not begin and end at rest"),
-        ("[[2.9, 0, 0], [3, 0.2, 0], [3.1, 0.1, 0], [3.3, 0.3, 0]]", "turns back after its knot 1"),
-        ("[[2.9, 0, 0], [3.1, 0.15, -0.01], [3.3, 0.3, 0]]", "turns back after its knot 0"),
-        ("[[2.9, 0, 0], [3.1, 0.15, 3], [3.3, 0.3, 0]]", "turns back after its knot 0"),
-        ("[[2.9, 0, 0], [2.9, 0.15, 0], [3.3, 0.3, 0]]", "knot 1 is not later"),
-        ("[[3.3, 0, 0], [2.9, 0.3, 0]]", "knot 1 is not later"),
+        ("[[2.9, 0, 0], [3, 0.2, 0], [3.1, 0.1, 0], [3.3, 0.3, 0]]", "turn back after knot 1"),
+        ("[[2.9, 0, 0], [3.1, 0.15, -0.01], [3.3, 0.3, 0]]", "turn back after knot 0"),
+        ("[[2.9, 0, 0], [3.1, 0.15, 3], [3.3, 0.3, 0]]", "turn back after knot 0"),
+        ("[[2.9, 0, 0], [2.9, 0.15, 0], [3.3, 0.3, 0]]", "time of knot 1 is not after"),
+        ("[[3.3, 0, 0], [2.9, 0.3, 0]]", "time of knot 1 is not after"),
         ("[[2.9, 0, 0]]", "fewer than two knots"),
         ("[]", "fewer than two knots"),
     ] {
@@ -226,7 +226,7 @@ fn the_least_heights_of_the_world_are_kept() {
     refused(with("arch = 3", strokes), "expected a table");
     refused(with("arch = { rise = -0.1 }", strokes), "negative");
     refused(with("arch = { fall = -1e-9 }", [""; 3]), "negative");
-    refused(with("arch = { height = 0.1 }", strokes), "does not know [robot] arch, height");
+    refused(with("arch = { height = 0.1 }", strokes), "does not know the key height of [robot] arch");
     // Without a stroke there are no heights. A switch says whether the wrist turns during motions.
     let without = |arch: &str| {
         let world = world(arch, &block(0.05)).replace("stroke = { joint = \"z\" }\n", "");

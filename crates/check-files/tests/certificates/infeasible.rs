@@ -300,7 +300,7 @@ fn unknown_input_is_refused_with_its_place() {
     let worlds = |text: &str, at, part| bad(&arm, text, &good, Input::World, at, part);
     worlds("start = 3", Some(1), "table");
     worlds("start.joints = [1]", Some(1), "list of two");
-    worlds("start.tip = [1, 2]\ngoal.joints = [1, 0]", None, "for a start that is a position of the tip");
+    worlds("start.tip = [1, 2]\ngoal.joints = [1, 0]", None, "the start is a position of the tip");
     worlds("start = { joints = [1, 2], near = 3 }", Some(1), "joints");
     worlds("goal.tip = [1, 2]\ngoal.joints = [1, 2]", Some(1), "joints");
     worlds("\nstart.joints = [1, inf]", Some(2), "decimal");

@@ -524,8 +524,8 @@ fn malformed_lines_are_refused_with_a_reason() {
         (r#""motion""#, r#""joints": ["b", "a"], "motion""#, "the second joint carries the first; swap"),
         ("[1, 1]]", "[1, 0.9]]", "are not the ends of the motion"),
         ("[[0, 0], ", "[[0, 0.1], ", "are not the ends of the motion"),
-        ("[1, 1]]", "[0.6, 0.5], [0.5, 0.6], [1, 1]]", "places[2] returns"),
-        ("[1, 1]]", "[0.5, 0.6], [0.6, 0.5], [1, 1]]", "places[2] returns"),
+        ("[1, 1]]", "[0.6, 0.5], [0.5, 0.6], [1, 1]]", "places[2] goes back"),
+        ("[1, 1]]", "[0.5, 0.6], [0.6, 0.5], [1, 1]]", "places[2] goes back"),
         ("[1, 1]]", "[0.5, 0], [0.5, 1], [1, 1]]", "not proven to stay within"),
         ("0.001]]}", "0.001]]}, {\"straight\": [[1.3, 0], [1.2, 0]]}", "piece 1 of the line does not begin"),
     ] {

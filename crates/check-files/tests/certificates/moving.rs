@@ -52,7 +52,7 @@ fn tasks_infeasible_among_static_obstacles_stay_infeasible() {
             holds(judge(&square(), &world, &certificate("infeasible", &boxes())));
             holds(judge(&square(), &world, &certificate("no_shorter", BOUND)));
             let other = certificate("infeasible", &boxes()).replace(r#""obstacle": 0"#, r#""obstacle": 1"#);
-            fails(judge(&square(), &world, &other), "there is no obstacle 1");
+            fails(judge(&square(), &world, &other), "obstacle 1 does not exist");
         }
     }
 }

@@ -81,12 +81,12 @@ fn the_line_is_passed_in_its_order() {
     holds(with("[0, 0], [0.5, 0.5], [1, 1], [2, 2]"));
     fails(with("[0, 0], [1, 1], [2, 1.5]"), "are not the ends of the motion");
     fails(with("[1, 0], [2, 1], [3, 2]"), "are not the ends of the motion");
-    fails(with("[0, 0], [0.5, 0.5], [0.75, 0.25], [1, 1], [2, 2]"), "places[2] returns");
-    fails(with("[0, 0], [2, 2]"), "places[1] returns, or omits");
+    fails(with("[0, 0], [0.5, 0.5], [0.75, 0.25], [1, 1], [2, 2]"), "places[2] goes back");
+    fails(with("[0, 0], [2, 2]"), "places[1] goes back, or skips");
     // The tip returns to the middle of the first piece on its way.
     let knots = "[0, 0, 1], [1, 1, 1], [2, 2.5, 1], [3, 2, 1], [4, 3, 1], [5, 3, 2]";
     let places = "[0, 0], [1, 0.75], [2, 0.75], [3, 1], [4, 2]";
-    fails(judge(ANGLE, knots, &format!("{MOVE}, {}", line(2, [1, 5], PIECES, places))), "from knot 2 to the next");
+    fails(judge(ANGLE, knots, &format!("{MOVE}, {}", line(2, [1, 5], PIECES, places))), "after knot 2");
 }
 
 #[test]

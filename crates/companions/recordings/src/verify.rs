@@ -67,7 +67,10 @@ fn judge_motion(
             "the world has steps, but the file has none: one motion without a payload is judged, with all objects at their initial positions; to judge the steps, verify a task's result in .json"
                 .into(),
         );
-        notes.extend((!held.is_empty()).then(|| "the motion with the moving tool is judged only among obstacles, without objects".into()));
+        notes.extend(
+            (!held.is_empty())
+                .then(|| "the motion with the moving tool is judged only among obstacles, without objects".into()),
+        );
     }
     let scene = &loaded.scene;
     let (start, goals) = if anywhere { (None, Vec::new()) } else { loaded.ends(overrides)? };

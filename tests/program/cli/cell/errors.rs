@@ -72,7 +72,7 @@ fn errors_name_the_line_of_the_cell_file() {
         ),
         (
             vec![("at = [-2.0, 0.0]", "at = [2.0, 0.0]"), ("at = [2.0, 0.0], angle = \"180deg\"", "at = [2.0, 0.0]")],
-            "joint \"shoulder\" moves both",
+            "both move joint \"shoulder\"",
         ),
     ] {
         let done = with(&changes, &[]);

@@ -29,7 +29,7 @@ fn mistakes_are_named_with_file_line_and_hint() {
         ("<v v=\"${[x for x in [1]]}\"/>", &["comprehensions", "ROS's own xacro"]),
         ("<v v=\"${open('x')}\"/>", &["the function open() is unknown", "radians"]),
         ("<v v=\"${[1][5]}\"/>", &["index 5 is out of range: the sequence has 1 items"]),
-        ("<v v=\"$(find nowhere_pkg)/a\"/>", &["the package \"nowhere_pkg\" is not found", "ROS_PACKAGE_PATH"]),
+        ("<v v=\"$(find nowhere_pkg)/a\"/>", &["package \"nowhere_pkg\" was not found", "ROS_PACKAGE_PATH"]),
         ("<v v=\"$(arg x)\"/>", &["the argument \"x\" has no value", "--xacro-arg x=VALUE"]),
         ("<v v=\"$(env NO_SUCH_VARIABLE_HERE)\"/>", &["NO_SUCH_VARIABLE_HERE"]),
         ("<v v=\"$(anon x)\"/>", &["\"$(anon x)\" is not known", "$(find PACKAGE)"]),
@@ -38,8 +38,8 @@ fn mistakes_are_named_with_file_line_and_hint() {
         ("<xacro:wheel/>", &["there is no macro \"wheel\""]),
         ("<xacro:macro name=\"m\" params=\"a\"/><xacro:m b=\"1\"/>", &["no parameter \"b\"", "its parameters are a"]),
         ("<xacro:macro name=\"m\" params=\"a\"/><xacro:m/>", &["called without \"a\""]),
-        ("<xacro:macro name=\"m\" params=\"*a\"/><xacro:m/>", &["without the block \"*a\""]),
-        ("<xacro:macro name=\"m\"/><xacro:m><x/></xacro:m>", &["no block for <x>"]),
+        ("<xacro:macro name=\"m\" params=\"*a\"/><xacro:m/>", &["lacks the element for its block \"*a\""]),
+        ("<xacro:macro name=\"m\"/><xacro:m><x/></xacro:m>", &["takes no element such as <x>"]),
         (
             "<xacro:macro name=\"m\">\n<v v=\"${q}\"/></xacro:macro>\n<xacro:m/>",
             &["r.xacro:3:", "in macro \"m\", called at", ":4)"],
@@ -50,7 +50,7 @@ fn mistakes_are_named_with_file_line_and_hint() {
         ("<xacro:element xacro:name=\"x\"/>", &["does not read xacro:element"]),
         ("<xacro:include filename=\"none.xacro\"/>", &["none.xacro cannot be read", "relative to this file"]),
         ("<xacro:include filename=\"*.xacro\"/>", &["does not read patterns"]),
-        ("<macro name=\"m\" params=\"\"/>", &["<macro> without a prefix", "<xacro:macro"]),
+        ("<macro name=\"m\" params=\"\"/>", &["<macro> without the prefix", "<xacro:macro"]),
         ("<v v=\"${load_yaml('none.yaml')}\"/>", &["none.yaml cannot be read"]),
         ("<link>", &["not well-formed XML"]),
     ] {

@@ -16,13 +16,13 @@ impl Convergence {
         let [rows, columns] = self.cells;
         let mut text = format!("{}\n", plain_line(&self.title));
         text += &format!(
-            "{rows} x {columns} cells, {} free; sweeps end when their {}\nis below {:e}, or after {} sweeps\n",
+            "{rows} x {columns} cells, {} free; until the {} of a sweep\nis below {:e}, {} sweeps at the most\n",
             self.free,
             measure_words(self.stopping.measure),
             self.stopping.below,
             self.stopping.max_sweeps
         );
-        text += "\nrate: final error factor per sweep; error: greatest error / greatest initial error\n";
+        text += "\nrate: final error factor per sweep; error: greatest, over the initial greatest\n";
         text += &self.table().to_text();
         text +=
             &format!("\nsweeps of SOR ({}) by its factor: best of a scan, by the formula for an empty\n", self.order);
@@ -33,7 +33,7 @@ impl Convergence {
         text += &self.weight_table().to_text();
         let leaps = self.leap_table();
         if !leaps.rows.is_empty() {
-            text += "\nwhere preferences begin: squared changes of the sweeps just before and after,\nand number of the remaining sweeps\n";
+            text += "\nwhere preferences begin: squared changes of the sweeps before and after, and\nsweeps from there on\n";
             text += &leaps.to_text();
         }
         let [a, b] = self.direction;
@@ -249,7 +249,7 @@ fn sweeps(count: usize, ending: Ending) -> String {
 
 fn describe_divergence(name: &str, scan: &ParameterScan) -> String {
     match scan.divergence_start() {
-        None => format!("{name}: converge for all epsilons tried\n"),
+        None => format!("{name}: converge at the last epsilon tried\n"),
         Some(point) => {
             let how = if point.ending == Ending::Diverged { "diverge" } else { "do not converge" };
             format!("{name}: {how} from epsilon {:.1} on\n", point.at)
