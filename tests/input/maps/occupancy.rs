@@ -176,7 +176,10 @@ fn the_shade_of_unseen_cells_is_unknown_whatever_free_thresh() {
             let map = OccupancyMap::read(&folder.path().join("room.yaml")).unwrap();
             assert_eq!(map.cells, [Occupancy::Occupied, Occupancy::Unknown, Occupancy::Free], "{yaml}");
             let notes = world_in(&folder).unwrap().notes.join("\n");
-            assert!(notes.contains("room") && notes.contains("although it would be free by free_thresh 0.25"), "{notes}");
+            assert!(
+                notes.contains("room") && notes.contains("although it would be free by free_thresh 0.25"),
+                "{notes}"
+            );
         }
     }
     // With the usual thresholds, it is unknown in any case.

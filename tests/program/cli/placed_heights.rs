@@ -121,8 +121,7 @@ fn places_in_the_air_are_errors() {
 /// A stated height at which nothing ends means a surface that the world leaves out. A note says so.
 #[test]
 fn assumed_surfaces_are_noted() {
-    let note = "\"part 1,1\": placed at the stated height of 0.000 mm, where no obstacle or object below ends; a surface \
-                is assumed there";
+    let note = "\"part 1,1\": placed at the stated height of 0.000 mm; no obstacle or object ends at this height, so a surface is assumed there";
     for (height, bar, is_noted) in
         [("0.0", NO_BAR, true), ("0.0", "[-0.1, 0.0]", false), ("0.02", "[0.0, 0.02]", false)]
     {

@@ -14,7 +14,11 @@ const REFUSED: [(&str, &[&str], &str); 13] = [
         &["marlin", "klipper", "grbl"],
         "follows the end of the program (line 4)",
     ),
-    ("%\nG90\nG0 X240 Y265\nG1 Y275\n%\nG1 X0 Y250\n", &["marlin", "fluidnc"], "follows the end of the program (line 5)"),
+    (
+        "%\nG90\nG0 X240 Y265\nG1 Y275\n%\nG1 X0 Y250\n",
+        &["marlin", "fluidnc"],
+        "follows the end of the program (line 5)",
+    ),
     ("G90\nG0 X240 Y265\n; note\rG1 X0 Y250\nG1 Y275\n", &["marlin", "duet"], "a carriage return"),
     ("G90 G0 X240 Y265\nG1 Y275\n", &["marlin", "klipper"], "G0 is not the first command of its line"),
     ("G0 X240 Y265\nG91\nG21 G90\nG1 X240 Y275\n", &["marlin"], "G90 is not the first command of its line"),
