@@ -9,8 +9,7 @@ create_exception!(
     cplan,
     InputError,
     PyValueError,
-    "Input that cannot be used. Its text names file, line and cure of everything that is wrong; `diagnostics` has them one by one: \
-     dictionaries with `file`, `line`, `column`, `message` and `help` (line and column None where they are not known)."
+    "Invalid input. The text of the exception states each problem with file, line and hint. `diagnostics` lists them as dictionaries with `file`, `line`, `column`, `message` and `help`; `line` and `column` are None if unknown."
 );
 
 /// Returns an input error as a Python exception.

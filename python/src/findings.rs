@@ -36,7 +36,7 @@ pub fn check(py: Python<'_>, arm: &Arm, world: &World, at: &str, clearance: Opti
 #[pyfunction]
 pub fn slices(py: Python<'_>, arm: &Arm, world: &World, q1: Vec<f64>) -> PyResult<Vec<Py<PyArray2<f64>>>> {
     if let Some(odd) = q1.iter().find(|value| !value.is_finite()) {
-        return Err(refused(format!("q1: {odd} is no joint value")));
+        return Err(refused(format!("q1: {odd} is not a joint value")));
     }
     let found = interruptible(py, |_| {
         let scene = arm.among(world)?.scene;
@@ -88,7 +88,7 @@ pub fn verify(
     })?;
     match found.map_err(|error: InputError| raised(py, &error))? {
         Some(found) => printed(&found),
-        None => Err(refused("anywhere is for motions: a task must begin at its start")),
+        None => Err(refused("`anywhere` does not apply to tasks, which must begin at the start")),
     }
 }
 

@@ -16,7 +16,7 @@ fn polygon(name: &str, corners: &PyReadonlyArray2<'_, f64>) -> PyResult<Convex> 
     }
     // Products of larger coordinates overflow.
     if corners.iter().any(|x| x.abs() > MAX_COORDINATE) {
-        return Err(refused(format!("{name}: coordinates are at most {MAX_COORDINATE:e}")));
+        return Err(refused(format!("{name}: coordinates must be at most {MAX_COORDINATE:e} in magnitude")));
     }
     let points = corners.rows().into_iter().map(|row| Point::new(row[0], row[1])).collect();
     Convex::new(points, 0.0).map_err(|error| refused(format!("{name}: {error}")))

@@ -45,7 +45,7 @@ impl Study {
     fn sources(text: String, arm: &Arm, world: &World) -> PyResult<String> {
         let urdf = arm
             .source()
-            .ok_or_else(|| PyValueError::new_err("a study needs a robot in URDF, and this arm is made in code"))?;
+            .ok_or_else(|| PyValueError::new_err("a study needs a robot in URDF, but this arm was made in code"))?;
         serde_json::to_string(&(Source::in_memory("study.toml", text), urdf, world.source())).map_err(refused)
     }
 
@@ -81,7 +81,10 @@ impl Study {
     /// Returns the values of a layout, by the names of the parameters.
     fn values<'py>(&self, py: Python<'py>, layout: usize) -> PyResult<Bound<'py, PyDict>> {
         if layout >= self.study.count() {
-            return Err(PyValueError::new_err(format!("the study has {} layouts, from 0 on", self.study.count())));
+            return Err(PyValueError::new_err(format!(
+                "the study has {} layouts, numbered from 0",
+                self.study.count()
+            )));
         }
         let values = PyDict::new(py);
         for (parameter, value) in self.study.parameters.iter().zip(self.study.values(layout)) {

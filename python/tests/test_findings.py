@@ -100,7 +100,7 @@ def test_a_task_is_judged_step_by_step(tmp_path: Path) -> None:
     found = cplan.verify(arm, world, plan)
     assert found.free and found.to_json() == printed("verify", SCARA, CELL, file)
     assert found.steps is not None and [step.step for step in found.steps] == [step["step"] for step in found.to_dict()["steps"]]
-    with pytest.raises(ValueError, match="task must begin at its start"):
+    with pytest.raises(ValueError, match="tasks, which must begin at the start"):
         cplan.verify(arm, world, plan, anywhere=True)
 
 

@@ -32,7 +32,7 @@ def test_differences_against_hulls() -> None:
 def test_shapes_that_make_no_sense_are_refused() -> None:
     with pytest.raises(ValueError, match="a: .*corner"):
         cplan.penetration_depth(SQUARE[::-1].copy(), SQUARE)
-    with pytest.raises(ValueError, match="a: coordinates are at most"):
+    with pytest.raises(ValueError, match="a: coordinates must be at most"):
         cplan.penetration_depth(SQUARE * 1e160, SQUARE)
     with pytest.raises(ValueError, match=r"b: expected shape \(n, 2\)"):
         cplan.penetration_depth(SQUARE, np.zeros((3, 3)))

@@ -33,8 +33,9 @@ Examples:
   cplan check robots/planar_2r.urdf workspaces/shelf.toml --at 8deg,0deg \\
     --expect blocked
 
-Exit codes: 0 the configuration was checked, free or not, 1 bad input or I/O, 2
-wrong command line, 3 the answer is not that of --expect.")]
+Exit codes: 0 the configuration was checked, free or not, 1 bad input, or a file
+cannot be read or written, 2 wrong command line, 3 the answer is not that of
+--expect.")]
 pub struct CheckArgs {
     #[command(flatten)]
     pub files: Files,
@@ -211,10 +212,13 @@ fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindin
             let step = format!("{resolution:.2e} {}", first.unit());
             line(
                 "",
-                format!("(searched values of {} in steps of {step}; {} is exact for each)", first.name, second.name),
+                format!(
+                    "(nearest for values of {} in steps of {step}; all values of {} are considered)",
+                    first.name, second.name
+                ),
             );
         }
-        None if !findings.free => line("nearest", "the search found no free configuration; that is not proven".into()),
+        None if !findings.free => line("nearest", "the search found no free configuration (not proven)".into()),
         None => {}
     }
     line("arm", format!("{} ({})", arm.name, arm.kind()));

@@ -28,13 +28,13 @@ use std::path::{Path, PathBuf};
 The measured relaxations are Jacobi, weighted Jacobi (0.8), Gauss-Seidel and
 SOR. Gauss-Seidel and SOR go row by row, from the four corners in turn, and
 red-black; SOR uses the formula for empty rectangles. The cells are those of the
-harmonic planner: obstacles have the value 0, goals 1. SOR is that of the planner:
-no value leaves this range.
+harmonic planner: obstacles have the value 0, goals 1. As in the planner, SOR
+keeps all values in this range.
 
-The equations are harmonic, and oriented by central and upwind differences. In
-worlds with preferences, local (by both differences; --direction applies to
-regions without a direction), bvp and bvp2 are added. The error is the
-difference from the solution by elimination. Divergence is reported.
+The equations are harmonic, and oriented (by central and by upwind differences).
+For worlds with preferences they are also local (by both differences;
+--direction applies to regions without a direction), bvp and bvp2. The error is
+the difference from the solution by elimination. Divergence is reported.
 
 Examples:
   cplan converge robots/planar_2r.urdf workspaces/shelf.toml --cells 24
@@ -50,7 +50,7 @@ pub struct ConvergeArgs {
     #[command(flatten)]
     pub query: QueryArgs,
     /// Number of grid cells along each axis, 8 to 256, or one number per joint, such as 80x40. Except for SOR, the
-    /// number of sweeps grows with its square: 256 cells take minutes.
+    /// number of sweeps grows with the square of this number: 256 cells take minutes.
     #[arg(long, value_name = "N|AxB", default_value = "64", value_parser = cells, allow_hyphen_values = true)]
     #[arg(help_heading = RELAXATION)]
     pub cells: CellCounts,
@@ -62,7 +62,7 @@ pub struct ConvergeArgs {
     #[arg(long, value_name = "v1,v2", default_value = "1,0", value_parser = direction, allow_hyphen_values = true)]
     #[arg(help_heading = RELAXATION)]
     pub direction: Direction,
-    /// Order of the cells in the scans over factor and epsilon.
+    /// Order of the cells in a sweep, in the measurements with many factors and epsilons.
     #[arg(long, value_parser = word(ORDERS), value_name = "NAME", default_value = "rows", help_heading = RELAXATION)]
     pub order: Order,
     /// Effect of the joint limits on the field.
@@ -108,7 +108,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     refuse_to_overwrite_inputs(outputs.paths(), &loaded.files())?;
     loaded.robot.warnings.iter().for_each(|w| sinks::print_status(&format!("warning: {w}")));
-    loaded.require_static_obstacles("fields are for worlds without moving obstacles")?;
+    loaded.require_static_obstacles("fields need static obstacles")?;
     let problem = Problem::of_scene(loaded, &args.query.overrides())?;
     let motion = problem.motion().ok_or_else(|| {
         let world = args.files.world.display();

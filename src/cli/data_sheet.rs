@@ -57,15 +57,15 @@ pub fn scara_urdf(
 /// Numbers that data sheets state.
 #[derive(Debug, Clone, Args)]
 pub struct DataSheet {
-    /// Lengths of both links, from axis to axis and from there to the tip, metres (rr, scara); distance of the tip from the
-    /// axis with the ram drawn in, metres (rp).
+    /// For rr and scara: lengths of both links, from axis to axis and from the second axis to the tip, metres. For rp:
+    /// distance of the tip from the axis when the ram is drawn in, metres.
     #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = positive, help_heading = DATA_SHEET)]
     pub links: Vec<f64>,
     /// Travel of the quill, metres (scara).
     #[arg(long, value_name = "METRES", value_parser = positive, help_heading = DATA_SHEET)]
     pub stroke: Option<f64>,
-    /// Ranges of both joints: 130 is from -130 to 130 degrees, and -100:130 from -100 to 130 degrees; for a sliding joint,
-    /// 0.8 is from 0 to 0.8 metres.
+    /// Ranges of both joints: 130 means -130 to 130 degrees, and -100:130 means -100 to 130 degrees; for a sliding
+    /// joint, 0.8 means 0 to 0.8 metres.
     #[arg(long, value_name = "A,B", value_delimiter = ',', value_parser = range, allow_hyphen_values = true, help_heading = DATA_SHEET)]
     pub limits: Vec<Range>,
     /// Top speeds of both joints, degrees or metres per second.
@@ -109,7 +109,7 @@ impl DataSheet {
             if let Some(lower) = limit.and_then(|limit| limit.lower) {
                 if !turns {
                     let message =
-                        format!("--limits: joint {} slides from 0; give its travel alone, such as 0.8", k + 1);
+                        format!("--limits: joint {} slides, beginning at 0; give only its travel, such as 0.8", k + 1);
                     return Err(Failure::Usage(message));
                 }
                 check("limits", Some(lower), [-range[1], -range[0]], unit)?;
@@ -142,7 +142,10 @@ impl DataSheet {
             ([], _) => Ok(usual),
             (&[first], 1) => Ok([first, 0.0]),
             (&[first, second], 2) => Ok([first, second]),
-            (_, 0) => Err(Failure::Usage(format!("--links: {} has none; --limits are its travels", kind.name()))),
+            (_, 0) => Err(Failure::Usage(format!(
+                "--links does not apply to {}, which has no links; --limits states its travels",
+                kind.name()
+            ))),
             (given, _) => Err(Failure::Usage(format!("--links: {} needs {count}, not {}", kind.name(), given.len()))),
         }
     }

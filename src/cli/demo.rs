@@ -62,8 +62,8 @@ const PICTURE_FILE: &str = "plan.html";
 
 /// Plan in a built-in cell; write plan.json and plan.html.
 ///
-/// All options of `cplan plan` also apply; `cplan help planners` lists those of planners. With `--kind follow`, only those
-/// apply that `cplan follow` has as well.
+/// All options of `cplan plan` also apply; `cplan help planners` lists the options of planners. With `--kind follow`,
+/// only options that `cplan follow` has as well apply.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 `cplan init --kind scara` writes the files of this cell.
@@ -138,7 +138,8 @@ fn follow_args(plan: &mut PlanArgs) -> Result<FollowArgs, Failure> {
 /// Returns the arguments of a command line.
 fn of_words<A: Args>(words: impl IntoIterator<Item = &'static str>) -> Result<A, Failure> {
     let words: Vec<OsString> = words.into_iter().map(OsString::from).collect();
-    super::read(&words).ok_or_else(|| Failure::Usage("the options of the demonstration have no defaults".into()))
+    super::read(&words)
+        .ok_or_else(|| Failure::Usage("internal error: the options of the demonstration have no defaults".into()))
 }
 
 /// Reads the line of the demonstration.
@@ -160,11 +161,11 @@ const COLUMN_GAP: usize = 5;
 fn next(picture: &Path, folder: &Path) -> String {
     let folder = if folder == Path::new(".") { String::new() } else { format!(" --dir {}", word(folder)) };
     let commands = [
-        (format!("demo --planner harmonic --force{folder}"), "the same cell with another planner"),
-        (format!("demo --kind arch --force{folder}"), "pick and place: the quill moves with the arm"),
+        (format!("demo --planner harmonic --force{folder}"), "the same cell, with another planner"),
+        (format!("demo --kind arch --force{folder}"), "pick and place; the quill moves while the arm moves"),
         (format!("demo --kind follow --force{folder}"), "the tip follows a line of G-code within 0.01 mm"),
-        ("init --kind scara".to_owned(), "the files of this cell, to change"),
-        ("init".to_owned(), "a small arm and world, every line explained"),
+        ("init --kind scara".to_owned(), "the files of this cell, for you to change"),
+        ("init".to_owned(), "a small arm and world, with every line explained"),
         ("--help".to_owned(), "all commands and options, with examples"),
     ];
     let width = commands.iter().map(|(command, _)| command.len()).max().unwrap_or(0) + COLUMN_GAP;

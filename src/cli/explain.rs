@@ -32,16 +32,16 @@ use std::time::Duration;
 If no path exists, the explanation names a set of blockers: obstacles, joint
 limits, the clearance. Together they exclude every path (proven); without any
 one of them a path exists (certified). For each blocker, the explanation gives
-the smallest change that opens a path, between a value with a proof that there
-is no path and a value with a certified path.
+the smallest change that opens a path. It lies between two values: with one,
+there is no path (proven), with the other, there is a path (certified).
 
 A blocked start or goal, which `cplan plan` refuses, is explained in the same
 way. In a world with steps, the explanation is about the step that fails.
 
 The explanation ends after 5 s, or --time SECONDS, counted from the moment when
-the existence of a path is decided. It may then lack changes, and it reports if
-the set of blockers may be reducible. The same input gives the same output
-unless the time ran out.
+it is decided whether a path exists. It may then lack changes, and states if the
+set of blockers may be reducible. The same input gives the same output unless
+the time ran out.
 
 Examples:
   cplan explain robots/planar_2r.urdf workspaces/no_path.toml
@@ -58,13 +58,13 @@ pub struct ExplainArgs {
     pub files: Files,
     #[command(flatten)]
     pub query: QueryArgs,
-    /// Draw workspace and configuration space with the blockers and the end of the reachable space: .svg, .png, .gif or
-    /// .html. Can be repeated.
+    /// Draw workspace and configuration space with the blockers and the place where reachable space ends: .svg, .png,
+    /// .gif or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
     #[command(flatten)]
     pub theme: ThemeArgs,
-    /// Time limit for the explanation, seconds, counted from the moment when the existence of a path is decided.
+    /// Time limit for the explanation, seconds, counted from the moment when it is decided whether a path exists.
     #[arg(long, value_name = "SECONDS", default_value_t = TIME_LIMIT.as_secs_f64(), value_parser = time_limit, allow_hyphen_values = true)]
     #[arg(help_heading = QUERY)]
     pub time: f64,
@@ -117,7 +117,7 @@ impl ExplanationResult {
     /// # Errors
     /// Overrides that do not suit the world, and an invalid task.
     pub fn of(loaded: LoadedScene, overrides: &Overrides, limit: Duration) -> Result<Self, Failure> {
-        loaded.require_static_obstacles("explanations are for worlds without moving obstacles")?;
+        loaded.require_static_obstacles("explanations need static obstacles")?;
         let options = Options::default();
         let (question, notes) = if loaded.is_task() {
             match Problem::of_scene(loaded.clone(), overrides) {
@@ -158,7 +158,7 @@ impl ExplanationResult {
     pub fn summary(&self) -> String {
         match self {
             Self::Motion(explanation, notes) => explain::summary(explanation, notes),
-            Self::Done(_) => "found: all steps are planned, so there is nothing to explain\n".into(),
+            Self::Done(_) => "found: a motion exists for every step, so there is nothing to explain\n".into(),
         }
     }
 
@@ -193,7 +193,7 @@ fn blocked_start(loaded: LoadedScene, overrides: &Overrides) -> Result<(MotionQu
     let task = loaded.clone().resolve(overrides, Rules::Recording).ok().and_then(|loaded| loaded.task);
     let raising = task.as_ref().and_then(raising_at_start);
     let (question, mut notes) = question_of(loaded, overrides, Rules::Start)?;
-    notes.push("the start is blocked, so no step can begin: this explanation is about the start alone".into());
+    notes.push("the start is blocked, so no step can begin; this explanation is only about the start".into());
     let standstills = [raising.into_iter().collect(), Vec::new()];
     Ok((question.with_standstills(standstills), notes))
 }
@@ -210,7 +210,7 @@ fn failed_step(plan: &Plan, limit: Duration, options: &Options) -> Option<(Expla
         Action::Follow(_) => format!(
             "step {number} fails: {what} ({place}); `cplan follow` names the place where the line cannot be followed"
         ),
-        _ => format!("step {number} fails, and this explanation is about its motion: {what} ({place})"),
+        _ => format!("step {number} fails: {what} ({place}); this explanation is about the motion of this step"),
     };
     Some((explanation, note))
 }

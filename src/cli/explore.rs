@@ -31,8 +31,8 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
 The world file describes the real world. The arm knows only the space that its
 range sensor has seen; unseen space counts as solid. The table [sensor] of the
-world file describes the sensor: on the tip or the base, rays, field of view,
-range, noise. Each motion is certified within known free space before it begins.
+world file describes the sensor: its place (tip or base), rays, field of view,
+range and noise. Each motion is certified within known free space before it begins.
 
 An exploration ends in one of these ways:
   reached      the arm is at the goal
@@ -61,7 +61,7 @@ pub struct ExploreArgs {
     /// Number of grid cells along each axis of joint space. Their centres are the configurations that the search considers.
     #[arg(long, value_name = "N|AxB", default_value = "96", help_heading = EXPLORATION)]
     pub grid: CellCounts,
-    /// Distance from the arm within which the world is known initially, metres [default: two cells of the map].
+    /// Distance from the arm within which the world is known at the beginning, metres [default: two cells of the map].
     #[arg(long, value_name = "METRES", value_parser = positive, help_heading = EXPLORATION)]
     pub surveyed: Option<f64>,
     /// Map of known space (FILE.yaml) that an earlier exploration of this world wrote with --map.
@@ -98,11 +98,15 @@ pub struct ExploreArgs {
 
 /// Strategies in the order of the help.
 const STRATEGIES: [Word<Strategy>; 5] = [
-    (Strategy::Goal, "goal", "Toward the goal, as far as the path is known"),
+    (Strategy::Goal, "goal", "Toward the goal, as far as the path is known to be free"),
     (Strategy::View, "view", "To a configuration that shows all that the nearest one shows, and more"),
     (Strategy::Nearest, "nearest", "To the nearest configuration that shows something new"),
-    (Strategy::Harmonic, "harmonic", "Up the harmonic potential of all configurations that show something new"),
-    (Strategy::Wall, "wall", "To the first configuration along the wall on the right that shows something new"),
+    (
+        Strategy::Harmonic,
+        "harmonic",
+        "Up the harmonic potential, whose sources are all configurations that show something new",
+    ),
+    (Strategy::Wall, "wall", "Along the wall on the right, to the first configuration that shows something new"),
 ];
 
 /// Explores, and prints the result.
@@ -166,8 +170,8 @@ impl ExploreArgs {
     /// Describes the reason why no exploration is possible, with a hint.
     fn refused(&self, error: &ExploreError) -> Failure {
         let (file, cure) = match error {
-            ExploreError::Map(_) => (&self.files.world, "give its [sensor] a larger cell, or joint 1 narrower limits"),
-            ExploreError::NoGoal => (&self.files.world, "give it a [goal], or explore with --strategy view"),
+            ExploreError::Map(_) => (&self.files.world, "increase `cell` in [sensor], or narrow the limits of joint 1"),
+            ExploreError::NoGoal => (&self.files.world, "add a [goal] to the world, or use --strategy view"),
             ExploreError::Known(_) => (
                 self.known.as_ref().unwrap_or(&self.files.world),
                 "use a map that --map wrote for this world, arm and sensor",
@@ -201,7 +205,7 @@ fn motion_format(path: &Path) -> Result<Format, Failure> {
         format @ (Format::Json | Format::Csv | Format::Yaml) if CSpaceFormat::from_path(path).is_none() => Ok(format),
         _ => {
             let path = path.display();
-            Err(Failure::Usage(format!("{path}: an exploration can only be written as .json, .csv or .yaml")))
+            Err(Failure::Usage(format!("{path}: an exploration's name must end in .json, .csv or .yaml")))
         }
     }
 }
@@ -276,7 +280,10 @@ fn facts(done: &Exploration) -> Vec<Line> {
         ("readings", format!("{}, {}", done.readings.len(), counted(done.decisions.len(), "decision"))),
     ];
     if let Some(known) = done.known_length.filter(|&known| known > 0.0) {
-        facts.push(("known", format!("{:.2} times the {known:.4} of a plan in the known world", done.length / known)));
+        facts.push((
+            "known",
+            format!("{:.2} times the length of a plan in the fully known world ({known:.4})", done.length / known),
+        ));
     }
     facts
 }
@@ -287,10 +294,10 @@ fn summary(world: &LoadedProblem, done: &Exploration, timed: bool) -> String {
         Ending::Explored { configurations, given_up } => {
             let given_up = match given_up {
                 0 => String::new(),
-                n => format!("; {n} of them were given up because sensor errors hid the expected new space"),
+                n => format!("; {n} of them were tried and given up, because sensor errors hid the expected new space"),
             };
             format!(
-                "explored: nothing new can be seen from any of the {configurations} configurations that can be reached{given_up}"
+                "explored: nothing new can be seen from any of the {configurations} reachable configurations{given_up}"
             )
         }
         Ending::Unreachable(why) => format!("unreachable: {why}"),

@@ -13,7 +13,7 @@ pub fn folder(path: &Path) -> Result<(), Failure> {
         return Ok(());
     }
     fs::create_dir_all(path).map_err(|error| {
-        let why = if path.exists() { "it exists and is not a folder".into() } else { error.kind().to_string() };
+        let why = if path.exists() { "a file of this name exists".into() } else { error.kind().to_string() };
         Failure::Io(format!("cannot make the folder {}: {why}", path.display()))
     })
 }

@@ -64,7 +64,7 @@ pub enum Kind {
     /// Two turning joints; 2r is the same.
     #[value(alias = "2r")]
     Rr,
-    /// A turret with a ram that slides out of it: turning, then sliding; polar is the same.
+    /// A turret with a ram that slides out: turning, then sliding; polar is the same.
     #[value(alias = "polar")]
     Rp,
     /// An arm on a rail: sliding, then turning.
@@ -72,7 +72,8 @@ pub enum Kind {
     /// A gantry: two sliding joints; gantry is the same.
     #[value(alias = "gantry")]
     Pp,
-    /// The cell of `cplan demo`, a SCARA among six obstacles; with the numbers of a data sheet, that SCARA among two.
+    /// The cell of `cplan demo`, a SCARA among six obstacles; with numbers of a data sheet, a SCARA of these numbers
+    /// among two obstacles.
     Scara,
     /// The pick-and-place cycle of `cplan demo --kind arch`.
     Arch,
@@ -224,7 +225,7 @@ impl InitArgs {
     fn sheet_numbers(&self) -> Result<ArmNumbers, Failure> {
         match self.kind {
             Kind::Pr | Kind::Arch => {
-                let message = "the numbers of a data sheet are for --kind rr, rp, pp and scara";
+                let message = "numbers of a data sheet need --kind rr, rp, pp or scara";
                 Err(Failure::Usage(message.to_owned()))
             }
             kind => self.sheet.numbers(kind),
@@ -236,11 +237,11 @@ impl InitArgs {
 /// `numbers` are those of a data sheet.
 fn description([robot, world, schema]: [&Path; 3], numbers: Option<&str>) -> String {
     let both = format!("{} {}", word(robot), word(world));
-    let bodies = numbers.map(|numbers| format!("; {numbers}; its bodies are simple envelopes")).unwrap_or_default();
+    let bodies = numbers.map(|numbers| format!("; {numbers}; the shapes are simple envelopes")).unwrap_or_default();
     format_columns(&[
         ("file", format!("{}: the robot{bodies}", robot.display())),
-        ("file", format!("{}: start, goal and obstacles, every key explained", world.display())),
-        ("file", format!("{}: lets editors complete and explain the keys of the world", schema.display())),
+        ("file", format!("{}: start, goal and obstacles, with every key explained", world.display())),
+        ("file", format!("{}: with this file, editors complete and explain the keys of the world", schema.display())),
         ("next", format!("cplan {both} --picture plan.html")),
         ("next", format!("cplan check {both} --at 0.3,0.4")),
         ("next", format!("cplan inspect {both}")),

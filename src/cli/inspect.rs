@@ -78,8 +78,8 @@ Examples:
   cplan inspect robots/scara.urdf.xacro --xacro-arg reach=0.6 \\
     --expanded scara_expanded.urdf
 
-Exit codes: 0 planning with the robot is possible, 1 it is not (the report is
-printed in any case), or I/O, 2 wrong command line.")]
+Exit codes: 0 cplan can plan for the robot; 1 it cannot (the report is still
+printed), or a file cannot be read or written; 2 wrong command line.")]
 pub struct InspectArgs {
     /// Robot: a URDF or xacro file, which may be defective or not a planar arm.
     #[arg(value_name = "URDF", value_hint = ValueHint::FilePath)]
@@ -89,8 +89,8 @@ pub struct InspectArgs {
     pub world: Option<PathBuf>,
     #[command(flatten)]
     pub xacro: XacroArgs,
-    /// Write the URDF that a xacro robot expands to (.urdf), for `cplan-check` and other programs. In the folder of the
-    /// xacro file it finds the same meshes.
+    /// Write the URDF to which a xacro robot expands (.urdf), for `cplan-check` and other programs. Write it into the
+    /// folder of the xacro file, so that its meshes are found.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub expanded: Option<PathBuf>,
     /// Draw the arm at zero with the frames of its joints: .svg or .png, or .html with the whole report. Can be repeated.
@@ -143,13 +143,15 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
 fn write_expanded(robot: &RobotFile, path: &Path) -> Result<(), Failure> {
     let source = robot.read()?;
     if !source.is_converted() {
-        let message = "this is a plain URDF: there is nothing to expand";
+        let message = "this is a plain URDF, so there is nothing to expand";
         return Err(InputError::from(source.diagnostic(message).help("leave --expanded out")).into());
     }
     write_whole(path, source.text().as_bytes())?;
     for mesh in input::meshes_elsewhere(&source, path) {
         let [file, robot] = [path, &robot.path].map(|path| path.display().to_string());
-        sinks::print_status(&format!("warning: mesh \"{mesh}\" is not found from {file}; write {file} beside {robot}"));
+        sinks::print_status(&format!(
+            "warning: mesh \"{mesh}\" cannot be found from the folder of {file}; write {file} beside {robot}"
+        ));
     }
     Ok(())
 }

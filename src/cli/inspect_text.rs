@@ -24,7 +24,10 @@ pub fn text(report: &Inspection) -> String {
     );
     let name = report.robot.as_deref().unwrap_or("(no name)");
     lines.add("robot", &format!("{name}, {}", report.urdf));
-    lines.add("world", report.world.as_deref().unwrap_or("none given, so no joint is chosen, held or overridden"));
+    lines.add(
+        "world",
+        report.world.as_deref().unwrap_or("none given, so no world chooses joints, holds them or changes their limits"),
+    );
     match &report.root {
         Some(root) => tree(&mut lines, report, root, 0),
         None => report.joints.iter().for_each(|j| lines.add("joints", &branch(report, j))),
@@ -49,9 +52,12 @@ pub fn text(report: &Inspection) -> String {
         let [x, y] = reach.tip;
         lines.add("tip", &format!("origin of link \"{tip}\", at ({x:.4}, {y:.4}) m with both joints at zero"));
         if let Some([least, most]) = reach.distances {
-            lines.add("reach", &format!("the tip {least:.4} to {most:.4} m from joint 1, without limits"));
+            lines.add("reach", &format!("without joint limits, the tip is {least:.4} to {most:.4} m from joint 1"));
         }
-        lines.add("reach", &format!("all parts within {:.4} m of joint 1, slides at zero", reach.outline));
+        lines.add(
+            "reach",
+            &format!("all parts are within {:.4} m of joint 1, if sliding joints are at zero", reach.outline),
+        );
     }
     report.ignored.iter().for_each(|i| lines.add("ignored", i));
     report.warnings.iter().for_each(|w| lines.add("warning", w));
@@ -59,7 +65,10 @@ pub fn text(report: &Inspection) -> String {
         diagnostic.to_string().lines().for_each(|line| lines.add("defect", line));
     }
     if let Some(help) = &report.help {
-        lines.add("remedy", "the robot loads with these entries in the world file; the numbers are placeholders:");
+        lines.add(
+            "remedy",
+            "with these entries in the world file, cplan can read the robot (the numbers are examples):",
+        );
         lines.add("remedy", "[robot]");
         help.lines().for_each(|line| lines.add("remedy", line));
     }
@@ -131,7 +140,7 @@ fn movable(report: &Inspection, joint: &JointEntry) -> String {
 fn range(joint: &JointEntry, limits: LimitEntry) -> String {
     let source = match limits.source {
         LimitSource::Urdf => "URDF",
-        LimitSource::Soft => "URDF, narrowed by its soft limits",
+        LimitSource::Soft => "URDF, narrowed by the soft limits",
         LimitSource::World => "world file",
         LimitSource::Continuous => return "no limits: continuous".into(),
         LimitSource::Unset => return "range unset".into(),
@@ -193,15 +202,15 @@ fn pairs(lines: &mut Columns, report: &Inspection) {
     if pairs.is_empty() {
         // Directions in the root frame are known only if the links form a tree.
         let tried = report.joints.iter().all(|j| j.axis.is_none() || j.direction.is_some());
-        let none = "no two independently moving joints follow one another";
-        lines.add("pairs", if tried { none } else { "not tried: the joints and their tree have defects" });
+        let none = "no joint that moves independently carries another such joint";
+        lines.add("pairs", if tried { none } else { "not tried, because the joints or their tree have defects" });
     }
 }
 
 fn outline(lines: &mut Columns, outline: &OutlineEntry) {
     let OutlineEntry { link, source, parts, area, heights, bodies } = outline;
     let from = match *source {
-        "none" => "none: it has no geometry and cannot collide".to_owned(),
+        "none" => "none: this link has no geometry and cannot collide".to_owned(),
         "bar" => format!("a bar, as the world file requests; {} of {area:.6} m2 in all", counted(*parts, "part")),
         source => format!("from {source} geometry; {} of {area:.6} m2 in all", counted(*parts, "part")),
     };
@@ -220,7 +229,7 @@ fn self_obstacle(lines: &mut Columns, own: &SelfObstacleEntry) {
     let hit_by = if *moves { "link 2" } else { "both links" };
     let free: Vec<String> = ignored.iter().map(|link| format!("\"{link}\"")).collect();
     let except = if free.is_empty() { String::new() } else { format!(", except {}", free.join(", ")) };
-    lines.add("own body", &format!("\"{link}\": can be hit by {hit_by}{except}; heights {lower:.4} to {upper:.4} m"));
+    lines.add("own body", &format!("\"{link}\": an obstacle for {hit_by}{except}; heights {lower:.4} to {upper:.4} m"));
 }
 
 fn vector(d: [f64; 3]) -> String {

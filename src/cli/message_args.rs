@@ -12,8 +12,8 @@ pub struct MessageArgs {
     /// Joints in ROS 2 files (.yaml, .mcap).
     #[arg(long, value_parser = word(JOINTS), value_name = "WHICH", default_value = "all")]
     pub joints: NamedJoints,
-    /// Also write accelerations into .csv, .yaml and .mcap: controllers then join points by quintics instead of cubics.
-    /// Refused if the acceleration jumps; limits on the jerk of both joints (--jerk) prevent jumps.
+    /// Also write accelerations into .csv, .yaml and .mcap; controllers then join points by quintics instead of cubics.
+    /// This is refused if the acceleration jumps; limits on the jerk of both joints (--jerk) prevent jumps.
     #[arg(long)]
     pub accelerations: bool,
 }

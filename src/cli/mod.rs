@@ -215,7 +215,7 @@ fn without_planner_options(command: clap::Command) -> clap::Command {
     command.mut_args(|argument| match argument.get_id().as_str() {
         "planner" => {
             let about = argument.get_help().map(ToString::to_string).unwrap_or_default();
-            let help = format!("{about}: {names}. `cplan help planners` describes them and their options");
+            let help = format!("{about}: {names}. `cplan help planners` describes the planners and their options");
             argument.hide_possible_values(true).help(help)
         }
         id if planners.contains(id) => argument.hide(true),
@@ -246,7 +246,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
         Err(mut error) => {
             // A world with steps may itself have the line.
             if arguments[1] == "follow" && error.kind() == ErrorKind::MissingRequiredArgument {
-                let tip = "PATH is the line; a world with steps needs none: `cplan plan URDF WORLD`";
+                let tip = "PATH is the file of the line; for a world whose steps contain the line, use `cplan plan URDF WORLD`";
                 error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
             }
             return unread(&error, in_json);

@@ -51,7 +51,7 @@ impl<T: Copy> Outputs<T> {
         let is_gif = |(_, format): &&(PathBuf, PictureFormat)| format.is_animated() && *format != PictureFormat::Html;
         match self.pictures.iter().find(is_gif) {
             Some((path, _)) => {
-                Err(Failure::Usage(format!("{}: {what} is drawn as .svg, .png or .html", path.display())))
+                Err(Failure::Usage(format!("{}: a picture of {what} must be .svg, .png or .html", path.display())))
             }
             None => Ok(self),
         }
@@ -143,7 +143,7 @@ pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failu
         let Some(identity) = FileIdentity::of(path) else { continue };
         if let Some((other, _)) = known.iter().find(|(_, other)| other.is_same_file(&identity)) {
             let (one, other) = (path.display(), other.display());
-            let message = format!("the outputs {other} and {one} are the same file; nothing was written");
+            let message = format!("nothing was written: the outputs {other} and {one} are the same file");
             return Err(Failure::Refused(format!("{message}\n  hint: give each output its own file")));
         }
         known.push((path, identity));
@@ -166,7 +166,7 @@ pub fn refuse_to_overwrite_inputs<'a>(
     });
     onto.map_or(Ok(()), |(path, input)| {
         let (path, input) = (path.display(), input.display());
-        let message = format!("the output {path} is the input file {input}; nothing was written");
+        let message = format!("nothing was written: the output {path} is the input file {input}");
         Err(Failure::Refused(format!("{message}\n  hint: choose another file for the output")))
     })
 }

@@ -79,8 +79,8 @@ pub struct PlanArgs {
     pub program: ProgramArgs,
     #[command(flatten)]
     pub message: MessageArgs,
-    /// Draw workspace and configuration space side by side: .svg, .png, .gif (plays the planner's work, then the motion)
-    /// or .html (a page that plays the same and lets you move the arm). Can be repeated.
+    /// Draw workspace and configuration space side by side: .svg, .png, .gif (an animation of the planner's work, then
+    /// of the motion) or .html (a page with the same animations, on which you can move the arm). Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
     #[command(flatten, next_help_heading = OUTPUT)]
@@ -89,13 +89,13 @@ pub struct PlanArgs {
     #[arg(long, value_parser = word(FIELD_LINES), value_name = "LINES", default_value = "equipotentials")]
     #[arg(help_heading = OUTPUT)]
     pub field_lines: FieldLines,
-    /// First label of a wavefront, or of another search of a grid, in pictures and files. Textbooks begin at 0, some at 1
-    /// or 2.
+    /// First label of a wavefront, or of another search of a grid, in pictures and files. Most textbooks begin at 0,
+    /// some at 1 or 2.
     #[arg(long, value_name = "N", default_value_t = 0, help_heading = OUTPUT)]
     pub labels_from: u32,
-    /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact
-    /// arithmetic. If FILE is also a .json of --output, it becomes the member `certificate` there. Infeasible tasks have no
-    /// certificate.
+    /// Write the evidence for the answer, found or infeasible. `cplan-check URDF WORLD FILE` checks it in exact
+    /// arithmetic. If FILE is also a .json of --output, the evidence becomes the member `certificate` of that file.
+    /// Infeasible tasks have no certificate.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub certificate: Option<PathBuf>,
     #[command(flatten)]
@@ -228,13 +228,13 @@ fn require_grid(args: &PlanArgs, outputs: &Outputs<PlanContent>, planner: &Plann
         let PlanContent::CSpace(format) = content else { continue };
         let needed = match format {
             CSpaceFormat::Csv if planner.space().is_none() => {
-                "holds the values of a grid and needs --planner wavefront or harmonic"
+                "holds the values of a grid, so it needs --planner wavefront or harmonic"
             }
             CSpaceFormat::PotentialCsv if !planner.has_potential() => {
-                "holds the potential of a field and needs --planner harmonic, with any field except khatib"
+                "holds the potential of a field, so it needs --planner harmonic, with any field except khatib"
             }
             CSpaceFormat::HeuristicCsv if !planner.estimates_costs() => {
-                "holds the estimates of a search and needs --planner wavefront --search astar or greedy"
+                "holds the estimates of a search, so it needs --planner wavefront --search astar or greedy"
             }
             _ => continue,
         };

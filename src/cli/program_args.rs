@@ -18,13 +18,13 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = OUTPUT)]
 pub struct ProgramArgs {
-    /// With --output NAME.EXT: a program for a controller, written by the template. The program consists of joint moves that
-    /// stop at each target, and is certified as written. FILE can also be the name of a shipped template: epson (SPEL+), rapid
-    /// (ABB) or list (a table). EXT is any extension without another meaning, such as .prg.
+    /// With --output NAME.EXT: write a program for a controller by this template. The program consists of joint moves
+    /// that stop at each target; it is certified as written. FILE can also be the name of a shipped template: epson
+    /// (SPEL+), rapid (ABB) or list (a table). EXT can be any extension without another meaning, such as .prg.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub template: Option<String>,
-    /// Deviation from straight joint lines within which the program is certified: an angle, a length for sliding joints, or
-    /// both [default: 0.05deg,0.05mm].
+    /// Deviation from straight lines in joint space that the certificate of the program allows: an angle, a length for
+    /// sliding joints, or both [default: 0.05deg,0.05mm].
     #[arg(long, value_name = "TOLERANCE", requires = "template", allow_hyphen_values = true)]
     pub joint_tolerance: Option<JointTolerance>,
 }
@@ -55,7 +55,7 @@ impl ProgramArgs {
         match (&error, &self.template) {
             (FormatError::Unknown { .. }, Some(_)) => Ok(PlanContent::Program),
             (FormatError::Unknown { .. }, None) => {
-                let hint = "with --template, files with other extensions are programs for a controller";
+                let hint = "to write a program for a controller, add --template; other extensions are then allowed";
                 Err(Failure::Usage(format!("{error}\n  hint: {hint}")))
             }
             _ => Err(error.into()),
@@ -70,7 +70,7 @@ impl ProgramArgs {
         let Some(name) = &self.template else { return Ok(None) };
         if !outputs.results.iter().any(|(_, content)| *content == PlanContent::Program) {
             let message =
-                "--template needs an --output file with an extension of its own, such as --output program.prg";
+                "--template needs an --output file with the extension of the program, such as --output program.prg";
             return Err(Failure::Usage(message.into()));
         }
         if blend > 0.0 && blend.is_finite() {
@@ -102,7 +102,7 @@ impl ProgramWriter {
         self.room = self.tolerance.room(&exact);
         asked.clearance = Some(self.clearance + self.room);
         Problem::of_scene(loaded, asked).map_err(|error| {
-            let hint = format!("{}; a smaller --joint-tolerance adds less", self.describe_room());
+            let hint = format!("{}; use a smaller --joint-tolerance", self.describe_room());
             let hinted = |found: &Diagnostic| found.clone().help(hint.clone());
             let hinted = InputError::check(error.diagnostics().iter().map(hinted).collect());
             Failure::Input(hinted.err().unwrap_or(error))

@@ -20,7 +20,7 @@ pub struct QueryArgs {
     /// Goal position of the tip instead of the world's goal, metres or as in 350mm,0.5. Any IK solution counts.
     #[arg(long, value_name = "x,y", allow_hyphen_values = true)]
     pub goal_tip: Option<TipPoint>,
-    /// Side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default either side will do.
+    /// Side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default, both sides are allowed.
     #[arg(long, value_name = "SIDE", requires = "goal_tip", conflicts_with = "goal", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
     pub elbow: Option<Elbow>,
     /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.

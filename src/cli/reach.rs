@@ -79,7 +79,7 @@ pub fn run(args: &ReachArgs) -> Result<u8, Failure> {
     world.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     let cell = args.cell.unwrap_or(world.problem.scene().arm().reach() / DEFAULT_CELLS);
     let reach = reach(world.problem.scene(), world.problem.start(), cell).ok_or_else(|| {
-        Failure::Refused(format!("--cell {cell} gives more than {MAX_PLACES} cells: choose a larger size"))
+        Failure::Refused(format!("--cell {cell} gives more than {MAX_PLACES} cells; choose larger cells"))
     })?;
     let json = || sinks::pretty(&object(&world, &reach));
     let table = |_: &Path, is_json| Ok(Some(if is_json { json()? } else { csv(&world, &reach) }.into_bytes()));
@@ -129,7 +129,7 @@ fn facts(world: &LoadedProblem, reach: &Reach) -> Vec<(&'static str, String)> {
     let home = [0, 1].map(|k| format!("{} {:.4} {}", joints[k], reach.home[k], units[k])).join(", ");
     let mut facts = vec![
         ("home", home),
-        ("cells", format!("of {:.4} m; judged at their centres", reach.cell)),
+        ("cells", format!("side {:.4} m; only the centre of each cell is judged", reach.cell)),
         (
             "reachable",
             format!(
@@ -141,7 +141,7 @@ fn facts(world: &LoadedProblem, reach: &Reach) -> Vec<(&'static str, String)> {
         (
             "out of reach",
             format!(
-                "{} where the arm is free, proven ({:.4} m2)",
+                "{} where the arm would be free, but which it cannot reach (proven; {:.4} m2)",
                 counted(unreachable, "cell"),
                 area * unreachable as f64
             ),
@@ -165,7 +165,7 @@ fn headline(reach: &Reach) -> String {
     let [reachable, unknown, unreachable, blocked] = reach.tally();
     let all = reachable + unknown + unreachable + blocked;
     if all == 0 {
-        return "The tip reaches no cell: no cell centre has an IK solution".into();
+        return "The tip reaches no cell: there is no IK solution for any centre of a cell".into();
     }
     let at_least = if unknown > 0 { "at least " } else { "" };
     format!("The tip reaches {at_least}{} of the arm's workspace", percent(reachable as f64 / all as f64))
@@ -181,7 +181,7 @@ fn view(world: &LoadedProblem, reach: &Reach) -> View {
     };
     let facts = [
         ("home", [0, 1].map(value).join(", ")),
-        ("cells", format!("squares of {}, judged at their centres", length(reach.cell))),
+        ("cells", format!("squares of {}; only the centre of each is judged", length(reach.cell))),
     ];
     let notes = world.notes.iter().map(|note| ["note".to_owned(), note.clone()]);
     let picture = Picture {

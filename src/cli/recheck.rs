@@ -71,7 +71,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
             Err(missing @ ProofFormatError::Missing) => {
                 // A file with neither a proof nor a bound need not be a result.
                 let stated = if evidence.bound { read_stated_bound(args, &scene)? } else { None };
-                let none = || evidence_failure(args, format!("{missing}, and it has no bound in \"optimum\""));
+                let none = || evidence_failure(args, format!("{missing}, and no bound in \"optimum\""));
                 bound_holds(args, &problem, &stated.ok_or_else(none)?, &asked)?
             }
             Err(error) => return Err(evidence_failure(args, error)),
@@ -154,8 +154,7 @@ fn proof_holds(
     stuck: &[CollisionBox],
     asked: &Overrides,
 ) -> Result<String, Failure> {
-    let never =
-        |odd| evidence_failure(args, format!("the proof does not hold: box {odd} names shapes that cannot meet"));
+    let never = |odd| evidence_failure(args, format!("the proof does not hold: the shapes of box {odd} cannot meet"));
     let certificate = certificate_of_boxes(problem, stuck, asked).map_err(never)?;
     check_certificate(args, "proof", &certificate)?;
     let count = counted(stuck.len(), "box");
@@ -175,12 +174,12 @@ fn bound_holds(
     let (lower, upper) = (stated.lower, stated.upper);
     let is_length = |length: f64| length.is_finite() && length >= 0.0;
     if !is_length(lower) || !is_length(upper) || lower > upper {
-        return Err(evidence_failure(args, format!("`optimum`: {lower} to {upper} are not bounds on a length")));
+        return Err(evidence_failure(args, format!("`optimum`: {lower} and {upper} are not valid bounds on a length")));
     }
     let unconfirmed = |why: String| evidence_failure(args, format!("the bound is not confirmed: {why}"));
     let found = certificate_of_bound(problem, stated, asked).ok_or_else(|| {
         unconfirmed(
-            "bounds for a goal that leaves a joint free, or at which the arm is nearly stretched, have no certificate"
+            "there are no certificates of bounds if the goal leaves a joint free, or if the arm is nearly stretched there"
                 .into(),
         )
     })?;
@@ -188,12 +187,15 @@ fn bound_holds(
         return Err(unconfirmed(format!("the file states {lower}, but only {} is proven", found.length)));
     }
     check_certificate(args, "bound", &found.text)?;
-    let walls = counted(found.walls, "wall");
+    let segments = counted(found.walls, "segment");
     let missed = 1.0 - found.length / lower;
     let (holds, stated) = if missed > UNREPORTED_LOSS {
         (format!("holds within {:.1e} %", 100.0 * missed), format!(" (the file states {lower:.6})"))
     } else {
         ("holds".to_owned(), String::new())
     };
-    Ok(format!("the bound {holds}: no motion is shorter than {:.6}, as {walls} prove{stated}", found.length))
+    Ok(format!(
+        "the bound {holds}: no motion is shorter than {:.6}{stated}; proven by {segments} of colliding configurations",
+        found.length
+    ))
 }

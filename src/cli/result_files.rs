@@ -140,7 +140,7 @@ impl ResultFiles {
         let next = self.part(path, self.steps + 1);
         if next.exists() {
             sinks::print_status(&format!(
-                "warning: {} is left from an earlier task, and perhaps other files are too",
+                "warning: {} is left from an earlier task; there may be more such files",
                 next.display()
             ));
         }

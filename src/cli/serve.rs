@@ -25,9 +25,9 @@ Examples:
   cplan serve robots/planar_2r.urdf workspaces/shelf.toml \\
     --export page.html --engine target/page/cplan.wasm.gz
 
-The address is printed on stdout; Ctrl-C ends the server. It writes no files:
-save the world from the page. With --export, no server starts: cplan writes the
-page with the program inside it. Any web host can serve it.
+The address is printed on stdout; Ctrl-C ends the server. The server writes no
+files; save the world from the page. With --export, no server starts: cplan writes
+a page that contains the program, and that any web host can serve.
 
 Exit codes: 0 stopped by the user, or the page is written, 1 bad input or
 unavailable address, 2 wrong command line.")]
@@ -52,7 +52,7 @@ pub struct ServeArgs {
     /// Time limit for each plan, seconds.
     #[arg(long, value_name = "SECONDS", default_value = "20", value_parser = time_limit, allow_hyphen_values = true)]
     pub time_limit: Duration,
-    /// Write the page with the program inside it, as one file that needs no server, instead of serving it.
+    /// Instead of serving the page, write it with the program as one file that needs no server.
     #[arg(long, value_name = "FILE", requires = "engine", conflicts_with_all = ["port", "bind"], value_hint = ValueHint::FilePath)]
     pub export: Option<PathBuf>,
     /// Program for the exported page: WebAssembly packed by gzip, as `.ci/page` builds it.
@@ -98,11 +98,11 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     scene.robot.warnings.iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     if !args.bind.is_loopback() {
         sinks::print_status(
-            "warning: other machines can open this page and plan on this machine: there is no password",
+            "warning: there is no password, so other machines can open this page and plan on this machine",
         );
     }
     let host = Host::new(urdf, world, scene, args.with.clone(), args.time_limit)
-        .ok_or_else(|| Failure::Refused("the world is no TOML".into()))?;
+        .ok_or_else(|| Failure::Refused("the world is not valid TOML".into()))?;
     sinks::print(&format!("http://{}/\n", reachable(address)))?;
     sinks::print_status("open this address in a browser; Ctrl-C ends the server");
     signals::run_before_exit(&[signals::SIGTERM], || DONE.into());

@@ -9,7 +9,7 @@ use std::path::Path;
 
 /// Warns on stderr that a file is not written, because the result lacks `content` (a trajectory or a grid).
 pub fn warn_unwritten(path: &Path, content: &str) {
-    let is_old = if path.exists() { "; the existing file is from an earlier run" } else { "" };
+    let is_old = if path.exists() { "; the existing file of this name is from an earlier run" } else { "" };
     print_status(&format!("warning: {} is not written: the result has no {content}{is_old}", path.display()));
 }
 

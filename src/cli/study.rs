@@ -20,8 +20,8 @@ use std::thread::available_parallelism;
 /// Plan one task in many layouts, and find the best layout.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A study file (TOML) names a robot, a world, the numbers of both that vary from
-layout to layout, and the measured quantity:
+A study file (TOML) names a robot, a world, the numbers in the two files that
+change from layout to layout, and the objective:
 
   robot = \"../../robots/planar_2r.urdf\"
   world = \"../shelf.toml\"
@@ -36,10 +36,10 @@ layout to layout, and the measured quantity:
   steps = 21                   # or values = [...], or draw = \"latin\", with
                                # draws = 1000 above the first parameter
 
-Each layout is planned with its numbers in the two files and gives one row. Rows
-do not depend on the number of jobs. While a study runs, cplan keeps rows in
-FILE.part beside the first output: after Ctrl-C, the same command continues.
-Layouts in which obstacles overlap that do not overlap in the world are refused,
+cplan plans each layout with its numbers in the two files, and writes one row.
+Rows do not depend on the number of jobs. While a study runs, cplan keeps rows
+in FILE.part beside the first output; after Ctrl-C, the same command continues.
+A layout is refused if obstacles overlap in it that do not overlap in the world,
 unless the study sets overlap = true.
 
 Examples:
@@ -67,7 +67,7 @@ pub struct StudyArgs {
     /// Discard the rows of a stopped study, and begin again.
     #[arg(long)]
     pub fresh: bool,
-    /// Print tables in their full width, not in parts of 80 columns.
+    /// Print tables in their full width, instead of parts of 80 columns.
     #[arg(long, help_heading = OUTPUT)]
     pub wide: bool,
     #[command(flatten)]
@@ -105,7 +105,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
     study.remarks().iter().for_each(|remark| args.print.print_status(remark));
     let (journal, mut rows) = opened.map_or((None, Vec::new()), |(journal, rows)| (Some(journal), rows));
     if !rows.is_empty() {
-        args.print.print_status(&format!("continues after {} of the stopped study", counted(rows.len(), "layout")));
+        args.print.print_status(&format!("continues the stopped study after {}", counted(rows.len(), "layout")));
     }
     let total = study.count() + study.searched;
     let kept = SharedRows::new(journal, rows.len());
@@ -145,7 +145,7 @@ pub fn run(args: &StudyArgs) -> Result<u8, Failure> {
         let bytes = bytes(&study, &rows, &summary, content, files)?;
         if bytes.is_none() {
             let path = path.display();
-            sinks::print_status(&format!("warning: {path} is not written: no layout meets the requirements"));
+            sinks::print_status(&format!("warning: {path} is not written, because no layout meets the conditions"));
         }
         Ok(bytes)
     };
@@ -173,8 +173,7 @@ fn contents(outputs: &[PathBuf], is_layout: bool) -> Result<Outputs<Content>, Fa
     }
     #[cfg(not(feature = "parquet"))]
     refuse_parquet(outputs)?;
-    let expected =
-        "the name must end in .csv, .parquet, .html or .json for the study, or .toml or .urdf for the best layout";
+    let expected = "the name must end in .csv, .parquet, .html or .json for the table of the study, or in .toml or .urdf for the best layout";
     Outputs::new(outputs, by_extension(&[&whole[..], &layout].concat(), expected), &[], [])
 }
 
@@ -220,7 +219,7 @@ fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
     if let (Some((world, _)), None, true) = (of(Content::World), of(Content::Robot), study.varies_robots()) {
         let robot = world.with_extension("urdf");
         sinks::print_status(&format!(
-            "note: the layout has its own robot; --output {} writes it as well",
+            "note: the layout also changes the robot; --output {} writes its URDF",
             robot.display()
         ));
     }
@@ -328,10 +327,10 @@ impl SharedRows {
         let count = rows.count;
         match rows.journal.as_mut().map(|journal| (journal.flush(), journal.path().display().to_string())) {
             Some((Ok(()), path)) => {
-                format!("\nstopped: {count} of {total} rows are kept in {path}; the same command continues")
+                format!("\nstopped: {count} of {total} rows are in {path}; the same command continues from there")
             }
             Some((Err(error), _)) => format!("\nstopped: {error}"),
-            None => "\nstopped: no rows are kept without --output".to_owned(),
+            None => "\nstopped: the rows are lost; with --output, cplan keeps them".to_owned(),
         }
     }
 

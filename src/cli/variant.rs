@@ -21,7 +21,7 @@ impl Variant {
     pub fn parse(text: &str) -> Result<Self, String> {
         let words: Vec<&str> = text.split_whitespace().collect();
         if words.is_empty() {
-            return Err("it names no planner: the name comes first, as in \"shortest --gap 0.01\"".into());
+            return Err("no planner is named; write its name first, as in \"shortest --gap 0.01\"".into());
         }
         let PlannerWords { planner, options } = PlannerWords::try_parse_from(&words).map_err(|error| {
             let text = error.to_string();

@@ -78,7 +78,7 @@ fn message_about_misplaced_option(error: &clap::Error) -> Option<String> {
     let main_job = PlanArgs::augment_args(Files::augment_args(Command::new("cplan")));
     let is_known = error.kind() == ErrorKind::UnknownArgument
         && main_job.get_arguments().any(|known| known.get_long() == option.strip_prefix("--"));
-    is_known.then(|| format!("{option} is about files or printed output and does not apply here"))
+    is_known.then(|| format!("{option} does not apply here, because it is about files or printed output"))
 }
 
 /// Returns the text of an error, without the program's usage.

@@ -25,7 +25,7 @@ def test_the_page_shows_speed_lens_and_both_solutions(program, show_file):
     boxes = seen.do("[...document.querySelectorAll('.followed canvas')].map((c) => [c.clientWidth, c.clientHeight])")
     assert len(boxes) == 3 and all(width > 150 and 80 < height < 400 for width, height in boxes), boxes
     text = seen.page.locator(".layers, .side, main").first.inner_text()
-    for part in ["speed limit of the tip", "acceleration limit of shoulder", "IK solution that is excluded"]:
+    for part in ["speed limit of the tip", "acceleration limit of shoulder", "excluded IK solution"]:
         assert part in text, part
     assert "tube \u00b1 0.01 mm" in seen.page.locator(".lens-caption").inner_text()
     seen.do("cplan.seek(10.5)")

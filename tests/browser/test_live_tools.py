@@ -6,7 +6,7 @@ import pytest
 from conftest import ROOT
 from live import PLANAR, drag, settled
 
-TOOLS = ["undo", "redo", "add a polygon", "add a circle", "add a thin wall", "add a corner to the longest side", "delete what is selected", "open a world file", "save as"]
+TOOLS = ["undo", "redo", "add a polygon", "add a circle", "add a thin wall", "add a corner to the longest side", "delete the selection", "open a world file", "save as"]
 
 
 def field(seen, label):

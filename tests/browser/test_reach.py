@@ -151,7 +151,7 @@ def test_proofs_are_told_from_motions(program, show_file):
     out = [n for n, place in enumerate(result["reach"]["places"]) if place and {s["access"] for s in place} == {"unreachable"}]
     seen.do("(cell) => cplan.reachMap.pointAt(cell)", out[0])
     report = seen.page.locator(".cell-report")
-    assert "This is proven" in report.inner_text() and report.locator(".verdict").get_attribute("data-ending") == "infeasible"
+    assert "(proven)" in report.inner_text() and report.locator(".verdict").get_attribute("data-ending") == "infeasible"
     assert "No certified motion leads to this solution" in report.inner_text()
     # The arm stays at home.
     assert seen.do("cplan.q") == pytest.approx(result["reach"]["home"], abs=2e-5)

@@ -177,7 +177,7 @@ def test_a_clearance_that_no_machine_keeps_is_a_warning(program, show_file):
     seen = show_file(page)
     card = seen.page.locator(".card.warning")
     other = program.plan("planar_2r", "shelf", "--clearance", "10mm")[1]["length"]
-    assert plan["clearance"] < 1e-3 and f"--clearance 10mm keeps that, length {other:.4f}" in card.inner_text()
+    assert plan["clearance"] < 1e-3 and f"--clearance 10mm keeps this distance, with length {other:.4f}" in card.inner_text()
     assert seen.page.locator("h1").inner_text() == "The shortest path: 4.4920 in joint space, proven within 0.009 %"
     kept, _ = program.plan("planar_2r", "shelf", "--clearance", "20mm")
     assert show_file(kept).page.locator(".card.warning").count() == 0

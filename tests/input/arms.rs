@@ -267,7 +267,7 @@ fn stl_meshes_count_by_their_convex_hull_in_text_and_binary() {
         assert_eq!((part.heights.lower, part.heights.upper), (0.0, 0.5));
     }
     let error = load_mesh("short.stl", [0u8; 90], "1 1 1").unwrap_err().to_string();
-    assert!(error.contains("does not fit its number of triangles"), "{error}");
+    assert!(error.contains("does not match the number of triangles"), "{error}");
 }
 
 /// A triangle in centimetres. Its node is turned and moved within another node, which maps (x, y, z) to (1 - y, x, z)
@@ -298,7 +298,7 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
     }
     let spoilt = |this: &str, that: &str| COLLADA.replace(this, that);
     for (mesh, text, message) in [
-        ("t.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "line 2: no vertex \"2\" precedes"),
+        ("t.obj", "v 0 0 0\nf 1 2 3\n".to_owned(), "line 2: vertex \"2\" is not defined"),
         ("t.obj", "v 0 0\n".to_owned(), "line 1: a vertex needs three numbers"),
         ("t.obj", "v 0 0 0\n".to_owned(), "no face"),
         ("t.obj", "v 0 nan 0\nf 1 1 1\n".to_owned(), "not finite"),
@@ -307,10 +307,10 @@ fn meshes_of_collada_and_obj_are_those_of_stl() {
         ("t.dae", spoilt("0.01", "-1"), "not a positive number"),
         ("t.dae", spoilt("0 1 0 0 -1", "0 1 x 0 -1"), "\"x\" is not a number"),
         ("t.dae", spoilt("0 1 0 0 -1", "0 1 0 0"), "numbers for positions"),
-        ("t.dae", spoilt("url=\"#g\"", "url=\"#none\""), "a geometry that the file does not have"),
+        ("t.dae", spoilt("url=\"#g\"", "url=\"#none\""), "a geometry that does not exist"),
         ("t.dae", spoilt("<instance_geometry url=\"#g\"/>", "<instance_node url=\"#inner\"/>"), "contains itself"),
         ("t.dae", "<COLLADA/>".to_owned(), "no mesh"),
-        ("t.3ds", String::new(), "neither STL, Collada (.dae) nor OBJ"),
+        ("t.3ds", String::new(), "only meshes in STL, Collada (.dae) and OBJ"),
     ] {
         let error = load_mesh(mesh, &text, "0.1 -0.1 1").unwrap_err().to_string();
         assert!(error.contains(message) && error.contains("hint: "), "{message}: {error}");

@@ -146,7 +146,7 @@ lower="-3" upper="3" => lower="3" upper="-3" => line 6 ... reversed ... swap low
     let urdf = with_change(ARM, limits, "lower=\"-150\" upper=\"132.5\"");
     let [degrees, radians] = ["[\"-150deg\", \"132.5deg\"]", "[-150, 132.5]"];
     let mended = [degrees, radians].map(|range| robot(&format!("limits = {{ j1 = {range} }}")));
-    let hint = format!("limits = {{ j1 = {degrees} }}; if they are meant in radians: {{ j1 = {radians} }}");
+    let hint = format!("limits = {{ j1 = {degrees} }}; if radians are meant: {{ j1 = {radians} }}");
     is_mended(&urdf, WORLD, &hint, &mended.each_ref().map(|world| [urdf.as_str(), world.as_str()]));
 }
 
@@ -220,7 +220,7 @@ type="revolute" => type="fixed" => two joints ... only one movable joint, "j2" (
 "#,
     );
     let bars = robot("bar = 0.05");
-    for (file, pattern) in [("a.dae", "STL"), ("package://p/a.stl", "no package of that name")] {
+    for (file, pattern) in [("a.dae", "STL"), ("package://p/a.stl", "no package of this name")] {
         let urdf = with_change(ARM, "<box size=\"1 0.1 0.1\"/>", &format!("<mesh filename=\"{file}\"/>"));
         is_mended(&urdf, WORLD, &format!("line 9 ... {file} ... {pattern} ... [robot] bar = 0.05"), &[[&urdf, &bars]]);
     }
@@ -315,9 +315,9 @@ fn invalid_starts_and_goals_are_refused() {
     worlds(
         r#"
 joints = [0.0, 0.5] => joints = [3.0, 0.0] => the start ... m deep ... link "fore" hits obstacle "post"
-    ... move it away from the obstacle (touching counts as contact) => joints = [2.7, 0.0]
+    ... choose a configuration away from the obstacle (touching counts as contact) => joints = [2.7, 0.0]
 joints = [1.0, -0.5] => joints = [-3.0, 0.0] => line 5 ... the goal ... link "fore" hits obstacle "post"
-    ... move it away from the obstacle (touching counts as contact) => joints = [-2.7, 0.0]
+    ... choose a configuration away from the obstacle (touching counts as contact) => joints = [-2.7, 0.0]
 " => nothing => line 4 ... neither ... joints = [q1, q2], or tip = [x, y] => joints = [0.1, 0.2] => tip = [1.0, 1.0]
 " => tip = [3, 0] => line 5 ... out of reach ... 2.0000 m ... choose a point nearer to joint 1 => tip = [1.5, 0]
 " => tip = [-1.5, 0.1] => no IK solution ... hits obstacle "post" ... move it away from the obstacle => tip = [-1.0, 0.9]
@@ -355,7 +355,7 @@ name = "test" => clearance = 2.0 => the start ... nearer than the clearance of 2
     // Some IK solutions are past limits, and the others are in contact. A point farther away is free.
     let one_sided = with_change(ARM, "lower=\"-2\" upper=\"2\"", "lower=\"0\" upper=\"2\"");
     let [both, free] = ["tip = [-1.5, 0.1]", "tip = [-1.0, 0.9]"].map(|tip| with_change(WORLD, goal, tip));
-    let away = "move it away from the obstacle (touching counts as contact)";
+    let away = "choose a configuration away from the obstacle (touching counts as contact)";
     is_mended(&one_sided, &both, &format!("{away}, or {points}"), &[[&one_sided, &free]]);
     // A point near the base is out of reach, because the arm cannot fold that far.
     let long = with_change(ARM, "<origin xyz=\"1 0 0\"/></joint>", "<origin xyz=\"0.4 0 0\"/></joint>");
@@ -406,7 +406,7 @@ fn overrides_replace_the_world() {
 fn preferences_are_checked_like_obstacles() {
     let table = r#"
 [[obstacle]] => polygon = SQUARE => line 6 ... missing key `epsilon`
-" => epsilon = 0.5 => line 6 ... needs either `configurations` or `polygon`, it has neither
+" => epsilon = 0.5 => line 6 ... needs either `configurations` or `polygon`, but has neither
 " => epsilon = 1\npolygon = SQUARE\nconfigurations = SQUARE => preference 1 ... it has both
 " => epsilon = inf\npolygon = SQUARE => line 7, column 11 ... is not a finite number
 " => name = "bay"\nepsilon = 1\ncircle = SQUARE => line 9 ... unknown key `circle`

@@ -179,7 +179,12 @@ const PUBLISHED: [Expected; 18] = [
     ("bullet_two_joint_wo_fixed", true, None, &[]),
     ("dobot_mg400", false, Some(["j1", "j4"]), &["4 movable joints", "parallelogram", "link1.STL"]),
     ("drake_acrobot", true, Some(["shoulder", "elbow"]), &[]),
-    ("drake_double_pendulum", false, Some(["shaft1", "shaft2"]), &["has collision or visual geometry", "bar = 0.05"]),
+    (
+        "drake_double_pendulum",
+        false,
+        Some(["shaft1", "shaft2"]),
+        &["neither collision nor visual geometry", "bar = 0.05"],
+    ),
     ("drake_pendulum_1dof", false, None, &["only one movable joint, \"theta\" (continuous)"]),
     ("gepetto_asr_twodof", false, None, &["qb_c_flange_m.dae\" does not exist"]),
     ("gepetto_double_pendulum", false, Some(["joint1", "joint2"]), &["has no range", "link1.stl\" does not exist"]),

@@ -56,7 +56,7 @@ fn meshes_are_found_by_the_name_in_package_xml() {
         load(folder.path(), &format!("package://{name}/meshes/bar.obj")).unwrap();
     }
     let error = load(folder.path(), "package://nobody/meshes/bar.obj").unwrap_err();
-    assert!(error.contains("no package of that name") && error.contains("ROS_PACKAGE_PATH"), "{error}");
+    assert!(error.contains("no package of this name") && error.contains("ROS_PACKAGE_PATH"), "{error}");
     let error = load(folder.path(), "package://arm_meshes/meshes/none.obj").unwrap_err();
     assert!(error.contains("shapes-main/meshes/none.obj"), "{error}");
 }

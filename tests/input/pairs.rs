@@ -34,7 +34,7 @@ const ACROSS: [f64; 3] = [0.0, 1.0, 0.0];
 #[test]
 fn the_only_planar_pair_or_the_first_in_a_plane_is_taken_with_a_note() {
     let (turn, lift, pitch) = (("revolute", UP), ("prismatic", UP), ("revolute", ACROSS));
-    let first = "the first of 2 planar pairs of neighbours, which share a plane; [robot] joints chooses others";
+    let first = "the first of 2 planar pairs of neighbours, which share a plane; choose others by [robot] joints";
     for (joints, note, names) in [
         (&[turn, turn, lift, turn][..], "", ["j1", "j2"]),
         (&[lift, turn, turn], "", ["j2", "j3"]),
@@ -45,7 +45,7 @@ fn the_only_planar_pair_or_the_first_in_a_plane_is_taken_with_a_note() {
     ] {
         let (chosen, notes) = chosen(&chain(joints));
         assert_eq!(chosen, names, "{joints:?}");
-        fits(&notes, &format!("the two joints are \"{}\" and \"{}\" ... {note}", names[0], names[1]));
+        fits(&notes, &format!("cplan plans for the joints \"{}\" and \"{}\" ... {note}", names[0], names[1]));
     }
 }
 

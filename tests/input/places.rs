@@ -108,6 +108,11 @@ fn a_robot_made_in_code_can_be_put_somewhere_but_not_read_otherwise() {
         |robot: &str| cplan::input::scene_of(arm.clone(), Source::in_memory("w.toml", format!("[robot]\n{robot}\n")));
     let there = at("at = [1.0, 2.0]").unwrap();
     assert_eq!(there.scene.arm().tip_at(Configuration::new(0.0, 0.0)), Point::new(2.8, 2.0));
-    assert!(at("at = [1.0, 2.0]\nbar = 0.1").unwrap_err().to_string().contains("only `at`, `angle` and `calibration`"));
+    assert!(
+        at("at = [1.0, 2.0]\nbar = 0.1")
+            .unwrap_err()
+            .to_string()
+            .contains("may have only `at`, `angle` and `calibration`")
+    );
     assert!(at("at = [1.0]").unwrap_err().to_string().contains("expected two numbers, found 1"));
 }

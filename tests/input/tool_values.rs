@@ -51,7 +51,7 @@ fn a_goal_on_the_command_line_keeps_the_values() {
     let scene = scene_from(scara(), Source::in_memory("world.toml", world)).unwrap();
     let plan = plan(&Problem::of_scene(scene, &overrides).unwrap(), &Options::default()).unwrap();
     let error = plan.certificate(&overrides, None).unwrap_err().to_string();
-    assert!(error.contains("needs the goal in the world file"), "{error}");
+    assert!(error.contains("the goal must be in the world file"), "{error}");
 }
 
 #[test]
@@ -101,7 +101,7 @@ fn invalid_values_are_refused() {
 [-0.8, -0.9] => [-8, -0.9] => the goal is outside the joint limits
 GOAL => nothing => there is no goal
 " => [goal]\nareas = [[[0.2, 0.2], [0.3, 0.3]]]\n => goal of areas ... hint: joints
-" => [[step]]\nmove = { joints = [0.1, 0.2], stroke = -0.05 }\n => line 9 ... move: a step has no values of the tool's joints
+" => [[step]]\nmove = { joints = [0.1, 0.2], stroke = -0.05 }\n => line 9 ... move: a step cannot have values of the tool's joints
 stroke = { joint = "axis_3" } => nothing => the start has a value `stroke` ... names no joint that lowers the tool
 wrist = { joint = "axis_4", velocity = 20 } => nothing => the goal has a value `wrist` ... names no joint that turns the tool
 [goal] => [[obstacle]]\nname = "hut"\ncircle = { center = [0.28, 0.39], radius = 0.03 }\nheight = [0, 0.16]\n[goal]

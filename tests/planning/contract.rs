@@ -133,7 +133,9 @@ const BACKWARD: RoadmapSearch = RoadmapSearch { order: SearchOrder::Dijkstra, ba
 fn is_no_path(name: &str, run: &Run) -> bool {
     match &run.outcome {
         Proposal::NoPath => !name.starts_with(Prm::NAME),
-        Proposal::GaveUp(reason) => name.starts_with(Prm::NAME) && reason == "500 samples do not join start and goal",
+        Proposal::GaveUp(reason) => {
+            name.starts_with(Prm::NAME) && reason == "the roadmap of 500 samples does not connect start and goal"
+        }
         Proposal::Found(_) => false,
     }
 }

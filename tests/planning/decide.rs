@@ -91,7 +91,9 @@ fn exceeded_budgets_leave_the_answer_unknown() {
     std::fs::write(&world, std::fs::read_to_string(shipped.world).unwrap().replace("0.03995", "0.04")).unwrap();
     let problem = input::load(&shipped.robot, &world, &Overrides::default()).unwrap().problem;
     for allowed in [5_000, 20_000] {
-        let Outcome::Unknown(reason) = decide(&problem, allowed) else { panic!("{allowed} boxes do not decide") };
+        let Outcome::Unknown(reason) = decide(&problem, allowed) else {
+            panic!("{allowed} boxes were not enough to decide")
+        };
         let boxes: usize = reason.split(' ').next().and_then(|word| word.parse().ok()).expect(&reason);
         // All boxes are halved together, so the number may exceed the budget by the last round.
         assert!(boxes <= 2 * allowed + 100, "{reason}");

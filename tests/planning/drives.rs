@@ -243,5 +243,5 @@ fn ranges_of_sums_need_limits_of_both_joints() {
     let mut arm = Arm::rr([1.0, 0.8], 0.06).unwrap();
     arm.motors = Some(Motors { range: Some([-1.0, 1.0]), ..Motors::with_ratio(1.0) });
     let error = Scene::new(arm, cplan::model::Workspace::new([])).unwrap_err().to_string();
-    assert!(error.contains("needs limits of both joints"), "{error}");
+    assert!(error.contains("not both joints have limits"), "{error}");
 }

@@ -128,9 +128,9 @@ fn changed_results_are_refused_with_their_place() {
     // The straight line from start to goal leads through the shelf.
     let ends = json!([valid["result"]["path"][0], valid["result"]["path"].as_array().unwrap().last().unwrap()]);
     for (place, other, part) in [
-        ("/result/path", ends, "result.path has 2 entries, and planning gives"),
-        ("/result/path/1/0", json!(0.5), "result.path[1][0] is 0.5, and planning gives"),
-        ("/result/status", json!("infeasible"), "result.status is \"infeasible\", and planning gives \"found\""),
+        ("/result/path", ends, "result.path has 2 entries, but planning gives"),
+        ("/result/path/1/0", json!(0.5), "result.path[1][0] is 0.5, but planning gives"),
+        ("/result/status", json!("infeasible"), "result.status is \"infeasible\", but planning gives \"found\""),
         ("/result/trajectory/velocity/3/1", json!(9.0), "result.trajectory.velocity[3][1]"),
         ("/result/clearance", json!(0.5), "result.clearance is 0.5"),
         // With a faster joint, the motion would differ.
@@ -183,7 +183,7 @@ fn data_that_no_constructor_makes_is_refused() {
         // Predicates would overflow.
         (format!("{scene}/arm/tip"), json!([1e200, 0.0]), "within 1e15 m"),
         (format!("{scene}/workspace/obstacles/0/pieces/0/radius"), json!(1e200), "within 1e15 m"),
-        ("/problem/robot/joints/joints/0/driver".to_owned(), json!({"planned": 2}), "planned ones are 0 and 1"),
+        ("/problem/robot/joints/joints/0/driver".to_owned(), json!({"planned": 2}), "the planned joints are 0 and 1"),
         ("/options/levels".to_owned(), json!(0), "levels"),
         ("/options/planner".to_owned(), json!("magic"), "no planner is called"),
     ] {
@@ -235,7 +235,7 @@ fn tasks_that_no_world_can_state_are_refused() {
     let name = json!(task.workspace.fixed.obstacles[0].name);
     for (pointer, other, part) in [
         (first, place, "the tool carries none"),
-        (first, long, "its dwell from 0"),
+        (first, long, "the dwell from 0"),
         ("/asked/task/objects/0/lift", json!(-1.0), "lift"),
         ("/asked/task/objects/0/mass", json!(-1.0), "mass"),
         ("/asked/task/objects/0/at/rotation", json!([2.0, 0.0]), "pose must be finite"),
@@ -243,7 +243,7 @@ fn tasks_that_no_world_can_state_are_refused() {
         ("/asked/task/start", json!([100.0, 0.0]), "outside the limits"),
         ("/asked/task/items", json!([]), "no steps"),
         ("/asked/task/items", items(json!({"renew": [99]})), "renewed"),
-        ("/asked/task/items", items(json!({"any_order": []})), "has no steps"),
+        ("/asked/task/items", items(json!({"any_order": []})), "is empty"),
     ] {
         let refused = refused(pointer, other);
         assert!(refused.contains(part), "{pointer}: {refused}");

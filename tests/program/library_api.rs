@@ -139,7 +139,7 @@ fn invalid_input_is_refused_by_name() {
     }
     let task = Problem::load(shipped("robots/scara.urdf"), shipped("workspaces/tasks/table_mission.toml")).unwrap();
     let refused = plan(&task, &Options { planner: shortest.with_gap(0.01), ..plain }).expect_err("a gap of a task");
-    assert!(refused.to_string().contains("--gap is for single motions"), "{refused}");
+    assert!(refused.to_string().contains("--gap does not apply to worlds with steps"), "{refused}");
 }
 
 #[test]

@@ -57,7 +57,7 @@ pub fn dice(stream: u64) -> Dice {
 /// Same as [`cases`].
 pub fn times(usual: u64) -> u64 {
     let factor = from_environment("CPLAN_TIMES", 1.0);
-    assert!(factor > 0.0 && factor < 1e9, "CPLAN_TIMES is a positive factor, not {factor}");
+    assert!(factor > 0.0 && factor < 1e9, "CPLAN_TIMES must be a positive factor, not {factor}");
     ((usual as f64 * factor).round() as u64).max(1)
 }
 
@@ -79,7 +79,7 @@ pub fn uses_default_cases() -> bool {
 
 fn from_environment<T: FromStr>(name: &str, usual: T) -> T {
     match std::env::var(name) {
-        Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name} is no number: {text:?}")),
+        Ok(text) => text.parse().unwrap_or_else(|_| panic!("{name} is not a number: {text:?}")),
         Err(_) => usual,
     }
 }

@@ -38,7 +38,9 @@ impl Files {
             if let Some(stated) =
                 stated.as_ref().filter(|stated| !stated.eq_ignore_ascii_case(&digest(text.as_bytes())))
             {
-                return CheckError::fails(format!("it is for another {what}, with the SHA-256 {stated}"));
+                return CheckError::fails(format!(
+                    "the certificate is about another {what}, with the SHA-256 {stated}"
+                ));
             }
         }
         Ok(Self { given, others: certificate.others.clone() })

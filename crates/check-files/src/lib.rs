@@ -99,7 +99,10 @@ fn check_texts([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2
     certificate.calibration.as_ref().map_or(Ok(()), |stated| errors.replace(stated, &mut world.world))?;
     let clearance = certificate.clearance(&world.world)?.clone();
     if errors.grow(&mut robot.arm, &mut world.world, &clearance)? && world.task.is_some() {
-        return Err(CheckError::in_file(Input::World, "tasks do not allow for errors (calibration)"));
+        return Err(CheckError::in_file(
+            Input::World,
+            "the checker does not judge tasks in worlds with errors (calibration)",
+        ));
     }
     let proven = match (&certificate.line, &certificate.steps) {
         (Some(line), _) => cplan_check_line::judge(&robot.arm, &world.world, &certificate, line.get())?,

@@ -59,7 +59,7 @@ impl<'a> Robot<'a> {
         let (mut tree, movable) = Tree::read(document, files)?;
         let (stated, implied) = (&world.robot.joints, implied.map(|names| names.to_vec()));
         if stated.is_some() && implied.is_some() && *stated != implied {
-            return CheckError::fails("it is for other joints than those that the world names");
+            return CheckError::fails("the certificate and the world name different joints");
         }
         let is_implied = implied.is_some();
         let own = || movable.iter().map(|name| (*name).to_owned()).collect();
@@ -84,7 +84,9 @@ impl<'a> Robot<'a> {
                 return Err(CheckError::in_file(Input::World, message));
             }
             if is_implied {
-                return CheckError::fails("its \"joints\" are in reverse order: the second joint carries the first");
+                return CheckError::fails(
+                    "\"joints\" of the certificate: the second joint carries the first; swap them",
+                );
             }
             joints.swap(0, 1);
         }
@@ -93,7 +95,7 @@ impl<'a> Robot<'a> {
             if joint.is_none_or(|joint| {
                 world.robot.fixed.contains_key(name) && (joints.contains(joint) || child(*joint, "mimic").is_some())
             }) {
-                let message = format!("[robot] fixed or limits: these values cannot apply to \"{name}\"");
+                let message = format!("[robot] fixed or limits: \"{name}\" cannot have such values");
                 return Err(CheckError::in_file(Input::World, message));
             }
         }
@@ -134,7 +136,9 @@ impl<'a> Robot<'a> {
             let motion = match (slides[k], plane.direction(&axes[k])) {
                 (false, _) => Motion::Turn(sign),
                 (true, Some(direction)) => Motion::Slide(direction),
-                (true, None) => return tree.error(nodes[k], "the direction of the joint is not known"),
+                (true, None) => {
+                    return tree.error(nodes[k], "the direction of this sliding joint does not follow from the URDF");
+                }
             };
             let (axis, within) = match tree.ends(nodes[k], world)? {
                 Some([outer, inner]) => (Axis::Line(outer), Some(inner)),

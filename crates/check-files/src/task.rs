@@ -47,7 +47,9 @@ pub fn check_motion(
     for (index, step) in steps.iter().enumerate() {
         let number = step.step.number;
         if motion.knots[step.done.knots[1]].iter().skip(3).take(2).any(|rate| rate.sign() != Sign::NoSign) {
-            return CheckError::fails(format!("steps[{index}], step {number}: the arm still moves at its end"));
+            return CheckError::fails(format!(
+                "steps[{index}], step {number}: the arm still moves at the end of the step"
+            ));
         }
         replay.step(step, &steps[index + 1..]).map_err(|error| match error {
             CheckError::Fails(why) => CheckError::Fails(format!("steps[{index}], step {number}: {why}")),

@@ -263,7 +263,7 @@ impl Reader<'_> {
     fn heights(&self, value: &Value) -> ReadResult<Range> {
         let [low, high] = self.pair(value, |n| self.length(n))?;
         if low > high {
-            return self.error(value, "its upper end is below the lower one");
+            return self.error(value, "the upper end is below the lower end");
         }
         Ok([low, high])
     }
@@ -370,7 +370,7 @@ impl WorldFile {
                 "name" | "preference" | "sensor" => {}
                 // These keys depend on all others, and are read last.
                 "map" | "object" | "pallet" | "step" | "task" => {}
-                other => return reader.error(value, &format!("the checker does not know worlds with {other} yet")),
+                other => return reader.error(value, &format!("the checker does not know the key {other} of a world")),
             }
         }
         let has_steps = table.get_ref().contains_key("step");

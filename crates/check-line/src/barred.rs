@@ -56,7 +56,7 @@ pub fn no_motion(arm: &Arm, world: &World, certificate: &Certificate, line: &Lin
     search.check_separated()?;
     Contacts::new(arm, world, certificate, clearance)?.check_boxes(arm, stuck, &boxes)?;
     Ok(format!(
-        "{none}: none stays within {tolerance} of it from ({a:.6}, {b:.6}) to ({c:.6}, {d:.6}) with clearance {clearance}"
+        "{none}: from ({a:.6}, {b:.6}) to ({c:.6}, {d:.6}), no motion with clearance {clearance} keeps the tip within {tolerance} of the line"
     ))
 }
 
@@ -109,7 +109,7 @@ impl Search<'_> {
             let smaller = |c: Candidate| if is_cut(&c) { c.cell.quarters().to_vec() } else { vec![c.cell] };
             cells = joined.into_iter().flat_map(smaller).collect();
         }
-        CheckError::fails("the boxes and the limits are not shown to bar the tip from the stretch of the line")
+        CheckError::fails("the boxes and the limits do not prove that the tip cannot follow the stretch of the line")
     }
 
     /// Returns the cells that may lead from one end of the stretch to the other.

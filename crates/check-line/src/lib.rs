@@ -49,6 +49,8 @@ pub fn judge(arm: &Arm, world: &World, certificate: &Certificate, line: &str) ->
     match certificate.answer {
         Answer::Found => near::follows(arm, world, certificate, &line),
         Answer::Infeasible => barred::no_motion(arm, world, certificate, &line),
-        Answer::NoShorter => Err(CheckError::in_file(Input::Certificate, "\"no_shorter\" is not about a line")),
+        Answer::NoShorter => {
+            Err(CheckError::in_file(Input::Certificate, "the answer \"no_shorter\" cannot have a \"line\""))
+        }
     }
 }

@@ -102,7 +102,7 @@ fn spans(line: &Line, knots: usize) -> Result<Vec<Span>, CheckError> {
         place.is_some_and(|place| (0..2).all(|k| place[k] == Decimal::whole(ends[k] as i32)))
     };
     if !is_at(places.first(), [0, 0]) || !is_at(places.last(), [knots, line.pieces.len()]) {
-        return CheckError::fails("the places do not begin and end where the motion and the line do");
+        return CheckError::fails("the first and last of \"places\" are not the ends of the motion and of the line");
     }
     let one = BigInt::from(1) << BITS;
     let span = |(number, pair): (usize, &[[Decimal; 2]])| {
@@ -114,7 +114,7 @@ fn spans(line: &Line, knots: usize) -> Result<Vec<Span>, CheckError> {
         match fits(&shares) && fits(&parameters) {
             true => Ok(Span { knot, shares, piece, parameters }),
             false => {
-                CheckError::fails(format!("places[{}] returns, or omits a knot or the end of a piece", number + 1))
+                CheckError::fails(format!("places[{}] goes back, or skips a knot or the end of a piece", number + 1))
             }
         }
     };
@@ -150,7 +150,7 @@ impl Follower<'_> {
             }
             if *off > self.tolerance || halvings >= MAX_HALVINGS || self.parts >= MAX_PARTS {
                 return CheckError::fails(format!(
-                    "from knot {} to the next the tip is not shown to stay within {} of piece {} of the line",
+                    "after knot {}, the tip is not proven to stay within {} of piece {} of the line",
                     motion.knot, self.line.tolerance, span.piece
                 ));
             }

@@ -31,7 +31,7 @@ impl StepLine {
     pub fn read(text: &str, tolerance: &Decimal, elbow: Option<Elbow>) -> Result<Self, CheckError> {
         let mut text = LineText::read(text)?;
         if text.tolerance.is_some() || text.stretch.is_some() || text.elbow.is_some() {
-            let message = "the \"line\" of a step has no tolerance and no elbow, which are the world's, and no stretch";
+            let message = "the \"line\" of a step cannot have a tolerance, an elbow or a stretch; the world states tolerance and elbow";
             return Err(CheckError::in_file(Input::Certificate, message));
         }
         (text.tolerance, text.elbow) = (Some(tolerance.clone()), elbow);

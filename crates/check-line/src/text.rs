@@ -78,7 +78,7 @@ impl Line {
     /// If it has no tolerance or no pieces, or if a piece does not begin where the one before it ends.
     pub fn new(text: LineText) -> Result<Self, CheckError> {
         let LineText { tolerance, pieces, travels, places, stretch, elbow } = text;
-        let Some(tolerance) = tolerance else { return Err(wrong("\"line\": it has no tolerance".into())) };
+        let Some(tolerance) = tolerance else { return Err(wrong("\"line\" has no tolerance".into())) };
         let curve = |piece: &PieceText| match piece {
             PieceText::Straight(ends) => Curve::Bezier(ends.iter().map(point).collect()),
             PieceText::Cubic(control) => Curve::Bezier(control.iter().map(point).collect()),
@@ -91,14 +91,14 @@ impl Line {
         let (curves, count) = (pieces.iter().map(curve).collect(), travels.len());
         let line = Self { tolerance, pieces: curves, travels: count, places, stretch, elbow };
         if Interval::from(&line.tolerance).lower <= BigInt::ZERO {
-            return Err(wrong("\"line\": its tolerance must be above 0".into()));
+            return Err(wrong("\"line\": the tolerance must be above 0".into()));
         }
         if line.pieces.is_empty() {
-            return Err(wrong("\"line\": it has no pieces".into()));
+            return Err(wrong("\"line\" has no pieces".into()));
         }
         let is_piece = |piece: &usize| *piece < pieces.len();
         if !travels.iter().all(is_piece) || travels.windows(2).any(|pair| pair[0] >= pair[1]) {
-            return Err(wrong("\"line\": \"travels\" must be counts of pieces, in ascending order".into()));
+            return Err(wrong("\"line\": \"travels\" must be numbers of pieces, in ascending order".into()));
         }
         match line.pieces.windows(2).position(|pair| !is_joined(&pair[0], &pair[1])) {
             Some(before) => {

@@ -116,8 +116,7 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
     let text = serde_json::from_str::<EnclosingResult>(text).map_or(text, |result| result.certificate.get());
     // Old proofs have keys that are unknown today, so check for them first.
     if serde_json::from_str::<TaskProof>(text).is_ok() {
-        let message = "it has \"cases\" that prove a task infeasible: the checker does not judge proofs about tasks; \
-                       the result of cplan states the reason";
+        let message = "the checker does not judge proofs that a task is infeasible (\"cases\"); the result of cplan states the reason";
         return Err(CheckError::in_file(Input::Certificate, message));
     }
     let read: Result<Certificate, _> = serde_json::from_str(text);
@@ -126,7 +125,7 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
         CheckError::Input { input: Input::Certificate, line: Some(error.line()), message }
     })?;
     if certificate.format != FORMAT {
-        let message = format!("its format is \"{}\": the checker knows \"{FORMAT}\"", certificate.format);
+        let message = format!("the format is \"{}\", but the checker knows only \"{FORMAT}\"", certificate.format);
         return Err(CheckError::in_file(Input::Certificate, message));
     }
     let Certificate { answer, motion, steps, boxes, bound, .. } = &certificate;
@@ -141,8 +140,7 @@ pub fn read(text: &str) -> Result<Certificate, CheckError> {
         Answer::NoShorter => steps.is_none() && !evidence[0] && evidence[2] && (is_to_the_goal || !evidence[1]),
     };
     if !fits {
-        let message = "\"found\" needs a motion, and may have steps or a bound; \"infeasible\" needs boxes alone; \
-                       \"no_shorter\" needs a bound; boxes beside a bound need a bound without \"to\"";
+        let message = "the members do not fit the answer: \"found\" needs a motion, and may have steps or a bound; \"infeasible\" needs only boxes; \"no_shorter\" needs a bound; and boxes together with a bound need a bound without \"to\"";
         return Err(CheckError::in_file(Input::Certificate, message));
     }
     Ok(certificate)

@@ -17,7 +17,7 @@ mod own;
 type Evident = (Option<Owner>, Shape, Option<Range>);
 
 /// Hint for parts whose name matches nothing, or more than one thing.
-const PART_HINT: &str = "a part names an obstacle, or by \"own\" a link of the robot and one of its shapes";
+const PART_HINT: &str = "a part needs \"obstacle\", or \"own\" (a link of the robot) with the number of a shape";
 
 /// A part of an obstacle or of the robot to which evidence refers, grown by the clearance.
 struct Part {
@@ -75,7 +75,9 @@ impl<'a> Contacts<'a> {
         for (number, (stuck, ranges)) in stuck.iter().zip(boxes).enumerate() {
             let Pair { body, part, beside } = self.pair(stuck.shape, stuck.part, || format!("box {number}"))?;
             if !MovingBody::new(arm, body).overlaps(part, &Cell::from(ranges).for_link(beside)) {
-                return CheckError::fails(format!("box {number}: the shape does not touch the part everywhere in it"));
+                return CheckError::fails(format!(
+                    "box {number}: the shape does not touch the part everywhere in the box"
+                ));
             }
         }
         Ok(())
@@ -88,7 +90,7 @@ impl<'a> Contacts<'a> {
     pub fn pair(&self, shape: usize, part: usize, who: impl Fn() -> String) -> Result<Pair<'_>, CheckError> {
         let fails = |why: &str| CheckError::fails(format!("{}{why}", who()));
         let (Some(shape), Some(part)) = (self.shapes.get(shape), self.parts.get(part)) else {
-            return fails(" names a shape or a part that does not exist");
+            return fails(": the shape or the part does not exist");
         };
         let (body, beside) = (&shape.within, part.link.as_ref());
         let meets = match beside {
@@ -100,7 +102,7 @@ impl<'a> Contacts<'a> {
         }
         match beside {
             Some(Owner { shape: other, .. }) if shape.ignored.contains(other) => {
-                fails(&format!(": the shape may meet {other}"))
+                fails(&format!(": the shape is allowed to touch {other}"))
             }
             _ => Ok(Pair { body, part: &part.shape, beside }),
         }
@@ -113,7 +115,7 @@ fn part_of(world: &World, number: usize, obstacle: usize, name: &PartName) -> Re
         return Err(CheckError::in_file(Input::Certificate, PART_HINT));
     }
     let Some(standing) = world.obstacles.get(obstacle) else {
-        return CheckError::fails(format!("part {number}: there is no obstacle {obstacle}"));
+        return CheckError::fails(format!("part {number}: obstacle {obstacle} does not exist"));
     };
     let shape = standing.part(name.corners.as_deref().unwrap_or_default()).map_err(|why| match why {
         CheckError::Fails(why) => CheckError::Fails(format!("part {number}, of obstacle {obstacle}: {why}")),

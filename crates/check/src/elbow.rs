@@ -93,7 +93,7 @@ impl Elbow {
             let is_short = (&to - &from).upper <= Interval::whole(MAX_RANGE).lower;
             // Between two values less than half a turn apart, a sine is positive only if it is at one of them.
             if !(is_short && [from, to].iter().all(|end| self.is_near(arm, end))) {
-                return CheckError::fails(format!("after knot {knot}, the elbow leaves the {} side", self.name()));
+                return CheckError::fails(format!("after knot {knot}, the elbow does not stay on the {}", self.name()));
             }
         }
         Ok(())

@@ -18,7 +18,7 @@ pub fn infeasible(arm: &Arm, world: &World, certificate: &Certificate) -> Result
     let beyond = arm.sum.iter().flat_map(|sum| sum.outside(&arm.domain, &boxes));
     let closed: Vec<Rectangle> = boxes.iter().cloned().chain(beyond).collect();
     let Some(reached) = Reached::new(&arm.domain, &closed, &start.configuration(arm)?) else {
-        return CheckError::fails("the boxes leave more gaps than the checker examines");
+        return CheckError::fails("there are too many gaps between the boxes for the checker");
     };
     if !goal.places(arm, MAX_ENCLOSED_PARTS, |part| !reached.meets(part))?.is_empty() {
         return CheckError::fails("the boxes do not separate the goal from the start");

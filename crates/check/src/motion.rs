@@ -109,16 +109,18 @@ pub fn check_motion(arm: &Arm, world: &World, certificate: &Certificate) -> Resu
 pub fn check_knots(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> Result<(), CheckError> {
     let bad = |message: String| Err(CheckError::in_file(Input::Certificate, message));
     let Some(columns) = interpolation.iter().map(|method| method.columns()).max() else {
-        return bad("the motion has no interpolation between its knots".into());
+        return bad("the motion does not state the interpolation between its knots".into());
     };
     if knots.is_empty() {
         return bad("the motion has no knots".into());
     }
     if let Some(odd) = knots.iter().position(|knot| knot.len() != columns) {
-        return bad(format!("knot {odd} has {} numbers, but its interpolation needs {columns}", knots[odd].len()));
+        return bad(format!("knot {odd} has {} numbers, but the interpolation needs {columns}", knots[odd].len()));
     }
     match knots.windows(2).position(|k| k[0][0] >= k[1][0]) {
-        Some(late) => CheckError::fails(format!("knot {} is not later than the previous one", late + 1)),
+        Some(late) => {
+            CheckError::fails(format!("the time of knot {} is not after that of the previous knot", late + 1))
+        }
         None => Ok(()),
     }
 }

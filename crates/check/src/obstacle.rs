@@ -142,7 +142,7 @@ impl Obstacle {
     /// If there is no such part, with the reason. [`CheckError::Input`] if the obstacle could not be read.
     pub fn part(&self, given: &[Corner]) -> Result<Shape, CheckError> {
         if self.trajectory.is_some() {
-            return CheckError::fails("it moves, so it does not always block");
+            return CheckError::fails("the obstacle moves, so it does not block all the time");
         }
         let placed = |p: &Point| self.placed(p);
         let named = |corners: &[&Corner]| {
@@ -162,9 +162,7 @@ impl Obstacle {
                 let is_side = |side: &[Corner]| part == side || part.iter().rev().eq(side);
                 match points.windows(2).any(is_side) {
                     true => Ok(shape(&part, thin)),
-                    false => {
-                        CheckError::fails("its corners are not two points that follow one another in the polyline")
-                    }
+                    false => CheckError::fails("the corners are not two consecutive points of the polyline"),
                 }
             }
             Outline::Polygon(rings) => {
@@ -172,16 +170,16 @@ impl Obstacle {
                 let part = hull(named(&rings.iter().flatten().collect::<Vec<_>>()));
                 match polygon::holds(rings, &part) {
                     true => Ok(shape(&part, thin)),
-                    false => CheckError::fails("its corners are not those of a convex polygon within the obstacle"),
+                    false => CheckError::fails("the corners do not form a convex polygon within the obstacle"),
                 }
             }
-            Outline::Own(_) => CheckError::fails("it is a link of the robot"),
+            Outline::Own(_) => CheckError::fails("this is a link of the robot, not an obstacle"),
             Outline::Squares(cells) => {
                 let cells = cells.as_ref().map_err(Clone::clone)?;
                 let given: Vec<Point> = given.iter().map(|p| self.own(&point(p))).collect();
                 match cells.part(&given) {
                     Some(corners) => Ok(Shape { points: corners.iter().map(placed).collect(), radius: thin }),
-                    None => CheckError::fails("its corners are not those of a rectangle of solid squares"),
+                    None => CheckError::fails("the corners do not form a rectangle of solid squares"),
                 }
             }
         };

@@ -79,10 +79,7 @@ pub fn check_parts_clear(
         .and_then(|()| check_distances(chain, &of_second, (&solids, &edges), turning));
     kept.map_err(|EvidenceGap { knot, solid, edge }| {
         let Part { name, keeps, .. } = &parts[solid];
-        CheckError::Fails(format!(
-            "from knot {knot} to the next {name} is not shown to stay {keeps} {}",
-            called(owners[edge])
-        ))
+        CheckError::Fails(format!("after knot {knot}, {name} is not proven to stay {keeps} {}", called(owners[edge])))
     })?;
     // A part that never touches the border of an obstacle is inside the obstacle only if it is inside initially.
     let time = &pieces[0].time[0];

@@ -141,10 +141,10 @@ pub fn named<'s>(
     let is_named = |own: &&CollisionShape| own.link == link && own.kind == kind && own.number == number && is_at(own);
     let mut found = all.iter().filter(is_named);
     match (found.next(), found.next()) {
-        (Some(_), Some(_)) if height.is_none() => {
-            CheckError::fails(format!("{kind} {number} of link \"{link}\" has several layers: it needs a height"))
-        }
+        (Some(_), Some(_)) if height.is_none() => CheckError::fails(format!(
+            "{kind} {number} of link \"{link}\" has several layers: choose one by its \"height\""
+        )),
         (Some(one), _) => Ok(one),
-        (None, _) => CheckError::fails(format!("link \"{link}\" has no {kind} shape number {number} that counts")),
+        (None, _) => CheckError::fails(format!("link \"{link}\" has no {kind} shape {number} that could collide")),
     }
 }

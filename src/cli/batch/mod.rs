@@ -46,9 +46,10 @@ For example:
   {\"urdf\": \"arm.urdf\", \"world\": \"world.toml\",
    \"options\": {\"goal\": [1.2, -0.3], \"clearance\": 0.01}}
 (each on one line). Each line gives one line of output, in the same order: the
-result of `cplan plan` or `cplan verify`, or an error. Output does not depend on --jobs. A robot
-that occurs again is read once. Blank lines are skipped. With --time SECONDS, a
-problem that takes longer gets the status `unknown` with that reason.
+result of `cplan plan` or `cplan verify`, or an error. Output does not depend on
+--jobs. A robot that occurs in several lines is read once. Blank lines are
+skipped. With --time SECONDS, a problem that takes longer gets the status
+`unknown` and this reason.
 
 Examples:
   cplan batch problems.jsonl
@@ -56,8 +57,8 @@ Examples:
     --fields status,length,clearance > rows.jsonl
   cplan batch problems.jsonl --time 10
 
-Exit codes: 0 every line has its result, of any status; 1 I/O, or no line is a
-JSON object; 2 wrong command line.")]
+Exit codes: 0 each line has a result, of any status; 1 a file cannot be read or
+written, or no line is a JSON object; 2 wrong command line.")]
 pub struct BatchArgs {
     /// File with one problem per line, as a JSON object [default: standard input].
     #[arg(value_name = "FILE", value_hint = ValueHint::FilePath)]

@@ -40,21 +40,24 @@ struct LineKeys {
 }
 
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "`verify` is a path, or a motion as an object, as in a result of cplan")]
+#[serde(untagged, expecting = "`verify` must be a path, or an object with a motion, as in a result of cplan")]
 enum Motion {
     Path(PathBuf),
     Keys(Map<String, Value>),
 }
 
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "`world` is a path, or the keys of a world file as an object")]
+#[serde(untagged, expecting = "`world` must be a path, or an object with the keys of a world file")]
 enum World {
     Path(PathBuf),
     Keys(Map<String, Value>),
 }
 
 #[derive(Deserialize)]
-#[serde(untagged, expecting = "`options` are words such as \"--cells=80\" in a list, or an object of names and values")]
+#[serde(
+    untagged,
+    expecting = "`options` must be a list of words such as \"--cells=80\", or an object of names and values"
+)]
 enum Options {
     Words(Vec<String>),
     Named(Map<String, Value>),
@@ -118,7 +121,9 @@ impl Reader {
             Ok(keys) => keys,
             Err(error) => {
                 let failure = match error.classify() {
-                    Category::Data => refused("this is not a JSON object".into(), "give it `urdf` and `world`"),
+                    Category::Data => {
+                        refused("this is not a JSON object".into(), "write an object with `urdf` and `world`")
+                    }
                     _ => refused(
                         format!("this is not JSON: {}", json_error(error)),
                         "write each problem as one line of JSON",

@@ -23,8 +23,8 @@ use std::path::{Path, PathBuf};
 /// Coordinate two arms in one cell, on one clock.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Both motions are certified among the obstacles and between the arms, also if the
-clocks of the controllers differ by up to --skew seconds. Each arm has a start and
+Both motions are certified: the arms touch neither obstacles nor each other, even
+if the clocks of the controllers differ by up to --skew seconds. Each arm has a start and
 a goal; obstacles stand still.
 
 Examples:
@@ -40,20 +40,22 @@ pub struct CellArgs {
     /// Cell file: the arms with their robots, starts and goals, and the obstacles.
     #[arg(value_name = "CELL", value_hint = ValueHint::FilePath)]
     cell: PathBuf,
-    /// Greatest difference of the two controllers' clocks, seconds. The certificate holds for every difference up to it.
+    /// Greatest difference of the two controllers' clocks, seconds. The certificate holds for all differences up to
+    /// this one.
     #[arg(long, value_name = "SECONDS", value_parser = skew, default_value_t = Settings::default().skew)]
     skew: f64,
     /// Least distance to keep from every obstacle and between the arms, metres, instead of the cell's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
     clearance: Option<f64>,
-    /// Number of boxes in four joints for a proof that no motions of both arms exist. 0 for no such proof.
+    /// Number of boxes, in the space of all four joints, for a proof that the arms cannot both reach their goals. With
+    /// 0, cplan tries no such proof.
     #[arg(long, value_name = "COUNT", default_value_t = Settings::default().boxes)]
     boxes: usize,
-    /// Write the result: .json, .csv with four joints, or .yaml (ROS 2). A .yaml file whose name ends in that of an arm has
-    /// its motion, others have both. Repeatable.
+    /// Write the result: .json, .csv with four joints, or .yaml (ROS 2). A .yaml file has the motions of both arms, or
+    /// that of one arm if its name ends in the name of the arm. Repeatable.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     output: Vec<PathBuf>,
-    /// Draw both arms, the diagram of their times, and a row of time for each arm: .svg, .png or .html. Repeatable.
+    /// Draw both arms, the diagram of their times, and a time line for each arm: .svg, .png or .html. Repeatable.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     picture: Vec<PathBuf>,
     #[command(flatten)]

@@ -31,9 +31,11 @@ impl Answered<'_> {
                 lines.extend(waits.iter().map(|wait| ("wait", format!("{} {}", arm.name, waiting(wait)))));
             }
             match &found.interlocks {
-                None => lines.push(("signals", "no signals make the motions safe for any skew".into())),
+                None => {
+                    lines.push(("signals", "cplan found no signals that make the motions safe for every skew".into()))
+                }
                 Some(interlocks) if interlocks.is_empty() => {
-                    lines.push(("signals", "none needed: the motions are safe for any skew".into()));
+                    lines.push(("signals", "none needed: the motions are safe for every skew".into()));
                 }
                 Some(interlocks) => {
                     let shown = interlocks.iter().take(MAX_SHOWN).enumerate();
@@ -69,13 +71,17 @@ impl Answered<'_> {
                         names[1 - *arm]
                     )
                 }
-                Refutation::Starts(what) => format!("infeasible: at the starts, {what}; proven"),
+                Refutation::Starts(what) => {
+                    format!("infeasible: the arms cannot be at their starts together: {what}; proven")
+                }
                 Refutation::Goals(what) => {
                     format!("infeasible: the arms collide at every pair of goals, for example {what}; proven")
                 }
                 Refutation::Boxes(boxes) => {
                     let count = counted(boxes.examined, "box");
-                    format!("infeasible: no motions of both arms exist; proven with {count} in four joints")
+                    format!(
+                        "infeasible: the arms cannot both reach their goals without a collision; proven with {count} of colliding configurations in the space of all four joints"
+                    )
                 }
             },
             Outcome::Unknown(why) => format!("unknown: {why}"),

@@ -35,16 +35,16 @@ problem:
   world = \"tray.toml\"
 Worlds with steps are left out: only `cplan plan` plans tasks.
 
-Each run is complete, from the problem to a certificate or a proof. A run builds
-its own maps; their time is reported separately (build, query, certify). The
+Each run begins with the problem and ends with a certificate or a proof. It builds
+its own maps; times for build, query and certify are reported separately. The
 table compares each length with a proven lower bound on the length of all
 motions. Memory is the peak of a run's allocations.
 
-Exit codes: for one problem 0 found, 3 infeasible: proven that there is no path,
-4 unknown, by the best answer; for several problems 0 all runs were made; for
-both 1 bad input, contradicting planners, or, after all other runs, problems of
-a suite that cannot be read or whose start or goal is blocked; 2 wrong command
-line.")]
+Exit codes for one problem: 0 a planner found a path, 3 a planner proved that
+there is none, 4 unknown. For several problems: 0 all runs were made. For both:
+1 bad input, planners that contradict each other, or (after all other runs)
+problems of a suite that cannot be read or whose start or goal is blocked; 2
+wrong command line.")]
 pub struct CompareArgs {
     /// Robot: a URDF or xacro file. With --suite: the robot for all worlds of the folder.
     #[arg(value_name = "URDF", required_unless_present = "suite")]
@@ -54,7 +54,8 @@ pub struct CompareArgs {
     pub world: Option<PathBuf>,
     #[command(flatten)]
     pub xacro: XacroArgs,
-    /// Folder with many problems: those of its suite.toml or, if a URDF is given, all its worlds with that robot.
+    /// Folder with many problems. Without a URDF: the problems in its suite.toml. With a URDF: all worlds of the folder
+    /// with this robot.
     #[arg(long, value_name = "DIR", value_hint = ValueHint::DirPath, conflicts_with_all = ["start", "goal", "goal_tip"])]
     #[arg(help_heading = COMPARISON)]
     pub suite: Option<PathBuf>,
@@ -63,16 +64,16 @@ pub struct CompareArgs {
     #[arg(long, value_name = "N", conflicts_with_all = ["start", "goal", "goal_tip"],
           value_parser = clap::value_parser!(u32).range(1..=MAX_QUERIES), help_heading = COMPARISON)]
     pub queries: Option<u32>,
-    /// Seed of the random pairs. The same seed gives the same pairs in this and all later versions; a run with fewer
-    /// queries uses the first of them.
+    /// Seed of the random pairs. The same seed gives the same pairs in this and all later versions; fewer queries are
+    /// the first of these pairs.
     #[arg(long, value_name = "S", default_value_t = 1, requires = "queries", help_heading = COMPARISON)]
     pub seed: u64,
-    /// Number of runs at the same time. Several runs disturb each other's times; memory is reported only with --jobs 1.
+    /// Number of simultaneous runs. With more than one, computing times are less exact, and memory is not reported.
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(1..=1024))]
     #[arg(help_heading = COMPARISON)]
     pub jobs: u16,
-    /// Run only this planner; can be repeated. Each row is about the planner's default path. For planners with two kinds of
-    /// paths (see --path in `cplan help planners`), length and clearance of both are listed.
+    /// Run only this planner; can be repeated. Each row is about the planner's default path. For planners with two
+    /// kinds of paths (see --path in `cplan help planners`), the report lists length and clearance of both kinds.
     #[arg(long, value_parser = word(planners()), value_name = "NAME", help_heading = COMPARISON)]
     pub planner: Vec<Method>,
     /// Add a row for a planner with its own options, such as --with "harmonic --field oriented --epsilon 0.5
@@ -89,8 +90,8 @@ pub struct CompareArgs {
     pub effort: EffortArgs,
     #[command(flatten)]
     pub motion: MotionArgs,
-    /// Print tables with all columns, wider than 80 characters: also the size of the searched space, the time of each
-    /// stage, and both paths.
+    /// Print tables with all columns, wider than 80 characters. The additional columns are the size of the searched
+    /// space, the time of each stage, and both kinds of paths.
     #[arg(long, help_heading = OUTPUT)]
     pub wide: bool,
     /// Print the results as JSON. For several problems: all runs, distributions and the summary.

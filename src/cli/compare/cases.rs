@@ -95,7 +95,7 @@ impl Cases {
             }
         }
         for member in &suite.members {
-            member.scene.require_static_obstacles("comparisons are for worlds without moving obstacles")?;
+            member.scene.require_static_obstacles("comparisons need static obstacles")?;
         }
         let (mut name, files) = (suite.name.clone(), suite.files.clone());
         let read: HashMap<String, Arc<LoadedScene>> =
@@ -200,8 +200,8 @@ fn drawn(whole: Case, sampling: Option<Sampling>) -> Result<Vec<Case>, String> {
     let scene = whole.base.scene();
     let Some(pairs) = free_pairs(scene, queries, seed) else {
         return Err(format!(
-            "--queries: {} has almost no configuration that keeps the clearance of {} m; a smaller --clearance or \
-             other obstacles leave room for random queries",
+            "--queries: almost no configuration of {} keeps the clearance of {} m; use a smaller --clearance, or a world \
+             with more room",
             whole.name,
             scene.workspace().clearance
         ));

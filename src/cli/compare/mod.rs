@@ -125,7 +125,7 @@ fn args_of(words: &[String]) -> Result<CompareArgs, Failure> {
     let CompareWords { args } = CompareWords::try_parse_from(words).map_err(|error| Failure::Usage(message(&error)))?;
     if args.json || args.csv || args.markdown || !args.output.is_empty() || !args.picture.is_empty() {
         let message =
-            "options for printed output, files and pictures are for the program, not for callers of the library";
+            "options for printed output, files and pictures are available only on the command line, not in the library";
         return Err(Failure::Usage(message.into()));
     }
     Ok(args)

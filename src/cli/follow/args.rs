@@ -19,10 +19,10 @@ use std::path::PathBuf;
 /// Move the tip along a line: G-code, SVG or TOML.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The motion stays within the tolerance of the line, in the line's order, between
-samples too. It is certified free of collision, and as fast as the limits of the
-joints and of the tip allow. If there is none, the answer names the place. The
-line is scaled, then turned, then moved.
+The tip stays within the tolerance of the line and follows it in its order, also
+between samples. The motion is certified free of collision, and as fast as the
+limits of the joints and of the tip allow. If there is no motion, the answer
+names the place. The line is scaled, then turned, then moved.
 
 Examples:
   cplan follow robots/planar_2r.urdf workspaces/follow/engraving.toml \\
@@ -43,28 +43,29 @@ pub struct FollowArgs {
     /// Line: G-code (.gcode, .nc, .ngc, .tap), a drawing (.svg), or the keys of a step's `follow` (.toml).
     #[arg(value_name = "PATH", value_hint = ValueHint::FilePath)]
     pub path: PathBuf,
-    /// Greatest distance of the tip from the line, metres or with a unit such as 0.05mm; by default that of the line in TOML,
-    /// or else 0.00001.
+    /// Greatest distance of the tip from the line, metres or with a unit such as 0.05mm [default: the tolerance in a
+    /// TOML line, or else 0.00001].
     #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
     pub tolerance: Option<f64>,
     /// Greatest speed of the tip, metres per second, instead of the speeds (F) of the file.
     #[arg(long, value_name = "M/S", value_parser = positive)]
     pub speed: Option<f64>,
-    /// Time for which the arm rests at both ends of each travel while the pen moves, seconds.
+    /// Time for which the arm rests at both ends of each travel, so that the pen can move, seconds.
     #[arg(long, value_name = "SECONDS", value_parser = positive)]
     pub pen_time: Option<f64>,
-    /// Angle of the tool, which the wrist keeps along the line: radians from the x axis, or degrees such as 90deg; tangent
-    /// for the direction of the line; or tangent+ANGLE. It replaces that of a line in TOML.
+    /// Angle of the tool, which the wrist keeps along the line: radians from the x axis, or degrees such as 90deg;
+    /// tangent for the direction of the line; or tangent+ANGLE. Replaces the angle in a TOML line.
     #[arg(long, value_name = "ANGLE", value_parser = tool_angle, allow_hyphen_values = true)]
     pub wrist: Option<ToolAngle>,
-    /// Greatest difference from that angle, radians; by default that of the line in TOML, or else 0.01.
+    /// Greatest difference from the angle of the tool, radians [default: the value in a TOML line, or else 0.01].
     #[arg(long, value_name = "RADIANS", value_parser = tool_tolerance)]
     pub wrist_tolerance: Option<f64>,
-    /// Side of the elbow along the line, seen from joint 1 towards the tip, instead of that of a line in TOML. By default
-    /// either side will do.
+    /// Side of the elbow along the line, seen from joint 1 towards the tip. Replaces the side in a TOML line. By
+    /// default, both sides are allowed.
     #[arg(long, value_name = "SIDE", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
     pub elbow: Option<Elbow>,
-    /// Unit of the line's numbers instead of the unit in the file: mm, cm, dm, m, km, um, mil, in, ft, yd or px.
+    /// Unit of the line's numbers, instead of the unit that the file states: mm, cm, dm, m, km, um, mil, in, ft, yd or
+    /// px.
     #[arg(long, value_name = "UNIT")]
     pub unit: Option<Unit>,
     /// Factor by which the line is scaled about its origin. Speeds of the file stay the same.
@@ -76,9 +77,9 @@ pub struct FollowArgs {
     /// New position of the line's origin, metres.
     #[arg(long = "move", value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
     pub shift: Option<[f64; 2]>,
-    /// Search for the position of the line's origin (--fit), or also for the angle in steps of 10 degrees (--fit=turn), so
-    /// that the whole line can be followed without a change of the IK solution, far from places that the arm cannot reach. The
-    /// answer states the options that repeat the placement.
+    /// Search for a position of the line's origin (--fit), or also for its angle in steps of 10 degrees (--fit=turn).
+    /// There, the arm can follow the whole line without a change of the IK solution, far from places that it cannot
+    /// reach. The answer states the options that repeat the placement.
     #[arg(long, value_name = "turn", num_args = 0..=1, require_equals = true, default_missing_value = "move",
         value_parser = word([(Freedom::Move, "move", ""), (Freedom::Turn, "turn", "")]), conflicts_with = "shift")]
     pub fit: Option<Freedom>,
@@ -98,8 +99,8 @@ pub struct FollowArgs {
     /// Draw the line and the motion in workspace and configuration space: .svg, .png or .html. Can be repeated.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub picture: Vec<PathBuf>,
-    /// Write the evidence for the answer, found or infeasible, which `cplan-check URDF WORLD FILE` checks in exact
-    /// arithmetic. If FILE is also a .json of --output, it becomes the member `certificate` there.
+    /// Write the evidence for the answer, found or infeasible. `cplan-check URDF WORLD FILE` checks it in exact
+    /// arithmetic. If FILE is also a .json of --output, the evidence becomes the member `certificate` of that file.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     pub certificate: Option<PathBuf>,
     #[command(flatten)]

@@ -43,7 +43,7 @@ pub fn search(
 ) -> Result<(Fitted, Option<Placed>), Failure> {
     let stated = args.stated_placement();
     if freedom == Freedom::Turn && stated.turn != 0.0 {
-        return Err(Failure::Usage("--fit=turn searches for the angle; leave out --turn, or use --fit".into()));
+        return Err(Failure::Usage("--fit=turn searches for the angle itself; leave out --turn, or use --fit".into()));
     }
     let degrees = |k: u32| f64::from(360 / TURNS * k);
     let turns: Vec<f64> = match freedom {
@@ -78,7 +78,7 @@ impl Placed {
     /// Describes the placement.
     pub fn describe(&self) -> String {
         let Self { options, room, .. } = self;
-        format!("{options}; about {} from places that the arm cannot reach this way", length_down(*room))
+        format!("{options}; about {} of room to places that the arm cannot reach", length_down(*room))
     }
 
     /// Returns the placement as JSON.

@@ -71,7 +71,7 @@ pub fn answer(
     let outputs = files::outputs(args)?;
     let line = read_line(args)?;
     let loaded = load(line.wrist.is_some())?.with_margins(args.clearance, args.calibration)?;
-    loaded.require_static_obstacles("a line is followed among obstacles at rest")?;
+    loaded.require_static_obstacles("lines can be followed only if all obstacles are static")?;
     let read: Vec<_> = loaded.files().into_iter().chain([args.path.clone()]).collect();
     refuse_to_overwrite_inputs(outputs.paths(), &read)?;
     let digests = || Digests::of(&args.files.robot(), &args.files.world, &loaded.files());
@@ -82,7 +82,7 @@ pub fn answer(
     }
     let FollowedLine { path, tolerance, speed, elbow, .. } = line;
     if elbow.is_some() && !loaded.scene.arm().only_turns() {
-        let message = "only arms with two revolute joints have an elbow; leave out its side";
+        let message = "only arms with two revolute joints have an elbow; leave out the side of the elbow";
         return Err(Failure::Refused(format!("{}: {message}", args.path.display())));
     }
     let along = wrist.as_ref().map(|wrist| wrist.along);

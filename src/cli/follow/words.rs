@@ -46,7 +46,7 @@ pub fn summary(answered: &Answered) -> String {
 pub fn result(answered: &Answered) -> String {
     match answered.answer {
         Outcome::Found(found) => {
-            format!("found and certified: at most {} from the line", length_up(found.deviation))
+            format!("found and certified: the tip is at most {} from the line", length_up(found.deviation))
         }
         Outcome::Infeasible(infeasible) => format!("infeasible: {}; proven", infeasible.describe()),
         Outcome::Unknown(why) => format!("unknown: {why}"),

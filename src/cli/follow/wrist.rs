@@ -51,7 +51,7 @@ pub fn guide(args: &FollowArgs, line: Option<WristGuide>) -> Result<Option<Wrist
     let angle = args.wrist.map(|angle| line.map_or(own(angle), |line| WristGuide { angle, ..line }));
     match (angle.or(line), args.wrist_tolerance) {
         (None, Some(_)) => {
-            Err(Failure::Usage("--wrist-tolerance needs an angle of the tool: give --wrist, too".into()))
+            Err(Failure::Usage("--wrist-tolerance needs an angle of the tool, by --wrist or in the line's file".into()))
         }
         (guide, None) => Ok(guide),
         (guide, Some(tolerance)) => Ok(guide.map(|guide| WristGuide { tolerance, ..guide })),
@@ -86,7 +86,7 @@ impl FollowingWrist {
         let kept = match self.along.guide.angle {
             ToolAngle::Fixed(angle) => format!("keeps the tool at {} rad", short(angle)),
             ToolAngle::Tangent(0.0) => "turns the tool along the line".into(),
-            ToolAngle::Tangent(offset) => format!("turns the tool along the line, {} rad from it", short(offset)),
+            ToolAngle::Tangent(offset) => format!("keeps the tool at {} rad to the line", short(offset)),
         };
         format!("joint \"{}\" {kept}, within {} rad", self.joint, upwards(deviation))
     }

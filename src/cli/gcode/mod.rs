@@ -36,11 +36,11 @@ const ARC_SEGMENT: f64 = 1e-3;
 /// Prove G-code for machines with their own kinematics.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The firmware moves the tip along each line, and keeps the side of its elbow.
-Drawing moves (G1, G2, G3) remain unchanged, and are proven to be within reach and
-limits, and free of collisions. Travels (G0) that are not are replaced by others.
-The coordinates of the file are those of the world, turned by --turn and then
-moved by --move.
+The machine's firmware moves the tip along each line, with the elbow always on the
+same side. Drawing moves (G1, G2, G3) remain unchanged; cplan proves that they are
+within reach and limits, and free of collisions. Travels (G0) for which this does
+not hold are replaced by others. Coordinates of the file, turned by --turn and
+then moved by --move, are those of the world.
 
 Examples:
   cplan gcode robots/scara.urdf workspaces/gcode/labels.toml \\
@@ -60,15 +60,16 @@ pub struct GcodeArgs {
     /// Judge the original program, travels included, and write nothing.
     #[arg(long, conflicts_with = "output", required_unless_present = "output")]
     check: bool,
-    /// Firmware of the machine. By default the one that the program names in a comment, or by words that only this firmware
-    /// has; otherwise marlin.
+    /// Firmware of the machine [default: the firmware that the program names in a comment, or whose own words it uses;
+    /// otherwise marlin].
     #[arg(long, value_name = "NAME", value_parser = word(Dialect::ALL.map(|own| (own, own.name(), ""))))]
     dialect: Option<Dialect>,
-    /// Side of the elbow, seen from joint 1 towards the tip, if the machine's is fixed. By default both are tried.
+    /// Side of the elbow, seen from joint 1 towards the tip, if it is fixed on the machine. By default, cplan tries
+    /// both sides.
     #[arg(long, value_name = "SIDE", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
     elbow: Option<Elbow>,
-    /// Place of the tip at the beginning and after homing (G28), metres, in the coordinates of the program. Without it, the
-    /// moves from there are not judged.
+    /// Place of the tip at the beginning and after homing (G28), metres, in the coordinates of the program. Without
+    /// this option, moves that begin there are not judged.
     #[arg(long, value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
     home: Option<[f64; 2]>,
     /// Angle by which the machine's coordinates are turned in the world: radians, or degrees such as 90deg.
@@ -77,7 +78,7 @@ pub struct GcodeArgs {
     /// Position of the machine's origin in the world, metres; by default 0,0.
     #[arg(long = "move", value_name = "x,y", value_parser = displacement, allow_hyphen_values = true)]
     shift: Option<[f64; 2]>,
-    /// Words of the lines that lift the pen, such as "M300 S50" or Z5. Then G1 with a lifted pen is a travel, too.
+    /// Words of the lines that lift the pen, such as "M300 S50" or Z5. G1 with a lifted pen then counts as a travel.
     #[arg(long, value_name = "WORDS", requires = "pen_down")]
     pen_up: Option<PenWords>,
     /// Words of the lines that lower the pen, such as "M300 S30".
@@ -86,16 +87,17 @@ pub struct GcodeArgs {
     /// Greatest distance of the tip from the line, metres or with a unit such as 0.05mm.
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, default_value_t = Settings::default().tolerance)]
     tolerance: f64,
-    /// Length of the firmware's segments, metres or with a unit such as 5mm: on each, the joints move straight. By default the
-    /// tip stays within the tolerance of the line. With --segments-per-second, greatest length of the segments of arcs; by
-    /// default 1mm.
+    /// Length of the firmware's segments, on which the joints move straight, metres or with a unit such as 5mm
+    /// [default: such that the tip stays within the tolerance of the line]. With --segments-per-second: greatest length
+    /// of the segments of arcs [default: 1mm].
     #[arg(long, value_name = "LENGTH", value_parser = tolerance)]
     segment: Option<f64>,
-    /// Number of segments per second (S in M665 of Marlin, and in M669 of RepRapFirmware). The firmware then computes the
-    /// segments of straight lines from their lengths and F.
+    /// Number of segments per second (S in M665 of Marlin, and in M669 of RepRapFirmware). The firmware then divides
+    /// straight lines according to their lengths and F.
     #[arg(long, value_name = "RATE", value_parser = positive)]
     segments_per_second: Option<f64>,
-    /// Least length of these segments, metres or with a unit; by default 0.5mm for marlin, and 0.2mm for duet.
+    /// Least length of segments with --segments-per-second, metres or with a unit [default: 0.5mm for marlin, 0.2mm for
+    /// duet].
     #[arg(long, value_name = "LENGTH", value_parser = tolerance, requires = "segments_per_second")]
     min_segment: Option<f64>,
     /// Least distance to keep from every obstacle, metres or as in 20mm, instead of the world's.
@@ -133,13 +135,12 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let job = Job::read(&bytes, &setup).map_err(|error| Failure::Input(line_diagnostic(file, error).into()))?;
     let loaded =
         input::load_scene(args.files.robot(), &args.files.world)?.with_margins(args.clearance, args.calibration)?;
-    loaded.require_static_obstacles("G-code is judged among obstacles at rest")?;
+    loaded.require_static_obstacles("G-code can be judged only if all obstacles are static")?;
     // A move that only comes near within the padding is not proven to collide.
     let padded = loaded.scene.arm().links.iter().flat_map(|link| &link.parts).any(|part| part.padding > 0.0)
         || loaded.scene.workspace().obstacles.iter().any(|obstacle| obstacle.growth.padding > 0.0);
     if padded {
-        let message = "G-code is judged for displacements of the base and of obstacles; for errors of angles, lengths and zeros, \
-                       give a clearance that covers them";
+        let message = "G-code is judged only for errors of the places of base and obstacles; replace errors of angles, lengths and zeros by a clearance that covers them";
         return Err(Failure::Refused(message.into()));
     }
     let read: Vec<_> = loaded.files().into_iter().chain([args.job.clone()]).collect();
@@ -154,7 +155,10 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     })?;
     let code = code_of(answer.status());
     let named = found.map(|(dialect, source)| {
-        format!("line {} of the program names the dialect {dialect}; --dialect states another one", source.line)
+        format!(
+            "the dialect is {dialect}, because line {} of the program names it; --dialect overrides this",
+            source.line
+        )
     });
     let notes = named.into_iter().chain(pen_note(args, &job, &answer)).collect();
     let answered = Answered { args, loaded: &loaded, job: &job, answer: &answer, dialect, notes };
@@ -228,7 +232,10 @@ impl Answered<'_> {
         if let Some((other, first)) = other.as_ref().and_then(|other| Some((other, other.failed.first()?))) {
             let side = other.elbow.map_or("other solution", Elbow::name);
             let count = counted(other.failed.len(), "move");
-            lines.push((side, format!("{count} would fail; the first one: {}", described(first))));
+            lines.push((
+                side,
+                format!("with this side of the elbow, {count} would fail; the first one: {}", described(first)),
+            ));
         }
         let [drawing, travels] = self.job.counts();
         let tolerance = chosen_length(self.args.tolerance);
@@ -259,9 +266,9 @@ impl Answered<'_> {
         let failed = &self.answer.failed;
         let proven = failed.iter().filter(|failed| failed.fault.is_proven).count();
         match self.answer.status() {
-            Status::Found if self.args.check => "found: the machine can play all moves; proven".to_owned(),
-            Status::Found => "found: the machine can play all moves of the written program; proven".to_owned(),
-            Status::Infeasible => format!("infeasible: the machine cannot play {}; proven", counted(proven, "move")),
+            Status::Found if self.args.check => "found: the machine can run all moves; proven".to_owned(),
+            Status::Found => "found: the machine can run all moves of the written program; proven".to_owned(),
+            Status::Infeasible => format!("infeasible: the machine cannot run {}; proven", counted(proven, "move")),
             Status::Unknown => format!("unknown: {} not proven to be safe", counted(failed.len(), "move")),
         }
     }
@@ -278,7 +285,7 @@ fn pen_note(args: &GcodeArgs, job: &Job, answer: &Answer) -> Option<String> {
     is_open.then(|| {
         let (line, words) = (first.own.piece.source.line, words.join(" or "));
         format!(
-            "if {words} lifts the pen for line {line}, state its words by --pen-up and --pen-down: then it is a travel"
+            "if {words} lifts the pen before line {line}, name the words by --pen-up and --pen-down; then the line counts as a travel"
         )
     })
 }
@@ -290,7 +297,7 @@ fn unstated(sources: &[Source]) -> Option<String> {
     let more = if more > 0 { format!(" and {more} more") } else { String::new() };
     let (moves, begin) = if sources.len() == 1 { ("move in line", "begins") } else { ("moves in lines", "begin") };
     let stated =
-        format!("the {moves} {}{more} {begin} at a place that the file does not state: not judged", shown.join(", "));
+        format!("not judged: the {moves} {}{more} {begin} at a place that the file does not state", shown.join(", "));
     (!sources.is_empty()).then_some(stated)
 }
 

@@ -21,7 +21,7 @@ pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
         let option = word(Path::new(name));
         if border == Some(i) {
             let message = format!(
-                "\"{name}\" is solid and encloses everything else: --walls {option} makes it a wall, --without {option} leaves it out"
+                "\"{name}\" is solid and encloses everything else; --walls {option} makes it a wall, --without {option} leaves it out"
             );
             notes.add(message, shape.line);
             continue;
@@ -33,13 +33,13 @@ pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
                 count => format!("\"{first}\" and {}", counted(count - 1, "other")),
             };
             let message = format!(
-                "\"{name}\" is solid, and so is what lies inside it, {others}: --walls {option} makes \"{name}\" a wall"
+                "\"{name}\" is solid and contains {others}; --walls {option} makes \"{name}\" a wall with a free inside"
             );
             notes.add(message, shape.line);
         }
         if solid_contains(shape, [0.0, 0.0]) {
             let message = format!(
-                "\"{name}\" covers (0, 0), the arm's base: --without {option} leaves it out, --move shifts the drawing"
+                "\"{name}\" covers (0, 0), the place of the arm's base; --without {option} leaves it out, --move moves the drawing"
             );
             notes.add(message, shape.line);
         }
@@ -50,7 +50,7 @@ pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
     let width = all.map(|(low, high)| high - low).into_iter().fold(0.0, f64::max);
     if !taken.is_empty() && !(USUAL_WIDTHS[0]..=USUAL_WIDTHS[1]).contains(&width) {
         let width = if width < 1.0 { format!("{:.3} mm", width * 1e3) } else { format!("{width:.0} m") };
-        notes.add(format!("the whole drawing is {width} wide; if that is wrong, give its --unit"), None);
+        notes.add(format!("the whole drawing is {width} wide; if this is wrong, state its unit by --unit"), None);
     }
 }
 

@@ -45,13 +45,14 @@ pub struct ImportArgs {
     /// Import only this layer or part, even from a layer that is switched off. Can be repeated.
     #[arg(long, value_name = "NAME")]
     pub layer: Vec<String>,
-    /// Leave this layer or part out, such as the arm's own base. Can be repeated.
+    /// Ignore this layer or part, such as the arm's own base. Can be repeated.
     #[arg(long, value_name = "NAME")]
     pub without: Vec<String>,
-    /// Leave smaller parts out, such as screws: those whose box along x and y has a longer side below this, metres.
+    /// Ignore parts smaller than this, such as screws, metres. The size of a part is the longer side of its box along x
+    /// and y.
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub min_size: Option<f64>,
-    /// Leave larger parts out, such as the frame of the page, metres.
+    /// Ignore parts larger than this, such as the frame of the page, metres.
     #[arg(long, value_name = "METRES", value_parser = positive)]
     pub max_size: Option<f64>,
     /// Extent of a layer or part along the plane's normal, metres, such as conveyor=0:0.2. Can be repeated.
@@ -60,7 +61,8 @@ pub struct ImportArgs {
     /// Import closed outlines of this layer or part as thin walls, such as the border of a room. Can be repeated.
     #[arg(long, value_name = "NAME")]
     pub walls: Vec<String>,
-    /// Unit of the drawing's numbers instead of the unit in the file: mm, cm, dm, m, km, um, mil, in, ft, yd or px.
+    /// Unit of the drawing's numbers, instead of the unit that the file states: mm, cm, dm, m, km, um, mil, in, ft, yd
+    /// or px.
     #[arg(long, value_name = "UNIT")]
     pub unit: Option<Unit>,
     /// Greatest distance of a curve from its chords, and between line ends that are joined, metres.

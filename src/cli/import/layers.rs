@@ -72,9 +72,9 @@ impl Layers<'_> {
         let more = known.len().saturating_sub(MAX_SHOWN_NAMES);
         let known: Vec<String> = known.into_iter().take(MAX_SHOWN_NAMES).map(|name| format!("\"{name}\"")).collect();
         let known = match (known.is_empty(), more) {
-            (true, _) => "no imported part of the drawing has a name or a layer".to_owned(),
-            (false, 0) => format!("the drawing has {}, and the world's own names", known.join(", ")),
-            (false, more) => format!("the drawing has {} and {more} more", known.join(", ")),
+            (true, _) => "no part of this drawing has a name or a layer".to_owned(),
+            (false, 0) => format!("choose one of {}, or a name in the new world", known.join(", ")),
+            (false, more) => format!("choose one of {} (and {more} more)", known.join(", ")),
         };
         Err(Failure::Refused(format!("{option}: the drawing has no layer or part \"{name}\"\n  hint: {known}")))
     }

@@ -15,7 +15,7 @@ pub(super) struct ImportedObstacle {
 }
 
 /// Note about shapes that are too small to be written.
-const NO_EXTENT_NOTE: &str = "parts without extent: left out";
+const NO_EXTENT_NOTE: &str = "parts without length or area: left out";
 
 /// The placement of a drawing: it is turned and then moved.
 pub(super) struct Placement {
@@ -136,12 +136,12 @@ pub(super) fn within_reach(taken: &[ImportedObstacle], shift: [f64; 2]) -> Resul
         let (what, value, help) = if farthest > MAX_LENGTH {
             ("a coordinate", farthest, distance_hint(taken, shift))
         } else {
-            ("a height", highest, "give its extent with --height, or the drawing's --unit".into())
+            ("a height", highest, "state the heights by --height, or the unit of the drawing by --unit".into())
         };
         if value <= MAX_LENGTH {
             return Ok(());
         }
-        let message = format!("{} has {what} of {value:.2e} m (at most {MAX_LENGTH:e})", shape.kind);
+        let message = format!("{} has {what} of {value:.2e} m (at most {MAX_LENGTH:e} is allowed)", shape.kind);
         let position = shape.line.map(|line| Position { line, column: 1 });
         Err(Diagnostic { position, ..Diagnostic::new("", message).help(help) })
     })
@@ -160,8 +160,8 @@ fn distance_hint(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
         (shift[k] - low.midpoint(high)).round()
     });
     match [0, 1].iter().all(|&k| (ends(k)[1] - ends(k)[0]) / 2.0 + 1.0 <= MAX_LENGTH) {
-        true => format!("move the drawing to the arm with --move {x},{y} or similar, or give its --unit"),
-        false => "give the drawing's --unit, or --scale it: the whole drawing is too large".into(),
+        true => format!("move the drawing near the arm, such as by --move {x},{y}, or state its unit by --unit"),
+        false => "the whole drawing is too large; state its unit by --unit, or scale it by --scale".into(),
     }
 }
 

@@ -19,14 +19,14 @@ use std::path::PathBuf;
 
 /// Report if two polygons meet, how deep, and their difference.
 ///
-/// The report has the three conditions of the penetration test: a corner of A in B, a corner of B in A, and sides that
-/// cross. It also has the Minkowski difference B - A: the places of A's origin at which A meets B.
+/// The report states the three conditions of the penetration test: a corner of A in B, a corner of B in A, and sides
+/// that cross. It also states the Minkowski difference B - A, the area in which A's origin is if A meets B.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-A polygon is a file, or its corners on the command line. A file has one corner
-per line (x,y or x y; # begins a comment), or is TOML with the key
-polygon = [[x, y], ...]. Corners are listed in order, in either direction. All
-signs are exact, and touching counts as contact.
+A polygon is the name of a file, or a list of corners. A file has one corner per
+line (x,y or x y; # begins a comment), or is TOML with the key
+polygon = [[x, y], ...]. Corners are listed in order, in either direction.
+Comparisons are exact, and touching counts as contact.
 
 Examples:
   cplan polygons \"0,0 1,0 1,1\" \"0.5,0.5 2,0.5 2,2\"

@@ -87,7 +87,7 @@ fn text_points(source: &Source) -> Result<Vec<PlacedPoint>, Diagnostic> {
         }
         if numbers.len() % 2 == 1 {
             let range = numbers[0].1.start..numbers[numbers.len() - 1].1.end;
-            let message = format!("a point has two numbers, but here are {}", numbers.len());
+            let message = format!("a point needs two numbers, but here are {}", numbers.len());
             return Err(source.diagnostic_at(range, message).help(POINTS_HELP));
         }
         let point = |pair: &[(f64, Range<usize>)]| (Point::new(pair[0].0, pair[1].0), pair[0].1.start..pair[1].1.end);
@@ -117,7 +117,7 @@ fn toml_points(source: &Source) -> Result<Vec<PlacedPoint>, Diagnostic> {
             Ok((at, numbers.span()))
         }
         other => {
-            let message = format!("a point has two numbers, but here are {}", other.len());
+            let message = format!("a point needs two numbers, but here are {}", other.len());
             Err(source.diagnostic_at(numbers.span(), message).help(HELP))
         }
     };
@@ -138,7 +138,7 @@ fn polygon(
         points.pop();
     }
     if points.len() < given {
-        notes.push(format!("{name}: points that repeat the one before them, or the first one, are taken once"));
+        notes.push(format!("{name}: points that repeat the previous point, or at the end the first one, count once"));
     }
     let corners: Vec<Point> = points.iter().map(|(at, _)| *at).collect();
     let polygon = SimplePolygon::new(corners.clone()).map_err(|error| {
@@ -147,7 +147,7 @@ fn polygon(
         source.diagnostic_at(range, format!("{name} is not a simple polygon: {error}")).help(help)
     })?;
     if polygon.corners() != corners {
-        notes.push(format!("{name} is listed clockwise; its corners are numbered counter-clockwise here"));
+        notes.push(format!("{name} is listed clockwise; this report numbers its corners counter-clockwise"));
     }
     Ok(GivenPolygon { polygon, notes, file })
 }
@@ -157,7 +157,7 @@ fn place_and_help(error: PolygonError) -> (Option<usize>, &'static str) {
     match error {
         PolygonError::TooFewCorners { .. } => (None, POINTS_HELP),
         PolygonError::NotFinite { corner } => (Some(corner), POINTS_HELP),
-        PolygonError::RepeatedCorner { second, .. } => (Some(second), "remove one of the two, or move it"),
+        PolygonError::RepeatedCorner { second, .. } => (Some(second), "remove or move one of the two corners"),
         PolygonError::NoArea => (None, "move a corner off the line"),
         PolygonError::Spike { corner } => (Some(corner), "remove this corner"),
         PolygonError::SidesCross { second, .. } | PolygonError::SidesTouch { second, .. } => {

@@ -34,7 +34,7 @@ pub fn verdict(findings: &Findings) -> String {
         Some(0.0) => "A and B touch; the origin is on the boundary of B - A".to_owned(),
         Some(depth) => {
             let bound = if findings.depth_is_exact { "" } else { "at least " };
-            format!("A and B meet; penetration depth: {bound}{} (of the origin in B - A)", number(depth))
+            format!("A and B meet; penetration depth: {bound}{} (depth of the origin in B - A)", number(depth))
         }
     }
 }

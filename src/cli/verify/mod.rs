@@ -24,7 +24,7 @@ use crate::view::{Picture, View};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-/// Judge anyone's motion: the whole motion, not samples of it.
+/// Judge a motion from any source: the whole motion, not only samples.
 ///
 /// The motion is a joint path, a trajectory, or a recorded task.
 #[derive(Debug, Args)]
@@ -40,12 +40,13 @@ result of cplan states about the motion must be true. CSV columns are named
 after the joints: elbow, elbow_velocity and so on in radians or metres, and time
 in seconds.
 
-In a world with steps, the file is a result of cplan for that world (.json).
-Each step is judged: whether it is the world's step, its motion with the payload
-and the objects where they are then, grasps, places, wrist turns and rests.
+In a world with steps, the file must be a result of cplan for that world (.json).
+Each step is judged: whether it is a step of the world, its motion (with the
+payload, and with objects where they are at that time), grasps, places, turns of
+the wrist, and rests.
 
-With --plan, the greatest distances of the motion from the nearest places of the
-plan are reported, in joint space and of the tip. Times are not compared.
+With --plan, the report states the greatest distance of the motion from the
+plan, in joint space and for the tip. Times are not compared.
 
 Examples:
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
@@ -56,8 +57,8 @@ Examples:
   cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json
 
 Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3
-refuted: proven collision, broken limit, wrong start or goal, not the requested
-task, or a false statement in the file, 4 undecided.")]
+refuted: a proven collision, a broken limit, a wrong start or goal, another task
+than requested, or a false statement in the file, 4 undecided.")]
 pub struct VerifyArgs {
     #[command(flatten)]
     pub files: Files,
@@ -66,8 +67,8 @@ pub struct VerifyArgs {
     pub trajectory: PathBuf,
     #[command(flatten)]
     pub settings: Settings,
-    /// Plan to compare with: .json (a result of cplan), .csv or .yaml. Reports the greatest distances of the motion from it,
-    /// in joint space and of the tip.
+    /// Plan to compare with: .json (a result of cplan), .csv or .yaml. The report states the greatest distance of the
+    /// motion from the plan, in joint space and for the tip.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub plan: Option<PathBuf>,
     /// Draw workspace and configuration space with the motion: .svg, .png or .html. Can be repeated.
@@ -97,7 +98,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let source = RecordingSource::File(args.trajectory.clone());
     let JudgedRecording { loaded, recorded, mut findings } = judge(loaded, &source, &args.settings)?;
     if recorded.steps.is_some() && !args.picture.is_empty() {
-        let message = "--picture draws one motion, not a task; `cplan plan` draws tasks";
+        let message = "--picture cannot draw tasks, only single motions; `cplan plan` draws tasks";
         return Err(Failure::Usage(message.into()));
     }
     let scene = &loaded.scene;
@@ -135,7 +136,7 @@ fn certificate(
         return Ok(Err(format!("joint \"{joint}\" moves, but certificates cover only the arm's two joints")));
     }
     if recorded.steps.is_none() && loaded.is_task() && !loaded.has_steps() {
-        let why = "the world gives values of the tool's joints, and only a result in .json has the steps for them";
+        let why = "the world states values of the tool's joints, and a certificate for them needs a result in .json";
         return Ok(Err(why.into()));
     }
     if verdict != Judgement::Free {

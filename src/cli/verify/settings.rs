@@ -32,17 +32,18 @@ pub struct Settings {
     /// Required final position of the tip instead of the world's goal, metres.
     #[arg(long, value_name = "x,y", allow_hyphen_values = true, conflicts_with = "anywhere")]
     pub goal_tip: Option<TipPoint>,
-    /// Required side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default either side will do.
+    /// Required side of the elbow at --goal-tip, seen from joint 1 towards the tip. By default, both sides are allowed.
     #[arg(long, value_name = "SIDE", requires = "goal_tip", conflicts_with = "goal", value_parser = word(Elbow::ALL.map(|own| (own, own.name(), ""))))]
     pub elbow: Option<Elbow>,
     /// Ignore the world's start and goal: the motion may begin and end anywhere.
     #[arg(long)]
     pub anywhere: bool,
-    /// Take the shorter direction between samples of continuous joints. For angles recorded within one turn.
+    /// Assume that continuous joints take the shorter direction between samples. Use this for angles that were recorded
+    /// within one turn.
     #[arg(long)]
     pub unwrap: bool,
-    /// Check the joints' torques against the effort limits of the URDF or the world, even if the world does not ask for it.
-    /// Files with torques are always checked.
+    /// Check the joints' torques against the effort limits of the URDF or the world, even if the world does not require
+    /// this. Files with torques are always checked.
     #[arg(long)]
     pub torque: bool,
 }
@@ -91,7 +92,7 @@ pub fn judge(loaded: LoadedScene, source: &RecordingSource, settings: &Settings)
         recorded.recording = recorded.recording.unwrapped(&loaded.scene.arm().topology());
     }
     if recorded.steps.is_some() && settings.anywhere {
-        return Err(Failure::Usage("--anywhere is for motions: a task must begin at its start".into()));
+        return Err(Failure::Usage("--anywhere does not apply to tasks, which must begin at the start".into()));
     }
     let findings = verify(&loaded, &recorded, &settings.overrides(), settings.anywhere)?;
     Ok(JudgedRecording { loaded, recorded, findings })

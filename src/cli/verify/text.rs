@@ -20,8 +20,9 @@ pub(super) fn summary(arm: &Arm, recording: &Recording, findings: &MotionFinding
     lines.extend(findings.margins.iter().filter_map(|margins| Some(("margin", margins.describe()?))));
     lines.extend(findings.steps.iter().flatten().filter_map(turn));
     lines.extend(findings.limits_broken.iter().map(|limit| ("limit", broken(arm, limit))));
-    let exceeds =
-        |limit| ("assumed", format!("{}; the files give no such limit, so this does not count", broken(arm, limit)));
+    let exceeds = |limit| {
+        ("assumed", format!("{}; this does not count, because the files state no such limit", broken(arm, limit)))
+    };
     lines.extend(findings.assumed_exceeded.iter().map(exceeds));
     let of = if findings.steps.is_some() { "task" } else { "fault" };
     lines.extend(findings.faults.iter().map(|fault| (of, fault.clone())));
@@ -51,7 +52,7 @@ fn format_moment(m: &MomentFinding) -> String {
 /// Returns lines about the greatest distances from the plan.
 fn plan(PlanFinding { joints, tip }: &PlanFinding) -> [Line; 2] {
     let farthest = |distance: String, place: &FarthestFinding| {
-        format!("up to {distance} from the plan, {}", format_moment(&place.moment))
+        format!("at most {distance} from the plan, {}", format_moment(&place.moment))
     };
     [
         ("plan", farthest(format!("{} in joint space", fixed(joints.distance, 6)), joints)),
@@ -165,12 +166,12 @@ fn too_near(collisions: &CollisionFinding, required: f64) -> String {
     let least = -deepest.depth;
     let is_near = || {
         let [by, least, required] = [length(shortfall), length_unlike(least, required), chosen_length(required)];
-        format!("nearer than the required clearance by {by} ({least} instead of {required}): proven")
+        format!("too near by {by} ({least} instead of the required {required}): proven")
     };
     match collisions.touches {
         Some(true) => "collision: proven".into(),
         Some(false) => format!("{}; no collision: proven", is_near()),
-        None => format!("{}; whether it collides is undecided", is_near()),
+        None => format!("{}; whether the arm collides is undecided", is_near()),
     }
 }
 
@@ -185,7 +186,7 @@ fn result(findings: &MotionFindings) -> String {
         Judgement::Free => format!("free{kept}: {whole}proven"),
         Judgement::Collision => too_near(&findings.collisions, required),
         Judgement::Task => "not the task of the world".into(),
-        Judgement::Ends => "does not lead from the start to the goal".into(),
+        Judgement::Ends => "the motion does not lead from the start to the goal".into(),
         Judgement::Claims => "free, but values stated in the file are wrong".into(),
         Judgement::Limits => "limits are broken".into(),
         Judgement::Undecided => "undecided".into(),

@@ -149,7 +149,7 @@ fn a_line_without_length_is_a_point_and_solid() {
 fn malformed_maps_are_refused_with_their_line() {
     for (from, to, parts) in [
         ("2D-Map", "3D-Map", &["line 1", "expected \"2D-Map\"", "hint"][..]),
-        (MAP, "", &["ends where \"2D-Map\" should come"]),
+        (MAP, "", &["ends too early: \"2D-Map\" is expected"]),
         ("LineMinPos: -2000 -1000\n", "", &["line 2", "expected \"LineMinPos:\" and 2 numbers"]),
         ("-2000 -1000", "-2000", &["line 2", "expected 2 numbers, found 1"]),
         ("-2000 -1000", "-2000 -1000 0", &["line 2", "found 3"]),
@@ -169,7 +169,7 @@ fn malformed_maps_are_refused_with_their_line() {
         ("-1500 0", "-1500 zero", &["line 8, column 7", "\"zero\""]),
         ("-1500 0", "-1500 inf", &["line 8, column 7", "finite"]),
         ("-1500 0", "-2500 0", &["line 8", "(-2500, 0) lies outside", "widen"]),
-        ("DATA\n", "", &["the file ends where a line or \"DATA\" should come"]),
+        ("DATA\n", "", &["the file ends too early: a line or \"DATA\" is expected here"]),
         ("DATA\n", "END\n", &["line 9", "\"END\""]),
         ("DATA\n", "DATA\n1 2\n", &["line 10", "follows the end of the map"]),
     ] {

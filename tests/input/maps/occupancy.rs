@@ -101,10 +101,14 @@ fn a_world_has_the_picture_as_one_obstacle() {
 fn worlds_that_misuse_pictures_are_refused() {
     for (from, to, parts) in [
         ("room.yaml", "attic.yaml", &["world.toml: line 3, column 9", "no file", "attic.yaml", "relative"][..]),
-        ("\"room.yaml\"", "\"room.pgm\"", &["world.toml: line 3", "needs the YAML"]),
+        ("\"room.yaml\"", "\"room.pgm\"", &["world.toml: line 3", "must name the YAML"]),
         ("\"room.yaml\"", "\"room.yaml\"\nunknown = \"maybe\"", &["line 4", "\"solid\" or \"free\", not \"maybe\""]),
         ("\"room.yaml\"", "\"room.yaml\"\npolygon = []", &["exactly one shape, but has 2"]),
-        ("image = \"room.yaml\"", "polyline = [[0, 0], [1, 1]]\nunknown = \"free\"", &["line 4", "only an image"]),
+        (
+            "image = \"room.yaml\"",
+            "polyline = [[0, 0], [1, 1]]\nunknown = \"free\"",
+            &["line 4", "`unknown` needs `image`"],
+        ),
     ] {
         let world = WORLD.replace(from, to);
         let files = [("room.pgm", PGM), ("room.yaml", YAML.as_bytes()), ("world.toml", world.as_bytes())];
@@ -172,7 +176,10 @@ fn the_shade_of_unseen_cells_is_unknown_whatever_free_thresh() {
             let map = OccupancyMap::read(&folder.path().join("room.yaml")).unwrap();
             assert_eq!(map.cells, [Occupancy::Occupied, Occupancy::Unknown, Occupancy::Free], "{yaml}");
             let notes = world_in(&folder).unwrap().notes.join("\n");
-            assert!(notes.contains("room") && notes.contains("though free_thresh 0.25 would make it free"), "{notes}");
+            assert!(
+                notes.contains("room") && notes.contains("although it would be free by free_thresh 0.25"),
+                "{notes}"
+            );
         }
     }
     // With the usual thresholds, it is unknown in any case.

@@ -128,7 +128,7 @@ fn pngs_of_few_bits_and_palettes_are_read() {
     // Indices outside the palette have no colour. The bits that fill up a row are no pixels.
     let two = Some((&colors[..6], &[255, 255][..]));
     let lacking = encoded(2, ColorType::Indexed, BitDepth::Two, two, &[0b0010_0000]);
-    assert!(read(&lacking).unwrap_err().to_string().contains("a colour that its palette lacks"));
+    assert!(read(&lacking).unwrap_err().to_string().contains("a colour that is not in the palette"));
     let filled = encoded(2, ColorType::Indexed, BitDepth::Two, two, &[0b0001_1111]);
     assert_eq!(read(&filled).unwrap().cells, [Occupied, Free]);
 }

@@ -115,7 +115,7 @@ move = { joints = [0.1, 0.2] } => move = [0.1, 0.2] => line 33, column 8 ... exp
 #[test]
 fn invalid_tasks_and_groups_are_refused() {
     let table = r#"
-[[obstacle]] => [task]\nrepeat = 0\n[[obstacle]] => line 7, column 10 ... once or more, not 0 times ... hint: 
+[[obstacle]] => [task]\nrepeat = 0\n[[obstacle]] => line 7, column 10 ... must be 1 or more, is 0 ... hint: 
 " => [task]\nrepeat = -3\n[[obstacle]] => line 7 ... not -3
 " => [task]\nrepeat = 1.5\n[[obstacle]] => line 7 ... expected a whole number
 " => [task]\nrepeat = 20001\n[[obstacle]] => line 7, column 10 ... the repetitions make 100005 steps (at most 100000) ... hint: 
@@ -166,7 +166,7 @@ place = { at = [0.5, 1.5] } => place = { at = [0.5, 1.5], angle = 1.0 }
 "#;
     all_refused(&valid_world(), table);
     let pick = "[[step]]\npick = \"part\"\n";
-    let end = "line 27, column 10 ... they begin carrying nothing and end carrying \"part\" ... hint: ";
+    let end = "line 27, column 10 ... the arm carries nothing at their beginning and \"part\" ... hint: ";
     refused(&format!("{CELL}{pick}[task]\nrepeat = 2\n"), &none, end);
     let inner = "[[step]]\nrepeat = 3\nsteps = [{ place = { at = [0.5, 1.5] } }, { pick = \"part\" }]\n";
     let carrying = format!("{CELL}{pick}{inner}");
@@ -302,7 +302,10 @@ fn defects_of_the_file_of_a_line_are_reported_there() {
     let error = load("bad.gcode").unwrap_err();
     assert!(error.contains("bad.gcode: line 2, column 10: A turns the tool"), "{error}");
     let error = load("line.txt").unwrap_err();
-    assert!(error.contains("world.toml: line 4") && error.contains("unknown ending"), "{error}");
+    assert!(
+        error.contains("world.toml: line 4") && error.contains("the format of the line's file is unknown"),
+        "{error}"
+    );
     let error = load("none.svg").unwrap_err();
     assert!(error.contains("there is no file") && error.contains("none.svg"), "{error}");
 }

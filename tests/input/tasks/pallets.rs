@@ -111,8 +111,8 @@ columns = 3 => columns = -3 => line 11 ... columns must be 1 or more, is -3 ... 
 rows = 2 => rows = 20000 => line 10 ... has 60000 places (at most 10000) ... hint: 
 " => rows = 9223372036854775807 => line 10 ... places (at most 10000)
 " => rows = 2.5 => line 10
-pitch = [0.1, 0.2] => pitch = [0.1, 0.0] => line 12 ... lie on each other, as a row is 0 m ... hint: 
-" => pitch = [0.0, 0.2] => line 12 ... lie on each other, as a column is 0 m
+pitch = [0.1, 0.2] => pitch = [0.1, 0.0] => line 12 ... from one row to the next is 0 ... hint: 
+" => pitch = [0.0, 0.2] => line 12 ... from one column to the next is 0
 " => pitch = 0.1 => line 12
 " => pitch = [0.1, nan] => line 12 ... not a finite number
 pitch = [0.1, 0.2]\n => nothing => line 8 ... missing key `pitch`

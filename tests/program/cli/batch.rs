@@ -126,7 +126,7 @@ fn rows_equal_the_findings_of_verify() {
     let rows = run_batch(&place, &lines, "--fields status,verdict").exits(0).rows();
     assert_eq!(rows[..3], [json!({"verdict": "free"}), json!({"status": "found"}), json!({"verdict": "collision"})]);
     let messages = rows[3..].iter().map(|row| row["message"].as_str().unwrap());
-    for (message, part) in messages.zip(["`verify` is a path", "cannot be read", "--planner"]) {
+    for (message, part) in messages.zip(["`verify` must be a path", "cannot be read", "--planner"]) {
         assert!(message.contains(part), "{message}");
     }
 }
@@ -143,7 +143,7 @@ fn a_bad_line_is_a_row() {
         (r#"{"id": 1}"#, "input", &["give either `urdf` or `urdf_text`"]),
         (r#"{"urdf": "U", "id": 2}"#, "input", &["give either `world` or `world_text`"]),
         (r#"{"urdf": "U", "world": "W", "wrold": 1}"#, "input", &["unknown field `wrold`"]),
-        (r#"{"urdf": "U", "world": 7}"#, "input", &["`world` is a path"]),
+        (r#"{"urdf": "U", "world": 7}"#, "input", &["`world` must be a path"]),
         (r#"{"urdf": "U", "world": {"start": null}}"#, "input", &["cannot be written as TOML"]),
         (r#"{"urdf": "U", "world": "W", "options": ["--planer=x"]}"#, "usage", &["--planer"]),
         (r#"{"urdf": "U", "world": "W", "options": {"cells": {"a": 1}}}"#, "input", &["cells cannot be"]),

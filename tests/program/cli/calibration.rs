@@ -63,11 +63,11 @@ fn the_checker_knows_errors_and_clearances_of_obstacles() {
     let within = certified(&["--calibration", ALL]);
     assert!(judged(&text, &drawn).is_ok());
     let said = judged(&text, &within).unwrap();
-    assert!(said.contains("this is about all robots and worlds within the stated errors"), "{said}");
+    assert!(said.contains("this holds for all robots and worlds within the stated errors"), "{said}");
     let table =
         with("shelf", "[robot]\ncalibration = { base = \"0.5 mm, 0.05deg\", links = \"0.2 mm\", zeros = \"0.02deg\" }");
     let refuted = judged(&table, &drawn).unwrap_err().to_string();
-    assert!(refuted.contains("is not shown") || refuted.contains("farther than"), "{refuted}");
+    assert!(refuted.contains("is not proven") || refuted.contains("farther than"), "{refuted}");
     let near = text.replace("[[obstacle]]\nname = \"shelf\"\n", "[[obstacle]]\nname = \"shelf\"\nclearance = 0.03\n");
     assert_ne!(near, text);
     place.write("world.toml", &near);
@@ -93,7 +93,7 @@ fn no_motion_for_all_robots_is_apart_from_none_for_the_drawn_one() {
     assert!(judged(&certificate).is_ok(), "{:?}", judged(&certificate));
     assert!(judged(&certificate.replace("obstacles=0.2m", "obstacles=0.001m")).is_err());
     let words = place.run(&[&[&urdf as &str, &world], &errors[..]].concat(), "").exits(3);
-    assert!(words.stdout.contains("; there is one for the robot and the world as drawn"), "{}", words.stdout);
+    assert!(words.stdout.contains("; without errors, there is one"), "{}", words.stdout);
 }
 
 /// `verify` and `check` ask for the same distances, and state those of the real shapes.
@@ -117,7 +117,7 @@ fn configurations_and_recordings_are_judged_within_the_errors() {
     let free = place.run(&["check", &urdf, &world, &at], "").exits(0);
     assert!(free.stdout.contains("free"), "{}", free.stdout);
     let near = place.run(&["check", &urdf, &world, &at, "--calibration", ALL], "");
-    assert!(near.stdout.contains("that the stated errors need"), "{}", near.stdout);
+    assert!(near.stdout.contains("for the stated errors"), "{}", near.stdout);
     assert!(!near.stdout.contains("penetrates"), "{}", near.stdout);
 }
 
@@ -142,15 +142,15 @@ fn mistakes_have_a_place_and_a_hint() {
     let lower = with("shelf", "").replace("name = \"crate\"\n", "name = \"crate\"\nclearance = 0.01\n");
     place.write("world.toml", format!("clearance = 0.02\n{lower}"));
     let refused = place.run(&[&urdf, "world.toml"], "").exits(1);
-    refused.warns(&["its clearance of 0.01 m is less than the world's of 0.02 m", "hint"]);
+    refused.warns(&["the clearance of 0.01 m is less than the world's clearance of 0.02 m", "hint"]);
     let refused = place.run(&[&urdf, &world, "--calibration", "base=1"], "").exits(2);
     refused.warns(&["--calibration", "no unit"]);
     let job = ["gcode", "labels.toml", "labels.gcode"].map(|name| shipped(&format!("workspaces/gcode/{name}")));
     let scara = shipped("robots/scara.urdf");
     let judged = |errors| place.run(&["gcode", &scara, &job[1], &job[2], "--check", "--calibration", errors], "");
-    judged("zeros=0.02deg").exits(1).warns(&["G-code is judged for displacements"]);
+    judged("zeros=0.02deg").exits(1).warns(&["G-code is judged only for errors of the places"]);
     judged("obstacles=1mm").exits(3);
     let task = [shipped("robots/scara.urdf"), shipped("workspaces/tasks/feeder.toml")];
     let refused = place.run(&[&task[0], &task[1], "--calibration", "base=1mm"], "").exits(1);
-    refused.warns(&["errors (calibration) are for motions between a start and a goal", "hint"]);
+    refused.warns(&["errors (calibration) do not apply to worlds with steps", "hint"]);
 }

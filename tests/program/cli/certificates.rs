@@ -308,7 +308,7 @@ fn invalid_goal_areas_are_refused_and_turning_arms_take_the_middle() {
         ("areas = [[[1, 2]]]", &["goal area: expected two opposite corners, found 1"]),
         ("areas = [[[1, 2], [3]]]", &["goal area: expected two numbers, found 1"]),
         ("areas = [[[1, 2], [3, nan]]]", &["finite"]),
-        ("areas = [[[1, 2], [3, 4]]]\ntip = [1, 1]", &["`areas` and another goal"]),
+        ("areas = [[[1, 2], [3, 4]]]\ntip = [1, 1]", &["`areas` together with `joints` or `tip`"]),
     ] {
         place.write("world.toml", format!("[start]\njoints = [0, 0]\n[goal]\n{goal}\n"));
         let gantry = shipped("robots/room_gantry.urdf");
@@ -320,5 +320,5 @@ fn invalid_goal_areas_are_refused_and_turning_arms_take_the_middle() {
     let turned =
         place.plan(format!("{}[goal]\nareas = [[[1.0, 0.9], [1.2, 1.1]]]\n", "[start]\njoints = [-0.9, 0.4]\n"), "");
     assert_eq!(turned.code, 0, "{}", turned.stderr);
-    assert!((turned.stdout + &turned.stderr).contains("the middle of a goal area is the goal: (1.1, 1)"));
+    assert!((turned.stdout + &turned.stderr).contains("the goal is the middle of the goal area: (1.1, 1)"));
 }

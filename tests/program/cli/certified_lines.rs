@@ -80,16 +80,16 @@ fn changed_motions_and_lines_are_refused() {
                 let value = c["motion"]["knots"][knot][1].as_f64().unwrap();
                 c["motion"]["knots"][knot][1] = json!(value + 0.05e-3);
             },
-            "not shown to stay within 0.00001 of piece",
+            "not proven to stay within 0.00001 of piece",
         );
     }
-    plate.fails(|c| c["line"]["tolerance"] = json!(6e-6), "not shown to stay within 0.000006 of piece");
+    plate.fails(|c| c["line"]["tolerance"] = json!(6e-6), "not proven to stay within 0.000006 of piece");
     plate.fails(|c| c["line"]["pieces"][2]["straight"][1][0] = json!(1.30005), "piece 3 of the line does not begin");
     plate.fails(|c| c["line"]["pieces"].as_array_mut().unwrap().swap(0, 2), "of the line does not begin");
-    plate.fails(|c| drop(c["line"]["pieces"].as_array_mut().unwrap().pop()), "do not begin and end");
-    plate.fails(|c| drop(c["line"]["places"].as_array_mut().unwrap().remove(count / 2)), "omits a knot");
-    plate.fails(|c| drop(c["motion"]["knots"].as_array_mut().unwrap().pop()), "do not begin and end");
-    plate.fails(|c| c["clearance"] = json!(0.3), "is not shown to stay farther than 0.3 from obstacle 0");
+    plate.fails(|c| drop(c["line"]["pieces"].as_array_mut().unwrap().pop()), "are not the ends of the motion");
+    plate.fails(|c| drop(c["line"]["places"].as_array_mut().unwrap().remove(count / 2)), "skips a knot");
+    plate.fails(|c| drop(c["motion"]["knots"].as_array_mut().unwrap().pop()), "are not the ends of the motion");
+    plate.fails(|c| c["clearance"] = json!(0.3), "is not proven to stay farther than 0.3 from obstacle 0");
     // The post moves into the plate.
     let world = plate.world.replace("[1.75, 0.55]", "[1.2, 0.0]");
     assert_ne!(world, plate.world);
@@ -107,14 +107,14 @@ fn the_order_of_the_line_counts() {
         let pieces = c["line"]["pieces"].as_array_mut().unwrap();
         pieces.rotate_left(4);
     };
-    judged.fails(swapped, "not shown to stay within");
+    judged.fails(swapped, "not proven to stay within");
     // Backwards along both squares, each piece is joined to the next.
     let reversed = |c: &mut Value| {
         let pieces = c["line"]["pieces"].as_array_mut().unwrap();
         pieces.reverse();
         pieces.iter_mut().for_each(|piece| piece["straight"].as_array_mut().unwrap().reverse());
     };
-    judged.fails(reversed, "not shown to stay within");
+    judged.fails(reversed, "not proven to stay within");
 }
 
 /// The ends of the arc are not equally far from its centre, so that its radius changes.
@@ -132,7 +132,7 @@ fn arcs_of_a_changing_radius_have_certificates() {
             let arc = &mut c["line"]["pieces"][0]["arc"];
             (arc["radius"], arc["growth"]) = (json!(0.1 + 1.5 * growth), json!(-0.5 * growth));
         },
-        "not shown to stay within",
+        "not proven to stay within",
     );
 }
 
@@ -154,7 +154,7 @@ fn every_kind_of_line_and_arm_has_a_certificate_that_holds() {
         let judged = Judged::of(&robot, world, line, options, 0);
         let proven = judged.proven();
         assert!(proven.contains("a line of 6 pieces, 1 of them travels") && proven.contains(reading), "{proven}");
-        judged.fails(|c| c["line"]["tolerance"] = json!(1e-7), "not shown to stay within 0.0000001 of piece");
+        judged.fails(|c| c["line"]["tolerance"] = json!(1e-7), "not proven to stay within 0.0000001 of piece");
     }
     let place = Place::new();
     place.write(
@@ -180,8 +180,8 @@ fn lines_out_of_reach_have_certificates() {
     let judged = Judged::of(&robot(), "", "G21 G0 X1100 Y0\nG1 X1400\nG1 X1900\n", "", 3);
     let proven = judged.proven();
     assert!(proven.contains("the tip cannot come within 0.00001 of (1.900000, 0.000000)"), "{proven}");
-    judged.fails(|c| c["line"]["stretch"] = json!([1, 1]), "not shown to bar the tip");
-    judged.fails(|c| c["line"]["tolerance"] = json!(0.11), "not shown to bar the tip");
+    judged.fails(|c| c["line"]["stretch"] = json!([1, 1]), "not prove that the tip cannot follow");
+    judged.fails(|c| c["line"]["tolerance"] = json!(0.11), "not prove that the tip cannot follow");
 }
 
 #[test]
@@ -190,9 +190,9 @@ fn excluded_places_have_certificates() {
                  [[obstacle]]\nname = \"below\"\npolygon = [[0.2, -0.6], [1.0, -0.6], [1.0, -0.3], [0.2, -0.3]]\n";
     let judged = Judged::of(&robot(), world, "G21 G0 X1000 Y-100\nG1 Y100\n", "", 3);
     let proven = judged.proven();
-    assert!(proven.contains("none stays within 0.00001 of it from (1.000000, -0.1"), "{proven}");
-    judged.fails(|c| drop(c["boxes"].as_array_mut().unwrap().pop()), "not shown to bar the tip");
-    judged.fails(|c| c["line"]["tolerance"] = json!(0.2), "not shown to bar the tip");
+    assert!(proven.contains(": from (1.000000, -0.1"), "{proven}");
+    judged.fails(|c| drop(c["boxes"].as_array_mut().unwrap().pop()), "not prove that the tip cannot follow");
+    judged.fails(|c| c["line"]["tolerance"] = json!(0.2), "not prove that the tip cannot follow");
     judged.fails(|c| c["boxes"][0]["upper"][0] = json!(3.0), "does not touch the part everywhere");
     // The clearance of the command line is part of the claim.
     let near = world.replace("0.3]", "0.33]").replace("-0.3]", "-0.33]");
@@ -207,10 +207,10 @@ fn lines_that_need_a_change_of_the_solution_have_certificates() {
     let line = "G21 G0 X808.1 Y1018.3\nG1 X1540 Y840\nG1 X1650 Y0\n";
     let judged = Judged::of(&robot(), world, line, "", 3);
     let proven = judged.proven();
-    assert!(proven.contains("none stays within 0.00001 of it from"), "{proven}");
+    assert!(proven.contains("keeps the tip within 0.00001 of the line"), "{proven}");
     let stretch = judged.certificate["line"]["stretch"].clone();
     assert!(stretch[0].as_f64().unwrap() + 0.5 < stretch[1].as_f64().unwrap(), "{stretch}");
-    judged.fails(|c| c["line"]["stretch"][1] = stretch[0].clone(), "not shown to bar the tip");
+    judged.fails(|c| c["line"]["stretch"][1] = stretch[0].clone(), "not prove that the tip cannot follow");
     let wide = Judged { world: world.replace("-1", "-2"), ..judged };
     assert!(matches!(wide.verdict(), Err(CheckError::Fails(_))));
 }

@@ -32,7 +32,7 @@ fn wrong_command_lines_end_with_2() {
         ("--jerk none,inf", "greater than 0"),
         ("--period 0", "at least"),
         ("--period -1", "at least"),
-        ("--cells 3", "3 is neither a number from 8 to 2048 nor two such numbers"),
+        ("--cells 3", "3 is not a number from 8 to 2048, or two such numbers"),
         ("--levels 0", "1..=12"),
         ("--output result.txt", ".json, .csv, .yaml"),
         ("--output .json", ".json, .csv, .yaml"),
@@ -198,7 +198,7 @@ fn the_least_time_has_a_bound_and_another_shape() {
     assert!(!text.contains("fastest") && length["fastest"].is_null());
     for options in ["--optimize time", "--optimize time --jerk 200,300", "--optimize time --metric time"] {
         let (text, time) = run(options);
-        assert!(text.contains("fastest    proven: no motion takes less than 1."), "{text}");
+        assert!(text.contains("fastest    every motion takes at least 1."), "{text}");
         let [duration, bound] = ["/fastest/duration", "/fastest/lower_bound"].map(|pointer| number(&time, pointer));
         assert_eq!(duration, number(&time, "/duration"));
         assert!(duration < 0.95 * number(&length, "/duration") && bound < duration && bound > 0.8 * duration);
@@ -279,7 +279,7 @@ fn recheck_accepts_true_bounds_and_no_others() {
         assert_eq!((holds.code, holds.stdout.starts_with("the bound holds")), (0, true), "{world}: {}", holds.stderr);
         // One bound is too high, one is without a length, and one is that of another world.
         let lower = made["optimum"]["lower_bound"].as_f64().unwrap();
-        for (wrong, report) in [(lower * (1.0 + 2e-4), "are not bounds"), (lower * 1.01, "not confirmed")] {
+        for (wrong, report) in [(lower * (1.0 + 2e-4), "are not valid bounds"), (lower * 1.01, "not confirmed")] {
             made["optimum"]["lower_bound"] = wrong.into();
             place.write("wrong.json", made.to_string());
             place.run(&recheck, "--proof wrong.json").refused(1, &["wrong.json", report]);

@@ -72,7 +72,7 @@ fn suites_list_every_problem_with_every_planner() {
         "two worlds\n",
         "outcomes\n",
         "total [ms]\n",
-        "2 problems: 1 with a certified path, 1 proven to have none",
+        "2 problems: 1 with a certified path, 1 proven infeasible",
     ]);
 }
 

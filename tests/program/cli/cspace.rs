@@ -72,5 +72,5 @@ fn files_satisfy_the_schema() {
     let done = place.run(&shelf(), "--quiet --output mycspace.json");
     assert_eq!((done.code, place.read("mycspace.json").contains("\"trajectory\"")), (0, true));
     let files = ["explore".to_owned(), shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")];
-    place.run(&files, "--output cspace.json").refused(2, &["cspace.json", "an exploration can only be written as"]);
+    place.run(&files, "--output cspace.json").refused(2, &["cspace.json", "an exploration's name must end in"]);
 }

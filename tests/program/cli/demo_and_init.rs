@@ -66,7 +66,7 @@ fn the_demo_of_arch_motions_is_a_task() {
 fn the_demo_of_a_line_follows_it() {
     let place = Place::new();
     let done = place.run(&["demo"], "--kind follow").succeeds_silently();
-    done.says(&["found and certified: at most 0.008 mm from the line"]);
+    done.says(&["found and certified: the tip is at most 0.008 mm from the line"]);
     assert!(place.read("plan.html").contains("The tip follows the line within"));
     let files =
         ["robots/planar_2r.urdf", "workspaces/follow/engraving.toml", "workspaces/follow/plate.gcode"].map(shipped);
@@ -94,14 +94,14 @@ fn the_demo_does_not_overwrite_files() {
     place.run(&["demo"], "--dir new/folder").refused(1, &["plan.json and new/folder/plan.html exist already"]);
     // Further demonstrations write into the same folder.
     let elsewhere = place.run(&["demo"], "--dir other");
-    elsewhere.says(&["cplan demo --kind arch --force --dir other", "the quill moves with the arm"]);
+    elsewhere.says(&["cplan demo --kind arch --force --dir other", "the quill moves while the arm moves"]);
     let next = "demo --planner harmonic --force --dir other";
     place.run(&next.split(' ').collect::<Vec<_>>(), "").exits(0);
     let forced = place.run(&["demo"], "--force --json --output more.csv");
     assert_eq!((forced.code, place.read("plan.json")), (0, forced.stdout));
     assert!(place.read("more.csv").starts_with("time,axis_1,"));
     place.run(&["demo"], "--dir plan.json/x").refused(1, &["cannot make the folder plan.json/x"]);
-    place.run(&["demo"], "--dir plan.json").refused(1, &["plan.json: it exists and is not a folder"]);
+    place.run(&["demo"], "--dir plan.json").refused(1, &["plan.json: a file of this name exists"]);
     // Bad options are reported as by `cplan plan`.
     place.run(&["demo"], "--force --goal-tip 9,9").refused(1, &["--goal-tip", "out of reach"]);
     place
@@ -184,7 +184,7 @@ fn limits_and_speeds_of_data_sheets_are_those_of_the_joints() {
     let words = "--kind scara --links 0.225,0.225 --stroke 0.2 --limits 130,145 --speeds 375,600";
     let done = place.run(&["init", "cell"], words);
     let numbers = "links 0.225 and 0.225 m, ranges -130 to 130 deg and -145 to 145 deg, top speeds 375 deg/s and 600 deg/s, \
-                   stroke 0.2 m; its bodies are simple envelopes";
+                   stroke 0.2 m; the shapes are simple envelopes";
     done.says(&[numbers]);
     let problem = cplan::Problem::load(place.path("cell/arm.urdf"), place.path("cell/world.toml")).unwrap();
     for (joint, [degrees, speed]) in problem.scene().arm().joints.iter().zip([[130.0, 375.0], [145.0, 600.0_f64]]) {
@@ -204,9 +204,15 @@ fn limits_and_speeds_of_data_sheets_are_those_of_the_joints() {
         ("--kind scara --limits 10:130,145", "a range must contain 0, such as -100:130"),
         ("--kind scara --limits=-100:x,145", "x"),
         ("--kind scara --limits=-9000:130,145", "--limits -9000 is not from -3600 to -0.1 degrees"),
-        ("--kind gantry --limits=1,-1:2", "--limits: joint 2 slides from 0; give its travel alone, such as 0.8"),
+        (
+            "--kind gantry --limits=1,-1:2",
+            "--limits: joint 2 slides, beginning at 0; give only its travel, such as 0.8",
+        ),
         ("--kind rr --links 0.2", "--links: an arm of two turning joints needs 2, not 1"),
-        ("--kind gantry --links 0.2,0.1", "--links: a gantry has none; --limits are its travels"),
+        (
+            "--kind gantry --links 0.2,0.1",
+            "--links does not apply to a gantry, which has no links; --limits states its travels",
+        ),
         ("--kind rr --stroke 0.2", "--stroke needs --kind scara"),
         ("--kind scara --limits 130", "--limits needs two numbers separated by a comma"),
         ("--kind scara --links 225,225", "--links 225 is not from 0.001 to 100 metres"),
@@ -215,7 +221,7 @@ fn limits_and_speeds_of_data_sheets_are_those_of_the_joints() {
         ("--kind gantry --speeds 1,1e9", "--speeds 1000000000 is not from 0.001 to 100000 metres per second"),
         ("--kind scara --links 0,0.2", "greater than 0"),
         ("--kind scara --limits 5000,10", "--limits 5000 is not from 0.1 to 3600 degrees"),
-        ("--kind pr --links 1,1", "the numbers of a data sheet are for --kind rr, rp, pp and scara"),
+        ("--kind pr --links 1,1", "numbers of a data sheet need --kind rr, rp, pp or scara"),
     ] {
         place.run(&["init", "other"], words).refused(2, &[message]);
     }

@@ -84,13 +84,13 @@ fn mistakes_in_the_table_of_motors_have_a_place_and_a_hint() {
     for (drives, message) in [
         ("\"standard\"", "\"standard\" is unknown"),
         ("{ elbow = \"wrist\" }", "elbow is \"wrist\""),
-        ("{ elbow = \"link\", ratio = 2.0 }", "a motor on the link has no ratio"),
+        ("{ elbow = \"link\", ratio = 2.0 }", "elbow = \"link\" cannot have a ratio"),
         ("{ gear = [1.0, 0.0] }", "the gear of motor 2 must be from 1e-6"),
         ("{ gear = [1.0] }", "gear has 1 numbers, but there are two motors"),
         ("{ motors = { lower = [-1.0, -1.0] } }", "motors need both lower and upper limits"),
         ("{ motors = { lower = [-1.0, 1.0], upper = [1.0, 0.5] } }", "the lower limit of motor 2 is not below"),
         ("{ motors = { velocity = [1.0, 0.0] } }", "velocity: both numbers must be above 0"),
-        ("{ motors = { lower = [3.0, -1.0], upper = [4.0, 1.0] } }", "leave joint \"shoulder\" no values"),
+        ("{ motors = { lower = [3.0, -1.0], upper = [4.0, 1.0] } }", "no value of joint \"shoulder\""),
         ("{ motors = { speed = [1.0, 2.0] } }", "unknown key `speed`"),
     ] {
         place.write("world.toml", world.replace("[start]", &format!("[robot]\ndrives = {drives}\n[start]")));
@@ -287,7 +287,7 @@ fn lengths_and_times_count_the_motors() {
     let world = read(shipped("workspaces/shelf.toml"));
     place.write("world.toml", world);
     let refused = place.run(&[&robot, "world.toml"], "--metric motor");
-    refused.refused(1, &["--metric motor needs the motors", "[robot] drives"]);
+    refused.refused(1, &["--metric motor needs two joints that turn, with motors", "[robot] drives"]);
 }
 
 /// Past the shelf, bounds in both metrics have certificates, and the paths are compared with those of other metrics.

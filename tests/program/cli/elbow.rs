@@ -66,7 +66,7 @@ fn mistakes_about_the_side_have_a_place_and_a_hint() {
     let both = "joints = [1.0, 0.2]\nelbow = \"left\"";
     goal(both).refused(1, &["line 5, column 9: the goal has joint values", "hint: remove `elbow`"]);
     goal("tip = [0.9, 0.9]\nelbow = \"up\"").refused(1, &["line 5", "\"up\" is no side of the elbow", "hint"]);
-    goal("areas = [[[0.8, 0.8], [1, 1]]]\nelbow = \"left\"").refused(1, &["areas has no side", "hint"]);
+    goal("areas = [[[0.8, 0.8], [1, 1]]]\nelbow = \"left\"").refused(1, &["`areas` cannot have `elbow`", "hint"]);
     place.plan(START, "--elbow left --goal 0,0").refused(2, &["--elbow", "--goal"]);
     // The bar of the arm would hit the post with the elbow on the left.
     let post = "[[obstacle]]\nname = \"post\"\ncircle = { center = [0.09, 0.85], radius = 0.03 }\n";
@@ -75,7 +75,7 @@ fn mistakes_about_the_side_have_a_place_and_a_hint() {
     let parts = [
         "(0.9, 0.9) with the elbow on the left is allowed and free",
         "\"post\"",
-        "with the elbow on the right there is one: shoulder 0.10",
+        "with the elbow on the right, shoulder 0.10",
         "hint: choose the other side of the elbow; or",
     ];
     blocked.refused(1, &parts);
@@ -164,7 +164,7 @@ fn steps_have_their_sides() {
             place.write("other.toml", task(changed));
             let verified = place.run(&["verify", &robot, "other.toml", "m.json"], "");
             assert_ne!(verified.code, 0, "{k}");
-            verified.says(&[&format!("its elbow is on the {}, not on the {}", sides[k], changed[k])]);
+            verified.says(&[&format!("the elbow is on the {}, not on the {}", sides[k], changed[k])]);
         }
     }
     place.write("task.toml", task(["left", "up", "left", "left"]));
@@ -199,7 +199,7 @@ fn lines_are_followed_on_one_side() {
         let mut wrong = certificate.clone();
         wrong["line"]["elbow"] = if elbow == "left" { "right".into() } else { "left".into() };
         let wrong = judged(START, &wrong).unwrap_err().to_string();
-        assert!(wrong.contains("the elbow leaves"), "{wrong}");
+        assert!(wrong.contains("the elbow does not stay on"), "{wrong}");
     }
     // A post that only the arm with its elbow on the left meets.
     let post = format!("{START}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [0.09, 0.85], radius = 0.03 }}\n");

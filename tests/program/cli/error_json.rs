@@ -22,7 +22,7 @@ fn errors_have_the_kind_of_the_mistake() {
     let post = format!("{FREE}[[obstacle]]\nname = \"post\"\ncircle = {{ center = [0.5, -0.6], radius = 0.1 }}\n");
     let json = place.plan(&post, "--json").error(1, "start", &["hits obstacle \"post\"", "deep"]);
     assert_eq!((&json["file"], &json["line"]), (&"world.toml".into(), &2.into()));
-    assert!(json["cure"].as_str().unwrap().contains("move it away"));
+    assert!(json["cure"].as_str().unwrap().contains("away from the obstacle"));
     place.plan(FREE, "--json --start 9,0").error(1, "start", &["--start", "exceeds its limits"]);
     place.plan("[goal]\njoints = [0, 0]\n", "--json").error(1, "start", &["there is no start"]);
     place.plan(FREE, "--json --goal 9,0").error(1, "goal", &["--goal", "exceeds its limits"]);

@@ -65,7 +65,7 @@ fn margin_0_is_refused_where_corners_are_round() {
         (
             [gantry.clone(), "wedge.toml".into()],
             "--clearance 0.02",
-            "a clearance of 20.00 mm makes their corners round",
+            "a clearance of 20.00 mm rounds the corners of C-obstacles",
         ),
         ([gantry.clone(), "disc.toml".into()], "", "obstacle \"post\" is round"),
         (cup, "", "link \"body\" is round"),
@@ -107,7 +107,7 @@ fn a_path_that_touches_exact_polygons_is_not_certified() {
         let done = place.run(&maze(), &format!("--margin 0 --planner {planner} --verbose")).exits(0);
         let output: Vec<&str> = done.stdout.lines().filter(|line| line.starts_with("exact")).collect();
         assert!(
-            output.len() == 1 && output[0].contains("among the exact polygons, but that path touches"),
+            output.len() == 1 && output[0].contains("but touches them; the certified path avoids"),
             "{}",
             done.stdout
         );
@@ -149,7 +149,7 @@ fn the_full_visibility_graph_of_the_maze_has_all_arcs() {
     assert_eq!(of("--graph full"), (46, "full".to_owned()));
     place.run(&maze(), "--planner visibility --graph full --verbose --picture graph.svg").says(&[
         "visibility (astar, full graph): 22 nodes, 46 edges",
-        "the corners of C-obstacles, which are cut off at joint limits",
+        "the corners of C-obstacles (cut off at the joint limits)",
     ]);
     assert!(place.read("graph.svg").contains("full visibility graph"));
     place.run(&maze(), "--planner visibility --picture graph.svg");

@@ -139,7 +139,7 @@ fn an_unknown_task_stays_unknown_and_names_what_blocks_the_step() {
     assert_eq!((codes, &result["status"]), ([4, 4], &"unknown".into()), "{words}");
     assert_eq!(result["blocking"], serde_json::json!(["wall"]));
     assert!(result["reason"].as_str().expect("a reason").contains("while the tool is lowered"), "{result}");
-    assert!(words.contains("result     unknown: no motion was found for step 1"), "{words}");
+    assert!(words.contains("result     unknown: neither a motion for step 1"), "{words}");
 }
 
 /// Checks steps that fail for another reason than an obstacle: the explanation has the planner's reason and exit code.
@@ -273,8 +273,8 @@ fn at_the_time_limit_partial_results_are_reported() {
     let done = place.run(&["explain", "a.urdf", "world.toml"], "--time 0.000001").exits(3);
     for words in [
         "infeasible: proven; blocked by",
-        "collision boxes prove it without anything else; not proven irreducible",
-        "stopped    after 0.000001 s, before the explanation was complete; --time 5 allows more time",
+        "collision boxes, even if nothing else is in the way; not proven irreducible",
+        "stopped    the explanation is incomplete, because its time of 0.000001 s was up; --time 5 allows more time",
     ] {
         done.says(&[words]);
     }

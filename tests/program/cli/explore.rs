@@ -81,10 +81,10 @@ fn an_earlier_map_is_used() {
     assert!(text.contains(one));
     place.write("moved.toml", text.replace(one, "[0.65, -0.1], [0.7, -0.1], [0.7, 0.4], [0.65, 0.4]"));
     let moved = place.run(&["explore", &robot, "moved.toml"], &format!("{COARSE} --known rooms.yaml"));
-    moved.refused(1, &["rooms.yaml", "has occupied space near (0.6", "the world has free space", "hint"]);
+    moved.refused(1, &["rooms.yaml", "shows occupied space near (0.6", "the world has free space", "hint"]);
     place.write("finer.toml", text.replace("cell = 0.025", "cell = 0.02"));
     let finer = place.run(&["explore", &robot, "finer.toml"], &format!("{COARSE} --known rooms.yaml"));
-    finer.refused(1, &["rooms.yaml", "does not have the cells"]);
+    finer.refused(1, &["rooms.yaml", "has other cells"]);
 }
 
 /// Checks a head that moves above all obstacles, so that its sensor can be above unknown places. One leg of the motion
@@ -191,7 +191,7 @@ fn invalid_explorations_are_refused() {
         ("range = nan", "sensor range"),
         ("noise = -1.0", "sensor noise"),
         ("field_of_view = \"400deg\"", "at most a whole turn"),
-        ("cell = 1e-9", "would have more than"),
+        ("cell = 1e-9", "the map has more than"),
         ("colour = 1", "unknown key"),
     ] {
         place.write("world.toml", format!("{FREE}[sensor]\n{sensor}\n"));

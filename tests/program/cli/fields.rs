@@ -36,7 +36,7 @@ fn options_that_do_not_go_together_end_with_2() {
         ("--planner harmonic --field khatib --relaxation sor", "--relaxation needs --field harmonic"),
         ("--planner harmonic --saturated", "--saturated needs --field khatib"),
         ("--planner harmonic --escape wave", "--escape needs --field khatib"),
-        ("--planner harmonic --field khatib --escape wave --saturated", "which the forces of --saturated lack"),
+        ("--planner harmonic --field khatib --escape wave --saturated", "but the forces of --saturated have none"),
         ("--planner harmonic --field khatib --escape tunnel", "wave, walk or walk:SEED"),
         ("--planner harmonic --field khatib --attraction cubic:1", "constant:C or linear:K"),
         ("--planner harmonic --field khatib --attraction linear:-1", "positive"),
@@ -50,7 +50,7 @@ fn options_that_do_not_go_together_end_with_2() {
         ("--planner triangles --samples 5", "--samples needs --planner prm"),
         ("--planner prm --samples 0", "0 is not in 1..=100000"),
         ("--planner visibility --search bfs --gap 0.1", "--gap needs a search for the shortest path"),
-        ("--planner wavefront --cells 128x4", "nor two such numbers, one per joint, such as 128x512"),
+        ("--planner wavefront --cells 128x4", "or two such numbers, one per joint, such as 128x512"),
         ("--search astar", "--search needs --planner wavefront, visibility"),
         ("--planner harmonic --neighbors 8", "--neighbors needs --planner wavefront"),
         ("--space sampled", "--space needs --planner wavefront or harmonic: shortest has no grid"),
@@ -153,7 +153,7 @@ fn a_local_minimum_and_a_divergence_are_unknown_with_their_reasons() {
     let place = Place::new();
     let trap = place.run(&u_trap(), &format!("{COARSE} --levels 1 --field khatib")).exits(4);
     let reason = trap.json()["reason"].as_str().unwrap().to_owned();
-    assert!(reason.contains("the potential has a local minimum at ("), "{reason}");
+    assert!(reason.contains("the potential has a local minimum of "), "{reason}");
     let saturated = place.run(&u_trap(), &format!("{COARSE} --levels 1 --field khatib --saturated")).exits(4);
     assert!(saturated.json()["reason"].as_str().unwrap().contains("the forces trap the arm at ("));
     let diverged = place.run(&u_trap(), &format!("{COARSE} --levels 1 --relaxation sor --factor 2.5")).exits(4);
@@ -171,14 +171,14 @@ fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
     let trapped =
         |charge: &str| run(&format!("--repulsion sum:{charge}")).exits(4).json()["reason"].as_str().unwrap().to_owned();
     // The trap is within the cup; with four times the charge, it is beside the goal at (0, -12).
-    assert!(trapped("1").contains("local minimum at (0.2500, 3.7500)"), "{}", trapped("1"));
+    assert!(trapped("1").contains("at (0.2500, 3.7500)"), "{}", trapped("1"));
     assert_eq!(run("--repulsion sum:3").code, 0);
     assert!(trapped("4").contains("local minimum at (0.2500, -12.7500)"), "{}", trapped("4"));
     for (charge, escape, report) in [
-        ("1", "wave", "escaped from a local minimum by a wave over the basin: "),
+        ("1", "wave", "escaped from a local minimum by a wave through the minimum's basin: "),
         ("1", "walk", "by random walks: "),
         ("4", "walk:7", "by random walks: "),
-        ("4", "wave", "escaped from a local minimum by a wave over the basin: 2 moves "),
+        ("4", "wave", "escaped from a local minimum by a wave through the minimum's basin: 2 moves "),
     ] {
         let options = format!("--repulsion sum:{charge} --escape {escape}");
         let done = run(&options).exits(0);
@@ -242,7 +242,7 @@ fn compare_takes_rows_with_options() {
         ("trapezoid --space sampled", "--space needs --planner wavefront or harmonic"),
         ("magic", "invalid value 'magic' for '<PLANNER>' [possible values: shortest, "),
         ("harmonic --frobnicate", "unexpected argument '--frobnicate'"),
-        ("", "names no planner"),
+        ("", "no planner is named"),
     ] {
         let done = place.command().args(["compare", "no.urdf", "no.toml", "--with", with]).output().unwrap();
         let text = String::from_utf8(done.stderr).unwrap();
@@ -260,7 +260,7 @@ fn no_finer_grid_is_tried_for_a_field_that_does_not_converge() {
     let (json, cells) = (done.json(), 256 * 256);
     assert!(done.code == 4 && json["size"]["cells"].as_u64().unwrap() <= cells, "{json}");
     let reason = json["reason"].as_str().unwrap();
-    assert!(reason.contains("at the resolution that its sweeps allow (256 x 256 cells: "), "{reason}");
+    assert!(reason.contains("at the finest resolution for which its sweeps suffice (256 x 256 cells: "), "{reason}");
 }
 
 /// Returns two numbers of sweeps of a field on one of the published maps: until the stopping measure is small enough,
@@ -273,7 +273,7 @@ fn on_map(map: &str, options: &str) -> (u64, u64) {
     let all = result["size"]["sweeps"].as_u64().unwrap();
     let text = place.run(&files, &format!("--planner harmonic --cells 100 --verbose {options}")).stdout;
     let first =
-        text.split_once("the measure was met after ").and_then(|(_, rest)| rest.split(' ').next()?.parse().ok());
+        text.split_once("the tolerance was met after ").and_then(|(_, rest)| rest.split(' ').next()?.parse().ok());
     (first.unwrap_or(all), all)
 }
 
@@ -364,7 +364,7 @@ fn published_sweeps(map: &str, cells: usize, order: &str) -> usize {
     let relaxation = format!("--relaxation gauss-seidel --order {order} --initial low --measure absolute");
     let options = format!("--planner harmonic --cells {cells} --space centers --levels 1 --verbose {relaxation}");
     let done = place.run(&files, &options);
-    let (_, rest) = done.stdout.split_once("the measure was met after ").unwrap_or_else(|| panic!("{}", done.stdout));
+    let (_, rest) = done.stdout.split_once("the tolerance was met after ").unwrap_or_else(|| panic!("{}", done.stdout));
     rest.split(' ').next().unwrap().parse().unwrap()
 }
 

@@ -116,7 +116,7 @@ fn coarse_grids_are_kept_or_refused_with_the_reason() {
     let reason = done.json()["reason"].as_str().unwrap().to_owned();
     assert!(reason.contains("16 x 16 cells") && reason.ends_with("more --cells or --levels may find one"), "{reason}");
     let more = place.run(&shelf(), "--planner wavefront --cells 16 --levels 6 --verbose").exits(0);
-    more.says(&["32 x 32: 16 x 16 show no certified path"]);
+    more.says(&["32 x 32, because 16 x 16 cells show no certified path"]);
     // The option does not affect planners without cells.
     place.run(&shelf(), "--planner visibility --cells 16 --quiet").exits(0);
 }

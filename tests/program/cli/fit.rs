@@ -70,7 +70,7 @@ fn lines_that_fit_nowhere_are_proven_or_unknown() {
     let result = large.json();
     assert_eq!((&result["status"], &result["cause"]), (&"infeasible".into(), &"too_large".into()));
     assert!(!place.path("c.json").exists() && large.stderr.contains("c.json is not written"), "{}", large.stderr);
-    follow(&place, "--fit").exits(3).says(&["infeasible: two points of the line are", "3.6"]);
+    follow(&place, "--fit").exits(3).says(&["infeasible: the line is too large: two of its points are", "3.6"]);
     // It is shorter than the reach is wide, but the arm would have to change its elbow.
     place.write("line.gcode", "G21 G90\nG0 X0 Y0\nG1 X3590\n");
     let done = follow(&place, "--fit --output m.csv").exits(4);

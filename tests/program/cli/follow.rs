@@ -147,7 +147,7 @@ fn ros_messages_and_pages_are_written() {
     let place = Place::new();
     let done =
         follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200\n", "--output m.yaml --picture m.html --verbose").exits(0);
-    done.says(&["found and certified: at most", "line 2: straight of"]);
+    done.says(&["found and certified: the tip is at most", "line 2: straight of"]);
     let message = place.read("m.yaml");
     assert!(message.contains("joint_names") && message.contains("elbow") && message.contains("velocities"));
     let page = place.read("m.html");
@@ -162,7 +162,7 @@ fn origins_and_dwells_are_followed_and_other_words_are_noted() {
     let text = "G21 G90\nSET_VELOCITY_LIMIT ACCEL=500\nG0 X1100 Y0\nG1 X1150 F6000\nG92 X0 Y0 (here is the new origin)\n\
         G1 X20 Y0\nG4 X2\nM3 S5\nG1 X20 Y20 Z3\n";
     let done = follow_program(&place, text, "--output m.csv").exits(0);
-    let note = "read without effect on the line: M3 (1), S (1), SET_VELOCITY_LIMIT (1), Z (1 height)";
+    let note = "words without effect on the line: M3 (1), S (1), SET_VELOCITY_LIMIT (1), Z (1 height)";
     done.says(&[note, "1 stop of 2 s in all (G4)"]);
     let rows = place.table("m.csv");
     let at = |row: &Vec<f64>| tip([row[1], row[2]]);
@@ -204,7 +204,7 @@ fn unusable_options_are_refused_before_any_work() {
         ("--unit furlong", "\"furlong\" is not a known unit"),
         ("--move 1", "two numbers separated by a comma"),
         ("--output m.txt", "must end in .json, .csv, .yaml or .yml"),
-        ("--picture m.gif", "a line is drawn as .svg, .png or .html"),
+        ("--picture m.gif", "a picture of a line must be .svg, .png or .html"),
     ] {
         follow(&place, "line.gcode", options).refused(2, &[message]);
     }
@@ -217,7 +217,7 @@ fn unusable_options_are_refused_before_any_work() {
     let mover = mover.expect("a world with a moving obstacle").display().to_string();
     place
         .run(&["follow", &files()[0], &mover, "line.gcode"], "")
-        .refused(1, &["a line is followed among obstacles at rest"]);
+        .refused(1, &["lines can be followed only if all obstacles are static"]);
 }
 
 /// The end of the line is out of reach by less than the tolerance, and by hardly less.

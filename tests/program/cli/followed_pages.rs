@@ -98,7 +98,11 @@ fn the_page_states_which_limit_is_reached_where() {
     let picture = place.read("m.svg");
     has(
         &picture,
-        &["Speed of the tip, by the limit that it reaches", "Farthest from the line, magnified", "off the line (mm)"],
+        &[
+            "Speed of the tip, coloured by the limit that it reaches",
+            "Greatest deviation from the line, magnified",
+            "off the line (mm)",
+        ],
     );
 }
 

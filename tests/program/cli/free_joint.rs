@@ -118,7 +118,7 @@ fn a_goal_is_refused_only_if_no_value_of_the_free_joint_is_free() {
         })
         .collect();
     let none = place(ELBOW, &format!("{ENDS}{}", ring.concat()));
-    run(&none, "").refused(1, &["no IK solution that puts the tip at", "elbow from -2.5 ", "hits obstacle", " more"]);
+    run(&none, "").refused(1, &["no IK solution for the tip at", "elbow from -2.5 ", "hits obstacle", " more"]);
 }
 
 /// Checks a segment of goals. Walls close off one part of it, and obstacles block the rest, which the program proves.

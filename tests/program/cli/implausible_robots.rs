@@ -30,7 +30,10 @@ fn limits_that_look_like_degrees_are_refused_with_both_readings() {
     let place = Place::new()
         .with("arm.urdf", arm(&[("lower=\"-2.9\" upper=\"2.9\"", "lower=\"-150\" upper=\"150\"")]))
         .with("world.toml", TO_A_TIP);
-    let parts = ["joint \"shoulder\" has limits from -150 to 150 rad, 48 turns: they look like degrees", "\"150deg\""];
+    let parts = [
+        "joint \"shoulder\" has limits from -150 to 150 rad, which are 48 turns; probably degrees are meant",
+        "\"150deg\"",
+    ];
     place.run(&["arm.urdf", "world.toml"], "").refused(1, &parts);
     place.run(&["reach", "arm.urdf", "world.toml"], "").refused(1, &parts);
     let inspected = place.run(&["inspect", "arm.urdf"], "");
@@ -53,9 +56,13 @@ fn limits_that_look_like_degrees_are_refused_with_both_readings() {
 #[test]
 fn robots_in_millimetres_are_noticed() {
     let lengths = [("xyz=\"1.0 0 0\"", "xyz=\"625 0 0\""), ("xyz=\"0.8 0 0\"", "xyz=\"425 0 0\"")];
-    check_hint(&lengths, TO_A_TIP, &["the arm is 625 m and 425 m long", "divide lengths in millimetres by 1000"]);
+    check_hint(
+        &lengths,
+        TO_A_TIP,
+        &["625 m from joint to joint, 425 m from joint to tip", "if these are millimetres, divide them by 1000"],
+    );
     let shapes = [("size=\"1.0 0.1 0.1\"", "size=\"1000 100 100\"")];
-    check_hint(&shapes, FREE, &["the shape of link \"upper_arm\" reaches", "scale=\"0.001 0.001 0.001\""]);
+    check_hint(&shapes, FREE, &["the shape of link \"upper_arm\" extends", "scale=\"0.001 0.001 0.001\""]);
     let slides = [
         ("type=\"revolute\"", "type=\"prismatic\""),
         ("lower=\"-2.9\" upper=\"2.9\"", "lower=\"0\" upper=\"600\""),
@@ -66,7 +73,7 @@ fn robots_in_millimetres_are_noticed() {
         .run(&["inspect", "arm.urdf"], "")
         .stdout;
     assert!(
-        inspected.contains("joint \"shoulder\" slides from 0 to 600 m: divide limits in millimetres"),
+        inspected.contains("joint \"shoulder\" slides from 0 to 600 m; if the limits are in millimetres"),
         "{inspected}"
     );
 }
@@ -94,11 +101,11 @@ fn speeds_that_no_drive_has_are_noticed() {
 
 #[test]
 fn joints_without_an_axis_are_noticed() {
-    let parts = ["joint \"shoulder\" has no <axis>, which means the x axis", "joint \"elbow\" has no <axis>"];
+    let parts = ["joint \"shoulder\" has no <axis>, so the x axis", "joint \"elbow\" has no <axis>"];
     check_hint(&[("<axis xyz=\"0 0 1\"/>", "")], TO_A_TIP, &parts);
     let place =
         Place::new().with("arm.urdf", arm(&[]).replacen("<axis xyz=\"0 0 1\"/>", "", 1)).with("world.toml", FREE);
-    let parts = ["do not move in one common plane", "joint \"shoulder\" has no <axis>, which means the x axis"];
+    let parts = ["do not move in one common plane", "joint \"shoulder\" has no <axis>, so the x axis"];
     place.run(&["arm.urdf", "world.toml"], "").refused(1, &parts);
 }
 
@@ -116,7 +123,7 @@ fn verify_judges_limits_that_are_given_and_reports_the_others() {
         .with("arm.urdf", arm(&[("velocity=\"2.0\"", "velocity=\"3.0\"")]));
     let verify = |options: &str| place.run(&["verify", "arm.urdf", "world.toml", "motion.csv"], options);
     let report = verify("--anywhere").exits(0);
-    report.says(&["elbow: acceleration 60.000000 rad/s2, at most 12.000000", "so this does not count", ASSUMED]);
+    report.says(&["elbow: acceleration 60.000000 rad/s2, at most 12.000000", "this does not count", ASSUMED]);
     let json = verify("--anywhere --json").json();
     assert_eq!((&json["verdict"], json["limits_broken"].as_array().unwrap().len()), (&"free".into(), 0));
     assert_eq!(json["assumed_exceeded"][1]["limit"], "acceleration");

@@ -148,7 +148,7 @@ fn self_crossing_outlines_become_the_area_that_they_surround() {
     done.says(&[
         "outlines that cross or touch themselves: the enclosed area is solid (line 16)",
         "outlines that enclose no area: imported as thin walls (line 38)",
-        "\"room\" is solid and encloses everything else: --walls room makes it a wall, --without room leaves it out (line 60)",
+        "\"room\" is solid and encloses everything else; --walls room makes it a wall, --without room leaves it out (line 60)",
     ]);
     let done = place.run(&["import", "odd.dxf"], "--walls room --output w.toml");
     assert!(!done.stdout.contains("--walls"), "{}", done.stdout);
@@ -252,19 +252,19 @@ fn probable_mistakes_are_noted_with_a_hint() {
     let base = "0 LWPOLYLINE 8 robot 70 1 10 -50 20 -50 10 50 20 -50 10 50 20 50 10 -50 20 50 ";
     let post = "0 CIRCLE 8 post 10 500 20 0 40 20 ";
     let reach = "0 CIRCLE 8 reach 10 0 20 0 40 700 ";
-    let over = "\"robot\" covers (0, 0), the arm's base: --without robot leaves it out, \
-                --move shifts the drawing (line 16)";
+    let over = "\"robot\" covers (0, 0), the place of the arm's base; --without robot leaves it out, \
+                --move moves the drawing (line 16)";
     assert_eq!(message(&format!("{base}{post}"), ""), [over]);
     assert_eq!(message(&format!("{base}{post}"), "--without robot"), [""; 0]);
     assert_eq!(message(&format!("{base}{post}"), "--move 0.2,0"), [""; 0]);
-    let around = "\"reach\" is solid and encloses everything else: --walls reach makes it a wall, --without reach leaves it out (line 16)";
+    let around = "\"reach\" is solid and encloses everything else; --walls reach makes it a wall, --without reach leaves it out (line 16)";
     assert_eq!(message(&format!("{reach}{post}"), ""), [around]);
     assert_eq!(message(&format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 "), ""), [""; 0]);
     // A tray with two pockets, beside a post: the pockets are solid, as the tray is.
     let tray = "0 LWPOLYLINE 8 tray 70 1 10 200 20 200 10 400 20 200 10 400 20 300 10 200 20 300 ";
     let pockets = "0 CIRCLE 8 pocket 10 250 20 250 40 20 0 CIRCLE 8 pocket 10 350 20 250 40 20 ";
     let beside = "0 CIRCLE 8 post 10 900 20 0 40 20 ";
-    let solid = "\"tray\" is solid, and so is what lies inside it, \"pocket 1\" and 1 other: --walls tray makes \"tray\" a wall \
+    let solid = "\"tray\" is solid and contains \"pocket 1\" and 1 other; --walls tray makes \"tray\" a wall with a free inside \
                  (line 16)";
     assert_eq!(message(&format!("{tray}{pockets}{beside}"), ""), [solid]);
     assert_eq!(message(&format!("{tray}{pockets}{beside}"), "--walls tray"), [""; 0]);
@@ -272,7 +272,7 @@ fn probable_mistakes_are_noted_with_a_hint() {
     let corner = "0 LWPOLYLINE 8 corner 70 1 10 200 20 200 10 400 20 200 10 400 20 220 10 220 20 220 10 220 20 400 10 200 20 400 ";
     let near = "0 CIRCLE 8 near 10 300 20 300 40 20 ";
     assert_eq!(message(&format!("{corner}{near}{beside}"), ""), [""; 0]);
-    let wide = |width: &str| format!("the whole drawing is {width} wide; if that is wrong, give its --unit");
+    let wide = |width: &str| format!("the whole drawing is {width} wide; if this is wrong, state its unit by --unit");
     let two = format!("{post}0 CIRCLE 8 post 10 900 20 0 40 20 ");
     assert_eq!(message(&two, "--unit m"), [wide("440 m")]);
     assert_eq!(message(&two, "--unit um"), [wide("0.440 mm")]);
@@ -280,7 +280,7 @@ fn probable_mistakes_are_noted_with_a_hint() {
     place.run(&["import", "w.dxf"], "--unit m --start 0,1 --goal 1,0.5 --output far.toml").exits(0);
     let robot = shipped("robots/planar_2r.urdf");
     let planned = place.run(&[robot.as_str(), "far.toml"], "");
-    let part = "no obstacle is within the arm's reach: the nearest is 480.0000 m from joint 1";
+    let part = "no obstacle is within reach: the nearest is 480.0000 m from joint 1";
     assert!(planned.code == 0 && planned.stderr.contains(part), "{}", planned.stderr);
     place.run(&["inspect", robot.as_str(), "far.toml"], "").says(&[part]);
     place.run(&["import", "w.dxf"], "--start 0,1 --goal 1,0.5 --output near.toml").exits(0);
@@ -340,11 +340,15 @@ fn errors_state_their_place_and_a_hint() {
     refused(
         "far.dxf",
         "",
-        &["far.dxf: line 16, column 1: CIRCLE has a coordinate of 1.00e12 m (at most 1e6)", "--move"],
+        &["far.dxf: line 16, column 1: CIRCLE has a coordinate of 1.00e12 m (at most 1e6 is allowed)", "--move"],
     );
-    refused("high.dxf", "", &["high.dxf: line 16, column 1: CIRCLE has a height of 1.00e297 m (at most 1e6)"]);
+    refused(
+        "high.dxf",
+        "",
+        &["high.dxf: line 16, column 1: CIRCLE has a height of 1.00e297 m (at most 1e6 is allowed)"],
+    );
     let done = place.run(&["import", "tiny.geojson"], "");
-    done.refused(1, &["this drawing contains no obstacle", "parts without extent: left out"]);
+    done.refused(1, &["this drawing contains no obstacle", "parts without length or area: left out"]);
     assert!(!done.stderr.contains("taken as"), "{}", done.stderr);
     refused("cut.dxf", "", &["cut.dxf: line ", "ends in the middle"]);
     refused("broken.svg", "", &["broken.svg: line 3", "not well-formed XML"]);

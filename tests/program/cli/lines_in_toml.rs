@@ -87,7 +87,7 @@ fn a_task_follows_lines_of_all_kinds() {
     *value = (number(value) + 1e-4).into();
     place.write("moved.json", moved.to_string());
     let refused = place.run(&["verify", &files[0], &files[1], "moved.json"], "");
-    assert!(refused.code != 0 && refused.stdout.contains("leave the line"), "{} {}", refused.code, refused.stdout);
+    assert!(refused.code != 0 && refused.stdout.contains("from the line"), "{} {}", refused.code, refused.stdout);
 }
 
 #[test]
@@ -104,7 +104,7 @@ fn a_task_with_lines_has_a_certificate() {
             "within 0.0001 of the line",
         ]);
         // The checker reads the arc of step 4 from the world.
-        assert_eq!(done.stdout.matches("which is taken from the certificate").count(), 3, "{}", done.stdout);
+        assert_eq!(done.stdout.matches("as the certificate states it").count(), 3, "{}", done.stdout);
     }
     // A sample of the last line is moved by a tenth of a millimetre.
     let mut moved: Value = place.json("c.json");

@@ -102,7 +102,7 @@ fn a_proof_that_no_timing_helps_leaves_the_answer_unknown() {
     let output = Place::new().run(&moving("parked"), "--json").exits(4).json();
     assert_eq!((&output["status"], &output["trajectory"]), (&"unknown".into(), &Value::Null));
     let reason = output["reason"].as_str().unwrap();
-    assert!(reason.contains("along the one route tried, no timing avoids the moving obstacles (proven)"), "{reason}");
+    assert!(reason.contains("no timing along the one route tried avoids the moving obstacles (proven)"), "{reason}");
 }
 
 #[test]
@@ -137,11 +137,11 @@ fn commands_without_time_refuse_moving_obstacles() {
     let place = Place::new();
     let [urdf, world] = moving("crossing");
     for command in ["compare", "explain", "explore", "reach", "converge"] {
-        place.run(&[command, &urdf, &world], "").refused(1, &["obstacle \"cart\" moves", "remove its motion"]);
+        place.run(&[command, &urdf, &world], "").refused(1, &["obstacle \"cart\" moves", "remove the motion"]);
     }
     let [urdf, world] = moving("belt_pick");
     for command in ["explain", "explore", "reach"] {
-        place.run(&[command, &urdf, &world], "").refused(1, &["\"bottle 1\" moves", "remove its motion"]);
+        place.run(&[command, &urdf, &world], "").refused(1, &["\"bottle 1\" moves", "remove the motion"]);
     }
 }
 
@@ -200,7 +200,7 @@ fn a_falsified_recording_of_a_task_is_found_out() {
     let narrow = read(&world);
     let narrow = narrow.replace("pick = \"bottle 1\"", "pick = \"bottle 1\"\nwindow = [2.0, 2.5]");
     place.write("narrow.toml", narrow);
-    place.run(&["verify", &urdf, "narrow.toml", "as_it_is.json"], "").exits(3).says(&["outside the required times"]);
+    place.run(&["verify", &urdf, "narrow.toml", "as_it_is.json"], "").exits(3).says(&["outside its time window"]);
 }
 
 #[test]
@@ -228,12 +228,12 @@ fn picks_that_make_no_sense_are_refused_with_their_place() {
     let place = Place::new();
     let moves = "at = [1.3, -0.9]\nmotion = { velocity = [0, 0.25] }";
     for (object, step, parts) in [
-        (moves, "at = [1.2, 0.1]", ["line 10, column 6", "object \"bottle\" never passes there"]),
+        (moves, "at = [1.2, 0.1]", ["line 10, column 6", "object \"bottle\" does not pass this point"]),
         (moves, "window = [3, 2]", ["line 10, column 10", "window [3, 2] is invalid"]),
         (
             moves,
             "at = [1.3, 0.1]\nwindow = [1, 2]",
-            ["line 11, column 10", "at that place at 4.000 s, outside the window"],
+            ["line 11, column 10", "at this place at 4.000 s, outside the window"],
         ),
         ("at = [1.3, -0.9]", "window = [1, 2]", ["line 9, column 10", "object \"bottle\" does not move"]),
         (
@@ -244,7 +244,7 @@ fn picks_that_make_no_sense_are_refused_with_their_place() {
         (
             moves,
             "[[step]]\nplace = { at = [0.5, 1.0] }\n[[step]]\npick = \"bottle\"\nat = [1.3, 0.1]",
-            ["line 14, column 6", "\"bottle\" was picked before"],
+            ["line 14, column 6", "\"bottle\" no longer moves"],
         ),
         (
             moves,
@@ -254,12 +254,12 @@ fn picks_that_make_no_sense_are_refused_with_their_place() {
         (
             moves,
             "[robot]\nwrist = { velocity = 6.0 }\npayload = \"level\"\n[[step]]\nplace = { at = [0.5, 1.0], angle = 1.0 }",
-            ["\"bottle\" moves", "a wrist that turns objects needs static obstacles"],
+            ["\"bottle\" moves", "a wrist can turn objects only if all obstacles are static"],
         ),
         (
             "payload = \"level\"\nat = [1.3, -0.9]\nmotion = { stops = [{ time = 1 }, { time = 2, angle = 1 }] }",
             "",
-            ["\"bottle\" moves", "held level need moving obstacles that do not turn"],
+            ["\"bottle\" moves", "held level only if no moving obstacle turns"],
         ),
     ] {
         place.plan(belt(object, step), "").refused(1, &parts);
@@ -271,10 +271,10 @@ fn objects_never_within_reach_are_proven_and_missed_ones_reported() {
     let place = Place::new();
     let away = belt("at = [2.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "");
     let done = place.plan(away, "--certificate c.json").exits(3);
-    done.says(&["\"bottle\" is never within the arm's reach"]);
-    done.warns(&["an infeasible task has no certificate"]);
+    done.says(&["\"bottle\" is not within the arm's reach"]);
+    done.warns(&["no certificates for infeasible tasks"]);
     assert!(!place.path("c.json").exists());
     let done = place.plan(belt("at = [1.3, -0.9]\nmotion = { velocity = [0, 0.25] }", "window = [0, 0.3]"), "");
     assert_eq!(done.code, 4, "{}", done.stdout);
-    done.says(&["passes before the arm can arrive"]);
+    done.says(&["has passed when the arm can arrive"]);
 }

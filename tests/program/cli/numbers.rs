@@ -38,7 +38,7 @@ fn a_value_just_beyond_a_limit_is_printed_differently() {
 #[test]
 fn a_point_just_out_of_reach_is_printed_differently() {
     let done = Place::new().plan(FREE, "--goal-tip 1.8000001,0");
-    done.refused(1, &["it is 1.8000001 m from joint", "the tip reaches from 0.2000000 to 1.8000000 m"]);
+    done.refused(1, &["1.8000001 m from joint", "the tip reaches from 0.2000000 to 1.8000000 m"]);
 }
 
 #[test]

@@ -103,7 +103,7 @@ fn a_hand_that_has_only_a_visual_is_not_left_out() {
     at_post("").exits(0);
     at_post(hand).refused(1, &[r#"link "outer" (body "hand") hits obstacle "post""#]);
     let beside = run(&scara(0.39, hand), &(world("tip = \"quill\"", [0.0, -1.0]) + post), "");
-    beside.says(&["no collision geometry: \"hand\""]);
+    beside.says(&["that of the visual geometry: \"hand\""]);
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn links_that_meet_in_every_configuration_are_named() {
     // A plate fixed to the base surrounds the quill in every configuration.
     let plate = r#"<joint name="floor" type="fixed"> <parent link="base_link"/> <child link="plate"/> </joint>
         <link name="plate"> <collision> <origin xyz="0 0 0.42"/> <geometry> <cylinder radius="3" length="0.01"/> </geometry> </collision> </link>"#;
-    let report = "shapes that meet in every configuration is ignored: \"plate\" and \"outer\", \"plate\" and \"quill\"";
+    let report = "contact is ignored between shapes that meet in every configuration: \"plate\" and \"outer\", \"plate\" and \"quill\"";
     run(&scara(0.39, plate), &world("", [0.0, -1.0]), "").exits(0).says(&[report]);
 }
 

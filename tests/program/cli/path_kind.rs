@@ -42,7 +42,7 @@ fn the_shortest_path_has_no_other_beside_it() {
     let place = Place::new();
     place
         .run(&["no.urdf", "no.toml"], "--path own")
-        .refused(2, &["--path own does not apply to planner shortest", "the taut one"]);
+        .refused(2, &["--path own does not apply to planner shortest", "only path is taut"]);
     place.run(&["no.urdf", "no.toml"], "--path straight").refused(2, &["own, taut"]);
     let compare = ["compare", "no.urdf", "no.toml", "--with", "visibility --path own"];
     let done = place.command().args(compare).output().unwrap();
@@ -108,7 +108,7 @@ fn where_cells_are_too_coarse_the_answer_says_whether_there_is_a_path() {
         assert_eq!((&json["status"], &json["path_exists"]), (&json!("unknown"), &json!(true)), "{planner}");
         assert!(json["path"].is_null() && json["certified"] == false);
         let reason = json["reason"].as_str().unwrap();
-        assert!(reason.starts_with("there is a path (certified by subdivision)"), "{reason}");
+        assert!(reason.starts_with("a path exists (certified by subdivision)"), "{reason}");
         let closed = on("workspaces/singular_closed.toml");
         assert_eq!((closed.code, &closed.json()["status"]), (3, &json!("infeasible")), "{planner}: {}", closed.stderr);
     }

@@ -104,7 +104,7 @@ fn places_in_the_air_are_errors() {
             ", height = 0.15",
             back,
             NO_BAR,
-            "step 2: object \"part 1,1\" is placed at a height of 150.0 mm, but is carried with its bottom at 140.0 mm",
+            "step 2: object \"part 1,1\" is placed at a height of 150.0 mm, above the height at which it is carried, 140.0 mm",
         ),
         (
             ", height = -0.1",
@@ -121,8 +121,7 @@ fn places_in_the_air_are_errors() {
 /// A stated height at which nothing ends means a surface that the world leaves out. A note says so.
 #[test]
 fn assumed_surfaces_are_noted() {
-    let note = "\"part 1,1\": placed at the stated height of 0.000 mm, where no obstacle or object below ends; a surface \
-                is assumed there";
+    let note = "\"part 1,1\": placed at the stated height of 0.000 mm; no obstacle or object ends at this height, so a surface is assumed there";
     for (height, bar, is_noted) in
         [("0.0", NO_BAR, true), ("0.0", "[-0.1, 0.0]", false), ("0.02", "[0.0, 0.02]", false)]
     {
@@ -146,8 +145,8 @@ fn hints_about_heights_can_be_followed() {
     let done = run("height = 0.02\n", "height = \"20 feet\"\n");
     assert!(done.code == 1 && done.stderr.contains("hint: height = 0.02, metres"), "{}", done.stderr);
     let done = run("height = [0.02, 0.03]", "height = [0.03, 0.02]");
-    assert!(done.code == 1 && !done.stderr.contains("but its pallet has"), "{}", done.stderr);
+    assert!(done.code == 1 && !done.stderr.contains("the height of its pallet is"), "{}", done.stderr);
     let done = run("name", "name");
-    let note = "\"part 1,1\" counts as lifted by 120.0 mm, but the stroke raises the tool by 100.0 mm";
+    let note = "\"part 1,1\" counts as lifted by 120.0 mm, but the stroke raises the tool only by 100.0 mm";
     assert!(done.code == 0 && done.stdout.contains(note), "{}", done.stdout);
 }

@@ -84,7 +84,7 @@ fn bad_polygons_are_refused_with_place_and_hint() {
         .with("three.toml", "polygon = [[0, 0],\n[1, 0, 2], [1, 1]]\n");
     for (a, parts) in [
         ("word.txt", ["word.txt: line 2, column 3", "\"zero\" is not a number", "hint: write each point as x,y"]),
-        ("odd.txt", ["odd.txt: line 2, column 1", "a point has two numbers, but here are 3", "hint: "]),
+        ("odd.txt", ["odd.txt: line 2, column 1", "a point needs two numbers, but here are 3", "hint: "]),
         ("cross.txt", ["cross.txt: line 3", "sides 1 and 3 cross", "hint: list the corners in order"]),
         ("key.toml", ["key.toml: line 1", "unknown field `points`", "hint: write the corners as polygon = "]),
         ("three.toml", ["three.toml: line 2, column 1", "but here are 3", "hint: "]),

@@ -233,7 +233,7 @@ fn outlines_say_the_same_however_they_are_written() {
         if is_certified {
             has(&place.judged([&urdf, "world.toml", "c.json"]).unwrap(), &["does all 2 steps"]);
         } else {
-            done.warns(&["object \"part\" rests on a support, but its outline is too fine or touches itself"]);
+            done.warns(&["the outline of object \"part\", which rests on a support, cannot be shrunk"]);
         }
         let verified = place.run(&["verify", &urdf, "world.toml", "plan.json"], "--quiet --certificate v.json");
         assert_eq!((verified.code, place.path("v.json").exists()), (0, is_certified), "{what}: {}", verified.stderr);

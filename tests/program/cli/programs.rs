@@ -30,7 +30,7 @@ fn a_kit_is_filled_by_lifting_travelling_and_lowering() {
     let place = Place::new();
     let options = "--template epson --output kit.prg";
     let done = program(&place, "scara", &shipped("workspaces/tasks/kitting_cell.toml"), options).exits(0);
-    done.says(&["program    ", "certified: straight joint lines"]);
+    done.says(&["program    ", "certified: straight moves in joint space"]);
     let text = place.read("kit.prg");
     has(
         &text,
@@ -170,7 +170,7 @@ fn a_wrist_that_the_program_cannot_turn_is_stated() {
         program(&place, robot, &shipped(world), "--template list --output a.txt").exits(0);
         place.read("a.txt")
     };
-    let statement = "# The program does not turn the wrist, which must keep objects at their orientation.";
+    let statement = "# The program does not turn the wrist. The controller must keep the orientation of objects.";
     assert!(text("workspaces/tasks/slot_level.toml", "scara").contains(statement));
     assert!(!text("workspaces/tasks/kitting_cell.toml", "scara").contains(statement));
 }
@@ -207,12 +207,12 @@ fn the_written_text_is_certified_and_not_the_plan() {
         (all("{{ move.joints[0] }}"), "does not write joint \"elbow\" of target 1 (step 1"),
         (all(&format!("{joints} {joints}")), "writes joint \"shoulder\" of target 1 (step 1, move to the goal) twice"),
         (all("{{ move.joints | join(\", \") | replace(\".\", \",\") }}"), "is not a number"),
-        (all(joints).replace("in moves", "in moves | reverse"), "out of order"),
+        (all(joints).replace("in moves", "in moves | reverse"), "too early"),
         (all(joints).replace("in moves", "in moves[:3]"), "does not write target 4"),
         (all(joints).replace("in moves", "in moves[1:]"), "does not write joint \"shoulder\" of target 1"),
         (all(&format!("{{% if move.kind == \"start\" %}}{joints}{{% endif %}}")), "does not write target 2"),
-        (all("{{ (move.joints | join(\", \"))[:9] }}"), "cuts a joint value into pieces"),
-        (all(&format!("\u{e001}{joints}")), "private use"),
+        (all("{{ (move.joints | join(\", \"))[:9] }}"), "writes only a part of a joint value"),
+        (all(&format!("\u{e001}{joints}")), "private-use"),
         ("no targets\n".into(), "does not write joint \"shoulder\" of target 1"),
     ];
     for (template, part) in cases {
@@ -365,7 +365,11 @@ fn the_quill_of_a_table_of_a_task_is_judged() {
     let verify = |file: &str| place.run(&["verify", &shipped("robots/scara.urdf"), &world, file], "--anywhere");
     for file in ["kit.txt", "kit.csv"] {
         let done = verify(file);
-        assert!(done.code == 0 && done.stdout.contains("tool is judged among the obstacles alone"), "{}", done.stdout);
+        assert!(
+            done.code == 0 && done.stdout.contains("moving tool is judged only among obstacles"),
+            "{}",
+            done.stdout
+        );
     }
     let text = place.read("kit.txt");
     let header = text.lines().find(|line| line.contains("axis_3 [mm]")).expect("a header").to_owned();
@@ -393,10 +397,10 @@ fn templates_end_and_keep_numbers_apart() {
     };
     for (template, expected) in [
         (loops.to_owned(), "the template takes more than 50000000 instructions"),
-        (value("-", ""), "joins the digits of"),
-        (value("9", ""), "joins the digits of"),
-        (value("", "00"), "joins the digits of"),
-        (value("", "e1"), "joins the digits of"),
+        (value("-", ""), "directly beside a joint value of"),
+        (value("9", ""), "directly beside a joint value of"),
+        (value("", "00"), "directly beside a joint value of"),
+        (value("", "e1"), "directly beside a joint value of"),
     ] {
         place.write("own.j2", &template);
         let done = program(&place, "planar_2r", &shipped("workspaces/shelf.toml"), "--template own.j2 --output a.job");
@@ -406,6 +410,6 @@ fn templates_end_and_keep_numbers_apart() {
     for tolerance in ["0.05deg,0.05deg", "1,2", "1mm,2mm"] {
         let options = format!("--template list --output a.txt --joint-tolerance {tolerance}");
         let done = program(&place, "planar_2r", &shipped("workspaces/shelf.toml"), &options);
-        assert!(done.code == 2 && done.stderr.contains("state one angle and one length"), "{}", done.stderr);
+        assert!(done.code == 2 && done.stderr.contains("must have one angle and one length"), "{}", done.stderr);
     }
 }

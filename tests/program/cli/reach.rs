@@ -94,11 +94,11 @@ fn each_solution_has_the_outcome_of_planning_to_it() {
 #[test]
 fn invalid_cells_and_homes_are_refused() {
     let place = Place::new();
-    reach(&place, &shelf(), "--cell 0.0001").refused(1, &["more than 4000000 cells", "choose a larger size"]);
+    reach(&place, &shelf(), "--cell 0.0001").refused(1, &["more than 4000000 cells", "choose larger cells"]);
     reach(&place, &shelf(), "--cell 0").refused(2, &["--cell"]);
     reach(&place, &shelf(), "--home 0,9").refused(1, &["elbow"]);
     reach(&place, &shelf(), "--output r.yaml").refused(2, &["must end in .json or .csv"]);
-    reach(&place, &shelf(), "--picture r.gif").refused(2, &["drawn as .svg, .png or .html"]);
+    reach(&place, &shelf(), "--picture r.gif").refused(2, &["must be .svg, .png or .html"]);
     assert!(!place.path("r.yaml").exists());
 }
 

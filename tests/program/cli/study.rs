@@ -158,13 +158,13 @@ fn a_study_that_is_killed_goes_on_and_ends_with_the_same_bytes() {
     let mut text = read(&part);
     text.truncate(text.len() - 7);
     std::fs::write(&part, &text).unwrap();
-    run(&place, "--output t.csv --jobs 2").exits(0).warns(&["layouts of the stopped study"]);
+    run(&place, "--output t.csv --jobs 2").exits(0).warns(&["continues the stopped study after"]);
     assert_eq!(place.read("t.csv"), place.read("whole.csv"));
     assert!(!part.exists());
     // Rows of another study are neither used nor lost.
     std::fs::write(&part, &text).unwrap();
     study(&place, "draws = 61", CRATE);
-    run(&place, "--output t.csv").refused(1, &["t.csv.part has rows of another study", "--fresh"]);
+    run(&place, "--output t.csv").refused(1, &["t.csv.part contains rows of another study", "--fresh"]);
     assert_eq!(read(&part), text);
     run(&place, "--output t.csv --fresh --quiet").exits(0);
     assert_eq!(rows(&place.read("t.csv")).len(), 244);
@@ -263,7 +263,7 @@ fn failed_layouts_have_rows_and_a_study_may_have_no_best_layout() {
     }
     study(&place, "conditions = [\"duration <= 0.01\"]\ndraws = 3", CRATE);
     let done = run(&place, "--output t.csv --output best.toml --json").exits(0);
-    done.warns(&["best.toml is not written: no layout meets the requirements"]);
+    done.warns(&["best.toml is not written, because no layout meets the conditions"]);
     assert!(!place.path("best.toml").exists() && rows(&place.read("t.csv")).len() == 12);
     assert_eq!(done.json()["best"], Value::Null);
 }
@@ -293,7 +293,7 @@ fn errors_in_a_study_have_a_place_and_a_hint() {
     // Each row has a line of the head, changes to the parameter, lines after it, and the message.
     let table = r#"
  =>  => draw = "latin" => does not state how often ... draws = 1000
- =>  =>  => line 4, column 1 ... parameter "x" does not define its values ... from, to and steps
+ =>  =>  => line 4, column 1 ... parameter "x" needs values, steps or draw ... from, to and steps
  =>  => steps = 1 => line 9 ... 1 values from 0 to 1
  =>  => steps = 200000000 => 200000000 values
  =>  => draw = "sobol" => "uniform" or "latin", not "sobol"
@@ -399,7 +399,7 @@ fn the_page_distinguishes_what_colours_mean() {
     let unfit = "fill=\"var(--unknown)\" data-layout=";
     assert!(!html.contains(unfit));
     let (html, _) = page("conditions = [\"duration <= 0.01\"]");
-    assert!(html.contains(unfit) && html.contains("a motion, but not one that meets the conditions"));
+    assert!(html.contains(unfit) && html.contains("a motion that does not meet the conditions"));
     assert!(!html.contains("<title>best: layout "));
 }
 
@@ -410,7 +410,7 @@ fn a_best_layout_at_the_end_of_a_range_is_noted() {
         speed_study(&place, values);
         run(&place, "")
     };
-    let edge = "speed = 1 of at most 1: a wider range may give a better layout\n";
+    let edge = "the best speed is 1, at the end of its range (of at most 1): a wider range may give a better layout\n";
     speed("from = 0.5\nto = 1\nsteps = 3").says(&[edge]);
     assert!(!speed("values = [0.5, 1]").stdout.contains("a wider range"));
 }
@@ -457,7 +457,7 @@ fn ctrl_c_reports_the_stored_rows() {
     assert_eq!(done.status.code(), Some(130), "{report}");
     let kept = report.split("stopped: ").nth(1).unwrap().split(' ').next().unwrap().parse::<usize>().unwrap();
     assert!(
-        kept > 0 && report.contains(" of 8000 rows are kept in t.csv.part; the same command continues"),
+        kept > 0 && report.contains(" of 8000 rows are in t.csv.part; the same command continues from there"),
         "{report}"
     );
     // The file also has a line that names the study of the rows.

@@ -209,7 +209,7 @@ fn repeated_tasks_are_counted_in_cycles() {
         &text,
         &["1 obstacle, 2 objects", "1 (cycle 3)", "... 12 steps in cycles 4 to 5", "found and certified: 30 steps"],
     );
-    has(&text, &["carrying \"cup\"", "proven: no sequence of motions takes less than", "closest: ", "motions planned"]);
+    has(&text, &["carrying \"cup\"", "every sequence of motions takes at least", "closest: ", "motions planned"]);
     assert!(!text.contains("(cycle 4)"), "{text}");
 }
 
@@ -229,7 +229,7 @@ fn the_first_step_that_fails_is_named() {
     let place = Place::new();
     for (steps, code, status, verdict) in [
         (BARRED, 3, "infeasible", "result     infeasible: step 2, place at (1.45, 0.25) m"),
-        (DOUBTFUL, 4, "unknown", "result     unknown: no motion was found for step 2"),
+        (DOUBTFUL, 4, "unknown", "result     unknown: neither a motion for step 2"),
     ] {
         place.write("a.csv", "old");
         let done = place.task(steps, "--output a.csv --json");
@@ -258,7 +258,7 @@ fn the_first_step_that_fails_is_named() {
         assert_eq!(result["events"].as_array().unwrap().len(), 1);
         assert!(
             done.stderr.contains(
-                "a.csv is not written: the result has no trajectory; the existing file is from an earlier run"
+                "a.csv is not written: the result has no trajectory; the existing file of this name is from an earlier run"
             ),
             "{}",
             done.stderr
@@ -322,7 +322,7 @@ fn each_step_has_a_file_of_its_own() {
 fn options_unsupported_for_steps_are_refused() {
     let place = Place::new();
     let refused = |options: &str, code: i32, part: &str| place.task(STEPS, options).refused(code, &[part]);
-    refused("--gap 0.01", 2, "--gap is for single motions");
+    refused("--gap 0.01", 2, "--gap does not apply to worlds with steps");
     refused("--per-step", 2, "--per-step needs an --output");
     refused("--per-step --output a.json", 2, ".csv or .yaml");
     refused("--goal 0.1,0.2", 1, "goal");

@@ -27,7 +27,7 @@ fn repeated_points_of_rings_are_ignored() {
         path_of(&place.plan(obstacle("polygon = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]]"), "--json"));
     for (shape, note) in [
         ("polygon = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3], [1.15, 0.18]]", "repeats the first"),
-        ("polygon = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]]", "repeat the one before"),
+        ("polygon = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]]", "repeat the previous point"),
         ("polygon = [[[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3], [1.15, 0.18]]]", "repeats the first"),
     ] {
         assert_eq!(path_of(&place.plan(obstacle(shape), "--json")), plain, "{shape}");
@@ -36,7 +36,7 @@ fn repeated_points_of_rings_are_ignored() {
     let wall = path_of(&place.plan(obstacle("polyline = [[1.2, 0.2], [1.6, 0.2], [1.6, 0.4]]"), "--json"));
     let repeated = "polyline = [[1.2, 0.2], [1.2, 0.2], [1.6, 0.2], [1.6, 0.4], [1.6, 0.4]]";
     assert_eq!(path_of(&place.plan(obstacle(repeated), "--json")), wall);
-    place.plan(obstacle(repeated), "").found(&["repeat the one before"]);
+    place.plan(obstacle(repeated), "").found(&["repeat the previous point"]);
     // A polyline may return to an earlier point.
     place
         .plan(obstacle("polyline = [[1.2, 0.2], [1.6, 0.2], [1.6, 0.4], [1.2, 0.2], [1.1, 0.3]]"), "--quiet")
@@ -57,7 +57,7 @@ fn preferred_regions_are_read_like_obstacles_and_noted_by_verify() {
         ),
         (
             "polygon = [[0.2, 0.3], [0.5, 0.3], [0.5, 0.3], [0.5, 0.6]]",
-            "preference \"wish\": points that repeat the one",
+            "preference \"wish\": points that repeat the previous",
         ),
         ("configurations = [[0, 0], [1, 0], [1, 1], [0, 0]]", "preference \"wish\": the last point of a ring repeats"),
     ] {
@@ -104,7 +104,7 @@ fn holes_are_free_and_enclosed() {
     let outside = format!("polygon = {outer}\nholes = [[[5, 5], [6, 5], [6, 6]]]");
     plan(thin("1.5, 0.0", &outside), "").refused(1, &["hole 1 does not lie inside", "line 8", "hint"]);
     let alone = "circle = { center = [1, 1], radius = 0.1 }\nholes = [[[5, 5], [6, 5], [6, 6]]]";
-    plan(thin("1.5, 0.0", alone), "").refused(1, &["only a polygon has holes", "hint"]);
+    plan(thin("1.5, 0.0", alone), "").refused(1, &["`holes` needs `polygon`", "hint"]);
     // Pictures of all kinds show the obstacles.
     let shape = format!("polygon = {outer}\nholes = [{hole}]");
     plan(thin("0.05, 0.0", &shape), "--picture a.svg --picture a.html --quiet").found(&[]);
@@ -221,7 +221,7 @@ fn starts_are_taken_by_the_tip_if_one_ik_solution_alone_reaches_it() {
         place.write("world.toml", world);
         place.run(&["arm.urdf", "world.toml"], options)
     };
-    run(world, "").found(&["the start is the only IK solution with the tip at (1, 0.5)"]);
+    run(world, "").found(&["the only IK solution for the tip at (1, 0.5)"]);
     let both = world.replace("[robot]\nlimits = { j2 = [0, 3] }\n", "");
     run(&both, "").refused(1, &["2 IK solutions put the tip at (1, 0.5)", "give joint values: joints = [", "line "]);
     run(&world.replace("[1, 0.5]", "[5, 0]"), "").refused(1, &["the start (5, 0) m is out of reach", "hint"]);

@@ -94,7 +94,7 @@ fn missing_and_invalid_settings_are_named() {
     let cases = [
         ("shoulder = 36", "shoulder = 0", "effort of \"shoulder\" must be positive"),
         ("shoulder = 36", "wrist = 36", "has no joint \"wrist\""),
-        ("shoulder = 36", "shoulder = 9", "joint \"shoulder\" has an effort of 9 N m, and the arm takes"),
+        ("shoulder = 36", "shoulder = 9", "joint \"shoulder\" has an effort of 9 N m, but holding the arm at"),
         ("dynamics = true", "dynamics = true\ngravity = [0, 1]", "gravity: expected three finite numbers"),
         ("dynamics = true", "dynamics = 1", "dynamics"),
     ];
@@ -141,7 +141,7 @@ fn the_efforts_hold_the_arm_at_the_end() {
     let robot = shipped("robots/rrbot_vertical.urdf");
     place.run(&[&robot, "light.toml"], "--quiet --output held.json").exits(0);
     let heavy = place.run(&[&robot, "heavy.toml"], "").exits(4);
-    heavy.says(&["after it joint \"shoulder\" has an effort of 45 N m"]);
+    heavy.says(&["after this step, joint \"shoulder\" has an effort of 45 N m"]);
     // The same motion is judged as one with the heavier block.
     for (world, code) in [("light.toml", 0), ("heavy.toml", 3)] {
         let verified = place.run(&["verify", &robot, world, "held.json"], "").exits(code);

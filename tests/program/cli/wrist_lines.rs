@@ -88,7 +88,7 @@ fn a_knife_turns_along_the_outline() {
     let place = Place::new();
     let done =
         follow(&place, "--wrist tangent+0.2 --output m.csv --output m.yaml --output m.json --picture m.html").exits(0);
-    assert!(done.stdout.contains("joint \"axis_4\" turns the tool along the line, 0.2 rad from it, within 0.0"));
+    assert!(done.stdout.contains("joint \"axis_4\" keeps the tool at 0.2 rad to the line, within 0.0"));
     assert!(!done.stdout.contains("\"axis_4\" is held"), "{}", done.stdout);
     let rows = rows(&place.read("m.csv"), COLUMNS);
     assert!(rows.iter().all(|row| row[6].abs() <= 20.0 * (1.0 + 1e-9)), "too fast");
@@ -160,7 +160,7 @@ fn errors_name_the_wrist() {
             "wrist = { joint = \"axis_4\", velocity = 9, jerk = 900 }",
             line,
             "--wrist tangent",
-            ["do not keep limits on the jerk of the wrist", "hint: remove the wrist's `jerk`"],
+            ["limits on the wrist's jerk cannot be kept", "hint: remove the wrist's `jerk`"],
         ),
         (named, line, "--wrist-tolerance 0.01", ["--wrist-tolerance needs an angle", "--wrist"]),
         (named, line, "--wrist tangents", ["signed angle", "tangent+90deg"]),
@@ -177,7 +177,7 @@ fn errors_name_the_wrist() {
             &format!("{named}\njerk = {{ axis_1 = 100, axis_2 = 100 }}"),
             line,
             "--wrist tangent",
-            ["limits on jerks", "a fixed angle"],
+            ["jerks are limited", "a fixed angle"],
         ),
     ] {
         place.write("world.toml", world(wrist));
@@ -201,8 +201,8 @@ fn a_joint_that_cannot_turn_as_far_makes_the_line_infeasible() {
     place.write("circle.gcode", "G21 G0 X360 Y0\nG3 I-25 F6000\nG3 I-25\n");
     let arguments = ["follow", &shipped("robots/scara.urdf"), "world.toml", "circle.gcode"];
     let done = place.run(&arguments, "--wrist tangent --certificate c.json").exits(3);
-    done.says(&["the wrist cannot turn as far as the tool needs"]);
-    done.warns(&["certificates of lines do not judge the wrist"]);
+    done.says(&["the wrist cannot turn far enough for the tool's angle"]);
+    done.warns(&["certificates of lines do not cover the wrist"]);
     // Without the tool's angle, the line can be followed.
     place.run(&arguments, "").exits(0);
 }
@@ -259,7 +259,7 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
     let changes: [(Change, &str); 6] = [
         (
             |wrist, k| wrist["position"][k / 2] = (wrist["position"][k / 2].as_f64().unwrap() + 0.05).into(),
-            "rad from the angle",
+            "the angle of the tool may be wrong by",
         ),
         (|wrist, k| wrist["velocity"][k / 2] = 30.0.into(), "exceeds its top speed"),
         (|wrist, k| wrist["acceleration"][k / 2] = 300.0.into(), "exceeds its greatest acceleration"),
@@ -281,7 +281,7 @@ fn steps_of_tasks_turn_the_tool_and_verify_judges_it() {
     }
     let mut changed = result.clone();
     changed["steps"][index]["wrist_motion"]["position"].as_array_mut().unwrap().pop();
-    verify(&changed).exits(1).warns(&["its wrist_motion has"]);
+    verify(&changed).exits(1).warns(&["wrist_motion has"]);
 }
 
 #[test]
@@ -299,10 +299,10 @@ fn a_payload_must_not_be_turned_along_a_line() {
     for (text, message) in [
         (tangent.clone(), "step 3: object \"part\" is carried level, so the tool cannot turn"),
         (rigid, "object \"part\" is held rigidly, so the wrist must not turn it"),
-        (task(&format!("{PICK}{}{end}", line("0.5"))), "carried level at 0 rad, but the line asks for 0.5 rad"),
+        (task(&format!("{PICK}{}{end}", line("0.5"))), "carried level at 0 rad, but the line requires 0.5 rad"),
         (task(&format!("{PICK}{}{turned}", line("0"))), "is turned to 1 rad, but step 3 keeps it"),
         (tangent.replace("joint = \"axis_4\", ", ""), "does not name the wrist's joint"),
-        (tangent.replace("acceleration = 200.0 }", "jerk = 900.0 }"), "do not keep limits on the jerk of the wrist"),
+        (tangent.replace("acceleration = 200.0 }", "jerk = 900.0 }"), "limits on the wrist's jerk cannot be kept"),
     ] {
         plan(&text).exits(1).warns(&[message]);
     }

@@ -48,7 +48,7 @@ fn arguments_that_a_robot_does_not_have_are_refused() {
     place.run(&FILES, "--xacro-arg reach").refused(2, &["NAME=VALUE"]);
     place
         .run(&[&shipped("robots/scara.urdf"), "world.toml"], "--xacro-arg reach=1")
-        .refused(1, &["plain URDF, which has no argument \"reach\"", "leave --xacro-arg out"]);
+        .refused(1, &["plain URDF, not xacro, so it has no argument \"reach\"", "leave --xacro-arg out"]);
     place.run(&FILES, "--xacro-arg reach=wide").refused(1, &["scara.urdf.xacro: line 5", "no property \"wide\""]);
 }
 

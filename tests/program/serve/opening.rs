@@ -46,7 +46,7 @@ fn files_that_a_page_sends_name_no_other_files() {
         let error = output["error"].as_str().unwrap_or_else(|| panic!("no error: {output}"));
         assert!(error.contains(part), "{part}: {error}");
     };
-    let no_file = "this text is not a file";
+    let no_file = "this text is not in a file";
     // Even the server's own files are refused.
     for world in [own.as_str(), "[[obstacle]]\nimage = \"/etc/passwd\"\n", "[map]\nfile = \"/etc/passwd\"\n"] {
         refused("world", world, no_file);

@@ -91,7 +91,7 @@ fn invalid_states_are_refused() {
         (json!([{ "from": 9 }]), "no obstacle 10"),
         (json!([crossed]), "not a simple polygon"),
         (json!([flat]), "not a simple polygon"),
-        (json!(vec![json!({ "from": 0 }); 2000]), "at most 1000 obstacles"),
+        (json!(vec![json!({ "from": 0 }); 2000]), "the live page allows 1000"),
         (json!([{ "from": 0, "polygon": vec![[0.0, 0.0]; 30_000] }]), "20000 corners"),
         (json!([{ "name": "empty" }]), "exactly one shape"),
     ] {

@@ -49,11 +49,11 @@ fn invalid_tables_are_refused() {
     csv("\n\n", &["is empty"]);
     csv("time,j1,j2\n", &["no sample", "at least one"]);
     csv("0,0.1,0.2\n1,0.1,0.3\n", &["line 1", "no header", "time, j1, j2"]);
-    csv("time;j1;j2\n0;0\n", &["line 2", "has 2 values, the header has 3 names"]);
+    csv("time;j1;j2\n0;0\n", &["line 2", "has 2 values, but the header has 3 names"]);
     csv("time,j1\n0,0\n", &["no positions of joint \"j2\"", "\"j1\""]);
     csv("time,J1,J2\n0,0,0\n", &["no positions of joint \"j1\"", "its columns are \"time\", \"J1\", \"J2\""]);
     csv("time,j1_velocity,j2\n0,0,0\n", &["no positions of joint \"j1\""]);
-    csv("time,j1,j2\n0,0,0\n1,0\n", &["line 3", "has 2 values, the header has 3"]);
+    csv("time,j1,j2\n0,0,0\n1,0\n", &["line 3", "has 2 values, but the header has 3"]);
     csv("time,j1,j2\n0,0,0\n1,0,0,0\n", &["line 3", "has 4 values"]);
     csv("time,j1,j2\n0,0,0\n1,x,0\n", &["line 3, column 3", "\"j1\" is \"x\"", "^"]);
     csv("time,j1,j2\n0,0,\n", &["line 2, column 5", "\"j2\" is \"\""]);
@@ -63,8 +63,8 @@ fn invalid_tables_are_refused() {
     csv("time,j1,j2\n0,0,0\n1,0,0\n1,0,0.1\n", &["line 4", "1 s follows 1 s", "increase"]);
     csv("time,j1,j2\n0,0,0\n1,0,0\n0.5,0,0.1\n", &["line 4", "0.5 s follows 1 s"]);
     csv("j1,j2,j1_velocity,j2_velocity\n0,0,0,0\n", &["velocities, but no times", "add the times"]);
-    csv("time,j1,pos_j1,j2\n0,0,0,0\n", &["line 1, column 9", "\"j1\" and \"pos_j1\" mean the same"]);
-    csv("time,t,j1,j2\n0,0,0,0\n", &["\"time\" and \"t\" mean the same"]);
+    csv("time,j1,pos_j1,j2\n0,0,0,0\n", &["line 1, column 9", "\"j1\" and \"pos_j1\" have the same meaning"]);
+    csv("time,t,j1,j2\n0,0,0,0\n", &["\"time\" and \"t\" have the same meaning"]);
     csv("\"time,j1,j2\n0,0,0\n", &["no positions of joint \"j1\""]);
     refused("m.csv", b"time,j1,j2\n0,\xff,0\n", &["not UTF-8", "byte 13"]);
 }
@@ -79,7 +79,7 @@ fn invalid_documents_are_refused() {
     json("{\"joints\": [\"j1\", \"j1\"], \"path\": [[0, 1]]}", &["names joint \"j1\" twice"]);
     json("{\"joints\": [\"a\", \"b\"], \"path\": [[0, 1]]}", &["no positions of joint \"j1\"", "\"a\", \"b\""]);
     json("{\"path\": [[0, 1]]}", &["\"joints\" is missing"]);
-    json("{\"status\": \"infeasible\", \"joints\": [\"j1\", \"j2\"]}", &["its status is \"infeasible\""]);
+    json("{\"status\": \"infeasible\", \"joints\": [\"j1\", \"j2\"]}", &["the status is \"infeasible\""]);
     json("{}", &["neither a path, nor a trajectory"]);
     json("[1, 2]", &["line 1"]);
     let trajectory = |members: &str, parts: &[&str]| {
@@ -136,10 +136,10 @@ fn held_joints_may_move_along_the_normal() {
     let notes = read("m.csv", rows(0.25, 0.250_001)).unwrap();
     assert!(notes.iter().any(|n| n.contains("\"lift\" stays at 0.25")), "{notes:?}");
     let notes = read("m.csv", rows(0.25, 0.3)).unwrap();
-    assert!(notes.iter().any(|n| n.contains("\"lift\" moves, from 0.25 to 0.3 m")), "{notes:?}");
+    assert!(notes.iter().any(|n| n.contains("\"lift\" slides between 0.25 and 0.3 m")), "{notes:?}");
     let point = |t: u8, lift: f64| format!("- {{positions: [0, {lift}, 0], time_from_start: {{sec: {t}}}}}\n");
     let message = |lift: f64| format!("joint_names: [j2, lift, j1]\npoints:\n{}{}", point(0, 0.25), point(1, lift));
-    for (lift, report) in [(0.25, "\"lift\" stays at 0.25"), (0.5, "\"lift\" moves, from 0.25 to 0.5 m")] {
+    for (lift, report) in [(0.25, "\"lift\" stays at 0.25"), (0.5, "\"lift\" slides between 0.25 and 0.5 m")] {
         let notes = read("m.yaml", message(lift)).unwrap();
         assert!(notes.iter().any(|note| note.contains(report)), "{notes:?}");
     }

@@ -74,7 +74,7 @@ fn claims_about_a_missing_motion_are_named() {
     assert!(found["not_judged"].to_string().contains("trajectory.torque"), "{found:#}");
     result["units"] = json!(["rad"]);
     let error = upright.findings(&result);
-    assert!(error.as_str().is_some_and(|error| error.contains("2 joints are named")), "{error:#}");
+    assert!(error.as_str().is_some_and(|error| error.contains("there are 2 joints")), "{error:#}");
 }
 
 #[test]
@@ -82,7 +82,7 @@ fn a_colliding_path_beside_a_good_trajectory_is_found() {
     let case = Case::new("planar_2r", "shelf");
     let ends = [0, case.result["path"].as_array().unwrap().len() - 1].map(|k| case.result["path"][k].clone());
     let straight = |result: &mut Value| result["path"] = json!(ends);
-    case.refused(straight, "claims", "it is not free");
+    case.refused(straight, "claims", "the path is not free");
     // The false path is found even if all reported data of the path fits it.
     let straight = |result: &mut Value| {
         result["path"] = json!(ends);
@@ -91,7 +91,7 @@ fn a_colliding_path_beside_a_good_trajectory_is_found() {
         result["blends"] = json!({"count": 0, "largest_radius": d[0].hypot(d[1])});
         result.as_object_mut().unwrap().remove("optimum");
     };
-    case.refused(straight, "claims", "it is not free");
+    case.refused(straight, "claims", "the path is not free");
 }
 
 #[test]

@@ -39,7 +39,7 @@ fn summary_picture_clearance_and_quiet() {
     let quiet = verify_table(&place, files, csv, "--quiet").exits(3);
     assert_eq!((quiet.stdout, quiet.stderr), (String::new(), String::new()));
     let near = shelf("shoulder,elbow\n-0.9,0.4\n-0.8,0.4\n", "--clearance 5").exits(3);
-    near.says(&["apart", "nearer than the required clearance"]);
+    near.says(&["apart", "too near by"]);
 }
 
 #[test]

@@ -38,7 +38,7 @@ fn separators_and_comments_make_no_difference() {
 #[test]
 fn accepted_oddities_are_noted_and_unclear_tables_refused() {
     let found = verify(&PLAIN.replace("1,-0.8,0.4\n", "1,-0.8,0.4\n1,-0.8,0.4\n").replace(',', ";")).unwrap();
-    for part in ["1 sample repeats the one before it; taken once", "separated by semicolons"] {
+    for part in ["1 sample repeats the previous one; ignored", "separated by semicolons"] {
         assert!(found["notes"].to_string().contains(part), "no {part:?} in {found:#}");
     }
     // There are two samples at one time, commas for decimals, and two kinds of separators.

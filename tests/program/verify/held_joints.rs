@@ -78,7 +78,10 @@ fn a_quill_is_judged_at_the_heights_that_it_has() {
     // Halfway down over the block its heights are those of the block.
     assert!(verdict == "collision" && (1.5 - 1e-6..1.6).contains(&time), "{json:#}");
     let notes = json["notes"].to_string();
-    assert!(notes.contains("moves, from 0 to 0.21 m") && notes.contains("at their heights of each moment"), "{notes}");
+    assert!(
+        notes.contains("slides between 0 and 0.21 m") && notes.contains("at their height at each moment"),
+        "{notes}"
+    );
 }
 
 /// Checks an arm that stands over the block. The quill moves down at the first sample and up at the second, so the
@@ -110,7 +113,7 @@ fn a_wrist_is_judged_at_the_angles_that_it_has() {
     ] {
         let (found, json) = verdict_and_findings(finger, &table(turn, j1));
         assert_eq!(found, verdict, "{turn} {j1}: {json:#}");
-        assert!(json["notes"].to_string().contains("judged at their angles of each moment"), "{json:#}");
+        assert!(json["notes"].to_string().contains("judged at their angle at each moment"), "{json:#}");
         let hit = json["first_contact"]["body"].as_str();
         assert_eq!(hit, (verdict == "collision").then_some("tool"), "{json:#}");
     }

@@ -261,7 +261,7 @@ fn motions_of_a_controller_in_a_namespace_are_judged() {
     assert_eq!(found["verdict"], "free", "{found:#}");
     // The samples: two points, the waiting position, the next beginning, two points.
     assert_eq!((&found["samples"], &found["duration"]), (&json!(5), &json!(9.0)), "{found:#}");
-    assert!(found["notes"].to_string().contains("2 motions, one after the other"), "{found:#}");
+    assert!(found["notes"].to_string().contains("2 motions in sequence"), "{found:#}");
 
     let jumps = recording_of(&[
         (topic, MOTIONS, 1_000_000_000, motion(&joints, &[(0, [0.4, -0.9]), (2, [0.41, -0.9])])),
@@ -270,7 +270,10 @@ fn motions_of_a_controller_in_a_namespace_are_judged() {
         ("/joint_states", STATES, 10, state(11, [0.43, -0.9])),
     ]);
     let message = message_of(&jumps, None);
-    assert!(message.contains("is at another value when a motion begins") && message.contains("--topic"), "{message}");
+    assert!(
+        message.contains("has different values at the end of a motion") && message.contains("--topic"),
+        "{message}"
+    );
     assert_eq!(judge_recording(&jumps, Some("/joint_states")).unwrap()["verdict"], "free");
 }
 

@@ -119,7 +119,7 @@ fn the_summary_has_a_line_a_step() {
         "step       1 (cycle 1)  pick \"part\"",
         "... 291 steps in cycles 4 to 100",
         "the whole task, 300 steps",
-        "each step is judged by itself",
+        "whether each step is a step of the world",
     ]);
     let turned = shipped_task("board_turned").in_world("velocity = 3.0", "velocity = 0.3");
     let words = ["not as required", "task       step 2 (cycle 1): the wrist turns in 0.", "result     not the task"];
@@ -204,7 +204,7 @@ fn samples_that_belong_to_no_step_are_found() {
     tower.result["steps"][1]["last_sample"] = json!(last - 3);
     // The rest of the motion ends elsewhere, and not at rest.
     let found = tower.refuted("task", &[1]);
-    assert!(found["faults"].to_string().contains("which belong to no step"), "{found:#}");
+    assert!(found["faults"].to_string().contains("outside all steps"), "{found:#}");
     assert!(found["steps"][1]["limits_broken"].to_string().contains("rest at end"), "{found:#}");
 
     let mut tower = shipped_task("tower");
@@ -326,10 +326,10 @@ fn a_larger_payload_is_found() {
 fn a_different_start_is_found() {
     let tower = shipped_task("tower");
     tower.report("--start 0.6,0.8 --quiet").exits(0);
-    tower.report("--start 0.6,0.7").exits(3).says(&["step 1 (cycle 1): it does not begin at the start"]);
+    tower.report("--start 0.6,0.7").exits(3).says(&["step 1 (cycle 1): the motion does not begin at the start"]);
     tower.report("--picture a.svg").exits(2).warns(&["--picture"]);
     // A clearance that is greater than the actual distance.
-    shipped_task("sorting").report("--clearance 0.01").exits(3).says(&["nearer than the required clearance"]);
+    shipped_task("sorting").report("--clearance 0.01").exits(3).says(&["too near by"]);
 }
 
 #[test]
@@ -366,14 +366,14 @@ fn steps_that_are_none_are_refused() {
     refused(step(json!({"step": 1.5})), &["line 1"]);
     refused(step(json!({"cycle": "one"})), &["line 1"]);
     refused(step(json!({"first_sample": null})), &["steps[0]", "first_sample or last_sample is missing"]);
-    refused(step(json!({"first_sample": 1, "last_sample": 0})), &["steps[0]", "samples are 1 to 0"]);
+    refused(step(json!({"first_sample": 1, "last_sample": 0})), &["steps[0]", "samples of the step are 1 to 0"]);
     refused(step(json!({"last_sample": u64::MAX})), &["steps[0]", "the trajectory has"]);
     refused(step(json!({"turn": {"from": 0.0, "to": 1.0}})), &["missing field `seconds`"]);
     refused(step(json!({"turn": {"from": 0.0, "to": 1e300, "seconds": 1.0}})), &["the turn's to is 1"]);
     for member in ["/trajectory/velocity", "/trajectory"] {
         let (owner, key) = member.rsplit_once('/').unwrap();
         let done = with(&|result| drop(result.pointer_mut(owner).unwrap().as_object_mut().unwrap().remove(key)));
-        done.exits(1).warns(&["no trajectory with time, position and velocity"]);
+        done.exits(1).warns(&["lacks time, position or velocity"]);
     }
     // No steps, or numbers that the world does not have, are not the task.
     for steps in [json!([]), step(json!({"step": 99})), step(json!({"cycle": 0}))] {

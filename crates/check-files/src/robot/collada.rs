@@ -100,7 +100,7 @@ impl<'a> Scene<'a> {
         }
         for child in node.children().filter(Node::is_element) {
             let target =
-                || self.target(child).ok_or_else(|| "it refers to an element that the file does not have".to_owned());
+                || self.target(child).ok_or_else(|| "a node refers to an element that is not in the file".to_owned());
             match child.tag_name().name() {
                 "node" => self.show(child, &to_file.compose(&node_transform(child)?), depth + 1)?,
                 "instance_node" => {
@@ -139,7 +139,7 @@ impl<'a> Scene<'a> {
         self.numbers += numbers.len();
         if !is_plain || stride < 3 || count.checked_mul(stride) != Some(numbers.len()) || self.numbers > 3 * MAX_POINTS
         {
-            return Err("a mesh's numbers do not form positions x, y and z, or form too many".into());
+            return Err("the numbers of a mesh are not triples x, y, z, or are too many".into());
         }
         let mut shown = BTreeSet::new();
         for primitive in mesh.children().filter(Node::is_element) {
@@ -158,7 +158,7 @@ impl<'a> Scene<'a> {
                 let indices = indices.collect::<Option<Vec<_>>>().unwrap_or_default();
                 let are_whole = !indices.is_empty() && indices.len().is_multiple_of(each);
                 if !are_whole && !text.trim().is_empty() {
-                    return Err("a primitive has an index beyond the mesh's vertices".into());
+                    return Err("a primitive refers to a vertex that the mesh does not have".into());
                 }
                 shown.extend(indices.into_iter().skip(own).step_by(each));
             }

@@ -84,7 +84,7 @@ fn stl(bytes: &[u8]) -> Result<Mesh, String> {
         Some(count) if bytes.len() == STL_HEADER_BYTES + STL_TRIANGLE_BYTES * count => {
             in_bytes(&bytes[STL_HEADER_BYTES..])
         }
-        _ => std::str::from_utf8(bytes).ok().and_then(as_text).ok_or("it is not an STL file")?,
+        _ => std::str::from_utf8(bytes).ok().and_then(as_text).ok_or("this is not an STL file")?,
     };
     let (corners, edges) = of_faces(&triangles);
     let points: Option<Vec<Vector>> = corners.into_iter().map(exact_vector).collect();
@@ -118,7 +118,7 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
                     let number = word.split('/').next().and_then(|number| number.parse::<i64>().ok());
                     let at = number.map(|n| if n < 0 { n.saturating_add(vertices.len() as i64) } else { n - 1 });
                     let at = at.and_then(|at| usize::try_from(at).ok()).filter(|at| *at < vertices.len());
-                    face.push(at.ok_or("a face uses a vertex that the file does not state before it")?);
+                    face.push(at.ok_or("a face uses a vertex that is not defined before it")?);
                 }
                 faces.push(face);
             }

@@ -25,7 +25,7 @@ impl<'a> Tree<'a> {
             return match self.values.get(self.text(joint, "name")?) {
                 Some(value) => Ok(value.clone()),
                 None if followed == 0 || !moves(&joint) => Ok(Interval::whole(0)),
-                None => self.error(joint, "this joint moves, and another joint mimics it"),
+                None => self.error(joint, "this joint moves and is mimicked, but has no value"),
             };
         };
         let number = |name: &str, else_: i32| match mimic.has_attribute(name) {
@@ -37,7 +37,7 @@ impl<'a> Tree<'a> {
                 let by = &number("multiplier", 1)? * &self.value(*leader, followed + 1)?;
                 Ok(&by + &number("offset", 0)?)
             }
-            _ => self.error(mimic, "the joint that it mimics does not exist, or mimics this one"),
+            _ => self.error(mimic, "the mimicked joint does not exist, or mimics this joint"),
         }
     }
 }
@@ -53,7 +53,7 @@ impl<'a> Robot<'a> {
                 if self.tree.leader(joint)?.is_some_and(|leader| joints.contains(&leader)) {
                     return self.tree.error(
                         joint,
-                        "it mimics a joint that moves, and carries the tip or a shape that could collide",
+                        "this joint mimics a planned joint, and carries the tip or a shape that could collide",
                     );
                 }
             }

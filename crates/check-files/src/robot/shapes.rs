@@ -74,7 +74,7 @@ impl<'a> Robot<'a> {
                 let mut geometry = child(node, "geometry").into_iter().flat_map(|all| all.children());
                 let mut next = || geometry.by_ref().find(Node::is_element);
                 let (Some(geometry), None) = (next(), next()) else {
-                    return self.tree.error(node, "it needs a geometry with exactly one shape");
+                    return self.tree.error(node, "<collision> and <visual> need a <geometry> with exactly one shape");
                 };
                 let solid = match self.tree.solid(geometry)? {
                     Some(Ok(solid)) => solid,

@@ -54,7 +54,7 @@ fn turn_about(counted: &mut CollisionShape, axis: &Point) -> ReadResult<()> {
     let deepest = depth(&counted.within.shape, axis);
     if deepest.sign() != Sign::Plus {
         let message = format!(
-            "{counted} turns with the wrist, but does not contain its axis: give it a shape that covers all angles"
+            "{counted} turns with the wrist, but does not contain the wrist's axis; use a shape that covers all angles"
         );
         return Err(CheckError::in_file(Input::Urdf, message));
     }

@@ -91,7 +91,7 @@ impl<'a> Tree<'a> {
         }
         for node in children(robot, "link") {
             if tree.links.insert(tree.text(node, "name")?, node).is_some() {
-                return tree.error(node, "a second link of this name");
+                return tree.error(node, "two links have this name");
             }
             tree.order.push(tree.text(node, "name")?);
             for shape in ["collision", "visual"].into_iter().flat_map(|kind| children(node, kind)) {
@@ -106,11 +106,11 @@ impl<'a> Tree<'a> {
             let carried = tree.text(carried, "link")?;
             // Only the root link may be undeclared.
             if !tree.links.contains_key(carried) || !(tree.links.contains_key(parent) || parent == "world") {
-                return tree.error(node, "the joint is between links that the robot does not have");
+                return tree.error(node, "the parent or child link of this joint does not exist");
             }
             let is_second = tree.named.insert(name, node).is_some();
             if is_second || tree.joints.insert(carried, node).is_some() {
-                return tree.error(node, "a second joint of this name or with this child");
+                return tree.error(node, "another joint has the same name or the same child link");
             }
             tree.text(node, "type")?;
             movable.extend((moves(&node) && child(node, "mimic").is_none()).then_some(name));
@@ -120,7 +120,7 @@ impl<'a> Tree<'a> {
         if all.iter().filter(|link| !tree.joints.contains_key(**link)).count() > 1 {
             return tree.error(
                 robot,
-                "several links are not the child of any joint: a robot needs exactly one such root link",
+                "the robot has several root links (links that are no joint's child), but needs exactly one",
             );
         }
         Ok((tree, movable))
@@ -133,7 +133,7 @@ impl<'a> Tree<'a> {
     /// Checks that a node has at most one child of each of these names.
     fn has_one(&self, node: Node<'a, 'a>, names: &[&'static str]) -> ReadResult<()> {
         match names.iter().find_map(|name| children(node, name).nth(1)) {
-            Some(second) => self.error(second, "a second element of this kind"),
+            Some(second) => self.error(second, "a second element of this kind; remove one"),
             None => Ok(()),
         }
     }
@@ -167,7 +167,7 @@ impl<'a> Tree<'a> {
         let Some(origin) = child(node, "origin") else { return Ok(pose) };
         if origin.has_attribute("quat_xyzw") {
             if origin.has_attribute("rpy") {
-                return self.error(origin, "it has both rpy and quat_xyzw: remove one");
+                return self.error(origin, "the origin has both rpy and quat_xyzw: remove one");
             }
             pose = self.quaternion(origin)?;
         } else if origin.has_attribute("rpy") {
@@ -286,7 +286,7 @@ impl<'a> Tree<'a> {
             }
         }
         if low >= high {
-            return self.error(joint, "its limits are reversed, or do not overlap its soft limits");
+            return self.error(joint, "the limits of the joint are reversed, or do not overlap the soft limits");
         }
         let [least, most] = [-MAX_LIMIT, MAX_LIMIT].map(Decimal::whole);
         if turns && low <= least && high >= most {

@@ -19,11 +19,15 @@ pub(super) fn read(step: &Step, done: &ExecutedStep) -> Result<Option<StepLine>,
             let line = StepLine::read(text.get(), &asked.tolerance, asked.elbow)?;
             match asked.allows(&line) {
                 true => Ok(Some(line)),
-                false => CheckError::fails(format!("the line of step {number} is not that of the world")),
+                false => {
+                    CheckError::fails(format!("the certificate and the world have different lines for step {number}"))
+                }
             }
         }
-        (Action::Follow(_), None) => wrong(format!("step {number} follows a line, but has no \"line\"")),
-        (_, Some(_)) => wrong(format!("step {number} follows no line, but has a \"line\"")),
+        (Action::Follow(_), None) => {
+            wrong(format!("step {number} follows a line, but the certificate has no \"line\" for it"))
+        }
+        (_, Some(_)) => wrong(format!("step {number} follows no line, but the certificate has a \"line\" for it")),
         (_, None) => Ok(None),
     }
 }
@@ -38,15 +42,13 @@ pub(super) fn in_words(steps: &[MatchedStep]) -> Result<String, CheckError> {
         let (Some(line), Action::Follow(asked), number) = (line, &step.action, step.number) else { continue };
         if let Some(before) = first.insert(number, line) {
             if !line.has_pieces_of(before) {
-                return CheckError::fails(format!(
-                    "the line of step {number} is another one when the step is repeated"
-                ));
+                return CheckError::fails(format!("the line of step {number} changes when the step is repeated"));
             }
             continue;
         }
         words += &format!("; in step {number} the tip follows {line}");
         if !asked.is_known() {
-            words += ", which is taken from the certificate";
+            words += ", as the certificate states it";
         }
         if asked.has_tool_angle {
             words += "; the angle of the tool there is not judged";

@@ -79,17 +79,19 @@ pub(super) fn rest_durations(motion: &Motion, steps: &[MatchedStep]) -> Result<V
     for (index, first) in begins.enumerate() {
         if first < last || first > end {
             return CheckError::fails(format!(
-                "steps[{index}] begins before the previous step ends, or after the motion"
+                "steps[{index}] begins before the end of the previous step, or after the end of the motion"
             ));
         }
         if let Some(knot) = (last..first).find(|knot| !motion.rests_after_knot(*knot)) {
-            return CheckError::fails(format!("the arm moves after knot {knot}, which belongs to no step"));
+            return CheckError::fails(format!("the arm moves after knot {knot}, outside all steps"));
         }
         all.push(&knots[first][0] - &knots[last][0]);
         if let Some(step) = steps.get(index) {
             last = step.done.knots[1];
             if last < first || last > end {
-                return CheckError::fails(format!("steps[{index}] ends before it begins, or after the motion"));
+                return CheckError::fails(format!(
+                    "steps[{index}] ends before its own beginning, or after the end of the motion"
+                ));
             }
         }
     }

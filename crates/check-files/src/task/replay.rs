@@ -127,7 +127,7 @@ impl<'a> Replay<'a> {
         let lift = task.stroke.as_ref().map(|stroke| robot.lift_axis(&stroke.joint)).transpose()?;
         let height = |value: &Decimal| match &lift {
             Some(lift) => Ok(lift.height(value)),
-            None => Err(CheckError::in_file(Input::World, "the tool is lowered, but [robot] has no stroke")),
+            None => Err(CheckError::in_file(Input::World, "the tool is lowered, but [robot] has no `stroke`")),
         };
         let [start, goal] = task.lowered.each_ref().map(|value| value.as_ref().map(height).transpose());
         Ok(Self {
@@ -328,8 +328,7 @@ impl<'a> Replay<'a> {
             Part { name: "the payload".to_owned(), keeps, solid, meets }
         };
         let [others, supports] = solids;
-        let supported =
-            supports.iter().map(|solid| part(solid, "no deeper than it may press into", ContactRule::Pressed));
+        let supported = supports.iter().map(|solid| part(solid, "within the allowed depth in", ContactRule::Pressed));
         let round = held.round.iter().map(|solid| part(solid, &*self.keeps, ContactRule::Round));
         others.iter().map(|solid| part(solid, &*self.keeps, ContactRule::Off)).chain(supported).chain(round).collect()
     }

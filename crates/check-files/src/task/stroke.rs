@@ -49,7 +49,7 @@ impl StrokeCurve {
         let curve = Self::of_knots(knots, start, |value| axis.height(value), |rate| axis.upward(rate))?;
         let [first, last] = ends;
         if !are_equal(&curve.heights[0], first) || !are_equal(&curve.heights[knots.len() - 1], last) {
-            return CheckError::fails("it does not lead from the raised to the lowered height, or back");
+            return CheckError::fails("the stroke does not lead from the raised to the lowered height, or back");
         }
         Ok(curve)
     }
@@ -63,7 +63,7 @@ impl StrokeCurve {
         let curve = Self::of_knots(knots, start, |angle| Interval::from(angle), |rate| rate.clone())?;
         let ends = [Interval::whole(0), Interval::from(by)];
         if !are_equal(&curve.heights[0], &ends[0]) || !are_equal(&curve.heights[knots.len() - 1], &ends[1]) {
-            return CheckError::fails("it does not lead from angle 0 to the angle of the turn");
+            return CheckError::fails("the knots do not lead from 0 to the angle of the turn");
         }
         Ok(curve)
     }
@@ -74,10 +74,12 @@ impl StrokeCurve {
         height: impl Fn(&Decimal) -> Interval,
         upward: impl Fn(&Interval) -> Interval,
     ) -> Result<Self, CheckError> {
-        let [[_, first, v], .., [_, last, w]] = knots else { return CheckError::fails("it has fewer than two knots") };
+        let [[_, first, v], .., [_, last, w]] = knots else {
+            return CheckError::fails("there are fewer than two knots");
+        };
         let along = last - first;
         if [v, w].iter().any(|rate| rate.sign() != Sign::NoSign) || along.sign() == Sign::NoSign {
-            return CheckError::fails("it does not lead from rest to rest at another value");
+            return CheckError::fails("the knots do not begin and end at rest, or both ends have the same value");
         }
         let goes_back = |rate: &Decimal| (rate * &along).sign() == Sign::Minus;
         let rounding = Decimal::power_of_ten(ROUNDING_DECIMALS);
@@ -85,13 +87,13 @@ impl StrokeCurve {
             let [[from, p, v], [to, q, w]] = [&pair[0], &pair[1]];
             let span = to - from;
             if span.sign() != Sign::Plus {
-                return CheckError::fails(format!("its knot {} is not later than the previous one", k + 1));
+                return CheckError::fails(format!("the time of knot {} is not after that of the previous knot", k + 1));
             }
             // Control points of the cubic's derivative, times positive numbers.
             let middle = &(&(q - p) * &Decimal::whole(3)) - &(&span * &(v + w));
             let is_rounding = middle < rounding && -&middle < rounding;
             if [v, w].into_iter().any(goes_back) || (goes_back(&middle) && !is_rounding) {
-                return CheckError::fails(format!("it turns back after its knot {k}"));
+                return CheckError::fails(format!("the values turn back after knot {k}"));
             }
         }
         Ok(Self {

@@ -32,7 +32,8 @@ fn errors(text: &str) -> Result<[Decimal; 2], String> {
             let [_, most] = (&Interval::from(&Decimal::read(number.trim_end())?) * &Interval::pi().over(180)).ends();
             errors[1] = most;
         } else {
-            errors[0] = length_with_unit(item).ok_or_else(|| format!("\"{item}\" is no length with a unit"))?;
+            errors[0] = length_with_unit(item)
+                .ok_or_else(|| format!("\"{item}\" is not a length with a unit, such as 0.5 mm"))?;
         }
     }
     match errors.iter().any(|error| *error < Decimal::whole(0)) {
@@ -59,7 +60,8 @@ impl Reader<'_> {
         let mut calibration = Calibration::default();
         for (key, value) in self.table(value)? {
             let Some(stated) = calibration.stated(key.get_ref()) else {
-                return self.error(value, &format!("the checker does not know calibration with {}", key.get_ref()));
+                return self
+                    .error(value, &format!("the checker does not know the key {} of a calibration", key.get_ref()));
             };
             *stated = Some(self.errors(value)?);
         }
@@ -132,7 +134,7 @@ impl Calibration {
         }
         arm.own.iter_mut().filter(|own| own.is_carried()).for_each(|own| own.grown[1] = links.clone());
         if has_errors {
-            arm.notes += "; this is about all robots and worlds within the stated errors";
+            arm.notes += "; this holds for all robots and worlds within the stated errors";
         }
         Ok(has_errors)
     }

@@ -44,8 +44,11 @@ pub fn shrunk_object(object: &Obstacle, by: &Interval) -> ReadResult<Obstacle> {
             let inset = |(number, ring): (usize, &Vec<Corner>)| inset(without_straight_corners(ring), number > 0, by);
             let smaller: Option<Vec<_>> = rings.iter().enumerate().map(inset).collect();
             let within = smaller.filter(|all| all.iter().flatten().all(|corner| surrounds(rings, corner)));
-            let thin =
-                || wrong("an object on supports is too thin or too pointed for the depth that it may press into them");
+            let thin = || {
+                wrong(
+                    "an object with supports is too thin or too pointed: it cannot be shrunk by the depth that it may press into them",
+                )
+            };
             Outline::Polygon(within.ok_or_else(thin)?)
         }
         Outline::Polyline(_) | Outline::Squares(_) | Outline::Own(_) => {

@@ -62,7 +62,7 @@ impl Cells {
         {
             return Err(wrong(
                 yaml,
-                "free_thresh is above occupied_thresh, one of them is not from 0 to 1, or the resolution is not positive",
+                "wrong numbers: free_thresh and occupied_thresh must be from 0 to 1, free_thresh not the greater, resolution positive",
             ));
         }
         let [x, y, yaw] = &origin[..] else { return Err(wrong(yaml, "origin must be a list [x, y, yaw]")) };
@@ -154,10 +154,8 @@ impl Squares for Cells {
             }
         }
         if border.len() > MAX_PIECES {
-            let message = format!(
-                "a picture has a border of {} pieces, but the checker takes at most {MAX_PIECES}",
-                border.len()
-            );
+            let message =
+                format!("the border of a picture has {} pieces; the checker allows at most {MAX_PIECES}", border.len());
             return Err(CheckError::in_file(Input::World, message));
         }
         Ok(border.into_iter().map(|ends| ends.map(|end| self.corner(end))).collect())

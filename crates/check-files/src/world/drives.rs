@@ -48,12 +48,13 @@ impl Reader<'_> {
                             // These keys do not affect the positions of shapes.
                             "velocity" | "acceleration" | "jerk" | "effort" => {}
                             other => {
-                                return self.error(value, &format!("the checker does not know motors with {other}"));
+                                return self
+                                    .error(value, &format!("the checker does not know the key {other} of motors"));
                             }
                         }
                     }
                 }
-                other => return self.error(value, &format!("the checker does not know drives with {other}")),
+                other => return self.error(value, &format!("the checker does not know the key {other} of drives")),
             }
         }
         let ratio = if on_link { Decimal::whole(0) } else { ratio };

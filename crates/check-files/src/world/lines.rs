@@ -66,11 +66,11 @@ impl Reader<'_> {
         }
         let given: Vec<&str> = FORMS.into_iter().filter(|form| table.contains_key(*form)).collect();
         let [form] = given[..] else {
-            return self.error(value, "a line needs exactly one of points, arc, spline and file");
+            return self.error(value, "a line needs exactly one of `points`, `arc`, `spline` and `file`");
         };
         for (key, of) in [("unit", "file"), ("radius", "points")] {
             if form != of && table.contains_key(key) {
-                return self.error(value, &format!("only a line with {of} has a {key}"));
+                return self.error(value, &format!("only a line with `{of}` has a `{key}`"));
             }
         }
         let number = |key: &str| table.get(key).map(|value| self.number(value)).transpose();

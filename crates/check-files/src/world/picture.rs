@@ -26,7 +26,7 @@ pub fn read(bytes: &[u8]) -> Result<Picture, String> {
 
 fn pixels([width, height]: [usize; 2]) -> Result<usize, String> {
     let count = width.checked_mul(height).filter(|count| (1..=MAX_PIXELS).contains(count));
-    count.ok_or_else(|| "its size is 0 or too large".into())
+    count.ok_or_else(|| "the picture is empty or too large".into())
 }
 
 /// Reads a PNG of any kind. Colours are averaged.
@@ -38,7 +38,7 @@ fn in_png(bytes: &[u8]) -> Result<Picture, String> {
     let size = [header.width as usize, header.height as usize];
     let count = pixels(size)?;
     if !is_in_palette(bytes).map_err(wrong)? {
-        return Err("a pixel has a colour that its palette lacks".into());
+        return Err("a pixel has a colour that is not in the palette".into());
     }
     let mut reader = decoder.read_info().map_err(wrong)?;
     let mut samples = vec![0; reader.output_buffer_size().ok_or("it is too large")?];
@@ -82,12 +82,12 @@ fn is_in_palette(bytes: &[u8]) -> Result<bool, DecodingError> {
 /// Reads a PGM, in text or binary form, after its first two bytes.
 fn greymap(mut rest: &[u8], is_text: bool) -> Result<Picture, String> {
     if !rest.first().is_some_and(|byte| byte.is_ascii_whitespace() || *byte == b'#') {
-        return Err("its header is not valid".into());
+        return Err("the header of the picture is not valid".into());
     }
     let [width, height, white] = [number(&mut rest)?, number(&mut rest)?, number(&mut rest)?];
     let count = pixels([width, height])?;
     if !(1..=65535).contains(&white) {
-        return Err(format!("its maxval is {white}, but must be from 1 to 65535"));
+        return Err(format!("maxval is {white}, but must be from 1 to 65535"));
     }
     let shades: Vec<usize> = if is_text {
         let shades = (0..count).map(|_| number(&mut rest)).collect::<Result<_, _>>()?;
@@ -109,7 +109,7 @@ fn greymap(mut rest: &[u8], is_text: bool) -> Result<Picture, String> {
             white: white as u32,
             shades: shades.into_iter().map(|shade| Some(shade as u32)).collect(),
         }),
-        false => Err("a value exceeds the maxval, or bytes follow the picture".into()),
+        false => Err("a pixel's value is above maxval, or the file continues after the last pixel".into()),
     }
 }
 

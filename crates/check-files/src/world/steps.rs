@@ -41,7 +41,7 @@ impl Reader<'_> {
         for value in list("pallet")? {
             let (name, pallet) = self.pallet(value)?;
             if pallets.insert(name, pallet).is_some() {
-                return self.error(value, "a second pallet of this name");
+                return self.error(value, "two pallets have this name");
             }
         }
         let robot = table.get("robot").map_or(Ok(None), |robot| self.table(robot).map(Some))?;
@@ -146,7 +146,9 @@ impl Reader<'_> {
             let height = match &**key.get_ref() {
                 "rise" => &mut arch.rise,
                 "fall" => &mut arch.fall,
-                other => return self.error(value, &format!("the checker does not know [robot] arch, {other}")),
+                other => {
+                    return self.error(value, &format!("the checker does not know the key {other} of [robot] arch"));
+                }
             };
             *height = self.length(value)?;
             if height.sign() == Sign::Minus {
@@ -216,7 +218,7 @@ impl Reader<'_> {
                 };
                 places.iter().map(on).collect()
             }
-            _ => return self.error(value, "an object needs either a place or a pallet"),
+            _ => return self.error(value, "an object needs either `at` or `pallet`"),
         };
         objects.extend(places.iter().map(|_| Object {
             family: family.clone(),
@@ -303,10 +305,10 @@ impl Steps<'_, '_> {
         let given: Vec<&str> = known[..6].iter().copied().filter(|key| table.get(*key).is_some()).collect();
         let [what] = given[..] else { return reader.error(value, "a step needs exactly one action") };
         if what != "pick" && (table.contains_key("at") || table.contains_key("window")) {
-            return reader.error(value, "only picks have a place and a window of time");
+            return reader.error(value, "only a pick has `at` and `window`");
         }
         if what != "pick" && table.contains_key("elbow") {
-            return reader.error(value, "of steps, only picks have an elbow beside them");
+            return reader.error(value, "only a pick has `elbow` beside it");
         }
         let of = &table[what];
         let actions = match what {
@@ -379,12 +381,12 @@ impl Steps<'_, '_> {
     fn transfer(&self, value: &Value) -> ReadResult<Vec<Action>> {
         let (reader, table) = (self.reader, self.reader.table(value)?);
         let (Some(name), Some(to)) = (table.get("objects"), table.get("to")) else {
-            return reader.error(value, "a transfer needs objects and a pallet for them");
+            return reader.error(value, "a transfer needs `objects` and `to`, a pallet");
         };
         let (family, pallet) = (reader.text(name)?, self.pallets.get(&reader.text(to)?));
         let objects: Vec<usize> = (0..self.objects.len()).filter(|k| self.objects[*k].family == family).collect();
         let Some(pallet) = pallet.filter(|pallet| pallet.places.len() == objects.len()) else {
-            return reader.error(value, "a transfer needs as many objects as the pallet has places");
+            return reader.error(value, "a transfer needs a pallet with exactly one place for each object");
         };
         let (angle, supports) = (self.angle(table)?, self.supports(table)?);
         let pair = |(object, (_, at)): (usize, &(String, Point))| {

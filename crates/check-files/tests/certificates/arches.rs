@@ -146,14 +146,14 @@ fn strokes_are_smooth_and_lead_from_end_to_end() {
         ("[[2.9, 0.000000002, 0], [3.3, 0.3, 0]]", "the raised to the lowered height"),
         ("[[2.9, 0, 0], [3.3, -0.3, 0]]", "the raised to the lowered height"),
         ("[[2.9, 0.3, 0], [3.3, 0, 0]]", "the raised to the lowered height"),
-        ("[[2.9, 0, 0.1], [3.3, 0.3, 0]]", "from rest to rest"),
-        ("[[2.9, 0, 0], [3.3, 0.3, 1e-300]]", "from rest to rest"),
-        ("[[2.9, 0, 0], [3.3, 0, 0]]", "from rest to rest"),
-        ("[[2.9, 0, 0], [3, 0.2, 0], [3.1, 0.1, 0], [3.3, 0.3, 0]]", "turns back after its knot 1"),
-        ("[[2.9, 0, 0], [3.1, 0.15, -0.01], [3.3, 0.3, 0]]", "turns back after its knot 0"),
-        ("[[2.9, 0, 0], [3.1, 0.15, 3], [3.3, 0.3, 0]]", "turns back after its knot 0"),
-        ("[[2.9, 0, 0], [2.9, 0.15, 0], [3.3, 0.3, 0]]", "knot 1 is not later"),
-        ("[[3.3, 0, 0], [2.9, 0.3, 0]]", "knot 1 is not later"),
+        ("[[2.9, 0, 0.1], [3.3, 0.3, 0]]", "do not begin and end at rest"),
+        ("[[2.9, 0, 0], [3.3, 0.3, 1e-300]]", "do not begin and end at rest"),
+        ("[[2.9, 0, 0], [3.3, 0, 0]]", "do not begin and end at rest"),
+        ("[[2.9, 0, 0], [3, 0.2, 0], [3.1, 0.1, 0], [3.3, 0.3, 0]]", "turn back after knot 1"),
+        ("[[2.9, 0, 0], [3.1, 0.15, -0.01], [3.3, 0.3, 0]]", "turn back after knot 0"),
+        ("[[2.9, 0, 0], [3.1, 0.15, 3], [3.3, 0.3, 0]]", "turn back after knot 0"),
+        ("[[2.9, 0, 0], [2.9, 0.15, 0], [3.3, 0.3, 0]]", "time of knot 1 is not after"),
+        ("[[3.3, 0, 0], [2.9, 0.3, 0]]", "time of knot 1 is not after"),
         ("[[2.9, 0, 0]]", "fewer than two knots"),
         ("[]", "fewer than two knots"),
     ] {
@@ -170,7 +170,7 @@ fn the_tool_is_raised_between_strokes() {
         format!(", \"{name}\": [[{begin}, {}, 0], [{end}, {}, 0]]", ends[0], ends[1])
     };
     let with = |up: f64, down: f64| judge("", [&raising(up), &slow("lowering", down, [0.0, DEPTH], 3.1), ""]);
-    let part = "not raised completely during its motion";
+    let part = "not completely raised between the two strokes";
     holds(with(2.0, 2.4));
     // So much earlier the tool is less than a nanometre below its raised position.
     holds(with(2.0, 2.399999));
@@ -198,13 +198,13 @@ fn the_arm_rests_while_the_tool_is_lowered() {
     fails(with("0", raising(0.9)), "the tool is not lowered for 0 s");
     holds(with("0.7", lowering(0.9)));
     fails(with("0.71", lowering(0.9)), "the tool is not lowered for 0.71 s");
-    fails(with("0", lowering(0.5)), "its lowering does not end");
-    fails(with("0", raising(2.1)), "its raising does not begin");
+    fails(with("0", lowering(0.5)), "the lowering does not end");
+    fails(with("0", raising(2.1)), "the raising does not begin");
     // A double may be off by its last digit.
     holds(with("0", lowering(0.5999999999)));
-    fails(with("0", lowering(0.59999)), "its lowering does not end");
+    fails(with("0", lowering(0.59999)), "the lowering does not end");
     holds(with("0", raising(2.0000000001)));
-    fails(with("0", raising(2.00001)), "its raising does not begin");
+    fails(with("0", raising(2.00001)), "the raising does not begin");
     let late = ", \"lowering\": [[0.9, 0, 0], [2.1, 0.3, 0]]";
     fails(with("0", late.to_owned()), "the tool is not lowered for 0 s");
 }
@@ -217,7 +217,7 @@ fn the_least_heights_of_the_world_are_kept() {
         holds(with(arch, strokes));
     }
     holds(with("arch = false", [""; 3]));
-    fails(with("arch = false", strokes), "the arm must rest during strokes");
+    fails(with("arch = false", strokes), "requires the arm to rest during strokes");
     // A quarter of its duration after its beginning, the tool is 0.046875 m lower. After half of it, it has risen by half.
     holds(with("arch = { fall = 0.253125, rise = 0.15 }", strokes));
     holds(with("arch = { fall = 0.2531250005, rise = 0.1500000005 }", strokes));
@@ -226,7 +226,7 @@ fn the_least_heights_of_the_world_are_kept() {
     refused(with("arch = 3", strokes), "expected a table");
     refused(with("arch = { rise = -0.1 }", strokes), "negative");
     refused(with("arch = { fall = -1e-9 }", [""; 3]), "negative");
-    refused(with("arch = { height = 0.1 }", strokes), "does not know [robot] arch, height");
+    refused(with("arch = { height = 0.1 }", strokes), "does not know the key height of [robot] arch");
     // Without a stroke there are no heights. A switch says whether the wrist turns during motions.
     let without = |arch: &str| {
         let world = world(arch, &block(0.05)).replace("stroke = { joint = \"z\" }\n", "");

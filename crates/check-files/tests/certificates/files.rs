@@ -420,8 +420,8 @@ fn a_mesh_is_its_hull() {
         ),
         ("fore.stl", b"PK", "not an STL file"),
         ("fore.obj", b"v 1 2\nf 1", "three numbers"),
-        ("fore.obj", b"f 1 2 3\nv 1 2 3", "does not state before it"),
-        ("fore.obj", b"v 1 2 3\nf 1 -2", "does not state before it"),
+        ("fore.obj", b"f 1 2 3\nv 1 2 3", "is not defined before it"),
+        ("fore.obj", b"v 1 2 3\nf 1 -2", "is not defined before it"),
         ("fore.obj", b"v 1 2 3\n", "no corners"),
         ("fore.dae", b"<html/>", "not Collada"),
         ("fore.dae", b"<COLLADA/>", "no mesh"),
@@ -435,7 +435,7 @@ fn a_mesh_is_its_hull() {
         (
             "fore.dae",
             b"<COLLADA><visual_scene><instance_geometry url=\"#g\"/></visual_scene></COLLADA>",
-            "does not have",
+            "is not in the file",
         ),
     ] {
         place.write(file, content);
@@ -459,9 +459,9 @@ fn invalid_pictures_are_refused() {
     place.write("map.pgm", "P2 1 1 1 0");
     for (from, to, part) in [
         ("map.pgm", "none.pgm", "none.pgm cannot be read"),
-        ("resolution: 0.4", "resolution: 0", "the resolution is not positive"),
-        ("resolution: 0.4", "resolution: 1e-300", "the resolution is not positive"),
-        ("0.65", "0.1", "free_thresh is above"),
+        ("resolution: 0.4", "resolution: 0", "resolution positive"),
+        ("resolution: 0.4", "resolution: 1e-300", "resolution positive"),
+        ("0.65", "0.1", "free_thresh not the greater"),
         ("0.65", "x", "\"x\" is not a decimal number"),
         ("[-1.2, -1, 0.3]", "[-1.2, -1]", "origin must be a list"),
         ("[-1.2, -1, 0.3]", "", "origin must be a list"),
@@ -479,16 +479,16 @@ fn invalid_pictures_are_refused() {
         (&b"\x89PNG"[..], "unexpected end"),
         (b"GIF89a", "only PGM"),
         (b"P2 2 1 1 0", "ends early"),
-        (b"P2 1 1 1 0 0", "bytes follow"),
-        (b"P2 1 1 1 2", "exceeds the maxval"),
+        (b"P2 1 1 1 0 0", "continues after the last pixel"),
+        (b"P2 1 1 1 2", "is above maxval"),
         (b"P2 1 1 0 0", "maxval is 0"),
-        (b"P2 0 1 1", "its size is 0 or too large"),
+        (b"P2 0 1 1", "the picture is empty or too large"),
         (b"P2 99999999999 99999999999 1", "too large"),
         (b"P5 2 2 255\nabc", "ends early"),
-        (b"P5 1 1 255\nabc", "bytes follow"),
+        (b"P5 1 1 255\nabc", "continues after the last pixel"),
         (b"P5 ", "is not a number"),
-        (b"P5", "its header is not valid"),
-        (b"P23 3 1", "its header is not valid"),
+        (b"P5", "the header of the picture is not valid"),
+        (b"P23 3 1", "the header of the picture is not valid"),
     ] {
         place.write("map.pgm", picture);
         place.refuses(world, part);

@@ -94,7 +94,7 @@ fn falsified_parts_are_named() {
         ("[0, -1, 0], [1, -0.2, 2.5], [2, 1, 2.5], [3, 1, 0]", "from knot 0"),
         ("[0, -1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0.1]", "goal"),
         ("[0, -1.1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0]", "start"),
-        ("[0, -1, 0], [1, -1, 2.5], [1, 1, 2.5], [3, 1, 0]", "knot 2 is not later"),
+        ("[0, -1, 0], [1, -1, 2.5], [1, 1, 2.5], [3, 1, 0]", "time of knot 2 is not after"),
         ("[0, -1, 0], [1, -1, 2.91], [2, 1, 2.5], [3, 1, 0]", "after knot 0 (linear) joint \"b\" leaves its limits"),
         ("[0, -1, 0], [1, -1, 2.9000000000000000000000000000000000001], [2, 1, 2.5], [3, 1, 0]", "limits"),
         ("[0, -1, 0], [1, 1e300, 2.5], [3, 1, 0]", "limits"),
@@ -286,7 +286,7 @@ fn unknown_input_is_refused_with_its_place() {
     };
     urdf("box size=\"0.8 0.1 0.1\"", "mesh filename=\"m\"", "mesh");
     urdf("<collision> <origin xyz=\"0.4 0 0\"/> <geometry>", "<collision> <geometry/> <geometry>", "second element");
-    urdf("<link name=\"fore\">", "<link name=\"fore\"> <collision/>", "needs a geometry with exactly one shape");
+    urdf("<link name=\"fore\">", "<link name=\"fore\"> <collision/>", "need a <geometry> with exactly one shape");
     urdf("<box size=\"0.8 0.1 0.1\"/>", "<box size=\"0.8 0.1 0.1\"/> <sphere radius=\"3\"/>", "exactly one shape");
     urdf("collision", "nothing", "could collide");
     urdf("<link name=\"fore\">", "<joint name=\"m\" type=\"revolute\"> <parent link=\"fore\"/> <child link=\"c\"/> <mimic joint=\"a\"/> </joint>
@@ -308,7 +308,7 @@ fn unknown_input_is_refused_with_its_place() {
     let at = |x: f64| format!("robot.bar = 0.05\n{ENDS}[[obstacle]]\npolyline = [[{x}, 0], [4, 0]]\n");
     assert_eq!((judge(&bare, &at(1.851), &good).0, judge(&bare, &at(1.849), &good).0), (0, 3));
     let certificates = |text: String, part: &str| bad(&arm(), &place, &text, Input::Certificate, part);
-    certificates(found("", "", "[0, -1, 0], [1, 1, 0]"), "no interpolation");
+    certificates(found("", "", "[0, -1, 0], [1, 1, 0]"), "does not state the interpolation");
     certificates(found("", LINEAR, ""), "no knots");
     certificates(found("", r#""cubic""#, "[0, -1, 0], [1, 1, 0]"), "needs 5");
     certificates(found("", LINEAR, "[0, -1, 0], [1, 1, 0, 2, 3]"), "knot 1 has 5");

@@ -291,7 +291,7 @@ fn unknown_input_is_refused_with_its_place() {
     urdf("1.0 0.1 0.1", "1.0 0.1 -1", Some(7), "negative");
     urdf("box size=\"1.0 0.1 0.1\"", "mesh filename=\"m\"", Some(7), "mesh");
     urdf("lower=\"-2.9\"", "lower=\"2.9\"", Some(3), "limits");
-    urdf("name=\"b\"", "name=\"a\"", Some(9), "second joint");
+    urdf("name=\"b\"", "name=\"a\"", Some(9), "another joint");
     urdf("xyz=\"1 0 0\"/> <axis xyz=\"0 0 1\"", "xyz=\"1 0 0\"/> <axis xyz=\"0 1 1\"", Some(9), "plane");
     urdf("xyz=\"0 0 1\"", "xyz=\"0 0 0\"", Some(4), "the axis is zero");
     urdf("parent link=\"base\"", "parent link=\"fore\"", Some(9), "ring");
@@ -300,7 +300,7 @@ fn unknown_input_is_refused_with_its_place() {
     let worlds = |text: &str, at, part| bad(&arm, text, &good, Input::World, at, part);
     worlds("start = 3", Some(1), "table");
     worlds("start.joints = [1]", Some(1), "list of two");
-    worlds("start.tip = [1, 2]\ngoal.joints = [1, 0]", None, "for a start that is a position of the tip");
+    worlds("start.tip = [1, 2]\ngoal.joints = [1, 0]", None, "the start is a position of the tip");
     worlds("start = { joints = [1, 2], near = 3 }", Some(1), "joints");
     worlds("goal.tip = [1, 2]\ngoal.joints = [1, 2]", Some(1), "joints");
     worlds("\nstart.joints = [1, inf]", Some(2), "decimal");
@@ -343,7 +343,7 @@ fn proofs_about_tasks_are_not_judged() {
                    "boxes": [{"lower": [-0.1, -3], "upper": [0.1, 3], "shape": 0, "part": 0}]}]}"#;
     let within = format!(r#"{{"outcome": "infeasible", "certificate": {old}}}"#);
     for certificate in [old, &within] {
-        refused(judge(&two_bars(), &world(WALL), certificate), "does not judge proofs about tasks");
+        refused(judge(&two_bars(), &world(WALL), certificate), "does not judge proofs that a task is infeasible");
     }
 }
 

@@ -107,9 +107,9 @@ fn proofs_name_layers() {
     };
     let own = |height: &str| format!(r#"{{"own": "base", "collision": 0{height}}}"#);
     holds(shut(0.05, &own(r#", "height": 0.1"#)));
-    fails_with(shut(0.05, &own("")), &["has several layers: it needs a height"]);
+    fails_with(shut(0.05, &own("")), &["has several layers: choose one by its"]);
     fails_with(shut(0.05, &own(r#", "height": 0.03"#)), &["passes over or under"]);
-    fails_with(shut(0.05, &own(r#", "height": 0.3"#)), &["no collision shape number 0"]);
+    fails_with(shut(0.05, &own(r#", "height": 0.3"#)), &["no collision shape 0"]);
     fails_with(shut(0.2, &own(r#", "height": 0.22"#)), &["does not touch"]);
     // A quill above the base does not cut it.
     fails_with(shut(0.3, &own("")), &["passes over or under"]);

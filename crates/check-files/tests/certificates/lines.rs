@@ -509,24 +509,24 @@ fn malformed_lines_are_refused_with_a_reason() {
     assert!(proven.contains("a line of 1 piece, 1 of them travels, from (1.200000, 0.000000) to"), "{proven}");
     let travel = r#""travels": [0]"#;
     for (from, to, why) in [
-        (travel, r#""travels": [1]"#, "must be counts of pieces"),
-        (travel, r#""travels": [0, 0]"#, "must be counts of pieces"),
+        (travel, r#""travels": [1]"#, "must be numbers of pieces"),
+        (travel, r#""travels": [0, 0]"#, "must be numbers of pieces"),
         (travel, r#""colour": [0]"#, "unknown field `colour`"),
         (r#""motion""#, r#""goal": [0, 0], "motion""#, "cannot have a start, a goal"),
         (r#""motion""#, r#""steps": [], "motion""#, "cannot have a start, a goal"),
-        (r#"[{"straight": [[1.2, 0], [1.2, 0.001]]}]"#, "[]", "it has no pieces"),
+        (r#"[{"straight": [[1.2, 0], [1.2, 0.001]]}]"#, "[]", "has no pieces"),
         ("straight", "crooked", "unknown variant `crooked`"),
-        ("0.0001", "0", "its tolerance must be above 0"),
+        ("0.0001", "0", "the tolerance must be above 0"),
     ] {
         refused(simple(&[(from, to)]), why);
     }
     for (from, to, why) in [
-        (r#""motion""#, r#""joints": ["b", "a"], "motion""#, "in reverse order"),
-        ("[1, 1]]", "[1, 0.9]]", "do not begin and end"),
-        ("[[0, 0], ", "[[0, 0.1], ", "do not begin and end"),
-        ("[1, 1]]", "[0.6, 0.5], [0.5, 0.6], [1, 1]]", "places[2] returns"),
-        ("[1, 1]]", "[0.5, 0.6], [0.6, 0.5], [1, 1]]", "places[2] returns"),
-        ("[1, 1]]", "[0.5, 0], [0.5, 1], [1, 1]]", "not shown to stay within"),
+        (r#""motion""#, r#""joints": ["b", "a"], "motion""#, "the second joint carries the first; swap"),
+        ("[1, 1]]", "[1, 0.9]]", "are not the ends of the motion"),
+        ("[[0, 0], ", "[[0, 0.1], ", "are not the ends of the motion"),
+        ("[1, 1]]", "[0.6, 0.5], [0.5, 0.6], [1, 1]]", "places[2] goes back"),
+        ("[1, 1]]", "[0.5, 0.6], [0.6, 0.5], [1, 1]]", "places[2] goes back"),
+        ("[1, 1]]", "[0.5, 0], [0.5, 1], [1, 1]]", "not proven to stay within"),
         ("0.001]]}", "0.001]]}, {\"straight\": [[1.3, 0], [1.2, 0]]}", "piece 1 of the line does not begin"),
     ] {
         fails(simple(&[(from, to)]), why);

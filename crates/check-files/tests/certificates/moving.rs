@@ -52,7 +52,7 @@ fn tasks_infeasible_among_static_obstacles_stay_infeasible() {
             holds(judge(&square(), &world, &certificate("infeasible", &boxes())));
             holds(judge(&square(), &world, &certificate("no_shorter", BOUND)));
             let other = certificate("infeasible", &boxes()).replace(r#""obstacle": 0"#, r#""obstacle": 1"#);
-            fails(judge(&square(), &world, &other), "there is no obstacle 1");
+            fails(judge(&square(), &world, &other), "obstacle 1 does not exist");
         }
     }
 }
@@ -143,8 +143,8 @@ fn moving_objects_are_picked_at_their_place_and_time() {
     holds(judge_pick("", "5, 4", "5"));
     holds(judge_pick("window = [3.5, 4]\nat = [5, 4]", "5, 4", "5"));
     fails(judge_pick("", "5.01, 4", "5"), "misses the target");
-    fails(judge_pick("window = [1, 3.9]", "5, 4", "5"), "outside its window");
-    fails(judge_pick("at = [5.1, 4]", "5, 4", "5"), "not at the position of its pick");
+    fails(judge_pick("window = [1, 3.9]", "5, 4", "5"), "outside its time window");
+    fails(judge_pick("at = [5.1, 4]", "5, 4", "5"), "not at the stated place");
     // The second bottle hits the arm while it rests at the first one, unless the arm leaves in time: its square begins
     // at x = 5.5.
     let second = "[[object]]\nname = \"other\"\ncircle = { center = [0, 0], radius = 0.1 }\nat = [10.5, 4]\nmotion = { velocity = [-1, 0] }\n";

@@ -179,13 +179,13 @@ fn proofs_name_fixed_links() {
     ));
     for (lowest, robot, shape, part, why) in [
         (0.3, "", QUILL, BASE, "passes over or under"),
-        (0.1, "own_body = false", QUILL, BASE, "no collision shape number 0"),
+        (0.1, "own_body = false", QUILL, BASE, "no collision shape 0"),
         (0.1, "ignore_contact = [[\"quill\", \"base\"]]", QUILL, BASE, "may meet link \"base\""),
         (0.1, "", FIRST, BASE, "may meet link \"base\""),
-        (0.1, "", QUILL, r#"{"own": "base", "collision": 1}"#, "no collision shape number 1"),
+        (0.1, "", QUILL, r#"{"own": "base", "collision": 1}"#, "no collision shape 1"),
         (0.1, "", QUILL, r#"{"own": "base", "visual": 0}"#, "no visual shape"),
         (0.1, "", QUILL, r#"{"own": "fore", "collision": 0}"#, "link \"fore\" has no"),
-        (0.1, "", QUILL, r#"{"obstacle": 0}"#, "no obstacle 0"),
+        (0.1, "", QUILL, r#"{"obstacle": 0}"#, "obstacle 0 does not exist"),
     ] {
         fails_with(
             judge(&with_round_base(lowest), &format!("{LIMITS}\n{robot}"), &folding_certificate(shape, part)),
@@ -318,7 +318,7 @@ fn proofs_name_links_that_joint_1_carries() {
     for (lowest, wide, robot, shape, part, why) in [
         (0.35, 0.3, "", QUILL, UPPER, "does not touch"),
         (0.45, 0.5, "", QUILL, UPPER, "passes over or under"),
-        (0.35, 0.5, "own_body = false", QUILL, UPPER, "no collision shape number 0"),
+        (0.35, 0.5, "own_body = false", QUILL, UPPER, "no collision shape 0"),
         (0.35, 0.5, "ignore_contact = [[\"quill\", \"upper\"]]", QUILL, UPPER, "may meet link \"upper\""),
         (0.35, 0.5, "", FIRST, UPPER, "may meet link \"upper\""),
         (0.35, 0.5, "", FIRST, r#"{"own": "quill", "collision": 0}"#, "link \"quill\""),

@@ -70,7 +70,7 @@ fn the_tip_stays_within_the_tolerance_of_the_world() {
     // The certificate cannot replace the tolerance.
     for key in ["\"tolerance\": 1", "\"stretch\": [0, 1]"] {
         let steps = both_steps().replace("\"places\"", &format!("{key}, \"places\""));
-        refused(judge(ANGLE, &off(1e-3), &steps), "the \"line\" of a step has no tolerance");
+        refused(judge(ANGLE, &off(1e-3), &steps), "the \"line\" of a step cannot have a tolerance");
     }
     refused(judge(&with("0"), KNOTS, &both_steps()), "must be positive");
 }
@@ -79,20 +79,20 @@ fn the_tip_stays_within_the_tolerance_of_the_world() {
 fn the_line_is_passed_in_its_order() {
     let with = |places: &str| judge(ANGLE, KNOTS, &format!("{MOVE}, {}", line(2, [1, 3], PIECES, places)));
     holds(with("[0, 0], [0.5, 0.5], [1, 1], [2, 2]"));
-    fails(with("[0, 0], [1, 1], [2, 1.5]"), "the places do not begin and end");
-    fails(with("[1, 0], [2, 1], [3, 2]"), "the places do not begin and end");
-    fails(with("[0, 0], [0.5, 0.5], [0.75, 0.25], [1, 1], [2, 2]"), "places[2] returns");
-    fails(with("[0, 0], [2, 2]"), "places[1] returns, or omits");
+    fails(with("[0, 0], [1, 1], [2, 1.5]"), "are not the ends of the motion");
+    fails(with("[1, 0], [2, 1], [3, 2]"), "are not the ends of the motion");
+    fails(with("[0, 0], [0.5, 0.5], [0.75, 0.25], [1, 1], [2, 2]"), "places[2] goes back");
+    fails(with("[0, 0], [2, 2]"), "places[1] goes back, or skips");
     // The tip returns to the middle of the first piece on its way.
     let knots = "[0, 0, 1], [1, 1, 1], [2, 2.5, 1], [3, 2, 1], [4, 3, 1], [5, 3, 2]";
     let places = "[0, 0], [1, 0.75], [2, 0.75], [3, 1], [4, 2]";
-    fails(judge(ANGLE, knots, &format!("{MOVE}, {}", line(2, [1, 5], PIECES, places))), "from knot 2 to the next");
+    fails(judge(ANGLE, knots, &format!("{MOVE}, {}", line(2, [1, 5], PIECES, places))), "after knot 2");
 }
 
 #[test]
 fn pieces_are_those_of_the_world_if_the_world_states_them() {
     let with = |pieces: &str| judge(ANGLE, KNOTS, &format!("{MOVE}, {}", line(2, [1, 3], pieces, PLACES)));
-    let not_of_the_world = "the line of step 2 is not that of the world";
+    let not_of_the_world = "the certificate and the world have different lines for step 2";
     holds(with(&PIECES.replace("[3, 1]", "[3.000000001, 1]")));
     fails(with(&PIECES.replace("[3, 1]", "[3.000001, 1]")), not_of_the_world);
     fails(with(&PIECES.replace("[1, 1]", "[1.000001, 1]")), not_of_the_world);
@@ -123,16 +123,19 @@ fn other_lines_are_taken_from_the_certificate() {
         "file = \"line.svg\", unit = \"mm\"",
     ] {
         let report = holds(judge(&format!("[[step]]\nfollow = {{ {form} }}\n"), KNOTS, &both_steps()));
-        assert!(report.ends_with("in its order, which is taken from the certificate"), "{report}");
+        assert!(report.ends_with("in its order, as the certificate states it"), "{report}");
     }
     let world = ANGLE.replace("]] }", "]], wrist = \"tangent\", wrist_tolerance = 0.02 }");
     assert!(holds(judge(&world, KNOTS, &both_steps())).ends_with("; the angle of the tool there is not judged"));
     for (form, part) in [
-        ("points = [[1, 1], [3, 1]], arc = [[1, 1], [2, 1], [3, 2]]", "exactly one of points, arc, spline and file"),
-        ("speed = 1", "exactly one of points, arc, spline and file"),
+        (
+            "points = [[1, 1], [3, 1]], arc = [[1, 1], [2, 1], [3, 2]]",
+            "exactly one of `points`, `arc`, `spline` and `file`",
+        ),
+        ("speed = 1", "exactly one of `points`, `arc`, `spline` and `file`"),
         ("points = [[1, 1], [3, 1]], feed = 1", "does not know the key feed of a line"),
-        ("points = [[1, 1], [3, 1]], unit = \"mm\"", "only a line with file has a unit"),
-        ("spline = [[1, 1], [3, 1]], radius = 1", "only a line with points has a radius"),
+        ("points = [[1, 1], [3, 1]], unit = \"mm\"", "only a line with `file` has a `unit`"),
+        ("spline = [[1, 1], [3, 1]], radius = 1", "only a line with `points` has a `radius`"),
         ("arc = [[1, 1], [3, 1]]", "an arc needs three points"),
     ] {
         refused(judge(&format!("[[step]]\nfollow = {{ {form} }}\n"), KNOTS, &both_steps()), part);
@@ -159,9 +162,9 @@ fn an_arc_passes_its_three_points() {
     let root = 0.5_f64.sqrt();
     let arc = format!("[[1, 1], [{:?}, {root:?}], [0, 0]]", 1.0 - root);
     let report = holds(with(&arc, "1e-4", [1.0, FRAC_PI_2]));
-    assert!(!report.contains("taken from"), "{report}");
-    fails(with(&arc, "5e-5", [1.0, FRAC_PI_2]), "the tip is not shown to stay");
-    let not_of_the_world = "the line of step 2 is not that of the world";
+    assert!(!report.contains("as the certificate states it"), "{report}");
+    fails(with(&arc, "5e-5", [1.0, FRAC_PI_2]), "the tip is not proven to stay");
+    let not_of_the_world = "the certificate and the world have different lines for step 2";
     fails(with(&arc, "1e-4", [1.0 + 1e-6, FRAC_PI_2]), not_of_the_world);
     fails(with(&arc, "1e-4", [1.0, FRAC_PI_2 + 1e-6]), not_of_the_world);
     // The rest of the circle has the same ends, and a whole turn more passes the same points.
@@ -224,18 +227,25 @@ fn random_arcs_hold_and_no_others() {
         let mut dice = dice(seed);
         let placed = PlacedArc::random(&mut dice);
         let (code, report) = placed.judge(placed.arc);
-        assert!(code == 0 && !report.contains("taken from"), "seed {seed}: {report}\n{}", placed.world);
+        assert!(
+            code == 0 && !report.contains("as the certificate states it"),
+            "seed {seed}: {report}\n{}",
+            placed.world
+        );
         let by = placed.arc[4];
         // The rest of the circle, and a whole turn more.
         for other in [by - TAU * by.signum(), by + TAU * by.signum()] {
             let [x, y, radius, from, _] = placed.arc;
-            fails(placed.judge([x, y, radius, from, other]), "the line of step 2 is not that of the world");
+            fails(
+                placed.judge([x, y, radius, from, other]),
+                "the certificate and the world have different lines for step 2",
+            );
         }
         for number in 0..5 {
             let mut other = placed.arc;
             let size = 10_f64.powf(dice.within(-5.5, -1.0));
             other[number] += if dice.chance(0.5) { size } else { -size };
-            fails(placed.judge(other), "the line of step 2 is not that of the world");
+            fails(placed.judge(other), "the certificate and the world have different lines for step 2");
         }
         count += 8;
     }
@@ -276,7 +286,10 @@ fn only_steps_along_lines_have_lines() {
     let along = line(2, [1, 3], PIECES, PLACES);
     refused(judge(ANGLE, KNOTS, &format!("{MOVE}, {{\"step\": 2, \"knots\": [1, 3]}}")), "has no \"line\"");
     let first = line(1, [0, 1], PIECES, "[0, 0], [1, 1]");
-    refused(judge(ANGLE, KNOTS, &format!("{first}, {along}")), "step 1 follows no line, but has a \"line\"");
+    refused(
+        judge(ANGLE, KNOTS, &format!("{first}, {along}")),
+        "step 1 follows no line, but the certificate has a \"line\" for it",
+    );
 }
 
 #[test]
@@ -289,7 +302,7 @@ fn a_repeated_line_is_the_same_each_time() {
         judge(world, &knots, &steps)
     };
     assert_eq!(holds(again(PIECES)).matches("in step 2").count(), 1);
-    fails(again(&PIECES.replace("[3, 2]", "[3, 2.000001]")), "the line of step 2 is another one");
+    fails(again(&PIECES.replace("[3, 2]", "[3, 2.000001]")), "the line of step 2 changes");
 }
 
 #[test]

@@ -48,7 +48,7 @@ fn every_step_is_done_once_and_in_its_order() {
     fails(with(&format!("{two}, {one}, {three}")), "steps[0] is step 2");
     fails(with(&format!("{DONE}, {three}")), "has no further steps");
     fails(with(""), "requires step 1");
-    fails(with(&DONE.replace("[2, 3]", "[1, 2]")), "the arm moves after knot 2, which belongs to no step");
+    fails(with(&DONE.replace("[2, 3]", "[1, 2]")), "the arm moves after knot 2, outside all steps");
     fails(with(&DONE.replace("[0, 1]", "[0, 2]").replace("[2, 3]", "[1, 3]")), "steps[1] begins before");
     fails(with(&DONE.replace("[4, 5]", "[4, 6]")), "steps[2] ends before");
     fails(with(&DONE.replace("[2, 3]", "[3, 2]").replace("[0, 1]", "[0, 3]")), "steps[1] ends before");
@@ -144,7 +144,7 @@ fn supported_objects_press_within_the_allowance() {
     let table = "supports = [\"table\"]";
     holds(on(0.0, table));
     holds(on(7.1e-5, table));
-    fails(on(7.2e-5, table), "no deeper than it may press into obstacle 0");
+    fails(on(7.2e-5, table), "within the allowed depth in obstacle 0");
     for supports in ["", "supports = []"] {
         holds(on(-1e-9, supports));
         fails(on(0.0, supports), "the payload");
@@ -317,7 +317,7 @@ fn the_arm_rests_where_a_step_ends() {
     };
     holds(played("0"));
     for speed in ["0.5", "1e-300"] {
-        fails(played(speed), "the arm still moves at its end");
+        fails(played(speed), "the arm still moves at the end of the step");
     }
 }
 
@@ -446,7 +446,7 @@ fn nonconvex_objects_press_within_the_allowance() {
         for (y, is_free) in
             [(1.25, true), (1.2 - 7.1e-5, true), (1.2 - 7.2e-5, false), (1.3 + 7.1e-5, true), (1.31, false)]
         {
-            agrees(over(&slotted, &rail(y), true), is_free, "no deeper than it may press into obstacle 0");
+            agrees(over(&slotted, &rail(y), true), is_free, "within the allowed depth in obstacle 0");
         }
         // The object may touch the button, but must not contain it.
         let button = "circle = { center = [1, 1.1], radius = 1e-6 }";
@@ -457,7 +457,7 @@ fn nonconvex_objects_press_within_the_allowance() {
         format!("polygon = [[-0.2, -0.1], [0.2, -0.1], [0.2, {top}], [-0.2, {top}]]")
     };
     holds(over(&foil(1.5e-4), &rail(1.25), true));
-    refused(over(&foil(1.4e-4), &rail(1.25), true), "too thin or too pointed for the depth");
+    refused(over(&foil(1.4e-4), &rail(1.25), true), "too thin or too pointed: it cannot be shrunk by the depth");
 }
 
 #[test]

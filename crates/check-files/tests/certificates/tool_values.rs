@@ -69,16 +69,16 @@ fn wrong_strokes_are_refuted() {
     ] {
         fails(judge(&open, &more), part);
     }
-    fails(judge(&world("arch = false", ""), &raising(0.8)), "must rest during strokes");
+    fails(judge(&world("arch = false", ""), &raising(0.8)), "the arm to rest during strokes");
     holds(judge(&world("arch = false", ""), ""));
     fails(judge(&world("arch = { rise = 0.19 }", ""), &raising(0.9)), "has risen by");
     fails(judge(&world("arch = { fall = 0.1 }", ""), &lowering(2.62)), "lower than");
     let raised = open.replace("stroke = 0.2\n", "").replace("stroke = 0.3\n", "");
     holds(judge(&(raised.clone() + "wrist = 1\n"), ""));
-    fails(judge(&(raised.clone() + "wrist = 1\n"), &raising(0.8)), "raised already");
+    fails(judge(&(raised.clone() + "wrist = 1\n"), &raising(0.8)), "is raised at the start");
     fails(judge(&(raised.clone() + "wrist = 1\n"), &lowering(2.8)), "neither picks nor places");
     refused(judge(&raised, ""), "no steps");
-    refused(judge(&open.replace("stroke = { joint = \"z\" }", ""), ""), "has no stroke");
+    refused(judge(&open.replace("stroke = { joint = \"z\" }", ""), ""), "has no `stroke`");
 }
 
 #[test]

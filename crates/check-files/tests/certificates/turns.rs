@@ -65,11 +65,11 @@ fn a_turn_is_in_the_motion_to_a_place_or_from_a_pick() {
         (["", &*turning(3.7, by), ""], "ends after the departure"),
         ([&*turning(0.9, by), "", ""], "begins before the arrival"),
         ([&*turning(2.7, by), "", ""], "ends after the motion"),
-        (["", ", \"turn\": 1.5707963267948966", &*turning(4.5, by)], "neither before a place nor after a pick"),
-        (["", ", \"turning\": [[2.8, 0, 0], [3.1, 1.5, 0]]", ""], "no turn"),
+        (["", ", \"turn\": 1.5707963267948966", &*turning(4.5, by)], "must be before a place, or after a pick"),
+        (["", ", \"turning\": [[2.8, 0, 0], [3.1, 1.5, 0]]", ""], "without \"turn\""),
         (["", ", \"turn\": 1.5707963267948966, \"turning\": [[2.8, 0, 0], [3.1, 1.5, 0]]", ""], "angle of the turn"),
-        (["", ", \"turn\": 1.5, \"turning\": [[2.8, 0, 0], [3.1, 1.5, 0.1]]", ""], "from rest to rest"),
-        (["", ", \"turn\": 1.5, \"turning\": [[2.8, 0, 0], [2.9, 1.6, 0], [3.1, 1.5, 0]]", ""], "turns back"),
+        (["", ", \"turn\": 1.5, \"turning\": [[2.8, 0, 0], [3.1, 1.5, 0.1]]", ""], "do not begin and end at rest"),
+        (["", ", \"turn\": 1.5, \"turning\": [[2.8, 0, 0], [2.9, 1.6, 0], [3.1, 1.5, 0]]", ""], "turn back"),
         (["", ", \"turn\": 8, \"turning\": [[2.8, 0, 0], [3.1, 8, 0]]", ""], "more than one revolution"),
     ] {
         fails(judge(&world, more), part);
@@ -81,7 +81,7 @@ fn the_world_can_forbid_turns_on_the_way() {
     for robot in ["arch = false", "stroke = { joint = \"z\" }\narch = false"] {
         let world = world(robot, "");
         holds(judge(&world, ["", ", \"turn\": 1.5707963267948966", ""]));
-        fails(judge(&world, ["", &turning(2.8, FRAC_PI_2), ""]), "the arm must rest while the wrist turns");
+        fails(judge(&world, ["", &turning(2.8, FRAC_PI_2), ""]), "requires the arm to rest during turns");
     }
 }
 
@@ -94,14 +94,14 @@ fn the_tool_is_raised_during_turns() {
         |turn: f64, down: f64| judge(&world, ["", &format!("{}{}", turning(turn, FRAC_PI_2), lowering(down)), ""]);
     holds(place(2.4, 2.8));
     holds(place(2.2, 2.8));
-    fails(place(2.41, 2.8), "while the tool is not raised");
+    fails(place(2.41, 2.8), "overlaps with a stroke of the tool");
     let pick = |up: f64, turn: f64| judge(&world, [&format!("{}{}", raising(up), turning(turn, FRAC_PI_2)), "", ""]);
     holds(pick(1.8, 2.2));
-    fails(pick(1.8, 2.19), "while the tool is not raised");
+    fails(pick(1.8, 2.19), "overlaps with a stroke of the tool");
     // The turn after the pick ends before the lowering for the place begins.
     let both = |down: f64| judge(&world, [&turning(2.3, FRAC_PI_2), &lowering(down), ""]);
     holds(both(2.7));
-    fails(both(2.69), "while the tool is not raised");
+    fails(both(2.69), "overlaps with a stroke of the tool");
 }
 
 /// Tests a post beside the path that the turned block touches, and the block at rest does not.

@@ -19,10 +19,10 @@ impl fmt::Display for Metric {
         match self {
             Self::Euclidean => Ok(()),
             Self::Weights([a, b]) => write!(f, ", with the joints' values times {a} and {b}"),
-            Self::Speeds([a, b]) => write!(f, " s, at speeds of the joints of no more than {a} and {b}"),
+            Self::Speeds([a, b]) => write!(f, " s, if the joints' speeds are at most {a} and {b}"),
             Self::MotorSpeeds(MotorSpeeds { speeds: [a, b], ratio, speed }) => write!(
                 f,
-                " s, at speeds of the joints of no more than {a} and {b}, and of {ratio} q1 + q2 of no more than {speed}"
+                " s, if the joints' speeds are at most {a} and {b}, and that of {ratio} q1 + q2 at most {speed}"
             ),
             Self::Motor(ratio) => write!(f, ", of q1 and {ratio} q1 + q2"),
         }

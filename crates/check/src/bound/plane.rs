@@ -47,7 +47,12 @@ impl<'a> Plane<'a> {
     ) -> Result<Self, CheckError> {
         let metric = &bound.metric;
         let length = Interval::from(&bound.length);
-        let too_long = || CheckError::Fails(format!("the length {} leads to too many cases", bound.length));
+        let too_long = || {
+            CheckError::Fails(format!(
+                "the length {} is too large: the checker would have too many cases",
+                bound.length
+            ))
+        };
         let from = Place::new(metric, start, [0, 0]).ok_or_else(too_long)?;
         // The copies of a rectangle that paths of this length can reach.
         let copies = |rectangle: &Rectangle| -> Option<Vec<([i64; 2], Place)>> {
@@ -99,10 +104,10 @@ impl<'a> Plane<'a> {
         for (number, potential) in bound.potentials.iter().enumerate() {
             let value = Interval::from(&potential.value).upper;
             if potential.wall >= bound.walls.len() || potential.end > 1 {
-                return CheckError::fails(format!("potential {number} is at a wall or an end that does not exist"));
+                return CheckError::fails(format!("potential {number}: the wall or the end does not exist"));
             }
             if potentials.insert((potential.wall, potential.end, potential.turns), value).is_some() {
-                return CheckError::fails(format!("potential {number} is at a corner that has another potential"));
+                return CheckError::fails(format!("potential {number}: this corner already has a potential"));
             }
         }
         let mut corners = Vec::new();
@@ -150,12 +155,12 @@ impl<'a> Plane<'a> {
             let from = || name.map_or_else(|| "the start".to_owned(), end_name);
             for goal in &self.goals {
                 if !self.is_long(at, goal, &(&self.length.upper - potential)) && !bars(goal) {
-                    return CheckError::fails(format!("from {} no wall blocks a straight path to a goal", from()));
+                    return CheckError::fails(format!("no wall blocks the straight path from {} to a goal", from()));
                 }
             }
             for (corner, claimed) in corners.iter().zip(&claimed) {
                 if !self.is_long(at, &corner.at, &(claimed - potential)) && !bars(&corner.at) {
-                    let message = "the potential grows by more than the length of a straight path that no wall blocks";
+                    let message = "no wall blocks the straight path, but the potential grows by more than its length";
                     return CheckError::fails(format!("from {} to {}: {message}", from(), end_name(corner.name)));
                 }
             }
@@ -211,6 +216,6 @@ fn end_name((wall, end, turns): (usize, usize, [i64; 2])) -> String {
     let end = ["begins", "ends"][end];
     match turns {
         [0, 0] => format!("where wall {wall} {end}"),
-        [first, second] => format!("where wall {wall} {end}, {first} and {second} turns on"),
+        [first, second] => format!("where wall {wall} {end}, shifted by {first} and {second} turns"),
     }
 }

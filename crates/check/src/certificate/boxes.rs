@@ -62,7 +62,7 @@ pub fn rectangles(boxes: &[CollisionBox]) -> Result<Vec<Rectangle>, CheckError> 
     let ranges = |stuck: &CollisionBox| [0, 1].map(|k| [stuck.lower[k].clone(), stuck.upper[k].clone()]);
     let boxes: Vec<Rectangle> = boxes.iter().map(ranges).collect();
     match boxes.iter().position(|ranges| ranges.iter().any(|[low, high]| low > high)) {
-        Some(empty) => CheckError::fails(format!("box {empty}: an upper end is below the lower one")),
+        Some(empty) => CheckError::fails(format!("box {empty}: an upper end is below the lower end")),
         None => Ok(boxes),
     }
 }

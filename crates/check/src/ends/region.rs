@@ -26,7 +26,7 @@ impl End {
             Goal::Joints(values) => arm.configuration(self.what, values),
             Goal::Tip(..) | Goal::Areas(_) => {
                 let message = format!(
-                    "the checker does not judge proofs for a {} that is a position of the tip: give joint values",
+                    "the {} is a position of the tip, but the checker judges such proofs only for joint values",
                     self.what
                 );
                 Err(CheckError::in_file(Input::World, message))

@@ -69,7 +69,7 @@ impl Conflict {
     /// Describes the conflict.
     pub fn describe(self) -> &'static str {
         match self {
-            Self::Deadlock => "deadlock along these paths, proven",
+            Self::Deadlock => "the arms block each other along these paths (deadlock), proven",
             Self::NoTiming => "no timing was found",
             Self::NotCertified => "a timing was found, but its motions are not proven to be safe",
             Self::Slower => "not faster",

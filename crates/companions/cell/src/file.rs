@@ -63,7 +63,7 @@ fn hint(message: &str, _: usize) -> &'static str {
     if message.contains("unknown field") {
         "use a known key, or remove this one"
     } else if message.contains("`urdf`") {
-        "name the robot's file, relative to the cell's: urdf = \"scara.urdf\""
+        "name the robot's file, relative to the cell file: urdf = \"scara.urdf\""
     } else if message.contains("`name`") {
         "give each arm a name: name = \"left\""
     } else if message.contains("map, expected a sequence") {
@@ -107,7 +107,7 @@ impl Cell {
         let is_same_file = identities[0].as_ref().zip(identities[1].as_ref()).is_some_and(|(a, b)| a.is_same_file(b));
         let places = [&one, &two].map(|loaded| loaded.scene.arm().plane);
         if places[0].normal != places[1].normal || places[0].u != places[1].u {
-            let message = "the arms move in planes of different directions";
+            let message = "the planes in which the arms move have different directions";
             let hint = "use robots whose joints turn about the same axis of their root frames";
             return Err(source.diagnostic_at(second.urdf.span(), message).help(hint).into());
         }
@@ -127,8 +127,14 @@ impl Cell {
         let arms = [CellArm { name: first, problem: one? }, CellArm { name: second, problem: two? }];
         for arm in &arms {
             if arm.problem.motion().is_none() {
-                let message = format!("arm \"{}\" states values of the tool's joints, or steps", arm.name);
-                return Err(source.diagnostic(message).help("a cell plans motions to a [goal] of both joints").into());
+                let message = format!(
+                    "arm \"{}\" has steps or values of the tool's joints, which cells do not support",
+                    arm.name
+                );
+                return Err(source
+                    .diagnostic(message)
+                    .help("give the arm a goal: goal = { joints = [q1, q2] }")
+                    .into());
             }
         }
         Ok(Self { name: title, arms, is_one_robot, files })
@@ -158,7 +164,7 @@ impl Reader<'_> {
     fn unread(&self, table: &ArmTable, error: InputError) -> InputError {
         let [Diagnostic { position: None, message, .. }] = error.diagnostics() else { return error };
         let message = format!("the robot of arm \"{}\" {message}", table.name.get_ref());
-        self.error(table.urdf.span(), message, "the path is relative to the cell's file")
+        self.error(table.urdf.span(), message, "the path is relative to the cell file")
     }
 
     /// Reads an arm in the cell, without the other arm.
@@ -183,7 +189,8 @@ impl Reader<'_> {
         }
         for key in ["at", "angle"] {
             if let Some(at) = robot.and_then(|robot| robot.key(key)) {
-                let message = format!("the place of arm \"{name}\" belongs to its base");
+                let message =
+                    format!("the robot of arm \"{name}\" has `{key}`, but the place of an arm is stated by `base`");
                 return Err(self.error(at, message, "write base = { at = [x, y], angle = \"0deg\" }"));
             }
         }
@@ -204,7 +211,7 @@ impl Reader<'_> {
         }
         world.table("robot", robot, &more.into_iter().flatten().collect::<Vec<_>>());
         let loaded = scene_from(urdf, world.source(self.source))?;
-        loaded.require_static_obstacles("the obstacles of cells stand still")?;
+        loaded.require_static_obstacles("obstacles in cells cannot move")?;
         Ok(loaded)
     }
 
@@ -214,9 +221,9 @@ impl Reader<'_> {
         let shared = one.iter().find(|joint| two.iter().any(|other| other.name == joint.name));
         shared.map_or(Ok(()), |joint| {
             let at = second.robot.as_ref().map_or(second.urdf.span(), Spanned::span);
-            let message = format!("both arms are one robot at one place, and joint \"{}\" moves both", joint.name);
-            let hint =
-                "name other joints for this arm, robot = { joints = [\"j3\", \"j4\"] }, or put its base elsewhere";
+            let message =
+                format!("both arms are the same robot at the same place, and both move joint \"{}\"", joint.name);
+            let hint = "give this arm other joints, robot = { joints = [\"j3\", \"j4\"] }, or another base";
             Err(self.error(at, message, hint))
         })
     }

@@ -100,7 +100,7 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
     if let Some(met) = Meeting::of(&between, starts, names) {
         let outcome = match met.is_proven {
             true => Outcome::Infeasible(Refutation::Starts(met.what)),
-            false => Outcome::Unknown(format!("the starts are not proven to be apart: {}", met.what)),
+            false => Outcome::Unknown(format!("not proven that the arms do not touch at their starts: {}", met.what)),
         };
         return answer(outcome, &mut alone, vec![]);
     }
@@ -134,10 +134,10 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
     }
     let own = alone.each_ref().map(|plan| plan.as_ref().and_then(path_of));
     if let [Some(one), Some(two)] = own {
-        progress("coordinating the paths of both arms alone");
+        progress("coordinating the fastest path of each arm");
         search.consider("the fastest path of each arm alone", [&one, &two])?;
     }
-    progress("planning one arm among the other");
+    progress("planning each arm with the other one at rest");
     search.one_among_the_other(&goals.pairs)?;
     progress("searching with all four joints");
     search.with_all_joints(&goals.pairs)?;
@@ -145,12 +145,12 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
     let outcome = match best {
         Some(best) => Outcome::Found(best),
         None => {
-            progress("looking for a proof in four joints");
+            progress("looking for a proof of infeasibility");
             match refuted_in_boxes(&between, problems, settings.boxes) {
                 Ok(boxes) => Outcome::Infeasible(Refutation::Boxes(boxes)),
                 Err(why) => {
                     tried.push(why);
-                    Outcome::Unknown("neither a coordination nor a proof was found".into())
+                    Outcome::Unknown("neither coordinated motions nor a proof of infeasibility were found".into())
                 }
             }
         }
@@ -193,7 +193,7 @@ impl Meeting {
             _ => write!(what, " are {:.1} mm apart", here * 1e3),
         };
         if between.clearance > 0.0 {
-            let _ = write!(what, ", and the clearance is {:.1} mm", between.clearance * 1e3);
+            let _ = write!(what, ", less than the clearance of {:.1} mm", between.clearance * 1e3);
         }
         Some(Self { what, is_proven: between.surely_collide(placed) })
     }
@@ -325,7 +325,7 @@ impl Search<'_> {
             if self.is_content() {
                 return Ok(());
             }
-            let what = format!("both arms at once, in four joints, search {}", seed + 1);
+            let what = format!("search with all four joints, number {}", seed + 1);
             match both_paths(self.coordinator.between, starts, *pair, seed) {
                 Some([one, two]) => self.consider(&what, [&one, &two])?,
                 None => self.tried.push(format!("{what}: no paths were found")),

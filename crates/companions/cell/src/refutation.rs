@@ -55,7 +55,9 @@ pub(crate) fn refuted_in_boxes(between: &Between, problems: [&MotionProblem; 2],
         let axis = joints.halved_axis();
         if joints.domains.iter().all(|(lower, upper)| lower == upper) || examined + 2 * left.len() > most {
             let cells = joints.cells;
-            return Err(format!("{examined} boxes in four joints: no proof ({cells:?} cells)"));
+            return Err(format!(
+                "proof of infeasibility: not found with {examined} boxes in the space of all four joints ({cells:?} cells)"
+            ));
         }
         joints.cells[axis] *= 2;
         let mut placed = [BTreeMap::new(), BTreeMap::new()];

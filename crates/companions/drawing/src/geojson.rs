@@ -177,7 +177,7 @@ fn feature(value: &Value, at: &str, unit: f64) -> Result<Origin, Error> {
                     Some([low * unit, high * unit])
                 }
                 [Some(low), Some(high)] if low <= high => {
-                    let message = format!("{at}.properties.height: it is too large (beyond {MAX_HEIGHT:e} m)");
+                    let message = format!("{at}.properties.height: the height is too large (beyond {MAX_HEIGHT:e} m)");
                     let cure = "give heights in the unit of the coordinates, or leave the height out";
                     return Err(Error::new(None, message.trim_start_matches('.'), cure));
                 }

@@ -67,7 +67,7 @@ impl Sheet {
     /// Returns the error that a curve needs too many chords to be within the tolerance.
     pub fn too_fine(&self, origin: &Origin) -> Error {
         let (kind, tolerance) = (&origin.kind, self.tolerance);
-        let message = format!("{kind}: a tolerance of {tolerance} m needs too many chords");
+        let message = format!("{kind}: too many chords are needed for a tolerance of {tolerance} m");
         Error::new(origin.line, message, "use a larger tolerance, or check the unit")
     }
 
@@ -158,8 +158,8 @@ impl Sheet {
         for point in points {
             self.points += 1;
             if !point.iter().all(|x| x.abs() <= MAX_COORDINATE) {
-                let message = format!("{}: its coordinates are too large (beyond {MAX_COORDINATE:e} m)", origin.kind);
-                return Err(Error::new(origin.line, message, "check its scale and its coordinates"));
+                let message = format!("{}: coordinates are too large (beyond {MAX_COORDINATE:e} m)", origin.kind);
+                return Err(Error::new(origin.line, message, "check the scale and the coordinates"));
             }
         }
         if self.points > MAX_POINTS {
@@ -191,10 +191,10 @@ impl Sheet {
                 let (number, origin) = &origins[*chain.curves.iter().min().expect("at least one")];
                 let mut origin = origin.clone();
                 if chain.curves.len() > 1 {
-                    origin.kind = format!("{} and {} more that it meets", origin.kind, chain.curves.len() - 1);
+                    origin.kind = format!("{} and {} more, joined end to end", origin.kind, chain.curves.len() - 1);
                 }
                 if chain.gap > ROUNDING {
-                    let message = format!("ends less than {} m apart: joined", self.tolerance);
+                    let message = format!("ends that are less than {} m apart: joined", self.tolerance);
                     self.note(message, &origin);
                 }
                 let points = without_repeated_points(chain.points, chain.is_closed);

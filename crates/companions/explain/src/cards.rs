@@ -172,7 +172,7 @@ impl CardMaker<'_> {
         let OutOfReach { tip, nearest, at, .. } = *out;
         let title = format!("Move the goal {} nearer", headline_length((tip - nearest).norm(), true));
         let place = format!("({:.3}, {:.3}) m", nearest.x, nearest.y);
-        self.at(title, format!("the tip comes as near as {place}, if there are no obstacles"), false, at)
+        self.at(title, format!("{place} is the nearest point that the tip can reach without obstacles"), false, at)
     }
 
     /// Makes the card of the narrowest place.

@@ -90,7 +90,7 @@ fn verdict(explanation: &Explanation) -> String {
         Outcome::Unknown(reason) => format!("unknown: {reason}"),
         Outcome::Found(shaped) => match shaped.savings.len() {
             0 if explanation.is_stopped => {
-                "found: a path exists; the time was too short to find what lengthens it".into()
+                "found: a path exists; the time limit ended the search for what makes it longer".into()
             }
             0 => "found: a path exists, and no single obstacle or limit makes the shortest path longer".into(),
             n => format!("found: a path exists; {} the shortest path longer", count_with_makes(n)),
@@ -101,7 +101,7 @@ fn verdict(explanation: &Explanation) -> String {
                 let elbow = closed.out_of_reach.and_then(|out| out.elbow);
                 format!("infeasible: the goal is out of reach{}", Elbow::describe(elbow))
             }
-            None => "infeasible: there is no path, and no obstacle or limit whose removal opens one is known".into(),
+            None => "infeasible: there is no path; cplan did not find which obstacles or limits block it".into(),
         },
     }
 }
@@ -110,7 +110,7 @@ fn verdict(explanation: &Explanation) -> String {
 fn time_limit_note(explanation: &Explanation) -> Option<String> {
     let limit = explanation.question.time_limit().filter(|_| explanation.is_stopped)?.as_secs_f64();
     let more = short((TIME_LIMIT_FACTOR * limit).max(TIME_LIMIT.as_secs_f64()));
-    Some(format!("after {limit} s, before the explanation was complete; --time {more} allows more time"))
+    Some(format!("the explanation is incomplete, because its time of {limit} s was up; --time {more} allows more time"))
 }
 
 fn count_with_makes(n: usize) -> String {
@@ -136,7 +136,8 @@ fn found_lines(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplan
     for saving in savings {
         let (what, length) = (saving.element.describe(scene), saving.length);
         let (least, most) = (round_down(saving.at_least, 4), round_up(saving.at_most, 4));
-        let by = format!("without {what} it would be {length:.4}: shorter by {least} at least, {most} at most");
+        let by =
+            format!("without {what}, the path has length {length:.4}: at least {least} and at most {most} shorter");
         lines.push(("shaped by", by));
     }
     if let Some(BoundedPath { certified, .. }) = answer.outcome.found()
@@ -160,11 +161,11 @@ fn infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Vec<Line> {
         let boxes = set.proof.as_ref().map_or_else(
             || match closed.ends.iter().any(|end| !end.hits.is_empty()) {
                 true => "the start or the goal collides".into(),
-                false => "the start or the goal is beyond limits".into(),
+                false => "the start or the goal is outside the limits".into(),
             },
             |proof| match proof.collision_boxes().len() {
-                1 => "1 collision box proves it without anything else".into(),
-                n => format!("{n} collision boxes prove it without anything else"),
+                1 => "proven by 1 collision box, even if nothing else is in the way".into(),
+                n => format!("proven by {n} collision boxes, even if nothing else is in the way"),
             },
         );
         let also = if number == 0 { "" } else { ", which also suffices alone" };
@@ -204,7 +205,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
         format!("the angle of the elbow's motor is {:.2} deg ({angle:.4} rad) beyond its range", angle.to_degrees())
     });
     let reasons: Vec<String> = beyond.chain(motor).chain(blocked.hits.iter().map(|hit| scene.explain(hit))).collect();
-    let when = blocked.standing.as_ref().map_or_else(String::new, |standing| format!("{} ", standing.when));
+    let when = blocked.standing.as_ref().map_or_else(String::new, |standing| format!("{}, ", standing.when));
     let mut lines = vec![(key, format!("{}: {when}{}", configuration(arm, blocked.at), listed(&reasons)))];
     if blocked.standing.is_some() {
         return lines;
@@ -214,7 +215,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
             let (at, far) = (configuration(arm, nearest.configuration), nearest.distance);
             ("", format!("  nearest free: {at}; {far:.4} away in joint space, the tip moves by {}", length(tip)))
         }
-        _ => ("", "  a search found no free configuration; that is not proven".into()),
+        _ => ("", "  the search found no free configuration nearby (not proven)".into()),
     });
     lines
 }
@@ -223,7 +224,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
 fn misses(scene: &Scene, out: &OutOfReach) -> String {
     let OutOfReach { tip, nearest, at, elbow } = out;
     format!(
-        "within the limits{}, the tip misses ({:.4}, {:.4}) m by {}: its nearest position is ({:.4}, {:.4}) m, at {}",
+        "within the limits{}, the tip cannot come nearer to ({:.4}, {:.4}) m than {}: at ({:.4}, {:.4}) m, with {}",
         Elbow::describe(*elbow).replace(" with", " and with"),
         tip.x,
         tip.y,
@@ -244,8 +245,7 @@ fn bottleneck_line(scene: &Scene, bottleneck: &Bottleneck) -> String {
     let between = listed(&between);
     let (open, shut) = (length_up(bottleneck.by.opens), length_down(bottleneck.by.closed));
     format!(
-        "at {at}, near ({}, {}) m: too narrow by {} ({between}); a path opens if all shapes shrink by {open}, but not by \
-         {shut}",
+        "at {at}, near ({}, {}) m: too narrow by {} ({between}); if all shapes shrink by {open}, a path opens; by {shut}, none does",
         fixed(point.x, 4),
         fixed(point.y, 4),
         length(lacking)

@@ -15,7 +15,7 @@
 const REACH_KINDS = {
   0: { ending: 'found', short: 'reached', long: 'The tip can reach this cell', color: 'found' },
   1: { ending: 'found', short: 'reached', long: 'The tip can reach this cell', color: 'found' },
-  2: { ending: 'infeasible', short: 'free, but proven out of reach', long: 'The arm would be free here, but no motion leads from home to it. This is proven', color: 'infeasible' },
+  2: { ending: 'infeasible', short: 'free, but proven unreachable', long: 'The arm would be free here, but no motion leads here from home (proven)', color: 'infeasible' },
   3: { ending: 'infeasible', short: 'not free', long: 'The arm would not be free here', color: 'infeasible' },
   4: { ending: 'unknown', short: 'unknown', long: 'It is unknown whether the tip can reach this cell', color: 'grey' },
 };
@@ -164,7 +164,7 @@ class ReachMap {
     const cards = [
       ['reachable area', area(one + several), `in cells of ${Numbers.length(cell)}`],
       ['reached cells', grouped(one + several), `${grouped(several)} of them with several IK solutions`],
-      ['proven out of reach', grouped(out), out ? `free cells, ${area(out)}` : 'no free cell is out of reach'],
+      ['proven out of reach', grouped(out), out ? `free cells, ${area(out)}` : 'the arm can reach every free cell'],
       ['not free', grouped(blocked), `cells in which every IK solution collides, ${area(blocked)}`],
     ];
     return unknown ? [...cards, ['unknown', grouped(unknown), 'cells that were not decided']] : cards;
@@ -402,7 +402,7 @@ class ReachMap {
   /** Describes the cell, its solutions, and the motion. */
   report() {
     const { own, cell, data, view, motion } = this;
-    this.hint.textContent = this.isKept ? 'This cell is kept. Escape, or a click on it, releases it.' : 'Point at a cell; a click or a tap plays the motion to it. Arrow keys move from cell to cell.';
+    this.hint.textContent = this.isKept ? 'This cell stays selected. To release it, click on it or press Escape.' : 'Point at a cell to see its solutions; click or tap to play the motion to this cell. Arrow keys move from cell to cell.';
     if (cell === null) {
       this.title.textContent = 'No cell has an IK solution';
       return;

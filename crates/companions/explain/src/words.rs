@@ -21,7 +21,7 @@ const DIRECTIONS: [&str; 8] =
 pub fn headline(explanation: &Explanation) -> String {
     let scene = explanation.question.scene();
     match &explanation.outcome {
-        Outcome::Unknown(_) => "It is not known whether there is a path.".into(),
+        Outcome::Unknown(_) => "It is unknown whether there is a path.".into(),
         Outcome::Found(found) => headline_of_found(scene, found, explanation.is_stopped),
         Outcome::Infeasible(closed) => headline_of_infeasible(scene, closed),
     }
@@ -31,7 +31,7 @@ fn headline_of_found(scene: &Scene, found: &FoundExplanation, is_stopped: bool) 
     let names: Vec<String> = found.savings.iter().map(|saving| subject(scene, saving.element)).collect();
     match names.len() {
         0 if is_stopped => "There is a path.".into(),
-        0 => "There is a path, and no single thing makes it longer.".into(),
+        0 => "There is a path, and no single obstacle or limit makes it longer.".into(),
         1 => capitalized(&format!("{} makes the path longer.", names[0])),
         n if n <= MAX_NAMED => capitalized(&format!("{} each make the path longer.", joined(&names))),
         n => format!("{n} things each make the path longer."),
@@ -47,7 +47,7 @@ fn headline_of_infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Stri
     }
     let sets: Vec<&BlockingSet> = closed.sets.iter().filter(|set| !set.blockers.is_empty()).collect();
     let Some((first, more)) = sets.split_first() else {
-        return "There is no path, and nothing is known whose removal opens one.".into();
+        return "There is no path. cplan did not find which obstacles or limits block it.".into();
     };
     let also = match more {
         [] => String::new(),
@@ -117,12 +117,18 @@ pub fn evidence(explanation: &Explanation) -> String {
             });
             let proven = format!("proven{}", boxes.unwrap_or_default());
             match (set.blockers.len(), set.is_irreducible()) {
-                (1, true) => format!("With it alone there is no path, {proven}. Without it there is one, certified."),
+                (1, true) => format!(
+                    "Even if nothing else is in the way, there is no path ({proven}). Without it, there is a certified path."
+                ),
                 (_, true) => {
-                    format!("They alone leave no path, {proven}. Without any one of them there is a path, certified.")
+                    format!(
+                        "Even if nothing else is in the way, there is no path ({proven}). Without any one of them, there is a certified path."
+                    )
                 }
-                (1, false) => format!("With it alone there is no path, {proven}."),
-                (_, false) => format!("They alone leave no path, {proven}; perhaps fewer would suffice."),
+                (1, false) => format!("Even if nothing else is in the way, there is no path ({proven})."),
+                (_, false) => format!(
+                    "Even if nothing else is in the way, there is no path ({proven}). Perhaps fewer of them block it, too."
+                ),
             }
         }
     }
@@ -202,7 +208,7 @@ pub(super) fn leaves_nothing(scene: &Scene, change: &Change) -> bool {
 fn shrinking(change: &Change, by: &str) -> String {
     match change.cure {
         ChangeKind::Scaled { .. } => format!("shrinking it to {by}"),
-        _ => format!("shrinking it by {by} on all sides, which leaves nothing,"),
+        _ => format!("shrinking it by {by} on all sides, until nothing is left,"),
     }
 }
 

@@ -91,7 +91,7 @@ impl Explorer<'_> {
     fn too_coarse(&self) -> Ending {
         let [a, b] = self.settings.cells;
         Ending::Unknown(format!(
-            "on the grid of {a} x {b} cells, no cell near ({}) has a centre that is known to be free",
+            "the grid of {a} x {b} cells is too coarse: near ({}), no cell has a centre that is known to be free",
             format_configuration(self.at)
         ))
     }
@@ -283,7 +283,7 @@ impl Explorer<'_> {
             Outcome::Infeasible(proof) => {
                 let boxes = counted(proof.collision_boxes().len(), "box");
                 let why = format!(
-                    "proven: separated from the goal by {boxes} of configurations that collide with seen obstacles"
+                    "proven: {boxes} of configurations that collide with seen obstacles separate the arm from the goal"
                 );
                 return Decision::Done(Ending::Unreachable(why));
             }
@@ -359,10 +359,10 @@ impl Explorer<'_> {
         Decision::Done(match solve(&problem, &options, &mut |_| ()).outcome {
             Outcome::Found(path) => return Decision::Go(path.certified, None),
             Outcome::Infeasible(_) => {
-                Ending::Unreachable("nothing new can be seen, and in the known space there is no path: proven".into())
+                Ending::Unreachable("nothing new can be seen, and there is no path in the known space (proven)".into())
             }
             Outcome::Unknown(Unknown { reason, .. }) => {
-                Ending::Unknown(format!("nothing new can be seen, and in the known space {reason}"))
+                Ending::Unknown(format!("nothing new can be seen, and planning in the known space failed: {reason}"))
             }
         })
     }

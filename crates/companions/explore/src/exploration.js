@@ -97,7 +97,7 @@ class ExplorationView extends View {
     const decided = [...(times ?? [])].sort((a, b) => a - b);
     return [
       ['coverage', Numbers.percent(survey.seen(last)), `${survey.known[last]} of ${size[0] * size[1]} cells of the map`],
-      ['path length', ExplorationView.lengthOf(arm.joints, length), known > 0 ? `${Numbers.digits(length / known)} times that in the known world` : 'in joint space'],
+      ['path length', ExplorationView.lengthOf(arm.joints, length), known > 0 ? `${Numbers.digits(length / known)} times the length in the fully known world` : 'in joint space'],
       ['readings', String(frames.length), `${opened.length - 1} decisions`],
       decided.length && ['decision', `${Numbers.digits(decided[Math.floor(decided.length / 2)])} ms`, `median; longest ${Numbers.digits(decided[decided.length - 1])} ms`],
     ].filter(Boolean);
@@ -360,9 +360,9 @@ class ExplorationView extends View {
   get tourSteps() {
     const { parts, layers, panels } = this;
     return [
-      ['A world that is discovered', 'On the left, the map as far as the sensor has seen it. On the right, the configurations that are therefore known to be free.', parts.panels],
-      ['Take the arm', 'Drag the tip of the arm, or its dot on the right. The page says whether the arm knew that place by then, and what is really there. Escape puts the arm back.', panels.workspace.canvas.parentElement],
-      ['Drag the curve', 'The time bar is the coverage over the length of the path, with a tick for each reading. Space replays it.', parts.transport],
+      ['Exploring a world', 'On the left, the part of the map that the sensor has seen. On the right, the configurations that are therefore known to be free.', parts.panels],
+      ['Take the arm', 'Drag the tip of the arm, or its dot on the right. The page states what the arm knows about this place at the shown time, and what is really there. Escape puts the arm back.', panels.workspace.canvas.parentElement],
+      ['Drag the curve', 'The time bar shows how much of the map has been seen, over the length of the path, with a tick for each reading. Space replays the exploration.', parts.transport],
       ['Choose what is drawn', 'Each layer has its sign and a checkbox.', layers.root],
     ];
   }

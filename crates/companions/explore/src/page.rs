@@ -37,7 +37,7 @@ fn data(scene: &Scene, sensor: &Sensor, done: &Exploration, timed: bool) -> Valu
     let text = match &done.ending {
         Ending::Reached => "The arm is at the goal.".to_owned(),
         Ending::Explored { configurations, .. } => {
-            format!("Explored: none of the {configurations} reachable configurations shows anything new.")
+            format!("Explored: nothing new can be seen from any of the {configurations} reachable configurations.")
         }
         Ending::Unreachable(why) => format!("Unreachable: {why}."),
         Ending::Unknown(why) => format!("Unknown: {why}."),

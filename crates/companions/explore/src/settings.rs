@@ -60,7 +60,7 @@ impl Default for Settings {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ExploreError {
     /// The map would have too many cells. Contains the side of a cell, in metres.
-    #[error("a map with cells of {0} m would have more than {MAX_CELLS} cells")]
+    #[error("with cells of {0} m, the map has more than {MAX_CELLS} cells")]
     Map(f64),
     /// The known map is not of this world. Contains the reason.
     #[error("the known map {0}")]

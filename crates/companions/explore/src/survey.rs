@@ -74,8 +74,7 @@ impl Survey {
             let [width, height] = own.size;
             let at = self.origin();
             return Err(format!(
-                "does not have the cells that the arm and its sensor need: {width} x {height} cells of {} m, beginning \
-                 at ({}, {})",
+                "has other cells than this arm and sensor need: {width} x {height} cells of {} m, the first one at ({}, {})",
                 own.resolution, at.x, at.y
             ));
         }
@@ -92,7 +91,7 @@ impl Survey {
                 let (expected, is) =
                     if self.truth[cell].is_some() { ("free", "an obstacle") } else { ("occupied", "free space") };
                 return Err(format!(
-                    "has {expected} space near ({:.4}, {:.4}), but the world has {is} there",
+                    "shows {expected} space near ({:.4}, {:.4}), but the world has {is} there",
                     at.x, at.y
                 ));
             }

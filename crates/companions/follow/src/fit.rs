@@ -105,14 +105,13 @@ pub fn fit(
         let best = candidates.iter_mut().reduce(|a, b| if more(a, b) { b } else { a }).expect("a turn");
         if best.room <= 0.0 {
             let count = |noun: &str| counted(turns.len(), noun);
-            let searched =
-                format!("the search went through {} with cells of {}", count("turn"), length(best.field.cell));
+            let searched = format!("the search tried {}, with cells of {}", count("turn"), length(best.field.cell));
             let why = match first_reason {
-                Some(why) => format!("{} followed in vain; the first one: {why}", counted(followed, "placement")),
+                Some(why) => format!("{} tried without success; the first one: {why}", counted(followed, "placement")),
                 None => {
                     let by = length(-best.room);
                     format!(
-                        "at the best placement, the line leaves the places that one IK solution allows by about {by}"
+                        "even at the best placement, the line extends about {by} beyond the area that one IK solution reaches"
                     )
                 }
             };
@@ -125,7 +124,7 @@ pub fn fit(
                 Outcome::Found(found) if found.changes.is_empty() => {
                     return Ok(Fitted { placement, path, room: Some(best.room), answer: Outcome::Found(found) });
                 }
-                Outcome::Found(_) => "the arm would change its IK solution".to_owned(),
+                Outcome::Found(_) => "the arm would have to change its IK solution".to_owned(),
                 Outcome::Infeasible(infeasible) => infeasible.describe(),
                 Outcome::Unknown(why) => why,
             },
@@ -135,7 +134,7 @@ pub fn fit(
         best.exclude();
     }
     let why = format!(
-        "no placement was found: of those with the most room, {MAX_FOLLOWED} were followed in vain; the first one: {}",
+        "no placement was found: the {MAX_FOLLOWED} placements with the most room were tried without success; the first one: {}",
         first_reason.unwrap_or_default()
     );
     Ok(unplaced(Outcome::Unknown(why)))

@@ -109,7 +109,7 @@ impl Follower<'_> {
                 }
                 Attempt::NoRoute(_) => break,
                 Attempt::TooLong => {
-                    let why = format!("the line needs more than {MAX_NODES} parts; split it");
+                    let why = format!("the line needs more than {MAX_NODES} parts; split the line into several");
                     return Ok(Outcome::Unknown(self.advised(why, option)?));
                 }
             }
@@ -130,7 +130,7 @@ impl Follower<'_> {
     /// Returns the reason of an unknown answer with the advice to use a greater tolerance, if a motion is found within it.
     fn advised(&self, why: String, option: &dyn Fn(&str, f64) -> String) -> Result<String, FollowError> {
         Ok(match self.wider_tolerance()? {
-            Some((text, tolerance)) => format!("{why}; with {} a motion is found", option(&text, tolerance)),
+            Some((text, tolerance)) => format!("{why}; a motion is found with {}", option(&text, tolerance)),
             None => why,
         })
     }
@@ -293,14 +293,16 @@ impl Stuck {
     fn describe(&self, tolerance: f64) -> String {
         let place = self.place;
         if self.is_wrist {
-            return format!("the wrist would leave its range at {place}; no other motion was found, and no proof");
+            return format!(
+                "the wrist would leave its range at {place}; neither another motion nor a proof of infeasibility was found"
+            );
         }
         if self.out_of_reach > 0.0 {
             let [by, within] = [self.out_of_reach, tolerance].map(length);
             return format!(
-                "{place} is {by} out of reach; neither a motion within {within} of it was found, nor a proof that no motion exists"
+                "{place} is {by} out of reach; neither a motion within {within} of it nor a proof of infeasibility was found"
             );
         }
-        format!("no free motion was found past {place}, and no proof")
+        format!("neither a free motion past {place} nor a proof of infeasibility was found")
     }
 }

@@ -149,23 +149,22 @@ pub enum FollowError {
     Speed(f64),
     /// The requirement on the tool's angle, or a number of the wrist, is not valid.
     #[error(
-        "the wrist's numbers must be finite, its limits positive, and its tolerance from {MIN_WRIST_TOLERANCE} to \
-         {MAX_WRIST_TOLERANCE} rad"
+        "numbers of the wrist are invalid: all must be finite, limits positive, and the tolerance from {MIN_WRIST_TOLERANCE} to {MAX_WRIST_TOLERANCE} rad"
     )]
     Wrist,
     /// A tool that must follow the direction of the line although jerks are limited.
     #[error(
-        "with limits on jerks, the tool cannot follow the line's direction; give it a fixed angle, or remove `jerk` from [robot]"
+        "the tool cannot follow the line's direction while jerks are limited; give the tool a fixed angle, or remove `jerk` from [robot]"
     )]
     TangentWithJerk,
     /// A motion that stays too fast for the wrist.
-    #[error("no motion that was tried is slow enough for the wrist; give the wrist a higher acceleration")]
+    #[error("all motions that were tried are too fast for the wrist; give the wrist a higher acceleration")]
     WristTooSlow,
     /// The motion cannot be timed.
     #[error(transparent)]
     Timing(#[from] TimingError),
     /// A part of a certified path was not certified by itself.
-    #[error("a part of the path is not certified; use a smaller tolerance")]
+    #[error("a part of the path could not be certified; use a smaller tolerance")]
     Uncertified,
 }
 

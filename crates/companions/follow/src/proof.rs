@@ -308,15 +308,17 @@ impl Infeasible {
             Cause::OutOfReach { by } => format!("the line is {} out of reach at {at}", length_down(*by)),
             Cause::TooLarge { width, reach } => {
                 let [width, reach] = [length_down(*width), length(*reach)];
-                format!("two points of the line are {width} apart, and two places of the tip at most {reach}")
+                format!(
+                    "the line is too large: two of its points are {width} apart, but the places of the tip are at most {reach} apart"
+                )
             }
             Cause::Excluded(_) => format!("no IK solution is possible at {at}"),
             Cause::NoChange(list) if list.iter().all(|e| matches!(e.by, Obstacle::Wrist(WristExcess::Turn(..)))) => {
-                format!("the wrist cannot turn as far as the tool needs before {at}")
+                format!("the wrist cannot turn far enough for the tool's angle before {at}")
             }
             Cause::NoChange(list) => {
                 let last = list.last().map_or(at, |exclusion| exclusion.place);
-                format!("the IK solution must change between {at} and {last}, and cannot")
+                format!("the IK solution must change between {at} and {last}, but cannot")
             }
         }
     }

@@ -67,21 +67,21 @@ impl Default for Settings {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GcodeError {
     /// A length of segments, or their number per second, is not a positive number.
-    #[error("a length of segments, or their number per second, is {0}; it must be a finite number above 0")]
+    #[error("the length of segments, or their number per second, is {0}, but must be a finite number above 0")]
     Segment(f64),
     /// A number of segments per second for a firmware that divides lines otherwise, or not at all.
-    #[error("{0} does not divide lines into a number of segments per second; state their length, or leave it out")]
+    #[error("{0} does not divide lines by segments per second; state the length of segments, or leave the number out")]
     SegmentsPerSecond(Dialect),
     /// A move without a speed, which determines its number of segments.
     #[error(
-        "line {0}: the number of segments follows from the speed, and the file has stated none; write an F before this line"
+        "line {0}: no speed is stated before this move, but the number of segments depends on the speed; write an F before this line"
     )]
     NoSpeed(usize),
     /// The tolerance is too small, or not a number.
     #[error("the tolerance is {0} m; it must be a finite number of at least {MIN_TOLERANCE} m")]
     Tolerance(f64),
     /// A side of the elbow for an arm without one.
-    #[error("only arms with two revolute joints have an elbow; leave out its side")]
+    #[error("only arms with two revolute joints have an elbow; leave out the side of the elbow")]
     NoElbow,
     /// A travel with a checksum would have to be replaced.
     #[error("line {0} has a checksum, which cplan would have to change; write the program without checksums")]
@@ -255,10 +255,10 @@ fn first_unproven(job: &Job, walk: &Walk, text: &[u8]) -> Option<Failed> {
         })
     };
     if let Some((own, _)) = before.iter().zip(&after).find(|(one, two)| !is_same(one, two)) {
-        return Some(differs(own, "the written program draws another line"));
+        return Some(differs(own, "in the written program, this line is different"));
     }
     if before.len() != after.len() {
-        return Some(differs(&moves[0], "the written program draws other lines"));
+        return Some(differs(&moves[0], "the written program has more or fewer lines"));
     }
     let mut proven = walk.again(&again.moves);
     proven.keep_travels();

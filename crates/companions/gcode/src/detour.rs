@@ -141,8 +141,12 @@ impl<'a> Detours<'a> {
         let goals: GoalSet =
             goals.iter().zip(&travel.goals).filter(is_near).map(|(goal, _)| Segment::point(*goal)).collect();
         MotionProblem::new(scene, start, goals).map_err(|error| match error {
-            MotionProblemError::StartBlocked { why } => blocked(curve.start(), format!("its start is not free: {why}")),
-            MotionProblemError::GoalBlocked { why, .. } => blocked(curve.end(), format!("its end is not free: {why}")),
+            MotionProblemError::StartBlocked { why } => {
+                blocked(curve.start(), format!("the start of the travel is not free: {why}"))
+            }
+            MotionProblemError::GoalBlocked { why, .. } => {
+                blocked(curve.end(), format!("the end of the travel is not free: {why}"))
+            }
             error => Fault::undecided(curve.start().into(), error.to_string()),
         })
     }
@@ -268,7 +272,7 @@ fn no_travel(travel: &Travel, is_proven: bool) -> Fault {
     let reason = match is_proven {
         true => format!("{}, and no safe travel exists", travel.fault.reason),
         false => {
-            format!("{}; neither a safe travel was found, nor a proof that no such travel exists", travel.fault.reason)
+            format!("{}; neither a safe travel nor a proof that none exists was found", travel.fault.reason)
         }
     };
     Fault { cause: Cause::NoTravel, reason, place: travel.fault.place, is_proven }

@@ -29,7 +29,9 @@ pub(crate) fn check(text: &str, dialect: Dialect) -> Result<(), Error> {
         let (code, comment) = code.split_at(code.find('(').unwrap_or(code.len()));
         let words = words(code);
         if misreads(&words, comment) {
-            let message = format!("{dialect} has no comments in parentheses, and words are in this one or after it");
+            let message = format!(
+                "{dialect} does not know comments in parentheses, and would read the words in or after this one"
+            );
             return Err(Error::new(number, code.chars().count() + 1, message, "write the comment after ;"));
         }
         let error = |word: &Word, message: String, hint: &str| {
@@ -37,7 +39,11 @@ pub(crate) fn check(text: &str, dialect: Dialect) -> Result<(), Error> {
         };
         let lower_case = words.iter().find(|word| word.text.starts_with(|c: char| c.is_ascii_lowercase()));
         if let Some(word) = lower_case.filter(|_| dialect == Dialect::Marlin) {
-            return error(word, format!("is in lower case, which {dialect} does not read"), "write it in upper case");
+            return error(
+                word,
+                format!("is in lower case, but {dialect} reads only upper case"),
+                "write it in upper case",
+            );
         }
         let mut commands = words.iter().filter(|word| word.has_letter("GM"));
         match commands.next() {
@@ -46,7 +52,7 @@ pub(crate) fn check(text: &str, dialect: Dialect) -> Result<(), Error> {
             Some(_) => {}
             None => {
                 if let Some(word) = words.iter().find(|word| word.has_letter("XYIJR")) {
-                    let message = format!("is in a line without a command, which {dialect} does not run");
+                    let message = format!("is in a line without a command, but {dialect} runs only lines with one");
                     let hint = "begin the line with G0, G1, G2 or G3, or name another firmware by --dialect";
                     return error(word, message, hint);
                 }
@@ -57,8 +63,12 @@ pub(crate) fn check(text: &str, dialect: Dialect) -> Result<(), Error> {
             !is_left && DEFAULTS.iter().any(|name| word.is(name))
         };
         if let Some(word) = commands.find(|word| !holds(word)) {
-            let message = format!("is not the first command of its line, and {dialect} runs only that one");
-            return error(word, message, "write it into a line of its own, or name another firmware by --dialect");
+            let message = format!("is not the first command of the line, but {dialect} runs only the first");
+            return error(
+                word,
+                message,
+                "write the command into a line of its own, or name another firmware by --dialect",
+            );
         }
     }
     Ok(())

@@ -118,7 +118,7 @@ impl<'a> Player<'a> {
         let (rise, half) = if self.dialect == Dialect::Marlin { (modes.rise, 0.0) } else { (Some(0.0), 0.5) };
         let rise = if modes.words[2].is_some() { rise } else { Some(0.0) };
         let Some(rise) = rise else {
-            let why = "its number of segments depends on the height (Z) before it, which the file does not state";
+            let why = "the number of segments depends on the height (Z) before the move, but the file does not state this height";
             return Err(Fault::undecided(curve.start().into(), why.into()));
         };
         let length = curve.length().hypot(rise);

@@ -9,8 +9,7 @@ use thiserror::Error;
 pub enum GpuError {
     /// There is no suitable adapter.
     #[error(
-        "no GPU can be used: {0}\n  hint: install a driver for Vulkan (Linux: that of the graphics card; without one Mesa's software \
-         driver, Debian's mesa-vulkan-drivers), Metal or Direct3D 12; or solve on the CPU"
+        "no GPU can be used: {0}\n  hint: install a driver for Vulkan, Metal or Direct3D 12 (Linux without a graphics card: Mesa's software driver, in Debian mesa-vulkan-drivers), or solve on the CPU"
     )]
     NoAdapter(String),
     /// The request is invalid, with the reason.
@@ -18,7 +17,7 @@ pub enum GpuError {
     Refused(String),
     /// The adapter has no buffers of this size.
     #[error(
-        "the buffers of the GPU have at most {most} bytes, but {needed} are needed\n  hint: use fewer cells, or solve on the CPU"
+        "a buffer of {needed} bytes is needed, but the GPU allows at most {most}\n  hint: use fewer cells, or solve on the CPU"
     )]
     TooLarge {
         /// Size of the largest buffer needed, in bytes.

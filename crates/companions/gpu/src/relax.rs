@@ -74,7 +74,9 @@ impl Gpu {
         if let Scheme::Successive { order, .. } = relaxation.scheme
             && order != Order::RedBlack
         {
-            let reason = format!("a GPU relaxes cells red-black or all at once; use the CPU for the order {order}");
+            let reason = format!(
+                "the GPU cannot relax cells in the order {order}, only red-black or all at once; use the CPU for this order"
+            );
             return Err(GpuError::Refused(reason));
         }
         let is_done = !problem.unknown.contains(&true);

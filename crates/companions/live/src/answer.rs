@@ -147,7 +147,7 @@ impl Answering<'_> {
             Some(Ok(Err(error))) => Ok(refused("options", error)),
             Some(Err(Interrupted::Set)) => Err(Interrupted::Set),
             None | Some(Err(Interrupted::TimeUp)) => {
-                let reason = Some("not decided among moving obstacles".into());
+                let reason = Some("not decided in the available time, because obstacles move".into());
                 let shown = self.without_path(problem.timed(), ends.start_and_goals(), "planning")?;
                 Ok(ends.insert_into(AnswerReply { reason, ..shown }))
             }

@@ -84,10 +84,7 @@ fn describe_contact(scene: &Scene, hit: &Obstruction) -> String {
     let obstacle = scene.obstacle_name(hit.contact.pair);
     if !hit.touches {
         let wanted = millimetres(scene.workspace().clearance);
-        return format!(
-            "{part} is {} from \"{obstacle}\", nearer than the clearance of {wanted}",
-            millimetres(distance)
-        );
+        return format!("{part} is {} from \"{obstacle}\", less than the clearance of {wanted}", millimetres(distance));
     }
     match -distance {
         depth if depth < TOUCHING_DEPTH => format!("{part} touches \"{obstacle}\""),

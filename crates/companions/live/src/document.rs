@@ -69,8 +69,7 @@ impl Document {
         let corners: usize = state.obstacles.iter().flat_map(|piece| &piece.shape).map(Form::corners).sum();
         if state.obstacles.len() > MAX_OBSTACLES || corners > MAX_CORNERS {
             return Err(format!(
-                "the live page takes at most {MAX_OBSTACLES} obstacles with {MAX_CORNERS} corners in all; there are {} \
-                 with {corners}",
+                "too many obstacles or corners: {} with {corners} in all; the live page allows {MAX_OBSTACLES} with {MAX_CORNERS} in all",
                 state.obstacles.len()
             ));
         }
@@ -99,7 +98,7 @@ impl Document {
 
     /// Changes the obstacles to match those of the page. Returns true if anything changed.
     fn change_obstacles(&self, toml: &mut DocumentMut, pieces: &[Piece]) -> Result<bool, String> {
-        let (before, moving) = self.by_motion().ok_or("the text's obstacles are not [[obstacle]] tables")?;
+        let (before, moving) = self.by_motion().ok_or("obstacles in the text must be [[obstacle]] tables")?;
         let same = pieces.len() == before.len()
             && pieces.iter().zip(&before).enumerate().all(|(i, (piece, table))| {
                 let keeps = |shape: &Form| form(table).as_ref() == Some(shape);

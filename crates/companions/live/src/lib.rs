@@ -95,7 +95,7 @@ impl Host {
         let [urdf, world] =
             [("robot.urdf", urdf), ("world.toml", world)].map(|(name, text)| Source::in_memory(name, text));
         let scene = scene_from(urdf.clone(), world.clone()).map_err(|error| error.to_string())?;
-        Self::new(urdf, world, scene, options, time).ok_or_else(|| "the world is no TOML".into())
+        Self::new(urdf, world, scene, options, time).ok_or_else(|| "the world is not valid TOML".into())
     }
 
     /// Reads a world from a page.
@@ -107,7 +107,7 @@ impl Host {
         let named = document.iter().flat_map(Document::files).find(|file| !self.files.contains(file));
         if let Some(file) = named {
             return Err(format!(
-                "the world names the file \"{file}\", which the world that the server started with does not name\n  hint: start cplan serve with this world"
+                "the server may not read \"{file}\": the world at its start did not name this file\n  hint: start cplan serve with this world"
             ));
         }
         let scene =

@@ -260,7 +260,9 @@ impl LiveSession {
         let loaded = self.scene.with_world_text(&self.host.urdf, source).map_err(|error| error.to_string())?;
         match deadlines.plan.run(|| files::content(loaded, &options, format)) {
             Ok(content) => Ok((format!("plan.{format}"), content?)),
-            Err(Interrupted::Set) => Err("the file is not written: the page has changed since".into()),
+            Err(Interrupted::Set) => {
+                Err("the file is not written, because the page has changed in the meantime".into())
+            }
             Err(Interrupted::TimeUp) => Err(format!("the file is not written: {}", time_up(self.host.time))),
         }
     }
@@ -273,7 +275,7 @@ impl LiveSession {
         match &ask.state {
             None => Ok(self.document.text().to_owned()),
             Some(_) if self.scene.is_task() => {
-                Err("a world with steps or values of the tool cannot be changed here; edit its text".into())
+                Err("a world with steps or values of the tool can only be changed in its text".into())
             }
             Some(state) => self.document.changed(state, self.begin(state.start)),
         }

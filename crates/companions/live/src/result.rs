@@ -35,7 +35,7 @@ pub fn quick_answer(problem: &Problem, options: &Options, contours: &Contours) -
     let plan = plan(problem, &Options { bounded: false, ..*options }, SEARCHES, &mut |_| ())
         .map_err(|error| error.to_string())?;
     let Some((problem, answer)) = plan.motion() else {
-        return Err("this page does not plan steps among moving obstacles".into());
+        return Err("this page cannot plan steps in worlds with moving obstacles; use `cplan plan`".into());
     };
     let timed = plan.problem().timed();
     let contours = contours.of(timed.scene);

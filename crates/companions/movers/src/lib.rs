@@ -144,10 +144,10 @@ fn reason(ways: usize, refuted: usize, movers: usize) -> String {
     let moves = if movers == 1 { "an obstacle moves".into() } else { format!("{movers} obstacles move") };
     let tried = if ways == 1 { "the one route tried".into() } else { format!("the {ways} routes tried") };
     let known = match refuted {
-        _ if refuted == ways => format!("along {tried}, no timing avoids the moving obstacles (proven)"),
-        0 => format!("along {tried}, no timing was found that avoids the moving obstacles"),
+        _ if refuted == ways => format!("no timing along {tried} avoids the moving obstacles (proven)"),
+        0 => format!("no timing that avoids the moving obstacles was found along {tried}"),
         _ => format!(
-            "along {tried}, no timing was found that avoids the moving obstacles, and along {} none exists (proven)",
+            "no timing that avoids the moving obstacles was found along {tried}; along {}, none exists (proven)",
             counted(refuted, "route")
         ),
     };

@@ -17,7 +17,7 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let message = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
         match message {
-            Some(message) => format!("cplan failed, which is a mistake in it: {message}"),
+            Some(message) => format!("internal error: {message}; this is a defect of cplan, please report it"),
             None => resume_unwind(panic),
         }
     })

@@ -78,7 +78,9 @@ impl<'a> Builder<'a> {
             self.leg(leg, leg.carried.map(|object| task.objects[object].holding), scene);
         }
         match is_turned && task.stroke.is_some() {
-            true => Err(ProgramError::Unsuitable("the task ends with an object that the wrist turns".into())),
+            true => Err(ProgramError::Unsuitable(
+                "the task ends while the tool holds an object that the wrist has turned".into(),
+            )),
             false => Ok(()),
         }
     }

@@ -24,7 +24,7 @@ impl Program {
                     let (unit, size) = if joint.slides { ("mm", 1e-3) } else { ("deg", 1_f64.to_radians()) };
                     let [exact, off] = [*exact, (exact - written).abs()].map(|value| short(value / size));
                     return Err(ProgramError::Rounded(format!(
-                        "joint \"{}\" of {} is {exact} {unit}, and the written value differs by {off} {unit}",
+                        "joint \"{}\" of {}: the written value differs by {off} {unit} from {exact} {unit}",
                         joint.name,
                         self.describe(target)
                     )));
@@ -41,7 +41,7 @@ impl Program {
     ) -> Result<(), ProgramError> {
         let planned = |k: usize| self.joints.iter().position(|joint| joint.driver == Driver::Planned(k));
         let Some((one, two)) = planned(0).zip(planned(1)) else {
-            return Err(ProgramError::Unsuitable("the robot lacks a planned joint".into()));
+            return Err(ProgramError::Unsuitable("the robot does not have both planned joints".into()));
         };
         let corners = targets[*first..=*last].iter().map(|values| Configuration::new(values[one], values[two]));
         let refused = match certify_at(scene, Path::new(corners.collect()), self.required) {
@@ -59,7 +59,7 @@ impl Program {
                 match least > 0.0 {
                     true => {
                         let [least, needed] = [least, self.required].map(length);
-                        format!("before {place}, {pair} come as near as {least}, and the tolerance needs {needed}")
+                        format!("before {place}, {pair} are only {least} apart, but the tolerance needs {needed}")
                     }
                     false => format!("before {place}, {pair} can touch within the tolerance of the heights"),
                 }

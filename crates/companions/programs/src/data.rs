@@ -36,11 +36,12 @@ impl Program {
         let mut statement = vec![
             "The arm must stand at the first target when the program begins.".to_owned(),
             format!("The path is {}.", self.guarantee()),
-            "Speeds and times are the controller's: they are not certified.".to_owned(),
+            "The controller chooses speeds and times; these are not certified.".to_owned(),
         ];
         if self.needs_wrist {
-            statement
-                .push("The program does not turn the wrist, which must keep objects at their orientation.".to_owned());
+            statement.push(
+                "The program does not turn the wrist. The controller must keep the orientation of objects.".to_owned(),
+            );
         }
         let files =
             self.digests.iter().map(|[name, digest]| context! { name => clean(name), sha256 => digest.as_str() });

@@ -46,11 +46,13 @@ impl Program {
         let unsuitable =
             |why: String| Err(ProgramError::Unsuitable(format!("{why}\n  hint: write .yaml or .csv files")));
         if !problem.timed().trajectories.is_empty() {
-            return unsuitable("obstacles move, and the times of a program are the controller's".into());
+            return unsuitable("obstacles move, but the times of a program depend on the controller".into());
         }
         let mut steps = problem.task().into_iter().flat_map(Task::steps);
         match steps.find(|step| matches!(step.action, Action::Follow(_))) {
-            Some(step) => unsuitable(format!("step {} follows a line, which joint moves do not", step.number)),
+            Some(step) => {
+                unsuitable(format!("step {} follows a line, but a program consists of joint moves", step.number))
+            }
             None => Ok(()),
         }
     }
@@ -109,7 +111,7 @@ impl Program {
 
     /// Describes the program and its guarantee in one line.
     pub fn summary(&self) -> String {
-        format!("{} joint moves; {}; times are the controller's", self.moves.len() - 1, self.guarantee())
+        format!("{} joint moves; {}; the controller chooses the times", self.moves.len() - 1, self.guarantee())
     }
 
     /// States the guarantee in one sentence.
@@ -119,7 +121,9 @@ impl Program {
             false => "are free of collision".to_owned(),
         };
         let tolerance = self.tolerance;
-        format!("certified: straight joint lines that end at rest {kept}, within a tolerance of {tolerance}")
+        format!(
+            "certified: straight moves in joint space, each of which ends at rest, {kept}, within a tolerance of {tolerance}"
+        )
     }
 
     /// Describes a target for messages.

@@ -24,8 +24,7 @@ const MAX_INSTRUCTIONS: u64 = 50_000_000;
 const HINT: &str = "docs/programs.md lists the data and the filters of templates";
 
 /// The hint for templates that do not write all targets.
-const HINT_FOR_TARGETS: &str = "write all joints of each move once, in the order of `moves`: \
-    {% for move in moves %}{{ move.joints | join(\", \") }}{% endfor %}";
+const HINT_FOR_TARGETS: &str = "write each joint of each move exactly once, in the order of `moves`: {% for move in moves %}{{ move.joints | join(\", \") }}{% endfor %}";
 
 /// A template for programs.
 #[derive(Debug, Clone)]

@@ -60,7 +60,7 @@ impl FromStr for JointTolerance {
             if std::mem::replace(&mut stated[usize::from(turns)], true) {
                 let kind = if turns { "angles" } else { "lengths" };
                 return Err(format!(
-                    "has two {kind}: state one angle and one length, with units, such as 0.05deg,0.1mm"
+                    "has two {kind}, but must have one angle and one length, with units, such as 0.05deg,0.1mm"
                 ));
             }
             let most = if turns { MAX_TURN } else { MAX_SLIDE };

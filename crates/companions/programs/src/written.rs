@@ -44,7 +44,7 @@ impl Written {
         for part in parts {
             let marked = part.split_once(close).and_then(|(number, rest)| Some((number.split_once(middle)?, rest)));
             let Some(((mark, digits), rest)) = marked else {
-                return Err("the template cuts a joint value into pieces".into());
+                return Err("the template writes only a part of a joint value".into());
             };
             let number = Number::read(mark, digits).filter(|number| number.joint < target.len());
             let Some(number) = number else {
@@ -57,7 +57,7 @@ impl Written {
             let expected = program.describe(targets.len());
             if number.target != targets.len() {
                 return Err(format!(
-                    "the template writes target {} out of order, before {expected}",
+                    "the template writes target {} too early: {expected} must come first",
                     number.target + 1
                 ));
             }
@@ -67,7 +67,9 @@ impl Written {
             }
             let joins = |c: char, letters: &str| c.is_ascii_digit() || letters.contains(c);
             if text.ends_with(|c| joins(c, "+-.")) || rest.starts_with(|c| joins(c, ".eE")) {
-                return Err(format!("the template joins the digits of {expected} to other ones, or to a sign"));
+                return Err(format!(
+                    "the template puts a digit, sign, point or exponent directly beside a joint value of {expected}"
+                ));
             }
             text.push_str(number.digits);
             text.push_str(rest);
@@ -77,7 +79,7 @@ impl Written {
             return Err(format!("the template does not write {}", program.describe(targets.len())));
         }
         if text.contains(MARK) {
-            return Err("the template has characters for private use, from U+E000 to U+E002".into());
+            return Err("the template contains the private-use characters U+E000 to U+E002; remove them".into());
         }
         Ok(Self { text, targets })
     }

@@ -58,18 +58,19 @@ fn judge_motion(
 ) -> Result<MotionFindings, InputError> {
     if loaded.is_task() && !loaded.has_steps() {
         notes.push(
-            "the world gives values of the tool's joints: the motion must begin and end with them; speeds of the tool are not \
-             judged without steps"
+            "the motion must begin and end with the values that the world states for the tool's joints; speeds of the tool are not judged, because the file has no steps"
                 .into(),
         );
     }
     if loaded.has_steps() {
         notes.push(
-            "the world has steps, but the file has none: it is judged as one motion without a payload, with all \
-             objects at their initial positions; to judge the steps, verify a task's result in .json"
+            "the world has steps, but the file has none: one motion without a payload is judged, with all objects at their initial positions; to judge the steps, verify a task's result in .json"
                 .into(),
         );
-        notes.extend((!held.is_empty()).then(|| "the motion of the tool is judged among the obstacles alone".into()));
+        notes.extend(
+            (!held.is_empty())
+                .then(|| "the motion with the moving tool is judged only among obstacles, without objects".into()),
+        );
     }
     let scene = &loaded.scene;
     let (start, goals) = if anywhere { (None, Vec::new()) } else { loaded.ends(overrides)? };
@@ -85,7 +86,7 @@ fn judge_motion(
     });
     let has_moving_obstacles = !loaded.trajectories.is_empty();
     if has_moving_obstacles {
-        notes.push("obstacles move on the recording's clock, from its first sample on".into());
+        notes.push("moving obstacles start with the first sample of the recording".into());
     }
     let untold = [
         (has_moving_obstacles && recording.times().is_none())
@@ -177,9 +178,7 @@ fn judge_task(
     mut notes: Vec<String>,
 ) -> Result<MotionFindings, InputError> {
     notes.push(
-        "each step is judged by itself: it must be a step of the world, in an order that the world allows. Its motion is \
-         judged with its payload, and with the objects where they lie at that time. Limits, grasps, places, turns and \
-         rests are judged, too, and the file's statements about steps and events. Margins of tasks are not judged"
+        "judged: whether each step is a step of the world, in an allowed order; its motion, with its payload and with all objects where they are at that time; limits, grasps, places, turns and rests; and what the file states about steps and events. Not judged: margins of tasks"
             .into(),
     );
     let replay = replay(task, recording, steps);
@@ -211,8 +210,7 @@ fn describe_jumps(scene: &Scene, recording: &Recording) -> Option<String> {
         n => format!(" ({} such steps more)", n - 1),
     };
     Some(format!(
-        "from sample {sample} to {} joint \"{}\" turns by {}, and is checked with that turn{others}; if the file keeps \
-         angles within one turn, use --unwrap",
+        "from sample {sample} to {}, joint \"{}\" turns by {}, and this whole turn is checked{others}; if the file keeps angles within one turn, use --unwrap",
         sample + 1,
         joint.name,
         joint.format_value(step)

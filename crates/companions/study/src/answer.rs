@@ -116,7 +116,7 @@ fn headline(study: &Study, summary: &Summary) -> String {
     let Some(best) = summary.best() else {
         return match summary.tally() {
             [0, ..] => "No layout has a motion".into(),
-            _ if study.objective.is_none() => "Layouts with a motion, without an objective that ranks them".into(),
+            _ if study.objective.is_none() => "The layouts are not ranked, because the study has no objective".into(),
             _ => "No layout meets the conditions".into(),
         };
     };

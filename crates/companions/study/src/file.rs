@@ -43,7 +43,7 @@ pub(super) fn load(
                 NamedFile::World => ("world", "world.toml"),
             };
             study
-                .diagnostic(format!("the study names no {key}"))
+                .diagnostic(format!("the study does not name a {key}"))
                 .help(format!("write {key} = \"{example}\" at its beginning"))
         };
         let path = path.with_file_name(name.ok_or_else(missing)?);
@@ -133,7 +133,7 @@ impl Reader<'_> {
         let draws = self.draws(file, drawn)?;
         let design = Design::new(parameters, draws, seed).filter(|design| design.count() <= MAX_LAYOUTS);
         design.ok_or_else(|| {
-            let message = format!("the values make more than {MAX_LAYOUTS} layouts");
+            let message = format!("the values of the parameters give more than {MAX_LAYOUTS} layouts");
             self.source.diagnostic(message).help("list fewer values, or draw some of them")
         })
     }
@@ -153,8 +153,8 @@ impl Reader<'_> {
         let texts = file.conditions.iter().zip(of_conditions()).chain(file.objective.iter().zip(of_objective()));
         for (text, measure) in texts {
             if has_steps && [Measure::OverBound, Measure::LowerBound].contains(&measure) {
-                let message = format!("a world with steps has no {}", measure.name());
-                return Err(self.wrong(text.span(), message, "use its duration, which is bounded"));
+                let message = format!("`{}` is not available in a world with steps", measure.name());
+                return Err(self.wrong(text.span(), message, "use `duration`, which has a proven bound"));
             }
         }
         let mut measures: Vec<Measure> = Vec::new();
@@ -173,7 +173,7 @@ impl Reader<'_> {
     /// Returns the diagnostic of invalid options, on one line.
     fn options(&self, words: &Spanned<Vec<String>>, why: &str) -> Diagnostic {
         let reasons: Vec<&str> = why.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
-        let help = "`options` are planning options (`cplan help plan`); give files to `cplan study` itself";
+        let help = "`options` contains planning options (`cplan help plan`); name output files on the command line of `cplan study`";
         self.wrong(words.span(), format!("options: {}", reasons.join("; ")), help)
     }
 
@@ -210,7 +210,7 @@ impl Reader<'_> {
         if let Some(at) = table.degrees()
             && let Some((address, ..)) = sets.into_iter().find(|(address, ..)| !is_angle(address))
         {
-            let message = format!(": {address} is not an angle, so its values cannot be in degrees");
+            let message = format!(": values in degrees do not fit {address}, which is not an angle");
             return Err(wrong(at, message, "write numbers, as in 0.1"));
         }
         let finite = |value: &Spanned<Quantity>| match value.get_ref().value {
@@ -244,7 +244,7 @@ impl Reader<'_> {
             (None, Some((from, to)), Some(steps), None) => match *steps.get_ref() {
                 n @ 1..=1_000_000 if n > 1 || from == to => Values::Stepped { from, to, count: n as usize },
                 n => {
-                    let message = format!(": {n} values from {from} to {to} are too few or too many");
+                    let message = format!(": {n} steps from {from} to {to} are too few or too many");
                     return Err(wrong(steps.span(), message, "use 2 to a million steps"));
                 }
             },
@@ -256,13 +256,13 @@ impl Reader<'_> {
                 }
                 word @ ("uniform" | "latin") => Values::Drawn { from, to, latin: word == "latin" },
                 other => {
-                    let message = format!(": values are drawn \"uniform\" or \"latin\", not \"{other}\"");
+                    let message = format!(": draw must be \"uniform\" or \"latin\", not \"{other}\"");
                     return Err(wrong(draw.span(), message, "write draw = \"latin\""));
                 }
             },
             _ => {
                 let help = "values = [...]; or from, to and steps; or from, to and draw = \"uniform\" or \"latin\"";
-                return Err(wrong(at, " does not define its values".into(), help));
+                return Err(wrong(at, " needs values, steps or draw".into(), help));
             }
         };
         let unit = table.unit.clone().or_else(|| table.degrees().map(|_| "rad".into()));
@@ -300,8 +300,10 @@ impl Reader<'_> {
             )),
             (None, Some(number)) => {
                 let name = &file.parameter[number].get_ref().name;
-                let message =
-                    format!("parameter \"{}\" is drawn, but the study does not state how often", name.get_ref());
+                let message = format!(
+                    "parameter \"{}\" is drawn at random, but the study does not state the number of draws",
+                    name.get_ref()
+                );
                 Err(self.wrong(name.span(), message, "write draws = 1000 above the first [[parameter]]"))
             }
         }
@@ -337,9 +339,9 @@ impl Reader<'_> {
                 let message = format!("{address}: {why} (in {name})");
                 let near = file.nearest(&text, address);
                 let help = match near {
-                    Some(near) if near == *address => "remove it here, or from the other \"sets\"".into(),
-                    Some(near) => format!("{near} is a number there"),
-                    None => "name a number that the file has".into(),
+                    Some(near) if near == *address => "remove the address here, or from the other \"sets\"".into(),
+                    Some(near) => format!("{near} is such a number"),
+                    None => "name a number that exists in the file".into(),
                 };
                 self.wrong(self.target(tables, parameter, number), message, &help)
             })

@@ -16,13 +16,13 @@ const MAX_WRITE_DELAY: Duration = Duration::from_millis(200);
 #[derive(Debug, Error)]
 pub enum JournalError {
     /// The file has the rows of another study, or is not a journal.
-    #[error("{} has rows of another study, of other files, or of another version of cplan: remove it, or begin again with --fresh", path.display())]
+    #[error("{} contains rows of another study, of other files, or of another version of cplan: remove the file, or begin again with --fresh", path.display())]
     Other {
         /// Path of the journal.
         path: PathBuf,
     },
     /// Another run is writing to the journal.
-    #[error("{}: another process is running this study: wait for it, or give this one another first output", path.display())]
+    #[error("{}: another process is running this study: wait until it ends, or choose another first --output", path.display())]
     Busy {
         /// Path of the journal.
         path: PathBuf,

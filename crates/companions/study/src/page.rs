@@ -105,7 +105,7 @@ impl Study {
             return maps;
         }
         let what = self.objective.map_or_else(String::new, |objective| {
-            format!("The colour shows the {objective} of the layouts in a cell that meet the conditions; ")
+            format!("The colour shows the {objective} of the layouts in a cell, of those that meet the conditions; ")
         });
         let key = |(color, text): (&str, &str)| {
             format!(
@@ -226,7 +226,7 @@ const NO_MOTION_COLOR: &str = "var(--undecided)";
 
 /// Meaning of the colours of a map, other than those of the objective.
 const MAP_LEGEND: [(&str, &str); 3] = [
-    (UNFIT_COLOR, "a motion, but not one that meets the conditions"),
+    (UNFIT_COLOR, "a motion that does not meet the conditions"),
     (INFEASIBLE_COLOR, "proven infeasible, in all layouts"),
     (NO_MOTION_COLOR, "nothing to plan, or unknown"),
 ];

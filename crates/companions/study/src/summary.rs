@@ -109,7 +109,10 @@ impl<'a> Summary<'a> {
                 if to - value <= value - from { format!("of at most {to}") } else { format!("of at least {from}") };
             // The digits of tables, without trailing zeros.
             let value = format_value(value).parse().unwrap_or(value);
-            format!("{} = {value} {which}: a wider range may give a better layout", parameter.name)
+            format!(
+                "the best {} is {value}, at the end of its range ({which}): a wider range may give a better layout",
+                parameter.name
+            )
         };
         self.range_ends().into_iter().map(edge).collect()
     }

@@ -342,8 +342,9 @@ impl MotionCache {
             return Err(unproven("the arm has no wrist that could turn the object"));
         };
         let turning = TurnAtRest::new(task, &task.obstacles(&with.poses).fixed, held, *point, candidate.to);
-        let found =
-            turning.free(turn).ok_or_else(|| unproven("the object cannot be turned there, in either direction"))?;
+        let found = turning
+            .free(turn)
+            .ok_or_else(|| unproven("the object cannot be turned at this place, in either direction"))?;
         let turning = single((found.to - found.from).abs(), &wrist.limits());
         Ok((found, turning.last().map_or(0.0, |[seconds, ..]| *seconds)))
     }
@@ -363,7 +364,7 @@ fn require_free_after(task: &Task, from: &State, candidate: &Candidate) -> Resul
     require_unobstructed(&scene, candidate.to, when)?;
     if from.after_step(task, candidate, candidate.to).is_done(task) {
         let held = TorqueLimit::check_holding_at(&scene, candidate.to);
-        held.map_err(|error| Refusal::new(format!("{when} {error}"), false))?;
+        held.map_err(|error| Refusal::new(format!("{when}, {error}"), false))?;
     }
     Ok(())
 }
@@ -381,7 +382,7 @@ pub(super) fn scene_after(task: &Task, from: &State, candidate: &Candidate) -> O
     } else {
         return None;
     };
-    Some(StandstillScene { when: "after it", scene })
+    Some(StandstillScene { when: "after this step", scene })
 }
 
 /// Returns the wrist that turns the tool along a line.
@@ -390,7 +391,7 @@ fn wrist_along(task: &Task, guide: WristGuide) -> Result<WristAlong, Refusal> {
         let (velocity, acceleration) = (wrist.velocity, wrist.acceleration);
         Some(WristAlong { guide, joint: wrist.joint?, velocity, acceleration })
     });
-    along.ok_or_else(|| Refusal::new("the line asks for an angle of the tool, but the arm has no known wrist", false))
+    along.ok_or_else(|| Refusal::new("the line requires an angle of the tool, but the world names no wrist", false))
 }
 
 /// Returns the data that determines the scene of a motion, without objects for which `matters` is false.

@@ -73,5 +73,5 @@ pub(super) fn require_unobstructed(scene: &Scene, q: Configuration, when: &str) 
         [0.0, -NEIGHBOR_DISTANCE],
     ];
     let is_proven = beside.iter().all(|&by| !certain.obstructions(q + Configuration::from(by)).is_empty());
-    Err(Refusal { blockers, ..Refusal::new(format!("{when} {}", listed(&words)), is_proven) })
+    Err(Refusal { blockers, ..Refusal::new(format!("{when}, {}", listed(&words)), is_proven) })
 }

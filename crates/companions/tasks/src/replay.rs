@@ -32,11 +32,11 @@ fn replay_of_leg(task: &Task, options: &Options, leg: &Leg) -> MotionReplay {
             let mut replay = Replay::new(&problem, options, &answer);
             let gone = problem.scene() != &*leg.scene;
             if let (true, Some(first)) = (gone, replay.phases.first_mut()) {
-                first.caption.push_str("; objects out of the path are ignored");
+                first.caption.push_str("; objects away from the path are ignored");
             }
             MotionReplay { replay, trace: Some(answer.drawn().into_owned()) }
         }
-        None => without_search("The straight path: certified, and no path is shorter", leg),
+        None => without_search("The straight path: certified, and there is no shorter one", leg),
     }
 }
 

@@ -197,7 +197,8 @@ impl<'a, 'l> Search<'a, 'l> {
             farthest.zip(farthest.and_then(|node| self.nodes[node].state()?.candidates(self.task).into_iter().next()));
         if let Some((node, candidates)) = next {
             let (motions, states) = (self.legs.planned(), self.expanded);
-            let reason = format!("given up after {motions} motions and {states} states of the world");
+            let reason =
+                format!("the search ended at its limit, after {motions} motions and {states} states of the world");
             let refusal = Refusal::new(reason, false);
             self.refuse(node, candidates.step, None, refusal);
         }

@@ -88,7 +88,7 @@ pub(super) fn stroke_scene(task: &Task, from: &State, candidate: &Candidate) -> 
         let after = from.after_step(task, candidate, candidate.to);
         return empty_stroke_scene(task, &after, candidate.depth(task)?);
     };
-    let when = if task.stroke.is_some() { WHILE_LOWERED } else { "lying there" };
+    let when = if task.stroke.is_some() { WHILE_LOWERED } else { "where the object is put down" };
     lowered(task, from, candidate, event).map(|scene| StandstillScene { when, scene })
 }
 
@@ -123,7 +123,8 @@ fn no_tool() -> Refusal {
 fn clearance_at(StandstillScene { when, scene }: &StandstillScene, q: Configuration) -> Result<f64, Refusal> {
     require_unobstructed(scene, q, when)?;
     let certified = certify(scene, Path::new(vec![q, q]));
-    let certified = certified.map_err(|_| Refusal::new(format!("no proof that it is free {when} was found"), false))?;
+    let certified =
+        certified.map_err(|_| Refusal::new(format!("not proven to be free of collisions {when}"), false))?;
     Ok(certified.clearance())
 }
 

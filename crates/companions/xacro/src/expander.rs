@@ -185,7 +185,7 @@ impl<'s> Expander<'s> {
         match OLD_DIRECTIVES.into_iter().find(|name| is_old && *name == element.name) {
             None => Ok(()),
             Some(name) => {
-                let message = format!("<{name}> without a prefix is a directive only in the first versions of xacro");
+                let message = format!("<{name}> without the prefix xacro: is not a directive in today's xacro");
                 Err(self.error(&element.place, Fault::with_hint(message, format!("write <xacro:{name} ...>"))))
             }
         }
@@ -214,7 +214,7 @@ impl<'s> Expander<'s> {
                 let message = format!("cplan does not read xacro:{name}");
                 Err(self.error(
                     &element.place,
-                    Fault::with_hint(message, "write the resulting element itself, inside xacro:if"),
+                    Fault::with_hint(message, "write the resulting element directly, inside xacro:if if necessary"),
                 ))
             }
             "call" => {

@@ -27,7 +27,8 @@ pub(crate) struct Budget {
     depth: usize,
 }
 
-const RECURSION_HINT: &str = "a macro or include may repeat without end; end it by a condition (xacro:if)";
+const RECURSION_HINT: &str =
+    "a macro or an included file may call itself without end; add a condition that ends this (xacro:if)";
 
 impl Budget {
     /// Counts a step whose result is a text of this many bytes.
@@ -39,7 +40,7 @@ impl Budget {
         }
         if self.bytes > MAX_TEXT_BYTES {
             return Err(Fault::with_hint(
-                format!("the expansion makes more than {} MiB", MAX_TEXT_BYTES >> 20),
+                format!("the expanded file is larger than {} MiB", MAX_TEXT_BYTES >> 20),
                 RECURSION_HINT,
             ));
         }

@@ -100,7 +100,7 @@ impl Expander<'_> {
             false => format!("<xacro:{name}{values}>...</xacro:{name}> with elements for {}", blocks.join(", ")),
         };
         let message = format!("the macro \"{name}\" is defined and never called, so the robot has no link");
-        Err(self.error(&body.place, Fault::with_hint(message, format!("call it before </robot>: {call}"))))
+        Err(self.error(&body.place, Fault::with_hint(message, format!("call the macro before </robot>: {call}"))))
     }
 
     /// Replaces a call by the expansion of its macro.
@@ -114,8 +114,8 @@ impl Expander<'_> {
         let Some(called) = self.scopes.find_macro(scope, name) else {
             let known = self.scopes.macro_names(scope);
             let hint = match known.is_empty() {
-                true => "define it before its call, or include the file that defines it".to_owned(),
-                false => format!("the macros defined before are {}", known.join(", ")),
+                true => "define the macro before this call, or include the file that defines it".to_owned(),
+                false => format!("defined before this call: {}", known.join(", ")),
             };
             return Err(self.error(&element.place, Fault::with_hint(format!("there is no macro \"{name}\""), hint)));
         };
@@ -190,7 +190,8 @@ impl Expander<'_> {
         let mut elements = children.iter().filter_map(Node::element);
         for parameter in called.parameters.iter().filter(|p| p.name.starts_with('*')) {
             let Some(block) = elements.next() else {
-                let message = format!("the macro \"{name}\" is called without the block \"{}\"", parameter.name);
+                let message =
+                    format!("the call of the macro \"{name}\" lacks the element for its block \"{}\"", parameter.name);
                 return Err(self.error(&element.place, Fault::with_hint(message, "write the element into the call")));
             };
             let nodes = match parameter.name.starts_with("**") {
@@ -202,7 +203,7 @@ impl Expander<'_> {
         match elements.next() {
             None => Ok(()),
             Some(extra) => {
-                let message = format!("the macro \"{name}\" has no block for <{}>", extra.name);
+                let message = format!("the macro \"{name}\" takes no element such as <{}>", extra.name);
                 Err(self
                     .error(&extra.place, Fault::with_hint(message, "a macro names its blocks in params, with a star")))
             }

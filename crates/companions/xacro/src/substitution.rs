@@ -97,8 +97,8 @@ impl Expander<'_> {
             ("arg", name) if !name.is_empty() => self.argument(name),
             ("find", name) if !name.is_empty() => self.package(name, context.file).map(Value::text),
             ("env", name) => std::env::var(name).map(Value::text).map_err(|_| {
-                let message = format!("the environment has no variable {name}, which $(env {name}) asks for");
-                Fault::with_hint(message, format!("set it: {name}=... in front of the command"))
+                let message = format!("$(env {name}): the environment variable {name} is not set");
+                Fault::with_hint(message, format!("write {name}=... in front of the command"))
             }),
             ("optenv", rest) => {
                 let (name, default) = rest.split_once(char::is_whitespace).unwrap_or((rest, ""));
@@ -125,7 +125,7 @@ impl Expander<'_> {
         value.map(|value| Value::text(value.as_str())).ok_or_else(|| {
             Fault::with_hint(
                 format!("the argument \"{name}\" has no value"),
-                format!("give it one: --xacro-arg {name}=VALUE"),
+                format!("give the argument a value: --xacro-arg {name}=VALUE"),
             )
         })
     }
@@ -136,9 +136,11 @@ impl Expander<'_> {
             return Ok(known.clone());
         }
         let found = packages(name, &self.files[file].path).next().ok_or_else(|| {
-            let message =
-                format!("the package \"{name}\" is not found: no folder near this file has a package.xml of that name");
-            Fault::with_hint(message, "put the package beside this one, or add its parent folder to ROS_PACKAGE_PATH")
+            let message = format!("package \"{name}\" was not found: no package.xml near this file has this name");
+            Fault::with_hint(
+                message,
+                "put the package's folder beside that of this file, or add its parent folder to ROS_PACKAGE_PATH",
+            )
         })?;
         let found = found.to_string_lossy().into_owned();
         self.packages.insert((name.to_owned(), file), found.clone());

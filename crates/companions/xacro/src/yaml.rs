@@ -80,7 +80,7 @@ impl<'de> Visitor<'de> for Reader {
         let mut items = Vec::new();
         while let Some((Yaml(key), Yaml(value))) = access.next_entry()? {
             if items.len() >= crate::limits::MAX_LIST_ITEMS {
-                return Err(A::Error::custom("it has too many keys"));
+                return Err(A::Error::custom("the file has too many keys"));
             }
             insert(&mut items, key, value);
         }

@@ -17,7 +17,7 @@ pub enum ConvexError {
         radius: f64,
     },
     /// A bar's length is zero, negative or not finite.
-    #[error("its length is {length}, which must be greater than 0")]
+    #[error("the length is {length}, but must be greater than 0")]
     Length {
         /// The given length.
         length: f64,
@@ -35,7 +35,7 @@ pub enum ConvexError {
         corner: usize,
     },
     /// The boundary is not one counter-clockwise turn that bends left at every corner.
-    #[error("the boundary does not turn left at corner {}, or winds around more than once; list the corners of a convex polygon counter-clockwise", corner + 1)]
+    #[error("the boundary does not turn left at corner {}, or goes round more than once; list the corners of a convex polygon counter-clockwise", corner + 1)]
     NotConvex {
         /// Index of the corner in the list.
         corner: usize,

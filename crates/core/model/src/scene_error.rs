@@ -19,8 +19,7 @@ const SHAPE_ROUNDING: f64 = 1e-9;
 pub enum SceneError {
     /// A joint's range is empty, not finite, or too long.
     #[error(
-        "joint \"{joint}\": the range from {lower} to {upper} is invalid; it needs two finite numbers, the lower one \
-         first, at most {MAX_TURN_RANGE} rad apart if the joint turns"
+        "joint \"{joint}\": the range from {lower} to {upper} is invalid; both numbers must be finite, the lower one first, and at most {MAX_TURN_RANGE} rad apart if the joint turns"
     )]
     Range {
         /// The joint's name in the URDF.
@@ -31,7 +30,7 @@ pub enum SceneError {
         upper: f64,
     },
     /// A joint is prismatic, but its range is a circle.
-    #[error("joint \"{joint}\" slides: it needs a range, not a circle")]
+    #[error("joint \"{joint}\" slides, so it needs a range instead of a circle")]
     SlidesOnCircle {
         /// The joint's name in the URDF.
         joint: String,
@@ -80,13 +79,13 @@ pub enum SceneError {
         what: String,
     },
     /// The inner shape of a part, which proofs use, is not within the part's outline.
-    #[error("\"{of}\": its inner shape must be within its outline")]
+    #[error("\"{of}\": the inner shape must be within the outline")]
     Inner {
         /// Name of the link.
         of: String,
     },
     /// The ends of a height range are in the wrong order, or one of them is not a number.
-    #[error("\"{of}\": the heights from {lower} to {upper} are invalid; they need finite numbers, the lower one first")]
+    #[error("\"{of}\": the heights from {lower} to {upper} are invalid; both must be finite, the lower one first")]
     Heights {
         /// Name of the obstacle, link or attachment.
         of: String,
@@ -123,7 +122,7 @@ pub enum SceneError {
     },
     /// The attachment is held level, but a loose obstacle turns.
     #[error(
-        "carried object \"{object}\" keeps its orientation, but obstacle \"{moving_obstacle}\" turns; such objects need obstacles that do not turn"
+        "obstacle \"{moving_obstacle}\" turns, but the carried object \"{object}\" keeps its orientation; such objects cannot be carried among obstacles that turn"
     )]
     TurnsAboutLevel {
         /// The attachment's name.
@@ -234,9 +233,9 @@ fn check_motors(arm: &Arm) -> Result<(), SceneError> {
         return error("both joints must turn");
     }
     match range {
-        Some([lower, upper]) if lower >= upper => error("the least sum of joint values must be below the greatest"),
+        Some([lower, upper]) if lower >= upper => error("the least sum of the joint values is not below the greatest"),
         Some(_) if arm.joints.iter().any(|joint| joint.range.is_circle()) => {
-            error("a range of the sum of joint values needs limits of both joints")
+            error("a range of the sum of the joint values is given, but not both joints have limits")
         }
         _ => Ok(()),
     }

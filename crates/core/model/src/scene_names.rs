@@ -70,12 +70,10 @@ impl Scene {
         let errors = self.required(pair) - clearance;
         match (clearance > 0.0, errors > 0.0) {
             (_, false) => format!("the clearance of {}", chosen_length(clearance)),
-            (false, true) => format!("the {} that the stated errors need", length(errors)),
-            (true, true) => format!(
-                "the clearance of {} and the {} that the stated errors need",
-                chosen_length(clearance),
-                length(errors)
-            ),
+            (false, true) => format!("the {} for the stated errors", length(errors)),
+            (true, true) => {
+                format!("the clearance of {} plus {} for the stated errors", chosen_length(clearance), length(errors))
+            }
         }
     }
 

@@ -72,8 +72,7 @@ impl Comparison {
         };
         self.is_contradictory().then(|| {
             format!(
-                "the planners contradict each other on {}: {} found a certified path, {} proved that there is none; one \
-                 of them is wrong, and that is a defect of cplan: please report it with the robot and the world",
+                "the planners contradict each other on {}: {} found a certified path, {} proved that there is none; this is a defect of cplan, please report it with the robot and the world",
                 self.problem,
                 named(Status::Found),
                 named(Status::Infeasible)

@@ -25,7 +25,7 @@ impl Study {
         let [found, infeasible, open] = self.outcome_counts();
         let all = counted(self.comparisons.len(), "problem");
         if found == 0 {
-            return format!("None of {all} has a certified path: {infeasible} proven to have none, {open} open.");
+            return format!("None of {all} has a certified path: {infeasible} proven infeasible, {open} unknown.");
         }
         let claim = |purpose: Purpose, what: &str| {
             let (planner, wins) = self.most_recommended(purpose)?;
@@ -69,7 +69,7 @@ impl Comparison {
         let best = |purpose| self.recommended(purpose).map(|row| &self.rows[row]);
         let (Some(shortest), Some(safest)) = (best(Purpose::Shortest), best(Purpose::Safest)) else {
             return match count(Status::Infeasible) {
-                0 => format!("None of {} found a path, or a proof that there is none.", counted(all, "planner")),
+                0 => format!("None of {} found a path or a proof that there is none.", counted(all, "planner")),
                 proved => format!("There is no path: {proved} of {} proved it.", counted(all, "planner")),
             };
         };
@@ -93,14 +93,14 @@ impl Comparison {
         }
         if std::ptr::eq(shortest, safest) {
             return format!(
-                "{who}: `{}` has both the shortest and the safest, which {}.",
+                "{who}: that of `{}` is both the shortest and the safest, and {}.",
                 shortest.planner,
                 clearance(safest)
             );
         }
         // The same number as in the table, if there is a bound.
         let longer = over(safest)
-            .map(|over| format!(", at most {over} over the optimum"))
+            .map(|over| format!(", at most {over} longer than the optimum"))
             .or_else(|| Some(format!(", {} longer than the shortest", percent(self.ratio(safest)? - 1.0))));
         format!("{who}: {near}, and `{}` {}{}.", safest.planner, clearance(safest), longer.unwrap_or_default())
     }

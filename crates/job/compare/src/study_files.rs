@@ -170,7 +170,7 @@ impl Study {
         };
         let mut remarks: Vec<String> = self.comparisons.iter().flat_map(of).collect();
         if remarks.len() > MAX_REMARKS {
-            let more = format!("and {} more such remarks, which CSV and JSON have", remarks.len() - MAX_REMARKS);
+            let more = format!("and {} more such remarks, in the CSV and JSON files", remarks.len() - MAX_REMARKS);
             remarks.truncate(MAX_REMARKS);
             remarks.push(more);
         }

@@ -57,13 +57,13 @@ pub fn words(study: &Study) -> Vec<String> {
 fn outcomes(study: &Study) -> String {
     let [found, infeasible, open] = study.outcome_counts();
     let all = counted(study.comparisons.len(), "problem");
-    let mut text = format!("{all}: {found} with a certified path, {infeasible} proven to have none, {open} open.");
+    let mut text = format!("{all}: {found} with a certified path, {infeasible} proven infeasible, {open} unknown.");
     let unknown: Vec<String> = study
         .planners()
         .iter()
         .enumerate()
         .filter_map(|(i, name)| Some((name, study.tally(i)[2])).filter(|(_, n)| *n > 0))
-        .map(|(name, n)| format!("{name} left {n} open"))
+        .map(|(name, n)| format!("{n} unknown to {name}"))
         .collect();
     if unknown.is_empty() {
         text += " Every planner answered all of them.";
@@ -78,7 +78,7 @@ fn optimum(study: &Study) -> Option<String> {
     let excess = |c: &super::Comparison| Some(c.best()? / c.bound? - 1.0);
     let spread = Spread::of(study.comparisons.iter().filter_map(excess))?;
     Some(format!(
-        "The shortest path found is longer than the optimum by at most {} (median; {} at worst): proven, on {}.",
+        "The shortest path found is at most {} longer than the optimum (median of the proven gaps; the largest is {}), on {}.",
         percent(spread.median),
         percent(spread.max),
         counted(spread.n, "problem")
@@ -152,7 +152,7 @@ fn describe_aspect(
         wins.count()
     };
     let figures = format!(
-        "Median {what}: {} (over {} that all sides answered, each with its best planner).",
+        "Median {what}: {} (of {} that all sides answered, each side with its best planner).",
         medians.join(", "),
         counted(values.len(), "problem")
     );

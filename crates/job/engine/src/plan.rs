@@ -148,7 +148,7 @@ fn unsuitable_options(options: &Options, problem: &Problem) -> Option<String> {
         ));
     }
     if options.planner.settings().criterion == Criterion::Motor && problem.scene().arm().motors.is_none() {
-        return Some("--metric motor needs the motors of two joints that turn: [robot] drives in the world".into());
+        return Some("--metric motor needs two joints that turn, with motors: [robot] drives in the world".into());
     }
     if !options.drive.torque || problem.scene().arm().dynamics.is_some() {
         return None;
@@ -160,13 +160,15 @@ fn unsuitable_options(options: &Options, problem: &Problem) -> Option<String> {
 /// Describes why C-obstacles are not polygons.
 fn curved_because(curved: NotPolygons, scene: &Scene) -> String {
     match curved {
-        NotPolygons::Arm => format!("only gantries (PP) have these: this arm is {}", scene.arm().kind()),
+        NotPolygons::Arm => format!("only gantries (PP) have polygons, and this arm is {}", scene.arm().kind()),
         NotPolygons::Clearance => {
-            format!("a clearance of {} makes their corners round", length(scene.workspace().clearance))
+            format!("a clearance of {} rounds the corners of C-obstacles", length(scene.workspace().clearance))
         }
-        NotPolygons::RoundLink(pair) => format!("{} is round, so their corners are, too", scene.describe_part(pair)),
+        NotPolygons::RoundLink(pair) => {
+            format!("{} is round, which rounds the corners of C-obstacles", scene.describe_part(pair))
+        }
         NotPolygons::RoundObstacle(pair) => {
-            format!("{} is round, so their corners are, too", scene.describe_obstacle(pair.obstacle))
+            format!("{} is round, which rounds the corners of C-obstacles", scene.describe_obstacle(pair.obstacle))
         }
     }
 }

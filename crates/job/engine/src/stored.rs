@@ -103,7 +103,7 @@ impl<'de> Deserialize<'de> for Problem {
         let ProblemRecord { asked, robot, notes } = ProblemRecord::deserialize(deserializer)?;
         if !are_joints(&robot.joints) {
             return Err(D::Error::custom(
-                "the robot's joints need finite numbers within their ranges, and planned ones are 0 and 1",
+                "invalid joints of the robot: values must be finite and within the joints' ranges, and the planned joints are 0 and 1",
             ));
         }
         let (problem, task, trajectories) = match asked {
@@ -116,7 +116,7 @@ impl<'de> Deserialize<'de> for Problem {
                 task.restrict_shapes();
                 let scene: Result<Scene, TaskError> = task.check();
                 if robot.joints.stroke.is_some() && robot.joints.stroke != task.stroke {
-                    return Err(D::Error::custom("the robot's stroke is not the task's"));
+                    return Err(D::Error::custom("robot and task have different strokes"));
                 }
                 let (scene, trajectories) = (scene.map_err(D::Error::custom)?, task.initial_trajectories());
                 (MotionProblem::trusted(scene, task.start, GoalSet::default()), Some(task), trajectories)
@@ -177,7 +177,7 @@ pub enum StoredPlanError {
     #[error(transparent)]
     Json(#[from] serde_json::Error),
     /// Planning gives another result. The text is the first difference.
-    #[error("{0}; plan the problem again to have a result that holds")]
+    #[error("the stored result differs from planning: {0}; plan the problem again")]
     Differs(String),
 }
 
@@ -232,7 +232,7 @@ fn difference(at: &str, stated: &Value, planned: &Value) -> Option<String> {
             missing.or_else(|| {
                 theirs.iter().find_map(|(name, value)| match ours.get(name) {
                     Some(own) => difference(&format!("{at}.{name}"), value, own),
-                    None => Some(format!("{at}.{name} is stated, and planning gives none")),
+                    None => Some(format!("{at}.{name} is stated, but planning gives no such value")),
                 })
             })
         }
@@ -241,9 +241,9 @@ fn difference(at: &str, stated: &Value, planned: &Value) -> Option<String> {
         }
         _ if stated == planned => None,
         (Value::Array(theirs), Value::Array(ours)) => {
-            Some(format!("{at} has {} entries, and planning gives {}", theirs.len(), ours.len()))
+            Some(format!("{at} has {} entries, but planning gives {}", theirs.len(), ours.len()))
         }
-        _ => Some(format!("{at} is {}, and planning gives {}", format_value(stated), format_value(planned))),
+        _ => Some(format!("{at} is {}, but planning gives {}", format_value(stated), format_value(planned))),
     }
 }
 

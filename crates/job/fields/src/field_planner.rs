@@ -110,10 +110,10 @@ impl FieldQuery<'_> {
             let at = format_cell(grid, cell);
             match minimum {
                 true => format!(
-                    "the potential has a local minimum at {at}, of value {value:.4e}{}",
+                    "the potential has a local minimum of {value:.4e} at {at}{}",
                     describe_failed_escape(escape)
                 ),
-                false => format!("the forces trap the arm at {at}, where they add up to {value:.4e}"),
+                false => format!("the forces trap the arm at {at}; their sum there is {value:.4e}"),
             }
         });
         let EscapedMinima { minima, moves } = guide.escaped();
@@ -181,8 +181,8 @@ impl FieldQuery<'_> {
 fn describe_failed_escape(escape: Option<Escape>) -> &'static str {
     match escape {
         None => "",
-        Some(Escape::Walk { .. }) => "; no random walk from it led to a lower cell",
-        Some(Escape::Wave) => "; no lower cell is connected with it",
+        Some(Escape::Walk { .. }) => "; no random walk from there led to a lower cell",
+        Some(Escape::Wave) => "; no lower cell can be reached from there",
     }
 }
 
@@ -205,8 +205,7 @@ fn describe_unconverged(domain: &Domain, equation: &Equation, relaxation: &Relax
     let hint = match relaxation.scheme {
         _ if !equation.is_monotone_on(domain) => not_monotone(equation),
         Scheme::Successive { .. } if factor > 1.0 && equation.has_preferences() && relaxation.relaxes_preferences => {
-            "preferences are multiplied by the factor, too; leave out --relax-preferences, or take a smaller factor"
-                .into()
+            "the factor also multiplies the preferences; leave out --relax-preferences, or take a smaller factor".into()
         }
         Scheme::Successive { .. } if factor > 1.0 => {
             format!("allow more sweeps or a larger tolerance, or take a factor below {factor:.4}")
@@ -220,8 +219,11 @@ fn describe_unconverged(domain: &Domain, equation: &Equation, relaxation: &Relax
 fn explain_dead_end(stuck: &DeadEnd, domain: &Domain, equation: &Equation, on: Device) -> String {
     match stuck {
         _ if !equation.is_monotone_on(domain) => not_monotone(equation),
-        DeadEnd { value: 0.0, .. } => format!("its values are too small for {}", on.precision()),
-        DeadEnd { value, .. } => format!("values around {value} differ by less than {} can represent", on.precision()),
+        DeadEnd { value: 0.0, .. } => format!("the values of the field are too small for {}", on.precision()),
+        DeadEnd { value, .. } => format!(
+            "the values around {value} differ so little that {} cannot represent the differences",
+            on.precision()
+        ),
     }
 }
 

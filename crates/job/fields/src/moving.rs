@@ -127,7 +127,9 @@ impl MovingField {
         if cells[0].checked_mul(cells[1]) != Some(walls.len()) || u32::try_from(walls.len()).is_err() {
             let [rows, columns] = cells;
             let count = walls.len();
-            return Err(RelaxError::Refused(format!("{rows} x {columns} cells need one flag each, not {count}")));
+            return Err(RelaxError::Refused(format!(
+                "{count} flags are given for {rows} x {columns} cells; each cell needs one"
+            )));
         }
         let kinds = walls.iter().map(|&wall| if wall { Cell::Obstacle } else { Cell::Free }).collect();
         let domain = Domain::new(cells, kinds, boundaries, Levels::PUBLISHED);

@@ -66,7 +66,7 @@ pub enum ObstacleTrajectoryError {
     #[error("a moving obstacle needs at least one stop")]
     Empty,
     /// A time is not later than the previous one, or is negative, or exceeds [`MAX_STOP_TIME`].
-    #[error("stop {} is at {time} s; times begin at 0 or later, increase, and end before {MAX_STOP_TIME:e}", stop + 1)]
+    #[error("stop {} has the time {time} s; times must increase, from 0 or more to less than {MAX_STOP_TIME:e} s", stop + 1)]
     Time {
         /// Index of the stop, from 0.
         stop: usize,
@@ -74,7 +74,7 @@ pub enum ObstacleTrajectoryError {
         time: f64,
     },
     /// A place, angle or velocity is not finite, or is too large.
-    #[error("stop {} has a position or a velocity that is not finite or too large", stop + 1)]
+    #[error("stop {}: the position or the velocity is not finite, or too large", stop + 1)]
     Place {
         /// Index of the stop, from 0.
         stop: usize,

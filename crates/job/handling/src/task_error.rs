@@ -51,7 +51,7 @@ pub enum TaskError {
     #[error("there are no steps")]
     NoSteps,
     /// A group has no steps.
-    #[error("a group of steps in any order has no steps")]
+    #[error("a group of steps in any order is empty")]
     EmptyGroup,
     /// An obstacle or object moves, and the task needs a feature that supports static obstacles only.
     #[error("\"{mover}\" moves, but {why}")]
@@ -62,7 +62,7 @@ pub enum TaskError {
         why: &'static str,
     },
     /// An object cannot be renewed.
-    #[error("a renewed object does not exist, moves, or is still carried")]
+    #[error("an object cannot be renewed, because it does not exist, moves, or is still carried")]
     Renewed,
 }
 
@@ -112,21 +112,21 @@ impl Task {
         let trajectories: Vec<_> = movers.chain(own).collect();
         let (first, _) = trajectories.first()?;
         if self.steps().any(|step| matches!(step.action, Action::Follow(_))) {
-            return Some(((*first).clone(), "a line is followed among obstacles at rest"));
+            return Some(((*first).clone(), "lines can be followed only if all obstacles are static"));
         }
         let turns = |step: &Step| matches!(step.action, Action::Place { angle: Some(_), .. });
         if self.stroke.is_some() {
-            return Some(((*first).clone(), "a tool that is lowered and raised needs static obstacles"));
+            return Some(((*first).clone(), "a tool can be lowered and raised only if all obstacles are static"));
         }
         if self.wrist.is_some() && self.steps().any(turns) {
-            return Some(((*first).clone(), "a wrist that turns objects needs static obstacles"));
+            return Some(((*first).clone(), "a wrist can turn objects only if all obstacles are static"));
         }
         if self.steps().any(|step| step.tool.wrist.is_some()) {
-            return Some(((*first).clone(), "a wrist that turns to a value needs static obstacles"));
+            return Some(((*first).clone(), "a wrist can turn to a value only if all obstacles are static"));
         }
         let (turning, _) = trajectories.iter().find(|(_, trajectory)| trajectory.turns())?;
         let is_level = self.objects.iter().any(|object| object.holding == Holding::Level);
-        is_level.then(|| ((*turning).clone(), "objects that are held level need moving obstacles that do not turn"))
+        is_level.then(|| ((*turning).clone(), "objects can be held level only if no moving obstacle turns"))
     }
 
     /// Checks the stroke and the wrist: limits, ranges and durations.
@@ -149,19 +149,19 @@ impl Task {
         let why = if !wrist.chain(stroke).all(|(limits, distance)| is_drive(limits, distance)) {
             "speeds, accelerations and jerks must be positive, finite, and large enough for at most a million seconds"
         } else if self.stroke.iter().any(|s| !s.joint.is_sound() || s.joint.range.is_circle()) {
-            "its joint needs a sign of 1 or -1, a range, and a rest value within the range"
+            "the joint of the tool needs a sign of 1 or -1, a range, and a rest value within the range"
         } else if self.stroke.iter().filter_map(|s| s.travel).any(|travel| !travel.is_finite()) {
-            "its travel must be finite"
+            "the travel must be finite"
         } else if self.stroke.iter().filter_map(|s| s.arch).any(|arch| !arch.is_valid()) {
-            "the heights of its arch must be finite and not negative"
+            "the heights of the arch must be finite and not negative"
         } else if self.stroke.iter().any(|stroke| !self.objects.iter().all(|object| stroke.reaches(object))) {
             "an object lies too deep for the stroke"
         } else if self.step_beyond_stroke().is_some() {
             "a place is too low or too high for the stroke"
         } else if !tools().all(is_reached) {
-            "it is lowered beyond its range, or without a stroke"
+            "the tool is lowered beyond its range, or has no stroke"
         } else if !tools().filter_map(|tool| tool.wrist).all(f64::is_finite) {
-            "the value of its wrist must be finite"
+            "the value of the wrist must be finite"
         } else {
             return Ok(());
         };
@@ -189,11 +189,11 @@ fn angle_at_first(object: &Object) -> f64 {
 
 fn check_object(object: &Object) -> Result<(), TaskError> {
     let why = if !is_pose(&object.at) {
-        "its pose must be finite"
+        "the pose must be finite"
     } else if !(0.0..=MAX_COORDINATE).contains(&object.lift) {
-        "its lift must be from 0 to 1e15 m"
+        "the lift must be from 0 to 1e15 m"
     } else if !(0.0..=MAX_COORDINATE).contains(&object.mass) {
-        "its mass must be from 0 to 1e15 kg"
+        "the mass must be from 0 to 1e15 kg"
     } else if !object.pieces.iter().all(is_small) {
         "it is larger than 1e15 m"
     } else {
@@ -225,7 +225,7 @@ impl Gripper<'_> {
                     let is_place = matches!(place.action, Action::Place { .. });
                     match pick.action.picked() {
                         Some(object) if is_place && picked.insert(object) => {}
-                        _ => return Err(wrong(pick, "a group in any order consists of picks of different objects, each followed by its place")),
+                        _ => return Err(wrong(pick, "a group in any order must consist of picks of different objects, each followed by a place")),
                     }
                     self.step(pick)?;
                     self.step(place)
@@ -247,14 +247,14 @@ impl Gripper<'_> {
         require(
             step.speed > 0.0 && step.speed <= 1.0 && (0.0..=MAX_PART_DURATION).contains(&step.dwell),
             step,
-            "its speed must be greater than 0 and at most 1, and its dwell from 0 to a million seconds",
+            "the speed must be greater than 0 and at most 1, and the dwell from 0 to a million seconds",
         )?;
         if !step.tool.is_default() {
             let is_alone = self.task.steps().count() == 1 && self.carried.is_none();
-            let why = "only the move of a task with a single step has values of the tool's joints";
+            let why = "values of the tool's joints are possible only in a task with a move as its only step";
             require(is_alone && matches!(step.action, Action::Move(_)), step, why)?;
             let may_turn = self.task.start_tool.wrist.is_some() && self.task.wrist.is_some();
-            let why = "its wrist turns from an unknown value, or there is no wrist";
+            let why = "the wrist turns from an unknown value, or there is no wrist";
             require(step.tool.wrist.is_none() || may_turn, step, why)?;
         }
         let why = "only arms with two revolute joints have an elbow";
@@ -264,24 +264,24 @@ impl Gripper<'_> {
         let before = std::mem::replace(&mut self.tip, tip);
         match &step.action {
             Action::Pick { object, grasp, supports, when } => {
-                let why = "it picks an object that does not exist, or picks while the tool carries an object";
+                let why = "the picked object does not exist, or the tool already carries an object";
                 require(*object < self.task.objects.len() && self.carried.is_none(), step, why)?;
                 let is_first = self.task.objects[*object].trajectory.is_some() && self.picked.insert(*object);
                 let mut ends = when.iter().flatten();
                 let is_timely =
                     is_first && ends.clone().is_sorted() && ends.all(|end| (0.0..=MAX_STOP_TIME).contains(end));
-                let why = "only the first pick of a moving object has times, and these must be in order";
+                let why = "only the first pick of a moving object can have times, and they must be in order";
                 require(when.is_empty() || is_timely, step, why)?;
                 self.carried = Some(*object);
                 self.check_supports(step, *object, supports, are_small(grasp.iter().copied()))
             }
             Action::Place { at, angle, supports } => {
-                let why = "it places an object, but the tool carries none";
+                let why = "the step places an object, but the tool carries none";
                 let object = self.carried.take().ok_or_else(|| wrong(step, why))?;
                 if let Some(angle) = *angle {
                     let is_turned = angle != std::mem::replace(&mut self.turned[object], angle);
                     let is_level = self.task.objects[object].holding == Holding::Level;
-                    let why = "its object cannot be turned: it is not held level, or the tool has no wrist";
+                    let why = "the object cannot be turned, because it is not held level or the tool has no wrist";
                     require(is_level && (!is_turned || self.task.wrist.is_some()), step, why)?;
                 }
                 let is_finite = are_small(at.iter().chain(angle).copied());
@@ -290,20 +290,20 @@ impl Gripper<'_> {
             Action::Move(Goal::Joints(q)) => {
                 let mut values = self.task.arm.joints.iter().zip(q.iter());
                 let is_within = values.all(|(joint, value)| joint.range.contains(*value));
-                require(is_within, step, "its joint values are beyond the joint limits")
+                require(is_within, step, "the joint values are outside the joint limits")
             }
             Action::Move(Goal::Area(_)) => {
                 Err(wrong(step, "a move needs joint values or a position of the tip, not an area"))
             }
             Action::Follow(line) => {
                 let start: Point = line.path.start().into();
-                let why = "its tolerance must be finite and at least a micrometre, and its speed finite and positive";
+                let why = "the tolerance must be finite and at least a micrometre, and the speed finite and positive";
                 require(line.is_valid(), step, why)?;
                 let is_there = before.is_some_and(|tip| (tip - start).norm() <= LINE_START_TOLERANCE);
                 require(is_there, step, "the step before a line must move the tip to where the line begins")
             }
             Action::Move(Goal::Tip(tip) | Goal::TipAndElbow(tip, _)) => {
-                require(are_small(tip.iter().copied()), step, "its position must be finite")
+                require(are_small(tip.iter().copied()), step, "the position must be finite")
             }
         }
     }
@@ -312,11 +312,11 @@ impl Gripper<'_> {
     fn check_supports(&self, step: &Step, object: usize, supports: &[usize], is_finite: bool) -> Result<(), TaskError> {
         let (task, own) = (self.task, self.task.obstacle_number(object));
         let count = task.obstacle_number(task.objects.len());
-        require(is_finite, step, "its position must be finite")?;
+        require(is_finite, step, "the position must be finite")?;
         let exist = supports.iter().all(|&support| support < count && support != own);
-        require(exist, step, "its object rests on itself or on an obstacle that does not exist")?;
+        require(exist, step, "the object rests on itself, or on an obstacle that does not exist")?;
         let can_rest = supports.is_empty() || task.objects[object].can_rest(&task.arm);
-        require(can_rest, step, "its object is too thin to rest on anything")
+        require(can_rest, step, "the object is too thin to rest on anything")
     }
 }
 

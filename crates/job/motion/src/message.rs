@@ -22,9 +22,7 @@ pub struct JointMotion {
 /// The accelerations of a motion jump, so they would mislead readers that join samples by quintics.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
-    "accelerations cannot be written: at {time:.6} s they jump, and a controller that joins points by quintics would leave the \
-     certified motion; give both joints a limit on their jerk (--jerk 200,200, or [robot] jerk in the world file), or leave \
-     out --accelerations"
+    "accelerations cannot be written: they jump at {time:.6} s, so a controller that joins points by quintics would leave the certified motion; limit the jerk of both joints (--jerk 200,200, or [robot] jerk in the world file), or leave out --accelerations"
 )]
 pub struct AccelerationJump {
     /// Time of the first jump, seconds.

@@ -93,14 +93,12 @@ pub enum TimingError {
     },
     /// The motion would last longer than [`MAX_DURATION`]: the limits hardly let the joints move.
     #[error(
-        "the motion would last {0:.3e} s, more than {MAX_DURATION:.0e} s; \
-         raise the limits of the joints, and of the tip's speed if it has one"
+        "the motion would last {0:.3e} s, more than {MAX_DURATION:.0e} s; raise the limits of the joints, and the limit of the tip's speed if there is one"
     )]
     TooLong(f64),
     /// The effort of a joint or a motor is less than the torque that holds the arm against gravity.
     #[error(
-        "{drive} has an effort of {effort} {unit}, and the arm takes {torque:.3} {unit} at {}; \
-         raise the effort in [robot], or let the path keep away from there",
+        "{drive} has an effort of {effort} {unit}, but holding the arm at {} takes {torque:.3} {unit}; raise the effort in [robot], or choose a path that avoids this place",
         described(*.at)
     )]
     TooHeavy {

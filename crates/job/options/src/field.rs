@@ -18,7 +18,7 @@ use cplan_solver::{Method, Setting};
 pub enum FieldName {
     /// Laplace's equation.
     Harmonic,
-    /// A drift in one direction everywhere: needs --epsilon and --direction.
+    /// The same drift everywhere; needs --epsilon and --direction.
     Oriented,
     /// In each [[preference]] region of the world, the region's drift.
     Local,
@@ -65,7 +65,7 @@ pub struct FieldArgs {
     /// (local).
     #[arg(long, value_name = "v1,v2", value_parser = direction, allow_hyphen_values = true)]
     pub direction: Option<Direction>,
-    /// Differences that replace slopes (oriented, local, bvp) [default: central].
+    /// Finite differences for the slopes (oriented, local, bvp) [default: central].
     #[arg(long, value_parser = word(DIFFERENCES), value_name = "NAME")]
     pub difference: Option<Difference>,
     /// Relaxation of the equation, such as --relaxation sor --order corners [default: gauss-seidel, except for the plain
@@ -79,9 +79,9 @@ pub struct FieldArgs {
     /// rectangle].
     #[arg(long, value_name = "W", value_parser = positive, allow_hyphen_values = true)]
     pub factor: Option<f64>,
-    /// Multiply preferences by the factor of sor, too (bvp, bvp2). The limit then is that of gauss-seidel, but bvp2 may
-    /// not converge. By default sor adds preferences without its factor, as published: their epsilon counts as epsilon
-    /// / factor.
+    /// Multiply also preferences by the factor of sor (bvp, bvp2). The solution is then that of gauss-seidel, but bvp2
+    /// may not converge. Without this option, sor adds preferences without its factor, as published; their epsilon then
+    /// acts like epsilon / factor.
     #[arg(long)]
     pub relax_preferences: bool,
     /// Value of free cells before the first sweep [default: high].
@@ -93,9 +93,9 @@ pub struct FieldArgs {
     /// Effect of the joint limits on the field [default: high].
     #[arg(long, value_parser = word(LIMITS), value_name = "NAME")]
     pub limits: Option<Limits>,
-    /// Measure of a sweep's changes, which must fall below the tolerance. Only the relative measure notices the small
-    /// values far from the goal. If a path gets stuck there under another measure, sweeps continue under the relative one,
-    /// and the result reports it [default: relative; for sor on a CPU absolute].
+    /// Measure of a sweep's changes; sweeps end when it falls below the tolerance. Values far from the goal are small,
+    /// and only the relative measure notices them. If a path gets stuck there with another measure, sweeps continue
+    /// with the relative one, and the result reports this [default: relative; for sor on a CPU absolute].
     #[arg(long, value_parser = word(MEASURES), value_name = "NAME")]
     pub measure: Option<Measure>,
     /// Relax until the measure is below this [default: 1e-6; of absolute and sums 0.01, of squares 0.0001].
@@ -118,9 +118,9 @@ pub struct FieldArgs {
     /// Apply tanh to each component of attraction and repulsion (khatib).
     #[arg(long)]
     pub saturated: bool,
-    /// Escape from local minima (khatib). wave fills the basin until it overflows into a lower cell. walk:SEED
-    /// alternates random walks and descents until it reaches a lower cell; walk is walk:1. The result reports escapes
-    /// [default: a local minimum ends the search].
+    /// Escape from local minima (khatib). wave fills the minimum's basin until the wave overflows into a lower cell.
+    /// walk:SEED alternates random walks and descents until one reaches a lower cell; walk means walk:1. The result
+    /// reports escapes [default: a local minimum ends the search].
     #[arg(long, value_name = "HOW", value_parser = escape)]
     pub escape: Option<Escape>,
 }
@@ -167,7 +167,7 @@ impl FieldArgs {
         };
         if self.saturated && self.escape.is_some() {
             return Err(
-                "--escape needs a potential, which the forces of --saturated lack; leave out one of the two".into()
+                "--escape needs a potential, but the forces of --saturated have none; leave out one of the two".into(),
             );
         }
         let limits = self.limits.unwrap_or_default();
@@ -248,7 +248,7 @@ impl FieldArgs {
         }
         if self.relax_preferences && name != RelaxationName::Sor {
             return Err(
-                "--relax-preferences needs --relaxation sor: other relaxations have no factor to leave out".into()
+                "--relax-preferences needs --relaxation sor: other relaxations have no factor for preferences".into()
             );
         }
         let sor = |factor: Factor| {

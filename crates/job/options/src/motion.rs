@@ -9,21 +9,22 @@ use cplan_motion::{Drive, Objective};
 #[derive(Debug, PartialEq, Args)]
 #[command(next_help_heading = "Motion limits")]
 pub struct MotionArgs {
-    /// Quantity to minimise: the length of the path, or the time of the motion, which reshapes the path.
+    /// Quantity to minimise: the length of the path, or the duration of the motion (this changes the shape of the
+    /// path).
     #[arg(long, value_parser = word(OBJECTIVES), value_name = "WHAT", default_value = "length")]
     pub optimize: Objective,
     /// Time between two samples of the trajectory, seconds.
     #[arg(long, value_name = "SECONDS", default_value_t = 0.01, value_parser = seconds, allow_hyphen_values = true)]
     pub period: f64,
-    /// Greatest distance from a corner within which the motion may leave the path to round it, in joint space (a radian
-    /// counts like a metre). "none" stops at every corner; "auto" derives the distance from the clearance and the path.
+    /// Radius within which the motion may round each corner of the path, in joint space (a radian counts like a metre).
+    /// With "none", the arm stops at every corner; "auto" derives the radius from the clearance and the path.
     #[arg(long, value_name = "RADIUS", default_value = "auto", value_parser = radius, allow_hyphen_values = true)]
     pub blend: f64,
     /// Greatest speed of the tip, metres per second [default: only the joints' speeds are limited].
     #[arg(long, value_name = "M_PER_S", value_parser = tip_speed, allow_hyphen_values = true)]
     pub tip_speed: Option<f64>,
-    /// Keep the joints' torques within the effort limits of the URDF or the world. Torques follow from the masses of links
-    /// and objects.
+    /// Keep the joints' torques within the effort limits of the URDF or the world. Torques are computed from the masses
+    /// of links and objects.
     #[arg(long)]
     pub torque: bool,
     /// Greatest jerk of each joint instead of the world's, such as 200,none: rad/s3 or m/s3, or "none" for no limit.

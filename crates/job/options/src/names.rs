@@ -53,8 +53,7 @@ pub fn planners() -> Vec<Word<Method>> {
 }
 
 pub(super) fn path_kinds() -> [Word<PathKind>; 3] {
-    let middles = "For trapezoid: through the middles of portals; through a cell's centre only between portals on one \
-                   vertical";
+    let middles = "For trapezoid: through the middles of portals, and through a cell's centre where two portals are on one vertical";
     [
         (PathKind::Own, "The path of the planner's method"),
         (PathKind::Taut, "The same path pulled taut: shorter, nearer to obstacles"),
@@ -66,7 +65,10 @@ pub(super) fn path_kinds() -> [Word<PathKind>; 3] {
 pub(super) fn visibility_graphs() -> [Word<VisibilityGraph>; 2] {
     let full = "The textbook definition: an arc between any two corners that see each other, and every side";
     [
-        (VisibilityGraph::Reduced, "Only arcs that a shortest path can use: tangent to the obstacles at both ends"),
+        (
+            VisibilityGraph::Reduced,
+            "Only arcs that a shortest path can use, which are tangent to the obstacles at both ends",
+        ),
         (VisibilityGraph::Full, full),
     ]
     .map(|(graph, help)| (graph, graph.name(), help))
@@ -78,12 +80,12 @@ pub(super) fn searches() -> [Word<GridSearch>; 7] {
         (Wave, "For grids: labels all cells, beginning at the goal; fewest moves"),
         (BreadthFirst, "Breadth first from one end (start or goal) to the other; fewest moves or edges"),
         (DepthFirst, "Depth first from one end to the other; any path"),
-        (Dijkstra, "Least cost first: length, or on grids moves, where a diagonal move costs 1.414"),
-        (AStar, "Least cost so far plus straight distance left first; the same path length, found sooner"),
-        (Greedy, "Least straight distance left first; any path, found quickly"),
+        (Dijkstra, "Least cost first; the cost is the length, or on grids the moves (a diagonal move costs 1.414)"),
+        (AStar, "Least sum of cost and straight distance to the end first; finds paths as short as dijkstra's, sooner"),
+        (Greedy, "Least straight distance to the end first; any path, found quickly"),
         (
             IterativeDeepening,
-            "For grids: depth first within a limit of moves, which grows by one each round; fewest moves",
+            "For grids: depth first with a limit on the number of moves, which each round raises by one; fewest moves",
         ),
     ]
     .map(|(search, help)| (search, search.name(), help))
@@ -91,7 +93,10 @@ pub(super) fn searches() -> [Word<GridSearch>; 7] {
 
 pub(super) fn grid_spaces() -> [Word<GridSpace>; 4] {
     [
-        (GridSpace::Rows, "By exact slices: first only wholly free cells, then also cells with a free centre"),
+        (
+            GridSpace::Rows,
+            "By exact slices: first only wholly free cells, in a second attempt also cells with a free centre",
+        ),
         (GridSpace::Whole, "By exact slices: only wholly free cells, in every attempt"),
         (GridSpace::Centers, "By exact slices: cells with a free centre, in every attempt"),
         (GridSpace::Sampled, "By parry2d's collision checks at the cells' centres"),
@@ -109,7 +114,7 @@ pub(super) const DEVICES: [Word<Device>; 2] = [
     (
         Device::Gpu,
         "gpu",
-        "Single precision, cells red-black or all at once; needs a program built with the feature gpu",
+        "Single precision; relaxes cells red-black or all at once; needs a program built with the feature gpu",
     ),
 ];
 
@@ -139,7 +144,7 @@ pub const LIMITS: [Word<Limits>; 2] = [
 /// Values of free cells before the first sweep.
 pub const INITIALS: [Word<Initial>; 2] = [
     (Initial::High, "high", "The value of obstacles"),
-    (Initial::Low, "low", "The value of goals, as in published counts of sweeps"),
+    (Initial::Low, "low", "The value of goals; published numbers of sweeps were counted with it"),
 ];
 
 /// Measures of a sweep's changes.
@@ -151,12 +156,11 @@ pub const MEASURES: [Word<Measure>; 5] = [
     (Measure::DifferenceOfSums, "sums", "Difference between the sums of changes of this and the previous sweep"),
 ];
 
-const FARTHEST: &str = "The cell farthest from the beginning of the search, and of these the one found last: goes straight \
-                        ahead";
+const FARTHEST: &str = "The cell farthest from the beginning of the search, and among equals the one found last: the search goes straight ahead";
 
 pub(super) const TIES: [Word<Ties>; 2] = [
     (Ties::Farthest, "farthest", FARTHEST),
-    (Ties::First, "first", "The cell found first: advances along all equally good routes together"),
+    (Ties::First, "first", "The cell found first: the search advances along all equally good routes together"),
 ];
 
 /// Joints in messages.

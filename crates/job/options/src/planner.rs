@@ -18,18 +18,18 @@ use std::sync::LazyLock;
 #[derive(Debug, Clone, PartialEq, Args)]
 #[command(next_help_heading = "Resolution")]
 pub struct EffortArgs {
-    /// Initial number of grid cells along each axis, from 8 to 2048, or one number per joint, such as 128x512. Grids of
-    /// more than 32 cells are doubled if needed, up to 2048; smaller grids only with --levels [default: 256; for
-    /// planner harmonic 65536 in total, square in joint space, where a radian counts like a metre].
+    /// Initial number of grid cells along each axis, from 8 to 2048, or one number per joint, such as 128x512. If
+    /// needed, numbers above 32 are doubled, up to 2048; smaller numbers only with --levels [default: 256; for planner
+    /// harmonic 65536 cells in total, square in joint space, where a radian counts like a metre].
     #[arg(long, value_name = "N|AxB", allow_hyphen_values = true)]
     pub cells: Option<CellCounts>,
-    /// Initial margin by which C-obstacles are grown, as a share of the arm's reach; quartered if needed. 0 is for
-    /// gantries: files and pictures then have the exact Minkowski differences, and the first attempt plans among them.
-    /// If its path touches one, the planner tries again with a small margin, because touching is contact [default:
-    /// 0.001].
+    /// Initial margin by which C-obstacles are grown, as a fraction of the arm's reach; divided by four if needed. 0 is
+    /// possible for gantries: files and pictures then show the exact Minkowski differences, and the first attempt plans
+    /// among these. If the path touches one of them, which counts as contact, the planner tries again with a small
+    /// margin [default: 0.001].
     #[arg(long, value_name = "SHARE", value_parser = margin, allow_hyphen_values = true)]
     pub margin: Option<f64>,
-    /// Maximum number of attempts, each finer than the one before [default: 6].
+    /// Maximum number of attempts, each finer than the previous one [default: 6].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u8).range(to_i64_range(&ALLOWED_LEVELS)))]
     pub levels: Option<u8>,
 }
@@ -64,7 +64,7 @@ impl EffortArgs {
         let is_ignored = |settings: &[Setting]| !settings.iter().any(|&setting| planner.reads(setting));
         let ignored = options.into_iter().filter(|(_, is_given, settings)| *is_given && is_ignored(settings));
         let warning = |(option, _, settings): (&str, bool, &[Setting])| {
-            format!("{option} has no effect: planner {planner} does not read it, only {}", readers(settings, " and "))
+            format!("{option} has no effect on planner {planner}, only on {}", readers(settings, " and "))
         };
         ignored.map(warning).collect()
     }
@@ -88,11 +88,11 @@ const KEPT_CELLS: usize = 32;
 pub enum MetricName {
     /// Square root of the sum of squares; a radian counts like a metre.
     Euclidean,
-    /// As euclidean, with the joints' values multiplied by --weights.
+    /// Like euclidean, with the joints' values multiplied by --weights.
     Weighted,
     /// Time that the joints and the elbow's motor need at top speed, seconds.
     Time,
-    /// As euclidean, of the angles of both motors without their gears, radians; for arms with [robot] drives.
+    /// Like euclidean, but of the angles of both motors, radians, without the gears; for arms with [robot] drives.
     Motor,
 }
 
@@ -112,8 +112,8 @@ pub struct OptimumArgs {
     /// Weights of the joints, such as 1,0.5, for --metric weighted.
     #[arg(long, value_name = "w1,w2", value_parser = weights, required_if_eq("metric", "weighted"), allow_hyphen_values = true)]
     pub weights: Option<[f64; 2]>,
-    /// Refine until the path is proven to exceed the optimum by at most this share, such as 0.001. A larger gap permits
-    /// faster motions [default of shortest: 0.0001].
+    /// Refine until the path is proven to be longer than the optimum by at most this fraction, such as 0.001. A larger
+    /// gap permits faster motions [default of shortest: 0.0001].
     #[arg(long, value_name = "SHARE", value_parser = gap, allow_hyphen_values = true)]
     pub gap: Option<f64>,
 }
@@ -128,16 +128,16 @@ pub struct PathArgs {
     /// Search of the grid or the roadmap.
     #[arg(long, value_parser = word(searches()), value_name = "NAME", help = search_help())]
     pub search: Option<GridSearch>,
-    /// Neighbours of a cell (planner wavefront): 4 (those that share a side with it) or 8 (also those that share a
-    /// corner). No move cuts the corner of a blocked cell. wave and bfs count moves; for dijkstra and astar a diagonal
+    /// Number of neighbours of a cell (planner wavefront): 4 (cells with a common side) or 8 (also cells with a common
+    /// corner). No move cuts the corner of a blocked cell. wave and bfs count moves; for dijkstra and astar, a diagonal
     /// move costs 1.414 [default: 4].
     #[arg(long, value_name = "N", value_parser = word(NEIGHBORHOODS))]
     pub neighbors: Option<Neighborhood>,
     /// Cell that A* expands next if several are equally promising (planner wavefront) [default: farthest].
     #[arg(long, value_parser = word(TIES), value_name = "NAME")]
     pub ties: Option<Ties>,
-    /// Search from the start to the goals. Planners with a roadmap do so by default; the search `wave` cannot. Labels of
-    /// cells then count steps from the start.
+    /// Search from the start to the goals; labels of cells then count steps from the start. Planners with a roadmap
+    /// search in this direction by default. The search `wave` cannot.
     #[arg(long, conflicts_with = "backward")]
     pub forward: bool,
     /// Test of the grid's cells.
@@ -219,7 +219,7 @@ impl PlannerArgs {
         let search = self.roadmap.search(method, self.path.search)?;
         if self.optimum.gap.is_some() && !search.order.is_optimal() {
             return Err(format!(
-                "--gap needs a search for the shortest path, but --search {} finds any path; leave out one of the two",
+                "--gap needs a search for the shortest path, but --search {} may find longer ones; leave out one of the two",
                 search.order.name()
             ));
         }
@@ -295,7 +295,7 @@ impl PathArgs {
             return Err(format!("--path middles needs --planner trapezoid: {planner} has no vertical portals"));
         }
         if self.path == Some(PathKind::Own) && !planner.has_own_path() {
-            return Err(format!("--path own does not apply to planner {planner}: its only path is the taut one"));
+            return Err(format!("--path own does not apply to planner {planner}, whose only path is taut"));
         }
         Ok(())
     }
@@ -310,8 +310,7 @@ impl PathArgs {
         }
         match self.search.unwrap_or_default() {
             GridSearch::Wave => Err(
-                "--forward needs --search bfs, dfs, dijkstra, astar, greedy or deepening: the search `wave` labels \
-                     cells with their steps to the goal and begins there"
+                "--forward needs --search bfs, dfs, dijkstra, astar, greedy or deepening: the search `wave` always begins at the goal"
                     .into(),
             ),
             _ => Ok(()),

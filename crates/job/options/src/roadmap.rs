@@ -11,11 +11,11 @@ use std::sync::LazyLock;
 static HEADING: LazyLock<String> =
     LazyLock::new(|| format!("Roadmaps (planners {})", readers(&[Setting::Search], ", ")));
 
-/// Options for the construction and the search of roadmaps, except `--search`, which grids have, too.
+/// Options for the construction and the search of roadmaps, except `--search`, which also applies to grids.
 #[derive(Debug, Clone, PartialEq, Args)]
 #[command(next_help_heading = HEADING.as_str())]
 pub struct RoadmapArgs {
-    /// Search from the goals to the start. Planner wavefront does so by default.
+    /// Search from the goals to the start. Planner wavefront searches in this direction by default.
     #[arg(long)]
     pub backward: bool,
     /// Kind of visibility graph (planner visibility) [default: reduced].
@@ -24,7 +24,8 @@ pub struct RoadmapArgs {
     /// Number of random free configurations (planner prm); doubled with each attempt [default: 500].
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(to_i64_range(&ALLOWED_SAMPLES)))]
     pub samples: Option<u32>,
-    /// Number of nearest samples to which each sample is joined if the segment is free (planner prm) [default: 12].
+    /// Number of nearest samples to which each sample is joined, if the segment between them is free (planner prm)
+    /// [default: 12].
     #[arg(long, value_name = "K", value_parser = clap::value_parser!(u32).range(to_i64_range(&ALLOWED_NEIGHBORS)))]
     pub nearest: Option<u32>,
     /// Seed of the samples (planner prm): the same seed gives the same roadmap [default: 1].

@@ -86,7 +86,10 @@ impl Planner for Prm {
         let query_graph = self.query_graph(map, &terminals);
         let (route, expanded) = query_graph.search(self.search, &terminals);
         let outcome = match route {
-            None => Proposal::GaveUp(format!("{} do not join start and goal", counted(self.samples, "sample"))),
+            None => Proposal::GaveUp(format!(
+                "the roadmap of {} does not connect start and goal",
+                counted(self.samples, "sample")
+            )),
             Some(route) => {
                 propose_along(&map.mesh, route.into_iter().map(|node| query_graph.at(node)).collect(), self.path)
             }

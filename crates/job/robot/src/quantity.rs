@@ -103,7 +103,7 @@ impl Source {
         if value.abs() > MAX_LENGTH {
             let message = format!("{what}: {value} is too large (at most {MAX_LENGTH:e})");
             let help = format!(
-                "lengths are in metres, angles in radians, from -{MAX_LENGTH:e} to {MAX_LENGTH:e}: put the origin of all coordinates near the arm"
+                "lengths are in metres, angles in radians, from -{MAX_LENGTH:e} to {MAX_LENGTH:e}; choose an origin near the arm"
             );
             return Err(self.diagnostic_at(number.span(), message).help(help));
         }

@@ -43,7 +43,7 @@ impl RobotFile {
             (Some(converted), _) => converted,
             (None, None) => Ok(source),
             (None, Some((name, _))) => {
-                let message = format!("this is a plain URDF, which has no argument \"{name}\"");
+                let message = format!("this is a plain URDF, not xacro, so it has no argument \"{name}\"");
                 Err(source.diagnostic(message).help("leave --xacro-arg out").into())
             }
         }

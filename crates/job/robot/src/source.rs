@@ -117,8 +117,7 @@ const LINE_INDEX_INTERVAL: usize = 4096;
 /// # Errors
 /// I/O errors, and a file larger than 256 MiB.
 pub fn read_bytes(path: &Path) -> Result<Vec<u8>, InputError> {
-    read_bounded(path)
-        .map_err(|error| unreadable(path, &error, "it is too large: check that it is the right file").into())
+    read_bounded(path).map_err(|error| unreadable(path, &error, "check that this is the right file").into())
 }
 
 /// Reads a recording, which may be larger than other files.
@@ -239,7 +238,7 @@ impl Source {
         if self.is_file {
             Ok(&self.path)
         } else {
-            Err("this text is not a file, so no other files can be found beside it")
+            Err("files are named relative to the file that names them, but this text is not in a file")
         }
     }
 

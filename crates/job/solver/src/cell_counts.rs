@@ -61,7 +61,7 @@ impl FromStr for CellCounts {
         let cure = || {
             let (least, most) = (ALLOWED_CELLS.start(), ALLOWED_CELLS.end());
             format!(
-                "{text} is neither a number from {least} to {most} nor two such numbers, one per joint, such as 128x512"
+                "{text} is not a number from {least} to {most}, or two such numbers, one per joint, such as 128x512"
             )
         };
         let count = |text: &str| text.parse::<usize>().ok().filter(|n| ALLOWED_CELLS.contains(n)).ok_or_else(cure);

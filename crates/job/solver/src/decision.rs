@@ -130,7 +130,12 @@ fn checked_answer(
 ) -> Outcome<CertifiedPath, CheckedProof> {
     match answer {
         Connectivity::Connected(channel) => certify_shortest_in_channel(problem, &channel).map_or_else(
-            |rejection| Outcome::Unknown(format!("its path is not certified: {}", explain(problem.scene(), rejection))),
+            |rejection| {
+                Outcome::Unknown(format!(
+                    "the path of the planner is not certified: {}",
+                    explain(problem.scene(), rejection)
+                ))
+            },
             Outcome::Found,
         ),
         Connectivity::Disconnected(proof) => accepted_smaller_proof(problem, proof.of_pairs(original_pair))
@@ -139,7 +144,7 @@ fn checked_answer(
                 Outcome::Infeasible,
             ),
         Connectivity::Undecided { boxes, .. } => {
-            Outcome::Unknown(format!("{boxes} boxes do not decide whether a path exists"))
+            Outcome::Unknown(format!("{boxes} boxes were not enough to decide whether a path exists"))
         }
     }
 }

@@ -21,10 +21,10 @@ pub fn field_on_cells(
 ) -> Result<(ZonedGrid, Domain), String> {
     let space = zoned_cells(problem, GridSpace::Rows, Some(cells), 0);
     let CellCounts([rows, columns]) = cells;
-    let space = space.ok_or_else(|| format!("there is no grid of {rows} x {columns} cells"))?;
+    let space = space.ok_or_else(|| format!("a grid of {rows} x {columns} cells is not possible"))?;
     let domain = field_domain(&space.grid, &Ends::new(problem, &space).query, limits)?;
     if !domain.kinds().contains(&Cell::Free) {
-        return Err(format!("on {rows} x {columns} cells no free cell leads to the goal"));
+        return Err(format!("on the grid of {rows} x {columns} cells, no free cell is connected with the goal"));
     }
     Ok((space, domain))
 }

@@ -163,13 +163,14 @@ where
     let has_minima = options.planner.field().is_some_and(|planner| matches!(planner.field, FieldChoice::Khatib(_)));
     let is_coarse = options.planner.cells().is_some() && history.len() == options.levels && !has_minima;
     let hint = if is_coarse && !sweeps_end { "; more --cells or --levels may find one" } else { "" };
-    let finest = if sweeps_end { "the resolution that its sweeps allow" } else { "its finest resolution" };
+    let finest =
+        if sweeps_end { "the finest resolution for which its sweeps suffice" } else { "its finest resolution" };
     let unknown = || format!("{method} found no certified path at {finest} ({}){hint}", why());
     let outcome = match (path, known) {
         (Some(path), _) => Outcome::Found(path),
         (None, Some(Outcome::Infeasible(proof))) => Outcome::Infeasible(proof),
         (None, Some(Outcome::Found(witness))) => {
-            let reason = "there is a path (certified by subdivision), which this planner's space does not show";
+            let reason = "a path exists (certified by subdivision), but not in this planner's cells or graph";
             Outcome::Unknown(Unknown { reason: format!("{reason}: {}", unknown()), witness: Some(witness) })
         }
         (None, _) => Outcome::Unknown(unknown().into()),
@@ -202,11 +203,11 @@ impl Climb<'_> {
                 self.keep_if_shorter(path);
                 // Without a bound there is no reason to refine, so the message always has a number.
                 let excess = self.bound().map_or_else(String::new, |bound| percent(bound.gap()));
-                self.reason_to_refine(format!("its path is longer than the bound by {excess}"))
+                self.reason_to_refine(format!("the path of the planner is {excess} longer than the proven bound"))
             }
             Err(rejection) => {
                 let why = explain(self.problem.scene(), rejection);
-                self.reason_to_refine(format!("its path is not certified: {why}"))
+                self.reason_to_refine(format!("the path of the planner is not certified: {why}"))
             }
         }
     }

@@ -113,10 +113,7 @@ impl Options {
         } else if let Some(wrong) = tip_speed.into_iter().chain(jerks).find(not_positive) {
             Some(format!("speed and jerk: {wrong} must be finite and positive"))
         } else if has_steps && self.planner.gap().is_some() {
-            Some(
-                "--gap is for single motions, not for worlds with steps, whose results always state the proven gap"
-                    .into(),
-            )
+            Some("--gap does not apply to worlds with steps; their results always state the proven gap".into())
         } else {
             None
         }

@@ -207,7 +207,7 @@ impl<'de> Deserialize<'de> for Planner {
             _ => None,
         };
         let Some((name, Value::Object(mut given))) = one else {
-            return Err(D::Error::custom("a planner is its name, or an object with the name as its only key"));
+            return Err(D::Error::custom("write a planner as its name, or as an object whose only key is the name"));
         };
         let mut planner: Self = named(&name)?;
         for &setting in planner.method.descriptor().settings {

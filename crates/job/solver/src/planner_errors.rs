@@ -48,14 +48,14 @@ impl Planner {
             },
             Setting::Gap => {
                 let gap = settings.gap?;
-                let blind = || "gap: only a search for the shortest path can close a gap".to_owned();
+                let blind = || "gap: the chosen search does not look for the shortest path".to_owned();
                 not_positive("gap", gap).or_else(|| (!self.optimizes()).then(blind))
             }
             Setting::Margin => wrong_margin(settings.margin),
             Setting::Samples => wrong_number("samples", settings.samples, &ALLOWED_SAMPLES),
             Setting::Nearest => wrong_number("nearest", settings.nearest, &ALLOWED_NEIGHBORS),
             Setting::Forward if settings.forward && settings.grid_search == GridSearch::Wave => {
-                Some("forward: the search `wave` labels cells with their steps to the goals and begins there".into())
+                Some("forward: the search `wave` always begins at the goals".into())
             }
             Setting::Cells => settings.cells?.error(),
             _ => None,

@@ -138,7 +138,7 @@ const OWN_AND_TAUT_PATHS: &[PathKind] = &[PathKind::Own, PathKind::Taut];
 
 // In this order: the default, roadmap planners, field planners, planners that judge the scene itself.
 planners! {
-    Shortest: "The shortest path, from exact slices, with a proven bound on the optimum; or a proof of infeasibility" {
+    Shortest: "The shortest path by exact slices, with a proven bound on the optimum, or a proof of infeasibility" {
         name: "shortest",
         family: Family::Exact,
         paths: TAUT_PATHS,
@@ -162,7 +162,7 @@ planners! {
         defaults: Settings::default,
         solve: |request| on_polygons(request, |s, _| Trapezoid { path: s.path, search: s.search }),
     }
-    Triangles: "Triangles of free space: a channel of them, and the funnel path through it" {
+    Triangles: "Triangulation of free space: a channel of triangles, and the funnel path through it" {
         name: Triangles::NAME,
         family: Family::Roadmap,
         paths: OWN_AND_TAUT_PATHS,
@@ -170,7 +170,7 @@ planners! {
         defaults: Settings::default,
         solve: |request| on_polygons(request, |s, _| Triangles { path: s.path, search: s.search }),
     }
-    Voronoi: "Voronoi diagram: the path whose least distance from obstacles, in joint space, is greatest" {
+    Voronoi: "Voronoi diagram: the path that keeps the greatest distance from obstacles, in joint space" {
         name: Voronoi::NAME,
         family: Family::Roadmap,
         paths: OWN_AND_TAUT_PATHS,
@@ -179,7 +179,7 @@ planners! {
         defaults: || Settings { path: PathKind::Own, ..Settings::default() },
         solve: |request| on_polygons(request, |s, _| Voronoi { path: s.path, search: s.search }),
     }
-    Prm: "Probabilistic roadmap: random configurations, each joined to the nearest that it sees" {
+    Prm: "Probabilistic roadmap: random configurations, each joined to the nearest visible ones" {
         name: Prm::NAME,
         family: Family::Roadmap,
         paths: OWN_AND_TAUT_PATHS,
@@ -216,7 +216,7 @@ planners! {
             Some(field) => on_zoned_cells(request, |s, _| FieldPlanner { path: s.path, ..field }),
         },
     }
-    Subdivision: "Subdivision into boxes: a path with room around it, or a proof of infeasibility" {
+    Subdivision: "Subdivision into boxes: a path with free space around it, or a proof of infeasibility" {
         name: "subdivision",
         family: Family::Exact,
         paths: OWN_AND_TAUT_PATHS,

@@ -168,7 +168,7 @@ impl Phases {
         match &*answer.drawn() {
             Trace::Roadmap { edges, whole } => {
                 let caption = if *whole {
-                    "The reduced visibility graph: from each corner, straight motions to visible corners"
+                    "The reduced visibility graph: straight motions between corners that see each other"
                 } else {
                     "The part of the reduced visibility graph that the search examined"
                 };
@@ -180,7 +180,7 @@ impl Phases {
                     self.add(edges.len(), caption, Shows::Nodes);
                     self.add(
                         edges.len(),
-                        "Each is joined to its neighbours by straight motions, if they are free",
+                        "Straight motions join each configuration to its neighbours, if they are free",
                         Shows::Edges,
                     );
                 } else {
@@ -190,7 +190,11 @@ impl Phases {
                     };
                     self.add(edges.len(), format!("The {name}: {}", counted(edges.len(), "edge")), Shows::Edges);
                 }
-                self.add(expanded.len(), "The search: its configurations in order", Shows::Expanded);
+                self.add(
+                    expanded.len(),
+                    "The search: configurations in the order in which it reaches them",
+                    Shows::Expanded,
+                );
             }
             Trace::Channel { kind, cells, channel, expanded, .. } => {
                 let caption = match kind {
@@ -209,7 +213,7 @@ impl Phases {
                 self.of_slabs(problem);
                 bound.iter().for_each(|bound| self.of_bound(problem, options, bound));
                 let caption = format!(
-                    "The path tightens: it passes {}, in which free space is known exactly",
+                    "The path is pulled taut through {}, in which free space is known exactly",
                     counted(free.len(), "slice")
                 );
                 self.add(free.len(), caption, Shows::Slices);
@@ -224,7 +228,7 @@ impl Phases {
                 if expanded.is_empty() {
                     self.add(
                         reached,
-                        format!("A wave from the goal comes to {}", counted(reached, "cell")),
+                        format!("A wave from the goal reaches {}", counted(reached, "cell")),
                         Shows::Wave,
                     );
                 } else {
@@ -267,7 +271,7 @@ impl Phases {
             };
             kind.push([cell.lower.into(), cell.upper.into()]);
         }
-        let caption = "Strips of the first joint's values are halved until free parts connect start and goal";
+        let caption = "Strips of values of joint 1 are halved until their free parts connect start and goal";
         self.add(seen.len(), caption, Shows::Slabs(found));
     }
 
@@ -275,7 +279,10 @@ impl Phases {
     fn of_bound(&mut self, problem: &MotionProblem, options: &Options, bound: &Bound) {
         if let Outcome::Found(first) = decide(problem, options.boxes.min(FIRST_BOXES)) {
             let (path, length) = (first.path(), bound.metric.length(first.path()));
-            let caption = format!("A first path through free parts: certified, but {} long", fixed(length, 4));
+            let caption = format!(
+                "A first path through the free parts, of length {}: certified, but not the shortest",
+                fixed(length, 4)
+            );
             self.add(path.waypoints().len(), caption, Shows::First(path.clone()));
             self.0.iter_mut().last().into_iter().for_each(|phase| phase.length = Some(length));
         }
@@ -290,7 +297,7 @@ impl Phases {
         rounds.iter_mut().for_each(|round| round.lower = round.lower.min(bound.lower));
         rounds.iter_mut().last().into_iter().for_each(|last| last.lower = bound.lower);
         let caption = format!(
-            "No motion is shorter than the line around known walls; halved strips lift it to {}",
+            "The lower bound: the shortest line around the known walls. More strips find more walls, and raise the bound to {}",
             fixed(bound.lower, 4)
         );
         self.add(rounds.len(), caption, Shows::Bound(rounds));

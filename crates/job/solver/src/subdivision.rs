@@ -34,7 +34,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
             match certified {
                 Ok(path) => (Proposal::Found(path.path().clone()), Outcome::Found(path.into())),
                 Err(rejection) => {
-                    let reason = format!("its path is not certified: {}", explain(scene, rejection));
+                    let reason = format!("the path of the planner is not certified: {}", explain(scene, rejection));
                     (Proposal::Found(channel.path()), Outcome::Unknown(reason.into()))
                 }
             }
@@ -42,11 +42,11 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
         Connectivity::Disconnected(proof) => {
             let proof = accepted_smaller_proof(problem, proof);
             stages.prove = clock.elapsed();
-            let refused = || Outcome::Unknown("its proof does not hold".to_owned().into());
+            let refused = || Outcome::Unknown("the proof of the planner does not hold".to_owned().into());
             (Proposal::NoPath, proof.map_or_else(refused, Outcome::Infeasible))
         }
         Connectivity::Undecided { boxes, .. } => {
-            let reason = format!("{boxes} boxes do not decide whether a path exists");
+            let reason = format!("{boxes} boxes were not enough to decide whether a path exists");
             (Proposal::GaveUp(reason.clone()), Outcome::Unknown(reason.into()))
         }
     };

@@ -83,7 +83,7 @@ pub fn read(bytes: &[u8], format: Format, placement: &Placement) -> Result<Toolp
         Format::GCode => gcode::read(text(bytes)?, placement),
         Format::Svg => match SVG_READER.get() {
             Some(read) => read(bytes, placement),
-            None => Err(Error::new(None, None, "this program reads no SVG", "use G-code, or list the points")),
+            None => Err(Error::new(None, None, "this program was built without SVG", "use G-code, or list the points")),
         },
     }
 }

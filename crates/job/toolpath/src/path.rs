@@ -81,8 +81,8 @@ impl Toolpath {
             let last = kept.last().map(|before| before.curve.end());
             let gap = last.map_or(0.0, |end| norm(minus(end, piece.curve.start())));
             if gap > MAX_GAP * (1.0 + norm(piece.curve.start())) {
-                let message = "this piece does not begin where the one before it ends";
-                return Err(Error::new(line, column, message, "join the pieces by a travel"));
+                let message = "this piece does not begin where the previous piece ends";
+                return Err(Error::new(line, column, message, "add a travel between the two pieces"));
             }
             let parts = cusps::parts(&piece.curve).into_iter().filter(|curve| curve.length() > 0.0);
             kept.extend(parts.map(|curve| Piece { curve, dwell: None, ..piece }));

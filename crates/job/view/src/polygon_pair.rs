@@ -49,7 +49,7 @@ pub fn polygon_pair(pair: &PolygonPair) -> Figure {
         let parts: Vec<(&[Point], Rgb)> = pair.difference.iter().map(|part| (part.as_slice(), difference)).collect();
         items.extend(panel(
             right,
-            "B \u{2212} A: the places of A\u{2019}s origin at which A meets B",
+            "B \u{2212} A: A meets B if A\u{2019}s origin is in this area",
             &parts,
             &[Point::zeros()],
         ));

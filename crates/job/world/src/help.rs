@@ -7,7 +7,7 @@ const KEY_FORMS: [(&str, &str); 33] = [
     ("goal", "[goal] joints = [q1, q2], or tip = [x, y]"),
     ("robot.joints", "joints = [\"first\", \"second\"], base to tip"),
     ("robot.tip", "tip = \"name of a link\""),
-    ("robot", "a table: [robot] joints = [\"first\", \"second\"], and so on"),
+    ("robot", "write a table: [robot], then its keys, such as joints = [\"first\", \"second\"]"),
     ("joints", "joints = [q1, q2], numbers or angles such as \"30deg\", base to tip"),
     ("tip", "tip = [x, y], metres"),
     ("fixed", "fixed = { NAME = value }"),
@@ -36,7 +36,7 @@ const KEY_FORMS: [(&str, &str); 33] = [
     ("clearance", "clearance = 0.01, metres"),
     ("name", "name = \"words\""),
     ("image", "image = \"map.yaml\""),
-    ("map", "a table: [map] file = \"walls.map\""),
+    ("map", "write a table: [map] file = \"walls.map\""),
     ("object", "[[object]] with name, at, and one of polygon and circle"),
     ("step", "[[step]] with pick = \"NAME\", place = { at = [x, y] } or move = { joints = [q1, q2] }"),
 ];

@@ -79,7 +79,7 @@ use std::sync::Arc;
 
 /// Reason why a line cannot have an angle of the tool in a world with a limit on the wrist's jerk.
 pub(crate) const WRIST_WITH_JERK: &str =
-    "the line asks for an angle of the tool, but lines do not keep limits on the jerk of the wrist";
+    "the line requires an angle of the tool, but limits on the wrist's jerk cannot be kept along lines";
 
 /// Help for such a line.
 pub(crate) const WITHOUT_JERK: &str = "remove the wrist's `jerk` from [robot], or `wrist` from the line";
@@ -171,8 +171,10 @@ pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let world = world::read(world)?;
     let refused = |message: String, help: &str| Diagnostic::new(world.source.name(), message).help(help);
     if world.robot.unplaced() != RobotTable::default() {
-        let message = "[robot] interprets a URDF, but this arm was made in code".into();
-        return Err(refused(message, "keep only `at`, `angle` and `calibration` in this table").into());
+        let message =
+            "[robot] may have only `at`, `angle` and `calibration`, because this arm was made in code, without a URDF"
+                .into();
+        return Err(refused(message, "remove the other keys of [robot]").into());
     }
     for pair in &world.in_degrees {
         pair.check(&world.source, &arm.joints)?;
@@ -229,7 +231,7 @@ impl LoadedScene {
         }
         let found = self.wrist().zip(joint).map(|(wrist, joint)| (wrist, joint.name.as_str(), note));
         found.ok_or_else(|| {
-            let message = "the line asks for an angle of the tool, but the world does not name the wrist's joint";
+            let message = "the line requires an angle of the tool, but the world does not name the wrist's joint";
             self.world.source.diagnostic(message).help(NAME_THE_WRIST).into()
         })
     }

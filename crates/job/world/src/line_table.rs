@@ -123,7 +123,9 @@ impl LineTable {
         match &self.tolerance {
             Some(number) if line.tolerance < MIN_TOLERANCE => {
                 let message = format!("the tolerance is {} m, less than {MIN_TOLERANCE} m", line.tolerance);
-                Err(source.diagnostic_at(number.span(), message).help("no robot is as accurate as that"))
+                Err(source
+                    .diagnostic_at(number.span(), message)
+                    .help("use a greater tolerance; no robot is so accurate"))
             }
             _ => Ok(line),
         }
@@ -171,7 +173,7 @@ fn read_file(reader: &Reader, file: &Spanned<String>, placement: &Placement) -> 
     let path = reader.path_of_named_file(file, "follow")?;
     let wrong = |message: String, help: &str| reader.source.diagnostic_at(file.span(), message).help(help);
     let format = Format::from_path(&path).ok_or_else(|| {
-        wrong("the line's file has an unknown ending".into(), "it must end in .gcode, .nc, .ngc, .tap or .svg")
+        wrong("the format of the line's file is unknown".into(), "the name must end in .gcode, .nc, .ngc, .tap or .svg")
     })?;
     let bytes = read_bytes(&path).map_err(|error| wrong(error.to_string(), "check the file"))?;
     cplan_toolpath::read(&bytes, format, placement).map_err(|error| line_diagnostic(path.display().to_string(), error))

@@ -55,7 +55,7 @@ impl MapText {
     fn next_line(&self, what: &str) -> Result<(&str, Range<usize>), Diagnostic> {
         self.line().ok_or_else(|| {
             let end = self.source.text().trim_end().len();
-            let message = format!("the file ends where {what} should come");
+            let message = format!("the file ends too early: {what} is expected here");
             self.source.diagnostic_at(end..end, message).help("add the missing part, or export the map again")
         })
     }
@@ -159,7 +159,7 @@ impl MapText {
             None => Ok(corners),
             Some(p) => {
                 let message = format!("({}, {}) lies outside the bounds of the map", p.x, p.y);
-                let help = "correct it, or widen LineMinPos and LineMaxPos";
+                let help = "correct the point, or widen LineMinPos and LineMaxPos";
                 Err(self.source.diagnostic_at(at.clone(), message).help(help))
             }
         }
@@ -171,7 +171,10 @@ impl MapText {
             None => Ok(()),
             Some((_, at)) => {
                 let message = "text follows the end of the map";
-                Err(self.source.diagnostic_at(at, message).help("remove it, or put it before the last word of the map"))
+                Err(self
+                    .source
+                    .diagnostic_at(at, message)
+                    .help("remove the text, or move it before the last word of the map"))
             }
         }
     }

@@ -34,8 +34,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<String> {
     if nearest.is_finite() && nearest > reach + scene.workspace().clearance {
         let [nearest, reach] = format_distinct([nearest, reach], 4);
         return vec![format!(
-            "no obstacle is within the arm's reach: the nearest is {nearest} m from joint 1, no part of the arm comes farther than \
-             {reach} m; is the world in metres, and [robot] `at` where the arm stands?"
+            "no obstacle is within reach: the nearest is {nearest} m from joint 1, and the arm reaches {reach} m; check that the world is in metres, and that [robot] `at` is the place of the arm"
         )];
     }
     let is_far = |distance: f64| distance.is_finite() && distance > FAR_REACHES * reach;
@@ -43,7 +42,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<String> {
     far.map(|(obstacle, distance)| {
         let [distance, reach] = format_distinct([distance, reach], 4);
         format!(
-            "obstacle \"{}\" is {distance} m from joint 1, and the arm reaches {reach} m; is the obstacle in metres?",
+            "obstacle \"{}\" is {distance} m from joint 1, but the arm reaches only {reach} m; check that the obstacle is in metres",
             obstacle.name
         )
     })

@@ -157,9 +157,13 @@ impl<'a> Names<'a> {
         }
         let message = format!("there is no object \"{wanted}\"");
         let help = match (self.obstacles.contains_key(wanted), self.families.get(wanted)) {
-            (true, _) => "that is an obstacle, which steps cannot move: make it an [[object]]".to_owned(),
+            (true, _) => {
+                format!(
+                    "\"{wanted}\" is an obstacle, and steps move only objects: write [[object]] instead of [[obstacle]]"
+                )
+            }
             (_, Some(all)) => format!(
-                "there are {} on a pallet: name one, as \"{wanted} 1,1\"; transfer = {{ objects = \"{wanted}\", to = \"PALLET\" }} moves all",
+                "{} of this name are on a pallet: name one of them, such as \"{wanted} 1,1\", or move all: transfer = {{ objects = \"{wanted}\", to = \"PALLET\" }}",
                 all.len()
             ),
             _ => format!("the objects are {}", self.all()),
@@ -178,7 +182,7 @@ impl<'a> Names<'a> {
         }
         let message = format!("there are no objects \"{wanted}\" on a pallet");
         let help = match self.objects.contains_key(wanted) {
-            true => format!("that is a single object: pick = \"{wanted}\", then place it"),
+            true => format!("\"{wanted}\" is a single object: write pick = \"{wanted}\", and a place after it"),
             false if self.families.is_empty() => "give an [[object]] of this name pallet = \"PALLET\"".into(),
             false => format!("the objects on pallets are {}", join_names(self.families.keys().copied())),
         };
@@ -262,7 +266,7 @@ fn placed<'a>(
             (at, _) => {
                 let found = if at.is_some() { "both" } else { "neither" };
                 let message = format!("{what} needs either `at` or `pallet`, but has {found}");
-                let help = "at = [x, y], or pallet = \"NAME\" for one on each of its places";
+                let help = "at = [x, y] for one object, or pallet = \"NAME\" for an object on each place of the pallet";
                 return Err(reader.source.diagnostic_at(table.span(), message).help(help));
             }
         }
@@ -278,7 +282,8 @@ fn require_height(reader: &Reader, given: &ObjectTable, pallet: &Pallet, what: &
     if (lower - height).abs() <= RESTING_TOLERANCE || upper <= lower {
         return Ok(());
     }
-    let message = format!("{what} begins at a height of {}, but its pallet has {}", length(lower), length(height));
+    let message =
+        format!("{what} begins at a height of {}, but the height of its pallet is {}", length(lower), length(height));
     let help = format!("height = [{}, {}], or the height of the pallet", short(height), short(height + upper - lower));
     Err(reader.source.diagnostic_at(numbers.span(), message).help(help))
 }

@@ -132,11 +132,11 @@ impl ObstacleTable {
             }
         };
         if let (Some(unknown), None) = (&obstacle.unknown, &obstacle.image) {
-            let message = format!("{what}: only an image has unknown cells");
+            let message = format!("{what}: `unknown` needs `image`");
             return Err(reader.source.diagnostic_at(unknown.span(), message).help("remove the key").into());
         }
         if let (Some(holes), None) = (&obstacle.holes, &obstacle.polygon) {
-            let message = format!("{what}: only a polygon has holes");
+            let message = format!("{what}: `holes` needs `polygon`");
             return Err(reader.source.diagnostic_at(holes.span(), message).help("remove the key").into());
         }
         let heights = reader.heights(obstacle.height.as_ref(), &what)?;
@@ -153,10 +153,10 @@ impl ObstacleTable {
             && growth.clearance < world.clearance
         {
             let message = format!(
-                "{what}: its clearance of {} m is less than the world's of {} m, which holds for every obstacle",
+                "{what}: the clearance of {} m is less than the world's clearance of {} m, which applies to every obstacle",
                 growth.clearance, world.clearance
             );
-            let help = "lower the world's clearance, and give the other obstacles one of their own";
+            let help = "lower the world's clearance, and state a clearance for each of the other obstacles";
             return Err(reader.source.diagnostic_at(given.span(), message).help(help).into());
         }
         let obstacle = Obstacle { name, shape, pieces, heights, growth };
@@ -190,8 +190,10 @@ fn image(
     };
     let path = reader.path_of_named_file(image, what)?;
     if path.extension().is_some_and(|e| e != "yaml" && e != "yml") {
-        let message = format!("{what}: an image needs the YAML of ROS's map server, which states its size");
-        let help = "name the YAML; it names the picture";
+        let message = format!(
+            "{what}: `image` must name the YAML file of ROS's map server, which states the size of the picture"
+        );
+        let help = "name the YAML file instead of the picture";
         return Err(reader.source.diagnostic_at(image.span(), message).help(help).into());
     }
     let map = OccupancyMap::read(&path)?;

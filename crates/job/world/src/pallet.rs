@@ -158,7 +158,7 @@ impl PalletTable {
         let counted = |number: &Spanned<i64>, of: &str| {
             usize::try_from(*number.get_ref()).ok().filter(|count| *count > 0).ok_or_else(|| {
                 let message = format!("{what}: {of} must be 1 or more, is {}", number.get_ref());
-                reader.source.diagnostic_at(number.span(), message).help("a single row or column counts as 1")
+                reader.source.diagnostic_at(number.span(), message).help("write 1 for a single row or column")
             })
         };
         let (rows, columns) = (counted(&self.rows, "rows")?, counted(&self.columns, "columns")?);
@@ -170,7 +170,7 @@ impl PalletTable {
         for (pitch, count, along) in [(pitch[0], columns, "column"), (pitch[1], rows, "row")] {
             if count > 1 && pitch == 0.0 {
                 let message =
-                    format!("{what}, pitch: places would lie on each other, as a {along} is 0 m from the next");
+                    format!("{what}, pitch: the distance from one {along} to the next is 0, so places would coincide");
                 return Err(reader
                     .source
                     .diagnostic_at(self.pitch.span(), message)

@@ -24,9 +24,9 @@ impl FromToml for Coordinates {
 }
 
 /// Note about a ring whose last point repeats the first.
-const CLOSED_RING_NOTE: &str = "the last point of a ring repeats the first; taken once";
+const CLOSED_RING_NOTE: &str = "the last point of a ring repeats the first; it counts once";
 /// Note about repeated points.
-const REPEATED_POINTS_NOTE: &str = "points that repeat the one before them are taken once";
+const REPEATED_POINTS_NOTE: &str = "points that repeat the previous point count once";
 /// Note about a polygon whose boundary touches itself but whose inside is well defined.
 const TOUCHING_BOUNDARY_NOTE: &str = "the boundary touches itself in single points; the enclosed area is solid";
 

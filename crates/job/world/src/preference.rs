@@ -54,7 +54,7 @@ impl PreferenceTable {
             (None, Some(corners)) => Region::Tip(simple_polygon(reader, corners, &what, CORNER_ORDER_HINT)?),
             (configurations, _) => {
                 let found = if configurations.is_some() { "both" } else { "neither" };
-                let message = format!("{what} needs either `configurations` or `polygon`, it has {found}");
+                let message = format!("{what} needs either `configurations` or `polygon`, but has {found}");
                 let help = "configurations = [[q1, q2], ...] in joint values, or polygon = [[x, y], ...] for the tip";
                 return Err(reader.source.diagnostic_at(table.span(), message).help(help));
             }

@@ -64,7 +64,7 @@ impl LoadedScene {
     /// - A step that requires that an object rests on something, although the object is too thin.
     pub fn resolve(self, overrides: &Overrides, rules: Rules) -> Result<LoadedProblem, InputError> {
         if rules == Rules::Exploration {
-            self.require_static_obstacles("explorations are for worlds without moving obstacles")?;
+            self.require_static_obstacles("explorations need static obstacles")?;
             self.require_real_shapes()?;
         }
         let may_be_task = matches!(rules, Rules::Plan | Rules::Start | Rules::Recording);
@@ -169,8 +169,8 @@ impl LoadedScene {
                 if let Goal::Area([low, high]) = goal
                     && low != high
                 {
-                    let arm = "for an arm that does not slide along both axes,";
-                    notes.push(format!("{arm} the middle of a goal area is the goal: ({}, {})", tip.x, tip.y));
+                    let arm = "this arm does not slide along both axes, so";
+                    notes.push(format!("{arm} the goal is the middle of the goal area: ({}, {})", tip.x, tip.y));
                 }
                 self.ik_solutions((tip, None), start, place, notes)
             }
@@ -197,7 +197,8 @@ impl LoadedScene {
             }
         }
         if goals.is_empty() {
-            let message = format!("the tip cannot enter {shown}, whose rim is blocked: {}", listed(&blocked));
+            let message =
+                format!("the tip cannot enter {shown}, because its whole boundary is blocked: {}", listed(&blocked));
             return Err(place.diagnostic(message).help("move the area or the obstacles"));
         }
         Ok(goals.into_iter().collect())
@@ -251,7 +252,7 @@ impl LoadedScene {
     pub(super) fn has_no_goal(&self, overrides: &Overrides) -> Diagnostic {
         if self.world.steps.is_none() {
             let message =
-                "this world gives values of the tool's joints, which only `cplan plan` and `cplan verify` use";
+                "this world states values of the tool's joints; only `cplan plan` and `cplan verify` support them";
             let help = "for other commands remove `stroke` and `wrist` from [start] and [goal]";
             return self.world.source.diagnostic(message).help(help);
         }
@@ -261,7 +262,7 @@ impl LoadedScene {
             (None, Some(_)) => "--goal-tip",
             (None, None) => {
                 let at = self.world.steps.as_ref().map_or(0..0, |steps| steps.at.clone());
-                let help = "only `cplan plan` plans steps; for other commands replace them by a [goal]";
+                let help = "use `cplan plan`, which plans steps, or replace the steps by a [goal]";
                 return self.world.source.diagnostic_at(at, message).help(help);
             }
         };
@@ -301,7 +302,7 @@ impl LoadedScene {
         let Some(mover) = self.scene.loose_obstacles().first() else { return Ok(()) };
         let message = format!("{what}, but obstacle \"{}\" moves", mover.obstacle.name);
         let help =
-            "remove its motion, or use `cplan plan`, `cplan verify` or `cplan check`, which allow moving obstacles";
+            "remove the motion, or use `cplan plan`, `cplan verify` or `cplan check`, which allow moving obstacles";
         Err(self.world.source.diagnostic(message).help(help).into())
     }
 
@@ -311,7 +312,7 @@ impl LoadedScene {
         if grown.is_none() && !self.world.has_errors() {
             return Ok(());
         }
-        let message = "explorations know neither errors (calibration) nor clearances of single obstacles";
+        let message = "explorations support neither errors (calibration) nor clearances of single obstacles";
         let help = "give the world a clearance that covers them";
         Err(self.world.source.diagnostic(message).help(help).into())
     }
@@ -365,22 +366,17 @@ impl LoadedScene {
         if goals.is_empty() {
             let mut help = help_for_ik_solutions(scene, !outside.is_empty(), !blocked.is_empty());
             let reasons = listed(&[outside, blocked].concat());
-            let mut message = format!("no IK solution that puts the tip at {at} is allowed and free: {reasons}");
+            let mut message = format!("no IK solution for the tip at {at} is within the limits and free: {reasons}");
             if let (Some(elbow), Some(other)) = (elbow.map(Elbow::other), other) {
                 let free = within_limits(scene, &other).0.into_iter().map(|piece| piece.at(0.5));
                 if let Some(q) = free.into_iter().find(|q| scene.obstructions(*q).is_empty()) {
-                    let _ = write!(
-                        message,
-                        "; with the elbow on the {} there is one: {}",
-                        elbow.name(),
-                        describe(scene, q)
-                    );
+                    let _ = write!(message, "; with the elbow on the {}, {} is free", elbow.name(), describe(scene, q));
                     help = format!("choose the other side of the elbow; or {help}");
                 }
             }
             return Err(place.diagnostic(message).help(help));
         }
-        let ruled_out = |reason: String| format!("an IK solution with the tip at {at} is ruled out: {reason}");
+        let ruled_out = |reason: String| format!("one IK solution for the tip at {at} cannot be used: {reason}");
         let reasons = outside.into_iter().chain(blocked).map(ruled_out).collect();
         notes.extend(first_lines(reasons, |more| format!("and so are {more} more")));
         // Motions cannot end at these, but proofs of infeasibility must exclude them.
@@ -399,15 +395,14 @@ fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
     let name = |joint: usize| &scene.arm().joints[joint].name;
     match free {
         Freedom::Joint(joint) => {
-            format!("the tip is at {at} for all values of joint \"{}\": any free value is accepted", name(joint))
+            format!("the tip is at {at} for all values of joint \"{}\", so any free value of it is a goal", name(joint))
         }
         Freedom::Share => format!(
-            "joints \"{}\" and \"{}\" turn about one axis: the tip is at {at} whenever their turns add up to the same angle; \
-             any free pair that does so is accepted",
+            "joints \"{}\" and \"{}\" turn about the same axis, so the tip is at {at} for all values with the same sum; any free pair of such values is a goal",
             name(0),
             name(1)
         ),
-        Freedom::Both => format!("the tip is always at {at}: the goal is the start"),
+        Freedom::Both => format!("the tip is at {at} in every configuration, so the start is the goal"),
     }
 }
 

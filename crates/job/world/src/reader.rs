@@ -95,11 +95,11 @@ impl Reader<'_> {
             return Ok((vec![goal], at));
         };
         if goal.joints.is_some() || goal.tip.is_some() {
-            let diagnostic = self.source.diagnostic_at(at, "the goal has `areas` and another goal");
+            let diagnostic = self.source.diagnostic_at(at, "the goal has `areas` together with `joints` or `tip`");
             return Err(diagnostic.help("keep one of `joints`, `tip` and `areas`"));
         }
         if let Some(elbow) = &goal.elbow {
-            let diagnostic = self.source.diagnostic_at(elbow.span(), "a goal of areas has no side of the elbow");
+            let diagnostic = self.source.diagnostic_at(elbow.span(), "a goal with `areas` cannot have `elbow`");
             return Err(diagnostic.help("remove `elbow`, or give `tip`"));
         }
         let area = |corners: &Spanned<Vec<Lengths>>| match corners.get_ref().as_slice() {
@@ -128,7 +128,7 @@ impl Reader<'_> {
         }
         let of_tool = [goal.stroke.as_ref().map(Spanned::span), goal.wrist.as_ref().map(Spanned::span)];
         if let (Some(at), true) = (of_tool.into_iter().flatten().next(), what != "goal") {
-            let message = format!("{what}: a step has no values of the tool's joints");
+            let message = format!("{what}: a step cannot have values of the tool's joints");
             let help = "only [start] and [goal] of a world without steps have `stroke` and `wrist`";
             return Err(self.source.diagnostic_at(at, message).help(help));
         }
@@ -136,7 +136,8 @@ impl Reader<'_> {
         match (place, self.elbow(goal.elbow.as_ref())?, &goal.elbow) {
             (Goal::Tip(tip), Some(elbow), _) => Ok((Goal::TipAndElbow(tip, elbow), at)),
             (Goal::Joints(_), Some(_), Some(elbow)) => {
-                let message = format!("the {what} has joint values, which state the side of the elbow");
+                let message =
+                    format!("the {what} has `elbow`, but its joint values already determine the side of the elbow");
                 Err(self.source.diagnostic_at(elbow.span(), message).help("remove `elbow`, or give `tip`"))
             }
             (place, ..) => Ok((place, at)),
@@ -182,7 +183,7 @@ impl Reader<'_> {
     pub fn path_of_named_file(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Diagnostic> {
         let anchor = self.source.anchor();
         let anchor = anchor.map_err(|why| {
-            let help = "save the world as a file beside it";
+            let help = format!("save the world as a file: \"{}\" is found relative to it", name.get_ref());
             self.source.diagnostic_at(name.span(), format!("{what}: {why}")).help(help)
         })?;
         let path = anchor.with_file_name(name.get_ref());

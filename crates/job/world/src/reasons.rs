@@ -73,10 +73,10 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
         let [value, lower, upper] = [sum.of(q), sum.lower, sum.upper].map(rounded);
         let turns = match sum.ratio {
             1.0 => "the sum of both joint values".into(),
-            ratio => format!("{ratio} times the first joint value plus the second"),
+            ratio => format!("{ratio} times the value of joint 1 plus that of joint 2"),
         };
         outside
-            .push(format!("{turns} is {value} rad and exceeds the limits of the elbow's motor [{lower}, {upper}] rad"));
+            .push(format!("{turns} is {value} rad, outside the limits of the elbow's motor, [{lower}, {upper}] rad"));
     }
     outside
 }
@@ -96,7 +96,7 @@ pub(super) fn help_for_limits(scene: &Scene, q: Configuration, in_file: bool) ->
     if meant.is_empty() {
         return HELP_FOR_LIMITS.to_owned();
     }
-    format!("if degrees are meant, write {}; angles are in radians", joined(&meant))
+    format!("angles are in radians; if degrees are meant, write {}", joined(&meant))
 }
 
 /// Hint about a configuration outside the limits.
@@ -126,7 +126,7 @@ pub(super) fn help_at(scene: &Scene, q: Configuration) -> String {
     }
     let (shapes, links) = (shapes.join(", "), links.join(", "));
     format!(
-        "choose another configuration; or, if the real parts never touch ({shapes}), [robot] ignore_contact = [{links}]"
+        "choose another configuration; or, if these parts do not touch in reality ({shapes}), write [robot] ignore_contact = [{links}]"
     )
 }
 
@@ -136,9 +136,9 @@ pub(super) fn help_for_contact(scene: &Scene) -> String {
     if clearance > scene.arm().reach() {
         format!("the clearance is in metres; if {clearance} mm are meant, write {clearance}mm")
     } else if clearance > 0.0 {
-        "move it away from the obstacle, or require less clearance".into()
+        "choose a configuration farther from the obstacle, or require less clearance".into()
     } else {
-        "move it away from the obstacle (touching counts as contact)".into()
+        "choose a configuration away from the obstacle (touching counts as contact)".into()
     }
 }
 
@@ -160,12 +160,12 @@ pub(super) fn describe_out_of_reach(scene: &Scene, what: &str, point: Point) -> 
     let [distance, reach] = if arm.only_turns() {
         let (upper, lower) = (arm.offset.norm(), arm.tip.norm());
         let [distance, least, most] = format_distinct([from_joint, (upper - lower).abs(), upper + lower], 4);
-        [distance, format!(", the tip reaches from {least} to {most} m")]
+        [distance, format!(", and the tip reaches from {least} to {most} m")]
     } else {
         [fixed(from_joint, 4), String::new()]
     };
     format!(
-        "{what} ({}, {}) m is out of reach of the tip \"{}\", for all joint values: it is {distance} m from joint \"{}\"{reach}",
+        "{what} ({}, {}) m is out of reach of the tip \"{}\" even without joint limits: {distance} m from joint \"{}\"{reach}",
         point.x, point.y, arm.tip_name, arm.joints[0].name,
     )
 }

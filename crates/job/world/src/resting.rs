@@ -22,13 +22,13 @@ impl Writer<'_> {
         };
         if !object.heights.lower.is_finite() {
             let message = format!("the place has a height, but object \"{}\" has none", object.name);
-            return refuse(message, "give the object height = [LOWER, UPPER], or leave the height of the place out");
+            return refuse(message, "add height = [LOWER, UPPER] to the object, or remove the height of the place");
         }
         let elevation = height - object.heights.lower;
         if elevation > object.lift + RESTING_TOLERANCE {
             let carried = length(object.heights.lower + object.lift);
             let message = format!(
-                "object \"{}\" is placed at a height of {}, but is carried with its bottom at {carried}",
+                "object \"{}\" is placed at a height of {}, above the height at which it is carried, {carried}",
                 object.name,
                 length(height)
             );
@@ -68,7 +68,7 @@ impl Writer<'_> {
         let object = &self.objects[object].object;
         let bottom = length(object.heights_at(place.elevation).lower);
         let note = format!(
-            "placed at the stated height of {bottom}, where no obstacle or object below ends; a surface is assumed there"
+            "placed at the stated height of {bottom}; no obstacle or object ends at this height, so a surface is assumed there"
         );
         self.reader.taken.note(&format!("\"{}\"", object.name), note);
     }
@@ -78,14 +78,13 @@ impl Writer<'_> {
         let object = &self.objects[object].object;
         let (x, y) = (short(place.at.x), short(place.at.y));
         let message = format!(
-            "step {}: object \"{}\" would hang in the air at ({x}, {y}) m: its bottom is at a height of {}, and no obstacle \
-             or object below it ends there",
+            "step {}: object \"{}\" would hang in the air at ({x}, {y}) m: its bottom is at a height of {}, but no obstacle or object below ends at this height",
             leaf.number,
             object.name,
             length(object.heights_at(place.elevation).lower)
         );
-        let help = "state the height of what it comes to rest on: place = { at = [x, y], height = 0.0 }, or height = 0.0 \
-                    in the [[pallet]]";
+        let help =
+            "state the height of the surface: place = { at = [x, y], height = 0.0 }, or height = 0.0 in the [[pallet]]";
         self.reader.source.diagnostic_at(leaf.at.clone(), message).help(help)
     }
 }

@@ -163,17 +163,17 @@ impl Writer<'_> {
         let carried = self.carried.map(|c| c.object);
         if carried != initial {
             let message = format!(
-                "these steps cannot be repeated: they begin carrying {} and end carrying {}",
+                "these steps cannot be repeated: the arm carries {} at their beginning and {} at their end",
                 self.in_words(initial),
                 self.in_words(carried)
             );
-            let help = "let them end with the same payload that they begin with";
+            let help = "add steps so that the arm carries the same at the end as at the beginning";
             return Err(self.reader.source.diagnostic_at(group.at.clone(), message).help(help));
         }
         if let Some(object) = carried.filter(|object| group.renewed.contains(object)) {
             let name = self.in_words(Some(object));
             let message = format!("object {name} is still carried when it is renewed");
-            let help = "place it before the steps are repeated, or remove its `renew`";
+            let help = "place the object before the steps are repeated, or remove its `renew`";
             return Err(self.reader.source.diagnostic_at(group.at.clone(), message).help(help));
         }
         if !group.renewed.is_empty() {
@@ -250,7 +250,7 @@ impl Writer<'_> {
             return refuse(WRIST_WITH_JERK.into(), WITHOUT_JERK);
         }
         if self.wrist != WristOfWorld::Named {
-            let message = "the line asks for an angle of the tool, but the world does not name the wrist's joint";
+            let message = "the line requires an angle of the tool, but the world does not name the wrist's joint";
             return refuse(message.into(), NAME_THE_WRIST);
         }
         let Some(CarriedObject { object, .. }) = self.carried else { return Ok(line.clone()) };
@@ -261,19 +261,19 @@ impl Writer<'_> {
                 let turn = (angle - own).rem_euclid(TAU);
                 if turn.min(TAU - turn) > ANGLE_TOLERANCE {
                     let message =
-                        format!("object {name} is carried level at {own} rad, but the line asks for {angle} rad");
-                    return refuse(message, "leave `wrist` out, or give the angle of the object");
+                        format!("object {name} is carried level at {own} rad, but the line requires {angle} rad");
+                    return refuse(message, "remove `wrist`, or write the angle of the object");
                 }
                 self.carried = self.carried.map(|carried| CarriedObject { kept_by: Some(leaf.number), ..carried });
                 Ok(FollowedLine { wrist: None, ..line.clone() })
             }
             (Holding::Level, ..) => {
                 let message = format!("object {name} is carried level, so the tool cannot turn along the line");
-                refuse(message, "leave `wrist` out, or place the object first")
+                refuse(message, "remove `wrist`, or place the object before the line")
             }
             (Holding::Rigid, ..) => {
                 let message = format!("object {name} is held rigidly, so the wrist must not turn it along the line");
-                refuse(message, "leave `wrist` out, or place the object first")
+                refuse(message, "remove `wrist`, or place the object before the line")
             }
         }
     }
@@ -300,9 +300,10 @@ impl Writer<'_> {
         let object_places = self.object_places[object];
         if let Some(when) = when.filter(|_| !object_places.moves) {
             let name = self.in_words(Some(object));
-            let message = format!("step {}: {name} was picked before and no longer moves", leaf.number);
+            let message =
+                format!("step {}: {name} no longer moves, because an earlier step has picked it", leaf.number);
             let diagnostic = self.reader.source.diagnostic_at(when.at.clone(), message);
-            return Err(diagnostic.help("only the first pick of a moving object has `at` and `window`"));
+            return Err(diagnostic.help("remove `at` and `window`; only the first pick of a moving object has them"));
         }
         if object_places.moves {
             self.object_places[object].moves = false;
@@ -334,9 +335,11 @@ impl Writer<'_> {
             && asked != self.object_places[object].angle
         {
             let name = self.in_words(Some(object));
-            let message =
-                format!("step {}: object {name} is turned to {angle} rad, but step {kept_by} keeps it", leaf.number);
-            let help = "leave `wrist` out in the line before, or the angle here";
+            let message = format!(
+                "step {}: object {name} is turned to {angle} rad, but step {kept_by} keeps its orientation",
+                leaf.number
+            );
+            let help = "remove `wrist` from the line before, or the angle from this step";
             return Err(self.reader.source.diagnostic_at(place.clone(), message).help(help));
         }
         let before = self.object_places[object];
@@ -376,8 +379,8 @@ impl Writer<'_> {
         let (Holding::Level, Some(before)) = (self.objects[object].object.holding, self.object_places[object].angle)
         else {
             let message =
-                format!("object {name} is held rigidly, so its orientation follows from the arm's configuration");
-            return refuse(message, "payload = \"level\" for the object, or leave the angle out");
+                format!("object {name} is held rigidly, so the arm's configuration determines its orientation");
+            return refuse(message, "write payload = \"level\" for the object, or remove the angle");
         };
         let turn = (angle - before).rem_euclid(TAU);
         if turn.min(TAU - turn) <= ANGLE_TOLERANCE {
@@ -385,7 +388,7 @@ impl Writer<'_> {
         }
         if self.wrist == WristOfWorld::None {
             let message = format!("object {name} must be turned from {before} to {angle} rad, but there is no wrist");
-            return refuse(message, "[robot] wrist = { velocity = 6.0 }, in rad/s, or leave the angle out");
+            return refuse(message, "add [robot] wrist = { velocity = 6.0 }, in rad/s, or remove the angle");
         }
         Ok(angle)
     }

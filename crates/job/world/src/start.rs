@@ -72,7 +72,7 @@ impl LoadedScene {
             }
             let (name, unit) = (&joints[i].name, joints[i].unit());
             notes.push(format!(
-                "{what} has joint \"{name}\" at {} {unit}, beyond its limit by rounding; {nearest} {unit} is used",
+                "{what}: joint \"{name}\" at {} {unit} exceeds its limit by a rounding error; {nearest} {unit} is used",
                 q[i]
             ));
             nearest
@@ -95,7 +95,7 @@ impl LoadedScene {
                 .help(help_for_reach(scene, tip)));
         }
         if solved.free.is_some() {
-            let message = format!("the start puts the tip at {at}, which has infinitely many IK solutions");
+            let message = format!("the start is not unique: infinitely many IK solutions put the tip at {at}");
             return Err(place.diagnostic(message).help("give the start's joint values: joints = [q1, q2]"));
         }
         let (allowed, outside) = within_limits(scene, &solved);
@@ -104,8 +104,7 @@ impl LoadedScene {
         let (free, blocked): (Vec<_>, Vec<_>) = allowed.into_iter().partition(|q| obstructions(scene, *q).is_empty());
         match free[..] {
             [only] => {
-                notes
-                    .push(format!("the start is the only IK solution with the tip at {at}: {}", describe(scene, only)));
+                notes.push(format!("the start is {}, the only IK solution for the tip at {at}", describe(scene, only)));
                 Ok(only)
             }
             [] => {
@@ -113,14 +112,15 @@ impl LoadedScene {
                     |q: &Configuration| format!("({}): {}", describe(scene, *q), listed(&obstructions(scene, *q)));
                 let help = help_for_ik_solutions(scene, !outside.is_empty(), !blocked.is_empty());
                 let why: Vec<String> = outside.into_iter().chain(blocked.iter().map(hits)).collect();
-                let message = format!("no IK solution that puts the tip at {at} is allowed and free: {}", listed(&why));
+                let message =
+                    format!("no IK solution for the tip at {at} is within the limits and free: {}", listed(&why));
                 Err(place.diagnostic(message).help(help))
             }
             _ => {
                 let listed: Vec<String> =
                     free.iter().take(MAX_LISTED_SOLUTIONS).map(|q| format!("joints = [{}, {}]", q[0], q[1])).collect();
                 let more = if free.len() > MAX_LISTED_SOLUTIONS { ", ..." } else { "" };
-                let message = format!("{} IK solutions put the tip at {at}; which one is the start?", free.len());
+                let message = format!("the start is not unique: {} IK solutions put the tip at {at}", free.len());
                 Err(place.diagnostic(message).help(format!("give joint values: {}{more}", listed.join(", or "))))
             }
         }

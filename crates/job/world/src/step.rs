@@ -221,8 +221,8 @@ impl<'a> StepReader<'a> {
         }
         let repeat = manner.repeat.map_or(Ok(1), |repeat| {
             usize::try_from(*repeat.get_ref()).ok().filter(|n| *n > 0).ok_or_else(|| {
-                let message = format!("steps can be repeated once or more, not {} times", repeat.get_ref());
-                source.diagnostic_at(repeat.span(), message).help("remove the key for steps that are not repeated")
+                let message = format!("`repeat` must be 1 or more, is {}", repeat.get_ref());
+                source.diagnostic_at(repeat.span(), message).help("remove the key if the steps are not repeated")
             })
         })?;
         let nodes = tables.iter().map(|table| self.nodes(table, pace)).collect::<Result<Vec<_>, _>>()?;
@@ -258,8 +258,7 @@ impl<'a> StepReader<'a> {
     /// Returns the pairs of pick and place of a group in free order.
     fn pairs(&self, nodes: Vec<Node>) -> Result<Vec<[Leaf; 2]>, Diagnostic> {
         let source = self.reader.source;
-        let help =
-            "steps in free order are pick, place, pick, place, and so on; put any other step before or after the group";
+        let help = "a group in free order has the steps pick, place, pick, place, and so on; put other steps before or after the group";
         let mut picked = BTreeSet::new();
         let mut pairs = Vec::new();
         let mut nodes = nodes.into_iter();
@@ -277,7 +276,7 @@ impl<'a> StepReader<'a> {
                 && !picked.insert(object)
             {
                 let name = &self.objects[object].object.name;
-                let message = format!("object \"{name}\" is picked twice in one group in free order");
+                let message = format!("object \"{name}\" is picked twice in a group in free order");
                 return Err(source.diagnostic_at(pick.at, message).help("pick it once, or use a group in fixed order"));
             }
             pairs.push([pick, place]);
@@ -373,18 +372,17 @@ impl<'a> StepReader<'a> {
             refuse(
                 at,
                 "only a pick has `at` and `window`",
-                "remove the key; for a place write place = { at = [x, y] }",
+                "remove the key; a place has the form place = { at = [x, y] }",
             )?;
             let at = step.supports.as_ref().map(Spanned::span);
-            let help = "for a place write place = { at = [x, y], supports = [\"NAME\"] }";
+            let help = "remove the key; a place has the form place = { at = [x, y], supports = [\"NAME\"] }";
             refuse(at, "only a pick has `supports`", help)?;
             let at = step.elbow.as_ref().map(Spanned::span);
-            let help = "for another step write it in its table: place = { at = [x, y], elbow = \"left\" }, \
-                        move = { tip = [x, y], elbow = \"left\" }, or follow and transfer likewise";
+            let help = "write `elbow` into the table of the step: place = { at = [x, y], elbow = \"left\" }, move = { tip = [x, y], elbow = \"left\" }; likewise for follow and transfer";
             refuse(at, "only a pick has `elbow` beside it", help)?;
         }
         if step.steps.is_none() {
-            let help = "make it a group: [[step]] with these keys, then [[step.steps]] for each of its steps";
+            let help = "write a group: [[step]] with this key, then [[step.steps]] for each step of the group";
             refuse(step.repeat.as_ref().map(Spanned::span), "only a group of steps can be repeated", help)?;
             refuse(step.order.as_ref().map(Spanned::span), "only a group of steps has an `order`", help)?;
         }
@@ -414,7 +412,7 @@ impl<'a> StepReader<'a> {
             Err(self.reader.source.diagnostic_at(at, message).help(help))
         };
         let Some(trajectory) = &object.trajectory else {
-            let message = format!("object \"{name}\" does not move, so its pick has no place and no time");
+            let message = format!("object \"{name}\" does not move, so its pick cannot have `at` or `window`");
             return refuse(stated, message, "remove `at` and `window`, or give the object a motion");
         };
         let mut times = vec![[0.0, MAX_STOP_TIME]];
@@ -422,8 +420,12 @@ impl<'a> StepReader<'a> {
             times = trajectory.passes(self.reader.point(at, "pick, at")?, ON_AXIS_DISTANCE);
             times.iter_mut().flatten().for_each(|time| *time = time.min(MAX_STOP_TIME));
             if times.is_empty() {
-                let message = format!("object \"{name}\" never passes there");
-                return refuse(at.span(), message, "name a point that its origin passes within a millimetre");
+                let message = format!("object \"{name}\" does not pass this point");
+                return refuse(
+                    at.span(),
+                    message,
+                    "choose a point within a millimetre of the path of the object's origin",
+                );
             }
         }
         if let Some(window) = &step.window {
@@ -433,7 +435,7 @@ impl<'a> StepReader<'a> {
                 return refuse(
                     window.span(),
                     message,
-                    "seconds since the task begins, from 0 on, the earlier one first",
+                    "write two times in seconds since the task's beginning, the earlier one first, both 0 or more",
                 );
             }
             let passed = times.clone();
@@ -442,7 +444,7 @@ impl<'a> StepReader<'a> {
             if times.is_empty() {
                 let passes: Vec<String> = passed.iter().map(|[time, _]| format!("{time:.3} s")).collect();
                 let message =
-                    format!("object \"{name}\" is at that place at {}, outside the window", passes.join(", "));
+                    format!("object \"{name}\" is at this place at {}, outside the window", passes.join(", "));
                 return refuse(window.span(), message, "choose another window, or another place");
             }
         }
@@ -480,11 +482,11 @@ impl<'a> StepReader<'a> {
         if family.len() != pallet.count() {
             let (count, places) = (family.len(), pallet.count());
             let message = format!(
-                "there are {count} objects \"{}\", but pallet \"{}\" has {places} places",
+                "the numbers differ: there are {count} objects \"{}\", but pallet \"{}\" has {places} places",
                 objects.get_ref(),
                 to.get_ref()
             );
-            let help = "a transfer fills a pallet: give it as many places, or pick and place the objects one by one";
+            let help = "give the pallet one place for each object, or pick and place the objects one by one";
             return Err(self.reader.source.diagnostic_at(to.span(), message).help(help));
         }
         let angle = self.angle(transfer.angle.as_ref())?;
@@ -505,7 +507,7 @@ impl<'a> StepReader<'a> {
             pace.speed = self.reader.source.finite(number, "speed")?;
             if !(pace.speed > 0.0 && pace.speed <= 1.0) {
                 let message = format!("speed must be greater than 0 and at most 1, is {}", pace.speed);
-                let help = "it is a share of the joints' top speeds";
+                let help = "write a fraction of the joints' top speeds";
                 return Err(self.reader.source.diagnostic_at(number.span(), message).help(help));
             }
         }

@@ -89,16 +89,15 @@ struct Pair {
 pub fn load_suite(place: &Path, robot_file: &dyn Fn(PathBuf) -> RobotFile) -> Result<Suite, InputError> {
     let manifest = if place.is_dir() { place.join(MANIFEST_NAME) } else { place.to_owned() };
     if place.is_dir() && !manifest.is_file() {
-        let message = format!("this folder has no {MANIFEST_NAME}, which assigns robots to worlds");
+        let message = format!("this folder has no {MANIFEST_NAME}, the file that assigns robots to worlds");
         let help = format!(
-            "write one: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each; or give a robot for \
-             all worlds: cplan compare URDF --suite {}",
+            "write this file, with robot = \"arm.urdf\" and world = \"world.toml\" in a [[problem]] for each world; or name a robot for all worlds: cplan compare URDF --suite {}",
             place.display()
         );
         return Err(Diagnostic::new(place.display().to_string(), message).help(help).into());
     }
     let source = Source::read(&manifest)?;
-    let hint = "a manifest is TOML: a [[problem]] with robot = \"arm.urdf\" and world = \"world.toml\" for each";
+    let hint = "write TOML, with robot = \"arm.urdf\" and world = \"world.toml\" in a [[problem]] for each world";
     let file: ManifestFile = source.toml(&|_, _| hint)?;
     let beside = |name: &Spanned<String>, what: &str| {
         let path = manifest.with_file_name("").join(name.get_ref());
@@ -187,7 +186,7 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<RefusedProblem>) -> Res
         all_of(&refused)?;
     }
     if let (true, Some(ExcludedWorld { world, why })) = (members.is_empty(), left_out.first()) {
-        let message = format!("no world of the suite is left to compare: this one is left out because {why}");
+        let message = format!("the suite has no world that can be compared; the reason for this one: {why}");
         return Err(Diagnostic::new(world.display().to_string(), message)
             .help("comparisons need worlds with static obstacles and a [goal]: replace steps by a goal, and remove motions")
             .into());

@@ -62,7 +62,7 @@ impl LoadedScene {
             start_tool,
         };
         if let Some((mover, why)) = task.static_only_feature() {
-            let help = "remove its motion, or the feature that needs static obstacles";
+            let help = "remove the motion, or the keys that need static obstacles";
             return Err(self.world.source.diagnostic(format!("\"{mover}\" moves, and {why}")).help(help).into());
         }
         if let Some((step, value)) = task.step_beyond_stroke() {
@@ -73,7 +73,7 @@ impl LoadedScene {
                 step.place,
                 short(value)
             );
-            let help = "choose another height of the place, another fixed value of the joint, or less travel";
+            let help = "change the height of the place, the fixed value of the joint, or the travel";
             return Err(self.world.source.diagnostic(message).help(help).into());
         }
         if let Err(error) = task.check_tool() {
@@ -140,7 +140,7 @@ impl LoadedScene {
         let (allowed, outside) = within_limits(&self.scene, &solved);
         (allowed.is_empty() && solved.free.is_none()).then(|| {
             let message = format!(
-                "{step}: no IK solution that puts the tip at ({}, {}) m{} is within the joint limits: {}",
+                "{step}: no IK solution for the tip at ({}, {}) m{} is within the joint limits: {}",
                 tip.x,
                 tip.y,
                 Elbow::describe(elbow),
@@ -158,10 +158,10 @@ impl LoadedScene {
         }
         let by = Payload::penetration_allowance(arm);
         let message = format!(
-            "{step}: object \"{}\" is too thin to rest on a support: it may press {by:.2e} m into its supports, and no part of it is that thick",
+            "{step}: object \"{}\" is too thin to rest on a support: an object may press {by:.2e} m into its supports, but no part of this one is so thick",
             object.name
         );
-        Some((message, "make it thicker, or remove its supports".into()))
+        Some((message, "make the object thicker, or remove its `supports`".into()))
     }
 }
 
@@ -180,7 +180,7 @@ fn lifted_higher<'a>(stroke: &Stroke, objects: &'a [Object]) -> impl Iterator<It
     objects.iter().filter(higher).map(move |object| {
         let (lift, travel) = (length(object.lift), length(travel));
         format!(
-            "object \"{}\" counts as lifted by {lift}, but the stroke raises the tool by {travel}: its gripper must do the rest",
+            "object \"{}\" counts as lifted by {lift}, but the stroke raises the tool only by {travel}: the gripper must lift it by the rest",
             object.name
         )
     })
@@ -192,10 +192,10 @@ fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Di
     world.objects.iter().filter_map(|object| {
         let (depth, at) = (stroke.depth(object), stroke.lowered(stroke.depth(object)));
         let message = format!(
-            "[robot] stroke: for object \"{}\" the tool is lowered by {depth} m, which takes joint \"{}\" to {at} m, outside the {}",
+            "[robot] stroke: for object \"{}\", the tool is lowered by {depth} m; joint \"{}\" would be at {at} m, outside the {}",
             object.name, joint.name, limits(joint)
         );
-        let help = "choose another fixed value of the joint, less travel, or less lift of the object";
+        let help = "change the fixed value of the joint, the travel, or the lift of the object";
         (!stroke.reaches(object)).then(|| world.source.diagnostic(message).help(help))
     })
 }

@@ -98,7 +98,7 @@ impl LoadedScene {
     /// goal.
     pub(super) fn move_to_goal(goals: &[Goal], place: &Place, tool: ToolValues) -> Result<Item, Diagnostic> {
         let &[goal @ (Goal::Joints(_) | Goal::Tip(_) | Goal::TipAndElbow(..))] = goals else {
-            let message = "a goal of areas has no values of the tool's joints, and neither has its start";
+            let message = "values of the tool's joints, in [start] or [goal], are not possible with a goal of areas";
             return Err(place.diagnostic(message.to_owned()).help("joints = [q1, q2], or tip = [x, y]"));
         };
         let Diagnostic { origin, position, .. } = place.diagnostic(String::new());
@@ -128,5 +128,6 @@ pub(super) fn require_free_lowered(task: &Task, refused: Diagnostic) -> Result<(
     }
     let at = describe(&scene, task.start);
     let message = format!("the start ({at}) is not free while the tool is lowered: {}", listed(&hits));
-    Err(Diagnostic { message, ..refused }.help("raise the tool there, choose another start, or move the obstacle"))
+    Err(Diagnostic { message, ..refused }
+        .help("raise the tool at the start, choose another start, or move the obstacle"))
 }

@@ -151,13 +151,12 @@ impl World {
     /// Returns the diagnostic that a task does not allow for errors.
     pub(super) fn task_with_errors(&self) -> Diagnostic {
         let at = self.robot.calibration.as_ref().map(|table| table.span());
-        let message = "errors (calibration) are for motions between a start and a goal: parts that a task picks and places \
-                       would be off by them, too";
+        let message = "errors (calibration) do not apply to worlds with steps, because they would also displace the objects that are picked and placed";
         let diagnostic = match at {
             Some(at) => self.source.diagnostic_at(at, message),
             None => self.source.diagnostic(message),
         };
-        diagnostic.help("remove the errors, and give the world a clearance that covers them")
+        diagnostic.help("remove the errors, and state a clearance that covers them")
     }
 }
 
@@ -284,7 +283,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let mut notes = reader.taken.lines();
     notes.extend(place.as_ref().map(|place| {
         let (at, angle) = (place.translation, place.rotation.angle());
-        format!("robot: its root frame stands at ({}, {}) m in the world, turned by {angle} rad", at.x, at.y)
+        format!("robot: the root frame is at ({}, {}) m in the world, turned by {angle} rad", at.x, at.y)
     }));
     let fixed = Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences };
     let world = World {

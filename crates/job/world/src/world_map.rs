@@ -58,7 +58,9 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
         if farthest <= MAX_LENGTH {
             return Ok(());
         }
-        let message = format!("with {scale} m per unit the map extends to {farthest:e} m (at most {MAX_LENGTH:e})");
+        let message = format!(
+            "the map is too large: with {scale} m per unit, it extends to {farthest:e} m (at most {MAX_LENGTH:e})"
+        );
         Err(reader.source.diagnostic_at(file.span(), message).help("set `scale` in [map], metres per unit of the file"))
     };
 
@@ -66,7 +68,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     let map = LineMap::read(&path)?;
     within(map.bounds, &table.file)?;
     if map.lines.len() > MAX_PIECES {
-        let message = format!("{} lines are too many (at most {MAX_PIECES})", map.lines.len());
+        let message = format!("the map has {} lines (at most {MAX_PIECES})", map.lines.len());
         return Err(reader.source.diagnostic_at(table.file.span(), message).help("simplify the map").into());
     }
     let name = stem(&path);
@@ -105,7 +107,8 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
             let name = format!("{name}, rectangle {}", i + 1);
             let corners = [a, Point::new(b.x, a.y), b, Point::new(a.x, b.y)].map(place);
             let polygon = SimplePolygon::new(corners.to_vec()).map_err(|diagnostic| {
-                let message = format!("preference \"{name}\" is not a rectangle with {scale} m per unit: {diagnostic}");
+                let message =
+                    format!("with {scale} m per unit, preference \"{name}\" is not a rectangle: {diagnostic}");
                 reader
                     .source
                     .diagnostic_at(file.span(), message)

@@ -37,7 +37,7 @@ fn check_path_is_free(grid: &Grid, run: &Run) {
 fn escapes_from_the_u_are_reported() {
     let (grid, start, goal) = u_trap();
     let zoned = ZonedGrid::new(grid, &scene(Vec::new()));
-    assert!(reason(&run(field_planner(None), &zoned, start, goal)).contains("local minimum at ("));
+    assert!(reason(&run(field_planner(None), &zoned, start, goal)).contains("local minimum of "));
     for escape in [Escape::Wave, Escape::Walk { seed: 1 }, Escape::Walk { seed: 2 }] {
         let out = run(field_planner(Some(escape)), &zoned, start, goal);
         check_path_is_free(&zoned.grid, &out);
@@ -50,7 +50,7 @@ fn escapes_from_the_u_are_reported() {
         );
         assert_eq!(run(field_planner(Some(escape)), &zoned, start, goal), out, "{escape:?} is the same each time");
         let text = out.note.unwrap().to_string();
-        let method = if escape == Escape::Wave { "by a wave over the basin" } else { "by random walks" };
+        let method = if escape == Escape::Wave { "by a wave through the minimum's basin" } else { "by random walks" };
         assert!(text.starts_with("escaped from ") && text.contains(method), "{text}");
     }
     let [one, two] =

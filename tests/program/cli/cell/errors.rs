@@ -53,7 +53,10 @@ fn errors_name_the_line_of_the_cell_file() {
         (vec![("at = [2.0, 0.0]", "at = [2.0, 0.0, 1.0]")], "line 12, column 15"),
         (vec![("start = { joints = [0.5, 0.5] }", "start = { joints = [0.5, 9.5] }")], "line 6, column"),
         (vec![("start = {", "robot = 5\nstart = {")], "line 6, column 9: the robot of arm \"left\" must be a table"),
-        (vec![("start = {", "robot = { at = [0.0, 0.0] }\nstart = {")], "line 6, column 11: the place of arm \"left\""),
+        (
+            vec![("start = {", "robot = { at = [0.0, 0.0] }\nstart = {")],
+            "line 6, column 11: the robot of arm \"left\" has `at`",
+        ),
         (vec![("start = {", "robot = { tip = \"nose\" }\nstart = {")], "line 6, column 17"),
         (vec![("start = {", "step = [{ pick = \"part\" }]\nstart = {")], "line 6, column 8: arm \"left\" has steps"),
         (
@@ -69,7 +72,7 @@ fn errors_name_the_line_of_the_cell_file() {
         ),
         (
             vec![("at = [-2.0, 0.0]", "at = [2.0, 0.0]"), ("at = [2.0, 0.0], angle = \"180deg\"", "at = [2.0, 0.0]")],
-            "joint \"shoulder\" moves both",
+            "both move joint \"shoulder\"",
         ),
     ] {
         let done = with(&changes, &[]);

@@ -12,19 +12,23 @@ const REFUSED: [(&str, &[&str], &str); 13] = [
     (
         "G90\nG0 X240 Y265\nG1 Y275\nM2\nG1 X0 Y250\n",
         &["marlin", "klipper", "grbl"],
-        "after the end of the program (line 4)",
+        "follows the end of the program (line 4)",
     ),
-    ("%\nG90\nG0 X240 Y265\nG1 Y275\n%\nG1 X0 Y250\n", &["marlin", "fluidnc"], "after the end of the program (line 5)"),
+    (
+        "%\nG90\nG0 X240 Y265\nG1 Y275\n%\nG1 X0 Y250\n",
+        &["marlin", "fluidnc"],
+        "follows the end of the program (line 5)",
+    ),
     ("G90\nG0 X240 Y265\n; note\rG1 X0 Y250\nG1 Y275\n", &["marlin", "duet"], "a carriage return"),
     ("G90 G0 X240 Y265\nG1 Y275\n", &["marlin", "klipper"], "G0 is not the first command of its line"),
     ("G0 X240 Y265\nG91\nG21 G90\nG1 X240 Y275\n", &["marlin"], "G90 is not the first command of its line"),
     ("G0 X240 Y265\nX240 Y275\n", &["marlin", "klipper"], "X240 is in a line without a command"),
     ("G0 X240 Y265\ng1 y275\n", &["marlin"], "g1 is in lower case"),
-    ("G0 X240 Y265\n(note) G1 Y275\n", &["marlin", "klipper"], "no comments in parentheses"),
-    ("G0 X240 Y265\nG1 Y275 (F900)\n", &["marlin", "klipper"], "no comments in parentheses"),
+    ("G0 X240 Y265\n(note) G1 Y275\n", &["marlin", "klipper"], "not know comments in parentheses"),
+    ("G0 X240 Y265\nG1 Y275 (F900)\n", &["marlin", "klipper"], "not know comments in parentheses"),
     ("G0 X240 Y265\nM3 G1 Y275\n", &["klipper"], "G1 is not the first command of its line"),
     ("G91\nG1 X240 Y265\nG1 Y10\n", &["marlin", "duet"], "--home"),
-    ("G90\nG0 X240\nG1 X250\n", &["marlin", "grbl"], "for none of its moves where it begins"),
+    ("G90\nG0 X240\nG1 X250\n", &["marlin", "grbl"], "does not state where its moves begin"),
 ];
 
 /// Judges a program on the tray of `labels.toml`, and returns the exit code and the message.

@@ -85,8 +85,7 @@ fn the_number_of_segments_needs_a_speed_and_a_height() {
         place.run(&["gcode", &files[0], &files[1], "job.gcode"], &format!("--check {options}"))
     };
     let text = "G21 G90\nG0 X240 Y265\nG1 Y275\n";
-    run(text, "--segments-per-second 100")
-        .refused(1, &["job.gcode: line 3: the number of segments follows from the speed"]);
+    run(text, "--segments-per-second 100").refused(1, &["job.gcode: line 3: no speed is stated before this move"]);
     run(text, "--segments-per-second 100 --dialect klipper").refused(2, &["klipper does not divide lines"]);
     run(text, "--segments-per-second 0").refused(2, &["--segments-per-second"]);
     run(text, "--min-segment 1mm").refused(2, &["--segments-per-second"]);

@@ -160,7 +160,7 @@ fn programs_name_their_dialect() {
         let done = run(&place, &format!("{before}\n{drawing}"), &format!("--check --json {options}")).exits(0);
         let result = done.json();
         let notes = result["notes"].as_array().unwrap();
-        let is_noted = notes.iter().any(|note| note.as_str().unwrap().contains("names the dialect"));
+        let is_noted = notes.iter().any(|note| note.as_str().unwrap().contains("of the program names it"));
         (result["dialect"].as_str().unwrap().to_owned(), is_noted)
     };
     for (before, expected) in [
@@ -190,7 +190,7 @@ fn pictures_show_replaced_travels_and_failed_moves() {
         0
     );
     let picture = place.read("safe.svg");
-    has(&picture, &["drawing moves", "replaced travel", "found: the machine can play all moves"]);
+    has(&picture, &["drawing moves", "replaced travel", "found: the machine can run all moves"]);
     assert!(!picture.contains("move that fails") && place.path("safe.png").exists());
     // The page has both lines of the new travel, from one tray to the other.
     let page = place.read("safe.html");
@@ -200,7 +200,7 @@ fn pictures_show_replaced_travels_and_failed_moves() {
     assert!(
         place.read("fails.svg").contains("move that fails") && !place.read("fails.svg").contains("replaced travel")
     );
-    run(&place, text, "--check --picture a.gif").refused(2, &["a program is drawn as .svg, .png or .html"]);
+    run(&place, text, "--check --picture a.gif").refused(2, &["a picture of a program must be .svg, .png or .html"]);
     run(&place, text, "--output a.svg --picture ./a.svg").refused(1, &["are the same file"]);
 }
 
@@ -209,7 +209,7 @@ fn pictures_show_replaced_travels_and_failed_moves() {
 fn a_note_states_the_words_that_may_lift_the_pen() {
     let place = Place::new();
     let text = "G21 G90\nM280 P0 S60\nG1 X240 Y265 F3000\nM280 P0 S60\nG1 X-240 Y265\n";
-    let note = "if M280 lifts the pen for line 5, state its words by --pen-up and --pen-down";
+    let note = "if M280 lifts the pen before line 5, name the words by --pen-up and --pen-down";
     run(&place, text, "--check").exits(3).says(&[note]);
     place.write("job.gcode", text);
     let files = ["robots/scara.urdf", "workspaces/gcode/labels.toml"].map(shipped);

@@ -44,26 +44,28 @@ impl Replay<'_> {
                 let stroke = self.lowering_at_goal(done, next)?;
                 return self.with_turn(matched, [Some(stroke), None], turn);
             }
-            _ => return CheckError::fails("it has a stroke, but neither picks nor places an object"),
+            _ => return CheckError::fails("this step has a stroke, but neither picks nor places an object"),
         };
         let (Some(axis), Some(depth)) = (&self.lift, self.task.depth(object)) else {
-            return CheckError::fails("it has a stroke, but the robot has no joint that lowers the tool");
+            return CheckError::fails("this step has a stroke, but the robot has no joint that lowers the tool");
         };
         let Some(arch) = self.task.stroke.as_ref().and_then(|stroke| stroke.arch.as_ref()) else {
-            return CheckError::fails("the arm must rest during strokes, but one of them overlaps with a motion");
+            return CheckError::fails(
+                "a stroke overlaps with a motion, but the world requires the arm to rest during strokes",
+            );
         };
         if done.turn.is_some() && turn.is_none() && given[usize::from(!is_place)].is_some() {
             return CheckError::fails("a stroke overlaps with a motion, but the wrist turns in between");
         }
         if done.raising.is_some() && next.is_none() {
-            return CheckError::fails("its raising overlaps with a motion, but the task ends");
+            return CheckError::fails("the raising overlaps with a motion, but the task ends with this step");
         }
         let (raised, lowered) = (Interval::whole(0), -&Interval::from(&(depth - &self.elevation)));
         let start = &self.motion.knots[0][0];
         let read = |knots: &Option<Vec<[Decimal; 3]>>, name: &str, ends: [&Interval; 2]| {
             let curve = knots.as_ref().map(|knots| StrokeCurve::new(knots, start, axis, ends)).transpose();
             curve.map_err(|error| match error {
-                CheckError::Fails(why) => CheckError::Fails(format!("its {name} is wrong: {why}")),
+                CheckError::Fails(why) => CheckError::Fails(format!("the {name} is wrong: {why}")),
                 other => other,
             })
         };
@@ -85,7 +87,7 @@ impl Replay<'_> {
         }
         if let Some(lowering) = &lowering {
             if lowering.end() + &tolerance < arrival || !lowering.is_at(up, &lowered) {
-                return CheckError::fails("its lowering does not end between the arrival of the arm and the raising");
+                return CheckError::fails("the lowering does not end between the arrival of the arm and the raising");
             }
             if !lowering.is_away(&arrival, &lowered, &arch.fall) {
                 return CheckError::fails(format!("the arm arrives with the tool lower than {} m", arch.fall));
@@ -93,7 +95,9 @@ impl Replay<'_> {
         }
         if let Some(raising) = &raising {
             if *raising.begin() > &departure + &tolerance || !raising.is_at(down, &lowered) {
-                return CheckError::fails("its raising does not begin between the lowering and the departure");
+                return CheckError::fails(
+                    "the raising does not begin between the lowering and the departure of the arm",
+                );
             }
             if !raising.is_away(&departure, &lowered, &arch.rise) {
                 return CheckError::fails(format!("the arm departs before the tool has risen by {} m", arch.rise));
@@ -107,7 +111,7 @@ impl Replay<'_> {
         let lowered = self.lowered[0].take();
         let (Some(height), knot) = (lowered, done.knots[0]) else {
             return match done.raising_first {
-                Some(_) => CheckError::fails("it has a raising_first, but the tool is raised already"),
+                Some(_) => CheckError::fails("this step has a \"raising_first\", but the tool is raised at the start"),
                 None => Ok(()),
             };
         };
@@ -120,7 +124,9 @@ impl Replay<'_> {
         let tolerance = Decimal::power_of_ten(REST_TOLERANCE_DECIMALS);
         let departure = self.time(knot);
         if curve.begin() + &tolerance < Decimal::whole(0) || *curve.begin() > &departure + &tolerance {
-            return CheckError::fails("its raising_first does not begin between the start and the departure");
+            return CheckError::fails(
+                "\"raising_first\" does not begin between the start and the departure of the arm",
+            );
         }
         if !curve.is_away(&departure, &height, &arch.rise) {
             return CheckError::fails(format!("the arm departs before the tool has risen by {} m", arch.rise));
@@ -132,14 +138,16 @@ impl Replay<'_> {
     /// Returns the lowering at the end of the motion to the goal.
     fn lowering_at_goal(&self, done: &ExecutedStep, next: Option<&MatchedStep>) -> Result<StrokeCurve, CheckError> {
         let (Some(knots), Some(height), None, None) = (&done.lowering, &self.lowered[1], &done.raising, next) else {
-            return CheckError::fails("it has a stroke, but neither picks nor places an object");
+            return CheckError::fails("this step has a stroke, but neither picks nor places an object");
         };
         let (axis, arch) = self.axis_and_arch()?;
         let curve = StrokeCurve::new(knots, &self.motion.knots[0][0], axis, [&Interval::whole(0), height])?;
         let tolerance = Decimal::power_of_ten(REST_TOLERANCE_DECIMALS);
         let (arrival, end) = (self.time(done.knots[1]), self.time(self.motion.knots.len() - 1));
         if curve.end() + &tolerance < arrival || *curve.end() > &end + &tolerance {
-            return CheckError::fails("its lowering does not end between the arrival of the arm and the end");
+            return CheckError::fails(
+                "the lowering does not end between the arrival of the arm and the end of the motion",
+            );
         }
         if !curve.is_away(&arrival, height, &arch.fall) {
             return CheckError::fails(format!("the arm arrives with the tool lower than {} m", arch.fall));
@@ -152,7 +160,9 @@ impl Replay<'_> {
         let arch = self.task.stroke.as_ref().and_then(|stroke| stroke.arch.as_ref());
         match (&self.lift, arch) {
             (Some(axis), Some(arch)) => Ok((axis, arch)),
-            _ => CheckError::fails("the arm must rest during strokes, but one of them overlaps with a motion"),
+            _ => CheckError::fails(
+                "a stroke overlaps with a motion, but the world requires the arm to rest during strokes",
+            ),
         }
     }
 
@@ -177,7 +187,7 @@ impl Replay<'_> {
         let since = raising.map_or(departure, |raising| raising.end().max(departure));
         let is_raised = |stroke: Option<&StrokeCurve>, at| stroke.is_none_or(|stroke| stroke.is_at(at, &raised));
         if !is_raised(raising, until) || !is_raised(lowering, since) {
-            return CheckError::fails("the tool is not raised completely during its motion");
+            return CheckError::fails("the tool is not completely raised between the two strokes of a motion");
         }
         let first = raising.map_or(0, |raising| pieces.partition_point(|piece| piece.time[0] < *raising.end()));
         let last = lowering

@@ -94,11 +94,11 @@ impl Replay<'_> {
         };
         let lying = present.obstacle.at_time(time).into_owned();
         if passing.window.as_ref().is_some_and(|[low, high]| time < low || high < time) {
-            return CheckError::fails("the object is picked outside its window of time");
+            return CheckError::fails("the object is picked outside its time window");
         }
         let near = Interval::from(&Decimal::power_of_ten(PICK_TOLERANCE_DECIMALS)).lower;
         if passing.at.as_ref().is_some_and(|at| length(&minus(&lying.at, at)).upper > near) {
-            return CheckError::fails("at that time, the object is not at the position of its pick");
+            return CheckError::fails("at the time of the pick, the object is not at the stated place");
         }
         let tip = self.chain.point_at(&Attachment::Link(1), &self.tip, at);
         self.misses(length(&minus(&tip, &lying.placed(&grasp.each_ref().map(Interval::from)))).upper)?;
@@ -147,7 +147,9 @@ impl Replay<'_> {
         let Some(mut held) =
             self.held.take_if(|held| held.carrying.may_turn && matches!(held.on, Attachment::Level(_)))
         else {
-            return CheckError::fails("there is no wrist, or no object to turn");
+            return CheckError::fails(
+                "the step turns an object, but there is no wrist, or the tool holds no level object",
+            );
         };
         let wrist = Chain::turning_about(&self.chain.point_at(&Attachment::Link(1), &self.tip, at));
         let Some(end) = fine(&(by * &Decimal::whole(CONTROL_POINT_FACTOR)))

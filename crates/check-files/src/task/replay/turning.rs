@@ -24,7 +24,7 @@ const MAX_HULL_ANGLE: i32 = 1;
 const MAX_TURN: i32 = 7;
 
 /// Reason for refusing a turn that is not between the strokes of two steps.
-const TURNS_LOWERED: &str = "the wrist turns while the tool is not raised, or during another turn";
+const TURNS_LOWERED: &str = "a turn of the wrist overlaps with a stroke of the tool or with another turn";
 
 /// A turn during a motion, and the angle by which the object is turned when the motion of the arm is checked.
 struct Window<'a> {
@@ -43,16 +43,18 @@ impl Replay<'_> {
     ) -> Result<Option<(StrokeCurve, Interval)>, CheckError> {
         let MatchedStep { step, done, .. } = matched;
         let Some(knots) = &done.turning else { return Ok(None) };
-        let Some(by) = &done.turn else { return CheckError::fails("it has knots of a turn, but no turn") };
+        let Some(by) = &done.turn else { return CheckError::fails("this step has \"turning\" without \"turn\"") };
         if !self.task.wrist.as_ref().is_some_and(|wrist| wrist.turns_on_the_way) {
-            return CheckError::fails("the arm must rest while the wrist turns, but the turn overlaps with a motion");
+            return CheckError::fails(
+                "a turn of the wrist overlaps with a motion, but the world requires the arm to rest during turns",
+            );
         }
         self.require_static("a turn of the wrist")?;
         let angle = Interval::from(by);
         if angle.magnitude() > Interval::whole(MAX_TURN).lower {
             return CheckError::fails("the wrist turns by more than one revolution");
         }
-        let wrong = |why: &str| CheckError::fails(format!("its turn is wrong: {why}"));
+        let wrong = |why: &str| CheckError::fails(format!("the turn of the wrist is wrong: {why}"));
         let turn = match StrokeCurve::turn(knots, &self.motion.knots[0][0], by) {
             Err(CheckError::Fails(why)) => return wrong(&why),
             other => other?,
@@ -63,21 +65,21 @@ impl Replay<'_> {
         match (&step.action, next) {
             (Action::Place { .. }, next) => {
                 if !turn.is_at(&departure, &none) {
-                    return wrong("it begins before the motion to the place");
+                    return wrong("the turn begins before the motion to the place");
                 }
                 if next.is_some_and(|[departure, _]| !turn.is_at(&departure, &angle)) {
-                    return wrong("it ends after the departure from the place");
+                    return wrong("the turn ends after the departure from the place");
                 }
             }
             (Action::Pick { .. }, Some([_, next_arrival])) => {
                 if !turn.is_at(&arrival, &none) {
-                    return wrong("it begins before the arrival at the pick");
+                    return wrong("the turn begins before the arrival at the pick");
                 }
                 if !turn.is_at(&next_arrival, &angle) {
-                    return wrong("it ends after the motion from the pick");
+                    return wrong("the turn ends after the motion from the pick");
                 }
             }
-            _ => return wrong("it is neither before a place nor after a pick from which the arm departs"),
+            _ => return wrong("a turn must be before a place, or after a pick that another step follows"),
         }
         Ok(Some((turn, angle)))
     }

@@ -62,7 +62,7 @@ impl<'a> Document<'a> {
                 inside.push(next);
             }
             if rest.peek().is_none_or(|next| next.kind != "ENDSEC") {
-                let message = "this section has no end, and shapes may be missing";
+                let message = "this section does not end, so shapes may be missing";
                 return Err(Error::new(record.line, message, "copy or export the drawing again"));
             }
             match record.text(2) {

@@ -135,7 +135,7 @@ impl<'a> Reader<'_, 'a> {
         }
         let parts = filled(&rings, FillRule::NonZero);
         if is_closed && parts.iter().any(|(_, holes)| !holes.is_empty()) {
-            let message = "closed polylines with a width: read as frames of that width, free inside";
+            let message = "closed polylines with a width: read as frames of this width, with a free inside";
             self.sheet.note(message, origin);
         }
         parts.into_iter().try_for_each(|(outer, holes)| self.sheet.polygon(outer, holes, origin))
@@ -196,7 +196,7 @@ impl<'a> Reader<'_, 'a> {
             return self.read_fit_spline(record, map, place, origin);
         }
         if !spline.is_sound() {
-            let message = "SPLINE whose degree, knots, weights and control points do not fit";
+            let message = "SPLINE: the numbers of knots, weights and control points do not match its degree";
             return Err(Error::new(record.line, message, "draw the spline again, or convert it to a polyline"));
         }
         let points = self.sheet.chords(spline.points(self.sheet.tolerance), origin)?;

@@ -94,7 +94,8 @@ impl<'d, 'a> Reader<'d, 'a> {
             self.entities += 1;
             let record = entity.record;
             if self.entities > MAX_ENTITIES {
-                let message = format!("with all blocks inserted the drawing has more than {MAX_ENTITIES} entities");
+                let message =
+                    format!("the drawing has more than {MAX_ENTITIES} entities, with the copies that INSERT makes");
                 return Err(Error::new(record.line, message, "remove parts that the arm cannot reach"));
             }
             if record.integer_or(67, 0)? == 1 {
@@ -154,7 +155,7 @@ impl<'d, 'a> Reader<'d, 'a> {
         }
         if self.document.clips(record) {
             let origin = self.origin(entity, place)?;
-            self.sheet.note("INSERT with a clip (XCLIP): read without the clip", &origin);
+            self.sheet.note("INSERT with a clipping boundary (XCLIP): the boundary is ignored", &origin);
         }
         let name = record.text(2).unwrap_or_default();
         let key = name.to_uppercase();
@@ -166,14 +167,15 @@ impl<'d, 'a> Reader<'d, 'a> {
         if within.contains(&key) || within.len() == MAX_INSERTION_DEPTH {
             let what = if within.contains(&key) { "contains itself" } else { "is nested too deeply" };
             let message = format!("block \"{name}\" {what}");
-            return Err(Error::new(record.line, message, "explode the block, or draw it without itself"));
+            return Err(Error::new(record.line, message, "explode the block, or remove the insertion from the block"));
         }
         let scale = [record.number_or(41, 1.0)?, record.number_or(42, 1.0)?];
         let map = place.map.compose(&oriented(entity)?);
         let at = Map::moving(record.point(10)?).compose(&Map::turning(record.number_or(50, 0.0)?.to_radians()));
         let own = Map::scaling(scale[0], scale[1]).compose(&Map::moving(block.base.map(|x| -x)));
         if !map.compose(&at).compose(&own).is_regular() {
-            let message = format!("INSERT of block \"{name}\" with scale {} by {}", scale[0], scale[1]);
+            let message =
+                format!("INSERT of block \"{name}\": the scale {} by {} flattens the block", scale[0], scale[1]);
             return Err(Error::new(record.line, message, "give it a scale that is not 0"));
         }
         let up_scale = place.up[0] * upwards(entity);
@@ -191,7 +193,8 @@ impl<'d, 'a> Reader<'d, 'a> {
                 // Count the insertion itself, because even an empty block takes time.
                 self.entities += 1;
                 if self.entities > MAX_ENTITIES {
-                    let message = format!("with all blocks inserted the drawing has more than {MAX_ENTITIES} entities");
+                    let message =
+                        format!("the drawing has more than {MAX_ENTITIES} entities, with the copies that INSERT makes");
                     return Err(Error::new(record.line, message, "remove parts that the arm cannot reach"));
                 }
                 let shift = Map::moving([column as f64 * spacing[0], row as f64 * spacing[1]]);

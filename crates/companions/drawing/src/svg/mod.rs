@@ -218,8 +218,8 @@ impl<'a, 'i> Reader<'a, 'i> {
         if map.is_regular() {
             return Ok(());
         }
-        let message = format!("<{}> is scaled by 0, or by too large a factor", node.tag_name().name());
-        Err(Error::new(self.line(node), message, "give it a scale (or a viewBox) that is not 0"))
+        let message = format!("<{}> has a scale that is 0 or too large", node.tag_name().name());
+        Err(Error::new(self.line(node), message, "correct the transform or the viewBox"))
     }
 
     fn children(&mut self, node: Node<'a, 'i>, inside: &InheritedProperties, depth: usize) -> Result<(), Error> {
@@ -230,11 +230,13 @@ impl<'a, 'i> Reader<'a, 'i> {
         let (kind, line) = (node.tag_name().name(), self.line(node));
         self.elements += 1;
         if depth > MAX_ELEMENT_DEPTH {
-            let message = format!("<{kind}> is in more than {MAX_ELEMENT_DEPTH} others, or uses itself");
-            return Err(Error::new(line, message, "ungroup the elements and remove the loop"));
+            let message =
+                format!("<{kind}> is nested more than {MAX_ELEMENT_DEPTH} deep, or contains itself through <use>");
+            return Err(Error::new(line, message, "ungroup elements, or remove the <use> that closes the loop"));
         }
         if self.elements > MAX_ELEMENTS {
-            let message = format!("with all uses followed the drawing has more than {MAX_ELEMENTS} elements");
+            let message =
+                format!("the drawing has more than {MAX_ELEMENTS} elements, with the copies that <use> makes");
             return Err(Error::new(line, message, "remove parts that the arm cannot reach"));
         }
         let style = around.style.of(node, &self.styles);
@@ -250,7 +252,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             return Ok(());
         }
         if node.has_attribute("clip-path") || node.has_attribute("mask") {
-            self.sheet.notes.add("clip-path and mask: not applied", Some(line));
+            self.sheet.notes.add("clip-path and mask: ignored", Some(line));
         }
         let transform: Option<Transform> = self.parsed(node, "transform")?;
         let Transform { a, b, c, d, e, f } = transform.unwrap_or_default();
@@ -445,7 +447,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             if is_closed || comes_back {
                 rings.push(points);
             } else if style.is_filled && points.len() > 2 {
-                self.sheet.note("open outlines that are filled: closed as SVG fills them", origin);
+                self.sheet.note("open outlines with a fill: closed, as in SVG", origin);
                 rings.push(points);
             } else {
                 // Each element is a group of its own, because elements are not joined with each other.

@@ -53,9 +53,13 @@ fn errors_name_their_place() {
         (
             r#"{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"height": 1e300}}]}"#,
             None,
-            "features[0].properties.height: it is too large (beyond 1e6 m)",
+            "features[0].properties.height: the height is too large (beyond 1e6 m)",
         ),
-        (r#"{"type": "Feature", "properties": {"height": [-2e6, 1]}}"#, None, "properties.height: it is too large"),
+        (
+            r#"{"type": "Feature", "properties": {"height": [-2e6, 1]}}"#,
+            None,
+            "properties.height: the height is too large",
+        ),
         (r#"{"type": "Polygon", "coordinates": [[[0, 0], [1e308, 1e400], [1, 1]]]}"#, Some(1), "number out of range"),
     ];
     for (text, line, message) in cases {

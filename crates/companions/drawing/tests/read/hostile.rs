@@ -30,7 +30,7 @@ fn broken_dxf_files_are_refused_with_their_place() {
         ("AC1032\0\0".to_owned(), "DWG", None),
         ("<svg/>\n".to_owned(), "not a DXF file", Some(1)),
         ("0\nSECTION\n2\nENTITIES\nx\ny\n".to_owned(), "expected the code of a group", Some(5)),
-        ("0\nSECTION\n2\nENTITIES\n0\nEOF\n".to_owned(), "no end", Some(2)),
+        ("0\nSECTION\n2\nENTITIES\n0\nEOF\n".to_owned(), "does not end", Some(2)),
         ("0\nEOF\n".to_owned(), "no section ENTITIES", None),
         (entity("0 CIRCLE 8 a 10 nan 20 0 40 1"), "needs a number, found \"nan\"", Some(32)),
         (entity("0 CIRCLE 8 a 10 1e999 20 0 40 1"), "needs a number", Some(32)),
@@ -39,7 +39,7 @@ fn broken_dxf_files_are_refused_with_their_place() {
         (entity("0 LWPOLYLINE 8 a 10 1 20 0 10 3"), "2 coordinates x and 1", Some(28)),
         (entity("0 LINE 8 a 10 1.7e308 20 0 11 -1.7e308 21 1e300"), "too large", Some(28)),
         (entity("0 CIRCLE 8 a 10 1 20 0 40 1 0 ELLIPSE 8 a 10 0 20 0 11 1e9 21 0 40 1"), "too many", Some(38)),
-        (entity("0 SPLINE 8 a 71 3 40 0 40 1 10 0 20 0 10 1 20 1"), "do not fit", Some(28)),
+        (entity("0 SPLINE 8 a 71 3 40 0 40 1 10 0 20 0 10 1 20 1"), "do not match", Some(28)),
     ];
     for (text, message, line) in cases {
         let error = refused(&text, Format::Dxf);
@@ -90,7 +90,7 @@ fn broken_svg_files_are_refused_with_their_place() {
         ("<svg><g></svg>", "not well-formed XML", Some(1)),
         ("<svg viewBox='0 0 0 5'/>", "viewBox", Some(1)),
         ("<svg>\n<rect width='x' height='1'/></svg>", "width=\"x\", which is not a valid value", Some(2)),
-        ("<svg>\n<g transform='scale(0)'><rect width='1' height='1'/></g></svg>", "scaled by 0", Some(2)),
+        ("<svg>\n<g transform='scale(0)'><rect width='1' height='1'/></g></svg>", "a scale that is 0", Some(2)),
         ("<svg>\n\n<path d='M0 0 L nan 3'/></svg>", "path data", Some(3)),
         ("<svg><circle r='1e300' transform='skewX(9)'/></svg>", "too many", Some(1)),
         ("<svg><circle r='1' cx='1e300' transform='scale(1e12)'/></svg>", "too large", Some(1)),
@@ -101,7 +101,7 @@ fn broken_svg_files_are_refused_with_their_place() {
         assert_eq!(error.line, line, "{text}");
     }
     for (inside, message) in
-        [(deep.as_str(), "<g> is in more than"), (loops, "uses itself"), (&doubled, "uses followed")]
+        [(deep.as_str(), "<g> is nested more than"), (loops, "contains itself"), (&doubled, "copies that <use> makes")]
     {
         assert!(refused(&format!("<svg>{inside}</svg>"), Format::Svg).message.contains(message), "{message}");
     }

@@ -137,7 +137,7 @@ fn filling_makes_holes_and_closes() {
     let (_, inner) = holes(&svg("<path d='M0 0H100V100H0Z M20 20V80H80V20Z'/>"));
     near(inner, 0.0036, 1e-9);
     let open = "<path d='M0 0H100V100'/>";
-    assert_eq!(notes(&svg(open)), ["open outlines that are filled: closed as SVG fills them (line 1)"]);
+    assert_eq!(notes(&svg(open)), ["open outlines with a fill: closed, as in SVG (line 1)"]);
     assert_eq!(ring(only_shape(&svg(open))).len(), 3);
     for style in ["fill='none'", "style='fill:none'", "class='thin'"] {
         let given = svg(&format!(

@@ -295,7 +295,7 @@ fn a_line_that_winds_up_the_joint_is_refused() {
     let Cause::NoChange(list) = &proof.cause else { panic!("{proof:?}") };
     assert!(proof.evidence.iter().all(is_turn) && list.len() == 2, "{proof:?}");
     assert!(
-        proof.describe().starts_with("the wrist cannot turn as far as the tool needs before 1.104 m"),
+        proof.describe().starts_with("the wrist cannot turn far enough for the tool's angle before 1.104 m"),
         "{}",
         proof.describe()
     );

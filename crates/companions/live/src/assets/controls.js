@@ -16,7 +16,7 @@ class Controls {
     const { editor } = live;
     this.selected = element('select', { 'aria-label': 'selected', autocomplete: 'off', onchange: (event) => this.choose(event.target.value) });
     this.inspector = new Inspector(editor, this.selected);
-    this.remove = iconButton('remove', 'delete what is selected', () => editor.remove(), 'Delete');
+    this.remove = iconButton('remove', 'delete the selection', () => editor.remove(), 'Delete');
     this.corner = iconButton('corner', 'add a corner to the longest side', () => editor.insertCorner(), 'double click on a side');
     this.cornerMode = iconButton('corners', 'drag corners', () => editor.setCornerMode(!editor.editsCorners));
     // Elsewhere corners can always be dragged.

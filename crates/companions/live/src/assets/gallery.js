@@ -133,7 +133,7 @@ class Gallery {
 
   /** Returns the initial files with a remark, if the world in the address cannot be opened. */
   ownWithRemark() {
-    this.live.remark('The address contains no readable world, so the page shows its own.');
+    this.live.remark('The world in the address cannot be read, so the page shows its own world.');
     return this.ownFiles();
   }
 
@@ -160,7 +160,7 @@ class Gallery {
   showTask() {
     const isWhole = Boolean(this.live.first?.urdf);
     this.copy.disabled = !isWhole || !this.live.isCurrent;
-    this.copy.title = isWhole ? 'copy an address that contains arm, world and options' : 'arm or world name other files, which an address cannot contain';
+    this.copy.title = isWhole ? 'copy an address that contains arm, world and options' : 'not possible: arm or world name other files, which an address cannot contain';
     const { puzzle } = this.choice ?? {};
     const { scene, answered } = this.live;
     if (!puzzle || !scene) {

@@ -96,9 +96,9 @@ class Live {
     SMALL_SCREEN.addEventListener('change', () => this.arrange());
     this.root.querySelector('.help').before(this.controls.commandLine, this.controls.world);
     this.root.querySelector('.help dl').prepend(...[
-      ['drag an obstacle, the start\u2019s tip (ring) or the goal (target)', 'the configuration space follows, the plan when you let go'],
-      ['drag start (ring) or goal (diamond) in the configuration space', 'the same by joint values'],
-      ['click an obstacle, then drag a corner or the rim', 'changes its shape; a double click on a side adds a corner (on touch screens: after \u201cdrag corners\u201d)'],
+      ['drag an obstacle, the start\u2019s tip (ring) or the goal (target)', 'the configuration space follows at once, the plan when you let go'],
+      ['drag start (ring) or goal (diamond) in the configuration space', 'the same, by joint values'],
+      ['click an obstacle, then drag a corner or the rim', 'changes the shape; a double click on a side adds a corner (on touch screens, choose \u201cdrag corners\u201d first)'],
       ['arrow keys with something selected', 'move it (with Shift further)'],
       ['c in the workspace', 'selects the next corner'],
       ['Delete in the workspace', 'deletes the corner or the obstacle'],
@@ -184,7 +184,7 @@ class Live {
       this.words = record?.words ?? world.options;
       this.continueWith(world, record);
       if (record) this.remark('Your last edits are back.');
-      else if (hadAnother && !this.gallery.hasMoved) this.remark('cplan now serves this other world. Your edits come back when it serves the one before again.');
+      else if (hadAnother && !this.gallery.hasMoved) this.remark('cplan now serves another world. Your edits of the previous world come back when cplan serves that world again.');
     } else if (this.scene) {
       // Send edits that were made without a connection.
       this.continued = true;
@@ -267,7 +267,7 @@ class Live {
         // This server cannot use the edits that were kept.
         this.restoring = null;
         this.useWorld(this.fallback, null);
-        this.remark('Your last edits do not fit this world any more.');
+        this.remark('Your last edits are lost, because they do not fit this world any more.');
         this.plan(true);
       } else this.notices.show(this.opened ? 'files' : 'text', error);
     } else if (about.kind === 'download' || about.kind === 'explain') this.notices.show('files', error);
@@ -436,7 +436,7 @@ class Live {
     // The cards keep their places while something is dragged, with the values that are known then.
     if (!final && !this.cards.hidden) {
       const now = new Map(View.cards({ figures: { duration: own.duration, gap: own.gap } }).map((card) => [card[0], card]));
-      cards = ['time', 'over the optimum', 'clearance'].map((name) => (name === 'over the optimum' && own.gap === undefined ? null : now.get(name)) ?? [name, '\u2026', 'known when you let go']);
+      cards = ['time', 'over the optimum', 'clearance'].map((name) => (name === 'over the optimum' && own.gap === undefined ? null : now.get(name)) ?? [name, '\u2026', 'computed when you let go']);
     }
     View.fillCards(this.cards, cards);
     const line = cards.length ? [parts[0], length && `length ${length.toFixed(4)}`].filter(Boolean) : parts;
@@ -452,7 +452,7 @@ class Live {
     clearTimeout(this.previewTimer);
     this.frames.drop('answer');
     this.connectionBar.hidden = isUp || !this.view;
-    const lost = 'The connection to cplan is lost. You can go on editing: your changes are kept and sent as soon as it answers again.';
+    const lost = 'The connection to cplan is lost. You can go on editing: the page keeps your changes, and sends them when cplan answers again.';
     this.connectionBar.firstChild.textContent = this.connectionBar.hidden ? '' : lost;
     if (!this.view) this.waiting.textContent = isUp ? 'Connecting\u2026' : 'cplan does not answer; trying again\u2026';
     if (isUp) this.gallery.open();
@@ -569,7 +569,7 @@ class Live {
     this.opened = opened;
     this.remark('');
     if (!this.isUp) {
-      this.notices.show(opened ? 'files' : 'text', 'No connection to cplan. Try again when it is back.');
+      this.notices.show(opened ? 'files' : 'text', 'No connection to cplan. Try again when the connection is back.');
       return;
     }
     this.link.load(text, this.words);
@@ -592,7 +592,7 @@ class Live {
   save(format) {
     this.notices.show('files', null);
     if (!this.isUp) {
-      this.notices.show('files', 'No connection to cplan. Save when it is back.');
+      this.notices.show('files', 'No connection to cplan. Save when the connection is back.');
       return;
     }
     this.link.download(this.body, format);

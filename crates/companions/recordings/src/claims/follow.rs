@@ -47,7 +47,7 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
             if found.is_empty() {
                 let off = (0..=last).map(|leg| off(at, leg)).fold(f64::INFINITY, f64::min);
                 return Err(format!(
-                    "the motion does not follow it: after sample {sample} it is at ({}, {}), {off:.6} from it",
+                    "the motion does not follow the path: after sample {sample} the arm is at ({}, {}), {off:.6} from the path",
                     at[0], at[1]
                 ));
             }
@@ -55,8 +55,7 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
             let from_corner = inner.iter().map(|corner| (corner - at).norm()).fold(f64::INFINITY, f64::min);
             if is_off && from_corner > radius + rounding {
                 return Err(format!(
-                    "the motion leaves it {from_corner:.6} from the nearest corner, after sample {sample} at ({}, {}), but rounds \
-                     corners only within {radius:.6}, as `blends` states",
+                    "the motion leaves the path after sample {sample} at ({}, {}), {from_corner:.6} from the nearest corner, but `blends` states that corners are rounded within {radius:.6}",
                     at[0], at[1]
                 ));
             }
@@ -65,7 +64,10 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
     }
     let first = legs.last().map_or(0, |leg| leg + 1);
     if let Some(missed) = q[first..].iter().find(|corner| (*corner - before).norm() > within) {
-        return Err(format!("the motion does not follow it to the end: not to ({}, {})", missed[0], missed[1]));
+        return Err(format!(
+            "the motion does not follow the path to the end: it does not reach ({}, {})",
+            missed[0], missed[1]
+        ));
     }
     Ok(())
 }

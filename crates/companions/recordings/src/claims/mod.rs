@@ -125,8 +125,12 @@ impl Ledger {
             Err(Rejection::TooClose(nearest)) => {
                 let (pair, at) = (scene.describe(nearest.contact.pair), nearest.at);
                 let distance = nearest.contact.separation.distance;
-                let why =
-                    format!("it is not free: {pair}, {} apart at ({}, {})", cplan_text::length(distance), at[0], at[1]);
+                let why = format!(
+                    "the path is not free: {pair} are {} apart at ({}, {})",
+                    cplan_text::length(distance),
+                    at[0],
+                    at[1]
+                );
                 self.note("path", why);
             }
             Err(Rejection::OutOfLimits { waypoint, limited }) => {
@@ -162,10 +166,7 @@ impl Ledger {
         let Some(nearest) = nearest else { return };
         let Some(stated) = stated else {
             let pair = scene.describe(nearest.pair);
-            return self.note(
-                "clearance",
-                format!("stated as null, which means no obstacle within reach, but {pair} can meet"),
-            );
+            return self.note("clearance", format!("stated as null (no obstacle within reach), but {pair} can meet"));
         };
         if let Some((distance, pair)) = nearer(timed, recording, stated, nearest.separation.distance, nearest.pair) {
             self.too_large("clearance", stated, distance, &format!("{} come", scene.describe(pair)));

@@ -73,7 +73,7 @@ pub fn false_task_claims(
             whole.extend(path.iter().skip(usize::from(shared)));
         }
         if *path != whole {
-            ledger.note("path", "it is not the sequence of the steps' paths".into());
+            ledger.note("path", "not equal to the paths of the steps, one after the other".into());
         }
     }
     let lengths: Option<Vec<f64>> = steps.iter().map(|step| step.length).collect();
@@ -91,7 +91,7 @@ pub fn false_task_claims(
         let is: Vec<usize> =
             (0..recorded.len()).flat_map(|step| std::iter::repeat_n(step, first(step + 1) - first(step))).collect();
         if *stated != is {
-            ledger.note("trajectory.step", "differs from the steps to which the samples belong".into());
+            ledger.note("trajectory.step", "wrong: the samples belong to other steps".into());
         }
     }
     if let Some(events) = &claims.task.events {
@@ -111,7 +111,7 @@ impl Ledger {
                 self.too_large(claim, stated, most, "during the turn of the wrist the object comes");
             }
             None if free.clearance.is_finite() => {
-                let why = "stated as null, which means no obstacle within reach, but the object can meet one";
+                let why = "stated as null (no obstacle within reach), but the object can meet one";
                 self.note(claim, why.into());
             }
             _ => {}
@@ -120,7 +120,10 @@ impl Ledger {
 
     fn events(&mut self, task: &Task, stated: &[EventClaim], happened: &[GripperEvent]) {
         if stated.len() != happened.len() {
-            self.note("events", format!("there are {}, but the gripper acts {} times", stated.len(), happened.len()));
+            self.note(
+                "events",
+                format!("{} events are stated, but the gripper acts {} times", stated.len(), happened.len()),
+            );
         }
         for (index, (event, is)) in stated.iter().zip(happened).enumerate() {
             self.within = format!("events[{index}].");

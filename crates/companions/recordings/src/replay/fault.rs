@@ -9,10 +9,10 @@ use thiserror::Error;
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum Fault {
     /// The first motion does not begin at the task's start.
-    #[error("it does not begin at the start")]
+    #[error("the motion does not begin at the start")]
     Start,
     /// A move of the joints ends elsewhere.
-    #[error("it ends at ({}, {}), not at ({}, {})", is[0], is[1], target[0], target[1])]
+    #[error("the motion ends at ({}, {}), not at ({}, {})", is[0], is[1], target[0], target[1])]
     Joints {
         /// The recorded end.
         is: Configuration,
@@ -26,13 +26,13 @@ pub enum Fault {
         off: f64,
     },
     /// The elbow is on the wrong side.
-    #[error("its elbow is on the {}, not on the {}", elbow.other().name(), elbow.name())]
+    #[error("the elbow is on the {}, not on the {}", elbow.other().name(), elbow.name())]
     Elbow {
         /// The required side.
         elbow: Elbow,
     },
     /// The tip is not proven to stay within the tolerance of the line.
-    #[error("the tip may leave the line by {} after sample {piece} of the step, more than {}", length_up(*off), length(*tolerance))]
+    #[error("after sample {piece} of the step, the tip may be {} from the line, more than {}", length_up(*off), length(*tolerance))]
     Line {
         /// Upper bound on the distance of the tip from the line, metres.
         off: f64,
@@ -50,12 +50,13 @@ pub enum Fault {
         most: f64,
     },
     /// The file does not state the wrist's motion along a line for which the tool has an angle.
-    #[error("the line asks for an angle of the tool, but the step does not state the motion of the wrist")]
+    #[error(
+        "the world requires an angle of the tool along the line, but the step does not state the motion of the wrist"
+    )]
     NoWristMotion,
     /// The tool is not proven to keep the angle that the line asks for.
     #[error(
-        "the tool may be {off:.6} rad from the angle that the line asks for after sample {piece} of the step, more than \
-         {tolerance} rad"
+        "after sample {piece} of the step, the angle of the tool may be wrong by {off:.6} rad, more than {tolerance} rad"
     )]
     ToolAngle {
         /// Upper bound on the difference from the angle, radians.
@@ -66,7 +67,7 @@ pub enum Fault {
         piece: usize,
     },
     /// The wrist exceeds a limit along a line.
-    #[error("the wrist exceeds its {what} after sample {sample} of the step: {value:.6}, beyond {allowed}")]
+    #[error("after sample {sample} of the step, the wrist exceeds its {what}: {value:.6}, beyond {allowed}")]
     WristAlongLine {
         /// The limit, in words.
         what: &'static str,
@@ -78,7 +79,7 @@ pub enum Fault {
         sample: usize,
     },
     /// A moving object is picked at a time outside its window.
-    #[error("the object is picked at {time:.6} s, outside the required times")]
+    #[error("the object is picked at {time:.6} s, outside its time window")]
     When {
         /// The recorded time, seconds.
         time: f64,
@@ -90,7 +91,7 @@ pub enum Fault {
         off: f64,
     },
     /// The placed object does not have its required orientation.
-    #[error("the object is released {off:.6} rad from the required angle")]
+    #[error("the angle of the released object is wrong by {off:.6} rad")]
     Angle {
         /// The difference, radians.
         off: f64,
@@ -104,7 +105,7 @@ pub enum Fault {
         asked: f64,
     },
     /// The arm does not rest for long enough before the step, while the tool is raised.
-    #[error("the arm stands still for {stood:.6} s before it, but the tool is raised for {asked:.6} s")]
+    #[error("the arm stands still for {stood:.6} s before the step, but raising the tool takes {asked:.6} s")]
     RestBefore {
         /// The recorded rest, seconds.
         stood: f64,
@@ -122,10 +123,10 @@ pub enum Fault {
         when: &'static str,
     },
     /// The tool is raised during the beginning of the motion, but it was not lowered.
-    #[error("the tool is raised during the motion, but it is not lowered before")]
+    #[error("the tool is raised during the motion, but was not lowered before")]
     NotLowered,
     /// The wrist turns to a value of its joint, but the step states none.
-    #[error("the wrist turns to a value of its joint that the step does not state")]
+    #[error("the wrist turns, but the step does not state the values of the wrist's joint")]
     WristElsewhere,
     /// The wrist does not turn to its value.
     #[error("the wrist does not turn to {to} rad")]
@@ -155,7 +156,7 @@ pub enum Fault {
     #[error("the arm moves while the tool is lowered or raised, which the world forbids")]
     NoArch,
     /// The tool is lower during a motion than the world allows.
-    #[error("the arm moves during {overlap:.6} s of a stroke, but only {most:.6} s are high enough")]
+    #[error("the arm moves during {overlap:.6} s of a stroke, but the tool is high enough only for {most:.6} s")]
     TooLow {
         /// The recorded overlap, seconds.
         overlap: f64,
@@ -163,7 +164,7 @@ pub enum Fault {
         most: f64,
     },
     /// The tool is turned or lowered again before it is raised and turned completely.
-    #[error("strokes and turns overlap with the motion for {shared:.6} s, but it takes only {seconds:.6} s")]
+    #[error("strokes and turns overlap with the motion for {shared:.6} s, but the motion takes only {seconds:.6} s")]
     NotRaised {
         /// Sum of the overlaps at both ends, seconds.
         shared: f64,
@@ -184,7 +185,7 @@ pub enum Fault {
     TurnElsewhere,
     /// The wrist exceeds its limits, because it also compensates the rotation of link 2.
     #[error(
-        "the wrist exceeds its limits while the arm moves: it turns the object and compensates the rotation of link 2"
+        "the wrist exceeds its limits while the arm moves, because it turns the object and compensates the rotation of link 2"
     )]
     WristLimits,
     /// The recorded turn of the wrist begins at an orientation that the object does not have.
@@ -194,7 +195,7 @@ pub enum Fault {
         off: f64,
     },
     /// The wrist turns faster than it can.
-    #[error("the wrist turns in {seconds:.6} s, but needs {least:.6} s")]
+    #[error("the wrist turns in {seconds:.6} s, but needs at least {least:.6} s")]
     TooFast {
         /// The recorded duration.
         seconds: f64,
@@ -237,7 +238,7 @@ pub enum OrderDeviation {
         expected: String,
     },
     /// A step begins before the previous one ends.
-    #[error("steps[{index}] begins with sample {first}, before the previous step ends with sample {last}")]
+    #[error("steps[{index}] begins with sample {first}, but the previous step ends with sample {last}")]
     Overlap {
         /// Index of the recorded step.
         index: usize,
@@ -247,7 +248,7 @@ pub enum OrderDeviation {
         last: usize,
     },
     /// The arm moves between steps.
-    #[error("the arm moves between samples {sample} and {}, which belong to no step", sample + 1)]
+    #[error("the arm moves between samples {sample} and {}, outside all steps", sample + 1)]
     Moves {
         /// Index of the recorded step that follows the motion, or the number of steps.
         index: usize,

@@ -42,7 +42,7 @@ pub struct StepTool {
 
 /// A joint that is not where the steps of the file place it.
 #[derive(Debug, Clone, PartialEq, Error)]
-#[error("all_joints: joint \"{joint}\" is at {is} at {time:.6} s, but by the file's steps it is {} then", range(*stated))]
+#[error("all_joints: at {time:.6} s, joint \"{joint}\" is at {is}, but according to the steps {}", range(*stated))]
 pub struct MisplacedJoint {
     /// The joint's name in the URDF.
     pub joint: String,

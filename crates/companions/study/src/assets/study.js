@@ -139,7 +139,7 @@ class StudyPage {
   describe(layout) {
     const { ending, fits, facts, command } = this.data.layouts[layout];
     const [style, sign] = ENDINGS[ending];
-    const words = ending === 'found' && !fits ? 'found, but it does not meet the conditions' : ending;
+    const words = ending === 'found' && !fits ? 'found, but the motion does not meet the conditions' : ending;
     const verdict = html('p', { class: `ending ${style}` }, html('span', { 'aria-hidden': 'true' }, sign), ` ${words}`);
     const list = html('dl', {}, ...facts.flatMap(([name, text]) => [html('dt', {}, name), html('dd', {}, text)]));
     const title = `Layout ${layout}${layout === this.data.best ? ', the best' : ''}`;

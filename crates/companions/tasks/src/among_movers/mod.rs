@@ -176,7 +176,7 @@ impl<'a> Search<'a> {
             checkpoint();
             if self.motions >= reported + PROGRESS_INTERVAL {
                 reported = self.motions;
-                progress(&format!("{} motions planned in time, {} states examined", self.motions, self.nodes.len()));
+                progress(&format!("{} motions timed, {} states examined", self.motions, self.nodes.len()));
             }
             if self.motions > most {
                 self.give_up(index, best.is_some());
@@ -242,7 +242,8 @@ impl<'a> Search<'a> {
             (Stage::Reached(state, _), _) => state.candidates(self.task).first().map(|next| (index, next.step)),
         };
         if let Some((node, step)) = next.filter(|_| !is_known) {
-            let refusal = Refusal::new(format!("given up after {} motions planned in time", self.motions), false);
+            let refusal =
+                Refusal::new(format!("the search ended at its limit of {} timed motions", self.motions), false);
             self.refuse(node, step, None, refusal);
         }
     }
@@ -341,7 +342,7 @@ impl<'a> Search<'a> {
         let (candidate, step) = (&choice.candidate, choice.candidate.step);
         if matches!(candidate.event, Some(Event::Grasp { .. })) {
             // If the payload would touch something here, the object may still be picked elsewhere on its path.
-            require_unobstructed(&here.scene_at_rest(candidate, time).0, candidate.to, "after it")?;
+            require_unobstructed(&here.scene_at_rest(candidate, time).0, candidate.to, "after this step")?;
         }
         let [some, each] = ROUNDED_MOTION_BUDGET;
         let stops =

@@ -21,7 +21,7 @@ pub(super) fn failed_pick_out_of_reach(task: &Task, start: &State) -> Option<Fai
     let name = &task.objects[step.action.picked()?].name;
     Some(FailedStep {
         step: step.clone(),
-        reasons: vec![format!("\"{name}\" is never within the arm's reach in the window of its pick")],
+        reasons: vec![format!("\"{name}\" is not within the arm's reach at any time in the window of its pick")],
         scene: Arc::new(start.scene(task, step.action.picked())),
         moving: start.moving.clone(),
         from: start.q,

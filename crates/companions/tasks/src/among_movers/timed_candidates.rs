@@ -106,7 +106,7 @@ impl<'a> TimedState<'a, '_> {
                     for candidate in &candidates.ways {
                         let before = ways.len();
                         self.arrivals(&movers, candidate, [0.0, f64::INFINITY], &mut ways);
-                        let reason = "at all possible arrival times, a moving obstacle or object is there or arrives while the arm rests";
+                        let reason = "whenever the arm could arrive, a moving obstacle or object is there, or comes while the arm rests";
                         let is_barred = ways.len() == before;
                         refused.extend(is_barred.then(|| (Some(candidate.to), Refusal::new(reason, false))));
                     }
@@ -236,7 +236,7 @@ impl<'a> TimedState<'a, '_> {
             format!("\"{name}\" has passed: {begins}")
         } else {
             format!(
-                "\"{name}\" passes before the arm can arrive, or another moving obstacle or object is there: {begins}"
+                "\"{name}\" has passed when the arm can arrive, or another moving obstacle or object is there: {begins}"
             )
         };
         Refusal::new(reason, false)

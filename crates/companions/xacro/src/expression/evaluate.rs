@@ -25,7 +25,7 @@ impl Evaluator<'_> {
         let size = match value {
             Value::Text(text) => text.len(),
             Value::List(items) if items.len() > MAX_LIST_ITEMS => {
-                return Err(format!("a list of more than {MAX_LIST_ITEMS} items is too long").into());
+                return Err(format!("the list is too long: it has more than {MAX_LIST_ITEMS} items").into());
             }
             _ => 0,
         };
@@ -124,8 +124,8 @@ impl Evaluator<'_> {
         }
         functions::constant(name).ok_or_else(|| {
             let hint = match functions::is_function(name) {
-                true => "it is a function: write ( and ) after it".to_owned(),
-                false => "define it before its use: <xacro:property name=\"...\" value=\"...\"/>, here or in an included file".into(),
+                true => "this is the name of a function: write ( ) after it".to_owned(),
+                false => "define the property before this use: <xacro:property name=\"...\" value=\"...\"/>, here or in an included file".into(),
             };
             Fault::with_hint(format!("there is no property \"{name}\""), hint)
         })
@@ -270,7 +270,7 @@ fn arithmetic(sign: &str, a: Number, b: Number) -> Result<Value, Fault> {
         _ => x.powf(y),
     };
     match value.is_nan() && !x.is_nan() && !y.is_nan() {
-        true => Err(format!("\"{sign}\" of {x} and {y} is not a number").into()),
+        true => Err(format!("{x} {sign} {y} is not a real number").into()),
         false => Ok(Value::Float(value)),
     }
 }
@@ -310,9 +310,8 @@ fn position(index: i64, length: usize) -> Option<usize> {
 }
 
 fn item(of: &Value, index: &Value) -> Result<Value, Fault> {
-    let beyond = |length: usize| {
-        Fault::from(format!("index {} is outside the sequence, which has {length} items", short(index)))
-    };
+    let beyond =
+        |length: usize| Fault::from(format!("index {} is out of range: the sequence has {length} items", short(index)));
     match (of, index) {
         (Value::Dict(items), key) => of.item(key).cloned().ok_or_else(|| {
             let keys: Vec<String> = items.iter().take(12).map(|(key, _)| key.printed()).collect();

@@ -108,7 +108,7 @@ pub(super) fn call(name: &str, arguments: &[Value]) -> Result<Value, Fault> {
 
 fn finite(name: &str, value: f64) -> Result<Value, Fault> {
     match value.is_nan() {
-        true => Err(format!("{name}() is not defined there").into()),
+        true => Err(format!("{name}() is not defined for this value").into()),
         false => Ok(Value::Float(value)),
     }
 }
@@ -180,7 +180,7 @@ fn more(name: &str, arguments: &[Value]) -> Result<Option<Value>, Fault> {
         ("sorted", [Value::List(items)]) => {
             let mut items = items.to_vec();
             if items.windows(2).any(|pair| pair[0].compare(&pair[1]).is_none()) {
-                return Err("sorted() needs items that can be compared".into());
+                return Err("sorted(): the items cannot be compared with each other".into());
             }
             items.sort_by(|a, b| a.compare(b).unwrap_or(Ordering::Equal));
             Value::list(items)
@@ -192,7 +192,7 @@ fn more(name: &str, arguments: &[Value]) -> Result<Option<Value>, Fault> {
 
 fn range(from: i64, to: i64) -> Result<Value, Fault> {
     if to.saturating_sub(from) > MAX_LIST_ITEMS as i64 {
-        return Err(format!("a list of more than {MAX_LIST_ITEMS} items is too long").into());
+        return Err(format!("the list is too long: it has more than {MAX_LIST_ITEMS} items").into());
     }
     Ok(Value::list((from..to).map(Value::Int).collect()))
 }
@@ -211,7 +211,8 @@ fn extreme(name: &str, items: &[Value]) -> Result<Value, Fault> {
     let (first, others) = items.split_first().ok_or_else(|| format!("{name}() needs an item"))?;
     let mut best = first;
     for item in others {
-        let order = item.compare(best).ok_or_else(|| format!("{name}() needs items that can be compared"))?;
+        let order =
+            item.compare(best).ok_or_else(|| format!("{name}(): the items cannot be compared with each other"))?;
         if order == wanted {
             best = item;
         }
@@ -222,7 +223,7 @@ fn extreme(name: &str, items: &[Value]) -> Result<Value, Fault> {
 /// Calls a method of a text or a dict.
 pub(super) fn method(of: &Value, name: &str, arguments: &[Value]) -> Result<Value, Fault> {
     let text_list = |parts: Vec<&str>| Value::list(parts.into_iter().map(Value::text).collect());
-    let unknown = || Fault::from(format!("{name}() is not known for a {}", of.kind()));
+    let unknown = || Fault::from(format!("a {} has no method {name}()", of.kind()));
     let value = match (of, name, arguments) {
         (Value::Text(text), "lower", []) => Value::text(text.to_lowercase()),
         (Value::Text(text), "upper", []) => Value::text(text.to_uppercase()),

@@ -19,7 +19,7 @@ const UNKNOWN_WORDS: [&str; 4] = ["lambda", "for", "is", "yield"];
 
 pub(super) fn parse(tokens: &[Token]) -> Result<Expression, Fault> {
     if tokens.len() > MAX_WORDS {
-        return Err(format!("it has more than {MAX_WORDS} words").into());
+        return Err(format!("the expression has more than {MAX_WORDS} words").into());
     }
     let mut parser = Parser { tokens, at: 0, depth: 0 };
     let expression = parser.choice()?;
@@ -66,16 +66,17 @@ impl<'t> Parser<'t> {
     fn expects(&mut self, sign: &str) -> Result<(), Fault> {
         match self.takes_sign(sign) {
             true => Ok(()),
-            false => Err(self
-                .peek()
-                .map_or_else(|| format!("\"{sign}\" is missing at its end").into(), |t| self.unexpected(t))),
+            false => Err(self.peek().map_or_else(
+                || format!("\"{sign}\" is missing at the end of the expression").into(),
+                |t| self.unexpected(t),
+            )),
         }
     }
 
     fn unexpected(&self, token: &Token) -> Fault {
         match token {
             Token::Name(word) if UNKNOWN_WORDS.contains(&word.as_str()) => Fault::with_hint(
-                format!("\"{word}\" is unknown: cplan does not read comprehensions, lambdas and \"is\""),
+                format!("\"{word}\" is not supported: cplan does not read comprehensions, lambdas and \"is\""),
                 "write the expression without it, or expand the file with ROS's own xacro",
             ),
             Token::Name(word) => format!("\"{word}\" is not expected there").into(),
@@ -90,7 +91,7 @@ impl<'t> Parser<'t> {
     fn choice(&mut self) -> Result<Expression, Fault> {
         self.depth += 1;
         if self.depth > MAX_EXPRESSION_DEPTH {
-            return Err(format!("it is nested more than {MAX_EXPRESSION_DEPTH} deep").into());
+            return Err(format!("the expression is nested more than {MAX_EXPRESSION_DEPTH} deep").into());
         }
         let mut value = self.or()?;
         if self.takes_word("if") {
@@ -184,7 +185,7 @@ impl<'t> Parser<'t> {
         }
         self.depth += 1;
         if self.depth > MAX_EXPRESSION_DEPTH {
-            return Err(format!("it is nested more than {MAX_EXPRESSION_DEPTH} deep").into());
+            return Err(format!("the expression is nested more than {MAX_EXPRESSION_DEPTH} deep").into());
         }
         let exponent = self.signed()?;
         self.depth -= 1;
@@ -195,7 +196,7 @@ impl<'t> Parser<'t> {
         let mut value = self.atom()?;
         for count in 0.. {
             if count > MAX_EXPRESSION_DEPTH {
-                return Err(format!("it is nested more than {MAX_EXPRESSION_DEPTH} deep").into());
+                return Err(format!("the expression is nested more than {MAX_EXPRESSION_DEPTH} deep").into());
             }
             if self.takes_sign(".") {
                 let Some(Token::Name(name)) = self.peek() else { return Err("a name is missing after \".\"".into()) };
@@ -247,7 +248,7 @@ impl<'t> Parser<'t> {
     }
 
     fn atom(&mut self) -> Result<Expression, Fault> {
-        let token = self.peek().ok_or("it is incomplete: its end is missing")?;
+        let token = self.peek().ok_or("the expression is incomplete")?;
         self.at += 1;
         Ok(match token {
             Token::Int(x) => Expression::Constant(Value::Int(*x)),

@@ -78,14 +78,14 @@ impl Serialize for CheckedProof {
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProofError {
     /// The box names shapes that do not exist, or cannot meet.
-    #[error("collision box {0} names two shapes that do not exist or cannot meet")]
+    #[error("collision box {0}: one of the two shapes does not exist, or they cannot meet")]
     UnknownPair(usize),
     /// The box is empty, or extends beyond the domain.
     #[error("collision box {0} is empty or extends beyond the configuration space")]
     NotInDomain(usize),
     /// The shapes may separate within the box.
     #[error(
-        "collision box {index}: the shapes overlap by {depth:e} m in its middle, but can move by {motion:e} m within it"
+        "collision box {index}: the shapes overlap by {depth:e} m in the middle of the box, but can move by {motion:e} m within the box"
     )]
     NotColliding {
         /// Index of the box, from 0.

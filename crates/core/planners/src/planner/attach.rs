@@ -76,7 +76,7 @@ fn attach_goals(grid: &Grid, goals: &Segment) -> Result<Attachment, String> {
     let cells: Vec<usize> = cells_along(grid, goals).into_iter().filter(|&cell| !grid.blocked[cell]).collect();
     if cells.is_empty() {
         return Err(format!(
-            "the goals from {} to {} are in no free cell",
+            "no goal from {} to {} is in a free cell",
             format_configuration(from),
             format_configuration(to)
         ));
@@ -144,5 +144,5 @@ fn attach(grid: &Grid, q: Configuration, name: &str) -> Result<Attachment, Strin
             return Ok(Attachment { cells: found.into_iter().map(|(_, cell)| cell).collect(), contained: false });
         }
     }
-    Err(format!("the {name} ({:.4}, {:.4}) has no free cell within {SEARCHED_RINGS} cells around it", q[0], q[1]))
+    Err(format!("no free cell is within {SEARCHED_RINGS} cells of the {name} ({:.4}, {:.4})", q[0], q[1]))
 }

@@ -326,16 +326,18 @@ impl std::fmt::Display for Note {
             Self::Continued { first, more } => {
                 write!(
                     f,
-                    "the measure was met after {first} sweeps; {more} more sweeps by relative change followed, because \
-                     values near the path are small"
+                    "the tolerance was met after {first} sweeps; {more} more sweeps followed until the relative change was small, because values near the path are small"
                 )
             }
             Self::Escaped { how, minima, moves } => {
                 let minima = if *minima == 1 { "a local minimum".to_owned() } else { format!("{minima} local minima") };
-                write!(f, "escaped from {minima} {how}: {} that the forces do not make", counted(*moves, "move"))
+                write!(f, "escaped from {minima} {how}, by {} that the forces do not cause", counted(*moves, "move"))
             }
             Self::Floor { sweeps, change } => {
-                write!(f, "after {sweeps} sweeps single precision allows no more progress, at a change of {change:.1e}")
+                write!(
+                    f,
+                    "stopped after {sweeps} sweeps, at a change of {change:.1e}: single precision allows no more progress"
+                )
             }
         }
     }

@@ -33,7 +33,7 @@ impl Terminals {
         let start = query.start;
         if parts_of(&Segment::point(query.start)).is_empty() {
             return Err(format!(
-                "the start {} is not in the free space that the planner searches",
+                "the start {} is outside the free space that the planner searches",
                 format_point(start)
             ));
         }
@@ -51,7 +51,7 @@ impl Terminals {
         if goals.is_empty() {
             let goal = format_point(first.ends()[0]);
             let others = if pieces.len() > 1 { format!(" (nor {} others)", pieces.len() - 1) } else { String::new() };
-            return Err(format!("the goal {goal}{others} is not in the free space that the planner searches"));
+            return Err(format!("the goal {goal}{others} is outside the free space that the planner searches"));
         }
         parts.sort_by_key(|part| part.0);
         Ok(Self { start, goals, parts })

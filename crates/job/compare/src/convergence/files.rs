@@ -279,7 +279,7 @@ fn measure_words(measure: Measure) -> &'static str {
     match measure {
         Measure::SumOfChange => "sum of changes",
         Measure::SumOfSquares => "sum of squared changes",
-        Measure::DifferenceOfSums => "difference of the sum of changes and that before",
+        Measure::DifferenceOfSums => "difference to the sum of changes of the previous sweep",
         Measure::GreatestChange => "greatest change",
         Measure::GreatestRelativeChange => "greatest relative change",
     }

@@ -88,10 +88,10 @@ fn of_problem(comparison: &Comparison, purpose: Purpose, picture: Option<&PathPi
         |panel| picture.zip(path).map(|(picture, path)| picture.small(panel, path, pen, &label)).unwrap_or_default();
     let meaning = match purpose {
         Purpose::Shortest => {
-            comparison.over_optimum(row).map(|ratio| format!("at most {} over the optimum", excess(ratio)))
+            comparison.over_optimum(row).map(|ratio| format!("at most {} longer than the optimum", excess(ratio)))
         }
         Purpose::Safest => Some("from all obstacles, along the whole motion".to_owned()),
-        Purpose::Quickest | Purpose::FastestMotion => Some("from the problem to the certified path".to_owned()),
+        Purpose::Quickest | Purpose::FastestMotion => Some("time from the problem to the certified path".to_owned()),
     };
     let mut more = format!("<div class=\"smalls\">{}{}</div>\n", small(0), small(1));
     if purpose == Purpose::Quickest {
@@ -140,7 +140,7 @@ fn shown(purpose: Purpose, value: f64, comparison: &Comparison) -> String {
 
 /// Lists the other values of a recommended row.
 fn other_values(comparison: &Comparison, row: &Row, purpose: Purpose) -> String {
-    let longer = || Some(format!("at most {} over the optimum", excess(comparison.over_optimum(row)?)));
+    let longer = || Some(format!("at most {} longer than the optimum", excess(comparison.over_optimum(row)?)));
     let room = || row.clearance.map(|metres| format!("keeps {}", clearance(metres)));
     let motion = || row.duration.map(|seconds| format!("moves {}", duration(seconds)));
     let time = || row.total.map(|seconds| format!("computed in {}", computing_time(seconds)));
@@ -174,7 +174,7 @@ fn of_study(study: &Study, purpose: Purpose) -> Option<Card> {
         pen: first.pens()[planner],
         value: format!("{wins} of {found}"),
         exact: Some(wins as f64),
-        meaning: format!("problems with a path, in which {meaning}"),
+        meaning: format!("number of problems with a path in which {meaning}"),
         cost: median.unwrap_or_default(),
         more: String::new(),
         path: None,

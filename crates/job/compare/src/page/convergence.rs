@@ -30,8 +30,4 @@ impl Convergence {
     }
 }
 
-const METHOD_NOTE: &str = "The error of a field is its greatest difference from the solution by elimination, relative \
-                           to that difference before the first sweep. The rate is the factor by which a late sweep \
-                           multiplies the error. The formula is the best factor for Laplace's equation in an empty \
-                           rectangle. The factor by rate is Young's, from the rate of Jacobi's relaxation on this \
-                           grid. The charts have no point for a relaxation that diverges, or ends before it converges.";
+const METHOD_NOTE: &str = "The error of a field is its greatest difference from the solution by elimination, divided by the same difference before the first sweep. The rate is the factor by which a late sweep multiplies the error. The factor by formula is the best one for Laplace's equation in an empty rectangle. The factor by rate is Young's; it follows from the rate of Jacobi's relaxation on this grid. The charts have no points for relaxations that diverge or end before they converge.";

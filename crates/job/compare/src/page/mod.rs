@@ -106,8 +106,7 @@ impl Page<'_> {
         if charts.is_empty() {
             return charts;
         }
-        let note = "Box: the middle half of the runs; bar across it: the median; whiskers: the least and the greatest; each \
-                    dot is a run. Axes are logarithmic where values differ much.";
+        let note = "Box: the middle half of the runs; bar in the box: the median; whiskers: the least and the greatest value; dots: single runs. Axes are logarithmic where values differ much.";
         section("Distributions", &format!("<div class=\"charts\">\n{charts}</div>\n<p class=\"sub\">{note}</p>\n"))
     }
 

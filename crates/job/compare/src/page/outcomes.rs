@@ -7,9 +7,9 @@ use cplan_text::markup;
 /// Returns the legend of the signs.
 pub fn key() -> String {
     let meaning = |outcome| match outcome {
-        Status::Found => "a certified path; the number is its length over the proven optimum",
+        Status::Found => "a certified path; the number is its length / the proven optimum",
         Status::Infeasible => "no path, proven",
-        Status::Unknown => "neither, at the finest resolution tried",
+        Status::Unknown => "neither a path nor a proof, at the finest resolution tried",
     };
     let entry =
         |outcome| format!("<li><span class=\"o-{outcome} sign\">{}</span> {}</li>", sign(outcome), meaning(outcome));

@@ -77,7 +77,7 @@ fn rows(comparison: &Comparison, picture: Option<&PathPictures>) -> Vec<RankedRo
 fn description(comparison: &Comparison, row: &Row, name: &str) -> String {
     let facts = [
         row.length.map(|length| path_length(length, &comparison.length_unit)),
-        comparison.over_optimum(row).map(|ratio| format!("at most {} over the optimum", excess(ratio))),
+        comparison.over_optimum(row).map(|ratio| format!("at most {} longer than the optimum", excess(ratio))),
         row.clearance.map(|metres| format!("keeps {}", clearance(metres))),
         row.duration.map(|seconds| format!("moves {}", duration(seconds))),
     ];
@@ -95,7 +95,7 @@ fn columns(comparison: &Comparison) -> Vec<RankedColumn> {
         }),
         RankedColumn::new(
             "over optimum",
-            "Greatest possible excess over the shortest path of all, proven",
+            "Proven bound on how much longer the path is than the shortest one",
             Better::Less,
             over,
             excess,
@@ -181,8 +181,13 @@ pub fn of_study(study: &Study) -> String {
         wins("shortest", "Number of problems with no shorter path", Purpose::Shortest),
         wins("safest", "Number of problems with no greater clearance", Purpose::Safest),
         wins("quickest", "Number of problems with no quicker path", Purpose::Quickest),
-        median("over optimum", "Median of the proven excess over the optimum", Measure::OverOptimum, excess)
-            .measured_from(1.0),
+        median(
+            "over optimum",
+            "Median of the proven bounds on how much longer the paths are than the optimum",
+            Measure::OverOptimum,
+            excess,
+        )
+        .measured_from(1.0),
         median("clearance", "Median of the proven clearance", Measure::Clearance, clearance),
         median("motion", "Median of the motions' durations", Measure::Duration, duration),
         median("computed in", "Median of the computing times", Measure::Total, computing_time),
@@ -190,8 +195,7 @@ pub fn of_study(study: &Study) -> String {
     ];
     let columns: Vec<RankedColumn> = columns.into_iter().filter(has_values).collect();
     format!(
-        "{}{}<p class=\"sub\">Shortest, safest, quickest: the number of problems in which the planner is the best, or as good as the \
-         best. The other columns are medians.</p>\n",
+        "{}{}<p class=\"sub\">Shortest, safest, quickest: the number of problems in which no planner is better. The other columns are medians.</p>\n",
         families(first),
         table("Planners over all problems", "outcomes", &rows, &columns)
     )

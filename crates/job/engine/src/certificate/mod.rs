@@ -38,27 +38,29 @@ pub enum NoCertificate {
     #[error("the answer is \"{}\", which claims nothing", .0.name())]
     Answer(Status),
     /// The answer is that a task is infeasible.
-    #[error("an infeasible task has no certificate: the result states the step that fails, and why")]
+    #[error("there are no certificates for infeasible tasks; the result states the step that fails, and the reason")]
     Task,
     /// The goal of a task is on the command line.
-    #[error("a certificate that includes the tool's joints needs the goal in the world file, not on the command line")]
+    #[error(
+        "the certificate includes the tool's joints, so the goal must be in the world file, not on the command line"
+    )]
     Goal,
     /// An object rests on another one, and its outline has corners that a checker cannot move inwards.
     #[error(
-        "object \"{0}\" rests on a support, but its outline is too fine or touches itself: it cannot be shrunk by the depth that it may press in"
+        "the outline of object \"{0}\", which rests on a support, cannot be shrunk by the allowed depth of contact, because it is too fine or touches itself"
     )]
     Outline(String),
     /// The motion has no times, but the world has moving obstacles.
-    #[error("the motion has no times, which decide whether it avoids the moving obstacles")]
+    #[error("the motion has no times, so it is unknown whether it avoids the moving obstacles")]
     Untimed,
     /// No box of collisions is found around an IK solution that is excluded at a place of a line.
-    #[error("an IK solution collides too slightly for a checker to confirm it; a smaller tolerance may help")]
+    #[error("an IK solution collides so slightly that a checker could not confirm it; a smaller tolerance may help")]
     Line,
     /// The range of a wrist excludes an IK solution at a place of a line.
-    #[error("the wrist's range is a part of the proof, and certificates of lines do not judge the wrist")]
+    #[error("the proof depends on the range of the wrist, but certificates of lines do not cover the wrist")]
     Wrist,
     /// A line is too large for all placements.
-    #[error("the answer is about all placements of the line, and certificates are about one")]
+    #[error("the answer is about all placements of the line, but a certificate is about one placement")]
     Placement,
 }
 

@@ -21,8 +21,7 @@ pub enum MessageError {
     Jump(#[from] AccelerationJump),
     /// A joint of the tool that moves. Its accelerations are unknown.
     #[error(
-        "accelerations cannot be written: those of the tool's joint \"{joint}\", which moves at {time:.6} s, are not computed; \
-         write only the two planned joints (--joints planned), or leave out --accelerations"
+        "accelerations cannot be written: joint \"{joint}\" of the tool moves at {time:.6} s, and its accelerations are not computed; write only the two planned joints (--joints planned), or leave out --accelerations"
     )]
     Tool {
         /// The joint's name in the URDF.

@@ -87,9 +87,9 @@ fn reason(task: &Task, FailedStep { step, .. }: &FailedStep, status: Status) -> 
     let which = format!("step {}{cycle}, {} ({})", step.number, step.action.describe(&task.objects), step.place);
     match status {
         Status::Infeasible => {
-            format!("infeasible: {which} has no motion, and no other choices make the task possible (proven)")
+            format!("infeasible: {which} has no motion, whatever the choices before it (proven)")
         }
-        _ => format!("unknown: no motion was found for {which}, and none ruled out"),
+        _ => format!("unknown: neither a motion for {which} nor a proof that none exists was found"),
     }
 }
 

@@ -31,7 +31,7 @@ impl Escape {
     pub fn description(self) -> &'static str {
         match self {
             Self::Walk { .. } => "by random walks",
-            Self::Wave => "by a wave over the basin",
+            Self::Wave => "by a wave through the minimum's basin",
         }
     }
 }

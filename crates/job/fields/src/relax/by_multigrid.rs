@@ -83,7 +83,7 @@ pub fn by_multigrid_in(
         return Err(RelaxError::Refused(refusal));
     }
     if stopping.measure != Measure::SumOfSquares {
-        return Err(refused("multigrid measures the sum of squared changes: use that measure"));
+        return Err(refused("multigrid ends by the sum of squared changes; use --measure squares"));
     }
     let (drift, difference) = equation
         .drift()

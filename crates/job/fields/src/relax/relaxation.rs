@@ -207,10 +207,10 @@ impl Relaxation {
     pub fn refusal(&self, cells: [usize; 2]) -> Option<String> {
         let factor = self.factor(cells);
         if !(factor.is_finite() && factor > 0.0) {
-            return Some(format!("a relaxation factor must be positive, this one is {factor}"));
+            return Some(format!("the relaxation factor is {factor}, but must be positive"));
         }
         let [low, high] = self.clamp.filter(|[low, high]| low > high || low.is_nan() || high.is_nan())?;
-        Some(format!("values cannot be brought into the empty range {low}..{high}"))
+        Some(format!("the range {low}..{high} for values is empty"))
     }
 }
 

@@ -206,10 +206,9 @@ pub(super) fn hint(domain: &Domain, equation: &Equation, relaxation: &Relaxation
             if equation.has_preferences() && relaxation.relaxes_preferences { " and its preferences" } else { "" };
         format!("the factor {factor:.4} is too great for this equation{also}; use a smaller factor, or gauss-seidel")
     } else if matches!(equation, Equation::AlteredPreference { .. }) {
-        "the altered equation is monotone only for an |epsilon| of less than 2 per cell: use a smaller epsilon".into()
+        "the altered equation is monotone only if |epsilon| is less than 2 per cell: use a smaller epsilon".into()
     } else {
-        "central differences are monotone only for an |epsilon| of less than 2 per cell: use upwind differences, or a \
-         smaller epsilon"
+        "central differences are monotone only if |epsilon| is less than 2 per cell: use upwind differences, or a smaller epsilon"
             .into()
     }
 }

@@ -41,8 +41,7 @@ pub(super) fn missing_axis(reduction: &Reduction, index: usize) -> Option<String
     let name = &reduction.document.robot.joints[index].name;
     reduction.document.joints[index].axis.is_none().then(|| {
         format!(
-            "joint \"{name}\" has no <axis>, which means the x axis of its frame: write <axis xyz=\"0 0 1\"/> if its \
-             axis is z"
+            "joint \"{name}\" has no <axis>, so the x axis of its frame is used; if the axis is z, write <axis xyz=\"0 0 1\"/>"
         )
     })
 }
@@ -59,20 +58,24 @@ fn speed(reduction: &Reduction, index: usize, joint: &Joint) -> Option<String> {
     let (fastest, unit, example) =
         if turns { (MAX_PLAUSIBLE_TURN_SPEED, "rad", "2.0") } else { (MAX_PLAUSIBLE_SLIDE_SPEED, "m", "0.5") };
     let given = format!("joint \"{name}\": velocity=\"{velocity}\" in the URDF");
-    let help = format!("[robot] velocity = {{ {} = {example} }} in the world file gives its top speed", key(name));
+    let help = format!("state the top speed in the world file: [robot] velocity = {{ {} = {example} }}", key(name));
     if velocity == 0.0 {
-        return Some(format!("{given} counts as missing: {help}"));
+        return Some(format!("{given} counts as missing; {help}"));
     }
     let degrees = if turns { format!(" ({} deg/s)", short(velocity.to_degrees())) } else { String::new() };
-    (velocity > fastest)
-        .then(|| format!("{given} is {velocity} {unit}/s{degrees}, faster than any drive: times are too short; {help}"))
+    (velocity > fastest).then(|| {
+        format!("{given} means {velocity} {unit}/s{degrees}, faster than any drive, so times are too short; {help}")
+    })
 }
 
 /// Returns the warning about a prismatic joint whose limits seem to be in millimetres.
 fn slide(joint: &Joint) -> Option<String> {
     let JointRange::Interval { lower, upper } = joint.range else { return None };
     (!joint.joint_type.is_revolute() && upper - lower > 2.0 * MAX_PLAUSIBLE_LENGTH).then(|| {
-        format!("joint \"{}\" slides from {lower} to {upper} m: divide limits in millimetres by 1000", joint.name)
+        format!(
+            "joint \"{}\" slides from {lower} to {upper} m; if the limits are in millimetres, divide them by 1000",
+            joint.name
+        )
     })
 }
 
@@ -81,8 +84,7 @@ fn length(arm: &Arm) -> Option<String> {
     let [first, second] = lengths(arm);
     (first + second > MAX_PLAUSIBLE_LENGTH).then(|| {
         format!(
-            "the arm is {} m and {} m long, joint to joint and joint to tip: a URDF has lengths in metres; divide \
-             lengths in millimetres by 1000",
+            "the arm is very long: {} m from joint to joint, {} m from joint to tip; if these are millimetres, divide them by 1000, because lengths in a URDF are in metres",
             short(first),
             short(second)
         )
@@ -100,8 +102,7 @@ fn outreach(arm: &Arm) -> Option<String> {
     bodies.dedup();
     let others = if bodies.len() > 1 { format!(" (and {})", counted(bodies.len() - 1, "link")) } else { String::new() };
     Some(format!(
-        "the shape of link \"{}\"{others} reaches {} m from its joint, far beyond the arm's own length: a mesh in millimetres needs \
-         scale=\"0.001 0.001 0.001\", other sizes must be in metres",
+        "the shape of link \"{}\"{others} extends {} m from its joint, far more than the arm is long; write sizes in metres, and scale=\"0.001 0.001 0.001\" for a mesh in millimetres",
         first.body,
         short(farthest)
     ))

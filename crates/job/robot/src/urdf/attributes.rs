@@ -100,7 +100,7 @@ impl Attributes<'_> {
                     |word: &&str| word.parse::<f64>().is_ok_and(|x| x.is_nan() || x.is_infinite() && !may_be_infinite);
                 if let Some(word) = attribute.value().split_whitespace().find(bad) {
                     let message = format!("{word} in {}=\"{}\" is not finite", attribute.name(), attribute.value());
-                    let help = "every number of a URDF is finite; a joint without limits is of type continuous";
+                    let help = "write a finite number; a joint without limits is of type continuous";
                     self.diagnostic(element, Some(attribute.name()), message, help);
                 }
             }
@@ -141,7 +141,7 @@ impl Attributes<'_> {
                 if let Some(value) = values.iter().find(|x| is_length && x.is_finite() && x.abs() > MAX_LENGTH) {
                     let message = format!("{value:e} in {name}=\"{text}\" is too large (at most {MAX_LENGTH:e})");
                     let help = format!(
-                        "lengths are in metres, from -{MAX_LENGTH:e} to {MAX_LENGTH:e}: divide those in millimetres by 1000"
+                        "lengths are in metres, from -{MAX_LENGTH:e} to {MAX_LENGTH:e}; divide lengths in millimetres by 1000"
                     );
                     self.diagnostic(node, Some(name), message, &help);
                     return None;

@@ -58,7 +58,7 @@ pub(super) struct Outlines {
 
 /// Returns the message that a link has no outline because its mesh cannot be read.
 fn describe_unread_mesh(unread: &Diagnostic) -> String {
-    format!("{}; the link is ignored, so the arm may collide with it", unread.message)
+    format!("{}; this link is ignored in planning, so it may collide with the arm", unread.message)
 }
 
 /// Names the URDF links of an arm link whose visual geometry is used although others have collision geometry. `None` if
@@ -67,7 +67,7 @@ fn visual_links(link: &Link) -> Option<String> {
     let mut names: Vec<&str> = link.parts.iter().filter(|part| part.is_visual).map(|part| part.body.as_str()).collect();
     names.dedup();
     let named =
-        || format!("outline from the visual geometry, since there is no collision geometry: {}", quoted(names.iter()));
+        || format!("no collision geometry, so the outline is that of the visual geometry: {}", quoted(names.iter()));
     (!names.is_empty()).then(named)
 }
 
@@ -107,7 +107,7 @@ impl Bodies<'_> {
         let links: [Link; 2] = links.try_into().expect("two links");
         if links.iter().all(|l| l.source == OutlineSource::None) {
             let message = format!(
-                "neither link \"{}\" nor link \"{}\" has collision or visual geometry: the arm cannot collide with anything",
+                "links \"{}\" and \"{}\" have neither collision nor visual geometry, so the arm cannot collide with anything",
                 links[0].name, links[1].name
             );
             let help = "add <collision> geometry to the URDF, or replace the links by bars between the joints, in the \
@@ -178,7 +178,7 @@ impl Bodies<'_> {
         }
         if source == OutlineSource::None {
             warnings.push(format!(
-                "link {} \"{name}\" has no geometry, so it cannot collide ([robot] bar = RADIUS gives it one)",
+                "link {} \"{name}\" has no geometry, so it cannot collide; [robot] bar = RADIUS adds a bar",
                 index + 1
             ));
         }
@@ -265,9 +265,10 @@ impl Bodies<'_> {
             Some((outline, inner)) => Ok(vec![part(outline, inner, shape.heights)]),
             None => {
                 let message = format!(
-                    "link \"{body}\" turns with the wrist, but its shape is not centred on the wrist's axis, so it covers another area at each angle"
+                    "link \"{body}\" turns with the wrist, but its shape is not centred on the wrist's axis, so it covers a different area at each angle"
                 );
-                let help = "give it <collision> geometry that covers all angles: a <cylinder> along the axis of the wrist's joint";
+                let help =
+                    "add <collision> geometry that covers all angles: a <cylinder> along the axis of the wrist's joint";
                 Err(self.document.diagnostic_at(&shape.at, message).help(help))
             }
         }

@@ -36,7 +36,8 @@ pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) 
     let mut chain = with_joints(document, tree, settings, joints)?;
     if !reason.is_empty() {
         let [first, second] = joints.map(|j| document.robot.joints[j].name.as_str());
-        let note = format!("the two joints are \"{first}\" and \"{second}\"{reason}; [robot] joints chooses others");
+        let note =
+            format!("cplan plans for the joints \"{first}\" and \"{second}\"{reason}; choose others by [robot] joints");
         chain.notes.insert(0, note);
     }
     Ok(chain)
@@ -162,9 +163,8 @@ impl Chooser<'_> {
         match &self.settings.table.joints {
             None if swapped => Ok(implied([b, a])),
             Some(names) if swapped => {
-                let message = format!(
-                    "[robot] joints: joint \"{first}\" is carried by joint \"{second}\", not the other way round"
-                );
+                let message =
+                    format!("[robot] joints: the order is wrong, because joint \"{second}\" carries joint \"{first}\"");
                 Err(self.in_world(names, message).help(format!("swap them: joints = [\"{second}\", \"{first}\"]")))
             }
             names => {
@@ -205,8 +205,7 @@ impl Chooser<'_> {
             String::new()
         } else {
             format!(
-                "; also, {}: cplan refuses arms whose links are coupled by mimic joints (a parallelogram or other \
-                 linkage), because they are not serial two-joint arms",
+                "; also, {}: cplan refuses links that mimic joints couple (a parallelogram or other linkage), because such an arm is no serial two-joint arm",
                 mimics.join(", ")
             )
         };
@@ -225,7 +224,7 @@ impl Chooser<'_> {
         if candidates.len() > pairing::MAX_TRIED_JOINTS {
             let message =
                 format!("the robot has {} movable joints; which two should cplan plan for?{coupled}", candidates.len());
-            let help = "name two of one chain in the world file: [robot] joints = [\"first\", \"second\"]; the others stand still";
+            let help = "name two joints of one chain in the world file: [robot] joints = [\"first\", \"second\"]; all other joints stand still";
             return Err(self.document.source.diagnostic(message).help(help));
         }
         let planar = pairing::planar(self.document, self.tree, self.settings);
@@ -236,8 +235,7 @@ impl Chooser<'_> {
         let list = list.join(", ");
         if planar.is_empty() {
             let message = format!(
-                "cplan plans for two joints that move in one plane; no two of the robot's {count} movable joints form \
-                 such a pair: {list}{coupled}"
+                "no two of the robot's {count} movable joints move in one plane, as cplan requires: {list}{coupled}"
             );
             let help =
                 "use a robot with two joints that move in one plane; `cplan inspect` gives the reason for each pair";
@@ -245,7 +243,7 @@ impl Chooser<'_> {
         }
         let message = format!("the robot has {count} movable joints; which two should cplan plan for? {list}{coupled}");
         let help = format!(
-            "name two of one chain in the world file: {}; the others stand still (at `fixed` values)",
+            "name two joints of one chain in the world file: {}; all other joints stand still (at `fixed` values)",
             pairing::choices(self.document, &planar)
         );
         Err(self.document.source.diagnostic(message).help(help))
@@ -268,11 +266,11 @@ impl Chooser<'_> {
                 && (carried || self.tree.carries(j, self.tree.child[chosen[1]]))
             {
                 let message =
-                    format!("is of type {}: one value does not determine the pose of its link", type_name(joint));
+                    format!("is of type {}, so one value does not determine the pose of its link", type_name(joint));
                 return Err(self
                     .document
                     .joint_diagnostic(j, &message)
-                    .help("make it fixed, or choose joints above it"));
+                    .help("make this joint fixed, or choose joints above it"));
             }
             // A joint outside the arm matters if it moves links that could collide.
             let matters = || carried || self.tree.carries(j, self.tree.child[chosen[0]]) || self.has_shapes(j);

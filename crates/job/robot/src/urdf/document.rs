@@ -98,8 +98,8 @@ impl Document {
             }),
             Err(error) => {
                 InputError::check(diagnostics)?;
-                let diagnostic = source.diagnostic(format!("is not a URDF that can be read: {error}"));
-                Err(diagnostic.help("check_urdf from the package liburdfdom-tools may find more").into())
+                let diagnostic = source.diagnostic(format!("cannot be read as URDF: {error}"));
+                Err(diagnostic.help("check_urdf (package liburdfdom-tools) may report more").into())
             }
         }
     }

@@ -52,11 +52,11 @@ impl Reduction<'_> {
         let Some(given) = &self.settings.table.drives else { return Ok(()) };
         let (motors, [first, elbow]) = self.read_drives(given)?;
         let refuse = |message: String| -> InputError {
-            self.diagnostic(given.span(), message).help("give other limits of motors or joints").into()
+            self.diagnostic(given.span(), message).help("change the limits of the motors or of the joints").into()
         };
         let [one, two] = bounds;
         let names = self.chain.joints.map(|j| &self.document.robot.joints[j].name);
-        let empty = |name: &str| refuse(format!("the limits of its motor leave joint \"{name}\" no values"));
+        let empty = |name: &str| refuse(format!("no value of joint \"{name}\" is within the limits of its motor"));
         one.limit(first).ok_or_else(|| empty(names[0]))?;
         if motors.ratio == 0.0 {
             return two.limit(elbow).ok_or_else(|| empty(names[1]));
@@ -112,7 +112,7 @@ impl Reduction<'_> {
             let message = format!("joint \"{}\" slides, but both joints must turn", axis.name);
             return Err(self
                 .diagnostic(given.span(), message)
-                .help("remove drives; limits of joints are velocity = { NAME = .. }"));
+                .help("remove `drives`; limit the joints by velocity = { NAME = .. }"));
         }
         let table = match given.get_ref() {
             DrivesValue::Table(table) => table,
@@ -149,8 +149,8 @@ impl Reduction<'_> {
             None | Some((_, "base")) => Ok(ratio.unwrap_or(1.0)),
             Some((_, "link")) if ratio.is_none_or(|ratio| ratio == 0.0) => Ok(0.0),
             Some((elbow, "link")) => {
-                let message = "a motor on the link has no ratio";
-                Err(self.diagnostic(elbow.span(), message).help("remove ratio, or write elbow = \"base\""))
+                let message = "elbow = \"link\" cannot have a ratio";
+                Err(self.diagnostic(elbow.span(), message).help("remove `ratio`, or write elbow = \"base\""))
             }
             Some((elbow, other)) => {
                 let message = format!("elbow is \"{other}\"");
@@ -180,7 +180,7 @@ impl Reduction<'_> {
         if let Some(k) = range.and_then(|range| range.iter().position(|[lower, upper]| lower >= upper)) {
             let at = table.lower.as_ref().map_or(0..0, Spanned::span);
             let message = format!("the lower limit of motor {} is not below the upper one", k + 1);
-            return Err(self.diagnostic(at, message).help("write the lower one first, and the greater one second"));
+            return Err(self.diagnostic(at, message).help("write the lower number first"));
         }
         let positive = |given: &Option<Numbers>, name: &str| match given {
             None => Ok(None),
@@ -230,7 +230,7 @@ impl Reduction<'_> {
             return Err(self.diagnostic(at, message).help(EXAMPLE));
         };
         if let Some(large) = values.iter().find(|value| value.abs() > LARGEST) {
-            let message = format!("{name} has the number {large:e}, but numbers are from -1e6 to 1e6");
+            let message = format!("{name} contains {large:e}, but numbers must be from -1e6 to 1e6");
             return Err(self.diagnostic(at, message).help(EXAMPLE));
         }
         Ok([first, second])

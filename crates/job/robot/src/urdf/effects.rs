@@ -48,7 +48,7 @@ impl Reduction<'_> {
                 let axis = project(plane, &self.poses[child].translation.vector) - elbow;
                 Ok(HeldEffect::Turns { axis, sign: along.signum() })
             }
-            _ => Err("turns links that the arm's two joints do not both carry".into()),
+            _ => Err("turns links that only one of the two planned joints carries, or none".into()),
         }
     }
 }

@@ -11,8 +11,7 @@ const XACRO_NAMESPACE: &str = "ros.org/wiki/xacro";
 /// Adds the hint that xacro must be expanded before it is read here.
 fn xacro(diagnostic: Diagnostic) -> Diagnostic {
     diagnostic.help(
-        "save it as a file, which cplan expands: `cplan robot.urdf.xacro world.toml`; `cplan inspect robot.urdf.xacro \
-         --expanded robot.urdf` writes it as a plain URDF",
+        "save this text as a .xacro file, which cplan expands: `cplan robot.urdf.xacro world.toml`; `cplan inspect robot.urdf.xacro --expanded robot.urdf` writes the plain URDF",
     )
 }
 
@@ -50,7 +49,7 @@ pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
     }
     let diagnostic = source.diagnostic_at(offset..offset + 1, format!("this is not well-formed XML: {message}"));
     Diagnostic { position: Some(Position { line, column }), ..diagnostic }
-        .help("is this the URDF? The order is URDF, then world file; an XML editor shows where a tag is not closed")
+        .help("the URDF comes first, then the world file; an XML editor shows where a tag is not closed")
 }
 
 /// Refuses documents that are not URDF. Accepts URDF that declares the namespace of xacro but does not use it.
@@ -60,7 +59,7 @@ pub(super) fn recognize(source: &Source, root: Node) -> Result<(), Diagnostic> {
         "robot" => {}
         "sdf" | "world" | "model" => {
             return Err(at(root, "this is an SDF file (Gazebo), not a URDF").help(
-                "use the robot's URDF, from which most SDF models are made, or convert this file, e.g. with `sdf2urdf`",
+                "use the URDF from which the SDF was made, if there is one, or convert this file, e.g. with `sdf2urdf`",
             ));
         }
         "mujoco" => return Err(at(root, "this is a MuJoCo model, not a URDF").help("use the robot's URDF")),

@@ -31,7 +31,7 @@ impl Chooser<'_> {
                 Some(mimic) => at = self.mimicked_joint(at, mimic)?,
             }
         }
-        Err(self.mimic_diagnostic(joint, "follows itself: the mimics form a cycle"))
+        Err(self.mimic_diagnostic(joint, "mimics itself, through a cycle of <mimic> elements"))
     }
 
     /// Returns the joint that a joint follows, with factor and offset. Without a mimic rule, returns the joint itself,
@@ -51,10 +51,10 @@ impl Chooser<'_> {
     pub(super) fn values(&self, chosen: [usize; 2]) -> Result<HeldValues, InputError> {
         for name in self.settings.table.fixed.keys() {
             if chosen.iter().any(|j| self.all()[*j].name == *name.get_ref()) {
-                let message = format!("[robot] fixed: joint \"{}\" is one of the two that move", name.get_ref());
+                let message = format!("[robot] fixed: joint \"{}\" is one of the two planned joints", name.get_ref());
                 return Err(self
                     .in_world(name, message)
-                    .help("leave it out of `fixed`, or choose other `joints`")
+                    .help("remove the joint from `fixed`, or choose other `joints`")
                     .into());
             }
         }
@@ -77,7 +77,7 @@ impl Chooser<'_> {
             let (leader, factor, offset) = self.rule(j)?;
             if let Some(name) = self.settings.table.fixed.keys().find(|n| *n.get_ref() == joint.name) {
                 let message = format!("[robot] fixed: joint \"{}\" mimics \"{}\"", joint.name, self.all()[leader].name);
-                return Err(self.in_world(name, message).help("give the value of the joint that it mimics").into());
+                return Err(self.in_world(name, message).help("state the value of the mimicked joint instead").into());
             }
             values[j] = factor * values[leader] + offset;
             if self.tree.carries(chosen[0], self.tree.child[j]) {

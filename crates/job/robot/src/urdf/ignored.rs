@@ -13,7 +13,7 @@ pub(super) fn elements(document: &Document) -> Vec<String> {
     if names.is_empty() {
         return Vec::new();
     }
-    vec![format!("elements that are neither links nor joints: {}", names.join(", "))]
+    vec![format!("elements other than links and joints: {}", names.join(", "))]
 }
 
 /// Lists links that do not move, and joints whose values do not affect the arm.
@@ -28,7 +28,7 @@ pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
         .partition(|(is_fixed, _)| *is_fixed);
     let names = |links: Vec<(bool, &str)>| quoted(links.into_iter().map(|(_, name)| name.to_owned()));
     if !still.is_empty() && !reduction.settings.table.own_body_is_obstacle() {
-        ignored.push(format!("links that stand still, as [robot] own_body = false asks: {}", names(still)));
+        ignored.push(format!("links that do not move, because of [robot] own_body = false: {}", names(still)));
     }
     if !beside.is_empty() {
         ignored.push(format!(
@@ -62,7 +62,7 @@ pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
         let shapes: usize = unused.map(|l| document.robot.links[l].visual.len()).sum();
         if shapes > 0 {
             let shapes = counted(shapes, "visual shape");
-            ignored.push(format!("{shapes} of link \"{}\": it has collision geometry", link.name));
+            ignored.push(format!("{shapes} of link \"{}\", which has collision geometry", link.name));
         }
     }
     ignored

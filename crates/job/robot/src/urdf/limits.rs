@@ -76,13 +76,13 @@ impl Limits<'_> {
         }
         let (lower, upper) = (joint.limit.lower, joint.limit.upper);
         if lower == upper {
-            return Ok(Range::Unset(format!("has no range: lower and upper are both {lower}, which means unset")));
+            return Ok(Range::Unset(format!("has no range: lower and upper are both {lower}, which counts as unset")));
         }
         let [lower, upper] = self.softened(index, [lower, upper])?;
         let slides = joint.joint_type == JointType::Prismatic;
         if !slides && lower <= -UNLIMITED_TURN && upper >= UNLIMITED_TURN {
             let note = format!(
-                "joint \"{}\": limits from {lower} to {upper} are unlimited; the joint counts as continuous",
+                "joint \"{}\": the limits from {lower} to {upper} do not restrict it; it counts as continuous",
                 joint.name
             );
             return Ok(Range::Taken(JointRange::Circle, note));
@@ -97,11 +97,13 @@ impl Limits<'_> {
         if !slides && are_degrees(lower, upper) {
             let turns = ((upper - lower) / TAU).round();
             return Ok(Range::Unset(format!(
-                "has limits from {lower} to {upper} rad, {turns} turns: they look like degrees"
+                "has limits from {lower} to {upper} rad, which are {turns} turns; probably degrees are meant"
             )));
         }
         if upper - lower > if slides { MAX_SLIDE } else { MAX_TURN_RANGE } {
-            return Ok(Range::Unset(format!("has limits from {lower} to {upper}, a range too long for planning")));
+            return Ok(Range::Unset(format!(
+                "has limits from {lower} to {upper}; this range is too long for planning"
+            )));
         }
         Ok(Range::Known(JointRange::Interval { lower, upper }))
     }
@@ -117,7 +119,7 @@ impl Limits<'_> {
                 let mut help = format!("in the world file: [robot] limits = {{ {key} = {} }}", self.example(index));
                 match self.degrees(index) {
                     Some([lower, upper]) => {
-                        help += &format!("; if they are meant in radians: {{ {key} = [{lower}, {upper}] }}")
+                        help += &format!("; if radians are meant: {{ {key} = [{lower}, {upper}] }}")
                     }
                     None if *joint_type == JointType::Revolute => {
                         help += ", or make it type=\"continuous\" in the URDF"

@@ -71,11 +71,11 @@ impl Bodies<'_> {
         let is_moved = torques.least_determinant() > NEGLIGIBLE_SHARE * inertia[0][0] * inertia[1][1];
         let (message, help) = if is_moved {
             (
-                "the efforts of the joints are far too small for their velocities, masses and gravity",
+                "the efforts of the joints are far too small for the velocities, masses and gravity",
                 "check the units: kg, m, N m (N for a joint that slides), rad/s (m/s), m/s2",
             )
         } else {
-            ("one of the two joints moves no inertia", "give its link an <inertial> with <mass> and <inertia>")
+            ("one of the two joints moves no inertia", "add an <inertial> with <mass> and <inertia> to its link")
         };
         Err(self.document.source.diagnostic(message).help(help))
     }

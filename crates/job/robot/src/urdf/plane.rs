@@ -36,10 +36,10 @@ pub(super) fn common_plane(axes: [SpatialAxis; 2]) -> Result<Plane, String> {
     let normal = match (a.revolute, b.revolute) {
         (true, true) if cross > ALIGNMENT_TOLERANCE.sin() => return Err(refusal(axes, "these axes are not parallel")),
         (true, false) | (false, true) if across > ALIGNMENT_TOLERANCE.sin() => {
-            return Err(refusal(axes, "the slide is not perpendicular to the axis of rotation"));
+            return Err(refusal(axes, "the sliding direction is not perpendicular to the axis of rotation"));
         }
         (false, false) if cross < ALIGNMENT_TOLERANCE.sin() => {
-            return Err(refusal(axes, "both slide along the same line, so the tip cannot leave it"));
+            return Err(refusal(axes, "both joints slide along the same line, so the tip cannot leave this line"));
         }
         (true, _) => a.direction,
         (false, true) => b.direction,
@@ -59,7 +59,9 @@ pub(super) fn deviation(plane: &Plane, axes: [SpatialAxis; 2]) -> Option<String>
     };
     let off = axes.iter().map(off).fold(0.0, f64::max);
     (off > NOTICED_DEVIATION).then(|| {
-        format!("the joints' axes are up to {off:.1e} rad off the assumed plane of motion ({off:.1e} m over a metre)")
+        format!(
+            "the joints' axes deviate from the assumed plane of motion by up to {off:.1e} rad ({off:.1e} m per metre)"
+        )
     })
 }
 

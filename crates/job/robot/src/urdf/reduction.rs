@@ -57,7 +57,7 @@ impl<'a> Reduction<'a> {
             let settings = RobotSettings { table: &table, ..self.settings };
             let planar = pairing::planar(self.document, self.tree, settings);
             let choose = if planar.is_empty() {
-                "the robot has no such pair".to_owned()
+                "this robot has no such pair".to_owned()
             } else {
                 format!("in the world file: {}", pairing::choices(self.document, &planar))
             };
@@ -118,7 +118,7 @@ impl<'a> Reduction<'a> {
             ..Default::default()
         };
         if self.tree.implicit_world {
-            report.notes.push("link \"world\" is not declared in the URDF; taken as the root".into());
+            report.notes.push("link \"world\" is not declared in the URDF; it counts as the root".into());
         }
         report.geometry.push(format!("tip: origin of link \"{}\"", self.tree.links[self.chain.tip]));
         report.notes.extend(plane::deviation(&plane, self.axes()));

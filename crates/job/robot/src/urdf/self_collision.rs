@@ -146,7 +146,7 @@ pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
         }
     }
     let named = named(&scene, &permanent);
-    let note = || format!("contact of shapes that meet in every configuration is ignored: {}", named.join(", "));
+    let note = || format!("contact is ignored between shapes that meet in every configuration: {}", named.join(", "));
     (!named.is_empty()).then(note)
 }
 

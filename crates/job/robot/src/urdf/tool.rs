@@ -166,10 +166,10 @@ impl Reduction<'_> {
             Err(chooser.in_world(name, message).help(help))
         };
         if self.chain.joints.contains(&index) {
-            return diagnostic("is one of the two that move", "name another joint, of the tool");
+            return diagnostic("is one of the two planned joints", "name a joint of the tool");
         }
         if let Some(mimic) = &joint.mimic {
-            return diagnostic(&format!("mimics joint \"{}\"", mimic.joint), "name the joint that it mimics");
+            return diagnostic(&format!("mimics joint \"{}\"", mimic.joint), "name the mimicked joint instead");
         }
         match (tool, joint.joint_type == JointType::Prismatic) {
             (Tool::Stroke, false) => return diagnostic("turns", "a stroke needs a joint that slides"),
@@ -182,8 +182,11 @@ impl Reduction<'_> {
             return diagnostic(&format!("is not carried by joint \"{second}\""), "name a joint of the tool");
         }
         if let Some(follower) = self.follower_with_shapes(chooser, index)? {
-            let why = format!("is mimicked by joint \"{follower}\", whose links would not move with the tool");
-            return diagnostic(&why, "make the other joint fixed in a copy of the file, or remove its links' geometry");
+            let why = format!("is mimicked by joint \"{follower}\", but cplan would not move the links of that joint");
+            return diagnostic(
+                &why,
+                "in a copy of the file, make that joint fixed, or remove the geometry of its links",
+            );
         }
         let direction = self.poses[self.tree.child[index]] * tree::axis(joint);
         let along = direction.dot(&plane.normal);
@@ -200,7 +203,7 @@ impl Reduction<'_> {
         let to_tip = self.poses[tip].translation.vector - self.poses[self.tree.child[index]].translation.vector;
         let off = (to_tip - plane.normal * to_tip.dot(&plane.normal)).norm();
         if tool == Tool::Wrist && off > AXIS_TOLERANCE {
-            let why = format!("moves the tip \"{tip_link}\", which is {off:.2e} m off its axis");
+            let why = format!("moves the tip \"{tip_link}\", which is {off:.2e} m away from the axis of the joint");
             return diagnostic(&why, "name a link on the axis: [robot] tip = \"LINK\"");
         }
         let axis = Limits { document: self.document, settings: self.settings }.planned_range(index)?;

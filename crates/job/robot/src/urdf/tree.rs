@@ -169,11 +169,12 @@ fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Resul
             Some(first) => {
                 let other = &document.robot.joints[first].name;
                 let message = format!(
-                    "link \"{}\" is the child of two joints, \"{other}\" (line {}) and this one: the robot is not a tree",
+                    "link \"{}\" is the child of two joints, \"{other}\" (line {}) and this one, so the robot is not a tree",
                     links[*link],
                     document.joint_line(first)
                 );
-                let help = "a closed chain (parallelogram, delta) is not a serial arm; otherwise give one joint its own child link";
+                let help =
+                    "give one of the joints its own child link; closed chains (parallelogram, delta) are not supported";
                 diagnostics.push(document.diagnostic_at(&document.joints[j].child, message).help(help));
             }
         }
@@ -209,15 +210,15 @@ fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[u
     let from = joint.and_then(|j| seen.iter().position(|s| *s == j)).unwrap_or(0);
     let ring: Vec<&str> = seen[from..].iter().map(|j| document.robot.joints[*j].name.as_str()).collect();
     let message =
-        format!("the joints {} form a cycle: the parent link of each one is carried by the next", quoted(&ring));
+        format!("the joints {} form a cycle: each one carries the parent link of the one before", quoted(&ring));
     document
         .diagnostic_at(&document.joints[seen[from]].at, message)
-        .help("give one of them another parent link, so that links form a tree")
+        .help("give one of these joints another parent link, so that the links form a tree")
 }
 
 fn several_roots(document: &Document, links: &[String], roots: &[usize]) -> Diagnostic {
     let message = format!(
-        "the links {} are not the child of any joint: a robot needs exactly one root link",
+        "the robot has several root links (links that are no joint's child), but needs exactly one: {}",
         quoted(roots.iter().map(|r| &links[*r]))
     );
     let at = roots.iter().filter_map(|r| document.links.get(*r)).nth(1).or(document.links.first());
@@ -225,5 +226,5 @@ fn several_roots(document: &Document, links: &[String], roots: &[usize]) -> Diag
         Some(place) => document.diagnostic_at(&place.at, message),
         None => document.source.diagnostic(message),
     };
-    diagnostic.help("connect them with a fixed joint, or remove the ones that are not used")
+    diagnostic.help("connect these links by fixed joints, or remove those that are not used")
 }

@@ -93,8 +93,8 @@ fn leaves_place(word: &Word, words: &[Word]) -> bool {
 fn fill<'w>(place: &mut Option<&'w Word>, slot: Slot, word: &'w Word) -> Result<(), Error> {
     match *place {
         Some(known) if known.value != word.value || slot as usize >= Slot::F as usize => {
-            let message = format!("contradicts {} on the same line", known.text);
-            Err(word.error(&message, "keep one of them on the line"))
+            let message = format!("and {} contradict each other on this line", known.text);
+            Err(word.error(&message, "keep one of the two"))
         }
         _ => {
             *place = Some(word);

@@ -132,8 +132,8 @@ impl Machine {
             Ok(Line::Optional(_) | Line::Command(..)) | Err(_) => true,
         };
         let (_, number) = left.find(|(line, _)| has_moves(line)).filter(|_| self.remarks.allows_homes)?;
-        let message = format!("this line is after the end of the program (line {end}), and some machines run it");
-        Some(Error::new(number, None, message, "remove all lines after the end, or the end before them"))
+        let message = format!("this line follows the end of the program (line {end}), but some machines run it");
+        Some(Error::new(number, None, message, "remove the lines after the end, or remove the end"))
     }
 
     fn run_block(&mut self, block: &Block) -> Result<(), Error> {
@@ -243,7 +243,7 @@ impl Machine {
         if !matches!(motion, Move::Arc { .. })
             && let Some(word) = [Slot::I, Slot::J, Slot::R].into_iter().find_map(|slot| block.get(slot))
         {
-            return Err(word.error("belongs to an arc, and this is a straight move", "write G2 or G3 before it"));
+            return Err(word.error("belongs to an arc, but this is a straight move", "write G2 or G3 before it"));
         }
         let from = self.origin.at;
         let origin = self.origin.place([0.0; 2]);
@@ -276,8 +276,8 @@ impl Machine {
     fn begin(&mut self, block: &Block, first: &Word, motion: Move, to: Point) -> Result<(), Error> {
         let word = block.get(Slot::Motion).unwrap_or(first);
         if matches!(motion, Move::Arc { .. }) {
-            let message = "is the first move, but the file has not said where the tip is";
-            return Err(word.error(message, "write a travel (G0) before it, to the place where this arc begins"));
+            let message = "is the first move, but the file does not state where the tip is before it";
+            return Err(word.error(message, "write a travel (G0) before this arc, to the place where the arc begins"));
         }
         let is_missing = |slot: Slot| self.is_relative || block.get(slot).is_none();
         let axes = [(Slot::X, 0, "X"), (Slot::Y, 1, "Y")];
@@ -292,11 +292,13 @@ impl Machine {
         }
         if !names.is_empty() {
             let stated = names.join(" and ");
-            self.notes.push(format!("the file does not state {stated} where the line begins: read as 0"));
+            self.notes.push(format!("the file does not state {stated} of the line's beginning: read as 0"));
         }
         if motion == Move::Line {
             let line = word.source.line;
-            self.notes.push(format!("the first move (G1, line {line}) begins at an unstated place: left out"));
+            self.notes.push(format!(
+                "the first move (G1, line {line}) is left out, because the file does not state where it begins"
+            ));
         }
         self.origin.advance(to);
         Ok(())

@@ -62,24 +62,23 @@ const fn reason(does: &'static str, hint: &'static str) -> Reason {
     Reason { does, hint }
 }
 
-const NUMBERS: &str = "let the program that writes the file write each move, with numbers";
+const NUMBERS: &str = "let the program that writes the file write out each move, with numbers";
 
 const PLANE: Reason = reason("changes the plane of arcs", "write the arcs in the plane of X and Y (G17)");
 const OFFSET: Reason = reason(
-    "moves the line aside by the tool's radius",
-    "let the program that writes the file compute the offset line, with G40",
+    "offsets the line by the tool's radius",
+    "let the program that writes the file compute the offset line, and use G40",
 );
-const FRAME: Reason =
-    reason("moves, turns, scales or mirrors the coordinates", "write the coordinates that result from it");
+const FRAME: Reason = reason("moves, turns, scales or mirrors the coordinates", "write the resulting coordinates");
 pub(super) const OTHER_SYSTEM: Reason = reason(
-    "changes to coordinates whose origin the file does not state",
+    "selects a coordinate system whose origin the file does not state",
     "write all coordinates in one system, such as G54",
 );
 pub(super) const OPTIONAL: Reason =
     reason("begins a line that some machines run and others leave out", "remove the line, or its /");
 pub(super) const UNSTATED_ORIGIN: Reason = reason(
     "returns to an origin that the file does not state",
-    "write the coordinates that follow from the origin of G92",
+    "write coordinates that do not need this origin, without G92.3",
 );
 const CYCLE: Reason = reason("is a cycle of several moves", NUMBERS);
 const PROBE: Reason = reason("moves until a probe touches something", "write a move to the place where it stops");
@@ -94,16 +93,16 @@ const OTHER_CENTER: Reason =
     reason("is part of an arc in another plane", "write the arcs in the plane of X and Y (G17)");
 const REPEAT: Reason = reason("repeats the line", NUMBERS);
 const UNKNOWN: Reason =
-    reason("is not a word that cplan knows", "write the line with G0 to G3; following.md lists what cplan reads");
+    reason("is not a word that cplan knows", "use G0 to G3; docs/following.md lists the words that cplan reads");
 
 /// Returns the reason why cplan cannot follow a move to a place of the machine. Unless `is_inside`, nothing is drawn
 /// before or after the move, so the program does not need it.
 pub(super) fn machine_place(is_inside: bool) -> Reason {
     let hint = match is_inside {
         true => "write a move (G0) to that place, in the coordinates of the file",
-        false => "leave out this line, since nothing is drawn before or after it",
+        false => "remove this line; nothing is drawn before or after it",
     };
-    reason("moves to a place that only the machine knows", hint)
+    reason("moves to a place of the machine, which the file does not state", hint)
 }
 
 /// Returns the effect of a word among the words of its block.

@@ -77,7 +77,7 @@ impl Remarks {
             name => format!("{name} ({count})"),
         };
         let counts: Vec<String> = self.listed.iter().map(counted).collect();
-        (!counts.is_empty()).then(|| format!("read without effect on the line: {}", counts.join(", ")))
+        (!counts.is_empty()).then(|| format!("words without effect on the line: {}", counts.join(", ")))
     }
 
     /// Returns an error that lists all words that cplan cannot follow, with their lines.

@@ -61,7 +61,7 @@ impl Word {
 pub(super) fn line(text: &str, number: usize) -> Result<Line, Error> {
     let trimmed = text.trim();
     if trimmed.contains('\r') {
-        let message = "a carriage return is within this line, and some machines end the line there";
+        let message = "this line contains a carriage return, at which some machines end the line";
         return Err(Error::new(number, None, message, "save the file with line ends of one kind"));
     }
     let source = Source { line: number, column: Some(text.chars().take_while(|c| c.is_whitespace()).count() + 1) };

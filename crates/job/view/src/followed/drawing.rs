@@ -197,7 +197,7 @@ pub fn keys(line: &LineView) -> Vec<Key> {
 
 /// Returns the legend of the images of the line in the configuration space.
 pub fn solution_keys(line: &LineView) -> Vec<Key> {
-    let kinds = [(false, FREE_PEN, "IK solution of the line"), (true, EXCLUDED_PEN, "IK solution that is excluded")];
+    let kinds = [(false, FREE_PEN, "IK solution of the line"), (true, EXCLUDED_PEN, "excluded IK solution")];
     let exists = |excluded: bool| line.solutions.iter().any(|part| part.is_excluded == excluded);
     let shown = kinds.into_iter().filter(|(excluded, ..)| exists(*excluded));
     shown.map(|(_, pen, text)| (Sign::Line(pen), text.to_owned())).collect()

@@ -63,7 +63,8 @@ fn speed_plot(motion: &FollowedMotion, rect: Rect) -> Vec<Item> {
         (steps, Pen { color: color(stretch.limit), width: 2.4, dash: &[] })
     });
     inside.extend(parts.map(|(steps, pen)| Item::Outline(steps, Style { pen: Some(pen), ..Style::line(INK, 1.0) })));
-    let mut items = vec![Item::Clip(rect, inside), heading(rect, "Speed of the tip, by the limit that it reaches")];
+    let mut items =
+        vec![Item::Clip(rect, inside), heading(rect, "Speed of the tip, coloured by the limit that it reaches")];
     items.extend(frame.sides([false; 2]));
     items.extend(frame.tick_marks(units, [false, true]));
     let [_, title] = frame.titles(rect, units, ["".to_owned(), "m/s".to_owned()]);
@@ -132,7 +133,7 @@ fn lens(line: &LineView, motion: &FollowedMotion, view: &View, rect: Rect) -> Ve
     vec![
         Item::Clip(rect, inside),
         Item::Outline(rectangle(rect), Style::line(INK, 1.2)),
-        heading(rect, "Farthest from the line, magnified"),
+        heading(rect, "Greatest deviation from the line, magnified"),
         label(below, text, 13.0, Anchor::Middle, GRAY),
     ]
 }

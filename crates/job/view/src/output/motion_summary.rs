@@ -39,7 +39,7 @@ pub(super) fn work_lines(plan: &Plan, answer: &Answer<Motion>) -> Vec<Line> {
 }
 
 /// The nodes of the full visibility graph.
-const FULL_GRAPH_NODES: &str = "start, goal, and the corners of C-obstacles, which are cut off at joint limits";
+const FULL_GRAPH_NODES: &str = "start, goal, and the corners of C-obstacles (cut off at the joint limits)";
 
 /// Returns the lines about a motion that was found, with the properties that are proven.
 fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motion) -> Vec<Line> {
@@ -66,7 +66,7 @@ fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Grid(grid) = &answer.space else { return None };
     let asked = plan.options().planner.cells().filter(|asked| asked.0 != grid.cells)?;
     let [used, asked] = [grid.cells, asked.0].map(|[a, b]| format!("{a} x {b}"));
-    Some(("cells", format!("{used}: {asked} show no certified path")))
+    Some(("cells", format!("{used}, because {asked} cells show no certified path")))
 }
 
 /// Describes the planner's cells if they are from the second attempt, in which the centres decide about cells. `None`
@@ -77,7 +77,7 @@ pub(super) fn second_attempt(plan: &Plan, answer: &Answer<Motion>) -> Option<Str
     let Space::Grid(grid) = &answer.space else { return None };
     is_second(grid).then(|| {
         let [a, b] = grid.cells;
-        format!("{a} x {b} cells that are wholly free show no certified path; here a cell is free if its centre is")
+        format!("second attempt with {a} x {b} cells: a cell counts as free if its centre is free; wholly free cells show no certified path")
     })
 }
 
@@ -91,8 +91,7 @@ fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
         let summary_lines = match answer.history[..] {
             [] => "the path was planned among the exact polygons and touches none".to_owned(),
             _ => format!(
-                "length {length:.4} among the exact polygons, but that path touches them, which is contact; the certified \
-                 path avoids slightly grown polygons"
+                "the path among the exact polygons has length {length:.4}, but touches them; the certified path avoids slightly grown polygons"
             ),
         };
         ("exact", summary_lines)
@@ -111,7 +110,7 @@ const MAX_PAIRS: usize = 1000;
 pub(super) fn blocked_by(problem: &MotionProblem, answer: &Answer<Motion>) -> Option<Line> {
     answer.outcome.infeasible()?;
     let summary_lines = blocking(problem, answer).map(|set| set.describe(problem.scene()));
-    Some(("blocked", summary_lines.unwrap_or_else(|| "unknown so far; `cplan explain` takes more time".into())))
+    Some(("blocked", summary_lines.unwrap_or_else(|| "unknown; `cplan explain` takes more time to find out".into())))
 }
 
 /// Returns the elements that block the motion, if there is no motion and they can be found within milliseconds.
@@ -145,7 +144,7 @@ pub(super) fn among_movers(arm: &Arm, timing: &Timing, plane: Option<&PlaceTime>
     let tried = counted(*ways, "route");
     let mut lines = vec![(
         "moving",
-        format!("{}, {kept}; {tried} tried; at the goal the arm may stay {stays}", counted(*obstacles, "obstacle")),
+        format!("{}, {kept}; {tried} tried; the arm may stay at the goal {stays}", counted(*obstacles, "obstacle")),
     )];
     lines.extend(plane.into_iter().flat_map(|plane| plane.reasons(waits)).map(|reason| {
         let Wait { from, to, at } = reason.wait;
@@ -174,7 +173,7 @@ fn corners(curve: &CertifiedCurve) -> String {
 fn least_time(fastest: &DurationOptimality) -> String {
     let DurationOptimality { lower_bound, gap, .. } = *fastest;
     let longer = gap.map_or_else(String::new, |gap| format!(", so at most {} longer than the fastest", percent(gap)));
-    format!("proven: no motion takes less than {} s{longer}", round_down(lower_bound, 3))
+    format!("every motion takes at least {} s (proven){longer}", round_down(lower_bound, 3))
 }
 
 /// Describes how near the path is to the optimum. The bound ignores moving obstacles, so that it says little about a path
@@ -189,7 +188,7 @@ fn optimum(bound: &Bound, is_among_movers: bool) -> String {
     };
     let (lower, gap) = (round_down(lower, 4), percent(bound.gap()));
     if is_among_movers {
-        return format!("{measure}; not proven: without the moving obstacles, none is below {lower}");
+        return format!("{measure}; without the moving obstacles, at least {lower} (proven)");
     }
-    format!("{measure}; proven: none below {lower}, so at most {gap} longer than the shortest")
+    format!("{measure}; every path has at least {lower} (proven), so at most {gap} longer than the shortest")
 }

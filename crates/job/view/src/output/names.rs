@@ -34,7 +34,7 @@ pub fn blame_in_words(scene: &Scene, set: &BlockingSet) -> String {
     let clearance = chosen_length(scene.workspace().clearance);
     match (elements.contains(&Element::Clearance), text.is_empty()) {
         (false, _) => text,
-        (true, true) => format!("the clearance of {clearance} leaves no path"),
+        (true, true) => format!("a clearance of {clearance} excludes every path"),
         (true, false) => format!("with a clearance of {clearance}, {text}"),
     }
 }

@@ -272,7 +272,7 @@ pub fn headline(plan: &Plan) -> Option<String> {
     if let Some(timing) = plan.timing() {
         let reasons = plan.place_time().map(|plane| plane.reasons(&timing.waits)).unwrap_or_default();
         return Some(match &reasons[..] {
-            [] => format!("Passes the moving obstacles without a wait, in {seconds}"),
+            [] => format!("Passes the moving obstacles without waiting, in {seconds}"),
             reasons => format!("Waits {}", joined(&reasons.iter().map(WaitReason::words).collect::<Vec<_>>())),
         });
     }

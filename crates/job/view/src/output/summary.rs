@@ -127,11 +127,14 @@ fn add_warning(plan: &Plan, lines: &mut Vec<Line>) {
         || "--clearance requires more".to_owned(),
         |[kept, length]| {
             let kept = chosen_length(kept);
-            format!("--clearance {} keeps {kept}, length {length:.4}", kept.replace(' ', ""))
+            format!("with --clearance {}, the path keeps {kept} and has length {length:.4}", kept.replace(' ', ""))
         },
     );
     let at = lines.iter().rposition(|(key, _)| ["clearance", "margin"].contains(key)).map_or(lines.len(), |at| at + 1);
-    let text = format!("passes within {}, because no clearance was required; {other}", length_down(clearance));
+    let text = format!(
+        "the arm passes within {} of an obstacle, because no clearance was required; {other}",
+        length_down(clearance)
+    );
     lines.insert(at, ("warning", text));
 }
 
@@ -193,12 +196,12 @@ fn errors_line(plan: &Plan) -> Option<Line> {
         ("obstacles", both(*obstacles, 0.0)),
     ];
     let stated: Vec<String> = stated.into_iter().filter_map(|(of, size)| Some(format!("{of} {}", size?))).collect();
-    let claim = plan.claim_about_errors().unwrap_or("no motion was found that is free for all of these errors");
+    let claim = plan.claim_about_errors().unwrap_or("no motion that is free for all of these errors was found");
     let drawn = match plan.status_as_drawn() {
         _ if plan.status() == Status::Found => "",
-        Some(Status::Found) => "; there is one for the robot and the world as drawn",
-        Some(Status::Infeasible) => "; there is none for the robot and the world as drawn either",
-        Some(Status::Unknown) | None => "; whether there is one for the robot and the world as drawn is unknown",
+        Some(Status::Found) => "; without errors, there is one",
+        Some(Status::Infeasible) => "; even without errors, there is none",
+        Some(Status::Unknown) | None => "; whether there is one without errors is unknown",
     };
     Some(("errors", format!("{claim}: {}{drawn}", stated.join(", "))))
 }

@@ -73,14 +73,14 @@ fn motion_lines(task: &Task, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Li
     let still = if still > 0.0 { format!(", {still:.3} s of it at rest") } else { String::new() };
     let proven = match answer.gap() {
         Some(gap) => format!(
-            "proven: no sequence of motions takes less than {} s, so at most {} longer than the fastest",
+            "every sequence of motions takes at least {} s (proven), so at most {} longer than the fastest",
             round_down(answer.least_seconds(), 3),
             percent(gap)
         ),
         None => "no lower bound on the duration is known".into(),
     };
     let choice = if motion.exact {
-        "no other IK solutions, wrist turns or order are faster with the motions of this planner"
+        "with this planner's motions, no other IK solutions, wrist turns or order are faster"
     } else {
         "good IK solutions, wrist turns and order, not proven best: the search was not exhaustive"
     };
@@ -102,7 +102,7 @@ fn bounded_motions(leg: &Leg) -> Option<String> {
     let (first, last) = leg.raising.zip(leg.stroke)?;
     let is_same_side = (first.lowered - first.raised) * (last.lowered - last.raised) > 0.0;
     is_same_side
-        .then(|| format!("the bound is about motions that raise the tool to {} m in between", short(first.raised)))
+        .then(|| format!("the bound holds for motions that raise the tool to {} m in between", short(first.raised)))
 }
 
 /// Returns a line with the clearance of the whole motion, and the step that comes nearest to an obstacle.
@@ -115,7 +115,7 @@ fn clearance(answer: &TaskAnswer) -> Option<Line> {
     let file = if is_in_order { "" } else { " of the file" };
     let curve = &least.timed.curve;
     let closest = match (least.turn, curve.nearest()) {
-        (Some((turn, _)), _) if turn.clearance < curve.clearance() => "the object that is turned".to_owned(),
+        (Some((turn, _)), _) if turn.clearance < curve.clearance() => "the object that the wrist turns".to_owned(),
         (_, Some(nearest)) => least.scene.describe(nearest.contact.pair),
         (_, None) => return Some(("clearance", "no obstacle within reach".into())),
     };

@@ -77,7 +77,7 @@ impl Description {
             Negate::Number(1) => true,
             Negate::Number(_) | Negate::Neither(_) => {
                 return Err(diagnostic(source, &file.negate, "negate: the value is neither 0 nor 1")
-                    .help("0 if dark is occupied, 1 if light is"));
+                    .help("write 0 if dark pixels are occupied, 1 if light pixels are"));
             }
         };
         for (key, threshold) in [("occupied_thresh", &file.occupied_thresh), ("free_thresh", &file.free_thresh)] {
@@ -96,7 +96,7 @@ impl Description {
                 return Err(diagnostic(
                     source,
                     mode,
-                    "mode: raw maps contain costs, which do not show which cells are occupied",
+                    "mode: cplan cannot read raw maps, which contain costs instead of occupied cells",
                 )
                 .help("save the map with mode trinary or scale (map_saver_cli --mode trinary)"));
             }
@@ -137,8 +137,7 @@ impl Description {
         }
         if has_unknown && self.free > UNSEEN_DARKNESS / 255.0 {
             notes.push(format!(
-                "shade {} counts as unknown, as ROS's map savers mean it, though free_thresh {} would make it free; to \
-                 treat unknown cells as free, write unknown = \"free\" in the world file",
+                "shade {} counts as unknown, as in ROS's map savers, although it would be free by free_thresh {}; to treat unknown cells as free, write unknown = \"free\" in the world file",
                 if self.negate { 50 } else { 205 },
                 self.free
             ));

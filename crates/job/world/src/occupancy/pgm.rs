@@ -62,7 +62,7 @@ fn check_end_of_file(at: usize, bytes: &[u8]) -> Result<(), UnusablePicture> {
     if at >= bytes.len() {
         return Ok(());
     }
-    let message = format!("continues after the picture of its header, at byte {}", at + 1);
+    let message = format!("continues after the last pixel, at byte {}", at + 1);
     Err(UnusablePicture::new(
         message,
         "correct width, height and maxval in the header, end its lines by one character, or save the picture again",

@@ -16,7 +16,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     let count = checked_size(width, height)?;
     if lacks_colors(bytes).map_err(broken)? {
         return Err(UnusablePicture::new(
-            "is a broken PNG: a pixel has a colour that its palette lacks",
+            "is a broken PNG: a pixel has a colour that is not in the palette",
             "save the picture again",
         ));
     }

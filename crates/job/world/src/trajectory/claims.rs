@@ -111,15 +111,15 @@ pub(super) fn json(source: &Source, arm: [&str; 2]) -> Result<Option<Claims>, In
     }
     let width = document.joints.as_ref().map_or(2, Vec::len);
     if let Some(units) = document.units.as_ref().filter(|units| units.len() != width) {
-        let diagnostic = source.diagnostic(format!("units are {units:?}, but {width} joints are named"));
-        return Err(diagnostic.help("give every joint one unit, \"rad\" or \"m\"").into());
+        let diagnostic = source.diagnostic(format!("the units are {units:?}, but there are {width} joints"));
+        return Err(diagnostic.help("write one unit for each joint, \"rad\" or \"m\"").into());
     }
     let paths = document.path.iter().chain(document.steps.iter().flatten().filter_map(|step| step.path.as_ref()));
     if let Some(row) =
         paths.flatten().find(|row| row.len() != width || row.iter().any(|value| value.abs() > MAX_NUMBER))
     {
-        let diagnostic = source.diagnostic(format!("a waypoint of a path is {row:?}, but {width} joints are named"));
-        return Err(diagnostic.help("give every waypoint one value for each joint, radians or metres").into());
+        let diagnostic = source.diagnostic(format!("a waypoint of a path is {row:?}, but there are {width} joints"));
+        return Err(diagnostic.help("write one value for each joint in each waypoint, in radians or metres").into());
     }
     let claims = document.claims(order, unjudged);
     let numbers = [claims.length, claims.duration, claims.clearance.flatten(), claims.task.lower_bound];

@@ -14,7 +14,9 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
     // The header may look like a comment.
     let header = records.find(|record| !is_comment(record) || names_joints(record, names));
     let header = header.ok_or_else(|| {
-        source.diagnostic("is empty").help("write a header of names, then the samples: time,joint1,joint2")
+        source
+            .diagnostic("is empty")
+            .help("write a header with the names of the columns, such as time,joint1,joint2, and then the samples")
     })?;
     let mut columns = Columns::new(source, names, &header)?;
     let mut samples = Samples { what: "sample".into(), ..Samples::default() };
@@ -22,10 +24,10 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
     let (mut repeated, mut blank) = (0, 0);
     for record in records.filter(|record| !is_comment(record)) {
         if record.len() != header.len() {
-            let message = format!("this line has {} values, the header has {} names", record.len(), header.len());
+            let message = format!("this line has {} values, but the header has {} names", record.len(), header.len());
             return Err(source
                 .diagnostic_at(record_range(&record), message)
-                .help("give every line one value for each name of the header")
+                .help("write one value for each name of the header")
                 .into());
         }
         if columns.is_blank(&record) {
@@ -46,8 +48,8 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
         samples.places.push(record_range(&record));
     }
     if repeated > 0 {
-        let plural = if repeated == 1 { " repeats the one before it" } else { "s repeat the ones before them" };
-        columns.notes.push(format!("{repeated} sample{plural}; taken once"));
+        let plural = if repeated == 1 { " repeats the previous one" } else { "s repeat the previous ones" };
+        columns.notes.push(format!("{repeated} sample{plural}; ignored"));
     }
     if blank > 0 {
         let plural = if blank == 1 { " holds" } else { "s hold" };
@@ -137,7 +139,8 @@ impl Columns {
                 [] => unknown.push(name),
                 [meaning] => {
                     if let Some(other) = used.iter().find(|column| column.meaning == meaning) {
-                        let message = format!("columns \"{}\" and \"{name}\" mean the same", header[other.index].text);
+                        let message =
+                            format!("columns \"{}\" and \"{name}\" have the same meaning", header[other.index].text);
                         return Err(source.diagnostic_at(field.range.clone(), message).help("keep one of them"));
                     }
                     let unit = unit.map(|unit| unit_of(source, names, field, unit, meaning)).transpose()?.flatten();
@@ -145,7 +148,7 @@ impl Columns {
                 }
                 _ => {
                     let message = format!("the column name \"{name}\" is ambiguous");
-                    let help = "name it after its joint, followed by .position, .velocity or .acceleration";
+                    let help = "write the name of the joint, followed by .position, .velocity or .acceleration";
                     return Err(source.diagnostic_at(field.range.clone(), message).help(help));
                 }
             }
@@ -158,7 +161,7 @@ impl Columns {
         // The first indices are those of the arm's joints.
         if let Some(missing) = (0..names.arm.len()).find(|index| !has(*index)) {
             let columns = quoted(header.iter().map(|field| &field.text));
-            let message = format!("holds no positions of joint \"{}\"; its columns are {columns}", names.arm[missing]);
+            let message = format!("holds no positions of joint \"{}\"; the columns are {columns}", names.arm[missing]);
             let help = format!("name the columns of positions after the arm's joints: {}", quoted(names.arm));
             return Err(source.diagnostic_at(record_range(header), message).help(help));
         }
@@ -202,7 +205,7 @@ impl Columns {
         if self.epoch.is_none() {
             self.epoch = Some(if value > MAX_RELATIVE_TIME { seconds } else { 0 });
             if value > MAX_RELATIVE_TIME {
-                self.notes.push(format!("times are dates: counted from {seconds} s"));
+                self.notes.push(format!("times are dates; {seconds} s counts as 0"));
             }
         }
         let rest = self.epoch.filter(|epoch| *epoch > 0 && seconds >= *epoch).map(|epoch| seconds - epoch);

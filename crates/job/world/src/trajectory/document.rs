@@ -157,11 +157,11 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
     }
     Err(match status {
         Some(status) => source
-            .diagnostic(format!("holds no path: its status is \"{status}\""))
+            .diagnostic(format!("holds no path: the status is \"{status}\""))
             .help("verify a result with the status \"found\""),
         None => source
             .diagnostic("holds neither a path, nor a trajectory, nor the points of a JointTrajectory")
-            .help("write it with cplan --output, or as a ROS 2 JointTrajectory with joint_names and points"),
+            .help("write the file with cplan --output, or as a ROS 2 JointTrajectory with joint_names and points"),
     })
 }
 
@@ -197,7 +197,7 @@ impl Samples {
 fn named(source: &Source, names: Option<Vec<String>>, member: &str) -> Result<Vec<String>, Diagnostic> {
     let names = names.filter(|n| !n.is_empty()).ok_or_else(|| {
         source
-            .diagnostic(format!("\"{member}\" is missing, so the joint of each value is unknown"))
+            .diagnostic(format!("\"{member}\" is missing, so it is unknown which value belongs to which joint"))
             .help(format!("add \"{member}\" with the joints' names in the order of the values"))
     })?;
     match names.iter().enumerate().find(|(i, name)| names[..*i].contains(name)) {
@@ -232,7 +232,7 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
     if let Some(first) = time.first().filter(|first| **first > 0.0) {
         samples
             .notes
-            .push(format!("the motion to the first point, until {first} s, is not judged, because it depends on the arm's current position"));
+            .push(format!("the motion until the first point, at {first} s, is not judged, because it depends on the arm's position at that time"));
     }
     samples.time = Some(time).filter(|time| !time.is_empty());
     samples.joints = series(source, names, &positions, "positions of points")?;

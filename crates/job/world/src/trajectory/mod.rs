@@ -26,8 +26,8 @@ use samples::{Names, Samples, Series, misplaced};
 use std::path::Path;
 
 /// Note about accelerations that do not determine the motion between samples.
-const STATED_ACCELERATIONS_NOTE: &str = "accelerations in the file must keep the limits, but do not change the motion, \
-                                         which follows from positions and velocities";
+const STATED_ACCELERATIONS_NOTE: &str =
+    "positions and velocities determine the motion; accelerations in the file are only compared with the limits";
 
 /// A recorded motion, and how it was read.
 #[derive(Debug, Clone, PartialEq)]
@@ -173,7 +173,7 @@ impl<'a> Names<'a> {
                 Some(index) => chosen.push(samples.joints.swap_remove(index)),
                 None => {
                     let others = samples.joints.iter().chain(&chosen).map(|s| &s.name);
-                    let message = format!("holds no positions of joint \"{name}\"; it holds {}", quoted(others));
+                    let message = format!("holds no positions of joint \"{name}\", but those of {}", quoted(others));
                     let help = format!("name the positions after the arm's joints: {}", quoted(self.arm));
                     return Err(source.diagnostic(message).help(help));
                 }
@@ -226,19 +226,16 @@ impl<'a> Names<'a> {
 /// Describes how the samples are joined, in words.
 fn rule(recording: &Recording) -> &'static str {
     match (recording.interpolation(), recording.times()) {
-        (Interpolation::Cubic, _) => "between samples: the cubic that positions and velocities imply",
+        (Interpolation::Cubic, _) => "between samples: the cubic that follows from positions and velocities",
         (Interpolation::Quartic, _) => "between samples: the quartic of the file's `interpolation`",
         (Interpolation::Quintic, _) => {
-            "between samples: the polynomial of the fifth degree that positions, velocities and accelerations imply, as \
-             ROS 2's joint_trajectory_controller joins them"
+            "between samples: the polynomial of fifth degree that follows from positions, velocities and accelerations, as in ROS 2's joint_trajectory_controller"
         }
         (Interpolation::Linear, Some(_)) => {
-            "between samples: straight in joint space at constant velocity; without velocities in the file, \
-             accelerations and rest at the ends cannot be judged"
+            "between samples: straight in joint space at constant velocity; accelerations and rest at the ends are not judged, because the file has no velocities"
         }
         (Interpolation::Linear, None) => {
-            "between waypoints: straight in joint space; without times in the file, velocities and accelerations cannot \
-             be judged"
+            "between waypoints: straight in joint space; velocities and accelerations are not judged, because the file has no times"
         }
     }
 }

@@ -14,7 +14,7 @@ const HELD_TOLERANCE: f64 = 1e-4;
 /// Returns the reason why motions of held joints cannot be checked in a scene. `None` if they can.
 pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
     if scene.attachment().is_some() {
-        return Some("the tool carries an object, which would move with the joint");
+        return Some("would move the object that the tool carries");
     }
     let has_bar = scene.arm().links.iter().any(|link| link.source == OutlineSource::Bar);
     has_bar.then_some("a bar replaces a link")
@@ -50,15 +50,14 @@ impl Names<'_> {
             if let Some(why) = self.unjudgeable_reason(joint, at_samples, &moved) {
                 if self.has_steps {
                     notes.push(format!("the arm is judged with joint \"{name}\" at {}", joint.value));
-                    unjudged.push(format!("joint \"{name}\" moves during the steps, and it {why}"));
+                    unjudged.push(format!("joint \"{name}\" moves during the steps, but it {why}"));
                     continue;
                 }
                 let value = series.position[sample];
                 let message =
-                    format!("joint \"{name}\" is at {value}, but the world holds it at {}, and it {why}", joint.value);
+                    format!("joint \"{name}\" is at {value}, but at {} in the world, and it {why}", joint.value);
                 let help = format!(
-                    "if the joint stands still at this value, write [robot] fixed = {{ {name} = {value} }} in the \
-                     world file; a motion of this joint cannot be judged"
+                    "if the joint does not move from this value, write [robot] fixed = {{ {name} = {value} }} in the world file; a motion of this joint cannot be judged"
                 );
                 return Err(samples.diagnostic(source, sample, &message).help(help));
             }
@@ -94,12 +93,10 @@ fn describe_motion(joint: &HeldJoint, series: &Series) -> String {
     let name = &joint.name;
     match joint.effect {
         HeldEffect::Turns { .. } => format!(
-            "joint \"{name}\" turns, from {least} to {most} rad: the parts that it turns are judged at their angles of each \
-             moment; its own limits are not judged"
+            "joint \"{name}\" turns between {least} and {most} rad: the parts that it turns are judged at their angle at each moment; limits of the joint are not judged"
         ),
         _ => format!(
-            "joint \"{name}\" moves, from {least} to {most} m: the parts that it carries are judged at their heights \
-             of each moment; its own limits are not judged"
+            "joint \"{name}\" slides between {least} and {most} m: the parts that it carries are judged at their height at each moment; limits of the joint are not judged"
         ),
     }
 }

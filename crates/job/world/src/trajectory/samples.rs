@@ -71,12 +71,12 @@ pub(super) fn misplaced(source: &Source, samples: &Samples, diagnostic: &Recordi
     };
     match diagnostic {
         RecordingError::Empty => placed.help("record at least one sample"),
-        RecordingError::Count { .. } => placed.help("give every sample all of its values"),
+        RecordingError::Count { .. } => placed.help("write all values of each sample"),
         RecordingError::VelocityWithoutTime => placed.help("add the times, in seconds, or leave the velocities out"),
         RecordingError::AccelerationWithoutVelocity => placed
             .help("add the velocities, or leave the accelerations out: no controller interpolates without velocities"),
         RecordingError::Value { what, .. } => {
-            placed.help(format!("a {what} is a finite number: radians or metres, and seconds"))
+            placed.help(format!("write each {what} as a finite number, in radians or metres, and seconds"))
         }
         RecordingError::Time { .. } => placed.help("sort the samples by time and drop repeated ones"),
     }

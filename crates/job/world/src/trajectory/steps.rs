@@ -72,7 +72,7 @@ pub(super) fn json(source: &Source, samples: &Samples) -> Result<Option<Vec<Reco
     let Some(steps) = document.steps else { return Ok(None) };
     let count = samples.joints.first().map_or(0, |joint| joint.position.len());
     if samples.time.is_none() || samples.joints.iter().any(|joint| joint.velocity.is_none()) {
-        let message = "has steps, but no trajectory with time, position and velocity";
+        let message = "has steps, but its trajectory lacks time, position or velocity";
         return Err(source.diagnostic(message).help("verify the result of a whole task, written by cplan").into());
     }
     let read = |(index, member): (usize, &StepMember)| member.read(source, index, count);
@@ -83,19 +83,23 @@ impl StepMember {
     fn read(&self, source: &Source, index: usize, count: usize) -> Result<RecordedStep, Diagnostic> {
         let wrong = |message: &str, help: &str| source.diagnostic(format!("steps[{index}]: {message}")).help(help);
         let (Some(first), Some(last)) = (self.first_sample, self.last_sample) else {
-            let message = "first_sample or last_sample is missing, so the samples of the step are unknown";
+            let message = "first_sample or last_sample is missing";
             return Err(wrong(message, "verify the result of a whole task, written by cplan"));
         };
         if first > last || last >= count {
-            let help = "the first and the last sample of the motion, counted from 0";
-            return Err(wrong(&format!("its samples are {first} to {last}, but the trajectory has {count}"), help));
+            let help = "state the first and the last sample of the step, counted from 0";
+            return Err(wrong(
+                &format!("the samples of the step are {first} to {last}, but the trajectory has {count} samples"),
+                help,
+            ));
         }
         let overlap = |of: &str, before_arrival: f64, after_departure: f64| {
             let parts = [("before_arrival", before_arrival), ("after_departure", after_departure)];
             match parts.into_iter().find(|(_, value)| !(0.0..=MAX_NUMBER).contains(value)) {
-                Some((what, value)) => {
-                    Err(wrong(&format!("the {of}'s {what} is {value}"), &format!("a {of} overlaps by seconds from 0")))
-                }
+                Some((what, value)) => Err(wrong(
+                    &format!("the {of}'s {what} is {value}"),
+                    &format!("write the seconds of the overlap, 0 or more"),
+                )),
                 None => Ok(RecordedOverlap { before_arrival, after_departure }),
             }
         };
@@ -109,7 +113,7 @@ impl StepMember {
         let turn = match self.turn {
             None => None,
             Some(TurnMember { from, to, seconds, before_arrival, after_departure }) => {
-                let help = "a turn of the wrist has two angles in radians, and takes seconds";
+                let help = "write the two angles of the turn in radians, and its duration in seconds";
                 finite("turn", &[("from", from), ("to", to), ("seconds", seconds)], help)?;
                 let overlap = overlap("turn", before_arrival, after_departure)?;
                 Some(RecordedTurn { from, to, seconds, overlap })
@@ -126,21 +130,25 @@ impl StepMember {
             }
         };
         if let Some(RecordedWrist { from, to, begin, seconds }) = self.wrist {
-            let help = "a turn of the wrist has two values of its joint in radians, and begins and takes seconds";
+            let help = "write the two values of the wrist's joint in radians, and the beginning and the duration of the turn in seconds";
             finite("wrist", &[("from", from), ("to", to), ("begin", begin), ("seconds", seconds)], help)?;
         }
         let wrist_motion = match &self.wrist_motion {
             None => None,
             Some(WristMotionMember { position, velocity, acceleration }) => {
                 let columns = [position, velocity, acceleration];
-                let help = "one position, velocity and acceleration of the wrist's joint per sample of the step";
+                let help =
+                    "write one position, velocity and acceleration of the wrist's joint for each sample of the step";
                 if let Some(column) = columns.into_iter().find(|column| column.len() != last - first + 1) {
-                    let message =
-                        format!("its wrist_motion has {} values for {} samples", column.len(), last - first + 1);
+                    let message = format!(
+                        "wrist_motion has {} values, but the step has {} samples",
+                        column.len(),
+                        last - first + 1
+                    );
                     return Err(wrong(&message, help));
                 }
                 if let Some(value) = columns.into_iter().flatten().find(|x| x.is_nan() || x.abs() > MAX_RATE) {
-                    return Err(wrong(&format!("a value of its wrist_motion is {value}"), help));
+                    return Err(wrong(&format!("a value of wrist_motion is {value}"), help));
                 }
                 Some((0..position.len()).map(|k| columns.map(|column| column[k])).collect())
             }

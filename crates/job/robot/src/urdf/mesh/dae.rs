@@ -26,7 +26,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     let metres: f64 = match metres {
         Some(text) => {
             let number = text.trim().parse().ok().filter(|x: &f64| *x > 0.0);
-            number.ok_or_else(|| format!("its unit, \"{text}\" metres, is not a positive number"))?
+            number.ok_or_else(|| format!("the unit of the file, \"{text}\" metres, is not a positive number"))?
         }
         None => 1.0,
     };
@@ -93,16 +93,15 @@ impl<'a, 'i> Scene<'a, 'i> {
             match child.tag_name().name() {
                 "node" => self.children(child, &(pose * transform(child)?), depth + 1)?,
                 "instance_node" => {
-                    let target = self.target(child).ok_or("a node refers to a node that the file does not have")?;
+                    let target = self.target(child).ok_or("a node refers to a node that does not exist")?;
                     self.children(target, &(pose * transform(target)?), depth + 1)?;
                 }
                 "instance_geometry" => {
-                    let geometry =
-                        self.target(child).ok_or("a node refers to a geometry that the file does not have")?;
+                    let geometry = self.target(child).ok_or("a node refers to a geometry that does not exist")?;
                     self.geometry(geometry, pose)?;
                 }
                 "instance_controller" => {
-                    return Err("its meshes are deformed by controllers, which cplan does not read".into());
+                    return Err("the file has controllers, which deform meshes; cplan does not read them".into());
                 }
                 _ => {}
             }
@@ -126,7 +125,7 @@ impl<'a, 'i> Scene<'a, 'i> {
                 ));
             }
             if self.points.len() + numbers.len() / stride > MAX_POINTS {
-                return Err("its scene contains too many meshes".into());
+                return Err("the scene contains too many meshes".into());
             }
             self.points.extend(numbers.chunks(stride).map(|p| pose.transform_point(&Point3::new(p[0], p[1], p[2]))));
         }

@@ -38,9 +38,7 @@ pub(super) struct UnreadableMesh {
 
 impl From<String> for UnreadableMesh {
     fn from(message: String) -> Self {
-        let cure = "correct the path, put the package folder beside the URDF or name its place in ROS_PACKAGE_PATH, \
-                    and convert other formats to STL; or replace the links by bars between the joints, in the world \
-                    file: [robot] bar = 0.05 (radius of the bars in metres)";
+        let cure = "correct the path; or put the package folder beside the URDF, or its parent folder into ROS_PACKAGE_PATH; convert other formats to STL; or replace the links by bars between the joints, in the world file: [robot] bar = 0.05 (radius of the bars in metres)";
         Self { message, cure }
     }
 }
@@ -56,8 +54,7 @@ impl From<String> for UnreadableMesh {
 pub(super) fn read(filename: &str, scale: [f64; 3], document: &Document) -> Result<Mesh, UnreadableMesh> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !["stl", "dae", "obj"].contains(&extension.as_str()) {
-        let message =
-            format!("mesh \"{filename}\" is neither STL, Collada (.dae) nor OBJ, and cplan reads no other mesh format");
+        let message = format!("mesh \"{filename}\": cplan reads only meshes in STL, Collada (.dae) and OBJ");
         return Err(message.into());
     }
     let anchor = document.source.anchor().map_err(|why| format!("mesh \"{filename}\" cannot be found: {why}"))?;
@@ -103,7 +100,7 @@ pub fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
     places.dedup();
     Err(match places.is_empty() {
         false => format!("mesh \"{filename}\" does not exist; cplan looked for {}", places.join(", ")),
-        true => format!("mesh \"{filename}\" does not exist: there is no package of that name near the URDF"),
+        true => format!("mesh \"{filename}\" does not exist: there is no package of this name near the URDF"),
     })
 }
 

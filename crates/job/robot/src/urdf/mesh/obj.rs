@@ -33,7 +33,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
                     let index =
                         vertex.and_then(|k| if k < 0 { vertices.len() as i64 + k } else { k - 1 }.try_into().ok());
                     let point = index.and_then(|index: usize| vertices.get(index));
-                    let unknown = || format!("line {number}: no vertex \"{word}\" precedes this line");
+                    let unknown = || format!("line {number}: vertex \"{word}\" is not defined before this line");
                     mesh.points.push(*point.ok_or_else(unknown)?);
                 }
                 mesh.close_face(first);

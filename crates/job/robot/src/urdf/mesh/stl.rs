@@ -25,7 +25,7 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     } else if bytes.starts_with(b"solid") {
         text(&String::from_utf8_lossy(&bytes))?
     } else {
-        return Err("the file is not an STL file: its length does not fit its number of triangles".into());
+        return Err("this is not an STL file: the length of the file does not match the number of triangles".into());
     };
     if mesh.points.is_empty() { Err("the mesh has no triangle".into()) } else { Ok(mesh) }
 }
@@ -62,6 +62,6 @@ fn text(text: &str) -> Result<Mesh, String> {
     }
     match next {
         None => Ok(mesh),
-        Some(_) => Err("the STL is broken: its last solid does not end".into()),
+        Some(_) => Err("the STL is broken: the last solid does not end".into()),
     }
 }

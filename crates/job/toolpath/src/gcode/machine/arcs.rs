@@ -21,7 +21,7 @@ impl Machine {
             (None, None, None) => Err(word.error("has neither a centre nor a radius", "add I and J, or R")),
             (None, None, Some(radius)) => arc::with_radius(at, to, radius, is_left).ok_or_else(|| {
                 if to == at {
-                    return word.error("ends where it begins, so R does not give its centre", "use I and J");
+                    return word.error("ends where it begins, so R does not determine the centre", "use I and J");
                 }
                 let chord = (to[0] - at[0]).hypot(to[1] - at[1]);
                 let message = format!("has ends {} apart, more than twice its radius", self.shown(chord));
@@ -32,8 +32,8 @@ impl Machine {
                 self.about(word, to, self.origin.place([i, j]), is_left)
             }
             _ if self.has_absolute_centers => {
-                let hint = "write both I and J, which are coordinates here (G90.1)";
-                Err(word.error("has one coordinate of its centre", hint))
+                let hint = "write both I and J, the coordinates of the centre (G90.1)";
+                Err(word.error("has only one coordinate of the centre", hint))
             }
             (i, j, None) => self.about(word, to, [at[0] + i.unwrap_or(0.0), at[1] + j.unwrap_or(0.0)], is_left),
         }
@@ -42,11 +42,14 @@ impl Machine {
     /// Returns the arc about a centre.
     fn about(&self, word: &Word, to: Point, center: Point, is_left: bool) -> Result<Curve, Error> {
         arc::about(self.origin.at, to, center, is_left).map_err(|[first, last]| {
-            let message =
-                format!("begins {} from its centre, and ends {} from it", self.shown(first), self.shown(last));
+            let message = format!(
+                "begins at a distance of {} from the centre, but ends at {}",
+                self.shown(first),
+                self.shown(last)
+            );
             let hint = match self.has_absolute_centers {
-                true => "I and J are the coordinates of the centre (G90.1); write them with more digits",
-                false => "I and J count from the start of the arc (G91.1); write them with more digits",
+                true => "write I and J, the coordinates of the centre (G90.1), with more digits",
+                false => "write I and J, which count from the start of the arc (G91.1), with more digits",
             };
             word.error(&message, hint)
         })

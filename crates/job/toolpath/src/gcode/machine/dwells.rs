@@ -21,13 +21,12 @@ impl Machine {
     /// If the line is also a move, or has no valid time.
     pub(super) fn dwell(&mut self, block: &Block, word: &Word) -> Result<(), Error> {
         if let Some(other) = block.with_letters("YIJR").next() {
-            return Err(other.error("belongs to a move, and this line is a dwell", "write G4 on a line of its own"));
+            return Err(other.error("belongs to a move, but this line is a dwell", "write G4 on a line of its own"));
         }
         let mut times = block.with_letters("PSXUF");
         let (time, another) = (times.next(), times.next());
         if let Some(another) = another {
-            return Err(another
-                .error("is a second number on the line of a dwell", "write G4 with one time on a line of its own"));
+            return Err(another.error("is a second time for this dwell", "write G4 with one time on a line of its own"));
         }
         let unit = match (time, self.is_firmware) {
             (Some(Word { letter: 'P', .. }), is_firmware) => {
@@ -62,7 +61,8 @@ impl Machine {
         let inner =
             (!rests.is_empty()).then(|| format!("{} of {} in all (G4)", counted(rests.len(), "stop"), shown(rest)));
         let is_left_out = left_out > MIN_DWELL;
-        let ends = is_left_out.then(|| format!("stops (G4) of {} at the ends of the line left out", shown(left_out)));
+        let ends = is_left_out
+            .then(|| format!("stops (G4) before and after the line, {} in all, are left out", shown(left_out)));
         let parts: Vec<String> = inner.into_iter().chain(ends).collect();
         (!parts.is_empty()).then(|| format!("{}{unit}", parts.join("; ")))
     }

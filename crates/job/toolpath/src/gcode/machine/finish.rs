@@ -47,7 +47,7 @@ impl Machine {
             return Err(Error::new(None, None, message, "split the file into several"));
         }
         if let (true, Some(first)) = (moves.is_empty(), self.unstated.first()) {
-            let message = "the file states for none of its moves where it begins";
+            let message = "the file does not state where its moves begin";
             let hint = "state the place of the tip at the beginning (--home), or begin with coordinates (G90, G0 X Y)";
             return Err(Error::new(first.line, first.column, message, hint));
         }
@@ -70,6 +70,6 @@ impl Machine {
 }
 
 fn no_line() -> Error {
-    let hint = "add at least one move (G1) after the first one, which says where the line begins";
+    let hint = "add at least one move (G1) after the first move, which only states where the line begins";
     Error::new(None, None, "the file has no line", hint)
 }

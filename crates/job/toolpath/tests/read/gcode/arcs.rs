@@ -36,7 +36,7 @@ fn radii_may_differ_by_five_micrometres_or_a_thousandth() {
         assert!(near(path.start(), [radius / 1e3, 0.0]) && near(path.end(), [0.0, other / 1e3]), "{radius} {other}");
     }
     for [radius, other] in [[1.0, 1.0051], [1.0, 0.9949], [100.0, 100.101], [100.0, 99.899]] {
-        let message = format!("G3 begins {radius} mm from its centre, and ends {other} mm from it");
+        let message = format!("G3 begins at a distance of {radius} mm from the centre, but ends at {other} mm");
         assert_eq!(refused(&arc(radius, other)).to_string(), message);
     }
     let inches = "G20 G0 X1 Y0\nG3 X0 Y1.0009 I-1 J0\n";
@@ -64,9 +64,9 @@ fn arcs_without_a_shape_are_refused() {
         ("G2 X1", "G2 has neither a centre nor a radius"),
         ("G2 X1 I1 R1", "G2 has a centre and a radius"),
         ("G2 X10 R4", "G2 has ends 10 mm apart, more than twice its radius"),
-        ("G2 R4", "G2 ends where it begins, so R does not give its centre"),
-        ("G3 X10 I4", "G3 begins 4 mm from its centre, and ends 6 mm from it"),
-        ("G3 X10 I0", "G3 begins 0 mm from its centre, and ends 10 mm from it"),
+        ("G2 R4", "G2 ends where it begins, so R does not determine the centre"),
+        ("G3 X10 I4", "G3 begins at a distance of 4 mm from the centre, but ends at 6 mm"),
+        ("G3 X10 I0", "G3 begins at a distance of 0 mm from the centre, but ends at 10 mm"),
     ];
     for (text, message) in cases {
         let error = refused(&format!("G0 X0 Y0\n{text}"));

@@ -19,7 +19,7 @@ fn moves_have_their_ends_speeds_and_places() {
     assert_eq!(travels, [false, false, true, false]);
     let places: Vec<_> = path.pieces().iter().map(|piece| (piece.source.line, piece.source.column)).collect();
     assert_eq!(places, [(4, Some(1)), (5, Some(1)), (6, Some(1)), (7, Some(1))]);
-    assert_eq!(path.notes(), ["read without effect on the line: G17 (1)"]);
+    assert_eq!(path.notes(), ["words without effect on the line: G17 (1)"]);
     assert!((path.length() - (0.02 + 0.0255 + 0.03_f64.hypot(0.0055) + 0.001)).abs() < 1e-12);
 }
 

@@ -14,7 +14,7 @@ fn travels_at_both_ends_belong_to_a_program() {
     assert_eq!(ends, [(true, [0.02, 0.01]), (false, [0.02, 0.02]), (true, [0.0, 0.0])]);
     assert_eq!(program.unstated.iter().map(|source| source.line).collect::<Vec<_>>(), [2]);
     let unstated = read_program(b"G21\nG0 X1 Y1\n", None).expect_err("an error").message;
-    assert_eq!(unstated, "the file states for none of its moves where it begins");
+    assert_eq!(unstated, "the file does not state where its moves begin");
     assert_eq!(read_program(b"G21\nG4 P1\n", None).expect_err("an error").message, "the file has no line");
     assert_eq!(read_program(b"G0 X1 Y1\nG1 X2\nM2\nG1 X9\n", None).expect_err("an error").line, Some(4));
     assert_eq!(read_program(b"G21\nG0 X0 Y0\nG0 X1e9\n", None).expect_err("an error").line, Some(3));

@@ -15,11 +15,11 @@ fn words_without_an_effect_are_listed_in_one_note() {
     let text = "%\nO1000 (PART (LEFT) SIDE)\nN5 G17 G40 G49 G54 G61 G64 P0.05 G80 G94*71\n$H\n$X\n?\nT1 M6 (pen)\nS1000 M3\n\
         G43 H1 Z5\nG28 G91 Z0\nG90\nG53 Z0\nM117 Hello (world; *G1 X5\nM203 X200 Y200\nSET_VELOCITY_LIMIT ACCEL=500\n\
         START_PRINT\nG92 E0\nG1 Z-1 E0.5 F100\nM9\n/G1 X5 Y5";
-    let listed = "read without effect on the line: $H (1), $X (1), /, left out (1), ? (1), E (2), G17 (1), G28 (1), G40 (1), \
+    let listed = "words without effect on the line: $H (1), $X (1), /, left out (1), ? (1), E (2), G17 (1), G28 (1), G40 (1), \
         G43 (1), G49 (1), G53 (1), G54 (1), G61 (1), G64 (1), G94 (1), H (1), M117 (1), M203 (1), M3 (1), M6 (1), M9 (1), O (1), \
         P (1), S (1), SET_VELOCITY_LIMIT (1), START_PRINT (1), T (1), Z (4 heights)";
     assert_eq!(notes(text), [listed]);
-    assert_eq!(notes("M3\nM5\nM3"), ["read without effect on the line: M3 (2), M5 (1)"]);
+    assert_eq!(notes("M3\nM5\nM3"), ["words without effect on the line: M3 (2), M5 (1)"]);
     assert_eq!(notes("; only\n(comments)\n%\nN7"), Vec::<String>::new());
 }
 
@@ -27,7 +27,7 @@ fn words_without_an_effect_are_listed_in_one_note() {
 fn klippers_commands_are_listed() {
     let path = program("G21 G90\nSET_VELOCITY_LIMIT ACCEL=500\nG0 X10 Y10\nG1 X20 F1000\n");
     assert!(path.pieces().len() == 1 && near(path.end(), [0.02, 0.01]));
-    assert_eq!(path.notes(), ["read without effect on the line: SET_VELOCITY_LIMIT (1)"]);
+    assert_eq!(path.notes(), ["words without effect on the line: SET_VELOCITY_LIMIT (1)"]);
 }
 
 /// After G92 the line continues from where the tip is, and the coordinates count from the new origin.
@@ -64,7 +64,7 @@ fn g90_1_makes_the_centers_of_arcs_coordinates() {
     // Centres count from the origin of G92.
     assert_eq!(circle("G21 G90.1\nG0 X60 Y50\nG92 X0 Y0\nG2 X0 Y0 I-10 J0\n"), opposite);
     let error = refused("G90.1\nG0 X60 Y50\nG2 X60 Y50 I50");
-    assert_eq!(error.to_string(), "G2 has one coordinate of its centre");
+    assert_eq!(error.to_string(), "G2 has only one coordinate of the centre");
 }
 
 #[test]
@@ -87,12 +87,12 @@ fn dwells_are_stops_of_their_time() {
     assert_eq!(dwells(text)[0], Some(2.0));
     assert_eq!(
         program(text).notes()[1],
-        "1 stop of 2 s in all (G4); stops (G4) of 5 s at the ends of the line left out"
+        "1 stop of 2 s in all (G4); stops (G4) before and after the line, 5 s in all, are left out"
     );
     for (dwell, message) in [
         ("G4 P-1", "P-1 is not a time from 0 to 86400 s"),
-        ("G4 P1 X5", "X5 is a second number on the line of a dwell"),
-        ("G4 P1 Y5", "Y5 belongs to a move, and this line is a dwell"),
+        ("G4 P1 X5", "X5 is a second time for this dwell"),
+        ("G4 P1 Y5", "Y5 belongs to a move, but this line is a dwell"),
     ] {
         let error = refused(&line(dwell));
         assert_eq!((error.line, error.to_string().as_str()), (Some(4), message));
@@ -104,8 +104,8 @@ fn words_that_would_change_the_line_are_refused_together() {
     let text = "G21 G18\nG0 X0 Y0\nG41 D1\nG1 X5 F100\nG42\nG1 X6\nG68 X0 Y0 R45\nG81 Z-1 R1\nX5\nG81 Z-2\nG93\nG95\nG96 S5\nG1 X9";
     let error = refused(text);
     assert_eq!((error.line, error.column), (Some(1), Some(5)));
-    let expected = "G18 changes the plane of arcs (line 1); G41 moves the line aside by the tool's radius (line 3); \
-        G42 moves the line aside by the tool's radius (line 5); G68 moves, turns, scales or mirrors the coordinates (line 7); \
+    let expected = "G18 changes the plane of arcs (line 1); G41 offsets the line by the tool's radius (line 3); \
+        G42 offsets the line by the tool's radius (line 5); G68 moves, turns, scales or mirrors the coordinates (line 7); \
         G81 is a cycle of several moves (lines 8, 10); G93 changes the meaning of F (line 11); \
         G95 changes the meaning of F (line 12); G96 changes the meaning of F (line 13)";
     assert_eq!(error.to_string(), expected);
@@ -123,9 +123,9 @@ fn words_that_would_change_the_line_are_refused_together() {
 #[test]
 fn places_of_the_machine_are_refused_and_heights_are_not() {
     let error = refused("G21\nG28\nG0 X0 Y0\nG1 X5\nG53 G0 X0\nG1 X6\nG28 X Y\nM30");
-    let place = "moves to a place that only the machine knows";
+    let place = "moves to a place of the machine, which the file does not state";
     assert_eq!(error.to_string(), format!("G28 {place} (lines 2, 7); G53 {place} (line 5)"));
-    let expected = "leave out this line, since nothing is drawn before or after it; write a move (G0) to that place, in the \
+    let expected = "remove this line; nothing is drawn before or after it; write a move (G0) to that place, in the \
         coordinates of the file";
     assert_eq!(error.hint, expected);
     assert_eq!(ends("G21\nG0 X0 Y0\nG1 X5\nG53 G0 Z0\nG28 Z\nG1 X6"), [[5.0, 0.0], [6.0, 0.0]]);
@@ -135,7 +135,7 @@ fn places_of_the_machine_are_refused_and_heights_are_not() {
 fn other_systems_of_coordinates_are_refused_after_the_first_move() {
     assert_eq!(ends("G21 G55\nG0 X0 Y0\nG55 G1 X5"), [[5.0, 0.0]]);
     let error = refused("G21 G54\nG0 X0 Y0\nG1 X5\nG55\nG1 X6");
-    assert_eq!(error.to_string(), "G55 changes to coordinates whose origin the file does not state");
+    assert_eq!(error.to_string(), "G55 selects a coordinate system whose origin the file does not state");
 }
 
 #[test]
@@ -161,14 +161,14 @@ fn other_words_are_refused_by_name_with_their_place() {
         ("G0 X0 Y0\nG1 X1.2.3", 2, 4, "X1.2.3 has no valid number"),
         ("G0 X0 Y0\nG1 X1 =2", 2, 7, "\"=\" is not a word of G-code that cplan reads"),
         ("G0 X0 (start", 1, 7, "this comment is not closed"),
-        ("G0 G1 X0", 1, 4, "G1 contradicts G0 on the same line"),
-        ("G0 X0 X1", 1, 7, "X1 contradicts X0 on the same line"),
+        ("G0 G1 X0", 1, 4, "G1 and G0 contradict each other on this line"),
+        ("G0 X0 X1", 1, 7, "X1 and X0 contradict each other on this line"),
         ("G0 N5 X0", 1, 4, "N5 is not at the start of its line"),
         ("X1", 1, 1, "X1 has no kind of move"),
         ("G0 X0 Y0\nG80\nX1", 3, 1, "X1 has no kind of move"),
-        ("G3 X1 I1", 1, 1, "G3 is the first move, but the file has not said where the tip is"),
+        ("G3 X1 I1", 1, 1, "G3 is the first move, but the file does not state where the tip is before it"),
         ("G0 X0 Y0 F0", 1, 10, "F0 is not a speed"),
-        ("G0 X0 Y0\nG1 X1 I2", 2, 7, "I2 belongs to an arc, and this is a straight move"),
+        ("G0 X0 Y0\nG1 X1 I2", 2, 7, "I2 belongs to an arc, but this is a straight move"),
     ];
     for (text, line, column, message) in cases {
         let error = refused(text);
@@ -191,15 +191,15 @@ fn a_second_percent_sign_ends_the_program() {
 fn the_first_move_leads_to_the_line() {
     let text = "G21 G90\nG1 Z2 F100\nG1 X5 Y6 F600\nG1 X7\n";
     assert_eq!(ends(text), [[7.0, 6.0]]);
-    let note = "the first move (G1, line 3) begins at an unstated place: left out";
-    assert_eq!(program(text).notes(), [note, "read without effect on the line: Z (1 height)"]);
+    let note = "the first move (G1, line 3) is left out, because the file does not state where it begins";
+    assert_eq!(program(text).notes(), [note, "words without effect on the line: Z (1 height)"]);
     let unstated = |text: &str| program(text).notes()[0].clone();
-    assert_eq!(unstated("G21\nG0 X5\nG1 X7"), "the file does not state Y where the line begins: read as 0");
+    assert_eq!(unstated("G21\nG0 X5\nG1 X7"), "the file does not state Y of the line's beginning: read as 0");
     assert_eq!(
         unstated("G21 G91\nG0 X5 Y5\nG1 X7"),
-        "the file does not state X and Y where the line begins: read as 0"
+        "the file does not state X and Y of the line's beginning: read as 0"
     );
     assert_eq!(program("G21\nG92 Y2\nG0 X5\nG1 X7").notes(), Vec::<String>::new());
     let hint = refused("G21\nG1 X7").hint;
-    assert_eq!(hint, "add at least one move (G1) after the first one, which says where the line begins");
+    assert_eq!(hint, "add at least one move (G1) after the first move, which only states where the line begins");
 }

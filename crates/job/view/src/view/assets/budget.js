@@ -45,7 +45,7 @@ class Budget {
     const size = ({ clearance }) => clearance ?? Infinity;
     const bodies = [...margins].sort((a, b) => (size(a) === size(b) ? 0 : size(a) - size(b))).map((margin) => this.body(margin));
     this.root.replaceChildren(
-      element('p', { class: 'about' }, 'How wrong may one thing be, alone, while this motion stays free? All numbers are proven. Point at a row to see where the arm would touch first.'),
+      element('p', { class: 'about' }, 'How large may a single error be before this motion is no longer free? Each row assumes that nothing else is wrong; all numbers are proven. Point at a row to see where the arm would touch first.'),
       Budget.table('Errors of the arm', ['error of', 'free up to', 'would touch first'], errors),
       Budget.table('Displacement of one body', ['body', 'proven clearance', 'nearest to'], bodies),
     );

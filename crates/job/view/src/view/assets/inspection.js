@@ -100,7 +100,7 @@ class Inspection {
       const place = [origin, line, column].filter((part) => part !== null).join(':');
       return element('li', {}, element('span', { class: 'place' }, place), element('p', {}, message), cure ? element('p', {}, element('strong', {}, 'Hint: '), cure) : null);
     });
-    const remedy = report.remedy ? [element('p', {}, 'The robot loads with these entries in the world file; the numbers are placeholders:'), element('pre', { tabindex: '0' }, `[robot]\n${report.remedy}`)] : [];
+    const remedy = report.remedy ? [element('p', {}, 'With these entries in the world file, cplan can read the robot (the numbers are examples):'), element('pre', { tabindex: '0' }, `[robot]\n${report.remedy}`)] : [];
     return element('section', { class: 'defects inspection-defects' }, element('h2', {}, sign, count === 1 ? 'One defect prevents planning' : `${count} defects prevent planning`), element('ol', {}, ...items), ...remedy);
   }
 
@@ -233,7 +233,7 @@ class Inspection {
       const [body, outline] = [bodies.get(name), whole.get(name)];
       const parts = body && `${body.parts} part${body.parts === 1 ? '' : 's'}, ${Numbers.digits(body.area * 1e4)} cm\u00b2`;
       const heights = outline?.heights && `at heights ${outline.heights.map((height) => Numbers.length(height)).join(' to ')}`;
-      const none = outline ? 'none: it cannot collide' : '\u2013';
+      const none = outline ? 'none: this link cannot collide' : '\u2013';
       const from = body && `from ${body.source === 'bar' ? 'the bar of the world file' : `${body.source} geometry`}${body.of === name ? '' : `, part of ${body.of}`}`;
       return this.row(name, above ? `moved by ${above}` : 'root', name, [
         Inspection.cell(collision + visual ? [collision && `${collision} collision`, visual && `${visual} visual`].filter(Boolean).join(', ') : 'none'),
@@ -254,10 +254,10 @@ class Inspection {
     if (plane) facts.push(['plane', plane.words.replace(/^plane: /, '')]);
     if (tip && reach) {
       facts.push(['tip', `origin of link ${tip}, at ${reach.tip.map((x) => Numbers.length(x)).join(', ')} with both joints at zero`]);
-      if (reach.distances) facts.push(['reach of the tip', `${reach.distances.map((x) => Numbers.length(x)).join(' to ')} from joint 1, without limits`]);
-      facts.push(['reach of all parts', `within ${Numbers.length(reach.outline)} of joint 1, slides at zero`]);
+      if (reach.distances) facts.push(['reach of the tip', `${reach.distances.map((x) => Numbers.length(x)).join(' to ')} from joint 1, without joint limits`]);
+      facts.push(['reach of all parts', `within ${Numbers.length(reach.outline)} of joint 1, if sliding joints are at zero`]);
     }
-    const hit = own.map(({ link, moves, heights, ignored }) => `${link}: can be hit by ${moves ? 'link 2' : 'both links'}${ignored.length ? `, except ${ignored.join(', ')}` : ''}, at heights ${heights.map((x) => Numbers.length(x)).join(' to ')}`);
+    const hit = own.map(({ link, moves, heights, ignored }) => `${link}: an obstacle for ${moves ? 'link 2' : 'both links'}${ignored.length ? `, except ${ignored.join(', ')}` : ''}, at heights ${heights.map((x) => Numbers.length(x)).join(' to ')}`);
     [...new Set(hit)].forEach((text) => facts.push(['own body', text]));
     return Inspection.section('Arm', element('dl', { class: 'facts' }, ...facts.flatMap(([name, text]) => [element('dt', {}, name), element('dd', {}, text)])));
   }
@@ -272,7 +272,7 @@ class Inspection {
       return own.length ? element('ul', {}, ...own.map((joint) => branch(joint, true))) : null;
     };
     const list = root ? element('ul', {}, element('li', {}, element('strong', {}, root), below(root))) : element('ul', {}, ...joints.map((joint) => branch(joint, false)));
-    return Inspection.section(root ? 'Tree of links' : 'Joints and links, which form no tree', list);
+    return Inspection.section(root ? 'Tree of links' : 'Joints and links (not a tree)', list);
   }
 
   /** Returns the table of pairs of joints, with the reason why they form no planar arm. */

@@ -6,7 +6,7 @@
  * @type {[string, string, boolean][]}
  */
 const LAYERS = [
-  ['map', 'map of what has been seen', true],
+  ['map', 'map of the space seen so far', true],
   ['sensor', 'view of the sensor', true],
   ['known', 'configurations that are known to be free', true],
   ['path', 'paths, and traces of the tip', true],

@@ -93,7 +93,7 @@ const Plots = (() => {
     const { clock, arm } = view.model;
     if (!shows(view, quantity)) return;
     const [first, second] = arm.joints.map((joint) => joint.name);
-    legend.textContent = `${first} solid, ${second} dashed; limits dotted`;
+    legend.textContent = `solid: ${first}, dashed: ${second}, dotted: limits`;
     const turns = !of && arm.joints.every((joint) => joint.unit === 'rad');
     const units = turns ? `\u00b0${per}` : [...new Set(arm.joints.map((joint) => (of ? of[joint.unit] : joint.unit + per)))].join(', ');
     // Angles in degrees; the data of the page are in radians.

@@ -12,7 +12,7 @@ class SideView {
   /** @param {View} view */
   constructor(view) {
     this.view = view;
-    const canvas = element('canvas', { role: 'img', 'aria-label': 'Height of the tool over the way of its tip' });
+    const canvas = element('canvas', { role: 'img', 'aria-label': 'Height of the tool over the path of its tip' });
     const tab = (name, text) => element('button', { type: 'button', class: 'button', 'data-right': name, onclick: () => this.choose(name) }, text);
     /** Chooses between the side view and the configuration space. */
     this.choice = element('span', { class: 'modes right-choice', role: 'group', 'aria-label': 'Right picture', hidden: true }, tab('height', 'Side view'), tab('space', 'Space of this step'));
@@ -26,7 +26,7 @@ class SideView {
     this.panel = new Panel(canvas, {
       x: [0, 1],
       y: [-1, 0],
-      titles: ['way of the tip (m)', 'height (mm)'],
+      titles: ['path of the tip (m)', 'height (mm)'],
       margins: [66, 10, 8, 40],
       still: (context, panel) => this.isOffered && this.draw(context, panel),
       moving: (context, panel) => this.isOffered && this.drawNow(context, panel),
@@ -101,7 +101,7 @@ class SideView {
     panel.x = [-0.06 * way, 1.06 * way];
     panel.y = [low - room, high + room];
     this.caption.textContent = motion.label;
-    panel.canvas.setAttribute('aria-label', `Height of the tool over the way of its tip, ${motion.label}: from ${low} to ${high} mm on ${Numbers.length(way)}`);
+    panel.canvas.setAttribute('aria-label', `Height of the tool over the path of its tip, ${motion.label}: from ${low} to ${high} mm on ${Numbers.length(way)}`);
     panel.layout();
     panel.dirty = true;
   }

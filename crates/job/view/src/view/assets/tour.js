@@ -26,12 +26,12 @@ class Tour {
     const [first, second] = [panels.workspace.canvas, sideView.isShown ? sideView.panel.canvas : panels.cspace.canvas].map((canvas) => canvas.getBoundingClientRect());
     const [here, there] = second.top > first.top + first.height / 2 ? ['Above', 'Below'] : ['On the left', 'On the right'];
     const seen = sideView.isShown
-      ? ['A task, step by step', `${here}, the arm and its objects; dashed outlines are the places where they will be. ${there}, the height of the tool over its way, or, after a click, the configuration space of the step.`]
+      ? ['A task, step by step', `${here}, the arm and its objects; dashed outlines are the places where they will be. ${there}, the height of the tool along its path or, after a click, the configuration space of the step.`]
       : ['One arm, seen twice', `${here}, the arm among its obstacles. ${there}, the same arm as one point: a coordinate for each joint. Coloured regions are collisions.`];
     return tourSteps ?? [
       [...seen, parts.panels],
       ['Take the arm', 'Drag the tip of the arm, or its dot in the configuration space. Contacts are marked in red. Escape puts the arm back.', panels.workspace.canvas.parentElement],
-      view.isTask && model.clock ? ['Go to a step', `Each object has a row. A click on a step goes there, and dragging moves the time. ${more}`, steps.root]
+      view.isTask && model.clock ? ['Go to a step', `Each object has a row. Click on a step to go there, or drag to move the time. ${more}`, steps.root]
         : model.clock ? ['Play it', `Space plays the motion. ${more}`, parts.transport]
           : ['See why', more, parts.transport],
       ['Choose what is drawn', 'Each layer has its sign and a checkbox. More about the result is in the tabs below the pictures.', layers.root],

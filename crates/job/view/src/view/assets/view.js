@@ -468,12 +468,12 @@ class View {
     const { duration, gap, fastest, clearance, with_clearance: roomier } = figures;
     // No machine keeps less than a millimetre.
     const isTight = clearance < 1e-3 && !given && worlds[0]?.clearance === 0;
-    const other = roomier ? `; --clearance ${Number((1000 * roomier[0]).toPrecision(3))}mm keeps that, length ${roomier[1].toFixed(4)}` : '';
+    const other = roomier ? `; --clearance ${Number((1000 * roomier[0]).toPrecision(3))}mm keeps this distance, with length ${roomier[1].toFixed(4)}` : '';
     return [
       duration !== undefined && ['time', Numbers.seconds(duration), 'from rest to rest, within all limits'],
       given?.motion && ['off the line', `at most ${Numbers.length(given.motion.deviation, 0, Math.ceil)}`, `proven; the tolerance is ${Numbers.length(given.tolerance)}`],
       gap !== undefined && ['over the optimum', gap === 0 ? '0 %' : `at most ${Numbers.percent(gap, Math.ceil)}`, fastest ? 'longer than the fastest' : 'longer than the shortest'],
-      clearance !== undefined && ['clearance', Numbers.length(clearance, 0, Math.floor), isTight ? `since none was asked${other}` : 'proven, to the nearest obstacle', isTight && 'warning'],
+      clearance !== undefined && ['clearance', Numbers.length(clearance, 0, Math.floor), isTight ? `because none was required${other}` : 'proven, to the nearest obstacle', isTight && 'warning'],
     ].filter(Boolean);
   }
 

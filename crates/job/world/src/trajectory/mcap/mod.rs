@@ -85,7 +85,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
         count += 1;
         if begin < end.nanoseconds {
             let what =
-                format!("a motion on {name} begins at {begin} ns, before the last one ends at {}", end.nanoseconds);
+                format!("a motion on {name} begins at {begin} ns, but the previous one ends at {}", end.nanoseconds);
             let help = "record one motion after the other, or verify the recorded states instead: --topic NAME";
             return Err(source.diagnostic(what).help(help));
         }
@@ -95,7 +95,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
         if let Some((_, joint)) = differing {
             if first.nanoseconds <= begin {
                 let what = format!(
-                    "joint \"{joint}\" is at another value when a motion begins than when the previous motion ended"
+                    "joint \"{joint}\" has different values at the end of a motion and at the beginning of the next"
                 );
                 let help = "record all motions, or verify the recorded states instead: --topic NAME";
                 return Err(source.diagnostic(what).help(help));
@@ -112,7 +112,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
     }
     let mut samples = table.samples(names, &others)?;
     if count > 1 {
-        samples.notes.push(format!("{count} motions, one after the other; between them the arm stands still"));
+        samples.notes.push(format!("{count} motions in sequence; the arm stands still between them"));
     }
     Ok(Samples { what: format!("point on {name}").into(), joined: Some(Interpolation::Quintic), rests, ..samples })
 }
@@ -163,12 +163,14 @@ impl<'a> Table<'a> {
         for row in message.rows {
             let nanoseconds = row.nanoseconds.saturating_add(time);
             if !row.values.iter().enumerate().all(|(k, values)| values.len() == width || k > 0 && values.is_empty()) {
-                let what =
-                    format!("a sample on {} at {nanoseconds} ns does not have one value for each joint", self.topic);
+                let what = format!(
+                    "a sample on {} at {nanoseconds} ns has too few or too many values; it needs one for each joint",
+                    self.topic
+                );
                 return Err(self
                     .source
                     .diagnostic(what)
-                    .help("give each joint a position, and all or none a velocity"));
+                    .help("record a position of each joint, and velocities of all joints or of none"));
             }
             for name in &self.others {
                 if let Some(place) = message.joints.iter().position(|joint| joint == name) {
@@ -190,13 +192,13 @@ impl<'a> Table<'a> {
         let given = [1, 2].map(|k: usize| rows.first().is_some_and(|row| !row.values[k].is_empty()));
         if let Some(row) = rows.iter().find(|row| [1, 2].iter().any(|&k| row.values[k].is_empty() == given[k - 1])) {
             let what = format!(
-                "only some samples on {} have velocities or accelerations: not the one at {} ns",
+                "only some samples on {} have velocities or accelerations; the one at {} ns differs from the first",
                 self.topic, row.nanoseconds
             );
             return Err(self
                 .source
                 .diagnostic(what)
-                .help("give all samples velocities, or none, and accelerations likewise"));
+                .help("record velocities in all samples or in none, and accelerations likewise"));
         }
         for message in others {
             for row in &message.rows {

@@ -18,7 +18,7 @@ const C_OBSTACLES = (() => {
       check: (q) => {
         const hits = Geometry.contacts(arm, world, q).filter(({ distance }) => distance <= 0);
         if (hits.some(({ obstacle }) => obstacle === wanted)) return null;
-        return hits.length ? `Here the arm touches \u201c${world.obstacles[hits[0].obstacle].name}\u201d.` : 'Here the arm is free. The region with the name of the obstacle is in the configuration space.';
+        return hits.length ? `Here the arm touches \u201c${world.obstacles[hits[0].obstacle].name}\u201d.` : 'Here the arm is free. In the configuration space, look for the region with the name of the obstacle.';
       },
       right: `This configuration belongs to the C-obstacle of \u201c${name}\u201d.`,
     });
@@ -34,13 +34,13 @@ const C_OBSTACLES = (() => {
     const [first] = [...own.filter(({ from, to }) => from.features && to.features), ...own];
     const unit = isAngle ? '\u00b0' : 'mm';
     if (!first) {
-      return Ask.number({ prompt: `How wide is the first blocked interval of ${joint.name} in this slice?`, unit, value: NaN, hint: 'This slice has none. Move the slider to another slice.', right: '' });
+      return Ask.number({ prompt: `How wide is the first blocked interval of ${joint.name} in this slice?`, unit, value: NaN, hint: 'This slice has no blocked interval. Move the slider to another slice.', right: '' });
     }
     const width = first.to.value - first.from.value;
     return Ask.number({
       prompt: `How wide is the first interval of ${joint.name} that \u201c${view.world.obstacles[first.obstacle].name}\u201d blocks in this slice?`,
       unit, value: isAngle ? (width * 180) / Math.PI : 1000 * width, tolerance: isAngle ? (ANGLE * 180) / Math.PI : 1000 * LENGTH,
-      hint: 'Take the value of the contact where the interval begins from the value where it ends.',
+      hint: 'Subtract the value at the beginning of the interval from the value at its end.',
       right: `The arm touches it from ${Numbers.joint(joint, first.from.value)} to ${Numbers.joint(joint, first.to.value)}.`,
     });
   }
@@ -53,9 +53,9 @@ const C_OBSTACLES = (() => {
     const found = `Corners inside: ${corners}; crossings of sides: ${crossings.length}.`;
     return Ask.choice({
       prompt: 'Which of the tests detects that these polygons meet?',
-      options: ['Only that a corner is inside', 'Only that sides cross', 'Both', 'None: they do not meet'], index,
-      hint: 'In the picture, corners that are inside are red, and sides that cross are bold.',
-      right: `${found} Drag the link until another test is the only one.`,
+      options: ['Only that a corner is inside', 'Only that sides cross', 'Both', 'None: the polygons do not meet'], index,
+      hint: 'In the picture, corners inside the other polygon are red, and sides that cross are bold.',
+      right: `${found} Drag the link until only the other test detects the overlap.`,
     });
   }
 
@@ -74,7 +74,7 @@ const C_OBSTACLES = (() => {
     return Ask.number({
       prompt: `At how many of the ${pair.angles.length} angles in the picture is the link blocked at its place?`, value: blocked,
       hint: 'Move the slider to each multiple of 30\u00b0. The link is blocked if it meets the obstacle.',
-      right: `The line passes through ${blocked} of the ${pair.angles.length} differences.`,
+      right: `The blue line is inside ${blocked} of the ${pair.angles.length} differences.`,
     });
   };
 
@@ -91,13 +91,13 @@ const C_OBSTACLES = (() => {
       {
         name: 'slice', figure: 'slice', title: () => 'Contact angles of a slice',
         isOffered: SliceFigure.isOffered,
-        text: ({ model: { arm: { joints } } }) => `Hold ${joints[0].name} still. Now only link 2 ${joints[1].sign === undefined ? 'slides' : 'turns'}. A contact begins or ends where a corner meets a side, and each case is ${joints[1].sign === undefined ? 'a linear equation' : 'an equation r cos(\u03c6 + \u03b1) = d'}. The slider moves the slice, and a click into the configuration space chooses a contact.`,
+        text: ({ model: { arm: { joints } } }) => `Hold ${joints[0].name} still. Now only link 2 ${joints[1].sign === undefined ? 'slides' : 'turns'}. A contact begins or ends where a corner meets a side, which gives ${joints[1].sign === undefined ? 'a linear equation' : 'an equation r cos(\u03c6 + \u03b1) = d'}. The slider moves the slice, and a click into the configuration space chooses a contact.`,
         question: askWidth,
       },
       {
         name: 'tests', figure: 'pair', title: () => 'When do two polygons meet?',
         isOffered: PolygonFigure.isOffered,
-        text: () => 'Take the signed distances of a corner to the sides of the other polygon, positive on the inner side. If none is negative, the corner is inside, and the least is its depth. Two convex polygons meet if a corner of one is inside the other, or if two sides cross.',
+        text: () => 'Compute the signed distances of a corner from the sides of the other polygon, positive on the inner side. If no distance is negative, the corner is inside, and the least distance is its depth. Two convex polygons meet if a corner of one is inside the other, or if two sides cross.',
         question: askTest,
       },
       {

@@ -26,8 +26,8 @@ const CELLS = (() => {
           const { cells } = traceOf(model);
           const isSwept = model.replay.some((phase) => phase.kind === 'cells' && phase.swept);
           const how = isSwept
-            ? `A line of constant joint 1 sweeps over the C-obstacles, and at each corner draws a vertical to the next sides. That makes ${cells.length} cells.`
-            : `Segments between corners, as many as possible without crossings, make ${cells.length} triangles.`;
+            ? `A vertical line sweeps over the C-obstacles. At each corner, a vertical segment is drawn to the next sides above and below. This gives ${cells.length} cells.`
+            : `As many segments between corners as possible, without crossings, give ${cells.length} triangles.`;
           return `${how} Within a convex cell, every straight motion is free. Cells that share an edge are neighbours, and a path from neighbour to neighbour is a channel.`;
         },
         question: (view) => {
@@ -37,7 +37,7 @@ const CELLS = (() => {
             prompt: 'Click into a cell of the channel.',
             check: (q) => {
               if (channel.some((index) => Places.within(arm, q, cells[index]))) return null;
-              return cells.some((cell) => Places.within(arm, q, cell)) ? 'That is a free cell, but not one of the channel, which is shaded.' : 'That is no cell. The channel is the shaded band from start to goal.';
+              return cells.some((cell) => Places.within(arm, q, cell)) ? 'That cell is free, but does not belong to the channel. The channel is shaded.' : 'That is no cell. The channel is the shaded band from start to goal.';
             },
             right: 'The search chose this cell. Every curve that stays in the channel is free.',
           });
@@ -59,7 +59,7 @@ const CELLS = (() => {
       {
         name: 'boxes', figure: 'think', title: () => 'Free, in collision, or undecided',
         isOffered: isKind('boxes'),
-        text: () => 'A box of configurations is free if the arm in its middle is farther from all obstacles than any point moves within the box. It is a collision box if two shapes overlap everywhere in it. Otherwise it is undecided, and split. Play the splitting, from coarse to fine.',
+        text: () => 'Place the arm in the middle of a box of configurations. If its distance from all obstacles is greater than any point of the arm can move within the box, the box is free. If two shapes overlap everywhere in the box, it is a collision box. Otherwise it is undecided, and is split. Play the splitting, from coarse to fine.',
         question: (view) => {
           const { arm } = view.model;
           const { free, mixed } = traceOf(view.model);
@@ -76,7 +76,7 @@ const CELLS = (() => {
       {
         name: 'splits', figure: 'think', title: () => 'Why the splitting ends',
         isOffered: isKind('boxes'),
-        text: ({ model }) => `Boxes are split only where nothing is decided, so they are small along the boundary of the C-obstacles. If a free path exists, it has some clearance, and boxes of that size on it are decided. Here the smallest box is the ${2 ** splits(model)}th part of the space.`,
+        text: ({ model }) => `Only undecided boxes are split, so boxes are small along the boundary of the C-obstacles. If a free path exists, it has some clearance, and small enough boxes on the path are decided. Here the smallest box is the ${2 ** splits(model)}th part of the space.`,
         question: ({ model }) => {
           const count = splits(model);
           return Ask.number({

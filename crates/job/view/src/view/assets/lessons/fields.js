@@ -38,8 +38,8 @@ const FIELDS = (() => {
         name: 'minimum', figure: 'think', title: () => 'Only one minimum',
         isOffered: (model) => Boolean(traceOf(model)),
         text: ({ model: { facts } }) => (facts.some(([name, value]) => name === 'field' && !value.startsWith('harmonic'))
-          ? 'A field gives each free cell a value: high at obstacles, low at the goal. The motion follows its slope, without a search. A place that is lower than its neighbours is a minimum, and a motion that comes there stays. Lines join places of the same value.'
-          : 'A field gives each free cell a value, and the motion follows its slope, without a search. In a harmonic field, obstacles are high, the goal is low, and each other value is the mean of its neighbours. So no other free cell is lower than all its neighbours.'),
+          ? 'A field gives each free cell a value: high at obstacles, low at the goal. The motion follows its slope, without a search. A place that is lower than its neighbours is a minimum; a motion that comes to a minimum stays there. Lines join places of the same value.'
+          : 'A field gives each free cell a value, and the motion follows its slope, without a search. In a harmonic field, obstacles are high, the goal is low, and each other value is the mean of its neighbours. So no free cell except the goal is lower than all its neighbours.'),
         question: (view) => Ask.place(view, {
           prompt: 'Click on the minimum of the field to which the motion leads.',
           check: (q) => (Places.near(view.model.arm, q, goalOf(view.model), NEAR) ? null : 'From there, the field still falls in some direction. Follow the path downhill.'),
@@ -55,8 +55,8 @@ const FIELDS = (() => {
           const distances = CHOICES.map(([, degrees]) => Math.abs(degrees - angle));
           return Ask.choice({
             prompt: 'At which angle does the path usually cross the equipotentials?', options: CHOICES.map(([text]) => text), index: distances.indexOf(Math.min(...distances)),
-            hint: 'Zoom into the path between two bends, and compare its direction with that of the line that it crosses.',
-            right: `Half of all crossings have at least ${Numbers.digits(angle, 2)}\u00b0. The direction of steepest descent is perpendicular to the lines.`,
+            hint: 'Zoom into the path between two bends. Compare the direction of the path with that of the line that it crosses there.',
+            right: `At half of all crossings, the angle is at least ${Numbers.digits(angle, 2)}\u00b0: the direction of steepest descent is perpendicular to the lines.`,
           });
         },
       },

@@ -62,8 +62,8 @@ const PROOFS = (() => {
   }
 
   const SHAPES = [
-    'The edges of the picture are limits of the joints. Boxes that reach from one limit to another, or all around the start or a goal, leave no way past them. The boxes of a proof may overlap. Boxes that touch each other belong to the same wall.',
-    'One joint turns without end, so two edges of the picture are the same configurations: the space is a cylinder. A wall across it may still be passed around the other side. Boxes that touch each other, also across the seam, belong to the same wall.',
+    'The edges of the picture are limits of the joints. No path leads past boxes that reach from one limit to another, or all around the start or a goal. The boxes of a proof may overlap. Boxes that touch each other belong to the same wall.',
+    'One joint turns without end, so two edges of the picture are the same configurations: the space is a cylinder. A path may still go around a wall across the cylinder, on the other side. Boxes that touch each other, also across the seam, belong to the same wall.',
     'Both joints turn without end, so opposite edges of the picture are the same configurations: the space is a torus. A path can always go around a single wall from the other side. Boxes that touch each other, also across a seam, belong to the same wall.',
   ];
 
@@ -74,14 +74,14 @@ const PROOFS = (() => {
       {
         name: 'certified', figure: 'move', title: () => 'Free between all samples',
         isOffered: isSingle,
-        text: () => 'How can a whole motion be free, and not only its samples? Take the arm in the middle of a straight piece, and its distance from all obstacles. If no point of the arm moves farther than that within the piece, the piece is free. Otherwise, look at both halves.',
+        text: () => 'How can a whole motion be free, and not only its samples? Take the arm in the middle of a straight piece, and its distance from all obstacles. If no point of the arm moves farther than this distance within the piece, the piece is free. Otherwise, look at both halves.',
         question: ({ model }) => {
           const { gap, moved } = longestPiece(model);
           const isFree = moved < gap;
           return Ask.choice({
             prompt: `In the middle of the longest piece of this path, the arm is ${Numbers.length(gap, 0, Math.floor)} from the nearest obstacle. From there to an end of the piece, no point of the arm moves more than ${Numbers.length(moved, 0, Math.ceil)}. What follows?`,
-            options: ['The piece is free.', 'The piece has a collision.', 'Nothing so far: halve the piece.'], index: isFree ? 0 : 2,
-            hint: 'Compare both lengths. A bound on the motion can prove that nothing is touched, but a large bound proves no contact.',
+            options: ['The piece is free.', 'The piece has a collision.', 'Nothing yet: halve the piece.'], index: isFree ? 0 : 2,
+            hint: 'Compare both lengths. A small bound on the motion proves that nothing is touched. A large bound proves nothing, not even contact.',
             right: isFree ? 'The arm cannot get as far as the obstacle.' : 'The arm might get as far as the obstacle. The halves have smaller bounds.',
           });
         },
@@ -94,7 +94,7 @@ const PROOFS = (() => {
           prompt: 'Stop the motion where the arm is nearest to an obstacle, and check.',
           check: () => {
             const [here, least] = [distance(view.model, view.q), leastDistance(view.model)];
-            return here <= GREATER * least + HAIR ? null : `Here the arm keeps ${Numbers.length(here)}. Elsewhere it comes nearer.`;
+            return here <= GREATER * least + HAIR ? null : `Here the arm keeps ${Numbers.length(here)}. Elsewhere the arm comes nearer.`;
           },
           right: 'Nowhere else does the arm come much nearer.',
         }),
@@ -121,7 +121,7 @@ const PROOFS = (() => {
           return Ask.number({
             prompt: 'How many separate walls do the boxes of this proof form?', value: count,
             hint: 'Count the groups of hatched boxes that do not touch each other. Opposite edges may be the same place.',
-            right: count === 1 ? 'One wall is enough here.' : `It takes ${count} walls: with one alone, a path leads around the other side.`,
+            right: count === 1 ? 'One wall is enough here.' : `${count} walls are needed: past a single wall, a path leads around the other side.`,
           });
         },
       },

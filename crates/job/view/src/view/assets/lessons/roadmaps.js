@@ -17,8 +17,8 @@ const ROADMAPS = (() => {
   const A_GRAPH = 'A roadmap is a graph: its vertices are free configurations, and its edges are free straight motions.';
   const KINDS = {
     visibility: ['Corners that see each other', `${A_GRAPH} The visibility graph joins corners of the C-obstacles that see each other. The shortest path around polygons bends only at corners, so it is in this graph. Play the search.`],
-    prm: ['Random configurations, joined', `${A_GRAPH} A probabilistic roadmap draws random free configurations, and joins each to its neighbours. With more samples it finds a path more probably. If it finds none, nothing is proven.`],
-    voronoi: ['As far away as possible', `${A_GRAPH} The Voronoi diagram consists of the configurations that are equally near to two places of the boundary. Its paths keep as far away as possible, and are longer for it.`],
+    prm: ['Random configurations, joined', `${A_GRAPH} A probabilistic roadmap draws random free configurations, and joins each to its neighbours. With more samples, a path is found with higher probability. If no path is found, nothing is proven.`],
+    voronoi: ['As far away as possible', `${A_GRAPH} The Voronoi diagram consists of the configurations that are equally near to two places of the boundary. Its paths keep as far away from obstacles as possible, so they are longer.`],
     slices: ['Slices with exact free intervals', 'This planner cuts configuration space into slices of joint 1, in which free space is known exactly. A shortest path from slice to slice is a lower bound for all paths. Play the search: slices are added until the path is nearly as short as the bound.'],
   };
 
@@ -67,7 +67,7 @@ const ROADMAPS = (() => {
       const { edges = path.points } = world.trace;
       return Ask.place(view, {
         prompt: 'Click on a configuration that is on the roadmap.',
-        check: (q) => (fromEdges(arm, q, edges) <= NEAR ? null : 'No edge is there. The edges are the thin lines in free space.'),
+        check: (q) => (fromEdges(arm, q, edges) <= NEAR ? null : 'No edge is at this place. The edges are the thin lines in free space.'),
         right: 'An edge passes here. The search only considers such configurations.',
       });
     }

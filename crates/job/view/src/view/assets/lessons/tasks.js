@@ -26,7 +26,7 @@ const TASKS = (() => {
       },
       {
         name: 'carrying', figure: 'move', title: () => 'One search for all choices', isOffered,
-        text: ({ model: { motions } }) => `Each motion ends where the tip has to be, which up to two IK solutions reach. The planner chooses IK solutions, grips and order together, by a search over states: what is where, what the arm holds, and how it stands. This task has ${motions.length} motions.`,
+        text: ({ model: { motions } }) => `Each motion ends at a place of the tip, for which there are up to two IK solutions. The planner chooses IK solutions, grips and order together. It searches states of the world: the places of all objects, the object that the arm holds, and the configuration of the arm. This task has ${motions.length} motions.`,
         question: ({ model: { motions, worlds } }) => {
           const count = motions.filter(({ world }) => worlds[world].payload).length;
           return Ask.number({

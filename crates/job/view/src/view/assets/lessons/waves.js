@@ -42,7 +42,7 @@ const WAVES = (() => {
       {
         name: 'labels', figure: 'think', title: () => 'A wave from the goal',
         isOffered: (model) => Boolean(traceOf(model)),
-        text: () => 'The space is a grid of cells. The goal\u2019s cell gets the label 0, its free neighbours 1, their neighbours 2, and so on. From the start, the path steps to a smaller label each time. No other path along the axes has fewer moves. Play the wave.',
+        text: () => 'The space is a grid of cells. The goal\u2019s cell gets the label 0, its free neighbours 1, their neighbours 2, and so on. From the start, each step of the path leads to a smaller label. No other path along the axes has fewer moves. Play the wave.',
         question: (view) => {
           const { model } = view;
           const [start] = endsOf(model);
@@ -52,11 +52,11 @@ const WAVES = (() => {
             prompt: `Click on a cell that has a ${isLater ? 'greater' : 'smaller'} label than the start.`,
             check: (q) => {
               const level = levelAt(model, q);
-              if (level < 0) return 'That cell has no label: the wave never reached it.';
+              if (level < 0) return 'This cell has no label, because the wave did not reach it.';
               if (isLater ? level > own : level < own) return null;
               return `The colours count the moves to the goal. The wave comes to this cell ${level === own ? 'with' : isLater ? 'before' : 'after'} the start.`;
             },
-            right: `The wave came here ${isLater ? 'after' : 'before'} it came to the start.`,
+            right: `The wave reached this cell ${isLater ? 'after' : 'before'} the start.`,
           });
         },
       },
@@ -72,7 +72,7 @@ const WAVES = (() => {
           const value = moves(model, start, goal);
           return Ask.number({
             prompt: `The start is in column ${start[0] + 1}, row ${start[1] + 1}; the goal in column ${goal[0] + 1}, row ${goal[1] + 1}. How many moves lead from one to the other without obstacles?`,
-            value, hint: 'Add the difference of the columns and the difference of the rows. Around a circle, take the shorter way.',
+            value, hint: 'Add the difference of the columns and the difference of the rows. If a joint turns without end, take the shorter direction.',
             right: `${value} moves. A straight line would be shorter, but by no more than the factor \u221a2.`,
           });
         },
