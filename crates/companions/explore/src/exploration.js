@@ -359,9 +359,11 @@ class ExplorationView extends View {
   /** Returns the steps of the tour. */
   get tourSteps() {
     const { parts, layers, panels } = this;
+    const { here, there, isNarrow } = Tour.sides(panels.workspace.canvas, panels.cspace.canvas);
+    const workspace = panels.workspace.canvas.parentElement;
     return [
-      ['A world that is discovered', 'On the left, the map as far as the sensor has seen it. On the right, the configurations that are therefore known to be free.', parts.panels],
-      ['Take the arm', 'Drag the tip of the arm, or its dot on the right. The page says whether the arm knew that place by then, and what is really there. Escape puts the arm back.', panels.workspace.canvas.parentElement],
+      ['A world that is discovered', `${here}, the map as far as the sensor has seen it. ${there}, the configurations that are therefore known to be free.`, isNarrow ? workspace : parts.panels],
+      ['Take the arm', 'Drag the tip of the arm, or its dot in the configuration space. The page says whether the arm knew that place by then, and what is really there. Escape puts the arm back.', workspace],
       ['Drag the curve', 'The time bar is the coverage over the length of the path, with a tick for each reading. Space replays it.', parts.transport],
       ['Choose what is drawn', 'Each layer has its sign and a checkbox.', layers.root],
     ];
