@@ -311,3 +311,20 @@ def test_the_legend_names_what_lessons_draw(program, show_file):
     assert set(legend()) - set(moves) == {"reduced visibility graph"}
     seen.page.get_by_role("button", name="Motion", exact=True).click()
     assert legend() == moves
+
+
+def test_the_text_is_beside_the_figure_and_next_is_at_it(program, show):
+    page, _ = program.plan("planar_2r", "shelf")
+    for width, height in [(1400, 900), (1100, 800)]:
+        seen = show(f"{page.as_uri()}#learn=c_obstacles/sweep", width=width, height=height)
+        text, question, following, figure = (seen.page.locator(name).bounding_box() for name in (".course-head", ".course-foot", ".course-steps", ".pictures > .panels:not([hidden])"))
+        for box in (text, question, following):
+            assert box["x"] + box["width"] <= figure["x"], "a column of its own"
+            assert box["y"] + box["height"] <= height, "without scrolling"
+        assert abs(text["y"] - figure["y"]) < 24
+        seen.shoot(f"learn-{width}")
+    phone = show(f"{page.as_uri()}#learn=c_obstacles/sweep", width=390, height=844, has_touch=True, is_mobile=True)
+    following, figure = (phone.page.locator(name).bounding_box() for name in (".course-steps", ".pictures > .panels:not([hidden])"))
+    assert 0 <= figure["y"] - (following["y"] + following["height"]) < 24
+    phone.page.get_by_role("button", name="Next", exact=True).click()
+    assert phone.do("location.hash") == "#learn=c_obstacles/stack"

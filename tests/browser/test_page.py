@@ -564,6 +564,27 @@ def test_a_tour_of_four_steps_is_offered_once(program, show_file):
     assert not tour.is_visible()
 
 
+@pytest.mark.parametrize("size", [(1400, 900), (1100, 700), (390, 844)])
+@pytest.mark.parametrize(("robot", "world", "code"), [("planar_2r", "shelf", 0), ("rrbot_vertical", "tasks/tower", 0), ("planar_2r_continuous", "no_path", 3)])
+def test_the_tour_stands_beside_what_it_explains(program, show_file, robot, world, code, size):
+    page, _ = program.plan(robot, world, code=code)
+    seen = show_file(page, width=size[0], height=size[1])
+    seen.do("cplan.tour.start()")
+    tour = seen.page.get_by_role("dialog", name="Tour")
+    words = ""
+    for step in range(seen.do("cplan.tour.steps.length")):
+        words += tour.inner_text()
+        about = seen.page.locator(".toured")
+        if about.is_visible():
+            own, other = tour.bounding_box(), about.bounding_box()
+            common = [min(own[x] + own[side], other[x] + other[side]) - max(own[x], other[x]) for x, side in (("x", "width"), ("y", "height"))]
+            fits = other["height"] + own["height"] + 100 < size[1]
+            assert min(common) <= 1 or not fits, (step, own, other)
+        tour.locator(".primary").click()
+    assert ("Below" in words) == (size[0] < 800) and ("On the left" in words) != ("Below" in words)
+    assert ("Space plays" in words) == (code == 0 and not world.startswith("tasks")), "only of a motion that there is"
+
+
 def test_only_this_path_and_the_next_are_drawn(program, show_file):
     page, _ = program.plan("rrbot_vertical", "tasks/tower")
     seen = show_file(page)

@@ -155,3 +155,18 @@ def test_proofs_are_told_from_motions(program, show_file):
     assert "No certified motion leads to this solution" in report.inner_text()
     # The arm stays at home.
     assert seen.do("cplan.q") == pytest.approx(result["reach"]["home"], abs=2e-5)
+
+
+def test_the_configuration_space_has_no_gaps_at_a_straight_elbow(program, show_file):
+    page = program.folder / "straight.html"
+    program.run("reach", ROOT / "robots/planar_2r.urdf", ROOT / "workspaces/shelf.toml", "--quiet", "--picture", page)
+    seen = show_file(page)
+    bare = seen.do(
+        """() => { const panel = cplan.panels.cspace; const { data, width } = panel.back.getContext('2d').getImageData(0, 0, panel.back.width, panel.back.height);
+             let [bare, count] = [0, 0];
+             for (let x = -2.5; x < 2.5; x += 0.01) for (let y = -0.3; y < 0.3; y += 0.01) {
+               const [i, j] = panel.at([x, y]).map((at) => Math.round(at * panel.ratio));
+               count += 1; bare += data[4 * (j * width + i)] > 250 && data[4 * (j * width + i) + 2] > 250;
+             } return bare / count; }"""
+    )
+    assert bare < 0.01, "but the halos of names and of the motion"

@@ -61,7 +61,7 @@ def test_the_answer_comes_first(made, show_file):
     assert f"{summary['outcomes']['found']} found" in counts and f"{summary['outcomes']['infeasible']} infeasible" in counts
     assert seen.page.locator(".answer .command").inner_text() == f"cplan study small.toml --layout {best['layout']} --output layout_{best['layout']}.toml"
     # The picture of the best layout belongs to the answer.
-    assert seen.page.locator(".answer img").get_attribute("alt").startswith(f"best: layout {best['layout']} ")
+    assert seen.page.locator(".answer .picture svg").get_attribute("aria-label").startswith(f"best: layout {best['layout']} ")
     seen.shoot("study")
 
 

@@ -6,6 +6,8 @@
 #[cfg(feature = "cplan")]
 pub mod arms;
 #[cfg(feature = "cplan")]
+pub mod course;
+#[cfg(feature = "cplan")]
 pub mod flood;
 #[cfg(feature = "cplan")]
 pub mod follow_oracle;

@@ -15,7 +15,23 @@ pub const CHAPTERS: [(&str, &str); 7] = [
 ];
 
 /// The pictures of the chapters that are not replaced by live figures.
-pub const PICTURES: [(&str, &str); 3] = [
+pub const PICTURES: [(&str, &str); 19] = [
+    ("course/astar.svg", include_str!("../../../docs/pictures/course/astar.svg")),
+    ("course/boxes.svg", include_str!("../../../docs/pictures/course/boxes.svg")),
+    ("course/harmonic.svg", include_str!("../../../docs/pictures/course/harmonic.svg")),
+    ("course/minimum.svg", include_str!("../../../docs/pictures/course/minimum.svg")),
+    ("course/minkowski.svg", include_str!("../../../docs/pictures/course/minkowski.svg")),
+    ("course/payload.svg", include_str!("../../../docs/pictures/course/payload.svg")),
+    ("course/pieces.svg", include_str!("../../../docs/pictures/course/pieces.svg")),
+    ("course/probabilistic.svg", include_str!("../../../docs/pictures/course/probabilistic.svg")),
+    ("course/slice.svg", include_str!("../../../docs/pictures/course/slice.svg")),
+    ("course/solutions.svg", include_str!("../../../docs/pictures/course/solutions.svg")),
+    ("course/torus.svg", include_str!("../../../docs/pictures/course/torus.svg")),
+    ("course/trapezoids.svg", include_str!("../../../docs/pictures/course/trapezoids.svg")),
+    ("course/turning.svg", include_str!("../../../docs/pictures/course/turning.svg")),
+    ("course/visibility.svg", include_str!("../../../docs/pictures/course/visibility.svg")),
+    ("course/voronoi.svg", include_str!("../../../docs/pictures/course/voronoi.svg")),
+    ("course/wave.svg", include_str!("../../../docs/pictures/course/wave.svg")),
     ("khatib_blocked.svg", include_str!("../../../docs/pictures/khatib_blocked.svg")),
     ("khatib_cured.svg", include_str!("../../../docs/pictures/khatib_cured.svg")),
     ("khatib_trapped.svg", include_str!("../../../docs/pictures/khatib_trapped.svg")),

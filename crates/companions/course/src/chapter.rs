@@ -14,6 +14,8 @@ pub struct Chapter<'a> {
 pub struct Figure {
     /// Name of the page, with the place at which it opens: `proofs.html#learn=proofs`.
     pub address: String,
+    /// The still picture, which the figure replaces: `pictures/no_path.svg`.
+    pub picture: String,
     /// Path of the robot.
     pub robot: String,
     /// Path of the world.
@@ -60,12 +62,15 @@ impl<'a> Chapter<'a> {
     pub fn figure(&self) -> Option<Figure> {
         let address = self.text.lines().find_map(|line| line.strip_prefix(LIVE)?.strip_suffix(" -->"))?;
         let page = address.split('#').next()?;
+        let before = self.text.split_once(LIVE)?.0.trim_end();
+        let picture = before.strip_suffix(')')?.rsplit_once("](")?.1.to_owned();
         let is_command = |line: &&str| line.starts_with("cplan ") && line.ends_with(&format!(" --picture {page}"));
         let command = self.text.lines().find(is_command)?;
         let words: Vec<&str> = command.strip_suffix(page)?.strip_suffix(" --picture ")?.split_whitespace().collect();
         let [_, robot, world, options @ ..] = words.as_slice() else { return None };
         let options = options.iter().filter(|word| **word != "--quiet").map(|word| (*word).to_owned()).collect();
-        Some(Figure { address: address.to_owned(), robot: (*robot).to_owned(), world: (*world).to_owned(), options })
+        let [address, robot, world] = [address, *robot, *world].map(str::to_owned);
+        Some(Figure { address, picture, robot, world, options })
     }
 }
 

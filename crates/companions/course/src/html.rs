@@ -1,5 +1,6 @@
 //! Markdown as HTML, with the links of the course.
 
+use crate::chapter::Figure;
 use cplan_text::markup;
 use pulldown_cmark::{CowStr, Event, HeadingLevel, LinkType, Options, Parser, Tag, TagEnd, html};
 
@@ -9,15 +10,14 @@ pub struct Links<'a> {
     pub chapters: &'a [&'a str],
     /// Path from the page to the folder of the course: empty, or `../`.
     pub root: &'a str,
-    /// The page of the live figure, which replaces the first picture. `None` if the text has no live figure.
-    pub figure: Option<&'a str>,
+    /// The live figure, which replaces its picture. `None` if the text has none.
+    pub figure: Option<&'a Figure>,
 }
 
 impl Links<'_> {
     /// Converts a text. Links to pages outside the course become plain text, and comments are left out.
     pub fn html(&self, text: &str) -> String {
         let mut converted = Vec::new();
-        let mut figure = self.figure;
         // What follows an opening link or picture that is left out, down to its end.
         let (mut dropped_links, mut alternative): (usize, Option<String>) = (0, None);
         for event in Parser::new_ext(text, Options::ENABLE_TABLES) {
@@ -26,7 +26,7 @@ impl Links<'_> {
                     Event::Text(text) | Event::Code(text) => *words += &text,
                     Event::SoftBreak => words.push(' '),
                     Event::End(TagEnd::Image) => {
-                        let frame = figure.take().map(|address| self.frame(address, words));
+                        let frame = self.figure.map(|figure| self.frame(&figure.address, words));
                         converted.extend(frame.map(|frame| Event::InlineHtml(frame.into())));
                         alternative = None;
                     }
@@ -35,7 +35,11 @@ impl Links<'_> {
                 continue;
             }
             match event {
-                Event::Start(Tag::Image { .. }) if figure.is_some() => alternative = Some(String::new()),
+                Event::Start(Tag::Image { dest_url, .. })
+                    if self.figure.is_some_and(|figure| figure.picture == *dest_url) =>
+                {
+                    alternative = Some(String::new());
+                }
                 Event::Start(Tag::Image { link_type, dest_url, title, id }) => {
                     let dest_url = format!("{}{dest_url}", self.root).into();
                     converted.push(Event::Start(Tag::Image { link_type, dest_url, title, id }));

@@ -83,7 +83,7 @@ fn chapter_page(chapters: &[Chapter], names: &[&str], at: usize) -> String {
     let figure = chapter.figure();
     let links = |figure| Links { chapters: names, root: "", figure };
     let title = chapter.title();
-    let explanation = links(figure.as_ref().map(|figure| figure.address.as_str())).html(chapter.explanation());
+    let explanation = links(figure.as_ref()).html(chapter.explanation());
     let exercises = links(None).html(&chapter.exercises());
     let around = neighbors(chapters, at);
     let heading = markup(title);
@@ -125,7 +125,7 @@ mod tests {
     const CHAPTERS: [Chapter; 2] = [
         Chapter {
             name: "waves",
-            text: "# Waves\n\nA *wave*, see [fields](fields.md#exercises) and [planners](planners.md).\n\n![A picture](pictures/wave.svg)\n\
+            text: "# Waves\n\nA *wave*, see [fields](fields.md#exercises) and [planners](planners.md).\n\n![Small](pictures/small.svg)\n\n![A picture](pictures/wave.svg)\n\
                    <!-- live: waves.html#learn=waves -->\n\n```sh\ncplan robots/a.urdf workspaces/b.toml --cells 64 --quiet --picture \
                    waves.html\n```\n\n![Another](pictures/other.svg)\n\n## Exercises\n\n1. Why?\n\n<details><summary>Answer</summary>\n\nBecause \
                    `a < b`.\n\n</details>\n\n2. How?\n\n<details><summary>Answer</summary>\n\nSo.\n\n</details>\n",
@@ -141,7 +141,8 @@ mod tests {
     fn the_figure_is_live_and_answers_are_apart() {
         let page = text_of("waves.html");
         assert!(page.contains(r#"<iframe src="live/waves.html#learn=waves" title="A picture"></iframe>"#), "{page}");
-        assert!(page.contains(r#"src="pictures/other.svg""#) && !page.contains("wave.svg"), "{page}");
+        let has = |picture: &str| page.contains(&format!("src=\"pictures/{picture}.svg\""));
+        assert!(has("small") && has("other") && !page.contains("wave.svg"), "{page}");
         assert!(page.contains(r#"<a href="fields.html#exercises">fields</a> and planners."#), "{page}");
         assert!(page.contains("Why?") && page.contains("How?") && !page.contains("Because"), "{page}");
         assert!(!page.contains("<!--") && !page.contains("answers/"), "{page}");

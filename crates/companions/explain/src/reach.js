@@ -24,6 +24,9 @@ class ReachMap {
   /** Seconds of the shortest and of the longest play, and seconds for each radian or metre in between. */
   static DURATION = { least: 0.7, most: 4, unit: 0.9 };
 
+  /** Side of the squares in which the configuration space is coloured, in pixels. */
+  static PIXEL = 3;
+
   /** Radius of the numbered dots of IK solutions, in pixels. */
   static BADGE = 8;
 
@@ -171,27 +174,54 @@ class ReachMap {
   }
 
   /**
-   * Returns for each solution the parallelogram of configurations that its cell corresponds to, as four corners relative
-   * to the solution: the sides of the cell, mapped by the inverse Jacobian. Near singularities it is cut to `MOST`.
-   * @param {object} arm
-   * @param {ReachData} data
-   * @returns {Float64Array} eight numbers for each solution
+   * Colours each configuration as the nearest solution in the cell of its tip, or in a cell beside it if that has none, as
+   * at the edge of the workspace. So there are no gaps where the tip hardly moves.
+   * @param {CanvasRenderingContext2D} context
+   * @param {Panel} panel
+   * @param {View} view
+   * @param {ReachData} reach
    */
-  static shapes(arm, { solutions, cell }) {
-    const [STEP, MOST] = [1e-4, 12 * cell / (Math.hypot(...arm.offset) + Math.hypot(...arm.tip) || 1)];
-    const shapes = new Float64Array(4 * solutions.length);
-    for (let i = 0; i < solutions.length; i += 2) {
-      const q = [solutions[i], solutions[i + 1]];
-      const tip = Geometry.tipAt(arm, q);
-      const [[a, c], [b, d]] = [[q[0] + STEP, q[1]], [q[0], q[1] + STEP]].map((near) => Geometry.tipAt(arm, near).map((x, k) => (x - tip[k]) / STEP));
-      const determinant = a * d - b * c;
-      const cut = (x) => (Number.isFinite(x) ? Math.min(MOST, Math.max(-MOST, x)) : 0);
-      [[-1, -1], [1, -1], [1, 1], [-1, 1]].forEach(([x, y], k) => {
-        shapes[4 * i + 2 * k] = cut((cell / 2) * (d * x - b * y) / determinant);
-        shapes[4 * i + 2 * k + 1] = cut((cell / 2) * (a * y - c * x) / determinant);
-      });
+  static drawSolutions(context, panel, view, { corner, cell, size: [columns, rows], colors, counts, solutions, access }) {
+    const { arm } = view.model;
+    const { rect, theme } = panel;
+    const firsts = [0];
+    for (const digit of counts) firsts.push(firsts[firsts.length - 1] + Number(digit));
+    /** Returns the nearest solution of a cell, and its distance. */
+    const nearest = (q, i, j) => {
+      let [best, least] = [-1, Infinity];
+      if (i < 0 || j < 0 || i >= columns || j >= rows) return [best, least];
+      const at = j * columns + i;
+      for (let k = firsts[at]; k < firsts[at + 1]; k += 1) {
+        const distance = Math.hypot(...arm.joints.map((joint, c) => {
+          const by = q[c] - solutions[2 * k + c];
+          return joint.circle ? Math.atan2(Math.sin(by), Math.cos(by)) : by;
+        }));
+        if (distance < least) [best, least] = [k, distance];
+      }
+      return [best, least];
+    };
+    const kindAt = (q) => {
+      const [i, j] = Geometry.tipAt(arm, q).map((x, c) => Math.floor((x - corner[c]) / cell));
+      let [best] = nearest(q, i, j);
+      for (let k = 0, least = Infinity; best < 0 && k < 9; k += 1) {
+        const [other, distance] = nearest(q, i + (k % 3) - 1, j + Math.floor(k / 3) - 1);
+        if (distance < least) [best, least] = [other, distance];
+      }
+      return best < 0 ? '3' : access[best];
+    };
+    for (let y = 0; y < rect.height; y += ReachMap.PIXEL) {
+      const height = Math.min(ReachMap.PIXEL, rect.height - y);
+      for (let x = 0, from = 0, before = '3'; ; x += ReachMap.PIXEL) {
+        const kind = x < rect.width ? kindAt(panel.value([rect.x + x + ReachMap.PIXEL / 2, rect.y + y + ReachMap.PIXEL / 2])) : null;
+        if (kind === before) continue;
+        if (before !== '3') {
+          context.fillStyle = theme.tint(before === '1' ? colors[0] : colors[Number(before)]);
+          context.fillRect(rect.x + from, rect.y + y, Math.min(x, rect.width) - from, height);
+        }
+        if (kind === null) break;
+        [from, before] = [x, kind];
+      }
     }
-    return shapes;
   }
 
   // The state.

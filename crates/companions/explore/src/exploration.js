@@ -359,9 +359,11 @@ class ExplorationView extends View {
   /** Returns the steps of the tour. */
   get tourSteps() {
     const { parts, layers, panels } = this;
+    const { here, there, isNarrow } = Tour.sides(panels.workspace.canvas, panels.cspace.canvas);
+    const workspace = panels.workspace.canvas.parentElement;
     return [
-      ['Exploring a world', 'On the left, the part of the map that the sensor has seen. On the right, the configurations that are therefore known to be free.', parts.panels],
-      ['Take the arm', 'Drag the tip of the arm, or its dot on the right. The page states what the arm knows about this place at the shown time, and what is really there. Escape puts the arm back.', panels.workspace.canvas.parentElement],
+      ['Exploring a world', `${here}, the part of the map that the sensor has seen. ${there}, the configurations that are therefore known to be free.`, isNarrow ? workspace : parts.panels],
+      ['Take the arm', 'Drag the tip of the arm, or its dot in the configuration space. The page states what the arm knows about this place at the shown time, and what is really there. Escape puts the arm back.', workspace],
       ['Drag the curve', 'The time bar shows how much of the map has been seen, over the length of the path, with a tick for each reading. Space replays the exploration.', parts.transport],
       ['Choose what is drawn', 'Each layer has its sign and a checkbox.', layers.root],
     ];

@@ -4,10 +4,10 @@
 use super::Study;
 use super::measure::{Measure, Objective};
 use super::parameter::Parameter;
+use super::pictures::inline;
 use super::row::{Ending, Row};
 use super::summary::{Summary, format_value};
 use cplan_compare::Picture;
-use cplan_compare::page::image_source;
 use cplan_text::{for_a_shell, length, length_down, markup, percent};
 
 /// Formats a value with its unit for readers: millimetres below a metre, degrees instead of radians, at most five
@@ -103,10 +103,8 @@ pub fn section(study: &Study, summary: &Summary, rows: &[Row], picture: Option<&
             &format!("<p>This command writes the layout:</p>\n<pre class=\"command\" tabindex=\"0\">{command}</pre>\n");
     }
     let shown = picture.map_or_else(String::new, |Picture { title, svg }| {
-        let (title, source) = (markup(title), image_source(svg));
-        format!(
-            "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace\" src=\"{source}\"/></figure>\n"
-        )
+        let drawing = inline(svg, "answer", &format!("{}: workspace", markup(title)));
+        format!("<figure class=\"picture\" tabindex=\"0\">{drawing}</figure>\n")
     });
     format!("<section class=\"answer card\" aria-label=\"Answer\">\n{text}{shown}</section>\n")
 }

@@ -26,6 +26,7 @@ mod pictures;
 mod row;
 mod schema;
 mod search;
+mod shades;
 mod summary;
 mod swarm;
 mod table;

@@ -5,13 +5,13 @@
 use super::Study;
 use super::answer::{self, Shown, label, measured, with_unit};
 use super::drawings::Drawings;
-use super::measure::{Measure, Objective};
+use super::measure::Measure;
 use super::parameter::{Parameter, Values};
+use super::pictures::inline;
 use super::row::{Ending, Row};
+use super::shades::{Shades, scale};
 use super::summary::{Summary, format_value};
-use cplan_compare::page::{
-    Axis, Frame, chart, collapsible_section, figure, foot, frame, head, image_source, number, section, table, text,
-};
+use cplan_compare::page::{Axis, Frame, collapsible_section, figure, foot, frame, head, number, section, table};
 use cplan_compare::{Align, Column, Picture, Table};
 use cplan_text::{counted, markup};
 use serde_json::{Value, json};
@@ -127,8 +127,7 @@ impl Study {
             let [i, j] = [(a, &bins[0]), (b, &bins[1])].map(|(k, bins)| bins.place(row.values[k]));
             cells[j * bins[0].count + i].add(row, self.cost(row));
         }
-        let costs = || cells.iter().filter_map(|cell| cell.cost);
-        let [least, greatest] = [costs().fold(f64::INFINITY, f64::min), costs().fold(f64::NEG_INFINITY, f64::max)];
+        let shades = Shades::new(cells.iter().filter_map(|cell| cell.cost).collect());
         let shown = [(a, &bins[0]), (b, &bins[1])].map(|(k, bins)| {
             let Parameter { name, unit, values } = &self.parameters[k];
             (Shown::new(name, unit.as_deref(), values.range()), bins)
@@ -140,7 +139,7 @@ impl Study {
         for (number_of, cell) in cells.iter().enumerate() {
             let (i, j) = ((number_of % bins[0].count) as f64, (number_of / bins[0].count) as f64);
             let ([left, bottom], [right, top]) = (corner(i, j), corner(i + 1.0, j + 1.0));
-            let Some((color, text)) = cell.color_and_label(least, greatest) else { continue };
+            let Some((color, text)) = cell.color_and_label(&shades) else { continue };
             let Some((.., layout)) = cell.shown else { continue };
             linked.insert(layout);
             let [x, y, width, height] = [left, top, right - left, bottom - top].map(number);
@@ -159,7 +158,7 @@ impl Study {
             );
         }
         let title = format!("{} by {}", self.parameters[b].name, self.parameters[a].name);
-        let scale = self.objective.map_or_else(String::new, |objective| scale(objective, least, greatest));
+        let scale = self.objective.map_or_else(String::new, |objective| scale(objective, &shades));
         figure(&title, &(svg + "</svg>\n" + &scale))
     }
 
@@ -239,37 +238,6 @@ fn are_alike(a: &[[f64; 2]], b: &[[f64; 2]]) -> bool {
     a.len() == b.len() && a.iter().zip(b).all(near)
 }
 
-/// Left end and width of the scale of colours, in pixels. They are those of the map above it.
-const SCALE_EXTENT: [f64; 2] = [78.0, 368.0];
-/// Number of colours of the scale.
-const SCALE_SHADES: usize = 64;
-
-/// Draws the scale of colours from the least to the greatest cost. Returns an empty text if all costs are equal.
-fn scale(objective: Objective, least: f64, greatest: f64) -> String {
-    if greatest <= least || !(greatest - least).is_finite() {
-        return String::new();
-    }
-    let [left, width] = SCALE_EXTENT;
-    let shade_width = width / SCALE_SHADES as f64;
-    let values = [least, greatest].map(|cost| objective.cost(cost));
-    let ends = [values[0].min(values[1]), values[0].max(values[1])];
-    let shown = Shown::of(objective.measure, ends);
-    let axis = Axis::between(shown.value(ends[0]), shown.value(ends[1]));
-    let mut svg = chart([460.0, 52.0], "Scale of colours");
-    for k in 0..SCALE_SHADES {
-        // Rectangles overlap slightly, so that no seams are visible.
-        let [x, width] = [left + shade_width * k as f64, shade_width + 0.3].map(number);
-        let color = cplan_theme::scale(1.0 - (k as f64 + 0.5) / SCALE_SHADES as f64);
-        svg += &format!("<rect x=\"{x}\" y=\"2\" width=\"{width}\" height=\"12\" fill=\"{color}\"/>");
-    }
-    for (value, tick) in axis.ticks() {
-        // The best value is on the left, whether it is the least or the greatest.
-        let share = if objective.most { 1.0 - axis.place(value) } else { axis.place(value) };
-        svg += &text("tick", [left + width * share, 29.0], &tick);
-    }
-    svg + &text("tick", [left + width / 2.0, 46.0], &shown.title) + "</svg>\n"
-}
-
 const OUTCOME_HEADINGS: [&str; 3] = ["outcome", "layouts", "why"];
 
 /// Largest number of reasons that are listed.
@@ -291,10 +259,8 @@ const METHOD_NOTE: &str = "Every layout was planned separately. <em>Found</em>: 
 fn pictures_section(pictures: &[Picture]) -> String {
     let picture = |(number, Picture { title, svg }): (usize, &Picture)| {
         let title = markup(title);
-        let source = image_source(svg);
-        let shown = format!(
-            "<figure class=\"picture\" tabindex=\"0\"><img alt=\"{title}: workspace and configuration space\" src=\"{source}\"/></figure>\n"
-        );
+        let drawing = inline(svg, &format!("picture-{number}"), &format!("{title}: workspace and configuration space"));
+        let shown = format!("<figure class=\"picture\" tabindex=\"0\">{drawing}</figure>\n");
         if number == 0 { format!("<h3>{title}</h3>\n{shown}") } else { collapsible_section(&title, &shown) }
     };
     let all: String = pictures.iter().enumerate().map(picture).collect();
@@ -360,7 +326,7 @@ impl Cell {
     }
 
     /// Returns the colour and the description of a cell. `None` for a cell without layouts.
-    fn color_and_label(&self, least: f64, greatest: f64) -> Option<(String, String)> {
+    fn color_and_label(&self, shades: &Shades) -> Option<(String, String)> {
         if self.layouts == 0 {
             return None;
         }
@@ -371,8 +337,7 @@ impl Cell {
             "{layouts}: {found} with a motion, {fitting} fit, {infeasible} infeasible, {refused} refused{best}"
         );
         let color = match self.cost {
-            Some(cost) if greatest > least => cplan_theme::scale(1.0 - (cost - least) / (greatest - least)).to_string(),
-            Some(_) => cplan_theme::scale(1.0).to_string(),
+            Some(cost) => shades.color(cost).to_string(),
             None if self.found > 0 => UNFIT_COLOR.to_owned(),
             None if self.infeasible == self.layouts => INFEASIBLE_COLOR.to_owned(),
             None => NO_MOTION_COLOR.to_owned(),

@@ -30,3 +30,11 @@ pub fn pictures(study: &Study, rows: &[Row]) -> Vec<Picture> {
     };
     shown.into_iter().filter_map(|(word, row)| picture((word, row?))).flatten().collect()
 }
+
+/// Returns a picture as an element of a page, so that it has the page's typeface. `id` distinguishes its names from those of
+/// other pictures. `label` describes it, as markup.
+pub fn inline(svg: &str, id: &str, label: &str) -> String {
+    let svg = svg.replace("<clipPath id=\"", &format!("<clipPath id=\"{id}-"));
+    let svg = svg.replace("clip-path=\"url(#", &format!("clip-path=\"url(#{id}-"));
+    svg.replacen("<svg ", &format!("<svg role=\"img\" aria-label=\"{label}\" "), 1)
+}

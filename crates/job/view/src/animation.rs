@@ -16,6 +16,8 @@ const MAX_REPLAY_SECONDS: f64 = 6.0;
 
 /// Time for which the last picture of a phase is shown, in hundredths of a second.
 const PHASE_DELAY: u16 = 36;
+/// Time for which the arm is shown at the end of its motion, in hundredths of a second: long enough to see the goal.
+const GOAL_DELAY: u16 = 80;
 /// Time for which the last picture of the animation is shown, in hundredths of a second.
 const END_DELAY: u16 = 200;
 
@@ -52,6 +54,7 @@ pub fn moments(view: &View) -> Vec<Moment> {
         let count = frames(duration.clamp(MOTION_TIMES[0], MOTION_TIMES[1]));
         let shown = (0..=count).map(|k| MomentKind::Moving(duration * k as f64 / count as f64));
         moments.extend(shown.map(|kind| Moment { kind, delay: FRAME_DELAY }));
+        moments.last_mut().into_iter().for_each(|moment| moment.delay = GOAL_DELAY);
     }
     moments.push(Moment { kind: MomentKind::Still, delay: END_DELAY });
     moments

@@ -107,7 +107,7 @@ fn shortest_line(scene: &Scene, q: Configuration, near: &Contact) -> [[f64; 2]; 
 }
 
 /// Returns the nearest points of two convex polygons that are apart. One of the points is a corner.
-fn nearest_points(a: &[[f64; 2]], b: &[[f64; 2]]) -> [[f64; 2]; 2] {
+pub fn nearest_points(a: &[[f64; 2]], b: &[[f64; 2]]) -> [[f64; 2]; 2] {
     let sides = |of: &[[f64; 2]]| (0..of.len()).map(|i| [of[i], of[(i + 1) % of.len()]]).collect::<Vec<_>>();
     let from_corners = |corners: &[[f64; 2]], of: &[[f64; 2]]| {
         let sides = sides(of);

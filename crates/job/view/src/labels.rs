@@ -1,15 +1,15 @@
-//! The placer of names in a panel. A name lies neither on the arm, nor on a marker, nor on another name. It avoids paths
-//! as far as possible, is joined to a distant shape by a line, and is omitted if it has no place.
+//! The placer of names in a panel. A name lies within its shape, touches it, or has a line that ends on it. It lies
+//! neither on the arm, nor on a marker, nor on another name, avoids paths as far as possible, and is omitted if it has no
+//! place.
 //!
 //! Pages have the same rule in `view/assets/labels.js`: the same places in the same order, with the same costs. A change
 //! here needs the same change there.
 
 use super::axes::Frame;
 use super::figure::{Anchor, Item, Label, Rect, Step, Style, bold_text_width, shortened};
+use super::named::{Named, in_pixels, outline_of};
 use super::regions::RegionRaster;
-use super::view::bounding_box;
-use cplan_geometry::{Convex, Point, separation};
-use cplan_model::Shape;
+use cplan_geometry::{Convex, separation};
 use cplan_theme::{GRAY, INK, WHITE};
 
 const NAME_SIZE: f64 = 12.0;
@@ -21,10 +21,9 @@ const NAME_HEIGHT: f64 = 15.0;
 const NAME_GAP: f64 = 3.0;
 /// Distances from the shape at which a name needs a line to it, in pixels.
 const LEADER_GAPS: [f64; 3] = [18.0, 36.0, 58.0];
-/// Side of the square in the middle of a wall that the wall's name refers to, in pixels.
-const WALL_SPOT_SIDE: f64 = 10.0;
-/// Side of the square in a small region that the region's name refers to, in pixels.
-const REGION_SPOT_SIDE: f64 = 8.0;
+/// Greatest distance between a name's box and its shape without a line, in pixels: across a corner, or beside the drawn
+/// line of a wall.
+const TOUCH: f64 = 5.0;
 /// Distance between the points that stand for a line, in pixels.
 const LINE_STEP: f64 = 4.0;
 /// Distance that a name keeps from the points of a line, in pixels, unless it must cross it.
@@ -40,9 +39,6 @@ const PLACE_COST: f64 = 0.01;
 const CROSSING_COST: f64 = 3.0;
 /// Cost of a line to the shape.
 const LEADER_COST: f64 = 0.6;
-
-/// A name, and the box of the shape that it names.
-pub type Named = (String, Rect);
 
 /// A name and the surface of any shape that it names: an outline that is filled by the non-zero rule.
 pub struct NamedRegion {
@@ -74,11 +70,7 @@ impl Placer {
 
     /// Lets names avoid a convex shape of the panel's plane, such as a part of the arm.
     pub fn block_shape(&mut self, frame: &Frame, shape: &Convex) {
-        let corner = |p: Point| {
-            let [x, y] = frame.at(p.x, p.y);
-            Point::new(x, -y)
-        };
-        self.shapes.push(shape.mapped(corner, shape.radius() * frame.scale()));
+        self.shapes.push(in_pixels(frame, shape));
     }
 
     /// Lets names avoid a marker.
@@ -121,22 +113,32 @@ impl Placer {
     /// Places names, each with the box of its shape. A name lies on its shape. If the shape is too small, the name lies
     /// beside it, where it covers least of the other shapes.
     pub fn beside(&mut self, names: &[Named]) {
-        for (index, (name, of)) in names.iter().enumerate() {
-            let others = names.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, (_, place))| place);
+        for (index, name) in names.iter().enumerate() {
+            let others = names.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| &other.rect);
             let covered = |b: &Rect| others.clone().map(|other| covered_share(b, other)).sum::<f64>();
-            self.put(name, of, covered);
+            self.put(name, |place, _| covered(place));
         }
     }
 
     /// Does the same as [`Placer::beside`] among regions. A name covers as little of them as possible.
     pub fn beside_among(&mut self, names: &[Named], regions: &[NamedRegion]) {
         let raster = RegionRaster::new(self.page, regions.iter().map(|region| &region.outline[..]));
-        names.iter().for_each(|(name, of)| self.put(name, of, |place| raster.covered_share(place)));
+        names.iter().for_each(|name| self.put(name, |place, _| raster.covered_share(place, None)));
     }
 
     /// Places names on regions of any shape: within the part of a region that is visible, as far as possible from its
-    /// outline, or beside a smaller part with a line to it. Later regions cover earlier ones.
+    /// outline, or beside a smaller part. A name that would cover another region there has a line to its own. Later
+    /// regions cover earlier ones.
     pub fn on_regions(&mut self, regions: &[NamedRegion]) {
+        self.on_all(regions, true);
+    }
+
+    /// Does the same on bars, which may be lower than letters: a name is within its bar, above it or below it.
+    pub fn on_bars(&mut self, regions: &[NamedRegion]) {
+        self.on_all(regions, false);
+    }
+
+    fn on_all(&mut self, regions: &[NamedRegion], may_stick_out: bool) {
         if regions.is_empty() {
             return;
         }
@@ -147,22 +149,29 @@ impl Placer {
         for (index, region) in regions.iter().enumerate() {
             let name = shortened(&region.text, NAME_SIZE, MAX_NAME_WIDTH);
             let size = size(&name);
-            let place = raster.roomiest(index, size);
+            let place = raster.roomiest(index, size, may_stick_out);
+            let spot = |text: String, at: [f64; 2]| {
+                let rect = if may_stick_out { centered_rect(at, [0.0; 2]) } else { raster.upright_part(index, at) };
+                Named::of_box(text, rect)
+            };
             if let Some((at, true)) = place {
                 let place = moved_into_page(centered_rect(at, size), &self.page);
                 // A name that sticks out of its region may meet another one that does.
                 if self.is_blocked(&place) {
-                    rest.push((name, centered_rect(at, [REGION_SPOT_SIDE; 2])));
+                    rest.push((index, spot(name, at)));
                 } else {
                     self.write(name, place);
                 }
             } else if let Some(at) = place.map(|(at, _)| at).or_else(|| raster.any_part(index)) {
                 // The path may cover all of a small region.
-                rest.push((name, centered_rect(at, [REGION_SPOT_SIDE; 2])));
+                rest.push((index, spot(name, at)));
             }
         }
-        for (name, of) in rest {
-            self.put(&name, &of, |place| raster.covered_share(place));
+        for (index, name) in rest {
+            self.put(&name, |place, has_line| match raster.covered_share(place, Some(index)) {
+                foreign if foreign > 0.0 && !has_line => f64::INFINITY,
+                _ => raster.covered_share(place, None),
+            });
         }
     }
 
@@ -178,20 +187,15 @@ impl Placer {
         if !is_within(place, &self.page) || self.boxes.iter().any(|other| overlap(place, other) > 0.0) {
             return true;
         }
-        let [left, right, top, bottom] = [place.x, place.right(), -place.y, -place.bottom()];
-        let corners = [[left, bottom], [right, bottom], [right, top], [left, top]].map(|[x, y]| Point::new(x, y));
-        let own = Convex::trusted(corners.to_vec(), 1.0);
+        let own = outline_of(place, 1.0);
         self.shapes.iter().any(|shape| separation(&own, shape).distance <= 0.0)
     }
 
-    /// Returns true if the line from a name to its shape would cross another name.
-    fn crosses_name(&self, place: &Rect, of: &Rect) -> bool {
-        let [Step::Move(begin), Step::Line(end)] = leader(place, of)[..] else { return false };
+    /// Returns true if the line from a name to a place on its shape would cross another name.
+    fn crosses_name(&self, place: &Rect, end: [f64; 2]) -> bool {
+        let begin = clamped(end, place);
         let count = ((end[0] - begin[0]).hypot(end[1] - begin[1]) / LINE_STEP).ceil();
         let spot = |k: usize| [0, 1].map(|c| begin[c] + (end[c] - begin[c]) * k as f64 / count.max(1.0));
-        let holds = |name: &Rect, [x, y]: [f64; 2]| {
-            (name.x..=name.right()).contains(&x) && (name.y..=name.bottom()).contains(&y)
-        };
         (0..=count as usize).map(spot).any(|spot| self.names.iter().any(|name| holds(name, spot)))
     }
 
@@ -200,23 +204,30 @@ impl Placer {
         self.points.iter().any(|point| x.contains(&point[0]) && y.contains(&point[1]))
     }
 
-    /// Places a name at the best of its free places, or leaves it out. `cost` adds to the cost of a box.
-    fn put(&mut self, name: &str, of: &Rect, cost: impl Fn(&Rect) -> f64) {
-        let name = shortened(name, NAME_SIZE, MAX_NAME_WIDTH);
+    /// Places a name at the best of its free places, or leaves it out. `cost` adds to the cost of a box, with or without
+    /// a line to the shape.
+    fn put(&mut self, named: &Named, cost: impl Fn(&Rect, bool) -> f64) {
+        let name = shortened(&named.text, NAME_SIZE, MAX_NAME_WIDTH);
         let (mut best, mut least) = (None, f64::INFINITY);
-        for (index, (place, is_far)) in places(size(&name), of).into_iter().enumerate() {
-            let known = PLACE_COST * index as f64 + if is_far { LEADER_COST } else { 0.0 };
-            if known >= least || self.is_blocked(&place) || is_far && self.crosses_name(&place, of) {
+        for (index, (place, is_far)) in places(size(&name), &named.rect).into_iter().enumerate() {
+            let known = PLACE_COST * index as f64;
+            if known >= least || self.is_blocked(&place) {
                 continue;
             }
-            let whole = known + if self.crosses_line(&place) { CROSSING_COST } else { 0.0 } + cost(&place);
+            let (distance, end) = named.nearest(&place);
+            let has_line = is_far || distance > TOUCH;
+            if has_line && (!holds(&self.page, end) || self.crosses_name(&place, end)) {
+                continue;
+            }
+            let crossing = if self.crosses_line(&place) { CROSSING_COST } else { 0.0 };
+            let whole = known + if has_line { LEADER_COST } else { 0.0 } + crossing + cost(&place, has_line);
             if whole < least {
-                (best, least) = (Some((place, is_far)), whole);
+                (best, least) = (Some((place, has_line.then_some(end))), whole);
             }
         }
-        let Some((place, is_far)) = best else { return };
-        if is_far {
-            let steps = leader(&place, of);
+        let Some((place, end)) = best else { return };
+        if let Some(end) = end {
+            let steps = vec![Step::Move(clamped(end, &place)), Step::Line(end)];
             self.block_line(&steps);
             let pens = [(WHITE, 3.0), (GRAY, 1.0)];
             self.items.extend(pens.map(|(color, width)| Item::Outline(steps.clone(), Style::line(color, width))));
@@ -241,7 +252,7 @@ impl Placer {
     }
 }
 
-/// Returns the possible places of a name, nearest first, and whether each needs a line to the shape.
+/// Returns the possible places of a name, nearest first, and whether each is too far from the shape to have no line.
 fn places(size: [f64; 2], of: &Rect) -> Vec<(Rect, bool)> {
     let fits = size[0] <= of.width && size[1] <= of.height;
     let middle = [of.x + of.width / 2.0, of.y + of.height / 2.0];
@@ -254,31 +265,15 @@ fn places(size: [f64; 2], of: &Rect) -> Vec<(Rect, bool)> {
     near.chain(far.map(|(side, gap)| (at(side, gap), true))).collect()
 }
 
-/// Returns the line from a name to the shape that it names.
-fn leader(place: &Rect, of: &Rect) -> Vec<Step> {
-    let into = |r: &Rect, [x, y]: [f64; 2]| [x.clamp(r.x, r.right()), y.clamp(r.y, r.bottom())];
-    let end = into(of, [place.x + place.width / 2.0, place.y + place.height / 2.0]);
-    vec![Step::Move(into(place, end)), Step::Line(end)]
+/// Returns the point of a box that is nearest to a point.
+fn clamped([x, y]: [f64; 2], to: &Rect) -> [f64; 2] {
+    [x.clamp(to.x, to.right()), y.clamp(to.y, to.bottom())]
 }
 
 /// Returns the share of a shape's box that a name would cover. It is better to hide a part of a large shape than the
 /// whole of a small one.
 fn covered_share(place: &Rect, other: &Rect) -> f64 {
     overlap(place, other) / (other.width * other.height).max(NAME_HEIGHT * NAME_HEIGHT)
-}
-
-/// Returns the box to which the name of a shape refers. It is the box around the whole shape, or for a wall a square in
-/// the middle of its longest stretch.
-pub fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = &'a Convex>) -> Rect {
-    if let Shape::Polyline(points) = shape {
-        let longest = points.windows(2).max_by(|a, b| (a[1] - a[0]).norm().total_cmp(&(b[1] - b[0]).norm()));
-        if let Some([a, b]) = longest {
-            return centered_rect(frame.at((a.x + b.x) / 2.0, (a.y + b.y) / 2.0), [WALL_SPOT_SIDE; 2]);
-        }
-    }
-    let [x, y] = bounding_box(pieces);
-    let ([left, bottom], [right, top]) = (frame.at(x.0, y.0), frame.at(x.1, y.1));
-    Rect { x: left, y: top, width: right - left, height: bottom - top }
 }
 
 /// Returns a rectangle of this size, centred at a place.
@@ -313,6 +308,10 @@ pub fn is_within(place: &Rect, page: &Rect) -> bool {
     place.x >= page.x && place.y >= page.y && place.right() <= page.right() && place.bottom() <= page.bottom()
 }
 
+fn holds(place: &Rect, [x, y]: [f64; 2]) -> bool {
+    (place.x..=place.right()).contains(&x) && (place.y..=place.bottom()).contains(&y)
+}
+
 fn size(name: &str) -> [f64; 2] {
     [bold_text_width(name, NAME_SIZE) + 6.0, NAME_HEIGHT]
 }
@@ -321,6 +320,7 @@ fn size(name: &str) -> [f64; 2] {
 mod tests {
     use super::super::figure::rectangle;
     use super::*;
+    use cplan_geometry::Point;
 
     const PAGE: Rect = Rect { x: 0.0, y: 0.0, width: 300.0, height: 300.0 };
 
@@ -332,7 +332,7 @@ mod tests {
     }
 
     fn named(name: &str, place: Rect) -> Named {
-        (name.to_owned(), place)
+        Named::of_box(name.to_owned(), place)
     }
 
     #[test]
@@ -389,6 +389,63 @@ mod tests {
         let [Item::Outline(..), Item::Outline(steps, _), Item::Text(label)] = &items[..] else { panic!("{items:?}") };
         assert_eq!(steps[1], Step::Line([150.0, 145.0]));
         assert!(label.at[1] < 126.0);
+    }
+
+    /// The box around a hollow shape is no part of it: a name that does not touch the shape has a line to it.
+    #[test]
+    fn lines_end_on_shapes() {
+        let frame = Frame::filling(PAGE, (0.0, 300.0), (0.0, 300.0));
+        let wall = |corners: [[f64; 2]; 4]| Convex::trusted(corners.map(|[x, y]| Point::new(x, y)).to_vec(), 0.0);
+        // A U that opens upwards. All places are taken, except those between its ends.
+        let pieces = [
+            wall([[100.0, 100.0], [200.0, 100.0], [200.0, 110.0], [100.0, 110.0]]),
+            wall([[100.0, 100.0], [110.0, 100.0], [110.0, 200.0], [100.0, 200.0]]),
+            wall([[190.0, 100.0], [200.0, 100.0], [200.0, 200.0], [190.0, 200.0]]),
+        ];
+        let rect = Rect { x: 100.0, y: 100.0, width: 100.0, height: 100.0 };
+        let mut placer = Placer::new(PAGE);
+        placer.block_box(Rect { x: 0.0, y: 99.0, width: 300.0, height: 201.0 });
+        placer.block_box(Rect { x: 0.0, y: 0.0, width: 125.0, height: 99.0 });
+        placer.block_box(Rect { x: 175.0, y: 0.0, width: 125.0, height: 99.0 });
+        placer.beside(&[Named::of_pieces("box".to_owned(), rect, &frame, &pieces)]);
+        let items = placer.into_items();
+        let [Item::Outline(steps, _), _, Item::Text(label)] = &items[..] else { panic!("{items:?}") };
+        assert!((label.at[0] - 150.0).abs() < 1.0, "{label:?}");
+        let Step::Line([x, y]) = steps[1] else { panic!("{steps:?}") };
+        assert!((x - 110.0).abs() < 1e-9 || (x - 190.0).abs() < 1e-9, "{x}");
+        assert!((y - 100.0).abs() < 1e-9, "{y}");
+    }
+
+    /// A small region among others has a line to its name, which would seem to name one of the others.
+    #[test]
+    fn names_on_other_regions_have_lines() {
+        let region = |text: &str, place: Rect| NamedRegion { text: text.to_owned(), outline: rectangle(place) };
+        let mut placer = Placer::new(PAGE);
+        let small = Rect { x: 146.0, y: 146.0, width: 8.0, height: 8.0 };
+        placer.on_regions(&[
+            region("wide", Rect { x: 20.0, y: 20.0, width: 260.0, height: 260.0 }),
+            region("narrow", small),
+        ]);
+        let items = placer.into_items();
+        let [Item::Outline(..), Item::Outline(steps, _), Item::Text(_), Item::Text(_)] = &items[..] else {
+            panic!("{items:?}")
+        };
+        let Step::Line([x, y]) = steps[1] else { panic!("{steps:?}") };
+        assert!((146.0..=154.0).contains(&x) && (146.0..=154.0).contains(&y), "{x}, {y}");
+    }
+
+    /// A bar that is lower than letters has its name above it, a higher one within it.
+    #[test]
+    fn names_do_not_cover_low_bars() {
+        for (height, is_within) in [(13.0, false), (40.0, true)] {
+            let mut placer = Placer::new(PAGE);
+            let bar = Rect { x: 20.0, y: 100.0, width: 260.0, height };
+            placer.on_bars(&[NamedRegion { text: "cart blocks".to_owned(), outline: rectangle(bar) }]);
+            assert_eq!(placer.items.len(), 1, "no line");
+            let [name] = placer.names[..] else { panic!("one name") };
+            assert_eq!(overlap(&name, &bar) > 0.0, is_within, "{name:?}");
+            assert!((name.bottom() - bar.y).abs() < 8.0 || is_within, "{name:?}");
+        }
     }
 
     /// Crowded names lie on the page and apart from each other.

@@ -38,6 +38,7 @@ mod legend;
 mod letter_widths;
 #[cfg(feature = "png")]
 mod letters;
+mod named;
 mod object;
 mod obstacles;
 mod page;

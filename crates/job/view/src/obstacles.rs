@@ -3,7 +3,8 @@
 use super::axes::{Frame, Range, Unit};
 use super::figure::{Figure, Item};
 use super::key::{Key, Sign};
-use super::labels::{self, Placer};
+use super::labels::Placer;
+use super::named::Named;
 use super::view::{ObstacleView, RoundingSteps, bounding_box};
 use super::{page, shapes};
 use cplan_model::Obstacle;
@@ -54,7 +55,7 @@ fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
     if obstacles.len() > MAX_NAMES {
         return Vec::new();
     }
-    let named = |o: &Obstacle| (o.name.clone(), labels::place(frame, &o.shape, &o.pieces));
+    let named = |o: &Obstacle| Named::of_shape(o.name.clone(), frame, &o.shape, &o.pieces);
     let mut placer = Placer::new(frame.rect);
     placer.beside(&obstacles.iter().map(named).collect::<Vec<_>>());
     placer.into_items()

@@ -54,27 +54,43 @@ impl RegionRaster {
     /// Returns the middle of the best place in a region for a name of this size in pixels, and whether the name fits
     /// there. `None` if no cell of the region is visible.
     ///
-    /// A name that fits within the region lies as far as possible from its outline. Otherwise, its middle lies on the
-    /// region, and the rest covers nothing else.
-    pub fn roomiest(&self, region: usize, size: [f64; 2]) -> Option<([f64; 2], bool)> {
+    /// A name that fits within the region lies as far as possible from its outline. Otherwise, if it may stick out, its
+    /// middle lies on the region, and the rest covers nothing else.
+    pub fn roomiest(&self, region: usize, size: [f64; 2], may_stick_out: bool) -> Option<([f64; 2], bool)> {
         let size = size.map(|side| (side / CELL).ceil() as usize);
-        Search::new(self, &self.cells, region, size)?.roomiest().map(|(at, fits)| (self.on_page(at), fits))
+        let search = Search::new(self, &self.cells, region, size)?;
+        search.roomiest(may_stick_out).map(|(at, fits)| (self.on_page(at), fits))
+    }
+
+    /// Returns the upright part of a region through a place on it, as a box without width.
+    pub fn upright_part(&self, region: usize, [x, y]: [f64; 2]) -> Rect {
+        let [column, row] = [x - self.page.x, y - self.page.y].map(|at| (at / CELL).floor().max(0.0) as usize);
+        let is_own = |row: &usize| {
+            let cell = (column < self.columns).then(|| self.full.get(row * self.columns + column)).flatten();
+            cell == Some(&(region as i32 + 1))
+        };
+        let above = (0..row).rev().take_while(is_own).count();
+        let below = (row..self.rows).take_while(is_own).count();
+        let top = self.page.y + (row - above) as f64 * CELL;
+        Rect { x, y: top, width: 0.0, height: (above + below) as f64 * CELL }
     }
 
     /// Returns the middle of the largest part of a region, even if it is blocked.
     pub fn any_part(&self, region: usize) -> Option<[f64; 2]> {
-        let (at, _) = Search::new(self, &self.full, region, [1, 1])?.roomiest()?;
+        let (at, _) = Search::new(self, &self.full, region, [1, 1])?.roomiest(true)?;
         Some(self.on_page(at))
     }
 
-    /// Returns the share of a box that lies on regions. It is sampled at 15 points.
-    pub fn covered_share(&self, place: &Rect) -> f64 {
+    /// Returns the share of a box that lies on regions, except on one if it is given. It is sampled at 15 points.
+    pub fn covered_share(&self, place: &Rect, except: Option<usize>) -> f64 {
+        let own = except.map_or(NOTHING, |region| region as i32 + 1);
         let spots = (0..5).flat_map(|i| (0..3).map(move |j| [(f64::from(i) + 0.5) / 5.0, (f64::from(j) + 0.5) / 3.0]));
         let is_region = |[x, y]: [f64; 2]| {
             let at = [place.x + place.width * x - self.page.x, place.y + place.height * y - self.page.y];
             let [column, row] = at.map(|at| (at / CELL).floor());
             let is_inside = column >= 0.0 && row >= 0.0 && column < self.columns as f64 && row < self.rows as f64;
-            is_inside && self.full[row as usize * self.columns + column as usize] > 0
+            let cell = if is_inside { self.full[row as usize * self.columns + column as usize] } else { NOTHING };
+            cell != NOTHING && cell != own
         };
         spots.filter(|&spot| is_region(spot)).count() as f64 / 15.0
     }
@@ -172,7 +188,7 @@ impl<'a> Search<'a> {
         self.cells[(self.corner[1] + y) * self.raster.columns + self.corner[0] + x]
     }
 
-    fn roomiest(&self) -> Option<([f64; 2], bool)> {
+    fn roomiest(&self, may_stick_out: bool) -> Option<([f64; 2], bool)> {
         let [width, height] = self.size;
         if let Some(fit) = self.fitting([width, height]) {
             return Some((self.with_largest_margin(fit), true));
@@ -183,7 +199,7 @@ impl<'a> Search<'a> {
             let is_on = self.cell(x + width / 2, y + height / 2) == self.id;
             (is_on && foreign.count([x, y], self.size) == 0 && part >= MIN_PART).then_some(part)
         };
-        if let Some(place) = self.best(self.size, part) {
+        if let Some(place) = may_stick_out.then(|| self.best(self.size, part)).flatten() {
             return Some((place, true));
         }
         let mut side = 1;

@@ -4,6 +4,7 @@
 use super::axes::{Frame, Unit};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, bold, chain, label, lines};
 use super::labels::{NamedRegion, Placer};
+use super::named::Named;
 use super::view::{StripView, View};
 use cplan_model::space::Configuration;
 use cplan_theme::{ACCENT, GRAY, INK, Rgb};
@@ -81,11 +82,11 @@ pub fn items(strip: &StripView, view: &View, area: Rect) -> Vec<Item> {
         .iter()
         .map(|wait| {
             let ([x, y], [right, _]) = (frame.at(wait.from, wait.at), frame.at(wait.to, wait.at));
-            (wait.text.clone(), Rect { x, y: y - 2.0, width: right - x, height: 4.0 })
+            Named::of_box(wait.text.clone(), Rect { x, y: y - 2.0, width: right - x, height: 4.0 })
         })
         .collect();
     placer.beside_among(&words, &regions);
-    placer.on_regions(&regions);
+    placer.on_bars(&regions);
     inside.extend(placer.into_items());
     let mut items = vec![Item::Clip(rect, inside)];
     items.extend(frame.border(units, ["time (s)", "progress"].map(str::to_owned), [false; 2]));

@@ -1,6 +1,7 @@
 //! Numbers of steps at the places where the steps end.
 
-use super::labels::{Named, centered_rect};
+use super::labels::centered_rect;
+use super::named::Named;
 use super::view::ranges;
 
 /// Distance in pixels below which places have one name for their numbers.
@@ -26,7 +27,7 @@ pub fn add(tags: &mut Vec<Tag>, at: [f64; 2], number: usize) {
 
 /// Returns the numbers as names for the placer. `half` is half the width of the markers at the places, in pixels.
 pub fn names(tags: &[Tag], half: f64) -> Vec<Named> {
-    tags.iter().map(|tag| (ranges(&tag.numbers), centered_rect(tag.at, [2.0 * half; 2]))).collect()
+    tags.iter().map(|tag| Named::of_box(ranges(&tag.numbers), centered_rect(tag.at, [2.0 * half; 2]))).collect()
 }
 
 #[cfg(test)]
@@ -39,7 +40,7 @@ mod tests {
         for (x, number) in [(50.0, 1), (51.0, 2), (50.0, 1), (90.0, 3), (50.5, 7)] {
             add(&mut tags, [x, 50.0], number);
         }
-        let names: Vec<String> = names(&tags, 4.0).into_iter().map(|(name, _)| name).collect();
+        let names: Vec<String> = names(&tags, 4.0).into_iter().map(|name| name.text).collect();
         assert_eq!(names, ["1\u{2013}2, 7", "3"]);
     }
 }

@@ -3,7 +3,8 @@
 use super::arm::{self, ArmStyle, CURRENT_LOOK, GHOST_LOOK, GOAL_LOOK, START_LOOK, UNREACHED_LOOK};
 use super::axes::{Frame, Unit};
 use super::figure::{Anchor, Item, Rect, Step, Style, chain, label, lines, lines_by_path, text_width};
-use super::labels::{self, Named, Placer};
+use super::labels::{self, Placer};
+use super::named::Named;
 use super::tags::{self, Tag};
 use super::view::{ObstacleView, PathView, View, bounding_box, reach_shape, titles};
 use super::{blocking, checked, followed, frames, preferences, shapes};
@@ -13,6 +14,8 @@ use cplan_theme::{GRAY, INFEASIBLE, INK, PALE, WHITE};
 
 /// Radius of the dot at the end of a step, in pixels.
 const STEP_END_RADIUS: f64 = 3.6;
+/// Half the width of the disc of a joint, in pixels.
+const JOINT_HALF_WIDTH: f64 = 5.5;
 /// Half the width of the marks of contacts and narrow places, in pixels.
 const MARKER_HALF_WIDTH: f64 = 8.0;
 
@@ -86,6 +89,12 @@ fn pose(view: &View, frame: &Frame, placer: &mut Placer, world: usize, q: Config
             placer.block_line(&shapes::outline(frame, &shape));
         }
     }
+    if look.blocks() {
+        // The shapes of a link may leave its joint bare.
+        for joint in [view.arm.base, view.arm.elbow_at(q[0])] {
+            placer.block_spot(frame.at(joint.x, joint.y), JOINT_HALF_WIDTH);
+        }
+    }
     arm::items(frame, &view.arm, payload, q, look)
 }
 
@@ -132,7 +141,8 @@ fn movers(view: &View, frame: &Frame) -> Vec<Item> {
 fn names(view: &View, frame: &Frame) -> Vec<Named> {
     let arm = |name: &str, q: [f64; 2]| {
         let [tip, elbow] = [view.arm.tip_at(q.into()), view.arm.elbow_at(q[0])].map(|p| frame.at(p.x, p.y));
-        (name.to_owned(), labels::label_box_beyond(name, tip, elbow))
+        let shapes = arm::placed_shapes(&view.arm, view.first_world().payload.as_ref(), q.into());
+        Named::of_pieces(name.to_owned(), labels::label_box_beyond(name, tip, elbow), frame, &shapes)
     };
     // An arm that does not move needs no name.
     let ends = view.still.end.filter(|_| view.still.line.is_none());
@@ -140,7 +150,7 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
     let arms = ends.into_iter().flatten();
     let world = view.first_world();
     let lying = world.obstacles.iter().enumerate().filter(|(_, obstacle)| obstacle.lies());
-    let obstacles = lying.map(|(number, o)| (world.called(number), labels::place(frame, &o.outline, o.own())));
+    let obstacles = lying.map(|(number, o)| Named::of_shape(world.called(number), frame, &o.outline, o.own()));
     // A moving obstacle may begin outside the picture: its name is then where it enters.
     let end = view.duration().filter(|_| view.still.now.is_none());
     let movers = world.movers.iter().map(|mover| {
@@ -148,7 +158,7 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
         let later = end.map_or_else(Vec::new, |end| mover.moments(end)).into_iter().map(|time| mover.at(time));
         std::iter::once(now.clone()).chain(later).find(|o| is_inside(frame, o)).unwrap_or(now)
     });
-    let movers = movers.map(|o| (o.name.clone(), labels::place(frame, &o.outline, o.own())));
+    let movers = movers.map(|o| Named::of_shape(o.name.clone(), frame, &o.outline, o.own()));
     arms.chain(obstacles).chain(movers).collect()
 }
 

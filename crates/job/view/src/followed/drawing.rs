@@ -8,7 +8,7 @@ use crate::blocking::cross;
 use crate::chart::Chart;
 use crate::figure::{Item, Pen, Rect, Step, Style, chain, lines, rectangle};
 use crate::key::{Key, Sign};
-use crate::labels::Named;
+use crate::named::Named;
 use crate::shapes;
 use crate::view::{View, reach_shape};
 use cplan_geometry::Point;
@@ -171,10 +171,12 @@ pub fn solution_names(line: &LineView, chart: &Chart) -> Vec<Named> {
     (0..2)
         .filter_map(|solution| {
             let own = line.solutions.iter().filter(|part| part.solution == solution);
-            let spots: Vec<[f64; 2]> = own.flat_map(|part| &part.points).map(|q| chart.place(*q)).collect();
-            let [(x, right), (y, bottom)] = [0, 1].map(|k| span(spots.iter().map(|spot| spot[k])));
+            let parts: Vec<Vec<[f64; 2]>> =
+                own.map(|part| part.points.iter().map(|q| chart.place(*q)).collect()).collect();
+            let [(x, right), (y, bottom)] = [0, 1].map(|k| span(parts.iter().flatten().map(|spot| spot[k])));
             let rect = Rect { x, y, width: right - x, height: bottom - y };
-            (!spots.is_empty()).then(|| (line.solution_name(solution), rect))
+            let is_empty = parts.iter().all(Vec::is_empty);
+            (!is_empty).then(|| Named::of_lines(line.solution_name(solution), rect, &parts))
         })
         .collect()
 }

@@ -58,8 +58,8 @@ const Closing = (() => {
     for (const steps of [upper, lower]) Labels.blockLine(panel, spots(steps));
     const [top, bottom] = [upper[0], lower[lower.length - 1]].map((corner) => panel.at(corner));
     Labels.beside(context, panel, [
-      ['best path', { x: top[0] + 8, y: top[1] - 2, width: 60, height: 4 }],
-      ['no motion is shorter', { x: bottom[0] + 8, y: bottom[1] - 2, width: 60, height: 4 }],
+      ['best path', { rect: { x: top[0] + 8, y: top[1] - 2, width: 60, height: 4 } }],
+      ['no motion is shorter', { rect: { x: bottom[0] + 8, y: bottom[1] - 2, width: 60, height: 4 } }],
     ]);
   }
 

@@ -6,8 +6,6 @@ const CSpace = (() => {
 
   /** With more obstacles than this, the crowd is drawn in a simpler style. */
   const CROWD = 100;
-  /** Cells of a reach smaller than this are drawn as rectangles, in pixels. */
-  const SMALL = 5;
   /** Cells narrower than this have finer sides, in pixels. */
   const NARROW = 5;
   /** Opacity that is indistinguishable from 1, for drawings on a layer of their own. */
@@ -385,43 +383,12 @@ const CSpace = (() => {
     return groups;
   }
 
-  /** Draws free IK solutions with the tip at the centres of cells, each as the configurations of its cell. */
-  function solutions(context, panel, view, reach) {
-    const { access, colors } = reach;
-    reach.shapes ??= ReachMap.shapes(view.model.arm, reach);
-    // Those of rare kinds lie above the reached ones.
-    for (const kind of ['1', '4', '2']) {
-      context.fillStyle = panel.theme.tint(kind === '1' ? colors[0] : colors[Number(kind)]);
-      for (let i = 0; i < access.length; i += 1) if (access[i] === kind) solution(context, panel, reach, i);
-    }
-  }
-
-  /** Draws the configurations of the cell of a solution: a parallelogram, or a rectangle if it is small. */
-  function solution(context, panel, { solutions: flat, shapes }, i) {
-    const corners = [0, 2, 4, 6].map((k) => panel.at([flat[2 * i] + shapes[8 * i + k], flat[2 * i + 1] + shapes[8 * i + k + 1]]));
-    const [xs, ys] = [0, 1].map((k) => corners.map((corner) => corner[k]));
-    const [left, top] = [Math.min(...xs), Math.min(...ys)];
-    const [width, height] = [Math.max(...xs) - left, Math.max(...ys) - top];
-    if (Math.max(width, height) < SMALL) {
-      context.fillRect(left - 0.5, top - 0.5, width + 1, height + 1);
-      return;
-    }
-    context.beginPath();
-    for (const [x, y] of corners) context.lineTo(x, y);
-    context.closePath();
-    context.fill();
-    // Without the outline, neighbouring shapes would have seams.
-    context.lineWidth = 1;
-    context.strokeStyle = context.fillStyle;
-    context.stroke();
-  }
-
   /** Draws everything that stays while the arm moves. */
   function still(context, panel, view) {
     const { world } = view;
     const seen = Think.seen(view, view.trace);
     if (seen) below(context, panel, view, seen);
-    if (view.model.reach && view.shows('access')) solutions(context, panel, view, view.model.reach);
+    if (view.model.reach && view.shows('access')) ReachMap.drawSolutions(context, panel, view, view.model.reach);
     if (view.shows('c-obstacles')) cObstacles(context, panel, view, world);
     if (seen) above(context, panel, view, seen);
     if (view.shows('regions')) regions(context, panel, view, world);
@@ -436,7 +403,7 @@ const CSpace = (() => {
     if (view.isPlain) Labels.blockSpot(panel, place(view, panel, view.beginning()), 10);
     else ends(context, panel, view);
     if (view.isTask && !view.isPlain) {
-      const ends = view.pathsWithNames().map((path) => [`step ${path.step}`, Labels.about(place(view, panel, path.points.slice(-2)), 7)]);
+      const ends = view.pathsWithNames().map((path) => [`step ${path.step}`, Labels.spotted(place(view, panel, path.points.slice(-2)), 7)]);
       Labels.beside(context, panel, ends);
     }
     view.followed?.names(context, panel);

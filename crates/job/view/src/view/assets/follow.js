@@ -321,12 +321,12 @@ class FollowedLine {
     if (!view.shows('names') || !view.shows('solutions')) return;
     for (const { points } of solutions) Labels.blockLine(panel, [...Geometry.pointsOf(points)].map((q) => CSpace.place(view, panel, q)));
     const boxes = names.map((name, solution) => {
-      const spots = solutions.filter((part) => part.solution === solution).flatMap(({ points }) => [...Geometry.pointsOf(points)].map((q) => CSpace.place(view, panel, q)));
-      const [xs, ys] = [0, 1].map((k) => spots.map((spot) => spot[k]));
+      const parts = solutions.filter((part) => part.solution === solution).map(({ points }) => [...Geometry.pointsOf(points)].map((q) => CSpace.place(view, panel, q)));
+      const [xs, ys] = [0, 1].map((k) => parts.flat().map((spot) => spot[k]));
       const [x, y] = [Math.min(...xs), Math.min(...ys)];
-      return [name, { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y }];
+      return { text: name, rect: { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y }, pieces: Labels.lines(parts) };
     });
-    Labels.beside(context, panel, boxes.filter(([, box]) => Number.isFinite(/** @type {Rect} */ (box).x)));
+    Labels.beside(context, panel, boxes.filter(({ rect }) => Number.isFinite(rect.x)).map(({ text, ...shape }) => [text, shape]));
   }
 
   /** Draws the other IK solution of the current place. */

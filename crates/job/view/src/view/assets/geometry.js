@@ -79,6 +79,13 @@ const Geometry = (() => {
     return { core, radius: shape.radius };
   }
 
+  /** Returns the shapes of the arm and of its payload at q. */
+  function armShapes(arm, payload, q) {
+    const at = poses(arm, q);
+    const links = arm.links.flatMap(({ parts }, k) => parts.map((part) => placed(part, at[k])));
+    return [...links, ...(payload?.pieces ?? []).map((piece) => placed(piece, payloadPose(arm, payload, q)))];
+  }
+
   /** Returns directions that can separate two convex shapes: normals of sides; for a segment also its own direction. */
   function axes({ core }) {
     const n = core.length / 2;
@@ -367,5 +374,5 @@ const Geometry = (() => {
     for (let i = 0; i + 1 < flat.length; i += 2) yield [flat[i], flat[i + 1]];
   }
 
-  return { TURN, apply, poses, tipAt, elbowAt, payloadPose, placed, moved, separation, nearest, contacts, inverse, solutions, wrap, interval, moving, pointsOf };
+  return { TURN, apply, poses, armShapes, tipAt, elbowAt, payloadPose, placed, moved, separation, nearest, contacts, inverse, solutions, wrap, interval, moving, pointsOf };
 })();

@@ -1,7 +1,9 @@
-// The placer of names in a panel. A name lies neither on the arm, nor on a marker, nor on another name. It avoids paths
-// as far as possible, is joined to a distant shape by a line, and is left out if there is no place for it.
-// Pictures have the same rule in `labels.rs` and `regions.rs`: the same places in the same order, with the same costs. A
-// change here needs the same change there.
+// The placer of names in a panel. A name lies within its shape, touches it, or has a line that ends on it. It lies
+// neither on the arm, nor on a marker, nor on another name, avoids paths as far as possible, and is left out if there is no
+// place for it. A named shape is { rect, pieces }: the box on which or around which the name may lie, and the shape as
+// convex pieces in pixels (without any, the box).
+// Pictures have the same rule in `labels.rs`, `named.rs` and `regions.rs`: the same places in the same order, with the same
+// costs. A change here needs the same change there.
 'use strict';
 
 const Labels = (() => {
@@ -9,6 +11,8 @@ const Labels = (() => {
   const [LINE, GAP, MARKER] = [15, 3, 8];
   /** Distances from the shape at which a name needs a line to it, in pixels. */
   const LEADERS = [18, 36, 58];
+  /** Greatest distance between a name's box and its shape without a line, in pixels: across a corner, or beside a wall. */
+  const TOUCH = 5;
   /** Largest fraction of a named area that its name may cover. */
   const COVERED = 0.5;
   /** Side of a cell of the raster in which names are placed within regions, in pixels. */
@@ -24,12 +28,14 @@ const Labels = (() => {
 
   /** Returns a square about a spot. */
   const about = (/** @type {Point} */ [x, y], half = 0) => ({ x: x - half, y: y - half, width: 2 * half, height: 2 * half });
+  /** Returns the box about a spot as a named shape. */
+  const spotted = (spot, half = 0) => ({ rect: about(spot, half) });
   const middle = ({ x, y, width, height }) => [x + width / 2, y + height / 2];
   const grown = ({ x, y, width, height }, by) => ({ x: x - by, y: y - by, width: width + 2 * by, height: height + 2 * by });
   /** Returns the common area in square pixels. */
   const common = (a, b) => Math.max(0, Math.min(a.x + a.width, b.x + b.width) - Math.max(a.x, b.x)) * Math.max(0, Math.min(a.y + a.height, b.y + b.height) - Math.max(a.y, b.y));
   const within = (a, b) => a.x >= b.x && a.y >= b.y && a.x + a.width <= b.x + b.width && a.y + a.height <= b.y + b.height;
-  const holds = (box, [x, y]) => x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
+  const holds = (box, /** @type {Point} */ [x, y]) => x >= box.x && x <= box.x + box.width && y >= box.y && y <= box.y + box.height;
   /** Moves a box into another one. */
   const pushed = (a, b) => ({ ...a, x: Math.max(b.x, Math.min(b.x + b.width - a.width, a.x)), y: Math.max(b.y, Math.min(b.y + b.height - a.height, a.y)) });
 
@@ -53,6 +59,15 @@ const Labels = (() => {
     }
     return { core: flat, radius: radius * panel.pixels };
   }
+
+  /** Returns a box as a shape in pixels that count upwards, grown by a radius. */
+  const outlineOf = ({ x, y, width, height }, radius) => ({ core: [x, -y - height, x + width, -y - height, x + width, -y, x, -y], radius });
+
+  /** Returns the shape of lines between the points of flat lists, in pixels. */
+  const lines = (/** @type {Point[][]} */ all) => all.flatMap((spots) => spots.slice(1).map(([x, y], i) => ({ core: [spots[i][0], -spots[i][1], x, -y], radius: 0 })));
+
+  /** Returns convex shapes of the panel's plane as a named shape, whose name may lie on or around a box. */
+  const shaped = (panel, rect, shapes) => ({ rect, pieces: shapes.map((shape) => inPixels(panel, shape)) });
 
   /** Lets names avoid a convex shape of the panel's plane, such as a part of the arm. */
   const blockShape = (panel, shape) => panel.blocked.shapes.push(inPixels(panel, shape));
@@ -79,9 +94,8 @@ const Labels = (() => {
   function isBlocked(panel, box) {
     const { boxes, shapes } = panel.blocked;
     if (!within(box, panel.rect) || boxes.some((other) => common(box, other) > 0)) return true;
-    const { x, y, width, height } = box;
-    const corners = { core: [x, -y - height, x + width, -y - height, x + width, -y, x, -y], radius: 1 };
-    return shapes.some((shape) => Geometry.separation(corners, shape) <= 0);
+    const own = outlineOf(box, 1);
+    return shapes.some((shape) => Geometry.separation(own, shape) <= 0);
   }
 
   const crosses = (panel, box) => panel.blocked.points.some((point) => holds(grown(box, 2), point));
@@ -101,16 +115,27 @@ const Labels = (() => {
     return [...near, ...far];
   }
 
-  /** Returns the ends of the line from a name to the shape that it names. */
-  function leaderEnds(box, of) {
-    const [x, y] = middle(box);
-    const end = [Math.max(of.x, Math.min(of.x + of.width, x)), Math.max(of.y, Math.min(of.y + of.height, y))];
-    return [[Math.max(box.x, Math.min(box.x + box.width, end[0])), Math.max(box.y, Math.min(box.y + box.height, end[1]))], end];
+  /**
+   * Returns the distance between a box and a shape, not positive if they overlap, and the nearest place on the shape.
+   * @returns {[number, Point]}
+   */
+  function nearest(box, { rect, pieces = [outlineOf(rect, 0)] }) {
+    const own = outlineOf(box, 0);
+    let [least, best] = [Infinity, null];
+    for (const piece of pieces) {
+      const distance = Geometry.separation(own, piece);
+      if (distance < least) [least, best] = [distance, piece];
+    }
+    if (!best) return [Infinity, [NaN, NaN]];
+    const [x, y] = Geometry.nearest(own, best).ends[1];
+    return [least, [x, -y]];
   }
 
-  /** Returns true if the line from a name to its shape would cross another name. */
-  function crossesName(panel, box, of) {
-    const [begin, end] = leaderEnds(box, of);
+  const clamped = (/** @type {Point} */ [x, y], to) => [Math.max(to.x, Math.min(to.x + to.width, x)), Math.max(to.y, Math.min(to.y + to.height, y))];
+
+  /** Returns true if the line from a name to a place on its shape would cross another name. */
+  function crossesName(panel, box, end) {
+    const begin = clamped(end, box);
     const count = Math.ceil(Math.hypot(end[0] - begin[0], end[1] - begin[1]) / CELL);
     for (let k = 0; k <= count; k += 1) {
       const share = k / Math.max(1, count);
@@ -120,9 +145,9 @@ const Labels = (() => {
     return false;
   }
 
-  /** Draws a line from a name to the shape that it names. Later names dodge it. */
-  function leader(context, panel, box, of) {
-    const [begin, end] = leaderEnds(box, of);
+  /** Draws a line from a name to a place on the shape that it names. Later names dodge it. */
+  function leader(context, panel, box, end) {
+    const begin = clamped(end, box);
     blockLine(panel, [begin, end]);
     for (const [width, color] of [[3, panel.theme.paper], [1, panel.theme.grey]]) {
       [context.lineWidth, context.strokeStyle] = [width, color];
@@ -130,15 +155,21 @@ const Labels = (() => {
     }
   }
 
-  /** Draws a name at the best of its free places, or leaves it out. `cost` adds to the cost of a box. */
-  function put(context, panel, text, of, cost) {
+  /**
+   * Draws a name at the best of its free places, or leaves it out. `cost` adds to the cost of a box, with or without a line
+   * to the shape.
+   */
+  function put(context, panel, text, shape, cost) {
     const before = panel.placed.get(text);
     let [best, least] = [null, Infinity];
-    places(panel, size(context, panel, text), of).forEach(({ box, isFar }, index) => {
-      const known = 0.01 * index + (isFar ? LEADER : 0) + (before === index ? STAYING : 0);
-      if (known >= least || isBlocked(panel, box) || (isFar && crossesName(panel, box, of))) return;
-      const whole = known + (crosses(panel, box) ? CROSSING : 0) + cost(box);
-      if (whole < least) [best, least] = [{ box, isFar, index }, whole];
+    places(panel, size(context, panel, text), shape.rect).forEach(({ box, isFar }, index) => {
+      const known = 0.01 * index + (before === index ? STAYING : 0);
+      if (known >= least || isBlocked(panel, box)) return;
+      const [distance, end] = nearest(box, shape);
+      const hasLine = isFar || distance > TOUCH;
+      if (hasLine && (!holds(panel.rect, end) || crossesName(panel, box, end))) return;
+      const whole = known + (hasLine ? LEADER : 0) + (crosses(panel, box) ? CROSSING : 0) + cost(box, hasLine);
+      if (whole < least) [best, least] = [{ box, end: hasLine ? end : null, index }, whole];
     });
     if (!best) {
       panel.placed.delete(text);
@@ -146,35 +177,36 @@ const Labels = (() => {
     }
     panel.placed.set(text, best.index);
     take(panel, best.box);
-    if (best.isFar) leader(context, panel, best.box, of);
+    if (best.end) leader(context, panel, best.box, best.end);
     write(context, panel.theme, text, ...middle(best.box));
     return true;
   }
 
   /**
-   * Draws names, each with the box of its shape: on the shape or, if that is smaller, beside it, where the name covers
-   * least of the others. Earlier names choose first.
+   * Draws names, each with its shape: on the shape or, if that is smaller, beside it, where the name covers least of the
+   * others. Earlier names choose first.
    */
   function beside(context, panel, names, markers = []) {
     for (const spot of markers) blockSpot(panel, spot);
     // It is better to hide a part of a large shape than all of a small one.
     const share = (box, other) => common(box, other) / Math.max(LINE * LINE, other.width * other.height);
-    for (const [text, of] of names) {
-      put(context, panel, text, of, (box) => names.reduce((sum, [, other]) => sum + (other === of ? 0 : share(box, other)), 0));
+    for (const [text, shape] of names) {
+      put(context, panel, text, shape, (box) => names.reduce((sum, [, other]) => sum + (other === shape ? 0 : share(box, other.rect)), 0));
     }
   }
 
   /** Does the same among regions. `covered` returns the share of a box that lies on regions. */
   function besideAmong(context, panel, names, covered) {
-    for (const [text, of] of names) put(context, panel, text, of, covered);
+    for (const [text, shape] of names) put(context, panel, text, shape, covered);
   }
 
   /**
    * Draws names on regions of any shape: within the part of a region that is visible, as far as possible from its
-   * outline, or beside a smaller part with a line to it. A region is { text, paint(context) }; later ones cover earlier
-   * ones.
+   * outline, or beside a smaller part. A name that would cover another region there has a line to its own. A region is
+   * { text, paint(context) }; later ones cover earlier ones. On bars, which may be lower than letters, no name sticks out:
+   * it is within its bar, above it or below it.
    */
-  function onRegions(context, panel, regions) {
+  function onRegions(context, panel, regions, areBars = false) {
     if (!regions.length) return;
     const { rect, blocked } = panel;
     const [columns, rows] = [rect.width, rect.height].map((side) => Math.max(1, Math.ceil(side / CELL)));
@@ -182,17 +214,15 @@ const Labels = (() => {
     [raster.width, raster.height] = [columns, rows];
     const painter = raster.getContext('2d', { willReadFrequently: true });
     painter.setTransform(1 / CELL, 0, 0, 1 / CELL, -rect.x / CELL, -rect.y / CELL);
-    regions.forEach(({ paint }, index) => {
-      painter.fillStyle = `rgb(${(index + 1) % 256}, ${(index + 1) >> 8}, 255)`;
-      paint(painter);
-    });
-    const { data } = painter.getImageData(0, 0, columns, rows);
     /** Number of the region in each cell, from 1; 0 for none. */
     const cells = new Int32Array(columns * rows);
-    for (let k = 0; k < cells.length; k += 1) {
-      const [red, green, blue, alpha] = data.subarray(4 * k, 4 * k + 4);
-      if (blue === 255 && alpha === 255) cells[k] = red + 256 * green;
-    }
+    // Each on a raster of its own: where two regions meet, a mixture of colours would be that of a third.
+    regions.forEach(({ paint }, index) => {
+      painter.clearRect(rect.x, rect.y, columns * CELL, rows * CELL);
+      paint(painter);
+      const { data } = painter.getImageData(0, 0, columns, rows);
+      for (let k = 0; k < cells.length; k += 1) if (data[4 * k + 3] > 127) cells[k] = index + 1;
+    });
     const full = cells.slice();
     const clear = ({ x, y, width, height }) => {
       const [x0, x1] = [x - rect.x, x + width - rect.x].map((at) => Math.floor(at / CELL));
@@ -203,12 +233,22 @@ const Labels = (() => {
     };
     blocked.boxes.forEach(clear);
     for (const point of blocked.points) clear(about(point, 2));
-    const isRegion = (x, y) => full[Math.floor((y - rect.y) / CELL) * columns + Math.floor((x - rect.x) / CELL)] > 0;
+    const regionAt = (x, y) => full[Math.floor((y - rect.y) / CELL) * columns + Math.floor((x - rect.x) / CELL)];
+    const onPage = (/** @type {Point} */ [i, j]) => [rect.x + i * CELL, rect.y + j * CELL];
+    /** Returns the upright part of a region through a cell of it, as a box without width. */
+    const uprightPart = (own, /** @type {Point} */ at) => {
+      const [i, j] = at.map(Math.floor);
+      let [above, below] = [j, j];
+      while (above > 0 && full[(above - 1) * columns + i] === own) above -= 1;
+      while (below < rows && full[below * columns + i] === own) below += 1;
+      const [x, y] = onPage([at[0], above]);
+      return { x, y, width: 0, height: (below - above) * CELL };
+    };
     const rest = [];
     regions.forEach(({ text }, index) => {
       const [width, height] = size(context, panel, text);
-      const spot = roomiest(cells, [columns, rows], index + 1, [width, height].map((side) => Math.ceil(side / CELL)));
-      const [x, y] = spot ? [0, 1].map((k) => [rect.x, rect.y][k] + spot.at[k] * CELL) : [0, 0];
+      const spot = roomiest(cells, [columns, rows], index + 1, [width, height].map((side) => Math.ceil(side / CELL)), !areBars);
+      const [x, y] = spot ? onPage(spot.at) : [0, 0];
       const box = pushed({ x: x - width / 2, y: y - height / 2, width, height }, rect);
       // A name that sticks out of its region may meet another one that does.
       if (spot?.fits && !isBlocked(panel, box)) {
@@ -217,24 +257,26 @@ const Labels = (() => {
       } else {
         // The path may cover all of a small region.
         const place = spot ?? roomiest(full, [columns, rows], index + 1, [1, 1]);
-        if (place) rest.push([text, about([0, 1].map((k) => [rect.x, rect.y][k] + place.at[k] * CELL), CELL)]);
+        if (place) rest.push([text, index + 1, { rect: areBars ? uprightPart(index + 1, place.at) : about(onPage(place.at)) }]);
       }
     });
-    // Of the points of a box, how many lie on regions.
-    const covered = ({ x, y, width, height }) => {
+    /** Returns how many of the points of a box lie on regions, except on region `own`. */
+    const covered = ({ x, y, width, height }, own = 0) => {
       let count = 0;
-      for (let i = 0; i < 5; i += 1) for (let j = 0; j < 3; j += 1) count += Number(isRegion(x + (width * (i + 0.5)) / 5, y + (height * (j + 0.5)) / 3));
+      for (let i = 0; i < 5; i += 1) for (let j = 0; j < 3; j += 1) count += Number(![0, own].includes(regionAt(x + (width * (i + 0.5)) / 5, y + (height * (j + 0.5)) / 3)));
       return count / 15;
     };
-    for (const [text, of] of rest) put(context, panel, text, of, covered);
+    for (const [text, own, spot] of rest) {
+      put(context, panel, text, spot, (box, hasLine) => (!hasLine && covered(box, own) > 0 ? Infinity : covered(box)));
+    }
   }
 
   /**
    * Returns the place in region `id` for a name of this size: { at, fits }, with the middle in cells. A name that fits
-   * within the region lies as far as possible from the outline. Otherwise its middle lies on the region, and the rest
-   * covers nothing else. `fits` is false if there is no such place. Returns `null` if the region has no cells.
+   * within the region lies as far as possible from the outline. Otherwise, if it may stick out, its middle lies on the
+   * region, and the rest covers nothing else. `fits` is false if there is no such place. Returns `null` if the region has no cells.
    */
-  function roomiest(cells, /** @type {Point} */ [columns, rows], id, /** @type {Point} */ [width, height]) {
+  function roomiest(cells, /** @type {Point} */ [columns, rows], id, /** @type {Point} */ [width, height], mayStickOut = true) {
     let [x0, x1, y0, y1] = [columns, -1, rows, -1];
     for (let k = 0; k < cells.length; k += 1) {
       if (cells[k] !== id) continue;
@@ -279,7 +321,7 @@ const Labels = (() => {
       const foreign = counter((cell) => cell !== id && cell !== 0);
       const part = (x, y) => own(x, y, width, height) / (width * height);
       const isOn = (x, y) => cells[(y0 + y + (height >> 1)) * columns + x0 + x + (width >> 1)] === id;
-      const place = find(width, height, (x, y) => (isOn(x, y) && !foreign(x, y, width, height) && part(x, y) >= PART ? part(x, y) : -1));
+      const place = mayStickOut && find(width, height, (x, y) => (isOn(x, y) && !foreign(x, y, width, height) && part(x, y) >= PART ? part(x, y) : -1));
       if (place) return { at: place, fits: true };
       let side = 1;
       while (fitting(2 * side, 2 * side)) side *= 2;
@@ -328,5 +370,5 @@ const Labels = (() => {
     context.fillText(text, x, y);
   }
 
-  return { about, beside, besideAmong, beyond, inside, onRegions, write, nothing, copy, blockShape, blockSpot, blockLine };
+  return { about, spotted, shaped, lines, beside, besideAmong, beyond, inside, onRegions, write, nothing, copy, blockShape, blockSpot, blockLine };
 })();

@@ -65,7 +65,7 @@ function buildPage(view) {
     element(
       'div',
       { class: 'stage' },
-      element('div', { class: 'pictures' }, view.learn.head, parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.steps.root, view.closing.root, view.strip.root, view.height.root, view.turns.root, view.toolAngle.root, view.learn.foot, view.learn.steps, view.learn.details),
+      element('div', { class: 'pictures' }, element('div', { class: 'course' }, view.learn.head, view.learn.foot, view.learn.steps), parts.panels, view.learn.pair.root, parts.description, parts.measure, parts.transport, view.steps.root, view.closing.root, view.strip.root, view.height.root, view.turns.root, view.toolAngle.root, view.learn.details),
       element('div', { class: 'below' }, view.tabs.root, ...view.tabs.entries.filter(({ isAside }) => !isAside).map(({ panel }) => panel)),
       element('aside', { class: 'side', 'aria-label': 'Layers' }, view.layers.root),
     ),

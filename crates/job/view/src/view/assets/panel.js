@@ -71,6 +71,9 @@ function ticks(low, high, degrees, room, spacing) {
 /** Largest magnification of a panel: numbers of a view have five digits. */
 const MOST_TIMES = 2000;
 
+/** Room for the frame of the focus to the left of the title of the upright axis, in pixels. */
+const FOCUS_ROOM = 4;
+
 class Panel {
   /** Text size for which margins and distances are given, in pixels. */
   static TEXT = 13;
@@ -134,7 +137,7 @@ class Panel {
   layout() {
     if (!this.size) return;
     const [narrow, right, top, bottom] = (this.margins ?? [48, 10, 8, 40]).map((margin) => margin * this.zoom);
-    const left = narrow + this.digits;
+    const left = narrow + this.digits + FOCUS_ROOM * this.zoom;
     const rect = { x: left, y: top, width: Math.max(1, this.size[0] - left - right), height: Math.max(1, this.size[1] - top - bottom) };
     // On a broad canvas, such as on a phone, that would waste too much room.
     if (this.shape && rect.width < 1.7 * rect.height) {

@@ -88,11 +88,11 @@ const Strip = (() => {
       const [[left, y], [right]] = [panel.at([from, at]), panel.at([to, at])];
       [context.lineWidth, context.strokeStyle] = [4, theme.accent];
       line(context, [[left, y], [right, y]]);
-      return ['waits', { x: left, y: y - 2, width: right - left, height: 4 }];
+      return ['waits', { rect: { x: left, y: y - 2, width: right - left, height: 4 } }];
     });
     Labels.blockLine(panel, spots);
     Labels.besideAmong(context, panel, names, covering(context, panel, outlines));
-    Labels.onRegions(context, panel, obstacles.map(({ name }, index) => ({ text: `${name} blocks`, paint: (painter) => painter.fill(outlines[index]) })));
+    Labels.onRegions(context, panel, obstacles.map(({ name }, index) => ({ text: `${name} blocks`, paint: (painter) => painter.fill(outlines[index]) })), true);
   }
 
   /**

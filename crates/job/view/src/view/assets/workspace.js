@@ -8,6 +8,8 @@ const Workspace = (() => {
   const FINE = 0.0125;
   /** Opacity of the region that a moving obstacle sweeps, and the number of places from which the region is made. */
   const [SWEPT_OPACITY, SWEPT_PLACES] = [0.22, 120];
+  /** Half the width of a joint's disc, in pixels. */
+  const JOINT = 5.5;
   /** Length of the axes of joint frames, in pixels. */
   const AXIS = 46;
 
@@ -87,7 +89,10 @@ const Workspace = (() => {
   function names(context, panel, view, world) {
     const shown = [];
     const { arm: model } = view.model;
-    const beyond = (text, q) => [text, Labels.beyond(context, panel, text, panel.at(tipAt(model, q)), panel.at(elbowAt(model, q)))];
+    const beyond = (text, q) => {
+      const box = Labels.beyond(context, panel, text, panel.at(tipAt(model, q)), panel.at(elbowAt(model, q)));
+      return [text, Labels.shaped(panel, box, Geometry.armShapes(model, world.payload, q))];
+    };
     if (view.isTask && !view.isPlain) {
       for (const path of view.pathsWithNames()) shown.push(beyond(`step ${path.step}`, path.points.slice(-2)));
     } else if (view.shows('poses') && view.isMotion) {
@@ -99,15 +104,15 @@ const Workspace = (() => {
       if (written) shown.push(...written);
       world.obstacles.forEach((obstacle, index) => {
         if (obstacle.own === 0 || view.hidden.has(obstacle.name)) return;
-        if (!written) shown.push([view.called(index), box(panel, obstacle)]);
+        if (!written) shown.push([view.called(index), named(panel, obstacle)]);
         const wall = obstacle.outline.polyline;
         if (wall) Labels.blockLine(panel, [...pointsOf(wall)].map((p) => panel.at(p)));
       });
       for (const mover of (world.movers ?? []).filter(({ name }) => !view.hidden.has(name))) {
-        shown.push([mover.name, box(panel, Geometry.moved(mover, view.now))]);
+        shown.push([mover.name, named(panel, Geometry.moved(mover, view.now))]);
       }
     }
-    if (view.shows('frames')) for (const { name, at } of view.model.frames) shown.push([name, Labels.about(panel.at(at), 10)]);
+    if (view.shows('frames')) for (const { name, at } of view.model.frames) shown.push([name, Labels.spotted(panel.at(at), 10)]);
     Labels.beside(context, panel, shown);
   }
 
@@ -115,7 +120,7 @@ const Workspace = (() => {
   const NEIGHBORS = 44;
 
   /**
-   * Returns the names in a task, each with its box: objects whose names differ only in a number at the end, and that lie
+   * Returns the names in a task, each with its shape: objects whose names differ only in a number at the end, and that lie
    * side by side, share one name with their count.
    */
   function families(panel, view, world) {
@@ -126,20 +131,24 @@ const Workspace = (() => {
       if (obstacle.own === 0 || view.hidden.has(obstacle.name)) continue;
       const own = box(panel, obstacle);
       if (!groups.length || obstacle.name === current) {
-        groups.push({ name: obstacle.name, kind: obstacle.name, count: 1, box: own });
+        groups.push({ name: obstacle.name, kind: obstacle.name, members: [obstacle], box: own });
         continue;
       }
       const isNear = ({ box: at }) => at.x - NEIGHBORS < own.x + own.width && own.x < at.x + at.width + NEIGHBORS && at.y - NEIGHBORS < own.y + own.height && own.y < at.y + at.height + NEIGHBORS;
       const group = groups.find((one) => one.kind === kind(obstacle.name) && isNear(one));
       if (!group) {
-        groups.push({ name: obstacle.name, kind: kind(obstacle.name), count: 1, box: own });
+        groups.push({ name: obstacle.name, kind: kind(obstacle.name), members: [obstacle], box: own });
         continue;
       }
       const [right, bottom] = [Math.max(group.box.x + group.box.width, own.x + own.width), Math.max(group.box.y + group.box.height, own.y + own.height)];
       const [x, y] = [Math.min(group.box.x, own.x), Math.min(group.box.y, own.y)];
-      Object.assign(group, { count: group.count + 1, box: { x, y, width: right - x, height: bottom - y } });
+      group.members.push(obstacle);
+      Object.assign(group, { box: { x, y, width: right - x, height: bottom - y } });
     }
-    return groups.map(({ name, kind: shared, count, box: at }) => [count > 1 ? `${count} \u00d7 ${shared}` : name, at]);
+    return groups.map(({ name, kind: shared, members, box: at }) => [
+      members.length > 1 ? `${members.length} \u00d7 ${shared}` : name,
+      Labels.shaped(panel, at, members.flatMap(({ pieces, own }) => pieces.slice(0, own))),
+    ]);
   }
 
   /** Draws where a task puts its objects, as dashed outlines. */
@@ -150,6 +159,9 @@ const Workspace = (() => {
       dashed(context, [4, 3], 1.5, panel.theme.obstacle(place.color).line);
     }
   }
+
+  /** Returns an obstacle as a shape with a name. */
+  const named = (panel, obstacle) => Labels.shaped(panel, box(panel, obstacle), obstacle.pieces.slice(0, obstacle.own));
 
   /**
    * Returns the box that the name of an obstacle refers to, in pixels: of the whole shape, or in the middle of a wall's
@@ -162,7 +174,7 @@ const Workspace = (() => {
       /** @param {Point[]} side */
       const length = ([a, b]) => Math.hypot(b[0] - a[0], b[1] - a[1]);
       const [a, b] = sides.reduce((best, side) => (length(side) > length(best) ? side : best));
-      return Labels.about(panel.at([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]), 5);
+      return Labels.about(panel.at([(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]), 1.5);
     }
     let [x0, x1, y0, y1] = [Infinity, -Infinity, Infinity, -Infinity];
     for (const { core, radius } of pieces.slice(0, own)) {
@@ -207,6 +219,8 @@ const Workspace = (() => {
       context.fill();
     });
     if (look.joints) skeleton(context, panel, model, q, look.line);
+    // The shapes of a link may leave its joint bare.
+    if (look.joints && look.blocks) for (const joint of [model.base, elbowAt(model, q)]) Labels.blockSpot(panel, panel.at(joint), JOINT);
     // Above the arm, which would cover small objects.
     if (world.payload) {
       const pose = payloadPose(model, world.payload, q, look.turned);
@@ -372,7 +386,8 @@ const Workspace = (() => {
     }
     Labels.blockLine(panel, [from, to]);
     const [x, y] = [Math.min(from[0], to[0]), Math.min(from[1], to[1])];
-    Labels.beside(context, panel, [[text, { x, y, width: Math.abs(from[0] - to[0]), height: Math.abs(from[1] - to[1]) }]]);
+    const rect = { x, y, width: Math.abs(from[0] - to[0]), height: Math.abs(from[1] - to[1]) };
+    Labels.beside(context, panel, [[text, { rect, pieces: Labels.lines([[from, to]]) }]]);
   }
 
   /** Draws the outline of an obstacle in contact. */

@@ -371,7 +371,7 @@ class PolygonFigure {
       this.drawDirections(context, panel, steps);
       Labels.blockLine(panel, there.map((p) => panel.at(p)));
       Labels.blockSpot(panel, panel.at(this.placeOf(this.pieces.at)));
-      Labels.beside(context, panel, there.map((p, s) => [`b${steps[s].k + 1} \u2212 a${steps[s].i + 1}`, Labels.about(panel.at(p), 6)]));
+      Labels.beside(context, panel, there.map((p, s) => [`b${steps[s].k + 1} \u2212 a${steps[s].i + 1}`, Labels.spotted(panel.at(p), 6)]));
       this.dot(context, panel, there[there.length - 1], theme.infeasible, 6);
     }
     this.dot(context, panel, this.placeOf(this.pieces.at), theme.accent, 6);
