@@ -9,10 +9,9 @@ fn significant(value: f64, digits: i32) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Formats a length in joint space. An arm with joints of two kinds has no single unit, so its lengths have none.
+/// Formats a length in joint space, as the terminal does. An arm with joints of two kinds has no single unit.
 pub fn path_length(value: f64, unit: &str) -> String {
-    let number = significant(value, 4);
-    if unit.contains(',') { number } else { format!("{number} {unit}") }
+    format!("{value:.4} {}", if unit.contains(',') { "in joint space" } else { unit })
 }
 
 /// Formats the ratio of a length to the optimum as the excess, which is rounded up.
