@@ -207,7 +207,7 @@ fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindin
     match &findings.nearest_free {
         Some(NearestFinding { configuration: at, distance, resolution, .. }) => {
             let at = configuration(arm, Configuration::from(*at));
-            line("nearest", format!("free: {at}; {distance:.4} away in joint space"));
+            line("nearest", format!("free: {at}; {} away", arm.format_length(*distance)));
             let [first, second] = &arm.joints;
             let step = format!("{resolution:.2e} {}", first.unit());
             line(

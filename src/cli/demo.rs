@@ -164,8 +164,8 @@ fn next(picture: &Path, folder: &Path) -> String {
         (format!("demo --planner harmonic --force{folder}"), "the same cell, with another planner"),
         (format!("demo --kind arch --force{folder}"), "pick and place; the quill moves while the arm moves"),
         (format!("demo --kind follow --force{folder}"), "the tip follows a line of G-code within 0.01 mm"),
-        ("init --kind scara".to_owned(), "the files of this cell, for you to change"),
-        ("init".to_owned(), "a small arm and world, with every line explained"),
+        ("init scara --kind scara".to_owned(), "the files of this cell, for you to change"),
+        ("init small_arm".to_owned(), "a small arm and world, with every line explained"),
         ("--help".to_owned(), "all commands and options, with examples"),
     ];
     let width = commands.iter().map(|(command, _)| command.len()).max().unwrap_or(0) + COLUMN_GAP;

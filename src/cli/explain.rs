@@ -199,7 +199,7 @@ fn blocked_start(loaded: LoadedScene, overrides: &Overrides) -> Result<(MotionQu
 }
 
 /// Explains the failed step of a task. Also returns a note that describes the step. `None` if no step fails.
-fn failed_step(plan: &Plan, limit: Duration, options: &Options) -> Option<(Explanation, String)> {
+pub fn failed_step(plan: &Plan, limit: Duration, options: &Options) -> Option<(Explanation, String)> {
     let (task, answer) = plan.task()?;
     let failed = answer.failed()?;
     let (status, verdict, reasons) = (plan.status(), plan.reason().unwrap_or_default(), failed.reasons.clone());

@@ -14,7 +14,7 @@ use crate::explore::{
     Ending, Exploration, ExploreError, Settings, Strategy, exploration_page, explore, map_description, map_picture,
 };
 use crate::input::{self, LoadedProblem, OccupancyMap, Rules};
-use crate::model::{Joint, Scene, Status};
+use crate::model::{Arm, Scene, Status};
 use crate::motion::{Format, JointMotion, Trajectory, csv, ros_yaml};
 use crate::options::{PlannerArgs, Word, planners, positive, word};
 use crate::output::{CSpaceFormat, Line, PictureFormat, contours, format_columns, title_of};
@@ -249,7 +249,7 @@ fn view(world: &LoadedProblem, done: &Exploration, trajectory: Option<&Trajector
         ],
         status: verdict,
         ending: Some(status),
-        facts: facts(done, scene).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
+        facts: facts(scene.arm(), done).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),
         goals: if done.strategy == Strategy::Goal { world.problem.goals().pieces() } else { &[] },
         paths: vec![("path".to_owned(), &explored_path)],
         trajectory,
@@ -259,18 +259,13 @@ fn view(world: &LoadedProblem, done: &Exploration, trajectory: Option<&Trajector
 }
 
 /// Returns names and descriptions of the facts about an exploration.
-fn facts(done: &Exploration, scene: &Scene) -> Vec<Line> {
+fn facts(arm: &Arm, done: &Exploration) -> Vec<Line> {
     let map = done.survey.map();
     let [free, occupied, unknown] = done.survey.counts();
     let seen = 100.0 * (free + occupied) as f64 / map.cells.len() as f64;
     let [width, height] = map.size;
     let duration = done.trajectory.as_ref().map_or(0.0, |trajectory| trajectory.duration());
     let [rows, columns] = done.cells;
-    // A length in the space of two unlike joints has no unit.
-    let unit = match scene.arm().joints.each_ref().map(Joint::unit) {
-        [one, other] if one == other => one,
-        _ => "(rad, m)",
-    };
     let mut facts = vec![
         (
             "map",
@@ -281,13 +276,17 @@ fn facts(done: &Exploration, scene: &Scene) -> Vec<Line> {
         ),
         ("seen", format!("{seen:.1} % of the map")),
         ("grid", format!("{rows} \u{d7} {columns} configurations")),
-        ("path", format!("{:.4} {unit}, {duration:.3} s, {}", done.length, counted(done.legs.len(), "leg"))),
+        ("path", format!("{}, {duration:.3} s, {}", arm.format_length(done.length), counted(done.legs.len(), "leg"))),
         ("readings", format!("{}, {}", done.readings.len(), counted(done.decisions.len(), "decision"))),
     ];
     if let Some(known) = done.known_length.filter(|&known| known > 0.0) {
         facts.push((
             "known",
-            format!("{:.2} times the length of a plan in the fully known world ({known:.4})", done.length / known),
+            format!(
+                "{:.2} times the length of a plan in the fully known world ({})",
+                done.length / known,
+                arm.format_length(known)
+            ),
         ));
     }
     facts
@@ -309,7 +308,7 @@ fn summary(world: &LoadedProblem, done: &Exploration, timed: bool) -> String {
         Ending::Unknown(why) => format!("unknown: {why}"),
     };
     let mut lines = vec![("result", ending)];
-    lines.extend(facts(done, world.problem.scene()));
+    lines.extend(facts(world.problem.scene().arm(), done));
     if timed {
         let mut times: Vec<f64> = done.decisions.iter().map(|time| 1e3 * time.as_secs_f64()).collect();
         times.sort_unstable_by(f64::total_cmp);

@@ -23,7 +23,7 @@ use crate::output::{CSpaceFormat, Line, PlanOutput as _, format_columns, summary
 use crate::space::Configuration;
 use crate::view::{FieldLines, View};
 use clap::{Args, ValueHint};
-use cplan_explain::{MotionQuestion, TIME_LIMIT, explain as find_explanation, with_explanation};
+use cplan_explain::{MotionQuestion, TIME_LIMIT, explain as find_explanation, with_explanation, with_step_explanation};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
@@ -243,14 +243,28 @@ fn require_grid(args: &PlanArgs, outputs: &Outputs<PlanContent>, planner: &Plann
     Ok(())
 }
 
-/// Returns the view for a page: with the search of the planner and, for a motion that is proven not to exist, the cards of an
-/// explanation: what blocks it, and which changes open a path.
+/// Returns the view for a page: with the search of the planner and, for a motion that is proven not to exist, or for a task with such a
+/// motion, the cards of an explanation: what blocks it, and which changes open a path.
 pub(super) fn page_view(plan: &Plan) -> View {
     let view = plan.view_with_replay();
+    if plan.task().is_some() {
+        return explained_task(plan, view);
+    }
     let problem = plan.motion().filter(|_| plan.status() == Status::Infeasible).map(|(problem, _)| problem);
     let Some(problem) = problem.filter(|problem| problem.scene().loose_obstacles().is_empty()) else { return view };
     let question = MotionQuestion::from(problem).with_time_limit(TIME_LIMIT);
     with_explanation(view, &find_explanation(&question, &Options::default()))
+}
+
+/// Adds the cards of an explanation to the view of a task whose failed step has a motion that is proven not to exist.
+fn explained_task(plan: &Plan, view: View) -> View {
+    if plan.status() != Status::Infeasible || !plan.problem().timed().trajectories.is_empty() {
+        return view;
+    }
+    match explain::failed_step(plan, TIME_LIMIT, &Options::default()) {
+        Some((explanation, _)) => with_step_explanation(view, &explanation),
+        None => view,
+    }
 }
 
 /// Writes results, configuration spaces, programs, pictures and the certificate. Returns the names of the written

@@ -264,3 +264,16 @@ def test_infeasible_worlds_have_a_proof_and_no_recommendation(program, show_file
     assert seen.page.locator(".pick").count() == 0
     assert seen.page.locator(".ranking .o-infeasible").count() == 2
     assert seen.page.locator("svg.large").count() == 2
+
+
+def test_the_head_of_the_table_stays_in_sight_on_a_phone(single, show_file):
+    page, _ = single
+    seen = show_file(page, width=390, height=420)
+    seen.do("document.querySelector('.ranking').closest('.wide').scrollIntoView({ block: 'start' })")
+    # The table scrolls by itself, and its head stays.
+    wide = "document.querySelector('.ranking').closest('.wide')"
+    assert seen.do(f"{wide}.scrollHeight > {wide}.clientHeight")
+    seen.do(f"{wide}.scrollTo(0, 10000)")
+    head = seen.page.locator(".ranking thead th").first.bounding_box()
+    last = seen.page.locator(".ranking tbody tr").last.bounding_box()
+    assert 0 <= head["y"] <= 1 and last["y"] + last["height"] <= 420.5

@@ -3,7 +3,7 @@
 import re
 
 import pytest
-from live import PLANAR, badge, drag, notices, settled, spot
+from live import PLANAR, badge, drag, notices, path, settled, spot
 
 # A place of the shelf at which it covers the arm's start.
 ON_THE_ARM = [[1.3, 0.24], [0.85, -0.95]]
@@ -41,9 +41,10 @@ def test_a_blocked_start_is_shown_where_it_is(serve):
     assert text.startswith("The start is blocked: link") and '"shelf"' in text and f"{1e3 * deepest:.3g}"[:3] in text
     assert "line" not in text and ".toml" not in text and "^" not in text and "joints =" not in text
     assert badge(seen) == "\u2715 start blocked"
-    # Below the panels, where it covers nothing, and visible.
+    # Above the panels, where it covers nothing, and the only message.
     notice, canvas = (seen.page.locator(where).bounding_box() for where in (".notice.picture", "canvas[aria-label='Workspace']"))
-    assert canvas["y"] + canvas["height"] <= notice["y"] and notice["y"] + notice["height"] <= 1000
+    assert 0 <= notice["y"] and notice["y"] + notice["height"] <= canvas["y"]
+    assert seen.page.locator("[role=alert]:visible").count() == 1
     seen.shoot("live-blocked")
     seen.page.get_by_label("undo").click()
     assert settled(seen)["certified"]
@@ -86,10 +87,36 @@ def test_wrong_options_are_told_beside_them(serve):
     assert more.get_attribute("aria-invalid") == "true" and "certified" not in badge(seen)
     field, notice = more.bounding_box(), seen.page.locator(".notice.options").bounding_box()
     assert 0 <= notice["y"] - field["y"] < 80
+    # The picture is about the last plan, and says so.
+    assert seen.page.locator("main.behind").count() == 1
+    assert "not up to date" in seen.do("getComputedStyle(document.querySelector('.panels figcaption'), '::after').content")
     more.fill("")
     more.press("Enter")
     assert settled(seen)["certified"]
     assert notices(seen) == {} and more.get_attribute("aria-invalid") is None
+    assert seen.page.locator("main.behind").count() == 0
+
+
+def test_a_laptop_shows_the_tools_the_key_figures_and_the_controls_of_time_at_once(serve):
+    seen = serve(*PLANAR, width=1280, height=720)
+    seen.page.wait_for_timeout(300)
+    parts = [".toolbar", ".outcome .cards", ".panels:visible", ".transport .play"]
+    boxes = [seen.page.locator(part).bounding_box() for part in parts]
+    bottoms = [box["y"] + box["height"] for box in boxes]
+    assert seen.page.locator(".toolbar").count() == 1 and boxes[0]["height"] < 60, "one row of tools and options"
+    assert bottoms == sorted(bottoms) and bottoms[-1] <= 720
+    assert seen.page.locator(".outcome .card").count() == 3
+    assert "length 4.4920 rad" in seen.page.locator(".figures").inner_text()
+    heights = [seen.page.locator(f"canvas[aria-label='{name}']").bounding_box()["height"] for name in ("Workspace", "Configuration space")]
+    assert min(heights) >= 380, "the pictures take most of it"
+    before = [seen.page.locator(part).bounding_box()["y"] for part in parts[2:]]
+    # A goal within an obstacle is one red message, in the place of the key figures.
+    drag(seen, "cspace", seen.do("cplan.view.goals()[0][0]"), [0.14, 0.0])
+    settled(seen)
+    assert badge(seen) == "\u2715 goal blocked" and seen.page.locator("[role=alert]:visible").count() == 1
+    assert path(seen) is None, "no path of before"
+    assert seen.page.locator(".panels:visible").bounding_box()["y"] == before[0], "nothing moves"
+    seen.shoot("live-laptop")
 
 
 def test_wrong_text_is_told_beside_it_until_it_is_changed(serve):

@@ -417,7 +417,7 @@ def test_key_figures_are_cards_and_bounds_are_rounded_to_the_safe_side(program, 
     seen = show_file(page)
     figures = {"duration": 2.063, "gap": 8.41e-5, "clearance": 0.0204999}
     texts = seen.do("(figures) => View.cards({ figures }).map(([, value]) => value)", figures)
-    assert texts == ["2.06 s", "at most 0.009 %", "20.4 mm"]
+    assert texts == ["2.06 s", "at most 0.009 %", "20.49 mm"]
     assert len(seen.do("View.cards({ figures: { duration: 1 } })")) == 1, "what is not proven has no card"
     seen.do("() => { cplan.model.figures = undefined; cplan.headings(); }")
     assert seen.page.locator(".cards").is_hidden(), "no figures, no row"
@@ -637,3 +637,29 @@ def test_a_checked_configuration_shows_where_it_touches_and_the_nearest_free_one
     assert {"contact", "nearest free configuration"} <= set(keys)
     details = seen.page.locator(".facts").inner_text()
     assert "penetrates by 8.064 mm" in details and "free: shoulder 51.19°" in details
+
+
+@pytest.mark.parametrize(("robot", "world", "unit"), [("planar_2r", "shelf", "rad"), ("gantry", "gantry_maze", "m"), ("polar", "polar_gate", "in joint space")])
+def test_lengths_of_paths_have_units_and_numbers_those_of_the_terminal(program, show_file, robot, world, unit):
+    page, result = program.plan(robot, world)
+    seen = show_file(page)
+    length = f"{result['length']:.4f} {unit}"
+    assert length in seen.page.locator("h1").inner_text() and f"length {length}" in seen.page.locator(".lines").inner_text()
+    card = seen.page.locator(".card").filter(has_text="clearance").locator("dd").evaluate("(card) => card.firstChild.textContent")
+    assert f"proven clearance {card}" in seen.page.locator(".lines").inner_text(), "one number, one rounding"
+    if unit == "m":
+        return  # Its shortest path is exact, without a search for a bound.
+    seen.do("cplan.switchTo('think')")
+    seen.do("cplan.seek(cplan.duration)")
+    assert f"best path {length}" in seen.page.locator(".lengths").inner_text()
+
+
+@pytest.mark.parametrize(("robot", "world"), [("planar_2r", "workbench"), ("gantry", "gantry_maze"), ("planar_2r", "narrow_slot")])
+def test_on_a_laptop_the_bar_of_time_covers_no_picture(program, show_file, robot, world):
+    page, _ = program.plan(robot, world, "--planner", "wavefront")
+    seen = show_file(page, width=1280, height=720)
+    bar = seen.page.locator(".transport").bounding_box()
+    assert bar["y"] + bar["height"] <= 720.5
+    for figure in seen.page.locator(".panels figure:visible").all():
+        box = figure.bounding_box()
+        assert box["y"] + box["height"] <= bar["y"] + 0.5

@@ -11,7 +11,14 @@ def test_both_spaces_are_large_and_the_readout_is_where_the_finger_is(program, s
     boxes = [seen.page.locator(f"canvas[aria-label='{name}']").bounding_box() for name in ("Workspace", "Configuration space")]
     rects = seen.do("['workspace', 'cspace'].map((name) => cplan.panels[name].rect)")
     assert all(min(rect["width"], rect["height"]) >= 260 for rect in rects)
-    assert seen.page.locator(".transport").bounding_box()["y"] >= boxes[1]["y"] + boxes[1]["height"], "nothing lies over the pictures"
+    # The play button and the time stay in sight, in one row at the lower edge.
+    for y in (0, 200, 400, 0):
+        seen.page.evaluate("(y) => scrollTo(0, y)", y)
+        bar = seen.page.locator(".transport").bounding_box()
+        for part in (".play", ".track", ".clock"):
+            box = seen.page.locator(f".transport {part}").bounding_box()
+            assert bar["y"] <= box["y"] and box["y"] + box["height"] <= 844.5, part
+        assert y > 0 or 844 - bar["y"] <= 60, "one row covers pictures"
     seen.page.locator("canvas[aria-label='Configuration space']").scroll_into_view_if_needed()
     boxes = [seen.page.locator(f"canvas[aria-label='{name}']").bounding_box() for name in ("Workspace", "Configuration space")]
     at = seen.do("cplan.panels.cspace.at([0.1, 0.2])")

@@ -177,8 +177,8 @@ def test_a_clearance_that_no_machine_keeps_is_a_warning(program, show_file):
     seen = show_file(page)
     card = seen.page.locator(".card.warning")
     other = program.plan("planar_2r", "shelf", "--clearance", "10mm")[1]["length"]
-    assert plan["clearance"] < 1e-3 and f"--clearance 10mm keeps this distance, with length {other:.4f}" in card.inner_text()
-    assert seen.page.locator("h1").inner_text() == "The shortest path: 4.4920 in joint space, proven within 0.009 %"
+    assert plan["clearance"] < 1e-3 and f"--clearance 10mm keeps this distance, with length {other:.4f} rad" in card.inner_text()
+    assert seen.page.locator("h1").inner_text() == "The shortest path: 4.4920 rad, proven within 0.009 %"
     kept, _ = program.plan("planar_2r", "shelf", "--clearance", "20mm")
     assert show_file(kept).page.locator(".card.warning").count() == 0
 
@@ -199,3 +199,36 @@ def test_a_page_without_a_path_says_what_opens_one(program, show_file, width, he
         box = seen.page.locator(f"canvas[aria-label='{name}']").bounding_box()
         assert bar["y"] >= box["y"] + box["height"] - 1
     seen.shoot(f"no-path-{width}")
+
+
+def test_a_task_that_fails_opens_before_its_step_and_says_what_opens_a_path(program, show_file):
+    page, _ = program.plan("gantry", "tasks/board_and_gate", code=3)
+    seen = show_file(page, width=1280, height=1300)
+    title = seen.page.locator("h1").inner_text()
+    assert title == "Step 3 fails: the lower wall and the upper wall are in the way, and the head slide cannot slide far enough"
+    assert seen.do("cplan.time") == seen.do("cplan.duration") and seen.do("cplan.isStuckHere")
+    walls = "cplan.model.stuck.blockers.map((k) => cplan.world.obstacles[k].name)"
+    assert sorted(seen.do(walls)) == ["lower wall", "upper wall"]
+    # Elsewhere, nothing is blamed.
+    seen.do("cplan.seek(0.1)")
+    assert not seen.do("cplan.isStuckHere")
+    # A card shows the failed step in the changed world: only the moved wall is elsewhere, and the path is free.
+    card = seen.page.get_by_role("button", name="Move the lower wall 101 mm down")
+    old = seen.do("JSON.stringify(cplan.model.worlds.map(({ obstacles }) => obstacles))")
+    card.click()
+    assert seen.do("cplan.time") == seen.do("cplan.duration")
+    assert "undefined" not in seen.do("cplan.pathsWithNames().map(({ step }) => String(step)).join()")
+    hits = """(() => { const points = [...Geometry.pointsOf(cplan.pathsHere()[0].points)];
+        const world = cplan.world; let worst = Infinity;
+        for (let k = 0; k + 1 < points.length; k += 1) for (let i = 0; i <= 40; i += 1) {
+          const q = points[k].map((x, j) => x + (points[k + 1][j] - x) * i / 40);
+          worst = Math.min(worst, Geometry.contacts(cplan.model.arm, world, q)[0]?.distance ?? Infinity);
+        }
+        return worst; })()"""
+    assert seen.do(hits) >= -1e-6
+    names = seen.do("cplan.world.obstacles.map(({ name }) => name)")
+    lower = names.index("lower wall")
+    assert seen.do(f"cplan.world.obstacles[{lower}].pieces") != seen.do(f"cplan.explain.base.worlds[cplan.explain.place].obstacles[{lower}].pieces")
+    card.click()
+    assert seen.do("JSON.stringify(cplan.model.worlds.map(({ obstacles }) => obstacles))") == old
+    seen.shoot("task-fails")

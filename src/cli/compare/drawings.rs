@@ -89,12 +89,12 @@ pub fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> Vie
     let named = labels(&planners).into_iter().zip(paths).filter_map(|(name, path)| Some((name, path.as_ref()?)));
     let pens = comparison.pens().into_iter().zip(paths).filter_map(|(pen, path)| path.as_ref().map(|_| pen));
     let pens: Vec<_> = pens.collect();
-    let proof = proof(&problem, comparison);
+    let (proof, arm) = (proof(&problem, comparison), problem.scene().arm());
     View::of_picture(&Picture {
-        title: vec![output::title_of(problem.scene()), format!("lengths in {}", comparison.length_unit)],
+        title: vec![output::title_of(problem.scene())],
         status: comparison.outcome(),
         goals: problem.goals().pieces(),
-        paths: named.map(|(name, path)| (format!("{name}: {:.3}", path.length()), path)).collect(),
+        paths: named.map(|(name, path)| (format!("{name}: {}", arm.format_length(path.length())), path)).collect(),
         pens: &pens,
         proof: proof.as_ref(),
         c_obstacles: &output::contours(problem.scene()),

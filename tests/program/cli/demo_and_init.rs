@@ -95,6 +95,16 @@ fn the_demo_does_not_overwrite_files() {
     // Further demonstrations write into the same folder.
     let elsewhere = place.run(&["demo"], "--dir other");
     elsewhere.says(&["cplan demo --kind arch --force --dir other", "the quill moves while the arm moves"]);
+    // All commands that it suggests work, one after the other.
+    let here = Place::new();
+    let done = here.run(&["demo"], "").exits(0);
+    let suggested: Vec<String> =
+        done.stdout.lines().filter_map(|line| line.trim().strip_prefix("cplan ")).map(str::to_owned).collect();
+    assert_eq!(suggested.len(), 6, "{}", done.stdout);
+    for line in suggested {
+        let command = line.split("  ").next().unwrap_or_default();
+        here.run(&command.split(' ').collect::<Vec<_>>(), "").exits(0);
+    }
     let next = "demo --planner harmonic --force --dir other";
     place.run(&next.split(' ').collect::<Vec<_>>(), "").exits(0);
     let forced = place.run(&["demo"], "--force --json --output more.csv");

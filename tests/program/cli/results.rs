@@ -255,3 +255,27 @@ fn an_unreachable_gap_is_reported() {
     let slot = ["robots/polar.urdf", "workspaces/thin_wall_open.toml"].map(shipped);
     here.run(&slot, "--gap 1e-9 --levels 1 --json").exits(0).warns(&["warning: the requested gap of", "--levels"]);
 }
+
+/// Checks that lengths in joint space have their unit wherever they are printed and drawn, and the digits of the result.
+#[test]
+fn lengths_of_paths_have_units() {
+    let cases =
+        [("planar_2r", "shelf", "rad"), ("gantry", "gantry_maze", "m"), ("polar", "polar_gate", "in joint space")];
+    let here = Place::new();
+    for (robot, world, unit) in cases {
+        let files = [format!("robots/{robot}.urdf"), format!("workspaces/{world}.toml")].map(|file| shipped(&file));
+        let result = here.run(&files, "--json --picture plan.svg").exits(0).json();
+        let length = format!("length {:.4} {unit}", result["length"].as_f64().unwrap());
+        here.run(&files, "").says(&[&length, &format!("optimum    {length}; proven: none below")]);
+        let picture = here.read("plan.svg");
+        assert!(picture.contains(&format!("{length}, proven clearance")), "{length}: {picture}");
+        let explained = here.run(&[&["explain".to_owned()][..], &files].concat(), "").stdout;
+        assert!(explained.contains(&format!("shortest   {length}")), "{length}: {explained}");
+    }
+    // Times and lengths in motor angles have units of their own.
+    let world = std::fs::read_to_string(shipped("workspaces/shelf.toml")).unwrap();
+    let world = world + "\n[robot]\ndrives = { elbow = \"base\", ratio = 1.0 }\n";
+    let motors = here.run_in(&shipped("robots/planar_2r.urdf"), world, "--metric motor");
+    let line = motors.stdout.lines().find(|line| line.starts_with("optimum")).unwrap().to_owned();
+    assert!(line.starts_with("optimum    length in motor angles") && line.contains(" rad; proven"), "{line}");
+}

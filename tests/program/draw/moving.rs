@@ -47,6 +47,29 @@ fn without_a_motion_the_proof_is_the_end_and_without_a_replay_there_is_the_motio
     assert!(frames(&found.view()).len() < frames(&found.view_with_replay()).len());
 }
 
+/// Checks that pictures state the time for which they draw the C-obstacles of moving obstacles.
+#[test]
+fn the_title_of_a_configuration_space_states_its_time() {
+    let plan = plan_shipped("planar_2r", "moving/crossing", Method::Shortest);
+    let still = svg(&plan.view());
+    assert!(super::words(&still).contains("Configuration space at 0 s; dashed: stops of moving obstacles"));
+    let frames = frames(&plan.view());
+    let times: Vec<f64> = (frames.iter())
+        .filter_map(|(text, _)| {
+            let words = super::words(text);
+            let (_, rest) = words.split_once("Configuration space at ")?;
+            rest.split(' ').next()?.parse().ok()
+        })
+        .collect();
+    assert_eq!(times.len(), frames.len());
+    assert!(
+        times[..times.len() - 1].is_sorted() && times[times.len() - 2] > 0.9 * plan.duration().unwrap(),
+        "{times:?}"
+    );
+    let fixed = svg(&plan_shipped("planar_2r", "shelf", Method::Shortest).view());
+    assert!(super::words(&fixed).contains("Configuration space") && !fixed.contains("Configuration space at"));
+}
+
 /// Checks the last picture of a GIF. The crate's own reader decodes the file, and the test puts the frames together as
 /// viewers do.
 #[cfg(feature = "png")]

@@ -56,6 +56,19 @@ fn an_address_of_another_machine_is_refused_with_a_hint() {
     Place::new().run(&words, "").refused(1, &parts);
 }
 
+/// Checks that a server for other machines prints an address that they can open: not the one of all addresses, and one that
+/// the server accepts.
+#[test]
+fn a_server_for_other_machines_prints_an_address_to_open() {
+    let server = Server::start(&["--bind", "0.0.0.0"]);
+    assert!(!server.address.ip().is_unspecified(), "{}", server.address);
+    assert_eq!(server.get("/").status(), 200);
+    // It listens at all addresses of this machine.
+    let local = format!("127.0.0.1:{}", server.address.port());
+    assert!(std::net::TcpStream::connect(&local).is_ok());
+    Page::open(&server);
+}
+
 #[test]
 fn other_names_and_other_pages_are_refused() {
     let server = Server::start(&[]);

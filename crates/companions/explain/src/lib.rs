@@ -46,7 +46,7 @@ pub use cplan_blockers::{
 pub use ends::{BlockedEnd, OutOfReach, blocked_ends};
 pub use explanation::{Explanation, FoundExplanation, InfeasibleExplanation, StepFailure, explain, explain_step};
 pub use motion_tree::{MotionTree, Origin};
-pub use output::{section, summary, view, with_explanation};
+pub use output::{section, summary, view, with_explanation, with_step_explanation};
 pub use reach::{Access, MAX_PLACES, Reach, Solution, reach};
 pub use reach_section::reach_section;
 pub use shaping::{Saving, savings};

@@ -7,6 +7,7 @@ use cplan_blockers::{End, TIME_LIMIT, Target};
 use cplan_model::{Elbow, Outcome, Scene, Status};
 use cplan_solver::BoundedPath;
 use cplan_text::{fixed, length, length_down, length_up, listed, percent, round_down, round_up, short};
+use cplan_view::output::names::capitalized;
 use cplan_view::output::{Line, configuration, contours, format_columns, goal_lines, status, title_of};
 use cplan_view::{Picture, Section, View};
 
@@ -46,6 +47,20 @@ pub fn with_explanation(view: View, explanation: &Explanation) -> View {
         Some(stuck) => view.with_blocking(stuck),
         None => view,
     }
+}
+
+/// Adds an explanation of the step that fails to the view of its task. The reason becomes the title. Leaves the view
+/// unchanged if no obstacles or limits are known whose removal opens a path.
+pub fn with_step_explanation(mut view: View, explanation: &Explanation) -> View {
+    let Some(closed) = explanation.outcome.infeasible() else { return view };
+    if closed.sets.iter().all(|set| set.blockers.is_empty()) {
+        return view;
+    }
+    let headline = headline(explanation);
+    let headline = headline.strip_prefix("The ").map_or(headline.clone(), |rest| format!("the {rest}"));
+    let step = view.status.split(':').next().map(capitalized).unwrap_or_default();
+    view.title.insert(0, format!("{step}: {}", headline.trim_end_matches('.')));
+    with_explanation(view, explanation)
 }
 
 /// Returns the section of a page that shows the explanation.
@@ -131,13 +146,14 @@ fn found_lines(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplan
     let mut lines = Vec::new();
     if let Some(bound) = answer.bound() {
         let gap = percent(bound.gap());
-        lines.push(("shortest", format!("length {:.4}; at most {gap} longer than the optimum, proven", bound.upper)));
+        let length = scene.arm().format_length(bound.upper);
+        lines.push(("shortest", format!("length {length}; at most {gap} longer than the optimum, proven")));
     }
     for saving in savings {
-        let (what, length) = (saving.element.describe(scene), saving.length);
+        let (what, length) = (saving.element.describe(scene), scene.arm().format_length(saving.length));
         let (least, most) = (round_down(saving.at_least, 4), round_up(saving.at_most, 4));
         let by =
-            format!("without {what}, the path has length {length:.4}: at least {least} and at most {most} shorter");
+            format!("without {what}, the path has length {length}: at least {least} and at most {most} shorter");
         lines.push(("shaped by", by));
     }
     if let Some(BoundedPath { certified, .. }) = answer.outcome.found()
@@ -213,7 +229,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
     lines.push(match (&blocked.nearest, blocked.tip_moves(arm)) {
         (Some(nearest), Some(tip)) => {
             let (at, far) = (configuration(arm, nearest.configuration), nearest.distance);
-            ("", format!("  nearest free: {at}; {far:.4} away in joint space, the tip moves by {}", length(tip)))
+            ("", format!("  nearest free: {at}; {} away, the tip moves by {}", arm.format_length(far), length(tip)))
         }
         _ => ("", "  the search found no free configuration nearby (not proven)".into()),
     });

@@ -106,7 +106,7 @@ pub fn evidence(explanation: &Explanation) -> String {
             let gap = cplan_text::percent(bound.gap());
             format!(
                 "The shortest path has length {}; it is proven to be at most {gap} longer than the optimum.",
-                fixed(bound.upper, 4)
+                explanation.question.scene().arm().format_length(bound.upper)
             )
         }),
         Outcome::Infeasible(closed) => {
@@ -247,7 +247,7 @@ pub fn removal(scene: &Scene, saving: &Saving, length: f64) -> [String; 2] {
     let effect = format!(
         "the path is at least {share} % shorter, proven: {} instead of {}",
         fixed(saving.length, 4),
-        fixed(length, 4)
+        scene.arm().format_length(length)
     );
     [instruction, effect]
 }

@@ -20,10 +20,10 @@ const PAGE_OF_READINGS = 10;
 class Coverage {
   /**
    * @param {CoveragePoint[]} points the readings in order
-   * @param {{ title: string, degrees: boolean, describe: (index: number) => string, seek: (index: number) => void }} options
-   * title of the length axis, whether lengths are angles, and functions that describe a reading and show it
+   * @param {{ title: string, describe: (index: number) => string, seek: (index: number) => void }} options
+   * title of the length axis, and functions that describe a reading and show it
    */
-  constructor(points, { title, degrees, describe, seek }) {
+  constructor(points, { title, describe, seek }) {
     this.points = points;
     this.describe = describe;
     this.seek = seek;
@@ -35,7 +35,7 @@ class Coverage {
       onpointermove: (event) => event.buttons && this.canvas.hasPointerCapture(event.pointerId) && this.point(event),
     });
     this.panel = new Panel(this.canvas, {
-      x: [-EDGE, 1 + EDGE].map((part) => part * points[this.index].length), y: [0, 100], degrees: [degrees, false], titles: [title, 'seen (%)'], margins: COVERAGE_MARGINS,
+      x: [-EDGE, 1 + EDGE].map((part) => part * points[this.index].length), y: [0, 100], titles: [title, 'seen (%)'], margins: COVERAGE_MARGINS,
       still: (context, panel) => this.drawCurve(context, panel),
       moving: (context, panel) => this.drawPlayhead(context, panel),
     });

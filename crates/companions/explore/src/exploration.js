@@ -82,13 +82,6 @@ class Survey {
 }
 
 class ExplorationView extends View {
-  /** Lengths of the path with their unit: angles, distances, or the sum of both. */
-  static lengthOf(joints, value) {
-    if (joints.every((joint) => joint.unit === 'rad')) return Numbers.angle(value);
-    if (joints.every((joint) => joint.unit === 'm')) return Numbers.length(value);
-    return `${Numbers.digits(value)} (rad, m)`;
-  }
-
   /** Returns the key figures: coverage, path length, readings and, if they were measured, times of decisions. */
   cards() {
     const { survey, arm, exploration: { frames, known_length: known, decisions_ms: times, opened, map: { size } } } = this.model;
@@ -97,7 +90,7 @@ class ExplorationView extends View {
     const decided = [...(times ?? [])].sort((a, b) => a - b);
     return [
       ['coverage', Numbers.percent(survey.seen(last)), `${survey.known[last]} of ${size[0] * size[1]} cells of the map`],
-      ['path length', ExplorationView.lengthOf(arm.joints, length), known > 0 ? `${Numbers.digits(length / known)} times the length in the fully known world` : 'in joint space'],
+      ['path length', Numbers.pathLength(arm.joints, length), known > 0 ? `${Numbers.digits(length / known)} times the length in the fully known world` : 'in joint space'],
       ['readings', String(frames.length), `${opened.length - 1} decisions`],
       decided.length && ['decision', `${Numbers.digits(decided[Math.floor(decided.length / 2)])} ms`, `median; longest ${Numbers.digits(decided[decided.length - 1])} ms`],
     ].filter(Boolean);
@@ -106,10 +99,8 @@ class ExplorationView extends View {
   constructor(root, model) {
     super(root, model);
     const { arm: { joints }, exploration: { decisions_ms: times } } = model;
-    const unit = joints.every((joint) => joint.unit === 'rad') ? '' : joints.every((joint) => joint.unit === 'm') ? ' (m)' : ' (rad, m)';
     this.coverage = new Coverage(model.survey.points, {
-      title: `path length${unit}; ticks: readings${times ? `; dots: times of decisions, up to ${Numbers.digits(Math.max(...times))} ms` : ''}`,
-      degrees: !unit,
+      title: `path length (${Numbers.pathUnit(joints)}); ticks: readings${times ? `; dots: times of decisions, up to ${Numbers.digits(Math.max(...times))} ms` : ''}`,
       describe: (reading) => this.reported(reading),
       seek: (reading) => {
         this.pause();
@@ -236,7 +227,7 @@ class ExplorationView extends View {
     const { survey, arm, exploration: { frames } } = this.model;
     const { length, new: cells } = frames[reading];
     const gain = `${cells.length} new ${cells.length === 1 ? 'cell' : 'cells'}`;
-    return `${Numbers.percent(survey.seen(reading))} of the map seen, ${gain}; path length ${ExplorationView.lengthOf(arm.joints, length)}`;
+    return `${Numbers.percent(survey.seen(reading))} of the map seen, ${gain}; path length ${Numbers.pathLength(arm.joints, length)}`;
   }
 
   /** Shows on the button what a click does. At the end, it offers to play everything again. */

@@ -273,6 +273,8 @@ pub struct AnswerReply {
 pub struct Figures {
     /// Length of the path in the requested metric.
     pub length: Option<f64>,
+    /// Unit of that length.
+    pub length_unit: &'static str,
     /// Proven lower bound on the length of every path.
     pub lower_bound: Option<f64>,
     /// Proven lower bound on the distance of the motion from all obstacles, in metres. `None` if no obstacle is within

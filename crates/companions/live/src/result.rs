@@ -4,7 +4,7 @@ use super::contours::Contours;
 use super::protocol::{AnswerReply, Figures};
 use cplan_engine::{Detail, Problem, plan};
 use cplan_handling::TimedScene;
-use cplan_model::space::{Configuration, Segment};
+use cplan_model::space::{Configuration, Metric, Segment};
 use cplan_model::{Scene, Status};
 use cplan_planners::cspace::CObstacle;
 use cplan_solver::Options;
@@ -48,7 +48,9 @@ pub fn quick_answer(problem: &Problem, options: &Options, contours: &Contours) -
     };
     let mut figures = Figures { clearance: plan.clearance(), ..Figures::of_size(answer.run.size) };
     if let Some(path) = answer.path() {
-        figures.length = Some(options.planner.metric(problem.scene().arm()).length(path));
+        let arm = problem.scene().arm();
+        let metric = options.planner.metric(arm);
+        (figures.length, figures.length_unit) = (Some(metric.length(path)), arm.unit_in(metric));
         picture.paths.push((answer.method.to_string(), path));
     }
     let view = drawn(&View::of_picture(&picture));
@@ -93,7 +95,7 @@ pub fn full_answer(
     let plan = plan(problem, options, SEARCHES, &mut |_| ()).map_err(|error| error.to_string())?;
     let view = view_with(&plan, |scene| contours.of(scene));
     let view = if think { replayed(&plan, view) } else { view };
-    let bound = plan.bound();
+    let (bound, arm) = (plan.bound(), problem.scene().arm());
     let (size, length) = match plan.detail() {
         Detail::Motion { answer, .. } => {
             (answer.run.size.to_string(), bound.map(|bound| bound.upper).or_else(|| plan.length()))
@@ -102,6 +104,7 @@ pub fn full_answer(
     };
     let figures = Figures {
         length,
+        length_unit: arm.unit_in(bound.map_or(Metric::Euclidean, |bound| bound.metric)),
         // Among moving obstacles, the bound says little, since it ignores them.
         lower_bound: bound.filter(|_| problem.timed().trajectories.is_empty()).map(|bound| bound.lower),
         clearance: plan.clearance(),

@@ -168,6 +168,28 @@ impl Arm {
         }
     }
 
+    /// Returns the unit of lengths in joint space: `rad` or `m`. `in joint space` if the joints have different units, because
+    /// such a length has none.
+    pub fn length_unit(&self) -> &'static str {
+        let [first, second] = self.joints.each_ref().map(Joint::unit);
+        if first == second { first } else { "in joint space" }
+    }
+
+    /// Returns the unit of lengths in a metric. `weighted` if the metric weighs the joints.
+    pub fn unit_in(&self, metric: Metric) -> &'static str {
+        match metric {
+            Metric::Euclidean => self.length_unit(),
+            Metric::Weighted { .. } => "weighted",
+            Metric::Time { .. } => "s at top speed",
+            Metric::Motor { .. } => "rad of the motors",
+        }
+    }
+
+    /// Returns a length in joint space with its unit: `4.5534 rad`.
+    pub fn format_length(&self, length: f64) -> String {
+        format!("{length:.4} {}", self.length_unit())
+    }
+
     /// Returns true if both joints are prismatic.
     pub fn is_gantry(&self) -> bool {
         !self.joints.iter().any(|joint| joint.joint_type.is_revolute())

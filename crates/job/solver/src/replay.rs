@@ -15,7 +15,7 @@ use cplan_model::{MotionProblem, Outcome};
 use cplan_planners::cspace::ZonedGrid;
 use cplan_planners::planner::{CellKind, GraphKind, Note, PathKind, Proposal, Size, Trace};
 use cplan_proofs::{BoundRound, Occupancy, bound_rounds, slab_boxes};
-use cplan_text::{counted, fixed, percent};
+use cplan_text::{counted, fixed, percent, round_down};
 
 /// The replay of a planner's run.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,7 +59,12 @@ pub enum Shows {
     /// The first path that was certified, from which the search for a shorter one begins.
     First(Path),
     /// The rounds in which the lower bound on the length rises.
-    Bound(Vec<BoundRound>),
+    Bound {
+        /// The rounds, in their order.
+        rounds: Vec<BoundRound>,
+        /// Unit of the lengths.
+        unit: &'static str,
+    },
     /// Slices that the path crosses.
     Slices,
     /// Cells of a grid, in the order of their labels or of their expansion.
@@ -277,10 +282,11 @@ impl Phases {
 
     /// Adds the phases in which the length is enclosed: the first path, then the rising lower bound.
     fn of_bound(&mut self, problem: &MotionProblem, options: &Options, bound: &Bound) {
+        let unit = problem.scene().arm().unit_in(bound.metric);
         if let Outcome::Found(first) = decide(problem, options.boxes.min(FIRST_BOXES)) {
             let (path, length) = (first.path(), bound.metric.length(first.path()));
             let caption = format!(
-                "A first path through the free parts, of length {}: certified, but not the shortest",
+                "A first path through the free parts, of length {} {unit}: certified, but not the shortest",
                 fixed(length, 4)
             );
             self.add(path.waypoints().len(), caption, Shows::First(path.clone()));
@@ -297,10 +303,10 @@ impl Phases {
         rounds.iter_mut().for_each(|round| round.lower = round.lower.min(bound.lower));
         rounds.iter_mut().last().into_iter().for_each(|last| last.lower = bound.lower);
         let caption = format!(
-            "The lower bound: the shortest line around the known walls. More strips find more walls, and raise the bound to {}",
-            fixed(bound.lower, 4)
+            "The lower bound: the shortest line around the known walls. More strips find more walls, and raise the bound to {} {unit}",
+            round_down(bound.lower, 4)
         );
-        self.add(rounds.len(), caption, Shows::Bound(rounds));
+        self.add(rounds.len(), caption, Shows::Bound { rounds, unit });
     }
 
     /// Adds the phase with the field after some of its sweeps, if the field is relaxed on the CPU.

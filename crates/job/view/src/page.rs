@@ -73,13 +73,24 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
             let below = top + height + AXES_HEIGHT;
             let page_height = MIN_PAGE_HEIGHT + strips(view, [left.x, right.right()], below, &mut items);
             items.push(heading(left, top - 12.0, "Workspace"));
-            items.push(heading(right, top - 12.0, &panel.title));
+            items.push(heading(right, top - 12.0, &space_title(view, panel)));
             items.extend(legend::items(&keys, PAGE_WIDTH / 2.0, page_height - legend));
             page_height
         }
         panels => task(view, panels, &keys, 112.0 + lines, &mut items),
     };
     Figure { width: PAGE_WIDTH, height, items, is_dark: view.still.is_dark }
+}
+
+/// Returns the title of a configuration space. Among moving obstacles, it states the time for which their C-obstacles are
+/// drawn.
+fn space_title(view: &View, panel: &PanelView) -> String {
+    let movers = &view.worlds[panel.worlds[0]].movers;
+    match (movers.is_empty(), view.still.now, view.duration()) {
+        (true, ..) => panel.title.clone(),
+        (false, None, Some(_)) => format!("{} at {} s; dashed: stops of moving obstacles", panel.title, view.still.time),
+        (false, ..) => format!("{} at {:.2} s", panel.title, view.still.time),
+    }
 }
 
 /// Returns the places of the workspace and of a single configuration space. If both axes of the configuration space have

@@ -47,10 +47,11 @@ class Controls {
       group('Add', ...[['polygon', 'add a polygon'], ['circle', 'add a circle'], ['wall', 'add a thin wall']].map(([kind, label]) => iconButton(kind, label, () => editor.add(kind)))),
       group('Selected obstacle', this.cornerMode, this.corner, this.remove),
     ];
-    this.toolbar = element('section', { class: 'toolbar', 'aria-label': 'Tools' }, ...this.edits, group('Files', ...this.fileTools()));
+    this.files = group('Files', ...this.fileTools());
+    this.toolbar = element('section', { class: 'toolbar', 'aria-label': 'Tools' }, ...this.edits);
     this.root = element(
       'section', { class: 'controls', 'aria-label': 'Planner' },
-      element('div', { class: 'group' }, element('label', {}, 'planner ', this.planner), this.menus, this.clearanceLabel, element('label', { class: 'grows' }, 'other options ', this.more)),
+      element('div', { class: 'group' }, element('label', {}, 'planner ', this.planner), this.menus, this.clearanceLabel, element('label', { class: 'grows' }, 'more ', this.more)),
     );
     this.remarks = element('span', { class: 'remark', role: 'status' }, live.remarked ?? '');
     this.commandLine = element('p', { class: 'command' }, 'as a command: ', this.command);

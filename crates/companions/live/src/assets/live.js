@@ -91,7 +91,7 @@ class Live {
     this.spoken = element('p', { class: 'spoken', 'aria-live': 'polite' });
     const { places } = this.notices;
     this.outcome = element('div', { class: 'outcome' }, this.cards, this.figures, places.picture, places.files, this.controls.remarks);
-    this.root.querySelector('.panels').after(this.outcome, this.spoken, this.controls.inspector.root);
+    this.root.querySelector('.transport').after(this.spoken, this.controls.inspector.root);
     this.arrange();
     SMALL_SCREEN.addEventListener('change', () => this.arrange());
     this.root.querySelector('.help').before(this.controls.commandLine, this.controls.world);
@@ -116,20 +116,22 @@ class Live {
     };
   }
 
-  /** Puts tools and choices above the pictures; on a small screen below them, because there the pictures come first. */
+  /** Puts tools, choices and the outcome above the pictures; on a small screen below them, because there the pictures come first. */
   arrange() {
     const [header, stage, panels] = ['header', '.stage', '.panels'].map((name) => this.root.querySelector(name));
-    const { controls: { toolbar, root }, gallery, outcome, notices: { places } } = this;
+    const { controls: { toolbar, root, files, inspector }, gallery, outcome, notices: { places } } = this;
+    const { transport } = this.view.parts;
     if (SMALL_SCREEN.matches) {
-      outcome.after(gallery.task, toolbar);
+      panels.after(outcome, gallery.task, toolbar, inspector.root);
+      toolbar.append(files);
       // Above the pictures, where its cards and the pictures are in sight together.
       panels.before(this.view.explain.root);
       stage.after(gallery.root, root, places.options);
     } else {
-      panels.before(toolbar);
-      outcome.after(this.view.explain.root);
-      header.firstChild.after(gallery.root);
-      header.after(gallery.task, root, places.options);
+      toolbar.append(root);
+      header.firstChild.after(gallery.root, files);
+      header.after(gallery.task, toolbar, places.options, outcome);
+      transport.after(this.view.explain.root, inspector.root);
     }
   }
 
@@ -273,6 +275,7 @@ class Live {
     } else if (about.kind === 'download' || about.kind === 'explain') this.notices.show('files', error);
     else {
       this.shown = { edition: about.edition, final: true, error: 'not planned' };
+      this.isOutdated = true;
       this.showError('picture', error);
     }
     if (this.link.isPlanDue) this.plan(true);
@@ -307,6 +310,8 @@ class Live {
     }
     this.showError(message.about === 'options' ? 'options' : 'picture', error, message.about);
     this.showFigures(message);
+    /** True if the picture still shows an older answer, because there is none to the last request. */
+    this.isOutdated = Boolean(error) && !message.view;
   }
 
   /** Returns the outcome for the badge: certified only if the server says so of the whole motion. */
@@ -414,11 +419,12 @@ class Live {
     const now = performance.now();
     if (!final && now - this.figuresShown < FIGURES_INTERVAL) return;
     this.figuresShown = final ? -Infinity : now;
-    const { length, lower_bound: bound, clearance, duration, size, milliseconds } = figures;
-    const verdicts = { found: certified ? 'found and certified' : 'found', infeasible: 'infeasible: proven', unknown: 'unknown' };
+    const { length, length_unit: unit, lower_bound: bound, clearance, duration, size, milliseconds } = figures;
+    const verdicts = { found: certified ? 'found and certified' : 'found', infeasible: 'infeasible', unknown: 'unknown' };
+    const measure = length && `length ${length.toFixed(4)} ${unit}`;
     const parts = [
       final ? verdicts[verdict] : 'following',
-      length && `length ${length.toFixed(4)}`,
+      measure,
       bound && `at most ${roundedSafely(100 * (length / bound - 1), 2, Math.ceil)} % longer than the shortest`,
       final && clearance && `clearance ${roundedSafely(1000 * clearance, 3, Math.floor)} mm proven`,
       duration && `motion ${duration.toFixed(3)} s`,
@@ -432,14 +438,14 @@ class Live {
     const separated = (texts) => texts.join(' \u00b7 ');
     const own = { duration: duration ?? undefined, gap: bound ? length / bound - 1 : undefined, clearance: clearance ?? undefined };
     const known = final && view?.figures?.duration ? view.figures : own;
-    let cards = final && verdict === 'found' && known.duration ? View.cards({ figures: known }) : [];
+    let cards = final && verdict === 'found' && known.duration ? View.cards({ figures: known, arm: this.view.model.arm }) : [];
     // The cards keep their places while something is dragged, with the values that are known then.
     if (!final && !this.cards.hidden) {
       const now = new Map(View.cards({ figures: { duration: own.duration, gap: own.gap } }).map((card) => [card[0], card]));
       cards = ['time', 'over the optimum', 'clearance'].map((name) => (name === 'over the optimum' && own.gap === undefined ? null : now.get(name)) ?? [name, '\u2026', 'computed when you let go']);
     }
     View.fillCards(this.cards, cards);
-    const line = cards.length ? [parts[0], length && `length ${length.toFixed(4)}`].filter(Boolean) : parts;
+    const line = cards.length ? [parts[0], measure].filter(Boolean) : parts;
     this.figures.replaceChildren(separated(line), element('span', { class: 'detail' }, ` \u00b7 ${separated(details)}`));
     if (final) this.lastFigures = [...this.figures.childNodes];
     if (final) this.spoken.textContent = parts.slice(0, 5).join(', ');
@@ -489,7 +495,7 @@ class Live {
     const isFollowing = Boolean(this.isUp && this.editor.held && this.updatesPerSecond);
     classList.toggle('following', isFollowing);
     this.showLastVerdict(isCurrent, isFollowing);
-    const isBehind = !isCurrent && !isFollowing;
+    const isBehind = isCurrent ? Boolean(this.isOutdated) : !isFollowing;
     const show = (behind) => {
       if (classList.contains('behind') === behind) return;
       classList.toggle('behind', behind);

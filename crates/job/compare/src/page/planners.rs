@@ -88,9 +88,8 @@ fn columns(comparison: &Comparison) -> Vec<RankedColumn> {
     let unit = comparison.length_unit.as_str();
     let of = |value: fn(&Row) -> Option<f64>| -> Vec<Option<f64>> { comparison.rows.iter().map(value).collect() };
     let over = comparison.rows.iter().map(|row| comparison.over_optimum(row)).collect();
-    let length = if unit.contains(',') { format!("length [{unit}]") } else { "length".to_owned() };
     let all = vec![
-        RankedColumn::new(&length, "Euclidean length in joint space", Better::Less, of(|row| row.length), |v| {
+        RankedColumn::new("length", "Euclidean length in joint space", Better::Less, of(|row| row.length), |v| {
             path_length(v, unit)
         }),
         RankedColumn::new(

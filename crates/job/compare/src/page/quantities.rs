@@ -9,10 +9,9 @@ fn significant(value: f64, digits: i32) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Formats a length in joint space. An arm with joints of two kinds has no single unit, so its lengths have none.
+/// Formats a length in joint space, as the terminal does. An arm with joints of two kinds has no single unit.
 pub fn path_length(value: f64, unit: &str) -> String {
-    let number = significant(value, 4);
-    if unit.contains(',') { number } else { format!("{number} {unit}") }
+    format!("{value:.4} {}", if unit.contains(',') { "in joint space" } else { unit })
 }
 
 /// Formats the ratio of a length to the optimum as the excess, which is rounded up.
@@ -55,7 +54,7 @@ mod tests {
 
     #[test]
     fn quantities_have_few_digits_and_a_unit() {
-        assert_eq!([path_length(4.49196, "rad"), path_length(12.5, "rad, m")], ["4.492 rad", "12.50"]);
+        assert_eq!([path_length(4.49196, "rad"), path_length(12.5, "rad, m")], ["4.4920 rad", "12.5000 in joint space"]);
         assert_eq!([excess(1.25), excess(1.0)], ["25.00 %", "0.00 %"]);
         assert_eq!([clearance(0.13095), clearance(f64::INFINITY)], ["130.9 mm", "none in reach"]);
         assert_eq!(duration(2.0634), "2.063 s");

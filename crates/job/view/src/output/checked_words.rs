@@ -85,7 +85,7 @@ pub fn cards(scene: &Scene, findings: &ConfigurationFindings) -> Vec<[String; 3]
                 false => three_digits(value).replace('-', "\u{2212}"),
             }
         });
-        let note = format!("nearest free configuration, {:.4} away", nearest.distance);
+        let note = format!("nearest free configuration, {} away", scene.arm().format_length(nearest.distance));
         card("free at", values.collect::<Vec<_>>().join(", "), note);
     }
     cards

@@ -47,12 +47,13 @@ fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motio
     let TimedMotion { curve, trajectory } = &motion.timed;
     let kind = if answer.method.has_own_path() { format!(", {} path", answer.path_kind) } else { String::new() };
     let pieces = counted(path.segments().count(), "straight piece");
-    let mut lines = vec![("result", format!("found and certified: {pieces}, length {:.4}{kind}", path.length()))];
+    let mut lines =
+        vec![("result", format!("found and certified: {pieces}, length {}{kind}", arm.format_length(path.length())))];
     if problem.goals().pieces().iter().any(|goals| !goals.is_point()) {
         lines.push(("reached", configuration(arm, path.goal())));
     }
     let is_timed = motion.timing.is_some();
-    lines.extend(motion.path.bound.iter().map(|bound| ("optimum", optimum(bound, is_timed))));
+    lines.extend(motion.path.bound.iter().map(|bound| ("optimum", optimum(arm, bound, is_timed))));
     let (samples, corners) = (trajectory.time.len(), corners(curve));
     lines.push(("motion", format!("{:.3} s, {samples} samples{corners}", trajectory.duration())));
     lines.extend(torque(arm, trajectory));
@@ -87,11 +88,12 @@ fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let is_found = matches!(answer.outcome, Outcome::Found(_));
     let Proposal::Found(path) = &answer.run.outcome else { return None };
     (plan.options().planner.is_exact() && is_found).then(|| {
-        let length = path.length();
+        let length = plan.arm().format_length(path.length());
         let summary_lines = match answer.history[..] {
             [] => "the path was planned among the exact polygons and touches none".to_owned(),
             _ => format!(
-                "the path among the exact polygons has length {length:.4}, but touches them; the certified path avoids slightly grown polygons"
+                "the path among the exact polygons has length {length}, but touches them; the certified path avoids \
+                 slightly grown polygons"
             ),
         };
         ("exact", summary_lines)
@@ -178,13 +180,13 @@ fn least_time(fastest: &DurationOptimality) -> String {
 
 /// Describes how near the path is to the optimum. The bound ignores moving obstacles, so that it says little about a path
 /// among them.
-fn optimum(bound: &Bound, is_among_movers: bool) -> String {
+fn optimum(arm: &Arm, bound: &Bound, is_among_movers: bool) -> String {
     let Bound { metric, lower, upper } = *bound;
     let measure = match metric {
-        Metric::Euclidean => format!("length {upper:.4}"),
+        Metric::Euclidean => format!("length {}", arm.format_length(upper)),
         Metric::Weighted { weights: [a, b] } => format!("weighted length {upper:.4} (weights {a}, {b})"),
         Metric::Time { .. } => format!("{upper:.4} s at top speed"),
-        Metric::Motor { .. } => format!("length in motor angles {upper:.4}"),
+        Metric::Motor { .. } => format!("length in motor angles {upper:.4} rad"),
     };
     let (lower, gap) = (round_down(lower, 4), percent(bound.gap()));
     if is_among_movers {

@@ -204,7 +204,8 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
     let outline = answer.outcome.found().map(|motion| motion.timed.curve.outline());
     let detail = match &answer.outcome {
         Outcome::Found(motion) => {
-            format!("{method}: length {:.4}, {}", motion.path.path().length(), describe_clearance(plan.clearance()))
+            let length = scene.arm().format_length(motion.path.path().length());
+            format!("{method}: length {length}, {}", describe_clearance(plan.clearance()))
         }
         Outcome::Infeasible(proof) => format!("{method}: there is no path; {}", proof.describe()),
         Outcome::Unknown(_) => method.to_string(),
@@ -277,10 +278,10 @@ pub fn headline(plan: &Plan) -> Option<String> {
         });
     }
     let (_, answer) = plan.motion()?;
-    let length = answer.path()?.length();
+    let length = plan.arm().format_length(answer.path()?.length());
     Some(match figures.gap {
-        Some(gap) => format!("The shortest path: {length:.4} in joint space, proven within {}", percent(gap)),
-        None => format!("A path from start to goal: {length:.4} in joint space, certified"),
+        Some(gap) => format!("The shortest path: {length}, proven within {}", percent(gap)),
+        None => format!("A path from start to goal: {length}, certified"),
     })
 }
 

@@ -127,7 +127,8 @@ fn add_warning(plan: &Plan, lines: &mut Vec<Line>) {
         || "--clearance requires more".to_owned(),
         |[kept, length]| {
             let kept = chosen_length(kept);
-            format!("with --clearance {}, the path keeps {kept} and has length {length:.4}", kept.replace(' ', ""))
+            let length = plan.arm().format_length(length);
+            format!("with --clearance {}, the path keeps {kept} and has length {length}", kept.replace(' ', ""))
         },
     );
     let at = lines.iter().rposition(|(key, _)| ["clearance", "margin"].contains(key)).map_or(lines.len(), |at| at + 1);

@@ -53,8 +53,9 @@ pub enum ShowsView {
     First {
         points: Chain,
     },
-    /// Rounds of the lower bound.
+    /// Rounds of the lower bound, and the unit of the lengths.
     Bound {
+        unit: &'static str,
         rounds: Vec<RoundView>,
     },
     Slices,

@@ -38,9 +38,9 @@ impl PhaseView {
             |phase: &Phase| (SECONDS_PER_ROOT * (phase.events as f64).sqrt()).clamp(PHASE_SECONDS[0], PHASE_SECONDS[1]);
         let time_scale = (MAX_REPLAY_SECONDS / replay.phases.iter().map(seconds).sum::<f64>()).min(1.0);
         // The phases of a proof have whole sentences to read.
-        let is_proof = replay.phases.iter().any(|phase| matches!(phase.shows, Shows::Bound(_)));
+        let is_proof = replay.phases.iter().any(|phase| matches!(phase.shows, Shows::Bound { .. }));
         let read = |phase: &Phase| match phase.shows {
-            Shows::Bound(_) => PROOF_SECONDS[1],
+            Shows::Bound { .. } => PROOF_SECONDS[1],
             _ => PROOF_SECONDS[0],
         };
         let rounded = |seconds: f64| (seconds * 100.0).round() / 100.0;
@@ -58,7 +58,8 @@ impl PhaseView {
             Shows::Channel => ShowsView::Channel,
             Shows::Expanded => ShowsView::Expanded,
             Shows::First(path) => ShowsView::First { points: grain.configurations(path.waypoints()) },
-            Shows::Bound(rounds) => ShowsView::Bound {
+            Shows::Bound { rounds, unit } => ShowsView::Bound {
+                unit,
                 rounds: rounds
                     .iter()
                     .map(|round| RoundView {
@@ -199,7 +200,7 @@ impl View {
         view.paths = match &now.shows {
             ShowsView::Own { points } => vec![self.paths[0].grey_line(beginning_of(points, part))],
             ShowsView::First { points } => vec![self.paths[0].first_line(beginning_of(points, part))],
-            ShowsView::Bound { rounds } => {
+            ShowsView::Bound { rounds, .. } => {
                 // In the first half of each round its line grows.
                 let shown = part * rounds.len() as f64;
                 let number = (shown as usize).min(rounds.len() - 1);

@@ -6,12 +6,13 @@ const Closing = (() => {
   const ROOM = 0.1;
 
   /**
-   * Returns both lengths over the time of a replay, as steps: { upper, lower, duration }, each a list of [time, length].
+   * Returns both lengths over the time of a replay, as steps: { upper, lower, duration, unit }, each of the first two a list of [time, length].
    * `null` if the replay has no lower bound.
    * @param {PhaseModel[] | undefined} replay
    */
   function curves(replay) {
-    if (!replay?.some(({ kind }) => kind === 'bound')) return null;
+    const bound = replay?.find(({ kind }) => kind === 'bound');
+    if (!bound) return null;
     const [upper, lower] = [[], []];
     let from = 0;
     for (const { kind, seconds, length, rounds } of replay) {
@@ -21,7 +22,7 @@ const Closing = (() => {
       for (const [k, round] of (rounds ?? []).entries()) lower.push([from + (seconds * k) / rounds.length, round.lower]);
       from = until;
     }
-    return upper.length && lower.length ? { upper, lower, duration: from } : null;
+    return upper.length && lower.length ? { upper, lower, duration: from, unit: bound.unit } : null;
   }
 
   /** Returns the value of a curve at a time. `undefined` before its beginning. */
@@ -93,7 +94,8 @@ const Closing = (() => {
       const room = ROOM * (high - low || 1);
       [panel.x, panel.y] = [[0, found.duration], [low - room, high + room]];
       const [upper, lower] = [found.upper, found.lower].map((steps) => steps[steps.length - 1][1]);
-      canvas.setAttribute('aria-label', `The length of the best path falls to ${upper.toFixed(4)}, the lower bound rises from ${found.lower[0][1].toFixed(4)} to ${lower.toFixed(4)}: at most ${Numbers.percent(upper / lower - 1, Math.ceil)} apart`);
+      canvas.setAttribute('aria-label', `The length of the best path falls to ${upper.toFixed(4)}, the lower bound rises from ${Numbers.below(found.lower[0][1])} to ${Numbers.below(lower)} ${found.unit}: at most ${Numbers.percent(upper / lower - 1, Math.ceil)} apart`);
+      panel.titles = ['replay (s)', `length (${found.unit})`];
       panel.layout();
       panel.dirty = true;
       follow();
@@ -106,7 +108,8 @@ const Closing = (() => {
       if (!found) return;
       const [upper, lower] = [found.upper, found.lower].map((steps) => valueAt(steps, view.time));
       const gap = upper !== undefined && lower !== undefined ? `; at most ${Numbers.percent(upper / lower - 1, Math.ceil)} apart` : '';
-      now.textContent = `best path ${upper?.toFixed(4) ?? 'not found yet'}, lower bound ${lower?.toFixed(4) ?? 'not proven yet'}${gap}`;
+      const of = (value, text) => (value === undefined ? null : `${text} ${found.unit}`);
+      now.textContent = `best path ${of(upper, upper?.toFixed(4)) ?? 'not found yet'}, lower bound ${of(lower, Numbers.below(lower)) ?? 'not proven yet'}${gap}`;
     }
 
     return { root, panel, fit, show: fit, follow };

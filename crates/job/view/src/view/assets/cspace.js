@@ -399,7 +399,7 @@ const CSpace = (() => {
     view.followed?.inCSpace(context, panel, (flat) => shifted(context, panel, flat, circles(view), false));
     if (seen?.kind === 'channel' && view.shows('channel')) channelPoints(context, panel, view, seen);
     if (view.model.checked?.nearest_free) ring(context, panel, place(view, panel, view.model.checked.nearest_free), 5, panel.theme.grey);
-    if (view.model.stuck?.at) cross(context, panel.theme, place(view, panel, view.model.stuck.at[0]));
+    if (view.isStuckHere && view.model.stuck.at) cross(context, panel.theme, place(view, panel, view.model.stuck.at[0]));
     if (view.isPlain) Labels.blockSpot(panel, place(view, panel, view.beginning()), 10);
     else ends(context, panel, view);
     if (view.isTask && !view.isPlain) {
@@ -471,7 +471,7 @@ const CSpace = (() => {
   }
 
   /** Returns the configurations with markers: start, goals, and where the arm gets stuck. */
-  const markers = (panel, view) => [view.beginning(), ...view.goals().map(([q]) => q), ...(view.model.stuck?.at?.slice(0, 1) ?? [])].map((q) => place(view, panel, q));
+  const markers = (panel, view) => [view.beginning(), ...view.goals().map(([q]) => q), ...((view.isStuckHere && view.model.stuck.at?.slice(0, 1)) || [])].map((q) => place(view, panel, q));
 
   function ring(context, panel, [x, y], r, color = panel.theme.ink) {
     context.beginPath();

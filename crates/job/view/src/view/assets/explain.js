@@ -143,6 +143,12 @@ class Explain {
     return element('button', { type: 'button', class: 'button apply', 'aria-label': `Apply: ${card.title}`, onclick: () => this.apply(card) }, 'Apply');
   }
 
+  /** Returns the index of the world that the explanation is about: that of the last step. */
+  get place() {
+    const { motions } = this.base;
+    return motions[motions.length - 1]?.world ?? 0;
+  }
+
   /**
    * Shows a card while the pointer or the focus is on it.
    * @param {Card | null} card
@@ -194,6 +200,7 @@ class Explain {
     this.stop();
     this.shown = card;
     if (view.mode === 'learn') view.switchTo('move');
+    if (card && this.base.motions.length > 1) this.beforeLastStep();
     view.model = card?.path ? this.changed(card) : this.base;
     view.traces = null;
     const { cspace } = view.panels;
@@ -207,6 +214,14 @@ class Explain {
     if (card?.path) this.start(card);
   }
 
+  /** Shows the time before the last step of a task, which the explanation is about. */
+  beforeLastStep() {
+    const { view } = this;
+    if (view.mode !== 'move') view.switchTo('move');
+    view.pause();
+    view.seek(view.duration);
+  }
+
   /**
    * Returns the model of the world with the change of a card.
    * @param {Card} card
@@ -217,7 +232,7 @@ class Explain {
     const { theme } = view.panels.workspace;
     const { obstacle, changed, removed = [], c_obstacles: own = [], domains, path } = card;
     const isGone = (index) => removed.includes(index);
-    const [first] = base.worlds;
+    const first = base.worlds[this.place];
     const obstacles = first.obstacles.map((one, index) => {
       if (index === obstacle && changed) return { ...changed, color: one.color };
       return isGone(index) ? { ...one, outline: 'pieces', own: 0, pieces: [] } : one;
@@ -230,10 +245,12 @@ class Explain {
       pairs: first.pairs.filter(([, , index, , end]) => end <= obstacles[index].pieces.length),
       proof: [],
     };
-    const opened = { ...path, world: 0, color: theme.found };
+    // Paths of a task end with the number of their step.
+    const step = base.motions.length > 1 ? parseInt(base.motions[base.motions.length - 1].label, 10) : undefined;
+    const opened = { ...path, world: this.place, color: theme.found, step };
     const before = base.paths.map((one) => ({ ...one, color: theme.grey, width: 1.6, dash: [5, 4] }));
     const joint = (k) => ({ ...base.arm.joints[k], domain: domains?.[k] ?? base.arm.joints[k].domain });
-    return { ...base, arm: { ...base.arm, joints: [joint(0), joint(1)] }, worlds: [world, ...base.worlds.slice(1)], paths: [opened, ...before], stuck: null };
+    return { ...base, arm: { ...base.arm, joints: [joint(0), joint(1)] }, worlds: base.worlds.map((one, k) => (k === this.place ? world : one)), paths: base.motions.length > 1 ? [...base.paths, opened] : [opened, ...before], stuck: null };
   }
 
   /**
@@ -294,7 +311,7 @@ class Explain {
     const { shown, base } = this;
     if (!shown?.path) return;
     const { theme } = panel;
-    const [{ obstacles }] = base.worlds;
+    const { obstacles } = base.worlds[this.place];
     const before = shown.changed ? [shown.obstacle] : shown.removed ?? [];
     for (const index of before) {
       Workspace.outline(context, panel, obstacles[index]);

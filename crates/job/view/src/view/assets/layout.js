@@ -87,6 +87,11 @@ function buildPage(view) {
   };
   view.explain.watch(view.panels);
   view.budget.watch(view.panels);
+  // The pictures and the controls of time fit below what stands above them.
+  const stage = view.root.querySelector('.stage');
+  const fit = () => view.root.style.setProperty('--above', `${Math.round(stage.getBoundingClientRect().top + scrollY)}px`);
+  const above = new ResizeObserver(fit);
+  for (const part of [view.root.querySelector('header'), parts.cards]) above.observe(part);
   // Texts on canvases follow the text size of the page.
   new ResizeObserver(() => view.model && view.recolor()).observe(parts.measure);
   view.plots = [...Plots.mount(parts.plots, view), view.sideView, view.closing, view.strip, view.height, view.turns, view.toolAngle];

@@ -30,7 +30,7 @@ const Numbers = (() => {
    */
   function length(metres, more = 0, round = Math.round) {
     if (Math.abs(metres) >= 0.9995) return `${digits(metres, 3 + more, round)} m`;
-    const text = digits(1000 * metres, 3 + more, round, 3 + more);
+    const text = digits(1000 * metres, 3 + more, round, 3);
     return `${text === '0' ? digits(1000 * metres, 2, round) : text} mm`;
   }
 
@@ -47,6 +47,15 @@ const Numbers = (() => {
 
   /** Formats a value of a joint. */
   const joint = ({ unit }, value, more = 0) => (unit === 'rad' ? angle(value, more) : length(value, more));
+
+  /** Returns the unit of lengths in joint space; `in joint space` if the joints have different units. */
+  const pathUnit = ([first, second]) => (first.unit === second.unit ? first.unit : 'in joint space');
+
+  /** Formats a length in joint space, with the digits of the terminal. */
+  const pathLength = (joints, value) => `${value.toFixed(4)} ${pathUnit(joints)}`;
+
+  /** Formats a lower bound on a length in joint space, without its unit. */
+  const below = (value) => (Math.floor(1e4 * value + 1e-9) / 1e4).toFixed(4);
 
   /** Formats a configuration: each joint with its name. */
   const configuration = (joints, q, more = 0) => joints.map((one, k) => `${one.name} ${joint(one, q[k], more)}`).join(', ');
@@ -72,5 +81,5 @@ const Numbers = (() => {
 
   const seconds = (value) => `${value.toFixed(2)} s`;
 
-  return { digits, length, angle, joint, configuration, exact, readable, percent, seconds };
+  return { digits, length, pathUnit, pathLength, below, angle, joint, configuration, exact, readable, percent, seconds };
 })();

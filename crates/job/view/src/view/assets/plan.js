@@ -31,8 +31,8 @@ if (cplan.model.line) new FollowedLine(cplan);
     new ResizeObserver(report).observe(cplan.root);
     for (const panel of Object.values(cplan.panels)) panel.resize();
   }
-  // A task opens where it is hardest.
-  if (!asked && cplan.isTask && cplan.mode === 'move') cplan.seek(cplan.hardest);
+  // A task opens where it is hardest, or before the step that fails.
+  if (!asked && cplan.isTask && cplan.mode === 'move') cplan.seek(cplan.model.ending === 'found' ? cplan.hardest : cplan.duration);
   if (!asked && cplan.isMotion) cplan.tour.offer();
   addEventListener('hashchange', follow);
 }

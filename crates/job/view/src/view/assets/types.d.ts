@@ -82,7 +82,7 @@ interface MotionModel { world: number; path: number | null; from: number; label:
 interface ClockModel { time: number[]; position: Chain; velocity: Chain; acceleration: Chain; torque?: Chain }
 
 /** A phase of the planner's replay. */
-interface PhaseModel { seconds: number; caption: string; length?: number; rounds?: { lower: number; points: Chain; slices: number[] }[]; [name: string]: any }
+interface PhaseModel { seconds: number; caption: string; length?: number; unit?: string; rounds?: { lower: number; points: Chain; slices: number[] }[]; [name: string]: any }
 
 /** A wait of the motion for a moving obstacle. `at` is the progress. */
 interface WaitModel { from: number; to: number; at: number; text: string }

@@ -410,6 +410,12 @@ class View {
     return (hardest.from + (motions[motions.indexOf(hardest) + 1]?.from ?? this.motionDuration)) / 2;
   }
 
+  /** Returns true if the visible world is the one in which no motion exists: that of the last step. */
+  get isStuckHere() {
+    const { stuck, motions } = this.model;
+    return Boolean(stuck) && (motions.length < 2 || this.motion === motions[motions.length - 1]);
+  }
+
   get isTask() {
     return this.model.paths.some((path) => path.step);
   }
@@ -462,18 +468,18 @@ class View {
 
   /**
    * Returns the key figures of a model: name, value and meaning. Proven bounds are rounded to the safe side.
-   * @param {{ figures?: FiguresModel, line?: LineModel, worlds?: WorldModel[] }} model
+   * @param {{ figures?: FiguresModel, line?: LineModel, worlds?: WorldModel[], arm?: ArmModel }} model
    */
-  static cards({ figures = {}, line: given, worlds = [] }) {
+  static cards({ figures = {}, line: given, worlds = [], arm }) {
     const { duration, gap, fastest, clearance, with_clearance: roomier } = figures;
     // No machine keeps less than a millimetre.
     const isTight = clearance < 1e-3 && !given && worlds[0]?.clearance === 0;
-    const other = roomier ? `; --clearance ${Number((1000 * roomier[0]).toPrecision(3))}mm keeps this distance, with length ${roomier[1].toFixed(4)}` : '';
+    const other = roomier ? `; --clearance ${Number((1000 * roomier[0]).toPrecision(3))}mm keeps this distance, with length ${Numbers.pathLength(arm.joints, roomier[1])}` : '';
     return [
       duration !== undefined && ['time', Numbers.seconds(duration), 'from rest to rest, within all limits'],
       given?.motion && ['off the line', `at most ${Numbers.length(given.motion.deviation, 0, Math.ceil)}`, `proven; the tolerance is ${Numbers.length(given.tolerance)}`],
       gap !== undefined && ['over the optimum', gap === 0 ? '0 %' : `at most ${Numbers.percent(gap, Math.ceil)}`, fastest ? 'longer than the fastest' : 'longer than the shortest'],
-      clearance !== undefined && ['clearance', Numbers.length(clearance, 0, Math.floor), isTight ? `because none was required${other}` : 'proven, to the nearest obstacle', isTight && 'warning'],
+      clearance !== undefined && ['clearance', Numbers.length(clearance, 1, Math.floor), isTight ? `because none was required${other}` : 'proven, to the nearest obstacle', isTight && 'warning'],
     ].filter(Boolean);
   }
 

@@ -352,7 +352,7 @@ const Workspace = (() => {
     }
     const nearestFree = model.checked?.nearest_free;
     if (nearestFree) arm(context, panel, view, world, nearestFree, { fill: theme.ghost, line: theme.grey, width: 1.2, alpha: 0.8, joints: true });
-    if (model.stuck) stuck(context, panel, view, model.stuck);
+    if (view.isStuckHere) stuck(context, panel, view, model.stuck);
     view.followed?.inWorkspace(context, panel);
     if (view.shows('path') && !view.followed?.motion) traces(context, panel, view);
     if (model.line?.at) cross(context, theme, panel.at(model.line.at));

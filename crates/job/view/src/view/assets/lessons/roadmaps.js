@@ -94,8 +94,7 @@ const ROADMAPS = (() => {
         isOffered: (model) => kindOf(model) !== null,
         text: ({ model: { paths: [{ points }], arm: { joints } } }) => {
           const straight = Places.length([...points.slice(0, 2), ...points.slice(-2)]);
-          const unit = joints[0].unit === joints[1].unit ? ` ${joints[0].unit}` : '';
-          return `The length of a path in joint space is the sum of its straight pieces. The straight line from start to goal would have the length ${Numbers.digits(straight, 4)}${unit}. The path that was found has the length ${Numbers.digits(Places.length(points), 4)}${unit}, because it goes around C-obstacles.`;
+          return `The length of a path in joint space is the sum of its straight pieces. The straight line from start to goal would have the length ${Numbers.pathLength(joints, straight)}. The path that was found has the length ${Numbers.pathLength(joints, Places.length(points))}, because it goes around C-obstacles.`;
         },
         question: ({ model: { paths: [{ points }] } }) => {
           const more = 100 * (Places.length(points) / Places.length([...points.slice(0, 2), ...points.slice(-2)]) - 1);
