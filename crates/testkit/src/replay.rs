@@ -1,18 +1,16 @@
 //! Replays a planned task. It shares no code with the library except the types of its input and output. Positions of
 //! objects, the payload and the allowed contacts follow from the task alone.
 
+mod frames;
 mod overlaps;
 
 use crate::moving::{obstacle_at, state_between};
-use crate::shapes::disc;
-use crate::solid::{Solid, V, add, norm, rotate, sub};
+use crate::solid::{Solid, V, norm, rotate, sub};
 use cplan::engine::task::{Event, TaskAnswer};
-use cplan::geometry::Point;
-use cplan::model::{
-    Action, Arm, Goal, Growth, Heights, Holding, Item, Joint, JointType, MovingObstacle, Object, Obstacle, Part, Shape,
-    Step, Task,
-};
+use cplan::model::{Action, Goal, Holding, Item, Joint, Obstacle, Part, Step, Task};
 use cplan::motion::Trajectory;
+use frames::inverse;
+pub use frames::{Frame, compose, frames, pose_on_trajectory};
 use overlaps::{MotionTurns, Turn, check_overlaps, depth_of, stroke_height, stroke_time, turned_share};
 
 /// Tolerance of positions, metres: inverse kinematics is exact to a few nanometres.
@@ -29,54 +27,6 @@ const RESTING_TOLERANCE: f64 = 1e-6;
 
 /// Number of a moving obstacle, which may never be touched.
 const MOVER: usize = usize::MAX;
-
-/// A frame: cosine and sine of its turn, and its origin.
-pub type Frame = (V, V);
-
-/// Returns the frame `b`, which is stated in the frame `a`.
-pub fn compose(a: Frame, b: Frame) -> Frame {
-    (rotate(b.0, a.0), add(a.1, rotate(b.1, a.0)))
-}
-
-fn inverse(a: Frame) -> Frame {
-    let back = [a.0[0], -a.0[1]];
-    (back, rotate([-a.1[0], -a.1[1]], back))
-}
-
-fn turned(angle: f64, at: V) -> Frame {
-    ([angle.cos(), angle.sin()], at)
-}
-
-/// Returns the frames of both links, and the tip.
-pub fn frames(arm: &Arm, q: V) -> ([Frame; 2], V) {
-    let joint = |k: usize| match arm.joints[k].joint_type {
-        JointType::Revolute { sign } => turned(sign * q[k], [0.0; 2]),
-        JointType::Prismatic { direction } => ([1.0, 0.0], [direction.x * q[k], direction.y * q[k]]),
-    };
-    let first = compose(([1.0, 0.0], [arm.base.x, arm.base.y]), joint(0));
-    let second = compose(compose(first, ([1.0, 0.0], [arm.offset.x, arm.offset.y])), joint(1));
-    let tip = compose(second, ([1.0, 0.0], [arm.tip.x, arm.tip.y])).1;
-    ([first, second], tip)
-}
-
-/// Returns the frame of an object on its trajectory, from its stops, or where it lies initially.
-pub fn pose_on_trajectory(object: &Object, time: f64) -> Frame {
-    let Some(trajectory) = object.trajectory.clone() else {
-        return turned(object.at.rotation.angle(), [object.at.translation.x, object.at.translation.y]);
-    };
-    // The object's pose follows from two of its points.
-    let pieces = vec![disc(Point::zeros(), 0.1), disc(Point::new(1.0, 0.0), 0.1)];
-    let points = Obstacle {
-        name: String::new(),
-        shape: Shape::Pieces,
-        pieces,
-        heights: Heights::ALL,
-        growth: Growth::default(),
-    };
-    let placed = obstacle_at(&MovingObstacle { obstacle: points, trajectory }, time).pieces;
-    let [origin, beside] = [0, 1].map(|k| [placed[k].core()[0].x, placed[k].core()[0].y]);
-    (sub(beside, origin), origin)
-}
 
 /// An object that the gripper holds.
 struct Held {

@@ -66,7 +66,7 @@ fn the_demo_of_arch_motions_is_a_task() {
 fn the_demo_of_a_line_follows_it() {
     let place = Place::new();
     let done = place.run(&["demo"], "--kind follow").succeeds_silently();
-    done.says(&["found and certified: the tip is at most 0.008 mm from the line"]);
+    done.says(&["found and certified: the tip is at most 0.009 mm from the line"]);
     assert!(place.read("plan.html").contains("The tip follows the line within"));
     let files =
         ["robots/planar_2r.urdf", "workspaces/follow/engraving.toml", "workspaces/follow/plate.gcode"].map(shipped);

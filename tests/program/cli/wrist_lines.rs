@@ -114,6 +114,54 @@ fn a_knife_turns_along_the_outline() {
     assert!(place.read("m.yaml").contains(&format!("{:?}]", rows[100][3])), "the wrist's values");
 }
 
+/// Tests the written table alone: on straight cuts at constant speed, no joint reaches its greatest acceleration, and an
+/// acceleration changes its sign once per cut at most.
+#[test]
+fn accelerations_on_straight_cuts_are_those_of_the_line() {
+    let place = Place::new();
+    follow(&place, "--wrist tangent --output m.csv").exits(0);
+    let rows = rows(&place.read("m.csv"), COLUMNS);
+    // The limits that cplan assumes: the top speed in a quarter of a second.
+    let limits = [28.972, 46.008, 200.0];
+    let speed = |row: &[f64; 7]| {
+        let ([a, b], [v, w]) = ([row[1], row[1] + row[2]], [row[4], row[4] + row[5]]);
+        let across = [0.3 * v * a.sin() + 0.25 * w * b.sin(), 0.3 * v * a.cos() + 0.25 * w * b.cos()];
+        across[0].hypot(across[1])
+    };
+    let (mut time, mut changes, mut cuts) = (0.0, 0, 0);
+    let mut signs = [0.0_f64; 3];
+    let mut is_in_cut = false;
+    for pair in rows.windows(2) {
+        let h = pair[1][0] - pair[0][0];
+        let is_straight = |row: &[f64; 7]| {
+            let lines = GASKET.iter().filter(|piece| matches!(piece, Piece::Line(..)));
+            lines.map(|piece| nearest(piece, tip([row[1], row[2]])).0).fold(f64::INFINITY, f64::min) < 1e-8
+        };
+        if !pair.iter().all(|row| is_straight(row) && (speed(row) - 0.2).abs() < 5e-4) {
+            is_in_cut = false;
+            continue;
+        }
+        cuts += usize::from(!is_in_cut);
+        signs = if is_in_cut { signs } else { [0.0; 3] };
+        (is_in_cut, time) = (true, time + h);
+        for k in 0..3 {
+            let rate = (pair[1][k + 1] - pair[0][k + 1]) / h;
+            let [first, last] = [pair[0][k + 4], pair[1][k + 4]];
+            for gain in [(6.0 * rate - 4.0 * first - 2.0 * last) / h, (2.0 * first + 4.0 * last - 6.0 * rate) / h] {
+                // The line bends the joints far less than their limits allow.
+                assert!(gain.abs() < 0.3 * limits[k], "joint {k} accelerates by {gain} at {}", pair[0][0]);
+                if gain.abs() > 1e-3 * limits[k] {
+                    changes += usize::from(gain * signs[k] < 0.0);
+                    signs[k] = gain;
+                }
+            }
+        }
+    }
+    // 0.38 m at 0.2 m/s, without the ramps.
+    assert!(cuts == 4 && (1.7..1.9).contains(&time), "{cuts} cuts in {time} s");
+    assert!(changes <= 3 * cuts, "{changes} changes of signs");
+}
+
 /// The angle counts from the x axis of the world to the x axis of the tip's frame, however robot and wrist are mounted.
 #[test]
 fn a_fixed_angle_counts_in_the_world() {

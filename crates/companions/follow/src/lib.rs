@@ -27,8 +27,8 @@
 //! Pieces far below the tolerance are merged for planning (`merge`); proofs and the final check of the distance are about
 //! the line of the file. The line is divided into parts (`nodes`) so short that the tip stays near each part while the joints move straight
 //! from its beginning to its end. A search (`search`) chooses the IK solution on each part, and where to change it. The
-//! corners of the resulting path in joint space are blended, each as far as the tolerance allows (`motion`), and the crate
-//! `cplan-motion` times it. With limits on jerks, a smooth curve near the line replaces the blended path between two
+//! joints move along smooth curves through the nodes (`course`). The corners between them are blended, each as far as the
+//! tolerance allows (`motion`), and the crate `cplan-motion` times it. With limits on jerks, a smooth curve near the line replaces the blended path between two
 //! stops (`smooth`), with control points whose spacing changes gradually (`spacing`). Finally the motion is judged from
 //! its samples alone (`deviation`).
 //!
@@ -42,6 +42,7 @@
 //! [`fit`] searches for a placement of the line at which it can be followed with one IK solution.
 #![forbid(unsafe_code)]
 
+mod course;
 mod deviation;
 mod fit;
 mod fixed_angle;

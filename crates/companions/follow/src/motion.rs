@@ -1,5 +1,6 @@
 //! The motion in time along a sequence of configurations.
 
+use crate::course::Course;
 use crate::deviation::{bounds, tool_bound};
 use crate::fixed_angle;
 use crate::merge::Merged;
@@ -10,11 +11,12 @@ use crate::wrist::{Turns, WristAlong, values_between};
 use crate::{FollowError, Settings};
 use cplan_deviation::{Deviation, Foot, Kinematics, Line, ToolDeviation};
 use cplan_geometry::Point;
+use cplan_handling::WristJoint;
 use cplan_interrupt::checkpoint;
 use cplan_judge::{CertifiedPath, certify};
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, Path};
-use cplan_motion::{CurveDrive, TimedMotion, TipSpeed, WristLimit, along_curve, blend_up_to};
+use cplan_motion::{BlendedPath, CurveDrive, TimedMotion, TipSpeed, WristLimit, along_curve, blend_curved};
 
 /// Cosine of the angle between two legs beyond which the motion stops between them: it almost returns on itself.
 const REVERSAL_COSINE: f64 = -0.95;
@@ -27,6 +29,10 @@ const BLEND_ROOM_SHARE: f64 = 0.7;
 
 /// Share of the tool's tolerance by which blends may change its angle.
 const BLEND_TOOL_SHARE: f64 = 0.2;
+
+/// Greatest radius of a blend beside a curved leg, as a share of the leg. The blend leaves the line along its tangent, so
+/// the rest of the leg bends more.
+const CURVED_LEG_SHARE: f64 = 0.25;
 
 /// Number of times that a motion is slowed down for the wrist.
 const SLOWDOWNS: u32 = 8;
@@ -124,17 +130,18 @@ impl Driver<'_> {
         Motion { timed, deviation: bound, tool, farthest }
     }
 
-    /// Returns the motion along a whole route with blends. The arm stops where the wrist turns at rest, and for dwells.
+    /// Returns the motion along a whole route with curved legs and blends. The arm stops where the wrist turns at rest, and for
+    /// dwells.
     fn blended(
         &self,
         route: &Route,
         speeds: &[f64],
         wrist: Option<(WristAlong, &Turns)>,
     ) -> Result<TimedMotion, FollowError> {
-        let q = route.path.path().waypoints();
+        let (q, course) = (route.path.path().waypoints(), Course::new(self, route, wrist));
         let radius = |w: usize| {
-            let tool = wrist.map_or(f64::INFINITY, |(wrist, turns)| self.tool_radius(q, &wrist, turns, w));
-            self.radius(q, route, w).min(tool)
+            let tool = wrist.map_or(f64::INFINITY, |(wrist, _)| self.tool_radius(&course, &wrist, w));
+            self.radius(q, route, &course, w).min(tool)
         };
         let radii: Vec<f64> = (0..q.len()).map(radius).collect();
         let turn_at = |w: usize| wrist.map(|(_, turns)| turns[w]).filter(|[from, to]| from != to);
@@ -151,12 +158,16 @@ impl Driver<'_> {
             let values = wrist.map(|(wrist, turns)| (wrist, values_between(turns, from, to)));
             let limit = values.as_ref().map(|(WristAlong { velocity, acceleration, .. }, values)| WristLimit {
                 values,
+                slopes: &course.slopes[from..to],
                 velocity: *velocity,
                 acceleration: *acceleration,
             });
             let drive = CurveDrive { wrist: limit, ..self.drive(greatest, &shares, share) };
             let path = self.part_of_path(route, [from, to])?;
-            let curve = blend_up_to(self.scene, &path, &radii[from..=to], self.scene.workspace().clearance);
+            let mut is_smooth = course.is_smooth[from..=to].to_vec();
+            (is_smooth[0], is_smooth[to - from]) = (false, false);
+            let curve = BlendedPath::from(path.path().clone()).curved(course.tangents[from..to].to_vec(), is_smooth);
+            let curve = blend_curved(self.scene, &path, curve, &radii[from..=to], self.scene.workspace().clearance);
             let part = along_curve(self.scene, curve, drive)?;
             whole = Some(match whole {
                 None => part,
@@ -261,33 +272,38 @@ impl Driver<'_> {
     }
 
     /// Returns the greatest radius of the blend at a waypoint: the tip's path stays within the allowed distance.
-    fn radius(&self, q: &[Configuration], route: &Route, w: usize) -> f64 {
+    fn radius(&self, q: &[Configuration], route: &Route, course: &Course, w: usize) -> f64 {
         if w == 0 || w + 1 >= q.len() || self.must_stop(q, route, w) {
             return 0.0;
         }
-        let tips = legs(q, w).map(|d| self.kinematics.velocity(q[w], d));
+        let directions = [course.direction(w - 1, 1), course.direction(w, 0)];
+        let tips = directions.map(|d| self.kinematics.velocity(q[w], d));
         // The middle of a blend is at a quarter of this times the radius from the corner.
         let off = (tips[1] - tips[0]).norm();
         // Beside the reach of the arm, the waypoint itself is away from the line.
         let room = self.blend.min(BLEND_ROOM_SHARE * (self.settings.tolerance - self.nodes.nodes[route.nodes[w]].off));
-        if off > 0.0 { 4.0 * room / off } else { f64::INFINITY }
+        let of_legs = [w - 1, w].into_iter().filter_map(|leg| Some(CURVED_LEG_SHARE * course.curved_length(leg)?));
+        let most = of_legs.fold(f64::INFINITY, f64::min);
+        if off > 0.0 { most.min(4.0 * room / off) } else { most }
     }
 
     /// Returns the greatest radius of the blend at a waypoint at which the tool keeps its angle.
-    fn tool_radius(&self, q: &[Configuration], wrist: &WristAlong, turns: &Turns, w: usize) -> f64 {
-        if w == 0 || w + 1 >= q.len() {
+    fn tool_radius(&self, course: &Course, wrist: &WristAlong, w: usize) -> f64 {
+        if w == 0 || w >= course.slopes.len() {
             return 0.0;
         }
-        let angle = |w: usize, end: usize| wrist.joint.tool_angle(self.scene.arm(), q[w].into(), turns[w][end]);
-        let slope = |from: usize| (angle(from + 1, 0) - angle(from, 1)) / (q[from + 1] - q[from]).norm();
+        let slope = |leg: usize, end: usize| {
+            let of_arm = WristJoint::link_2_angle(self.scene.arm(), course.direction(leg, end).into());
+            of_arm + wrist.joint.sign * course.slopes[leg][end]
+        };
         // The middle of a blend is at a quarter of this times the radius from the corner.
-        let off = (slope(w) - slope(w - 1)).abs();
+        let off = (slope(w, 0) - slope(w - 1, 1)).abs();
         if off > 0.0 { 4.0 * BLEND_TOOL_SHARE * wrist.guide.tolerance / off } else { f64::INFINITY }
     }
 
     /// Returns true if every motion stops at an inner waypoint: a travel begins or ends there, the line says that the tip
     /// rests there, or the joints turn back.
-    fn must_stop(&self, q: &[Configuration], route: &Route, w: usize) -> bool {
+    pub(crate) fn must_stop(&self, q: &[Configuration], route: &Route, w: usize) -> bool {
         let [before, after] = legs(q, w);
         self.is_stop(route.nodes[w]) || self.dwell(route, w).is_some() || before.dot(&after) < REVERSAL_COSINE
     }

@@ -153,8 +153,8 @@ pub(super) fn clearance_of_both(
         }
         exactly(recording)
     };
-    // Without blends, both interpolations are the same motion.
-    let is_curved = motion.curve.curve().radii().iter().any(|radius| *radius > 0.0);
+    // Along straight lines, both interpolations are the same motion.
+    let is_curved = motion.curve.curve().is_curved();
     let of_cubic = clearance(cubic)?;
     if is_curved { Some(of_cubic.min(clearance(quartic)?)) } else { Some(of_cubic) }
 }

@@ -176,7 +176,8 @@ fn examine(search: &mut MarginSearch, timed: TimedScene, motion: &TimedMotion, b
     let (path, trajectory) = (motion.curve.straight().path(), &motion.trajectory);
     let pieces = Some(trajectory.pieces()).filter(|pieces| !pieces.is_empty());
     let pieces = pieces.unwrap_or_else(|| vec![at_rest(path.start())]);
-    let beside = BLEND_TOLERANCE * motion.curve.radii().iter().copied().fold(0.0, f64::max);
+    let of_rounding = motion.curve.radii().iter().copied().fold(0.0, f64::max);
+    let beside = BLEND_TOLERANCE * motion.curve.curve().greatest_half().max(of_rounding);
     search.examine(&MotionStretch { scene: timed, pieces: &pieces, begin, beside, known: 0.0 });
     // The times of the straight path are about those of the motion, so they do not count for moving obstacles.
     let (scene, pieces) = (TimedScene::from(timed.scene), straight(path, trajectory));

@@ -1,4 +1,4 @@
-//! Blends: parabolas that round the corners of a path.
+//! Blends: parabolas that round the corners of a path. Legs of a path: straight, or curved between given tangents.
 
 use cplan_handling::Piece;
 use cplan_model::space::{Configuration, Path};
@@ -64,18 +64,53 @@ pub enum Stretch {
     Blend(Blend),
 }
 
-/// A path some of whose corners are blended.
+/// A curved part of a motion: the cubic between two configurations with given unit tangents there.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CurvedLeg {
+    /// The configurations at both ends.
+    pub ends: [Configuration; 2],
+    /// The unit tangents at both ends.
+    pub tangents: [Configuration; 2],
+    /// Range of the parameter. It is about the length of the curve, because the derivative by the parameter has length 1 at
+    /// both ends and in the middle.
+    pub length: f64,
+}
+
+impl CurvedLeg {
+    /// Makes the curve. Its ends differ.
+    pub fn new(ends: [Configuration; 2], tangents: [Configuration; 2]) -> Self {
+        let (chord, mean) = (ends[1] - ends[0], (tangents[0] + tangents[1]) / 4.0);
+        // The derivative in the middle is `3 chord / (2 length) - mean`.
+        let (along, square) = (chord.dot(&mean), chord.norm_squared());
+        let root = (along * along + square * (1.0 - mean.norm_squared())).max(0.0).sqrt();
+        Self { ends, tangents, length: 1.5 * square / (along + root) }
+    }
+
+    /// Returns the curve as a piece. Its parameter takes the place of time.
+    pub fn piece(&self) -> Piece {
+        let [from, to] = [0, 1].map(|end| [self.ends[end], self.tangents[end]]);
+        Piece::hermite(0.0, self.length, from, to)
+    }
+}
+
+/// A path some of whose corners are blended, and some of whose legs are curved.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlendedPath {
     path: Path,
-    /// Radius of the blend at each waypoint; 0 where the motion stops at the corner, and at both ends of the path.
+    /// Radius of the blend at each waypoint; 0 where the motion stops at the corner, at smooth waypoints, and at both ends
+    /// of the path.
     radii: Vec<f64>,
+    /// Unit tangents at both ends of each curved leg; `None` for straight legs.
+    tangents: Vec<Option<[Configuration; 2]>>,
+    /// True for each waypoint that two curved legs pass with the same tangent.
+    is_smooth: Vec<bool>,
 }
 
 impl From<Path> for BlendedPath {
     /// Converts the path without blends.
     fn from(path: Path) -> Self {
-        Self { radii: vec![0.0; path.waypoints().len()], path }
+        let count = path.waypoints().len();
+        Self { radii: vec![0.0; count], tangents: vec![None; count - 1], is_smooth: vec![false; count], path }
     }
 }
 
@@ -92,9 +127,99 @@ impl BlendedPath {
 
     /// Returns the blend at a waypoint, if there is one.
     pub fn blend(&self, waypoint: usize) -> Option<Blend> {
-        let q = self.path.waypoints();
         let radius = self.radii[waypoint];
-        (radius > 0.0).then(|| Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius))
+        (radius > 0.0).then(|| self.blend_of(waypoint, radius))
+    }
+
+    /// Returns the blend with a radius at an inner waypoint. Beside a curved leg, it begins or ends on the leg's tangent.
+    pub(super) fn blend_of(&self, waypoint: usize, radius: f64) -> Blend {
+        let q = self.path.waypoints();
+        let mut blend = Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius);
+        if let Some([_, tangent]) = self.tangents[waypoint - 1] {
+            blend.from = blend.corner - tangent * radius;
+        }
+        if let Some([tangent, _]) = self.tangents[waypoint] {
+            blend.to = blend.corner + tangent * radius;
+        }
+        blend
+    }
+
+    /// Curves legs between unit tangents at both of their ends; `None` leaves a leg straight. The motion passes waypoints
+    /// marked as smooth without a stop or a blend. Both of their legs are curved, and have the same tangent there.
+    ///
+    /// # Panics
+    /// If a mark is wrong, or not all legs or waypoints are listed.
+    #[must_use]
+    pub fn curved(self, tangents: Vec<Option<[Configuration; 2]>>, is_smooth: Vec<bool>) -> Self {
+        assert!(tangents.len() == self.tangents.len() && is_smooth.len() == self.is_smooth.len(), "one entry each");
+        for waypoint in (0..is_smooth.len()).filter(|&w| is_smooth[w]) {
+            let ends = (tangents[waypoint - 1].map(|of| of[1]), tangents[waypoint].map(|of| of[0]));
+            assert!(ends.0.is_some() && ends.0 == ends.1, "a smooth waypoint has one tangent");
+        }
+        Self { tangents, is_smooth, ..self }
+    }
+
+    /// Straightens a leg, and removes the blends at its ends, which begin on its tangents.
+    #[must_use]
+    pub fn without_curve(self, leg: usize) -> Self {
+        let last = self.radii.len() - 1;
+        let corners = [leg, leg + 1].into_iter().filter(|&w| 0 < w && w < last);
+        corners.fold(self.straightened(leg), |curve, waypoint| curve.with(waypoint, 0.0))
+    }
+
+    /// Straightens a leg of a curve without blends.
+    #[must_use]
+    pub fn straightened(mut self, leg: usize) -> Self {
+        self.tangents[leg] = None;
+        self.is_smooth[leg..=leg + 1].fill(false);
+        self
+    }
+
+    /// Returns a leg between the blends at its ends. `None` if it is straight.
+    pub fn curved_leg(&self, leg: usize) -> Option<CurvedLeg> {
+        let (q, [first, last]) = (self.path.waypoints(), self.tangents[leg]?);
+        let ends = [q[leg] + first * self.radii[leg], q[leg + 1] - last * self.radii[leg + 1]];
+        Some(CurvedLeg::new(ends, [first, last]))
+    }
+
+    /// Returns true if two curved legs pass a waypoint with the same tangent.
+    pub fn is_smooth(&self, waypoint: usize) -> bool {
+        self.is_smooth[waypoint]
+    }
+
+    /// Returns true if any leg is curved.
+    pub fn has_curved_leg(&self) -> bool {
+        self.tangents.iter().any(Option::is_some)
+    }
+
+    /// Returns true if any corner is blended, or any leg curved.
+    pub fn is_curved(&self) -> bool {
+        self.has_curved_leg() || self.radii.iter().any(|radius| *radius > 0.0)
+    }
+
+    /// Returns the greatest distance from each waypoint at which the motion is off the straight legs: the radius of a blend,
+    /// or a length that together with that at the leg's other end covers a curved leg. Ends of the path have none.
+    pub fn extents(&self) -> Vec<f64> {
+        let (mut extents, last) = (self.radii.clone(), self.radii.len() - 1);
+        for leg in 0..self.tangents.len() {
+            let Some(curved) = self.curved_leg(leg) else { continue };
+            let length = curved.length + self.radii[leg] + self.radii[leg + 1];
+            let is_inner = |w: &usize| 0 < *w && *w < last;
+            let ends: Vec<usize> = [leg, leg + 1].into_iter().filter(is_inner).collect();
+            let is_passed = |w: &usize| self.radii[*w] > 0.0 || self.is_smooth[*w];
+            let passed: Vec<usize> = ends.iter().copied().filter(is_passed).collect();
+            let used = if passed.is_empty() { ends } else { passed };
+            for &waypoint in &used {
+                extents[waypoint] = extents[waypoint].max(length / used.len() as f64);
+            }
+        }
+        extents
+    }
+
+    /// Returns half of the greatest length of a blend or a curved leg, in joint space.
+    pub fn greatest_half(&self) -> f64 {
+        let legs = (0..self.tangents.len()).filter_map(|leg| Some(self.curved_leg(leg)?.length / 2.0));
+        self.radii.iter().copied().chain(legs).fold(0.0, f64::max)
     }
 
     /// Sets the radius at an inner waypoint; 0 removes the blend.
@@ -119,10 +244,12 @@ impl BlendedPath {
         let waypoints = self.path.waypoints().iter().chain(next.path.waypoints()).copied().collect();
         let last = self.radii.len() - 1;
         let radii = self.radii[..last].iter().chain(&next.radii).copied().collect();
-        Self { path: Path::new(waypoints), radii }
+        let tangents = self.tangents.iter().chain(&next.tangents).copied().collect();
+        let is_smooth = self.is_smooth[..last].iter().chain(&next.is_smooth).copied().collect();
+        Self { path: Path::new(waypoints), radii, tangents, is_smooth }
     }
 
-    /// Returns the straight pieces and blends from start to goal.
+    /// Returns the straight pieces and blends from start to goal. Curved legs count as straight.
     pub fn stretches(&self) -> Vec<Stretch> {
         let q = self.path.waypoints();
         let mut stretches = Vec::new();

@@ -1,6 +1,6 @@
 //! Rounds the corners of certified paths as far as the clearance allows.
 
-use super::blend::{BLEND_TOLERANCE, Blend, BlendedPath};
+use super::blend::{BLEND_TOLERANCE, BlendedPath};
 use super::span::tube_about_part;
 use cplan_handling::Piece;
 use cplan_judge::{CertifiedPath, CurveSearch, Nearest, Rejection, Vicinity};
@@ -59,9 +59,9 @@ impl CertifiedCurve {
 
     /// Returns the extent of the rounding at each waypoint, in joint units: the greatest distance from the waypoint at which
     /// the motion is off the path, such as the radius of the blend. The motion's distance from the path is at most half of
-    /// it. It is 0 where the motion stops at the corner.
-    pub fn radii(&self) -> &[f64] {
-        self.driven.as_ref().map_or_else(|| self.curve.radii(), |(radii, _)| radii)
+    /// it. It is 0 where the motion stops at the corner, unless both ends of a curved leg are stops.
+    pub fn radii(&self) -> Vec<f64> {
+        self.driven.as_ref().map_or_else(|| self.curve.extents(), |(radii, _)| radii.clone())
     }
 
     /// Returns a proven lower bound on the distance between arm and obstacles, metres, along the blends and along the
@@ -92,7 +92,9 @@ impl CertifiedCurve {
     #[must_use]
     pub fn then(self, next: &Self) -> Self {
         let driven = (self.driven.is_some() || next.driven.is_some()).then(|| {
-            let radii = self.radii().iter().take(self.radii().len() - 1).chain(next.radii()).copied().collect();
+            let mut radii = self.radii();
+            radii.pop();
+            radii.extend(next.radii());
             let outline = self.outline().waypoints().iter().chain(next.outline().waypoints()).copied().collect();
             (radii, Path::new(outline))
         });
@@ -109,11 +111,26 @@ impl CertifiedCurve {
         Self { straight: self.straight.within(clearance, nearest), ..self }
     }
 
-    /// Returns the same motion without the blend at an inner waypoint. This needs no proof, because the legs are proven
-    /// up to the corner.
+    /// Returns the same motion without the blend at an inner waypoint.
     #[must_use]
     pub fn without(self, waypoint: usize) -> Self {
-        Self { curve: self.curve.with(waypoint, 0.0), ..self }
+        let curve = self.curve.clone().with(waypoint, 0.0);
+        self.reduced_to(curve)
+    }
+
+    /// Returns the same motion with straight legs instead of curved ones. It stops at their ends.
+    pub(super) fn without_curves(self) -> Self {
+        let curve = self.curve.clone();
+        let legs = 0..curve.path().waypoints().len() - 1;
+        let curved = legs.filter(|&leg| self.curve.curved_leg(leg).is_some());
+        let curve = curved.fold(curve, BlendedPath::without_curve);
+        self.reduced_to(curve)
+    }
+
+    /// Returns the same motion along another curve, which has fewer blends and curved legs. This needs no proof, because the
+    /// straight legs are proven up to the corners.
+    pub(super) fn reduced_to(self, curve: BlendedPath) -> Self {
+        Self { curve, ..self }
     }
 }
 
@@ -127,43 +144,90 @@ impl CertifiedCurve {
 /// A blend lies in the triangle of its control points, so joint limits need no check. Each blend is judged by the same
 /// bisection as a straight piece, with a tube around the blend's chord.
 pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64) -> CertifiedCurve {
-    blend_up_to(scene, path, &vec![greatest; path.path().waypoints().len()], clearance)
+    let greatest = vec![greatest; path.path().waypoints().len()];
+    blend_curved(scene, path, path.path().clone().into(), &greatest, clearance)
 }
 
-/// Does the same as [`blend`], with a greatest radius for each waypoint. With 0 the motion stops at the corner.
+/// Does the same as [`blend`] for a path with curved legs, with a greatest radius for each waypoint. With 0 the motion
+/// stops at the corner. Curved legs that are not certified become straight. Smooth waypoints are not blended, unless one
+/// of their legs becomes straight.
 ///
 /// # Panics
-/// If there are fewer radii than waypoints.
-pub fn blend_up_to(scene: &Scene, path: &CertifiedPath, greatest: &[f64], clearance: f64) -> CertifiedCurve {
+/// If `curve` is not a curve along the path, or there are fewer radii than waypoints.
+pub fn blend_curved(
+    scene: &Scene,
+    path: &CertifiedPath,
+    mut curve: BlendedPath,
+    greatest: &[f64],
+    clearance: f64,
+) -> CertifiedCurve {
+    assert!(curve.path() == path.path(), "the curve is along the path");
+    loop {
+        match blended(scene, path, curve.clone(), greatest, clearance) {
+            Ok(blended) => return blended,
+            Err(legs) => curve = legs.into_iter().fold(curve, BlendedPath::straightened),
+        }
+    }
+}
+
+/// Rounds the corners of a curve without blends.
+///
+/// # Errors
+/// The curved legs that are not certified.
+fn blended(
+    scene: &Scene,
+    path: &CertifiedPath,
+    curve: BlendedPath,
+    greatest: &[f64],
+    clearance: f64,
+) -> Result<CertifiedCurve, Vec<usize>> {
     let q = path.path().waypoints();
     let required = required_distance(path, clearance);
-    let mut blended = CertifiedCurve::from(path.clone());
     if path.clearance() <= clearance {
-        return blended;
+        return Ok(CertifiedCurve::from(path.clone()));
     }
+    let mut blended = CertifiedCurve::from(path.clone()).reduced_to(curve);
     let vicinity = Vicinity::new(scene);
     let budget = MAX_CHECKS_PER_BLEND * scene.pairs().len();
+    let topology = scene.arm().topology();
+    let judge_piece = |straight: &CertifiedPath, piece: &Piece, half: f64| {
+        let mut search = CurveSearch::continued_from(straight, scene, required, budget);
+        follow(&mut search, &vicinity, piece, BLEND_TOLERANCE * half).ok()?;
+        Some(search.proven_clearance())
+    };
     let last = q.len() - 1;
     for waypoint in 1..last {
         let share = |end: usize| if end == 0 || end == last { END_LEG_SHARE } else { INNER_LEG_SHARE };
         let room = |end: usize| share(end) * (q[end] - q[waypoint]).norm();
         let most = greatest[waypoint].min(room(waypoint - 1)).min(room(waypoint + 1));
         // A leg with a length below the least double has no room.
-        if most <= 0.0 {
+        if most <= 0.0 || blended.curve.is_smooth(waypoint) {
             continue;
         }
         let judge = |radius: f64| {
-            let blend = Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius);
-            let mut search = CurveSearch::continued_from(&blended.straight, scene, required, budget);
-            follow(&mut search, &vicinity, &blend.piece(), BLEND_TOLERANCE * blend.radius()).ok()?;
-            Some((radius, search.proven_clearance()))
+            let blend = blended.curve.blend_of(waypoint, radius);
+            let is_beside_curve = (waypoint - 1..=waypoint).any(|leg| blended.curve.curved_leg(leg).is_some());
+            if is_beside_curve && !(topology.contains(blend.from) && topology.contains(blend.to)) {
+                return None;
+            }
+            Some((radius, judge_piece(&blended.straight, &blend.piece(), blend.radius())?))
         };
         if let Some((radius, (clearance, nearest))) = largest(most, judge) {
             let straight = blended.straight.within(clearance, nearest);
             blended = CertifiedCurve { curve: blended.curve.with(waypoint, radius), straight, driven: None };
         }
     }
-    blended
+    let mut open = Vec::new();
+    for leg in 0..last {
+        let Some(curved) = blended.curve.curved_leg(leg) else { continue };
+        let piece = curved.piece();
+        let is_within = piece.control().iter().all(|q| topology.contains(*q));
+        match is_within.then(|| judge_piece(&blended.straight, &piece, curved.length / 2.0)).flatten() {
+            Some((clearance, nearest)) => blended.straight = blended.straight.within(clearance, nearest),
+            None => open.push(leg),
+        }
+    }
+    if open.is_empty() { Ok(blended) } else { Err(open) }
 }
 
 /// Checks a tube around a piece of a motion. Its half width in each joint is `beside`.

@@ -1,4 +1,4 @@
-//! Speed around a blended corner.
+//! Speed around a blended corner and along a curved leg.
 //!
 //! The parameter `s` of a blend of radius `r` between the directions `d1` and `d2` runs from 0 to `2 r`, with `q'(s) =
 //! (1 - u) d1 + u d2`, `u = s / (2 r)`, and the constant `q'' = (d2 - d1) / (2 r)`. At both ends `|q'| = 1`, so on
@@ -12,7 +12,13 @@
 //! - The tip's speed is within its limit if `z` is below a bound for the whole span. It is if it is at both ends.
 //!
 //! All these conditions are linear in `z0` and `z1`. On each span, `q(t)` is a polynomial of degree four.
+//!
+//! A curved leg is a cubic in `s`, with unit derivatives at both ends. There a joint's acceleration is quadratic in `s`,
+//! and its squared velocity has degree five, so there are more Bernstein coefficients. The bound on the tip's speed
+//! differs between the ends of a span, so that `z` follows it without steps (`TipSpeed::rates`). On each span, `q(t)` is a
+//! polynomial of degree six; samples are so dense that cubics through them are within the limits and near the curve.
 
+use super::bounds::Bounds;
 use super::clock::reserve;
 use super::limits::{Axes, LimitedAxis, Limits};
 use super::profile::{Phase, State};
@@ -22,6 +28,10 @@ use crate::BLEND_TOLERANCE;
 
 /// Number of spans into which a blend is cut initially.
 const INITIAL_SPANS: usize = 8;
+
+/// Number of spans of a curved leg initially. A span bends a few thousandths of a radian, so that constant second
+/// derivatives of the parameter are near those of the geometry.
+const INITIAL_LEG_SPANS: usize = 4;
 
 /// Number of spans of a straight stretch that may begin or end at rest.
 const INITIAL_LINE_SPANS: usize = 32;
@@ -53,16 +63,30 @@ const WRIST_TOLERANCE: f64 = 1e-6;
 /// Largest number of spans if torques are limited.
 const MAX_TORQUE_SPANS: usize = 1024;
 
-/// A blend, cut into spans for its timing. A straight stretch along which limits vary is treated in the same manner, as
-/// a blend whose two directions are equal.
+/// The control points of a curve.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Shape {
+    /// A blend's beginning, corner and end.
+    Blend([Axes; 3]),
+    /// A curved leg.
+    Leg([Axes; 4]),
+}
+
+/// A blend or a curved leg, cut into spans for its timing. A straight stretch along which limits vary is treated in the
+/// same manner, as a blend whose two directions are equal.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Corner {
-    /// The blend's beginning, corner and end.
-    points: [Axes; 3],
+    shape: Shape,
+    /// Half the range of the parameter.
     radius: f64,
     /// Derivatives by the parameter at both ends.
     directions: [Axes; 2],
+    /// Four times the difference in the middle between the derivative and the mean of those at the ends; 0 on blends.
+    swell: Axes,
+    /// Number of spans of a blend, which are equally long.
     spans: usize,
+    /// Shares of the range at the ends of the spans of a curved leg; empty on blends.
+    places: Vec<f64>,
     /// Upper bound on the speed of the parameter.
     fastest: f64,
     /// Speed at which the blend is passed, as a share of the speed that the limits allow.
@@ -85,9 +109,10 @@ impl Corner {
         let legs = [points[1] - points[0], points[2] - points[1]];
         let radius = legs[0].xy().norm();
         let directions = legs.map(|leg| (leg.xy() / leg[0].hypot(leg[1])).push(leg[2] / radius));
-        let (spans, fastest) = (INITIAL_SPANS, f64::INFINITY);
-        let corner = Self { points, radius, directions, spans, fastest, share, tip_share: 1.0 };
-        let turning = limits.acceleration_along(corner.second_derivative()).sqrt();
+        let (spans, fastest, shape, swell) = (INITIAL_SPANS, f64::INFINITY, Shape::Blend(points), Axes::zeros());
+        let places = Vec::new();
+        let corner = Self { shape, radius, directions, swell, spans, places, fastest, share, tip_share: 1.0 };
+        let turning = limits.acceleration_along(corner.second_derivative(0.5)).sqrt();
         let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(turning, f64::min);
         (corner.length() / fastest >= shortest(INITIAL_SPANS)).then_some(Self { fastest, ..corner })
     }
@@ -98,9 +123,23 @@ impl Corner {
         let length = offset[0].hypot(offset[1]);
         let directions = [offset / length; 2];
         let fastest = limits.speed_along(directions[0]);
-        let (radius, spans) = (length / 2.0, INITIAL_LINE_SPANS);
-        let corner = Self { points, radius, directions, spans, fastest, share: 1.0, tip_share: 1.0 };
+        let (radius, spans, shape, swell) = (length / 2.0, INITIAL_LINE_SPANS, Shape::Blend(points), Axes::zeros());
+        let places = Vec::new();
+        let corner = Self { shape, radius, directions, swell, spans, places, fastest, share: 1.0, tip_share: 1.0 };
         (length / fastest >= shortest(INITIAL_LINE_SPANS)).then_some(corner)
+    }
+
+    /// Prepares a curved leg between two values of all axes, with these derivatives by the parameter there. Returns `None`
+    /// if it is too small.
+    pub(super) fn leg([from, to]: [Axes; 2], directions: [Axes; 2], length: f64, limits: &Limits) -> Option<Self> {
+        let third = length / 3.0;
+        let [second, last] = [from + directions[0] * third, to - directions[1] * third];
+        let swell = (last - second) * (2.0 / third) - directions[0] - directions[1];
+        let fastest = directions.map(|d| limits.speed_along(d)).into_iter().fold(f64::INFINITY, f64::min);
+        let (radius, spans, shape) = (length / 2.0, INITIAL_LEG_SPANS, Shape::Leg([from, second, last, to]));
+        let places = (0..=spans).map(|k| k as f64 / spans as f64).collect();
+        let leg = Self { shape, radius, directions, swell, spans, places, fastest, share: 1.0, tip_share: 1.0 };
+        (length / fastest >= shortest(INITIAL_LEG_SPANS)).then_some(leg)
     }
 
     /// Returns the corner with a share of the tip's speed limit.
@@ -114,24 +153,54 @@ impl Corner {
         LIMIT_RESERVE + reserve(span.clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL))
     }
 
-    /// Returns the corner with twice as many spans. Returns `None` if its spans are fine enough for these squared
-    /// speeds at their ends, or cannot be cut.
+    /// Returns the corner with twice as many spans, or the curved leg with those spans cut in two that are too coarse.
+    /// Returns `None` if the spans are fine enough for these squared speeds at their ends, or cannot be cut.
     pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
-        let (bend, limits) = (self.second_derivative(), &limits.with_tip_share(self.tip_share));
-        let coarse = squared_speeds.windows(2).enumerate().any(|(i, z)| {
-            let step = (z[1] - z[0]).abs();
-            // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by three halves of q''
-            // times the change of z.
-            let changes = |axis: LimitedAxis| 1.5 * axis.component(bend).abs() * step;
+        let limits = &limits.with_tip_share(self.tip_share);
+        let is_coarse = |i: usize| {
+            let z = [squared_speeds[i], squared_speeds[i + 1]];
+            let (step, bends) = ((z[1] - z[0]).abs(), [i, i + 1].map(|k| self.second_derivative(self.share(k))));
+            // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by the change of q'' z and
+            // half of q'' times the change of z.
+            let changes = |axis: LimitedAxis| {
+                let [first, last] = bends.map(|bend| axis.component(bend));
+                (last * z[1] - first * z[0]).abs() + 0.5 * first.abs().max(last.abs()) * step
+            };
             limits.axes().any(|axis| changes(axis) > MAX_ACCELERATION_STEP * axis.acceleration)
-                || (!self.is_straight() && step > 2.0 * MAX_SPEED_STEP * z[0].max(z[1]))
-                || limits
-                    .tip
-                    .is_some_and(|tip| tip.slack(&self.part(i)) * z[0].max(z[1]).sqrt() > TIP_SPEED_STEP * tip.speed)
+                || (step > 2.0 * MAX_SPEED_STEP * z[0].max(z[1])
+                    && (self.is_blend() || (self.is_leg() && self.is_idle(i, z, limits))))
+                || limits.tip.is_some_and(|tip| {
+                    let part = self.part(i);
+                    let slack = if self.is_leg() { tip.slack_of_rates(&part) } else { tip.slack(&part) };
+                    slack * z[0].max(z[1]).sqrt() > TIP_SPEED_STEP * tip.speed
+                })
                 || limits.torque.is_some_and(|torque| torque.is_coarse(&self.part(i), [z[0], z[1]]))
-        });
+        };
         let most = if limits.torque.is_some() { MAX_TORQUE_SPANS } else { MAX_SPANS };
-        if coarse { self.cut(2, most, squared_speeds) } else { None }
+        if !self.is_leg() {
+            let is_any = (1..squared_speeds.len()).any(|end| is_coarse(end - 1));
+            return is_any.then(|| self.cut(2, most, squared_speeds)).flatten();
+        }
+        let mut places = vec![0.0];
+        for (i, phase) in self.phases(squared_speeds).iter().enumerate() {
+            if phase.duration >= shortest(2) && is_coarse(i) {
+                places.push((self.places[i] + self.places[i + 1]) / 2.0);
+            }
+            places.push(self.places[i + 1]);
+        }
+        (self.places.len() < places.len() && places.len() <= most).then(|| Self { places, ..self.clone() })
+    }
+
+    /// Returns true if no joint accelerates almost as much as it may at the ends of a span.
+    fn is_idle(&self, span: usize, z: [f64; 2], limits: &Limits) -> bool {
+        let rising = (z[1] - z[0]) / (2.0 * self.step(span));
+        (0..2).all(|end| {
+            let u = self.share(span + end);
+            let acceleration = self.second_derivative(u) * z[end] + self.first_derivative(u) * rising;
+            limits
+                .axes()
+                .all(|axis| axis.component(acceleration).abs() < (1.0 - MAX_ACCELERATION_STEP) * axis.acceleration)
+        })
     }
 
     /// Returns the corner with several times as many spans, even if its spans are fine enough. Returns `None` if they
@@ -148,9 +217,14 @@ impl Corner {
         (finer.spans <= most && lasts >= shortest(finer.spans)).then_some(finer)
     }
 
-    /// Returns true for a straight stretch.
-    pub(super) fn is_straight(&self) -> bool {
-        self.directions[0].xy() == self.directions[1].xy()
+    /// Returns true for a curved leg.
+    pub(super) fn is_leg(&self) -> bool {
+        matches!(self.shape, Shape::Leg(_))
+    }
+
+    /// Returns true for a blend at a waypoint.
+    pub(super) fn is_blend(&self) -> bool {
+        !self.is_leg() && self.directions[0].xy() != self.directions[1].xy()
     }
 
     /// Returns the range of the parameter.
@@ -158,68 +232,121 @@ impl Corner {
         2.0 * self.radius
     }
 
-    fn second_derivative(&self) -> Axes {
-        (self.directions[1] - self.directions[0]) / self.length()
+    /// Returns the number of spans.
+    fn count(&self) -> usize {
+        if self.is_leg() { self.places.len() - 1 } else { self.spans }
+    }
+
+    /// Returns the share of the range before a span.
+    fn share(&self, span: usize) -> f64 {
+        if self.is_leg() { self.places[span] } else { span as f64 / self.spans as f64 }
+    }
+
+    /// Returns the range of the parameter on a span.
+    fn step(&self, span: usize) -> f64 {
+        if self.is_leg() {
+            self.length() * (self.places[span + 1] - self.places[span])
+        } else {
+            self.length() / self.spans as f64
+        }
+    }
+
+    fn third_derivative(&self) -> Axes {
+        self.swell * (-2.0 / (self.length() * self.length()))
+    }
+
+    fn second_derivative(&self, u: f64) -> Axes {
+        let change = self.directions[1] - self.directions[0];
+        (if self.is_leg() { change + self.swell * (1.0 - 2.0 * u) } else { change }) / self.length()
     }
 
     fn first_derivative(&self, u: f64) -> Axes {
-        self.directions[0] * (1.0 - u) + self.directions[1] * u
+        let between = self.directions[0] * (1.0 - u) + self.directions[1] * u;
+        if self.is_leg() { between + self.swell * (u * (1.0 - u)) } else { between }
     }
 
     fn position(&self, u: f64) -> Axes {
         let mix = |a: Axes, b: Axes| a * (1.0 - u) + b * u;
-        let [from, corner, to] = self.points;
-        mix(mix(from, corner), mix(corner, to))
+        let parabola = |[a, b, c]: [Axes; 3]| mix(mix(a, b), mix(b, c));
+        match self.shape {
+            Shape::Blend(points) => parabola(points),
+            Shape::Leg([a, b, c, d]) => mix(parabola([a, b, c]), parabola([b, c, d])),
+        }
     }
 
     /// Returns a span as a part of a curve, for the limits on the tip and on torques.
     fn part(&self, span: usize) -> Part {
-        let middle = (span as f64 + 0.5) / self.spans as f64;
+        let middle = match self.shape {
+            Shape::Blend(_) => (span as f64 + 0.5) / self.spans as f64,
+            Shape::Leg(_) => (self.places[span] + self.places[span + 1]) / 2.0,
+        };
         Part {
             middle: self.position(middle).xy(),
             slope: self.first_derivative(middle).xy(),
-            bend: self.second_derivative().xy(),
-            half: self.radius / self.spans as f64,
+            bend: self.second_derivative(middle).xy(),
+            third: self.third_derivative().xy(),
+            half: self.step(span) / 2.0,
         }
     }
 
     /// Returns the conditions on the squared speeds at the ends of each span, in order.
     pub(super) fn bounds(&self, limits: &Limits) -> Vec<Bounds> {
         let limits = &limits.scaled(self.share).with_tip_share(self.tip_share);
-        let step = self.length() / self.spans as f64;
-        let (bend, share) = (self.second_derivative(), |i: usize| i as f64 / self.spans as f64);
         let left = 1.0 - self.reserve();
         let span = |i: usize| {
-            let ends = [share(i), share(i + 1)].map(|u| self.first_derivative(u));
+            let step = self.step(i);
+            let shares = [i, i + 1].map(|k| self.share(k));
+            let (ends, bends) = (shares.map(|u| self.first_derivative(u)), shares.map(|u| self.second_derivative(u)));
             let mut bounds = Bounds::default();
             for axis in limits.axes() {
-                let ([p, q], bend) = (ends.map(|end| axis.component(end)), axis.component(bend));
+                let ([p, q], [first, last]) =
+                    (ends.map(|end| axis.component(end)), bends.map(|bend| axis.component(bend)));
                 let (acceleration, velocity) = (left * axis.acceleration, (left * axis.velocity).powi(2));
                 // q'' z + q' (z1 - z0) / (2 step) at the first end and at the second, in both directions.
                 let [at_first, at_second] = [p, q].map(|slope| slope / (2.0 * step));
-                for row in [[bend - at_first, at_first], [-at_second, bend + at_second]] {
+                let mut limit = |row: [f64; 2]| {
                     let row = row.map(|c| c / acceleration);
                     bounds.extend([row, row.map(|c| -c)]);
+                };
+                limit([first - at_first, at_first]);
+                limit([-at_second, last + at_second]);
+                if self.is_leg() {
+                    // The middle Bernstein coefficient of q'.
+                    let middle = p + first * step / 2.0;
+                    let at_middle = middle / (2.0 * step);
+                    limit([last / 2.0 - at_middle, first / 2.0 + at_middle]);
+                    let squares = [p * p, p * middle, (2.0 * middle * middle + p * q) / 3.0, middle * q, q * q];
+                    let square = |k: usize| squares.get(k).map_or(0.0, |square| square / (5.0 * velocity));
+                    bounds.extend(
+                        (0..6).map(|k: usize| {
+                            [(5 - k) as f64 * square(k), k as f64 * k.checked_sub(1).map_or(0.0, square)]
+                        }),
+                    );
+                    continue;
                 }
                 let bernstein =
                     [[p * p, 0.0], [2.0 * p * q / 3.0, p * p / 3.0], [q * q / 3.0, 2.0 * p * q / 3.0], [0.0, q * q]];
                 bounds.extend(bernstein.map(|row| row.map(|c| c / velocity)));
             }
             if let Some(tip) = limits.tip {
-                let squared = (left * tip.speed_within_limit(&self.part(i))).powi(2);
-                bounds.extend([[1.0 / squared, 0.0], [0.0, 1.0 / squared]]);
+                let squared = if self.is_leg() {
+                    tip.rates(&self.part(i)).map(|rate| (left * tip.speed / rate).powi(2))
+                } else {
+                    [(left * tip.speed_within_limit(&self.part(i))).powi(2); 2]
+                };
+                bounds.extend([[1.0 / squared[0], 0.0], [0.0, 1.0 / squared[1]]]);
             }
             if let Some(torque) = limits.torque {
                 bounds.extend(torque.rows(&self.part(i), left - LIMIT_RESERVE));
             }
             bounds
         };
-        (0..self.spans).map(span).collect()
+        (0..self.count()).map(span).collect()
     }
 
     /// Returns the phases for squared speeds at the ends of all spans.
     pub(super) fn phases(&self, squared_speeds: &[f64]) -> Vec<Phase> {
-        let position = |i: usize| self.length() * (i as f64 / self.spans as f64);
+        let position = |i: usize| self.length() * self.share(i);
         let phase =
             |(i, z): (usize, &[f64])| Phase::between([position(i), position(i + 1)], [z[0].sqrt(), z[1].sqrt()]);
         squared_speeds.windows(2).enumerate().map(phase).collect()
@@ -229,16 +356,18 @@ impl Corner {
     /// positions and velocities must be within the limits, and within [`BLEND_TOLERANCE`] of the blend.
     ///
     /// For a motion with a constant fourth derivative `d`, the error of the cubic is at most `d h^4 / 384` in position,
-    /// `d h^3 / (72 sqrt 3)` in velocity and `d h^2 / 12` in acceleration. If `a` is the second derivative of the
-    /// parameter, `d = 3 q'' a^2`.
+    /// `d h^3 / (72 sqrt 3)` in velocity and `d h^2 / 12` in acceleration. If `v` and `a` are the first two derivatives of
+    /// the parameter by time, `d = 3 q'' a^2 + 6 q^(3) v^2 a`.
     pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
-        let bend = self.second_derivative();
+        let bend = self.second_derivative(0.0).abs().sup(&self.second_derivative(1.0).abs());
+        let third = self.third_derivative().abs() * phase.enter.max(phase.leave).powi(2);
         let torque = limits.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
         let longest = |axis: LimitedAxis| {
             let is_wrist = axis.joint() == Some(2);
             let off = if is_wrist { WRIST_TOLERANCE } else { BLEND_TOLERANCE * self.radius };
             let torque = axis.joint().and_then(|k| torque.get(k)).copied().unwrap_or(f64::INFINITY);
-            let fourth = 3.0 * axis.component(bend).abs() * phase.acceleration * phase.acceleration;
+            let of_third = axis.greatest(third) * phase.acceleration.abs();
+            let fourth = 3.0 * axis.greatest(bend) * phase.acceleration * phase.acceleration + 6.0 * of_third;
             let acceleration = (12.0 * LIMIT_RESERVE * axis.acceleration.min(torque) / fourth).sqrt();
             let velocity = (72.0 * 3f64.sqrt() * LIMIT_RESERVE * axis.velocity / fourth).cbrt();
             let position = (384.0 * off / fourth).sqrt().sqrt();
@@ -252,138 +381,15 @@ impl Corner {
         let State { distance, speed, acceleration } = state;
         let u = (distance / self.length()).clamp(0.0, 1.0);
         let along = self.first_derivative(u);
-        let [from, corner, to] = self.points;
-        // Rounding must not carry a sample beyond the corner, which may lie on a joint limit.
-        let position = self.position(u).zip_zip_map(
-            &from.inf(&corner).inf(&to),
-            &from.sup(&corner).sup(&to),
-            |value, least, greatest| value.clamp(least, greatest),
-        );
-        [position, along * speed, self.second_derivative() * (speed * speed) + along * acceleration]
-    }
-}
-
-/// The feasible squared speeds `z0` and `z1` at the ends of a span: neither is negative, and `a z0 + b z1 <= 1` for
-/// each row `[a, b]`. This set is convex. It contains all small `z0` and `z1`.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Bounds {
-    /// Greatest `z0` that the rows without a `z1` allow.
-    most: f64,
-    /// Upper bounds on `z1`, one for each row that gives one: intercept and slope of `z1` over `z0`.
-    above: Vec<[f64; 2]>,
-    /// Lower bounds on `z1`, one for each row that gives one: intercept and slope of `z1` over `z0`.
-    below: Vec<[f64; 2]>,
-}
-
-/// Relative rounding error that is assumed for coefficients and squared speeds. It is far greater than that of doubles,
-/// and far less than [`LIMIT_RESERVE`].
-const ROUNDING: f64 = 1e-12;
-
-impl Default for Bounds {
-    fn default() -> Self {
-        // Number of rows of a span without torques.
-        let [above, below] = [0, 1].map(|_| Vec::with_capacity(8));
-        Self { most: f64::MAX, above, below }
-    }
-}
-
-impl Extend<[f64; 2]> for Bounds {
-    fn extend<T: IntoIterator<Item = [f64; 2]>>(&mut self, rows: T) {
-        for [a, b] in rows {
-            let line = [1.0 / b, -a / b];
-            // If the second coefficient is only rounding, ignore it: dividing by it would give a meaningless result.
-            if b.abs() <= ROUNDING * a.abs() {
-                self.most = if a > 0.0 { self.most.min(1.0 / a) } else { self.most };
-            } else if b > 0.0 {
-                self.above.push(line);
-            } else {
-                self.below.push(line);
-            }
-        }
-    }
-}
-
-impl Bounds {
-    /// Returns the greatest `z1` up to `most` for a feasible `z0`.
-    pub(super) fn greatest_end(&self, z0: f64, most: f64) -> f64 {
-        self.upper(z0, most).0.max(0.0)
-    }
-
-    /// Returns the greatest `z0` for which a `z1` up to `most` exists.
-    ///
-    /// The difference between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, and not
-    /// negative at 0. Newton's method from above ends at the root of this function, after at most as many steps as
-    /// there are pairs of rows. The result is lowered by more than the rounding, so that [`Bounds::greatest_end`] finds a
-    /// feasible
-    /// `z1`.
-    pub(super) fn greatest_start(&self, most: f64) -> f64 {
-        let mut z0 = self.most;
-        for _ in 0..=(self.above.len() + 1) * (self.below.len() + 1) {
-            let (upper, lower) = (self.upper(z0, most), self.lower(z0));
-            let (room, slope) = (upper.0 - lower.0, upper.1 - lower.1);
-            let next = z0 - room / slope;
-            // Rounding also ends the iteration.
-            if room >= 0.0 || next.is_nan() || next >= z0 {
-                break;
-            }
-            z0 = next.max(0.0);
-        }
-        z0 * (1.0 - ROUNDING)
-    }
-
-    /// Returns the greatest `z1` for a `z0`, and its slope.
-    fn upper(&self, z0: f64, most: f64) -> (f64, f64) {
-        let lines = self.above.iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
-        lines.fold((most, 0.0), |best, line| if line.0 < best.0 { line } else { best })
-    }
-
-    /// Returns the least `z1` for a `z0`, and its slope.
-    fn lower(&self, z0: f64) -> (f64, f64) {
-        let lines = self.below.iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
-        lines.fold((0.0, 0.0), |best, line| if line.0 > best.0 { line } else { best })
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use proptest::prelude::*;
-
-    proptest! {
-        #![proptest_config(cplan_cases::cases(256))]
-
-        /// Compares the bounds with the vertices of the polygon, found by brute force.
-        #[test]
-        fn bounds_of_a_corner_agree_with_the_feasible_polygon(
-            rows in prop::collection::vec(prop::array::uniform2(prop_oneof![Just(0.0), -3.0..3.0_f64]), 1..9),
-            caps in (0.1..5.0_f64, 0.1..5.0_f64), most in 0.0..4.0_f64, share in 0.0..1.0_f64,
-        ) {
-            let mut rows = rows;
-            rows.extend([[1.0 / caps.0, 0.0], [0.0, 1.0 / caps.1]]);
-            let mut bounds = Bounds::default();
-            bounds.extend(rows.iter().copied());
-            // All lines as a z0 + b z1 = c.
-            let mut lines: Vec<[f64; 3]> = rows.iter().map(|[a, b]| [*a, *b, 1.0]).collect();
-            lines.extend([[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 1.0, most]]);
-            let inside = |z0: f64, z1: f64| {
-                z0 >= -1e-9 && (-1e-9..=most + 1e-9).contains(&z1)
-                    && rows.iter().all(|[a, b]| a * z0 + b * z1 <= 1.0 + 1e-9)
-            };
-            let mut greatest = 0.0_f64;
-            for (i, [a, b, c]) in lines.iter().enumerate() {
-                for [d, e, f] in &lines[..i] {
-                    let determinant = a * e - b * d;
-                    let (z0, z1) = ((c * e - b * f) / determinant, (a * f - c * d) / determinant);
-                    if determinant.abs() > 1e-12 && inside(z0, z1) {
-                        greatest = greatest.max(z0);
-                    }
-                }
-            }
-            let back = bounds.greatest_start(most);
-            prop_assert!((back - greatest).abs() < 1e-6 * (1.0 + greatest), "{back} {greatest}");
-            let z0 = back * share;
-            let z1 = bounds.greatest_end(z0, most);
-            prop_assert!(inside(z0, z1) && (z1 + 1e-6 > most || !inside(z0, z1 + 1e-6)), "{z0} {z1}");
-        }
+        let points: &[Axes] = match &self.shape {
+            Shape::Blend(points) => points,
+            Shape::Leg(points) => points,
+        };
+        // Rounding must not carry a sample beyond the control points, which may lie on a joint limit.
+        let (least, greatest) =
+            points.iter().fold([points[0]; 2], |[least, greatest], p| [least.inf(p), greatest.sup(p)]).into();
+        let position =
+            self.position(u).zip_zip_map(&least, &greatest, |value, least, greatest| value.clamp(least, greatest));
+        [position, along * speed, self.second_derivative(u) * (speed * speed) + along * acceleration]
     }
 }

@@ -1,5 +1,6 @@
 //! Makes a motion in time along a certified path, with rounded corners.
 
+use super::limits::MAX_TORQUE_ROUNDS;
 use super::rounded::rounded;
 use super::schedule::duration_bound;
 use super::shape::ShapeSearch;
@@ -164,8 +165,18 @@ pub fn along_curve(
     let torque = TorqueLimit::along_path(scene, curve.straight().path())?;
     let limits = Limits { wrist, ..Limits::from(scene.arm()) }.scaled(share);
     let wrist = limits.wrist.filter(|_| !limits.stops_at_corners());
-    let limits = Limits { tip, torque, wrist, ..limits };
-    with_torques(time(curve, &limits, period)?, torque)
+    let mut limits = Limits { tip, torque, wrist, ..limits };
+    // Torques along curved legs are bounded at the ends of spans only.
+    for _ in 0..MAX_TORQUE_ROUNDS {
+        let timed = time(curve.clone(), &limits, period)?;
+        let limit = limits.torque.as_mut().filter(|_| curve.curve().has_curved_leg());
+        let excess = limit.as_ref().and_then(|limit| limit.excess(&timed.trajectory.pieces()));
+        match limit.zip(excess) {
+            Some((limit, excess)) => limit.share /= excess,
+            None => return with_torques(timed, torque),
+        }
+    }
+    with_torques(time(curve.without_curves(), &limits, period)?, torque)
 }
 
 /// Checks the torques of a motion, and adds them at its samples.

@@ -65,6 +65,7 @@
 //! messages with their definitions (`mcap/messages`), and the crate `mcap` for the container.
 
 mod blend;
+mod bounds;
 mod certified;
 mod clock;
 mod corner;
@@ -106,8 +107,8 @@ mod tests;
 
 #[cfg(feature = "mcap")]
 pub use self::mcap::{Body, Solid, Stage, mcap};
-pub use blend::{BLEND_TOLERANCE, Blend, BlendedPath, Stretch};
-pub use certified::{CertifiedCurve, Rounding, blend, blend_up_to};
+pub use blend::{BLEND_TOLERANCE, Blend, BlendedPath, CurvedLeg, Stretch};
+pub use certified::{CertifiedCurve, Rounding, blend, blend_curved};
 pub use clock::{nanoseconds, nearest_within, round_down, round_up, seconds, whole_nanoseconds};
 pub use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
 pub use csv::{csv, csv_of_joints};

@@ -8,7 +8,7 @@ use cplan_model::{Arm, Joint, Motors};
 use nalgebra::Vector3;
 
 /// Number of times that torques are reduced if they exceed the efforts between the positions at which they are limited.
-const MAX_TORQUE_ROUNDS: usize = 6;
+pub(super) const MAX_TORQUE_ROUNDS: usize = 6;
 
 /// Limits of a motion, for the joints from base to tip. All are positive, in radians or metres and seconds.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -64,6 +64,14 @@ impl LimitedAxis {
         }
     }
 
+    /// Returns the greatest magnitude of a component along the axis, given those of the joints' components.
+    pub fn greatest(&self, magnitudes: Axes) -> f64 {
+        match self.axis {
+            Ok(joint) => magnitudes[joint],
+            Err(ratio) => ratio.abs() * magnitudes[0] + magnitudes[1],
+        }
+    }
+
     /// Returns the index of the joint; `None` for the sum.
     pub fn joint(&self) -> Option<usize> {
         self.axis.ok()
@@ -73,9 +81,11 @@ impl LimitedAxis {
 /// A wrist that turns while the arm moves along a path, and its limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WristLimit<'a> {
-    /// Value of the wrist's joint at each waypoint of the path, radians. Along a leg it is linear, and along a blend
-    /// quadratic.
+    /// Value of the wrist's joint at each waypoint of the path, radians. Along a straight leg it is linear, along a curved
+    /// one cubic, and along a blend quadratic.
     pub values: &'a [f64],
+    /// Derivative of that value by the parameter at both ends of each leg. Those of straight legs do not matter.
+    pub slopes: &'a [[f64; 2]],
     /// Top speed, radians per second, positive.
     pub velocity: f64,
     /// Greatest acceleration, radians per second squared, positive.
@@ -161,6 +171,11 @@ impl Limits<'_> {
     /// Returns the values of all axes at a waypoint with these joint values.
     pub(super) fn axes_at(&self, waypoint: usize, q: Configuration) -> Axes {
         q.push(self.wrist.map_or(0.0, |wrist| wrist.values[waypoint]))
+    }
+
+    /// Returns the derivatives of all axes by the parameter at both ends of a curved leg.
+    pub(super) fn leg_directions(&self, leg: usize, tangents: [Configuration; 2]) -> [Axes; 2] {
+        [0, 1].map(|end| tangents[end].push(self.wrist.map_or(0.0, |wrist| wrist.slopes[leg][end])))
     }
 
     /// Returns the value of the wrist's joint at a distance, radians or metres in joint space, from waypoint `from` towards

@@ -279,9 +279,7 @@ pub struct TimedMotion {
 pub fn time(curve: impl Into<CertifiedCurve>, limits: &Limits, period: f64) -> Result<TimedMotion, TimingError> {
     let curve = curve.into();
     let (used, trajectory) = time_curve(curve.curve(), limits, period)?;
-    let gone = (0..used.radii().len()).filter(|&w| used.radii()[w] == 0.0 && curve.curve().radii()[w] > 0.0);
-    let curve = gone.collect::<Vec<_>>().into_iter().fold(curve, CertifiedCurve::without);
-    Ok(TimedMotion { curve, trajectory })
+    Ok(TimedMotion { curve: curve.reduced_to(used), trajectory })
 }
 
 /// Does the same as [`time`] for a curve without a certificate. Also returns the curve with only the blends in use.

@@ -1,13 +1,14 @@
 //! The timing of a motion: the fastest one along a path with blends.
 
+use super::bounds::Bounds;
 use super::clock::reserve;
-use super::corner::{Bounds, Corner};
+use super::corner::Corner;
 use super::jerk;
 use super::limits::{Axes, Limits};
 use super::profile::{Phase, State, passing, rest_to_rest};
 use super::sample::{MIN_INTERVAL, MIN_PERIODIC_INTERVAL, Trajectory, sample};
 use super::tip::{Part, TIP_SPEED_STEP};
-use crate::{Blend, BlendedPath};
+use crate::{Blend, BlendedPath, CurvedLeg};
 use cplan_model::space::Configuration;
 use std::ops::Range;
 
@@ -66,8 +67,8 @@ impl Line {
     /// Returns the line as a part of a curve, for the limits on the tip.
     fn part(&self) -> Part {
         let middle = self.from + (self.to - self.from) / 2.0;
-        let (bend, half) = (Configuration::zeros(), self.length / 2.0);
-        Part { middle: middle.xy(), slope: self.direction.xy(), bend, half }
+        let (zero, half) = (Configuration::zeros(), self.length / 2.0);
+        Part { middle: middle.xy(), slope: self.direction.xy(), bend: zero, third: zero, half }
     }
 
     /// Returns the line with a speed and an acceleration that the torques allow everywhere on it.
@@ -133,7 +134,7 @@ impl Track {
 
     /// Returns true if the track is a blend at a waypoint.
     pub(super) fn is_blend(&self) -> bool {
-        matches!(self, Track::Corner(corner) if !corner.is_straight())
+        matches!(self, Track::Corner(corner) if corner.is_blend())
     }
 
     /// Returns the longest interval between samples within a phase.
@@ -148,10 +149,10 @@ impl Track {
 /// A track and the phases in which it is passed.
 pub(super) type TimedTrack = (Track, Vec<Phase>);
 
-/// Returns the timed tracks along a path, and the blends in use. Each list of tracks leads from rest to rest, in order.
-/// Useless blends are removed, and the motion stops at their corners.
+/// Returns the timed tracks along a path, and the blends and curved legs in use. Each list of tracks leads from rest to
+/// rest, in order. Useless blends are removed, and the motion stops at their corners.
 ///
-/// With a limit on a jerk, all blends are useless, because the acceleration jumps where a parabola starts. Each
+/// With a limit on a jerk, all blends and curved legs are useless, because the acceleration jumps where they start. Each
 /// waypoint's blend is passed at a share of the speed that the limits allow. On straight pieces the arm coasts for at
 /// least `coast` seconds between acceleration and deceleration.
 pub(super) fn schedule(
@@ -197,17 +198,25 @@ fn scheduled(
             used = used.with(waypoint, 0.0);
         }
     }
+    for leg in 0..count - 1 {
+        let is_used = !limits.stops_at_corners() && curved_track(&used, leg, limits).is_some();
+        if !is_used && used.curved_leg(leg).is_some() {
+            used = used.without_curve(leg);
+        }
+    }
     let mut runs = Vec::new();
-    let stops: Vec<usize> = (0..count).filter(|&w| used.radii()[w] == 0.0).collect();
+    let stops: Vec<usize> = (0..count).filter(|&w| used.radii()[w] == 0.0 && !used.is_smooth(w)).collect();
     for run in stops.windows(2) {
         let stopping = stopping(&used, run[0]..run[1], limits, spans);
-        let tracks = (run[1] - run[0] > 1).then(|| tracks(&used, run[0]..run[1], limits, shares)).flatten();
+        let is_moving = run[1] - run[0] > 1 || used.curved_leg(run[0]).is_some();
+        let tracks = is_moving.then(|| tracks(&used, run[0]..run[1], limits, shares)).flatten();
         let blended = tracks.and_then(|tracks| driven(tracks, limits, coast, spans));
         let took: f64 = stopping.iter().map(|timed_tracks| duration(timed_tracks)).sum();
         match blended.filter(|blended| duration(blended) <= took) {
             Some(blended) => runs.push(blended),
             None => {
                 used = (run[0] + 1..run[1]).fold(used, |used, waypoint| used.with(waypoint, 0.0));
+                used = (run[0]..run[1]).fold(used, BlendedPath::without_curve);
                 runs.extend(stopping);
             }
         }
@@ -349,6 +358,7 @@ fn much_finer(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<Track>> {
     let mut cut = false;
     let finer = |(track, squared): (&Track, &Vec<f64>)| match track {
         Track::Line(_) => track.clone(),
+        Track::Corner(corner) if corner.is_leg() => track.clone(),
         Track::Corner(corner) => corner.much_finer(squared).map_or_else(
             || track.clone(),
             |finer| {
@@ -411,30 +421,51 @@ fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     speeds
 }
 
-/// Returns the tracks from one waypoint to another, with a blend at each between them. Returns `None` if one cannot be
-/// sampled.
+/// Returns the tracks from one waypoint to another, with a blend at each between them that is not smooth. Returns `None`
+/// if one cannot be sampled.
 fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, shares: &[f64]) -> Option<Vec<Track>> {
-    let q = curve.path().waypoints();
-    let mut from = limits.axes_at(waypoints.start, q[waypoints.start]);
     let mut tracks = Vec::new();
-    for (waypoint, &corner) in q.iter().enumerate().take(waypoints.end + 1).skip(waypoints.start + 1) {
-        let tip_share = limits.tip_share(waypoint - 1);
-        let points = curve.blend(waypoint).map(|blend| blend_points(curve, waypoint, blend, limits));
-        let to = points.map_or_else(|| limits.axes_at(waypoint, corner), |points| points[0]);
-        tracks.extend(Track::straight([from, to], limits, tip_share));
-        if let Some(points) = points {
-            let corner = Corner::new(points, limits, shares[waypoint])?;
+    for leg in waypoints.clone() {
+        let tip_share = limits.tip_share(leg);
+        if curve.curved_leg(leg).is_some() {
+            tracks.push(Track::Corner(curved_track(curve, leg, limits)?.with_tip_share(tip_share)));
+        } else {
+            tracks.extend(Track::straight(leg_ends(curve, leg, limits), limits, tip_share));
+        }
+        let waypoint = leg + 1;
+        if let Some(blend) = curve.blend(waypoint).filter(|_| waypoint < waypoints.end) {
+            let corner = Corner::new(blend_points(curve, waypoint, blend, limits), limits, shares[waypoint])?;
             tracks.push(Track::Corner(corner.with_tip_share(tip_share.min(limits.tip_share(waypoint)))));
-            from = points[2];
         }
     }
     Some(tracks)
 }
 
+/// Returns a curved leg between the blends at its ends. Returns `None` if it is straight, or too small to be sampled.
+fn curved_track(curve: &BlendedPath, leg: usize, limits: &Limits) -> Option<Corner> {
+    let CurvedLeg { tangents, length, .. } = curve.curved_leg(leg)?;
+    Corner::leg(leg_ends(curve, leg, limits), limits.leg_directions(leg, tangents), length, limits)
+}
+
+/// Returns the values of all axes at both ends of a leg, where the blends end and begin.
+fn leg_ends(curve: &BlendedPath, leg: usize, limits: &Limits) -> [Axes; 2] {
+    [leg, leg + 1].map(|waypoint| match curve.blend(waypoint) {
+        Some(blend) => blend_points(curve, waypoint, blend, limits)[if waypoint == leg { 2 } else { 0 }],
+        None => limits.axes_at(waypoint, curve.path().waypoints()[waypoint]),
+    })
+}
+
 /// Returns the values of all axes at the beginning of a blend, at its corner, and at its end.
 fn blend_points(curve: &BlendedPath, waypoint: usize, blend: Blend, limits: &Limits) -> [Axes; 3] {
     let (q, radius) = (curve.path().waypoints(), curve.radii()[waypoint]);
-    let toward = |other: usize| limits.wrist_at(waypoint, other, radius, (q[other] - q[waypoint]).norm());
+    let toward = |other: usize| match curve.curved_leg(waypoint.min(other)) {
+        None => limits.wrist_at(waypoint, other, radius, (q[other] - q[waypoint]).norm()),
+        Some(CurvedLeg { tangents, .. }) => {
+            let [first, last] = limits.leg_directions(waypoint.min(other), tangents);
+            let beside = if other > waypoint { first * radius } else { -last * radius };
+            limits.axes_at(waypoint, q[waypoint])[2] + beside[2]
+        }
+    };
     let corner = limits.axes_at(waypoint, blend.corner);
     [blend.from.push(toward(waypoint - 1)), corner, blend.to.push(toward(waypoint + 1))]
 }

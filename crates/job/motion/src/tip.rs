@@ -23,18 +23,29 @@ pub struct TipSpeed<'a> {
     pub legs: &'a [f64],
 }
 
-/// A part of a curve `q(s)` with a constant second derivative: all values of the parameter `s` within `half` of the
-/// middle.
+/// A part of a curve `q(s)` with a constant third derivative: all values of the parameter `s` within `half` of the middle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Part {
     /// The configuration in the middle.
     pub(super) middle: Configuration,
     /// First derivative by the parameter in the middle.
     pub(super) slope: Configuration,
-    /// Second derivative by the parameter.
+    /// Second derivative by the parameter in the middle.
     pub(super) bend: Configuration,
+    /// Third derivative by the parameter.
+    pub(super) third: Configuration,
     /// Half the range of the parameter.
     pub(super) half: f64,
+}
+
+impl Part {
+    /// Returns the configuration and its first two derivatives at a distance of the parameter from the middle.
+    pub(super) fn at(&self, by: f64) -> [Configuration; 3] {
+        let Self { middle, slope, bend, third, .. } = *self;
+        let square = by * by / 2.0;
+        let q = middle + slope * by + bend * square + third * (square * by / 3.0);
+        [q, slope + bend * by + third * square, bend + third * by]
+    }
 }
 
 impl<'a> TipSpeed<'a> {
@@ -61,6 +72,34 @@ impl<'a> TipSpeed<'a> {
         self.speed / (rate + self.slack(part))
     }
 
+    /// Returns numbers for both ends of a part: the tip keeps its limit on the whole part if the speeds of the parameter at
+    /// both ends are at most the limit divided by these numbers, and their square is linear in between.
+    ///
+    /// Between the ends, the tip's derivative by the parameter is within `h^2 / 8` times its second derivative of its
+    /// chord. If its magnitude was linear, the square of the speed would exceed the limit by less than two squares of its
+    /// relative change.
+    pub(super) fn rates(&self, part: &Part) -> [f64; 2] {
+        let off = part.half * part.half / 2.0 * self.change_of_rate(part);
+        let [first, last] = self.rates_at_ends(part).map(|rate| rate + off);
+        let change = (last - first) / first.min(last);
+        [first, last].map(|rate| rate * (1.0 + change * change))
+    }
+
+    /// Returns a bound, in metres per unit of the parameter, on the overestimate of [`TipSpeed::rates`].
+    pub(super) fn slack_of_rates(&self, part: &Part) -> f64 {
+        let (known, bounds) = (self.rates_at_ends(part), self.rates(part));
+        (bounds[0] - known[0]).max(bounds[1] - known[1])
+    }
+
+    /// Returns the magnitudes of the tip's derivative by the parameter at both ends of a part.
+    fn rates_at_ends(&self, part: &Part) -> [f64; 2] {
+        [-part.half, part.half].map(|by| {
+            let [q, slope, _] = part.at(by);
+            let [first, second] = self.arm.jacobian(1, self.arm.tip, q);
+            (first * slope[0] + second * slope[1]).norm()
+        })
+    }
+
     /// Returns the factor by which the tip may exceed its limit on pieces of a motion. `None` if the limit is proven to
     /// be satisfied.
     pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
@@ -75,6 +114,7 @@ impl<'a> TipSpeed<'a> {
                 middle: piece.at(u),
                 slope: piece.derivative(Derivative::Velocity, u),
                 bend: acceleration,
+                third: Configuration::zeros(),
                 half: duration / f64::from(2 * count),
             };
             // The acceleration is linear, so it is greatest at an end, in any direction.
@@ -86,26 +126,49 @@ impl<'a> TipSpeed<'a> {
         parts(count).map(|part| 1.0 / self.speed_within_limit(&part)).fold(0.0, f64::max)
     }
 
+    /// Returns bounds on the magnitudes of the first three derivatives by the parameter on a part: for both joints, and for
+    /// the rotation of link 2.
+    fn derivatives(&self, part: &Part) -> [[f64; 3]; 3] {
+        let turns = self.arm.joints.each_ref().map(|joint| joint.joint_type.turn());
+        let along = |of: &dyn Fn(Configuration) -> f64| {
+            let [slope, bend, third] = [part.slope, part.bend, part.third].map(|v| of(v).abs());
+            let half = part.half;
+            [slope + bend * half + third * (half * half / 2.0), bend + third * half, third]
+        };
+        [along(&|v| v[0]), along(&|v| v[1]), along(&|v| turns[0] * v[0] + turns[1] * v[1])]
+    }
+
     /// Returns the greatest magnitude of the second derivative of the tip's position by the parameter.
     fn change(&self, part: &Part) -> f64 {
         use JointType::{Prismatic, Revolute};
-        let arm = self.arm;
-        let [w1, w2] = [0, 1].map(|k| part.slope[k].abs() + part.bend[k].abs() * part.half);
-        let [b1, b2] = [part.bend[0].abs(), part.bend[1].abs()];
-        let tip = arm.tip;
+        let (arm, tip) = (self.arm, self.arm.tip);
+        let [[w1, b1, _], [w2, b2, _], [w, b, _]] = self.derivatives(part);
         match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
-            (Revolute { sign: s1 }, Revolute { sign: s2 }) => {
-                // Turning rate of link 2.
-                let turn = |rate: Configuration| (s1 * rate[0] + s2 * rate[1]).abs();
-                let w = turn(part.slope) + turn(part.bend) * part.half;
-                arm.offset.norm() * (w1 * w1 + b1) + tip.norm() * (w * w + turn(part.bend))
-            }
+            (Revolute { .. }, Revolute { .. }) => arm.offset.norm() * (w1 * w1 + b1) + tip.norm() * (w * w + b),
             (Revolute { .. }, Prismatic { direction }) => {
                 let radius = (arm.offset + direction * part.middle[1] + tip).norm() + w2 * part.half;
                 radius * (w1 * w1 + b1) + 2.0 * w1 * w2 + b2
             }
             (Prismatic { .. }, Revolute { .. }) => b1 + tip.norm() * (w2 * w2 + b2),
             (Prismatic { .. }, Prismatic { .. }) => b1 + b2,
+        }
+    }
+
+    /// Returns the greatest magnitude of the third derivative of the tip's position by the parameter.
+    fn change_of_rate(&self, part: &Part) -> f64 {
+        use JointType::{Prismatic, Revolute};
+        let (arm, tip) = (self.arm, self.arm.tip);
+        let [[w1, b1, j1], [w2, b2, j2], [w, b, j]] = self.derivatives(part);
+        // The third derivative of a unit vector that turns with these derivatives.
+        let turned = |w: f64, b: f64, j: f64| w * w * w + 3.0 * w * b + j;
+        match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
+            (Revolute { .. }, Revolute { .. }) => arm.offset.norm() * turned(w1, b1, j1) + tip.norm() * turned(w, b, j),
+            (Revolute { .. }, Prismatic { direction }) => {
+                let radius = (arm.offset + direction * part.middle[1] + tip).norm() + w2 * part.half;
+                radius * turned(w1, b1, j1) + 3.0 * (w2 * (w1 * w1 + b1) + b2 * w1) + j2
+            }
+            (Prismatic { .. }, Revolute { .. }) => j1 + tip.norm() * turned(w2, b2, j2),
+            (Prismatic { .. }, Prismatic { .. }) => j1 + j2,
         }
     }
 }

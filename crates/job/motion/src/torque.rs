@@ -64,18 +64,20 @@ impl<'a> TorqueLimit<'a> {
 
     fn on(&self, part: &Part) -> TorquesOnPart {
         let rates = Rates {
-            first: [0, 1].map(|k| part.slope[k].abs() + part.bend[k].abs() * part.half),
-            second: [0, 1].map(|k| part.bend[k].abs()),
-            third: [0.0; 2],
+            first: [0, 1].map(|k| {
+                let of_third = part.third[k].abs() * part.half * part.half / 2.0;
+                part.slope[k].abs() + part.bend[k].abs() * part.half + of_third
+            }),
+            second: [0, 1].map(|k| part.bend[k].abs() + part.third[k].abs() * part.half),
+            third: [0, 1].map(|k| part.third[k].abs()),
         };
         let curvature = self.torques.curvature(part.middle, part.half, &rates);
         // Deviation from a chord over the whole part, which is `2 half` long.
         let off = |curvature: [f64; 2], share: f64| curvature.map(|c| c * part.half * part.half / (2.0 * share));
         let at = |by: f64| {
-            let q = part.middle + part.slope * by + part.bend * (by * by / 2.0);
-            let slope = part.slope + part.bend * by;
+            let [q, slope, bend] = part.at(by);
             let here = self.torques.at(q);
-            let bent = here.inertial(part.bend) + here.centrifugal(slope);
+            let bent = here.inertial(bend) + here.centrifugal(slope);
             TorqueFactors {
                 inertial: here.inertial(slope) / self.share,
                 bent: bent / self.share,
@@ -146,6 +148,7 @@ impl<'a> TorqueLimit<'a> {
                 middle: from + offset * ((f64::from(i) + 0.5) / count),
                 slope: offset / length,
                 bend: Configuration::zeros(),
+                third: Configuration::zeros(),
                 half: length / (2.0 * count),
             });
             let both = |limited| ends.iter().map(move |end| (limited, end));
@@ -260,7 +263,8 @@ impl<'a> TorqueLimit<'a> {
     fn check_holding_along(&self, path: &Path) -> Result<(), TimingError> {
         for (from, to) in path.segments() {
             let (offset, half) = ((to - from) / 2.0, 1.0);
-            let whole = Part { middle: from + offset, slope: offset, bend: Configuration::zeros(), half };
+            let zero = Configuration::zeros();
+            let whole = Part { middle: from + offset, slope: offset, bend: zero, third: zero, half };
             let off = self.on(&whole).off.holding;
             // The error of chords falls with the square of their length.
             let limited = self.torques.limited_torques();

@@ -83,6 +83,27 @@ impl Curve {
         }
     }
 
+    /// Returns the rate at which the direction turns, radians per unit of the parameter. Returns `None` where the derivative
+    /// vanishes.
+    pub fn turning(&self, u: f64) -> Option<f64> {
+        let along = self.derivative(u);
+        let second = match *self {
+            Curve::Line { .. } => return Some(0.0),
+            // With the direction from the centre, the second derivative is that of polar coordinates.
+            Curve::Arc { radius, by, growth, .. } => {
+                let [out, across] = [growth, (radius + growth * u) * by];
+                let square = out * out + across * across;
+                return (square > 0.0).then(|| by * (1.0 + out * out / square));
+            }
+            Curve::Cubic([a, b, c, d]) => {
+                let [ab, bc, cd] = [minus(b, a), minus(c, b), minus(d, c)];
+                mix(minus(bc, ab), minus(cd, bc), u).map(|x| 6.0 * x)
+            }
+        };
+        let square = dot(along, along);
+        (square > 0.0).then(|| (along[0] * second[1] - along[1] * second[0]) / square)
+    }
+
     /// Returns a bound on the length of the second derivative by the parameter over the whole curve, metres.
     pub fn bend(&self) -> f64 {
         match *self {

@@ -1,5 +1,6 @@
 //! Tests of motions along lines. Each answer is compared with checks that share no code with the crate.
 
+mod course;
 mod random;
 mod smooth;
 mod tiny;

@@ -1,6 +1,6 @@
 //! The check of joint limits of a recorded motion, also between its samples.
 
-use super::collision::Moment;
+use super::encounter::Moment;
 use super::precision::{JointPrecision, Precision};
 use super::torque::torque_samples;
 use cplan_dynamics::{LimitedTorque, Torques};

@@ -8,6 +8,7 @@ mod arch;
 mod limits;
 mod collision;
 mod cover;
+mod encounter;
 mod precision;
 mod tool;
 mod torque;
@@ -15,10 +16,8 @@ mod turning;
 mod wrist;
 
 pub use arch::{StrokeDuringMotion, seconds_to_rise};
-pub use collision::{
-    CollisionCheck, Encounter, Moment, Touch, certify_in_time, check_collision, check_collision_with,
-    first_moving_contact,
-};
+pub use collision::{certify_in_time, check_collision, check_collision_with, first_moving_contact};
+pub use encounter::{CollisionCheck, Encounter, Moment, Touch};
 pub use limits::{
     ELBOW_MOTOR, FIRST_MOTOR, Limit, LimitViolation, limit_violations, motor_violations, torque_violations,
 };

@@ -5,8 +5,9 @@
 //! that are not proven free are halved, so covers get smaller. Nothing is sampled.
 
 use super::arch::{MIN_GAP, times_between};
-use super::collision::{CollisionCheck, Encounter, Moment, Touch, proven_clearance};
+use super::collision::proven_clearance;
 use super::cover::cover;
+use super::encounter::{CollisionCheck, Encounter, Moment, Touch};
 use crate::{phase_at, single};
 use cplan_geometry::{Point, Pose};
 use cplan_handling::{Derivative, Recording, Wrist};
