@@ -1,9 +1,10 @@
 //! Distances between two arms, with bounds while both move.
 
-use cplan_geometry::{Convex, Point, Vector, separation};
+use crate::contact::{contact_point, rates};
+use cplan_geometry::{Convex, Point, Pose, Vector, separation, separation_at};
 use cplan_judge::{Deviation, Posture};
 use cplan_model::space::Configuration;
-use cplan_model::{Heights, Obstacle, Part, Scene, Shape};
+use cplan_model::{Heights, JointType, Obstacle, Part, Scene, Shape};
 
 /// Rounding error of a distance and of bounds on motions, as a fraction of the lengths in it: a few dozen operations at
 /// 1.1e-16 each, with a wide margin.
@@ -20,6 +21,8 @@ struct Body<'a> {
     part: &'a Part,
     /// Greatest distance of a point of the part from the origin of the link's frame, metres.
     reach: f64,
+    /// A disc around the part's shape, in the link's frame.
+    disc: (Point, f64),
 }
 
 /// The links of two arms, and the pairs that can meet.
@@ -38,13 +41,31 @@ pub(crate) struct Between<'a> {
 /// The links of one arm during a span of a motion: at one configuration, with bounds on their motion from there.
 #[derive(Debug, Clone)]
 pub(crate) struct Placed {
-    pub at: Configuration,
     shapes: Vec<Convex>,
     /// A disc around each shape.
     discs: Vec<(Point, f64)>,
     /// For each body, an upper bound on the motion of its points, metres.
     moves: Vec<f64>,
     /// Bound on the lengths in computations with these shapes, metres.
+    scale: f64,
+}
+
+/// An arm at one configuration.
+#[derive(Debug, Clone)]
+pub(crate) struct Stance {
+    at: Configuration,
+    poses: [Pose; 2],
+    /// For each body, the centre of its disc.
+    centers: Vec<Point>,
+}
+
+/// An arm that deviates from a configuration.
+#[derive(Debug, Clone)]
+pub(crate) struct Swept {
+    poses: [Pose; 2],
+    /// For each body, the centre of its disc, and an upper bound on the motion of its points, metres.
+    bodies: Vec<(Point, f64)>,
+    /// Bound on the lengths in computations, metres.
     scale: f64,
 }
 
@@ -69,7 +90,8 @@ impl<'a> Between<'a> {
     pub fn new(scenes: [&'a Scene; 2], is_one_robot: bool, clearance: f64) -> Self {
         let bodies = scenes.map(|scene| {
             let of = |link: usize| {
-                let body = move |part| Body { link, part, reach: part_reach(part) };
+                let body =
+                    move |part: &'a Part| Body { link, part, reach: part_reach(part), disc: disc_around(&part.shape) };
                 scene.arm().links[link].parts.iter().map(body)
             };
             of(0).chain(of(1)).collect::<Vec<_>>()
@@ -88,12 +110,10 @@ impl<'a> Between<'a> {
     pub fn placed(&self, side: usize, at: Configuration, deviation: Deviation) -> Placed {
         let posture = Posture::new(self.scenes[side], at);
         let base = self.scenes[side].arm().base.norm();
-        let mut placed = Placed { at, shapes: Vec::new(), discs: Vec::new(), moves: Vec::new(), scale: base };
-        for Body { link, part, reach } in &self.bodies[side] {
+        let mut placed = Placed { shapes: Vec::new(), discs: Vec::new(), moves: Vec::new(), scale: base };
+        for Body { link, part, reach, .. } in &self.bodies[side] {
             let shape = part.shape.at(&posture.pose(*link));
-            let core = shape.core();
-            let center = core.iter().sum::<Vector>() / core.len() as f64;
-            placed.discs.push((center, shape.reach_from(center)));
+            placed.discs.push(disc_around(&shape));
             placed.moves.push(posture.farthest_motion_within(*link, *reach, deviation));
             placed.scale = placed.scale.max(base + shape.reach_from(Point::zeros()) + reach);
             placed.shapes.push(shape);
@@ -129,29 +149,93 @@ impl<'a> Between<'a> {
         distance
     }
 
-    /// Returns true if the arms are proven to collide, or to be nearer than the clearance, for all deviations.
-    pub fn surely_collide(&self, [a, b]: [&Placed; 2]) -> bool {
-        let rounding = ROUNDING * (a.scale + b.scale);
-        let collides = |(&[i, j], is_definite): (&[usize; 2], &bool)| {
-            let moves = a.moves[i] + b.moves[j] + rounding;
-            let ((p, r), (q, s)) = (a.discs[i], b.discs[j]);
-            // Shapes at this distance have no point in common.
-            if !is_definite || (p - q).norm() > r + s + self.clearance {
-                return false;
+    /// Returns an arm at a configuration, for [`Between::near`].
+    pub fn stance(&self, side: usize, at: Configuration) -> Stance {
+        let poses = self.scenes[side].arm().poses(at);
+        let center = |body: &Body| poses[body.link].point(body.disc.0);
+        Stance { at, poses, centers: self.bodies[side].iter().map(center).collect() }
+    }
+
+    /// Visits the pairs of links that are nearer than `within`, metres, with their distance and its derivatives by the joints
+    /// of both arms.
+    pub fn near(&self, stances: [&Stance; 2], within: f64, mut visit: impl FnMut(f64, [[f64; 2]; 2])) {
+        for &pair in &self.pairs {
+            let [(p, r, one), (q, s, two)] = [0, 1].map(|side| {
+                let body = &self.bodies[side][pair[side]];
+                (stances[side].centers[pair[side]], body.disc.1, body)
+            });
+            let far = within + r + s;
+            if (p - q).norm_squared() >= far * far {
+                continue;
             }
-            let inner = |side: usize, body: usize, placed: &Placed| {
-                let Body { link, part, .. } = &self.bodies[side][body];
-                let inner = part.inner.as_ref().map(|inner| {
-                    let pose = self.scenes[side].arm().pose(*link, placed.at);
-                    inner.at(&pose)
-                });
-                inner.unwrap_or_else(|| placed.shapes[body].clone())
-            };
-            let (one, two) = (inner(0, i, a), inner(1, j, b));
-            let is_solid = !one.is_sliver() && !two.is_sliver();
-            is_solid && separation(&one, &two).distance + moves < self.clearance
+            let shape = |side: usize, body: &Body| body.part.shape.at(&stances[side].poses[body.link]);
+            let shapes = [shape(0, one), shape(1, two)];
+            let here = separation(&shapes[0], &shapes[1]);
+            if here.distance < within {
+                let at = contact_point(&shapes[0], &shapes[1], here);
+                let rates = |side: usize, body: &Body| {
+                    rates(self.scenes[side].arm(), body.link, stances[side].at, at, here.direction)
+                };
+                visit(here.distance, [rates(0, one).map(|rate| -rate), rates(1, two)]);
+            }
+        }
+    }
+
+    /// Returns an arm that deviates from a configuration, for [`Between::motion_per_depth`].
+    pub fn swept(&self, side: usize, at: Configuration, deviation: Deviation) -> Swept {
+        let posture = Posture::new(self.scenes[side], at);
+        let poses = [0, 1].map(|link| posture.pose(link));
+        let base = self.scenes[side].arm().base.norm();
+        let mut scale = base;
+        let bodies = self.bodies[side].iter().map(|Body { link, reach, disc: (center, radius), .. }| {
+            let center = poses[*link].point(*center);
+            scale = scale.max(base + center.norm() + radius + reach);
+            (center, posture.farthest_motion_within(*link, *reach, deviation))
+        });
+        let bodies = bodies.collect();
+        Swept { poses, bodies, scale }
+    }
+
+    /// Returns true if the arms are proven to collide, or to be nearer than the clearance, for all deviations.
+    pub fn surely_collide(&self, swept: [&Swept; 2]) -> bool {
+        self.motion_per_depth(swept) < 1.0
+    }
+
+    /// Returns the bound on the motion of two links for the deviations, as a share of the depth by which they are too near to each
+    /// other at the configurations themselves: the least for all pairs of links. Below 1, the arms are proven to collide, or to be nearer
+    /// than the clearance, for all deviations. Infinite if no links are too near.
+    pub fn motion_per_depth(&self, [a, b]: [&Swept; 2]) -> f64 {
+        let rounding = ROUNDING * (a.scale + b.scale);
+        let share = |(&[i, j], is_definite): (&[usize; 2], &bool)| {
+            let (one, two) = (&self.bodies[0][i], &self.bodies[1][j]);
+            let ((p, first), (q, second)) = (a.bodies[i], b.bodies[j]);
+            // Shapes at this distance have no point in common.
+            let far = one.disc.1 + two.disc.1 + self.clearance + rounding;
+            if !is_definite || (p - q).norm_squared() > far * far {
+                return f64::INFINITY;
+            }
+            let shape = |part: &'a Part| part.inner.as_ref().unwrap_or(&part.shape);
+            let (own, other) = (shape(one.part), shape(two.part));
+            if own.is_sliver() || other.is_sliver() {
+                return f64::INFINITY;
+            }
+            let pose = b.poses[two.link].inverse() * a.poses[one.link];
+            let depth = self.clearance - separation_at(own, &pose, other, |_, here| here.distance);
+            if depth > 0.0 { (first + second + rounding) / depth } else { f64::INFINITY }
         };
-        self.pairs.iter().zip(&self.is_definite).any(collides)
+        self.pairs.iter().zip(&self.is_definite).map(share).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the motion of the links per unit of each joint, metres: those of the first arm, then those of the second.
+    pub fn levers(&self) -> [f64; 4] {
+        [0, 1, 2, 3].map(|k| {
+            let (own, joint) = (self.scenes[k / 2].arm(), k % 2);
+            let reach = own.reach() - if joint == 1 { own.offset.norm() } else { 0.0 };
+            match own.joints[joint].joint_type {
+                JointType::Revolute { .. } => reach.max(0.0),
+                JointType::Prismatic { .. } => 1.0,
+            }
+        })
     }
 
     /// Names the links of a pair: `"forearm" of left and "upper arm" of right`.
@@ -176,6 +260,24 @@ impl<'a> Between<'a> {
         }
         obstacles
     }
+}
+
+/// Returns true if an arm is proven to collide with an obstacle for all deviations. The scene is one for proofs of collisions.
+pub(crate) fn surely_hits(inner: &Scene, at: Configuration, deviation: Deviation) -> bool {
+    let posture = Posture::new(inner, at);
+    let clearance = inner.workspace().clearance;
+    inner.pairs().iter().any(|pair| {
+        // A link meets its robot's own body only if they overlap.
+        let is_own = inner.self_obstacle(pair.obstacle).is_some();
+        posture.greatest(*pair, deviation) < if is_own { 0.0 } else { clearance }
+    })
+}
+
+/// Returns a disc that contains a shape.
+fn disc_around(shape: &Convex) -> (Point, f64) {
+    let core = shape.core();
+    let center = core.iter().sum::<Vector>() / core.len() as f64;
+    (center, shape.reach_from(center))
 }
 
 fn part_reach(part: &Part) -> f64 {

@@ -17,8 +17,8 @@ const RESOLUTION: f64 = 1.0 / 250.0;
 /// other one that no proof succeeds.
 const MARGIN_SHARE: f64 = 0.5;
 
-/// Share of the proven clearance by which links may move in a rectangle of the final diagram.
-const CLEARANCE_SHARE: f64 = 0.3;
+/// Greatest number by which the resolution of the final diagram is divided, until signals are found.
+const FINEST_DIAGRAM: f64 = 32.0;
 
 /// Greatest number of inner places of a path at which an arm may wait.
 const MAX_STOPS: usize = 4;
@@ -252,23 +252,37 @@ impl Coordinator<'_> {
             legs[arm].departing(&departures[arm], Trajectory::at_rest(scene, start))
         });
         let [(one, waits_one), (two, waits_two)] = made;
+        self.judged([one, two], [waits_one, waits_two])
+    }
+
+    /// Judges motions that are certified among the obstacles.
+    pub fn judged(&self, [one, two]: [TimedMotion; 2], waits: [Vec<Wait>; 2]) -> Result<Coordination, Conflict> {
         let trajectories = [&one.trajectory, &two.trajectory];
         let Judgement::Apart { clearance, nearest } = judge(self.between, trajectories, self.skew) else {
             return Err(Conflict::NotCertified);
         };
         let duration = trajectories.map(Trajectory::duration).into_iter().fold(0.0, f64::max);
-        let resolution = self.resolution().min(CLEARANCE_SHARE * (clearance - self.between.clearance));
-        let curves = trajectories.map(|trajectory| Curve::of_legs([trajectory]));
-        let resolution = resolution.max(self.resolution() / 32.0);
-        let rectangles = rectangles(self.between, curves.each_ref(), 0.0, resolution);
+        let motions = [one, two];
+        Ok(Coordination { motions, waits, duration, clearance, nearest, interlocks: None, diagram: vec![] })
+    }
+
+    /// Adds the diagram and the signals.
+    pub fn with_diagram(&self, found: Coordination) -> Coordination {
+        let curves = found.motions.each_ref().map(|motion| Curve::of_legs([&motion.trajectory]));
         let is_beside = |rectangle: &Rectangle| {
             let [one, two] = rectangle.times;
             one[1] <= two[0] || two[1] <= one[0]
         };
-        let interlocks = rectangles.iter().all(is_beside).then(|| interlocks(&rectangles));
-        let diagram = rectangles.iter().map(|rectangle| rectangle.times).collect();
-        let waits = [waits_one, waits_two];
-        Ok(Coordination { motions: [one, two], waits, duration, clearance, nearest, interlocks, diagram })
+        let mut resolution = self.resolution();
+        loop {
+            let rectangles = rectangles(self.between, curves.each_ref(), 0.0, resolution);
+            let interlocks = rectangles.iter().all(is_beside).then(|| interlocks(&rectangles));
+            resolution /= 2.0;
+            if interlocks.is_some() || resolution < self.resolution() / FINEST_DIAGRAM {
+                let diagram = rectangles.iter().map(|rectangle| rectangle.times).collect();
+                return Coordination { interlocks, diagram, ..found };
+            }
+        }
     }
 }
 
@@ -313,7 +327,8 @@ mod tests {
         let between = Between::new([&scene, &scene], false, 0.0);
         let coordinator = Coordinator { between: &between, drive: Drive::default(), skew };
         let paths = paths.map(|corners| path(&scene, corners));
-        coordinator.along(paths.each_ref(), f64::INFINITY).unwrap()
+        let found = coordinator.along(paths.each_ref(), f64::INFINITY).unwrap();
+        found.map(|found| coordinator.with_diagram(found))
     }
 
     /// Returns the least distance of the discs on clocks that differ by up to `skew`.

@@ -1,7 +1,7 @@
 //! The coordination diagram: the times of one arm along its motion against those of the other, and the rectangles in which
 //! the arms are not proven to be apart.
 
-use crate::between::{Between, Placed};
+use crate::between::{Between, Placed, Swept};
 use crate::curve::Curve;
 use cplan_interrupt::checkpoint;
 use cplan_motion::Span;
@@ -23,6 +23,7 @@ pub(crate) struct Rectangle {
 struct Side {
     span: Span,
     placed: Rc<Placed>,
+    swept: Rc<Swept>,
 }
 
 /// Returns the rectangles in which two motions are not proven to keep the clearance, and `margin` metres more. The links of
@@ -30,7 +31,8 @@ struct Side {
 pub(crate) fn rectangles(between: &Between, curves: [&Curve; 2], margin: f64, resolution: f64) -> Vec<Rectangle> {
     let side = |arm: usize, span: Span| {
         let (middle, deviation) = curves[arm].deviation(span);
-        Side { span, placed: Rc::new(between.placed(arm, middle, deviation)) }
+        let placed = Rc::new(between.placed(arm, middle, deviation));
+        Side { span, placed, swept: Rc::new(between.swept(arm, middle, deviation)) }
     };
     let required = between.clearance + margin;
     let mut found = Vec::new();
@@ -45,7 +47,7 @@ pub(crate) fn rectangles(between: &Between, curves: [&Curve; 2], margin: f64, re
                 continue;
             }
             let moves = placed.map(Placed::farthest_motion);
-            let is_collision = between.surely_collide(placed);
+            let is_collision = between.surely_collide(sides.each_ref().map(|side| &*side.swept));
             let order = if moves[0] >= moves[1] { [0, 1] } else { [1, 0] };
             let halves = order.into_iter().filter(|arm| moves[*arm] > resolution && !is_collision);
             let halves = halves.filter_map(|arm| Some((arm, sides[arm].span.halves()?))).next();

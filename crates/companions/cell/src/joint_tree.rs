@@ -12,9 +12,6 @@ const MAX_SAMPLES: usize = 4000;
 /// Longest edge, in seconds at the joints' top speeds.
 const STEP: f64 = 0.15;
 
-/// Number of attempts to shorten the paths.
-const SHORTCUTS: usize = 400;
-
 /// Time that a corner costs, as a share of the time in which the joints reach their top speed.
 const CORNER_SHARE: f64 = 0.5;
 
@@ -39,9 +36,48 @@ struct Space<'a> {
     alone: [StraightMotions<'a>; 2],
 }
 
-/// Returns certified paths from the starts to the goals, which depend on the seed. There is a timing along them, up to the rounding of corners: both
-/// arms move at once, straight from each waypoint to the next. Returns `None` if the search fails.
-pub(crate) fn both_paths(between: &Between, starts: Both, goals: Both, seed: u64) -> Option<[CertifiedPath; 2]> {
+/// A route of both arms: waypoints in four joints. Both arms move at once, straight from each waypoint to the next.
+#[derive(Debug, Clone)]
+pub(crate) struct JointRoute {
+    waypoints: Vec<Both>,
+    /// For each waypoint, the time from the start at top speed, seconds.
+    times: Vec<f64>,
+}
+
+impl JointRoute {
+    /// Returns the time along the route at top speed, seconds.
+    pub fn time(&self) -> f64 {
+        self.times[self.times.len() - 1]
+    }
+
+    /// Returns the configurations at a time from the start, at top speed.
+    pub fn at(&self, time: f64) -> Both {
+        let next = self.times.partition_point(|at| *at < time).clamp(1, self.times.len() - 1);
+        let (from, to) = (self.times[next - 1], self.times[next]);
+        let share = if to > from { ((time - from) / (to - from)).clamp(0.0, 1.0) } else { 1.0 };
+        let ends = [self.waypoints[next - 1], self.waypoints[next]];
+        [0, 1].map(|arm| ends[0][arm] + (ends[1][arm] - ends[0][arm]) * share)
+    }
+
+    /// Returns the path of each arm. `None` if it is not certified.
+    pub fn paths(&self, between: &Between) -> Option<[CertifiedPath; 2]> {
+        let path = |arm: usize| {
+            let path = Path::new(self.waypoints.iter().map(|both| both[arm]).collect());
+            certify(between.scenes[arm], path).ok()
+        };
+        Some([path(0)?, path(1)?])
+    }
+}
+
+/// Returns a route from the starts to the goals that is proven to be free, after this number of attempts to shorten it. It depends on the seed.
+/// Returns `None` if the search fails.
+pub(crate) fn joint_route(
+    between: &Between,
+    starts: Both,
+    goals: Both,
+    seed: u64,
+    shortcuts: usize,
+) -> Option<JointRoute> {
     let alone = between.scenes.map(|scene| StraightMotions::new(scene, between.clearance));
     let reach = between.scenes.map(|scene| scene.arm().reach()).into_iter().fold(0.0, f64::max);
     let margin = MARGINS[seed as usize % MARGINS.len()] * reach;
@@ -80,12 +116,15 @@ pub(crate) fn both_paths(between: &Between, starts: Both, goals: Both, seed: u64
         }
     }
     let mut route = space.unwrapped(route?);
-    space.shorten(&mut route, &mut random);
-    let path = |arm: usize| {
-        let path = Path::new(route.iter().map(|both| both[arm]).collect());
-        certify(between.scenes[arm], path).ok()
-    };
-    Some([path(0)?, path(1)?])
+    space.shorten(&mut route, &mut random, shortcuts);
+    let mut times = vec![0.0];
+    for ends in route.windows(2) {
+        times.push(times[times.len() - 1] + space.straight_time(ends[0], ends[1]));
+    }
+    if route.len() == 1 {
+        (route, times) = (vec![route[0]; 2], vec![0.0; 2]);
+    }
+    Some(JointRoute { waypoints: route, times })
 }
 
 impl Tree {
@@ -217,8 +256,8 @@ impl Space<'_> {
     }
 
     /// Shortens a route: replaces parts of it by straight motions of both arms, or of one arm while the other moves as before.
-    fn shorten(&self, route: &mut Vec<Both>, random: &mut SplitMix64) {
-        for attempt in 0..SHORTCUTS {
+    fn shorten(&self, route: &mut Vec<Both>, random: &mut SplitMix64, attempts: usize) {
+        for attempt in 0..attempts {
             checkpoint();
             let whole = self.route_time(route);
             if route.len() < 3 || whole == 0.0 {

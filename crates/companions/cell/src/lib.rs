@@ -6,8 +6,11 @@
 //! - Two paths are coordinated in the plane of both arms' times (`diagram`): rectangles cover the times at which the arms
 //!   are not proven to be apart. A monotone route through the plane decides which arm passes first (`order`), and a graph of
 //!   differences gives the earliest departures. If necessary, arms wait on their paths (`coordinate`).
-//! - If these paths block each other or lose time, one arm is planned among the other at rest, in both orders and for all IK
-//!   solutions (`plan`), and then both at once in four joints (`joint_tree`).
+//! - If these paths block each other or lose time, both arms are planned at once in four joints (`joint_tree`), and an
+//!   interior-point method shortens their motions (`shaping`). If that fails, one arm is planned among the other at rest,
+//!   in both orders and for all IK solutions (`plan`).
+//! - The lower bound on the duration is raised by proofs that no motions of both arms end by a given time (`funnel`). They
+//!   rest on the values that each joint can have at each time (`reach`).
 //! - The final motions are judged for all skews of the two clocks within a bound (`judged`). Signals between the
 //!   controllers make them hold for any skew (`interlock`).
 //! - If nothing is found, boxes in four joints may prove that there is nothing (`refutation`).
@@ -16,18 +19,22 @@
 #![forbid(unsafe_code)]
 
 mod between;
+mod contact;
 mod coordinate;
 mod curve;
 mod diagram;
 mod excerpt;
 mod file;
+mod funnel;
 mod interlock;
 mod joint_tree;
 mod judged;
 mod order;
 mod picture;
 mod plan;
+mod reach;
 mod refutation;
+mod shaping;
 
 pub use coordinate::Coordination;
 pub use file::{Cell, CellArm};

@@ -2,11 +2,13 @@
 
 use crate::between::Between;
 use crate::coordinate::{Conflict, Coordination, Coordinator};
-use crate::joint_tree::both_paths;
+use crate::funnel::Funnels;
+use crate::joint_tree::joint_route;
 use crate::refutation::{Boxes, refuted_in_boxes};
+use crate::shaping::Shaping;
 use crate::{Cell, CellArm};
 use cplan_engine::{Plan, PlanError, Refutation as PlanRefutation, Searches, plan};
-use cplan_judge::{CertifiedPath, CheckedProof};
+use cplan_judge::{CertifiedPath, CheckedProof, Deviation};
 use cplan_model::space::Configuration;
 use cplan_model::{MotionProblem, Obstacle, Outcome, Scene, Status};
 use cplan_motion::{Drive, Objective};
@@ -24,6 +26,27 @@ const MAX_GOAL_PAIRS: usize = 4;
 
 /// Number of searches with all four joints, each with other samples.
 const JOINT_SEARCHES: u64 = 12;
+
+/// Number of attempts to shorten a path in four joints.
+const SHORTCUTS: usize = 400;
+
+/// Least number of routes in four joints that are shaped.
+const MIN_SHAPED_ROUTES: u64 = 24;
+
+/// Greatest number of routes in four joints that are shaped. If a route is worthwhile, twice as many are shaped as were up to it.
+const MAX_SHAPED_ROUTES: u64 = 48;
+
+/// Share of the duration that a worthwhile route gains.
+const WORTHWHILE_GAIN: f64 = 0.01;
+
+/// Greatest number of boxes that raise the lower bound on the duration.
+const BOUND_BOXES: usize = 10_000;
+
+/// Share of the bound by which it is raised at least.
+const BOUND_RESOLUTION: f64 = 0.01;
+
+/// Rounding error of a bound, as a share of it.
+const BOUND_ROUNDING: f64 = 1e-9;
 
 /// Settings of a coordination.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,7 +91,8 @@ pub struct CellPlan {
     pub outcome: Outcome<Coordination, Refutation>,
     /// The plan of each arm without the other.
     pub alone: [Option<Plan>; 2],
-    /// Proven lower bound on the time until both arms are at their goals, seconds. `None` if it is not known.
+    /// Proven lower bound on the time until both arms are at their goals, seconds, for clocks that differ by up to the skew.
+    /// `None` if it is not known.
     pub lower_bound: Option<f64>,
     /// Attempts with their results, in words, in order.
     pub tried: Vec<String>,
@@ -137,13 +161,19 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
         progress("coordinating the fastest path of each arm");
         search.consider("the fastest path of each arm alone", [&one, &two])?;
     }
-    progress("planning each arm with the other one at rest");
-    search.one_among_the_other(&goals.pairs)?;
-    progress("searching with all four joints");
-    search.with_all_joints(&goals.pairs)?;
-    let Search { best, mut tried, .. } = search;
+    progress("shaping the motions of both arms");
+    let is_shaped = search.shaped(&goals.pairs);
+    if search.best.is_none() || !is_shaped {
+        progress("planning each arm with the other one at rest");
+        search.one_among_the_other(&goals.pairs)?;
+        progress("searching with all four joints");
+        search.with_all_joints(&goals.pairs)?;
+    }
+    progress("looking for a greater bound");
+    search.raise_bound();
+    let Search { best, bound, mut tried, .. } = search;
     let outcome = match best {
-        Some(best) => Outcome::Found(best),
+        Some(best) => Outcome::Found(coordinator.with_diagram(best)),
         None => {
             progress("looking for a proof of infeasibility");
             match refuted_in_boxes(&between, problems, settings.boxes) {
@@ -155,7 +185,16 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
             }
         }
     };
-    answer(outcome, &mut alone, tried)
+    let plan = answer(outcome, &mut alone, tried)?;
+    Ok(CellPlan { lower_bound: plan.lower_bound.map(|known| known.max(bound)), ..plan })
+}
+
+/// Describes the result of an attempt.
+fn described(result: &Result<Coordination, Conflict>) -> String {
+    match result {
+        Ok(found) => format!("{:.3} s", found.duration),
+        Err(conflict) => conflict.describe().to_owned(),
+    }
 }
 
 /// Returns the proven lower bound on the duration of an arm's motion.
@@ -182,6 +221,7 @@ impl Meeting {
     fn of(between: &Between, at: [Configuration; 2], names: [&str; 2]) -> Option<Self> {
         let placed = [0, 1].map(|arm| between.at_rest(arm, at[arm]));
         let placed = placed.each_ref();
+        let swept = [0, 1].map(|arm| between.swept(arm, at[arm], Deviation::Box([0.0; 2])));
         let distance = between.distance(placed, between.clearance.max(f64::MIN_POSITIVE));
         if distance.least > 0.0 && distance.least >= between.clearance {
             return None;
@@ -195,7 +235,7 @@ impl Meeting {
         if between.clearance > 0.0 {
             let _ = write!(what, ", less than the clearance of {:.1} mm", between.clearance * 1e3);
         }
-        Some(Self { what, is_proven: between.surely_collide(placed) })
+        Some(Self { what, is_proven: between.surely_collide(swept.each_ref()) })
     }
 }
 
@@ -262,11 +302,7 @@ impl Search<'_> {
         self.pairs += 1;
         let before = self.best.as_ref().map_or(f64::INFINITY, |best| best.duration);
         let result = self.coordinator.along(paths, before)?;
-        let outcome = match &result {
-            Ok(found) => format!("{:.3} s", found.duration),
-            Err(conflict) => Conflict::describe(*conflict).to_owned(),
-        };
-        self.tried.push(format!("{what}: {outcome}"));
+        self.tried.push(format!("{what}: {}", described(&result)));
         self.best = result.ok().or(self.best.take());
         Ok(())
     }
@@ -317,6 +353,63 @@ impl Search<'_> {
         Ok(())
     }
 
+    /// Shapes the motions of both arms at once, from routes in four joints. Returns false if shapes do not consider all limits
+    /// of the arms.
+    fn shaped(&mut self, goals: &[[Configuration; 2]]) -> bool {
+        let between = self.coordinator.between;
+        let Some(mut shaping) = Shaping::new(between, self.options.drive, self.coordinator.skew) else { return false };
+        let starts = self.problems.map(MotionProblem::start);
+        let pairs = &goals[..goals.len().min(MAX_GOAL_PAIRS)];
+        let mut last = MIN_SHAPED_ROUTES;
+        for (seed, pair) in (0..MAX_SHAPED_ROUTES).zip(pairs.iter().cycle()) {
+            if self.is_content() || seed >= last && self.best.is_some() {
+                break;
+            }
+            let Some(route) = joint_route(between, starts, *pair, seed, 0) else { continue };
+            let before = self.best.as_ref().map_or(f64::INFINITY, |best| best.duration);
+            let shape = shaping.along(&route, before).ok_or(Conflict::Slower);
+            let motions = shape.and_then(|shape| shaping.certified(&shape).ok_or(Conflict::NotCertified));
+            let found = motions.and_then(|motions| self.coordinator.judged(motions, [vec![], vec![]]));
+            let outcome = described(&found);
+            self.tried.push(format!("both arms at once, motion {}: {outcome}", seed + 1));
+            if let Ok(found) = found {
+                if found.duration < before * (1.0 - WORTHWHILE_GAIN) {
+                    last = last.max(2 * seed);
+                }
+                self.best = Some(found);
+            }
+        }
+        true
+    }
+
+    /// Raises the lower bound on the duration: no motions of both arms are as short.
+    fn raise_bound(&mut self) {
+        let Some(best) = &self.best else { return };
+        let goals = self.problems.map(|problem| problem.goals());
+        if !goals.iter().all(|goals| goals.pieces().iter().all(|piece| piece.is_point())) {
+            return;
+        }
+        let starts = self.problems.map(MotionProblem::start);
+        let points = goals.map(|goals| goals.points().collect::<Vec<_>>());
+        let mut target = best.duration;
+        let mut left = BOUND_BOXES;
+        while target > self.bound * (1.0 + BOUND_RESOLUTION) && left > 0 && !self.is_content() {
+            let duration = f64::midpoint(self.bound, target);
+            let budget = left.div_ceil(2);
+            let mut funnels = Funnels::new(self.coordinator.between, self.coordinator.skew, budget);
+            let mut pairs = points[0].iter().flat_map(|one| points[1].iter().map(move |two| [*one, *two]));
+            let is_refuted = pairs.all(|pair| funnels.refute(starts, pair, duration));
+            left -= budget - funnels.budget;
+            if is_refuted {
+                self.bound = duration * (1.0 - BOUND_ROUNDING);
+            } else {
+                target = duration;
+            }
+            let outcome = if is_refuted { "proven" } else { "not proven" };
+            self.tried.push(format!("no motions of both arms end by {duration:.3} s: {outcome}"));
+        }
+    }
+
     /// Searches paths of both arms at once, in four joints.
     fn with_all_joints(&mut self, goals: &[[Configuration; 2]]) -> Result<(), PlanError> {
         let starts = self.problems.map(MotionProblem::start);
@@ -326,7 +419,9 @@ impl Search<'_> {
                 return Ok(());
             }
             let what = format!("search with all four joints, number {}", seed + 1);
-            match both_paths(self.coordinator.between, starts, *pair, seed) {
+            let between = self.coordinator.between;
+            let route = joint_route(between, starts, *pair, seed, SHORTCUTS);
+            match route.and_then(|route| route.paths(between)) {
                 Some([one, two]) => self.consider(&what, [&one, &two])?,
                 None => self.tried.push(format!("{what}: no paths were found")),
             }

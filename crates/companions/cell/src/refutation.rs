@@ -6,11 +6,11 @@
 //! halved. Otherwise no motion exists. Boxes that have a face in common are connected. A point where boxes meet only at
 //! an edge or a corner is in all boxes around it, so if one of these is a collision, the point is one as well.
 
-use crate::between::{Between, Placed};
+use crate::between::{Between, Swept, surely_hits};
 use cplan_interrupt::checkpoint;
-use cplan_judge::{Deviation, Posture};
+use cplan_judge::Deviation;
 use cplan_model::space::{Configuration, JointRange, Segment};
-use cplan_model::{JointType, MotionProblem, Scene};
+use cplan_model::{MotionProblem, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 
 /// Widening of a box by rounding, as a share of the values in it.
@@ -41,7 +41,7 @@ struct Joints<'a> {
 }
 
 /// The links of one arm in a box of two joints. `None` if the arm is proven to collide with an obstacle in the whole box.
-type InBox = Option<Placed>;
+type InBox = Option<Swept>;
 
 /// Examines at most `most` boxes.
 ///
@@ -82,22 +82,17 @@ pub(crate) fn refuted_in_boxes(between: &Between, problems: [&MotionProblem; 2],
 
 impl<'a> Joints<'a> {
     fn new(between: &'a Between<'a>) -> Self {
-        let (mut domains, mut is_circle, mut levers) = ([(0.0, 0.0); 4], [false; 4], [0.0; 4]);
+        let (mut domains, mut is_circle) = ([(0.0, 0.0); 4], [false; 4]);
         for (arm, scene) in between.scenes.into_iter().enumerate() {
             let own = scene.arm();
             for (joint, range) in own.topology().ranges.into_iter().enumerate() {
                 let k = 2 * arm + joint;
                 domains[k] = range.domain();
                 is_circle[k] = matches!(range, JointRange::Circle);
-                let reach = own.reach() - if joint == 1 { own.offset.norm() } else { 0.0 };
-                levers[k] = match own.joints[joint].joint_type {
-                    JointType::Revolute { .. } => reach.max(0.0),
-                    JointType::Prismatic { .. } => 1.0,
-                };
             }
         }
         let inner = between.scenes.map(|scene| scene.inner().into_owned());
-        Self { between, inner, domains, is_circle, levers, cells: [1; 4] }
+        Self { between, inner, domains, is_circle, levers: between.levers(), cells: [1; 4] }
     }
 
     /// Returns the axis whose cells move the links farthest.
@@ -124,14 +119,7 @@ impl<'a> Joints<'a> {
             half[joint] = (to - from) / 2.0 + ROUNDING * from.abs().max(to.abs());
         }
         let deviation = Deviation::Box(half);
-        let posture = Posture::new(&self.inner[arm], middle);
-        let clearance = self.inner[arm].workspace().clearance;
-        let collides = self.inner[arm].pairs().iter().any(|pair| {
-            // A link meets its robot's own body only if they overlap.
-            let is_own = self.inner[arm].self_obstacle(pair.obstacle).is_some();
-            posture.greatest(*pair, deviation) < if is_own { 0.0 } else { clearance }
-        });
-        (!collides).then(|| self.between.placed(arm, middle, deviation))
+        (!surely_hits(&self.inner[arm], middle, deviation)).then(|| self.between.swept(arm, middle, deviation))
     }
 
     /// Returns true if a collision is proven in a whole box.
