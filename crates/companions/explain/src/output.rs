@@ -152,8 +152,7 @@ fn found_lines(scene: &Scene, FoundExplanation { answer, savings }: &FoundExplan
     for saving in savings {
         let (what, length) = (saving.element.describe(scene), scene.arm().format_length(saving.length));
         let (least, most) = (round_down(saving.at_least, 4), round_up(saving.at_most, 4));
-        let by =
-            format!("without {what}, the path has length {length}: at least {least} and at most {most} shorter");
+        let by = format!("without {what}, the path has length {length}: at least {least} and at most {most} shorter");
         lines.push(("shaped by", by));
     }
     if let Some(BoundedPath { certified, .. }) = answer.outcome.found()
