@@ -203,6 +203,7 @@ impl BlendedPath {
         let (mut extents, last) = (self.radii.clone(), self.radii.len() - 1);
         for leg in 0..self.tangents.len() {
             let Some(curved) = self.curved_leg(leg) else { continue };
+            let chord = (self.path.waypoints()[leg + 1] - self.path.waypoints()[leg]).norm();
             let length = curved.length + self.radii[leg] + self.radii[leg + 1];
             let is_inner = |w: &usize| 0 < *w && *w < last;
             let ends: Vec<usize> = [leg, leg + 1].into_iter().filter(is_inner).collect();
@@ -210,7 +211,8 @@ impl BlendedPath {
             let passed: Vec<usize> = ends.iter().copied().filter(is_passed).collect();
             let used = if passed.is_empty() { ends } else { passed };
             for &waypoint in &used {
-                extents[waypoint] = extents[waypoint].max(length / used.len() as f64);
+                // The other end of the leg is on the path, and no part of a leg is farther away.
+                extents[waypoint] = extents[waypoint].max((length / used.len() as f64).min(chord));
             }
         }
         extents
