@@ -88,7 +88,9 @@ fn space_title(view: &View, panel: &PanelView) -> String {
     let movers = &view.worlds[panel.worlds[0]].movers;
     match (movers.is_empty(), view.still.now, view.duration()) {
         (true, ..) => panel.title.clone(),
-        (false, None, Some(_)) => format!("{} at {} s; dashed: stops of moving obstacles", panel.title, view.still.time),
+        (false, None, Some(_)) => {
+            format!("{} at {} s; dashed: stops of moving obstacles", panel.title, view.still.time)
+        }
         (false, ..) => format!("{} at {:.2} s", panel.title, view.still.time),
     }
 }

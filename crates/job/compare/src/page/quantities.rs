@@ -54,7 +54,10 @@ mod tests {
 
     #[test]
     fn quantities_have_few_digits_and_a_unit() {
-        assert_eq!([path_length(4.49196, "rad"), path_length(12.5, "rad, m")], ["4.4920 rad", "12.5000 in joint space"]);
+        assert_eq!(
+            [path_length(4.49196, "rad"), path_length(12.5, "rad, m")],
+            ["4.4920 rad", "12.5000 in joint space"]
+        );
         assert_eq!([excess(1.25), excess(1.0)], ["25.00 %", "0.00 %"]);
         assert_eq!([clearance(0.13095), clearance(f64::INFINITY)], ["130.9 mm", "none in reach"]);
         assert_eq!(duration(2.0634), "2.063 s");
