@@ -51,7 +51,7 @@ fn every_planner_has_a_replay() {
                     assert_eq!(answer.path_kind, PathKind::Taut);
                     assert!(own.length() >= path.length() - 1e-9, "{method} pulls its path taut");
                 }
-                Shows::Slabs(_) | Shows::Sweeps(_) | Shows::First(_) | Shows::Bound(_) => {}
+                Shows::Slabs(_) | Shows::Sweeps(_) | Shows::First(_) | Shows::Bound { .. } => {}
                 _ => assert_eq!(shown_count(shows, &answer.drawn()), Some(*events), "{method}: {caption}"),
             }
         }
@@ -125,7 +125,7 @@ fn the_length_is_enclosed_from_both_sides() {
         let plan = plan_shipped(robot, world, Method::Shortest);
         let (problem, answer) = plan.motion().unwrap();
         let (phases, bound) = (replayed(&plan), answer.bound().unwrap());
-        let [.., first, Phase { shows: Shows::Bound(rounds), .. }, _, last] = &phases[..] else { panic!("{phases:?}") };
+        let [.., first, Phase { shows: Shows::Bound { rounds, .. }, .. }, _, last] = &phases[..] else { panic!("{phases:?}") };
         let Shows::First(path) = &first.shows else { panic!("{first:?}") };
         assert!(cplan::check::certify(problem.scene(), path.clone()).is_ok(), "{world}");
         assert_eq!((first.length, last.length), (Some(path.length()), Some(bound.upper)), "{world}");

@@ -282,9 +282,9 @@ mod tests {
         let square = rectangle(Rect { x: 50.0, y: 40.0, width: 40.0, height: 20.0 });
         let raster = RegionRaster::new(PAGE, [&square[..]]);
         assert_eq!(raster.cells.iter().filter(|cell| **cell == 1).count(), 10 * 5);
-        let (at, fits) = raster.roomiest(0, [16.0, 8.0]).unwrap();
+        let (at, fits) = raster.roomiest(0, [16.0, 8.0], true).unwrap();
         assert!(fits && (at[0] - 70.0).abs() <= 4.0 && (at[1] - 50.0).abs() <= 4.0, "{at:?}");
-        assert!(raster.roomiest(1, [16.0, 8.0]).is_none());
+        assert!(raster.roomiest(1, [16.0, 8.0], true).is_none());
     }
 
     #[test]
@@ -292,7 +292,7 @@ mod tests {
         let square = rectangle(Rect { x: 50.0, y: 40.0, width: 40.0, height: 20.0 });
         let mut raster = RegionRaster::new(PAGE, [&square[..]]);
         raster.block(&Rect { x: 0.0, y: 0.0, width: 400.0, height: 400.0 });
-        assert!(raster.roomiest(0, [16.0, 8.0]).is_none());
+        assert!(raster.roomiest(0, [16.0, 8.0], true).is_none());
         assert!(raster.any_part(0).is_some());
     }
 }
