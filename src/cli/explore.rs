@@ -32,7 +32,8 @@ use std::path::{Path, PathBuf};
 The world file describes the real world. The arm knows only the space that its
 range sensor has seen; unseen space counts as solid. The table [sensor] of the
 world file describes the sensor: its place (tip or base), rays, field of view,
-range and noise. Each motion is certified within known free space before it begins.
+range and noise. Each motion is certified within known free space before it
+begins.
 
 An exploration ends in one of these ways:
   reached      the arm is at the goal

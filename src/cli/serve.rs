@@ -26,8 +26,8 @@ Examples:
     --export page.html --engine target/page/cplan.wasm.gz
 
 The address is printed on stdout; Ctrl-C ends the server. The server writes no
-files; save the world from the page. With --export, no server starts: cplan writes
-a page that contains the program, and that any web host can serve.
+files; save the world from the page. With --export, no server starts: cplan
+writes a page that contains the program, and that any web host can serve.
 
 Exit codes: 0 stopped by the user, or the page is written, 1 bad input or
 unavailable address, 2 wrong command line.")]

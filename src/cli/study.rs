@@ -36,7 +36,7 @@ change from layout to layout, and the objective:
   steps = 21                   # or values = [...], or draw = \"latin\", with
                                # draws = 1000 above the first parameter
 
-cplan plans each layout with its numbers in the two files, and writes one row.
+Each layout is planned with its numbers in the two files, and has one row.
 Rows do not depend on the number of jobs. While a study runs, cplan keeps rows
 in FILE.part beside the first output; after Ctrl-C, the same command continues.
 A layout is refused if obstacles overlap in it that do not overlap in the world,

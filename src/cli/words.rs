@@ -28,7 +28,7 @@ struct Words {
     options: PlannerArgs,
 }
 
-/// The settings that the words state.
+/// Planner options and overrides, parsed from options such as `--cells=80`.
 #[derive(Debug, Clone)]
 pub(super) struct ParsedWords {
     pub options: Options,

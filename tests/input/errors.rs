@@ -112,7 +112,7 @@ fn invalid_numbers_and_joints_of_robots_are_refused() {
 xyz="0.5 0 0" => xyz="0.5 nan 0" => line 9 ... link "upper" ... not finite
 " => xyz="0.5 0" => line 9 ... has 2 numbers, not 3 ... separate numbers by blanks, as in "0.5 0 0" => xyz="0.5 0 0"
 " => xyz="1000500 0 0" => line 9 ... at most 1e6 ... from -1e6 to 1e6
-" => xyz="2e6 0 0" => divide those in millimetres by 1000 => xyz="2e3 0 0"
+" => xyz="2e6 0 0" => divide lengths in millimetres by 1000 => xyz="2e3 0 0"
 size="1 0.1 0.1" => size="1 -0.1 0.1" => line 9 ... must be positive ... lengths in metres that are above 0
     => size="1 0.1 0.1"
 " => size="2e6 0.1 0.1" => line 9 ... at most 1e6 ... from -1e6 to 1e6
@@ -157,13 +157,13 @@ fn links_that_form_no_tree_are_refused() {
 <parent link="upper"/> => <parent link="uper"/>
     => line 12 ... "uper" does not exist ... correct the name; the links are "base", "upper" => <parent link="upper"/>
 <child link="tool"/> => <child link="fore"/>
-    => line 20 ... two joints, "j2" (line 11) ... not a tree ... give one joint its own child link => <child link="tool"/>
+    => line 20 ... two joints, "j2" (line 11) ... not a tree ... give one of the joints its own child link => <child link="tool"/>
 <link name="tool"/> => <link name="fore"/> => line 21 ... second link is named "fore" ... line 17
 <joint name="j2" => <joint name="j1" => line 11 ... second joint is named "j1" ... line 3 ... rename one of them
     => <joint name="j2" => <joint name="j7"
 <parent link="base"/> => <parent link="tool"/> => cycle ... "j1" ... "j2" ... "end" ... line 
 <link name="tool"/> => <link name="tool"/><link name="stray"/>
-    => line 21 ... "base", "stray" ... one root link ... connect them with a fixed joint, or remove => <link name="tool"/>
+    => line 21 ... "base", "stray" ... exactly one ... connect these links by fixed joints, or remove => <link name="tool"/>
     => <link name="tool"/><link name="s"/><joint name="t" type="fixed"><parent link="tool"/><child link="s"/></joint>
 <link name="base"/> => <link/> => line 2 ... has no name
 <child link="upper"/> => nothing => line 3 ... <child> is missing
@@ -243,7 +243,7 @@ fn robot_tables_that_do_not_fit_are_refused() {
     let table = r#"
 [start] => joints = ["j1", "elbow"] => line 3, column ... no joint "elbow" ... the movable joints are "j1", "j2" ... ^
     => joints = ["j1", "j2"]
-" => joints = ["j2", "j1"] => line 3 ... not the other way round ... joints = ["j1", "j2"] => joints = ["j1", "j2"]
+" => joints = ["j2", "j1"] => line 3 ... joint "j1" carries joint "j2" ... swap them: joints = ["j1", "j2"] => joints = ["j1", "j2"]
 " => joints = ["j1", "j1"] => line 3 ... named twice ... choose two joints of one chain, base to tip
     => joints = ["j1", "j2"]
 " => joints = ["j1"] => line 3 ... exactly two ... joints = ["first", "second"], base to tip => joints = ["j1", "j2"]
@@ -251,7 +251,7 @@ fn robot_tables_that_do_not_fit_are_refused() {
 " => tip = "hand" => line 3 ... no link "hand" ... the links that it carries are "fore", "tool"
     => tip = "fore" => tip = "tool"
 " => tip = "upper" => line 3 ... not carried ... the links that it carries are "fore", "tool" => tip = "fore"
-" => fixed = { j1 = 0.1 } => line 3 ... one of the two that move ... leave it out of `fixed` => fixed = {}
+" => fixed = { j1 = 0.1 } => line 3 ... joint "j1" is one of the two planned joints ... remove the joint from `fixed` => fixed = {}
 " => limits = { j9 = [0, 1] } => line 3 ... no joint "j9" ... the movable joints are "j1" => limits = { j1 = [0, 1] }
 " => limits = { j1 = [1, 0] } => line 3 ... lower (1) must be below upper (0) ... limits = { NAME = [lower, upper] }
     => limits = { j1 = [0, 1] }
@@ -320,7 +320,8 @@ joints = [1.0, -0.5] => joints = [-3.0, 0.0] => line 5 ... the goal ... link "fo
     ... choose a configuration away from the obstacle (touching counts as contact) => joints = [-2.7, 0.0]
 " => nothing => line 4 ... neither ... joints = [q1, q2], or tip = [x, y] => joints = [0.1, 0.2] => tip = [1.0, 1.0]
 " => tip = [3, 0] => line 5 ... out of reach ... 2.0000 m ... choose a point nearer to joint 1 => tip = [1.5, 0]
-" => tip = [-1.5, 0.1] => no IK solution ... hits obstacle "post" ... move it away from the obstacle => tip = [-1.0, 0.9]
+" => tip = [-1.5, 0.1] => no IK solution ... hits obstacle "post"
+    ... choose a point away from the obstacle (touching counts as contact) => tip = [-1.0, 0.9]
 [start]\njoints = [0.0, 0.5] => nothing => there is no start ... --start ... [start] joints = [q1, q2]
     => [start]\njoints = [0.1, 0.2]
 [goal]\njoints = [1.0, -0.5] => nothing => there is no goal ... --goal-tip ... [goal] joints = [q1, q2] or tip = [x, y]
@@ -355,8 +356,9 @@ name = "test" => clearance = 2.0 => the start ... nearer than the clearance of 2
     // Some IK solutions are past limits, and the others are in contact. A point farther away is free.
     let one_sided = with_change(ARM, "lower=\"-2\" upper=\"2\"", "lower=\"0\" upper=\"2\"");
     let [both, free] = ["tip = [-1.5, 0.1]", "tip = [-1.0, 0.9]"].map(|tip| with_change(WORLD, goal, tip));
-    let away = "choose a configuration away from the obstacle (touching counts as contact)";
-    is_mended(&one_sided, &both, &format!("{away}, or {points}"), &[[&one_sided, &free]]);
+    let away = "choose a point away from the obstacle (touching counts as contact)";
+    let (_, change_limits) = points.split_once(", or ").unwrap();
+    is_mended(&one_sided, &both, &format!("{away}, or {change_limits}"), &[[&one_sided, &free]]);
     // A point near the base is out of reach, because the arm cannot fold that far.
     let long = with_change(ARM, "<origin xyz=\"1 0 0\"/></joint>", "<origin xyz=\"0.4 0 0\"/></joint>");
     let [near, far] = ["tip = [0.1, 0.0]", "tip = [1.2, 0.0]"].map(|tip| with_change(WORLD, goal, tip));
@@ -407,7 +409,7 @@ fn preferences_are_checked_like_obstacles() {
     let table = r#"
 [[obstacle]] => polygon = SQUARE => line 6 ... missing key `epsilon`
 " => epsilon = 0.5 => line 6 ... needs either `configurations` or `polygon`, but has neither
-" => epsilon = 1\npolygon = SQUARE\nconfigurations = SQUARE => preference 1 ... it has both
+" => epsilon = 1\npolygon = SQUARE\nconfigurations = SQUARE => preference 1 ... needs either `configurations` or `polygon`, but has both
 " => epsilon = inf\npolygon = SQUARE => line 7, column 11 ... is not a finite number
 " => name = "bay"\nepsilon = 1\ncircle = SQUARE => line 9 ... unknown key `circle`
 " => epsilon = 1\ndirection = [0, 0]\npolygon = SQUARE => line 8 ... the direction is zero

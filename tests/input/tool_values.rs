@@ -107,7 +107,7 @@ wrist = { joint = "axis_4", velocity = 20 } => nothing => the goal has a value `
 [goal] => [[obstacle]]\nname = "hut"\ncircle = { center = [0.28, 0.39], radius = 0.03 }\nheight = [0, 0.16]\n[goal]
     => line 6 ... not free while the tool is lowered ... hut
 " => [[obstacle]]\nname = "cart"\ncircle = { center = [1, 1], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n[goal]
-    => "cart" moves ... needs static obstacles
+    => "cart" moves ... only if all obstacles are static
 "#;
     for row in changes(&table.replace("GOAL", &GOAL.replace('\n', "\\n"))) {
         refused(&with_change(&[ROBOT, START, GOAL].concat(), &row[0], &row[1]), &row[2]);

@@ -125,7 +125,9 @@ fn the_length_is_enclosed_from_both_sides() {
         let plan = plan_shipped(robot, world, Method::Shortest);
         let (problem, answer) = plan.motion().unwrap();
         let (phases, bound) = (replayed(&plan), answer.bound().unwrap());
-        let [.., first, Phase { shows: Shows::Bound { rounds, .. }, .. }, _, last] = &phases[..] else { panic!("{phases:?}") };
+        let [.., first, Phase { shows: Shows::Bound { rounds, .. }, .. }, _, last] = &phases[..] else {
+            panic!("{phases:?}")
+        };
         let Shows::First(path) = &first.shows else { panic!("{first:?}") };
         assert!(cplan::check::certify(problem.scene(), path.clone()).is_ok(), "{world}");
         assert_eq!((first.length, last.length), (Some(path.length()), Some(bound.upper)), "{world}");

@@ -169,9 +169,12 @@ fn an_arm_and_a_world_in_code() {
     assert!(made.length().unwrap() > 1.6 + 1e-3);
     let blocked = Problem::new(arm(), world(), [0.0, 0.0], [-0.8, 0.0]).expect_err("in the wall");
     assert!(blocked.to_string().contains("wall"), "{blocked}");
-    for (lengths, width) in [([1.0, f64::NAN], 0.1), ([1.0, 1.0], -0.1)] {
-        let error = Arm::rr(lengths, width).unwrap_err().to_string();
-        assert!(error.starts_with("its "), "{error}");
+    for (lengths, width, message) in [
+        ([1.0, f64::NAN], 0.1, "the length is NaN, but must be finite and greater than 0"),
+        ([f64::INFINITY, 1.0], 0.1, "the length is inf, but must be finite and greater than 0"),
+        ([1.0, 1.0], -0.1, "its radius is -0.05"),
+    ] {
+        assert_eq!(Arm::rr(lengths, width).unwrap_err().to_string(), message);
     }
     assert_eq!(Obstacle::polyline("none", []).unwrap_err().to_string(), "it has no corner");
     let point = Obstacle::polyline("pin", [[0.5, 0.0]]).unwrap();

@@ -26,7 +26,7 @@ use std::path::PathBuf;
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-/// Plan for many problems, or judge many motions: JSON lines in, JSON lines out.
+/// Plan for many problems, or judge many motions, in JSON lines.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Each line of the input is a JSON object with these members:

@@ -23,9 +23,9 @@ use std::path::{Path, PathBuf};
 /// Coordinate two arms in one cell, on one clock.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-Both motions are certified: the arms touch neither obstacles nor each other, even
-if the clocks of the controllers differ by up to --skew seconds. Each arm has a start and
-a goal; obstacles stand still.
+Both motions are certified: the arms touch neither obstacles nor each other,
+even if the clocks of the controllers differ by up to --skew seconds. Each arm
+has a start and a goal; obstacles stand still.
 
 Examples:
   cplan cell workspaces/cells/crossing.toml

@@ -35,12 +35,12 @@ problem:
   world = \"tray.toml\"
 Worlds with steps are left out: only `cplan plan` plans tasks.
 
-Each run begins with the problem and ends with a certificate or a proof. It builds
-its own maps; times for build, query and certify are reported separately. The
-table compares each length with a proven lower bound on the length of all
+Each run begins with the problem and ends with a certificate or a proof. It
+builds its own maps; times for build, query and certify are reported separately.
+The table compares each length with a proven lower bound on the length of all
 motions. Memory is the peak of a run's allocations.
 
-Exit codes for one problem: 0 a planner found a path, 3 a planner proved that
+Exit codes: for one problem, 0 a planner found a path, 3 a planner proved that
 there is none, 4 unknown. For several problems: 0 all runs were made. For both:
 1 bad input, planners that contradict each other, or (after all other runs)
 problems of a suite that cannot be read or whose start or goal is blocked; 2

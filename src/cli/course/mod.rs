@@ -17,13 +17,13 @@ use clap::{Args, ValueHint};
 use cplan_course::{Chapter, Figure};
 use std::path::{Path, PathBuf};
 
-/// Write the course on configuration spaces: static pages, exercises, and answers apart.
+/// Write the course on configuration spaces, with exercises.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 The folder has an index, seven chapters with live figures, a sheet of exercises
 without answers, and a folder `answers`. The pages need no network and no
 server: open index.html, copy the folder to a web host, or upload it to Moodle.
-Remove `answers` from what students get; no other page leads there.
+Remove `answers` before students get the folder; no other page leads there.
 
 Examples:
   cplan course course

@@ -36,11 +36,11 @@ const ARC_SEGMENT: f64 = 1e-3;
 /// Prove G-code for machines with their own kinematics.
 #[derive(Debug, Args)]
 #[command(after_help = "\
-The machine's firmware moves the tip along each line, with the elbow always on the
-same side. Drawing moves (G1, G2, G3) remain unchanged; cplan proves that they are
-within reach and limits, and free of collisions. Travels (G0) for which this does
-not hold are replaced by others. Coordinates of the file, turned by --turn and
-then moved by --move, are those of the world.
+The machine's firmware moves the tip along each line, with the elbow always on
+the same side. Drawing moves (G1, G2, G3) remain unchanged; cplan proves that
+they are within reach and limits, and free of collisions. Travels (G0) for which
+this does not hold are replaced by others. Coordinates of the file, turned by
+--turn and then moved by --move, are those of the world.
 
 Examples:
   cplan gcode robots/scara.urdf workspaces/gcode/labels.toml \\

@@ -160,7 +160,7 @@ fn distance_hint(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
         (shift[k] - low.midpoint(high)).round()
     });
     match [0, 1].iter().all(|&k| (ends(k)[1] - ends(k)[0]) / 2.0 + 1.0 <= MAX_LENGTH) {
-        true => format!("move the drawing near the arm, such as by --move {x},{y}, or state its unit by --unit"),
+        true => format!("add --move {x},{y} or similar to move the drawing near the arm, or state its unit by --unit"),
         false => "the whole drawing is too large; state its unit by --unit, or scale it by --scale".into(),
     }
 }

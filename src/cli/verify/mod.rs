@@ -24,7 +24,7 @@ use crate::view::{Picture, View};
 use clap::{Args, ValueHint};
 use std::path::PathBuf;
 
-/// Judge a motion from any source: the whole motion, not only samples.
+/// Judge a motion from any source: all of it, not only samples.
 ///
 /// The motion is a joint path, a trajectory, or a recorded task.
 #[derive(Debug, Args)]
@@ -40,10 +40,10 @@ result of cplan states about the motion must be true. CSV columns are named
 after the joints: elbow, elbow_velocity and so on in radians or metres, and time
 in seconds.
 
-In a world with steps, the file must be a result of cplan for that world (.json).
-Each step is judged: whether it is a step of the world, its motion (with the
-payload, and with objects where they are at that time), grasps, places, turns of
-the wrist, and rests.
+In a world with steps, the file must be a result of cplan for that world
+(.json). Each step is judged: whether it is a step of the world, its motion
+(with the payload, and with objects where they are at that time), grasps,
+places, turns of the wrist, and rests.
 
 With --plan, the report states the greatest distance of the motion from the
 plan, in joint space and for the tip. Times are not compared.

@@ -92,7 +92,7 @@ pick = "part" => nothing => line 24 ... exactly one of `pick`, `place`, `move`, 
 " => grab = "part" => line 25, column 1 ... unknown key `grab`
 " => pick = 1 => line 25, column 8
 " => pick = "prat" => line 25, column 8 ... no object "prat" ... hint: the objects are "cup", "part"
-" => pick = "table" => line 25 ... no object "table" ... hint: that is an obstacle ... [[object]]
+" => pick = "table" => line 25 ... no object "table" ... hint: "table" is an obstacle ... [[object]]
 " => pick = "part"\ngrasp = [0, 0, 0] => line 26, column 9 ... expected two numbers, found 3
 " => pick = "part"\nspeed = 0 => line 26, column 9 ... speed must be greater than 0 ... hint: 
 " => pick = "part"\nspeed = 1.5 => line 26 ... at most 1, is 1.5
@@ -102,7 +102,7 @@ pick = "part" => nothing => line 24 ... exactly one of `pick`, `place`, `move`, 
 " => pick = "part"\norder = "free" => line 26, column 9 ... only a group of steps has an `order`
 " => steps = [] => line 24 ... no steps ... hint: 
 place = { at = [0.5, 1.5] } => PLACE\ngrasp = [0, 0] => line 28, column 9 ... only a pick has a `grasp`
-" => PLACE\nsupports = [] => line 28 ... only a pick has `supports` ... hint: for a place
+" => PLACE\nsupports = [] => line 28 ... only a pick has `supports` ... hint: remove the key; a place has the form place = { at = [x, y], supports = 
 " => place = [0.5, 1.5] => line 27, column 9 ... sequence, expected a table: { key = value }
 " => place = { angle = 1 } => line 26 ... either `at` or `on`, but has neither
 " => place = { at = [0.5, 1.5], speed = 1 } => line 27 ... unknown key `speed`
@@ -116,7 +116,7 @@ move = { joints = [0.1, 0.2] } => move = [0.1, 0.2] => line 33, column 8 ... exp
 fn invalid_tasks_and_groups_are_refused() {
     let table = r#"
 [[obstacle]] => [task]\nrepeat = 0\n[[obstacle]] => line 7, column 10 ... must be 1 or more, is 0 ... hint: 
-" => [task]\nrepeat = -3\n[[obstacle]] => line 7 ... not -3
+" => [task]\nrepeat = -3\n[[obstacle]] => line 7 ... must be 1 or more, is -3
 " => [task]\nrepeat = 1.5\n[[obstacle]] => line 7 ... expected a whole number
 " => [task]\nrepeat = 20001\n[[obstacle]] => line 7, column 10 ... the repetitions make 100005 steps (at most 100000) ... hint: 
 " => [task]\nrepeat = 9223372036854775807\n[[obstacle]] => line 7 ... at most 100000
@@ -158,9 +158,9 @@ fn contradictory_sequences_are_refused() {
 [[step]]\npick = "part"\n => nothing
     => line 25, column 16 ... step 1 places an object, but the tool carries none ... hint: pick
 wrist = { velocity = 6.0, acceleration = 60.0 } => nothing
-    => line 31 ... "cup" must be turned from 0.5 to 1.5 rad ... no wrist ... hint: [robot] wrist
+    => line 31 ... "cup" must be turned from 0.5 to 1.5 rad ... no wrist ... hint: add [robot] wrist = { velocity = 
 place = { at = [0.5, 1.5] } => place = { at = [0.5, 1.5], angle = 1.0 }
-    => line 27, column 36 ... "part" is held rigidly ... hint: payload = "level"
+    => line 27, column 36 ... "part" is held rigidly ... hint: write payload = "level"
 " => place = { at = [0.5, 1.5], supports = ["table", "part"] } => line 27, column 39 ... "part" cannot rest on itself
 " => place = { at = [0.5, 1.5], supports = ["desk"] } => line 27, column 40 ... no object "desk"
 "#;
@@ -200,7 +200,7 @@ at = [0.5, 1.0] => at = [0.0, 1.795] => line 31 ... step 4: (0.000707 ... out of
 [[-0.02, -0.02], [0.02, -0.02], [0.02, 0.02], [-0.02, 0.02]] => [[-0.02, 0], [0.02, 0], [0.02, 0.0003]]
     => line 13, column 12 ... step 1: object "part" is too thin to rest on a support ... 1.8 ... hint: 
 joints = [0.0, 0.5]\n => joints = [0.0, 3.5]\n => line 5 ... the start is outside the joint limits
-at = [1.0, 1.0] => at = [1.0, 0.0] => line 5 ... the start ... hits obstacle "part" ... hint: move it away
+at = [1.0, 1.0] => at = [1.0, 0.0] => line 5 ... the start ... hits obstacle "part" ... hint: choose a configuration away
 "#;
     all_refused(&valid_world(), table);
     let no_start = valid_world().replace("[start]\njoints = [0.0, 0.5]\n", "");

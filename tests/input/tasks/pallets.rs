@@ -135,12 +135,12 @@ fn invalid_transfers_and_places_are_refused() {
     let table = r#"
 TRANSFER => transfer = { objects = "pat", to = "tray" }
     => no objects "pat" on a pallet ... hint: the objects on pallets are "part"
-" => transfer = { objects = "part 1,1", to = "tray" } => no objects "part 1,1" ... hint: that is a single object
+" => transfer = { objects = "part 1,1", to = "tray" } => no objects "part 1,1" ... hint: "part 1,1" is a single object
 " => transfer = { objects = "part", to = "try" } => no pallet "try" ... hint: the pallets are
 " => transfer = { objects = "part" } => missing key `to`
 " => transfer = { objects = "part", to = "tray", at = [0, 0] } => unknown key `at`
 " => transfer = "part" => a table
-" => pick = "part" => there is no object "part" ... hint: there are 6 on a pallet ... "part 1,1" ... transfer = 
+" => pick = "part" => there is no object "part" ... hint: 6 of this name are on a pallet ... "part 1,1" ... transfer = 
 " => pick = "part 9,1" => no object "part 9,1" ... hint: the objects are "part"
 " => pick = "part 1,1"\nTRANSFER => exactly one of ... but has 2
 " => grasp = [0, 0]\nTRANSFER => only a pick has a `grasp` ... hint: 

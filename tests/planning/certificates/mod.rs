@@ -37,7 +37,7 @@ const KINDS: u64 = 4;
 /// Number of pairs of start and goal per world.
 const ENDS: usize = 3;
 
-/// Largest number of boxes of a certificate that is falsified. Larger ones would take long and show nothing new.
+/// Number of boxes above which these tests do not falsify a certificate: that would take long and show nothing new.
 const MAX_BOXES: usize = 30;
 
 /// Least number of certificates that are falsified.

@@ -89,7 +89,7 @@ fn every_feasible_shipped_task_has_a_valid_certificate() {
 }
 
 /// The warning that is printed for an infeasible task.
-const NONE: &str = "is not written: an infeasible task has no certificate";
+const NONE: &str = "is not written: there are no certificates for infeasible tasks";
 
 /// Checks that, except for the warning, all output is the same as without `--certificate`.
 #[test]

@@ -64,7 +64,8 @@ fn mistakes_about_the_side_have_a_place_and_a_hint() {
     let place = Place::new();
     let goal = |keys: &str| place.plan(format!("{START}[goal]\n{keys}\n"), "");
     let both = "joints = [1.0, 0.2]\nelbow = \"left\"";
-    goal(both).refused(1, &["line 5, column 9: the goal has joint values", "hint: remove `elbow`"]);
+    let stated = "line 5, column 9: the goal has `elbow`, but its joint values already determine the side of the elbow";
+    goal(both).refused(1, &[stated, "hint: remove `elbow`"]);
     goal("tip = [0.9, 0.9]\nelbow = \"up\"").refused(1, &["line 5", "\"up\" is no side of the elbow", "hint"]);
     goal("areas = [[[0.8, 0.8], [1, 1]]]\nelbow = \"left\"").refused(1, &["`areas` cannot have `elbow`", "hint"]);
     place.plan(START, "--elbow left --goal 0,0").refused(2, &["--elbow", "--goal"]);
@@ -73,7 +74,7 @@ fn mistakes_about_the_side_have_a_place_and_a_hint() {
     place.write("post.toml", format!("{START}{post}"));
     let blocked = place.run(&[&robot(), "post.toml"], "--goal-tip 0.9,0.9 --elbow left");
     let parts = [
-        "(0.9, 0.9) with the elbow on the left is allowed and free",
+        "no IK solution for the tip at (0.9, 0.9) with the elbow on the left is within the limits and free",
         "\"post\"",
         "with the elbow on the right, shoulder 0.10",
         "hint: choose the other side of the elbow; or",

@@ -111,7 +111,8 @@ fn a_path_that_touches_exact_polygons_is_not_certified() {
             "{}",
             done.stdout
         );
-        let exact: f64 = output[0].split_whitespace().nth(2).unwrap().parse().unwrap();
+        let (_, length) = output[0].split_once("the path among the exact polygons has length ").unwrap();
+        let exact: f64 = length.split(' ').next().unwrap().parse().unwrap();
         let result = place.run(&maze(), &format!("--margin 0 --planner {planner} --json --quiet")).json();
         let (length, clearance) = (result["length"].as_f64().unwrap(), result["clearance"].as_f64().unwrap());
         assert!(result["certified"] == true && clearance > 0.0, "{clearance}");

@@ -173,12 +173,12 @@ fn the_cup_traps_until_all_repel_more_and_then_the_goal_is_blocked() {
     // The trap is within the cup; with four times the charge, it is beside the goal at (0, -12).
     assert!(trapped("1").contains("at (0.2500, 3.7500)"), "{}", trapped("1"));
     assert_eq!(run("--repulsion sum:3").code, 0);
-    assert!(trapped("4").contains("local minimum at (0.2500, -12.7500)"), "{}", trapped("4"));
+    assert!(trapped("4").contains("local minimum of 3.4486e1 at (0.2500, -12.7500)"), "{}", trapped("4"));
     for (charge, escape, report) in [
-        ("1", "wave", "escaped from a local minimum by a wave through the minimum's basin: "),
-        ("1", "walk", "by random walks: "),
-        ("4", "walk:7", "by random walks: "),
-        ("4", "wave", "escaped from a local minimum by a wave through the minimum's basin: 2 moves "),
+        ("1", "wave", "escaped from a local minimum by a wave through the minimum's basin, by "),
+        ("1", "walk", "by random walks, by "),
+        ("4", "walk:7", "by random walks, by "),
+        ("4", "wave", "escaped from a local minimum by a wave through the minimum's basin, by 2 moves "),
     ] {
         let options = format!("--repulsion sum:{charge} --escape {escape}");
         let done = run(&options).exits(0);

@@ -177,7 +177,7 @@ fn origins_and_dwells_are_followed_and_other_words_are_noted() {
 fn defects_of_the_line_have_their_place_and_a_hint() {
     let place = Place::new();
     let done = follow_program(&place, "G21 G0 X1100 Y-150\nG1 X1200 A90\nG41\n", "");
-    let list = "line.gcode: line 2, column 10: A turns the tool (line 2); G41 moves the line aside";
+    let list = "line.gcode: line 2, column 10: A turns the tool (line 2); G41 offsets the line by the tool's radius";
     done.refused(1, &[list, "hint: write a file for the axes X, Y and Z; let the program that writes the file"]);
     let done = follow_program(&place, "G21\nG18\n", "--json");
     let error = done.json();
@@ -231,7 +231,7 @@ fn places_beside_the_reach_are_followed_or_named_with_a_tolerance_that_works() {
     assert_eq!(follow(1800.008, "").code, 0);
     assert_eq!(follow(1800.011, "").code, 3);
     let unknown = follow(1_800.009_999_9, "").exits(4);
-    let (before, after) = unknown.stdout.split_once("; with `").expect("advice");
+    let (before, after) = unknown.stdout.split_once("; a motion is found with `").expect("advice");
     assert!(before.contains("800.0 mm of the line (line 3 of the file) is 0.010 mm out of reach"), "{before}");
     let (advice, _) = after.split_once('`').expect("advice");
     assert_eq!(follow(1_800.009_999_9, advice).code, 0, "{advice}");

@@ -39,7 +39,8 @@ fn number(value: &Value) -> f64 {
 fn the_page_states_the_measured_distance_from_the_line() {
     let place = Place::new();
     let world = shipped("workspaces/follow/engraving.toml");
-    let data = page(&place, &world, "G21 G0 X1100 Y-150\nG1 X1200 F3000\n", "", 0);
+    // With a small tolerance, the tip leaves a straight line by less than the page's digits show.
+    let data = page(&place, &world, "G21 G0 X1100 Y-150\nG1 X1200 F3000\n", "--tolerance 2mm", 0);
     let motion = &data["line"]["motion"];
     let rows = rows(&place);
     let mut farthest = 0.0_f64;
@@ -56,10 +57,10 @@ fn the_page_states_the_measured_distance_from_the_line() {
     let there = tip(between(a, b, (time - a[0]) / (b[0] - a[0])));
     // The line leads to the right, so its left side is above.
     assert!((there[1] + 0.15 - offset).abs() < 1e-8, "{there:?} {offset}");
-    assert!(offset.abs() <= number(&motion["deviation"]) && number(&motion["deviation"]) <= 1e-5);
+    assert!(offset.abs() <= number(&motion["deviation"]) && number(&motion["deviation"]) <= 2e-3);
     let bins = motion["deviations"].as_array().unwrap();
     let most = bins.iter().flat_map(|bin| [0, 1].map(|k| number(&bin[k]).abs())).fold(0.0, f64::max);
-    assert!((most - (offset.abs() / 1e-5 * 1000.0).round()).abs() < 1.5, "{most}");
+    assert!((most - (offset.abs() / 2e-3 * 1000.0).round()).abs() < 1.5, "{most}");
 }
 
 /// The speed of the file limits the line, and the acceleration of a joint the beginning and the end.

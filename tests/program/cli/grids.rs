@@ -240,7 +240,8 @@ fn the_wholly_free_cells_of_a_gantry_are_exact() {
 #[test]
 fn a_second_attempt_with_free_centres_is_reported() {
     let place = Place::new();
-    let said = "second attempt with 16 x 16 cells: a cell counts as free if its centre is free";
+    let said = "second attempt with 16 x 16 cells: a cell counts as free if its centre is free; \
+                wholly free cells show no certified path";
     let done = place.run(&maze(), "--planner wavefront --cells 16 --picture wave.svg").exits(0);
     assert!(done.stdout.lines().any(|line| line.starts_with("attempts") && line.ends_with(said)), "{}", done.stdout);
     assert!(place.read("wave.svg").contains(said));

@@ -3,8 +3,9 @@
 use super::*;
 use cplan::engine::Method;
 
-/// Examples that the test only parses, because they would run too long or without end.
-const ONLY_READ: [&str; 3] = ["cplan serve", "--suite", "--queries"];
+/// Examples that the test only parses, because they would run too long or without end, or need a file that has to be
+/// built.
+const ONLY_READ: [&str; 4] = ["cplan serve", "--suite", "--queries", "--engine"];
 
 /// Returns the commands that the help lists.
 pub fn commands(place: &Place) -> Vec<String> {
@@ -59,6 +60,8 @@ fn every_command_has_examples_and_they_run() {
     place.write("recorded.csv", "time,shoulder,elbow\n0,-0.9,0.4\n1,-1.0,0.5\n");
     place.write("planned.csv", "time,shoulder,elbow\n0,-0.9,0.4\n1,-1.0,0.5\n");
     place.write("turns.csv", "time,shoulder,elbow\n0,0.0,3.1\n1,0.0,-3.1\n");
+    std::fs::create_dir_all(place.path("results/mine")).unwrap();
+    place.write("results/mine/shelf.csv", "time,shoulder,elbow\n0,-0.9,0.4\n1,-1.0,0.5\n");
     place.write("problems.jsonl", r#"{"urdf": "robots/planar_2r.urdf", "world": "workspaces/shelf.toml"}"#);
     let mut helps = vec![("main".to_owned(), place.run(&["--help"], "").stdout)];
     for name in commands(&place) {

@@ -80,7 +80,8 @@ fn robots_in_millimetres_are_noticed() {
 
 #[test]
 fn speeds_that_no_drive_has_are_noticed() {
-    let fast = "joint \"shoulder\": velocity=\"1000\" in the URDF is 1000 rad/s (57295.8 deg/s), faster than any drive";
+    let fast =
+        "joint \"shoulder\": velocity=\"1000\" in the URDF means 1000 rad/s (57295.8 deg/s), faster than any drive";
     check_hint(&[("velocity=\"2.0\"", "velocity=\"1000\"")], FREE, &[fast, "[robot] velocity = { shoulder = 2.0 }"]);
     check_hint(
         &[("velocity=\"3.0\"", "velocity=\"100\"")],

@@ -132,7 +132,9 @@ impl Place {
     }
 
     pub fn write(&self, file: &str, content: impl AsRef<[u8]>) {
-        std::fs::write(self.path(file), content).unwrap();
+        let path = self.path(file);
+        std::fs::create_dir_all(path.parent().expect("a file in a folder")).unwrap();
+        std::fs::write(path, content).unwrap();
     }
 
     pub fn read(&self, file: &str) -> String {

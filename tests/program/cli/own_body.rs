@@ -181,7 +181,9 @@ fn shapes_of_a_neighbor_count_one_by_one() {
     };
     assert_bars(&on_a_base(&base("0.25 0.15"), 2.5, 0.05), "base");
     let beside = run(&on_a_base(&base("-0.25 0.0"), 2.5, 0.05), &swing(""), "").exits(0);
-    beside.says(&["is ignored: shape 1 of \"base\" and shape 1 of \"L1\""]);
+    beside.says(&[
+        "is ignored between shapes that meet in every configuration: shape 1 of \"base\" and shape 1 of \"L1\"",
+    ]);
 }
 
 /// Checks the hint of an arm whose shapes collide near a joint. The line that it offers helps.

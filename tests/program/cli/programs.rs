@@ -256,7 +256,11 @@ fn options_that_contradict_a_program_are_refused() {
     let refuse = |options: &str, code: i32, parts: &[&str]| {
         program(&place, "planar_2r", &shelf, options).refused(code, parts);
     };
-    refuse("--output a.prg", 2, &["the format of \"a.prg\" is unknown", "hint: with --template"]);
+    refuse(
+        "--output a.prg",
+        2,
+        &["the format of \"a.prg\" is unknown", "hint: to write a program for a controller, add --template"],
+    );
     refuse("--template epson", 2, &["--template needs an --output file"]);
     refuse("--template epson --output a.json", 2, &["--template needs an --output file"]);
     refuse("--template epson --output a.prg --blend 0.1", 2, &["leave out --blend"]);

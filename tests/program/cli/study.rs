@@ -292,20 +292,21 @@ fn errors_in_a_study_have_a_place_and_a_hint() {
     let x = "[[parameter]]\nname = \"x\"\nsets = \"world.obstacle.crate.at[0]\"\nfrom = 0\nto = 1\n";
     // Each row has a line of the head, changes to the parameter, lines after it, and the message.
     let table = r#"
- =>  => draw = "latin" => does not state how often ... draws = 1000
+ =>  => draw = "latin" => does not state the number of draws ... draws = 1000
  =>  =>  => line 4, column 1 ... parameter "x" needs values, steps or draw ... from, to and steps
- =>  => steps = 1 => line 9 ... 1 values from 0 to 1
- =>  => steps = 200000000 => 200000000 values
+ =>  => steps = 1 => line 9 ... the number of steps from 0 to 1 is 1 ... use 2 to a million steps
+ =>  => steps = 200000000 => the number of steps from 0 to 1 is 200000000 ... use 2 to a million steps
  =>  => draw = "sobol" => "uniform" or "latin", not "sobol"
  => to = 1 -> to = 0 => draw = "latin" => the range from 0 to 0 has only one value ... write values = [0]
- => from = 0 -> from = "9deg" => steps = 2 => world.obstacle.crate.at[0] is not an angle ... line 7
+ => from = 0 -> from = "9deg" => steps = 2 => values in degrees do not fit world.obstacle.crate.at[0], which is not an angle ... line 7
  => from = 0 -> from = 2 => steps = 2 => 2 is more than 1
  => crate.at -> box.at => steps = 2 => world.obstacle.box.at[0]: there is no "box" ... shelf, crate ... line 6
  => world.obstacle.crate.at[0] -> robot.at[0] => steps = 2 => an address must begin with world. or urdf.
 options = ["--planer=first"] =>  => steps = 2
     => options: unexpected argument '--planer' found; tip: a similar argument exists: '--planner'
 options = ["--picture=x.svg"] =>  => steps = 2
-    => options: --picture is about files or printed output ... give files to `cplan study` itself
+    => options: --picture does not apply here, because it is about files or printed output
+    ... name output files on the command line of `cplan study`
 options = ["--planner=nobody"] =>  => steps = 2 => line 3 ... nobody
 draws = 5 =>  => steps = 3 => line 3 ... no parameter is drawn
 measure = ["speed"] =>  => steps = 2 => line 3 ... "speed" is not a measure; measures are length
@@ -322,7 +323,8 @@ size = 3 =>  => steps = 2 => line 3 ... unknown key `size`
         cases.push([head.to_owned(), format!("{parameter}{rest}\n"), pattern.to_owned()]);
     }
     let several = "[[parameter]]\nname = \"x\"\nsets = [\"world.obstacle.crate.at[0]\", \"world.obstacle.shelves.at[0]\"]\nvalues = [1]\n";
-    let shelves = "line 6, column 39 ... no \"shelves\" ... world.obstacle.shelf.at[0] is a number there";
+    let shelves =
+        "line 6, column 39 ... no \"shelves\" ... world.obstacle.shelf.at[0] is a number that exists in the file";
     let twice = format!("{x}steps = 2\n{x}steps = 2\n");
     cases.push(["", several, shelves].map(str::to_owned));
     cases.push(["", &twice, "another column \"x\""].map(str::to_owned));
@@ -335,7 +337,7 @@ size = 3 =>  => steps = 2 => line 3 ... unknown key `size`
     place.write("study.toml", "robot = \"none.urdf\"\nworld = \"world.toml\"\n");
     run(&place, "").refused(1, &["line 1, column 9", "none.urdf", "relative to the study"]);
     place.write("study.toml", "world = \"world.toml\"\n");
-    run(&place, "").refused(1, &["study.toml", "names no robot", "robot = \"arm.urdf\""]);
+    run(&place, "").refused(1, &["study.toml", "does not name a robot", "robot = \"arm.urdf\""]);
     study(&place, "", &format!("{x}steps = 2\n"));
     run(&place, "--output t.pdf").refused(2, &[".csv, .parquet, .html or .json"]);
     run(&place, "--layout 2").refused(1, &["the study has 2 layouts, numbered from 0"]);
@@ -410,7 +412,7 @@ fn a_best_layout_at_the_end_of_a_range_is_noted() {
         speed_study(&place, values);
         run(&place, "")
     };
-    let edge = "the best speed is 1, at the end of its range (of at most 1): a wider range may give a better layout\n";
+    let edge = "the best speed is 1, and its range ends at 1: a wider range may give a better layout\n";
     speed("from = 0.5\nto = 1\nsteps = 3").says(&[edge]);
     assert!(!speed("values = [0.5, 1]").stdout.contains("a wider range"));
 }

@@ -235,9 +235,8 @@ fn values_beyond_a_limit_by_rounding_are_the_limit() {
     // planar_2r's limits are -2.9 and 2.9.
     let world = FREE.replace("[-0.9, 0.4]", "[-2.9000000004, 0.4]").replace("[1.55, -0.35]", "[1.55, 2.9000000001]");
     place.plan(&world, "").found(&[
-        "the start has joint \"shoulder\"",
-        "the goal has joint \"elbow\"",
-        "-2.9 rad is used",
+        "the start: joint \"shoulder\" at -2.9000000004 rad exceeds its limit by a rounding error; -2.9 rad is used",
+        "the goal: joint \"elbow\" at 2.9000000001 rad exceeds its limit by a rounding error; 2.9 rad is used",
     ]);
     place.plan(FREE.replace("-0.9", "-2.90000001"), "").refused(1, &["exceeds its limits", "hint"]);
 }

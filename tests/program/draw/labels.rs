@@ -216,5 +216,5 @@ fn names_in_pictures_of_tasks_cover_nothing() {
 
 #[test]
 fn names_in_pictures_of_moving_obstacles_are_at_their_shapes() {
-    check("workspaces/moving", 30, 5);
+    check("workspaces/moving", 30, 4);
 }

@@ -30,6 +30,15 @@ fn change(result: &mut Value, joint: &str, value: impl Fn(usize, f64) -> f64) {
     }
 }
 
+/// Returns true if a fault states that a joint is elsewhere than according to the steps.
+fn blames(found: &Value, joint: &str) -> bool {
+    let mut faults = found["faults"].as_array().unwrap().iter().filter_map(Value::as_str);
+    let place = format!(" s, joint \"{joint}\" is at ");
+    faults.any(|fault| {
+        fault.starts_with("all_joints: at ") && fault.contains(&place) && fault.contains("according to the steps")
+    })
+}
+
 /// Holds the tool low during the whole motion into a box, whose sides it would hit.
 #[test]
 fn a_tool_that_is_held_low_gets_the_same_verdict_in_json_and_csv() {
@@ -48,7 +57,7 @@ fn a_tool_that_is_held_low_gets_the_same_verdict_in_json_and_csv() {
     assert_eq!(json["verdict"], "collision", "{:#}", json["faults"]);
     assert_eq!(csv["verdict"], "collision", "{csv:#}");
     assert_eq!(json["first_contact"], csv["first_contact"]);
-    assert!(json["faults"].to_string().contains("all_joints: joint \\\"axis_3\\\""), "{:#}", json["faults"]);
+    assert!(blames(&json, "axis_3"), "{:#}", json["faults"]);
 }
 
 /// Without its steps, a result is its motion of all joints.
@@ -61,8 +70,9 @@ fn a_result_without_steps_is_judged_by_its_motion_of_all_joints() {
     members.retain(|member, _| !["steps", "events", "path", "length"].contains(&member.as_str()));
     let found = findings(&files, "plan.json", result.to_string());
     assert_eq!(found["verdict"], "free", "{found:#}");
-    let moves = |found: &Value| found["notes"].to_string().contains("joint \\\"axis_3\\\" moves");
-    assert!(moves(&found), "{found:#}");
+    let slides =
+        |found: &Value| found["notes"].to_string().contains("joint \\\"axis_3\\\" slides between -0.15 and 0 m");
+    assert!(slides(&found), "{found:#}");
 }
 
 /// Compares the tool's joints of whole tasks with the steps: picks, places, and turns on the way. Then moves each of
@@ -81,9 +91,8 @@ fn joints_that_move_differently_from_the_steps_are_refused() {
             let mut moved = result.clone();
             change(&mut moved, joint, |k, value| if k % 2 == 1 { value - 0.01 } else { value });
             let found = findings(&files, "plan.json", moved.to_string());
-            let fault = format!("all_joints: joint \\\"{joint}\\\" is at");
             assert_ne!(found["verdict"], "free", "{world} {joint}");
-            assert!(found["faults"].to_string().contains(&fault), "{world} {joint}: {:#}", found["faults"]);
+            assert!(blames(&found, joint), "{world} {joint}: {:#}", found["faults"]);
         }
     }
 }

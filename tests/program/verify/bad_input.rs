@@ -51,7 +51,7 @@ fn invalid_tables_are_refused() {
     csv("0,0.1,0.2\n1,0.1,0.3\n", &["line 1", "no header", "time, j1, j2"]);
     csv("time;j1;j2\n0;0\n", &["line 2", "has 2 values, but the header has 3 names"]);
     csv("time,j1\n0,0\n", &["no positions of joint \"j2\"", "\"j1\""]);
-    csv("time,J1,J2\n0,0,0\n", &["no positions of joint \"j1\"", "its columns are \"time\", \"J1\", \"J2\""]);
+    csv("time,J1,J2\n0,0,0\n", &["no positions of joint \"j1\"", "the columns are \"time\", \"J1\", \"J2\""]);
     csv("time,j1_velocity,j2\n0,0,0\n", &["no positions of joint \"j1\""]);
     csv("time,j1,j2\n0,0,0\n1,0\n", &["line 3", "has 2 values, but the header has 3"]);
     csv("time,j1,j2\n0,0,0\n1,0,0,0\n", &["line 3", "has 4 values"]);

@@ -93,7 +93,7 @@ fn units_and_columns_that_do_not_fit_are_named() {
         ("time [rad],shoulder,elbow", "cannot have the unit \"rad\""),
         (
             "__time,/joint_states/position[0],/tool",
-            "its columns are \"__time\", \"/joint_states/position[0]\", \"/tool\"",
+            "the columns are \"__time\", \"/joint_states/position[0]\", \"/tool\"",
         ),
     ] {
         let error = verify(&PLAIN.replacen("time,shoulder,elbow", header, 1)).unwrap_err();

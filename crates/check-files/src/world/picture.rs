@@ -160,6 +160,6 @@ mod tests {
         let Picture { size, white, shades } = indexed(&[0b0110_1111, 0b1000_1100]).unwrap();
         assert_eq!((size, white), ([2, 2], 765));
         assert_eq!(shades, [60, 765, 765, 0].map(Some));
-        assert!(indexed(&[0b0110_0000, 0b1011_0000]).is_err_and(|why| why.contains("its palette lacks")));
+        assert!(indexed(&[0b0110_0000, 0b1011_0000]).is_err_and(|why| why.contains("not in the palette")));
     }
 }

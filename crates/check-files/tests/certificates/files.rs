@@ -210,8 +210,8 @@ fn a_line_map_is_its_walls() {
     // The tip does not reach as far as the goal, so only the parts are checked.
     let goal = place.judge(world, &straight_certificate([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));
     fails(goal, "misses the goal");
-    fails(named(4, ""), "no obstacle 4");
-    fails(named(3, ", \"corners\": [[-2.8, -2.6], [3.2, 2.4]]"), "obstacle 3: its corners");
+    fails(named(4, ""), "part 0: obstacle 4 does not exist");
+    fails(named(3, ", \"corners\": [[-2.8, -2.6], [3.2, 2.4]]"), "part 0, of obstacle 3: the corners");
     // Steps override the goal of the preferences.
     let moving = format!("{world}[[step]]\nmove = {{ joints = [0, 0] }}\n");
     let goal = place.judge(&moving, &straight_certificate([0.0; 2], [0.0; 2]).replace(", \"goal\": [0, 0]", ""));

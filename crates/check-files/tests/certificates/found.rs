@@ -84,14 +84,14 @@ fn falsified_parts_are_named() {
     let post = "[[obstacle]]\ncircle = { center = [0.7, 0.8], radius = 0.15 }\n";
     let judged = |knots: &str| judge(&arm(), &world(post), &found("", LINEAR, knots));
     let fold = "[0, -1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0]";
-    fails_with(judged(fold), &["from knot 1", "\"fore\""]);
+    fails_with(judged(fold), &["after knot 1, link \"fore\"", "obstacle 0"]);
     let post = "[[obstacle]]\ncircle = { center = [1.4, 0], radius = 0.15 }\n";
     let judged = |knots: &str| judge(&arm(), &world(post), &found("", LINEAR, knots));
     assert_eq!(judged(fold).0, 0);
     for (knots, part) in [
-        ("[0, -1, 0], [3, 1, 0]", "from knot 0"),
-        ("[0, -1, 0], [1, -1, 1], [3, 1, 0]", "from knot 1"),
-        ("[0, -1, 0], [1, -0.2, 2.5], [2, 1, 2.5], [3, 1, 0]", "from knot 0"),
+        ("[0, -1, 0], [3, 1, 0]", "after knot 0, link"),
+        ("[0, -1, 0], [1, -1, 1], [3, 1, 0]", "after knot 1, link"),
+        ("[0, -1, 0], [1, -0.2, 2.5], [2, 1, 2.5], [3, 1, 0]", "after knot 0, link"),
         ("[0, -1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0.1]", "goal"),
         ("[0, -1.1, 0], [1, -1, 2.5], [2, 1, 2.5], [3, 1, 0]", "start"),
         ("[0, -1, 0], [1, -1, 2.5], [1, 1, 2.5], [3, 1, 0]", "time of knot 2 is not after"),
@@ -133,7 +133,7 @@ fn an_arm_inside_an_obstacle_collides() {
     );
     passes(&turned, true, "");
     // A disc around the whole arm, and one that contains only the second bar.
-    passes("[[obstacle]]\ncircle = { center = [0, 0], radius = 9 }\n", false, "from knot 0");
+    passes("[[obstacle]]\ncircle = { center = [0, 0], radius = 9 }\n", false, "after knot 0, link");
     let second = "[[obstacle]]\npolyline = [[1.2, 0], [1.3, 0]]\n";
     passes(&format!("[[obstacle]]\ncircle = {{ center = [0, 0.9], radius = 0.1 }}\n{second}"), false, "obstacle 1");
 }

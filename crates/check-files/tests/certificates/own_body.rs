@@ -16,7 +16,7 @@ fn judge(urdf: &str, robot: &str, certificate: &str) -> Verdict {
     judge_in(urdf, &world(robot), certificate)
 }
 
-const HIT: [&str; 3] = ["from knot 0", "link \"quill\", collision 0", "link \"base\", collision 0"];
+const HIT: [&str; 3] = ["after knot 0, ", "link \"quill\", collision 0", "link \"base\", collision 0"];
 
 /// Tests that links of a robot may touch each other above and below. Links and obstacles must not.
 #[test]
@@ -180,8 +180,8 @@ fn proofs_name_fixed_links() {
     for (lowest, robot, shape, part, why) in [
         (0.3, "", QUILL, BASE, "passes over or under"),
         (0.1, "own_body = false", QUILL, BASE, "no collision shape 0"),
-        (0.1, "ignore_contact = [[\"quill\", \"base\"]]", QUILL, BASE, "may meet link \"base\""),
-        (0.1, "", FIRST, BASE, "may meet link \"base\""),
+        (0.1, "ignore_contact = [[\"quill\", \"base\"]]", QUILL, BASE, "is allowed to touch link \"base\""),
+        (0.1, "", FIRST, BASE, "is allowed to touch link \"base\""),
         (0.1, "", QUILL, r#"{"own": "base", "collision": 1}"#, "no collision shape 1"),
         (0.1, "", QUILL, r#"{"own": "base", "visual": 0}"#, "no visual shape"),
         (0.1, "", QUILL, r#"{"own": "fore", "collision": 0}"#, "link \"fore\" has no"),
@@ -255,7 +255,7 @@ fn the_upper_arm_is_hit_and_passed_over() {
         |urdf: &str, robot: &str, knots: &str, extra: &str| judge(urdf, robot, &found(extra, r#""linear""#, knots));
     let goal = |to: f64| format!(r#""goal": [1, {to}],"#);
     let round = "[0, -1, 0], [1, 1, 4]";
-    let hit = ["from knot 0", "link \"quill\", collision 0", "link \"upper\", collision 0"];
+    let hit = ["after knot 0, ", "link \"quill\", collision 0", "link \"upper\", collision 0"];
     for lowest in [0.35, 0.449] {
         fails_with(fold(&turning(lowest, 0.1), "", round, &goal(4.0)), &hit);
         fails_with(fold(&turning(lowest, 0.1), "at = [3, -2]\nangle = 1", round, &goal(4.0)), &hit);
@@ -319,8 +319,8 @@ fn proofs_name_links_that_joint_1_carries() {
         (0.35, 0.3, "", QUILL, UPPER, "does not touch"),
         (0.45, 0.5, "", QUILL, UPPER, "passes over or under"),
         (0.35, 0.5, "own_body = false", QUILL, UPPER, "no collision shape 0"),
-        (0.35, 0.5, "ignore_contact = [[\"quill\", \"upper\"]]", QUILL, UPPER, "may meet link \"upper\""),
-        (0.35, 0.5, "", FIRST, UPPER, "may meet link \"upper\""),
+        (0.35, 0.5, "ignore_contact = [[\"quill\", \"upper\"]]", QUILL, UPPER, "is allowed to touch link \"upper\""),
+        (0.35, 0.5, "", FIRST, UPPER, "is allowed to touch link \"upper\""),
         (0.35, 0.5, "", FIRST, r#"{"own": "quill", "collision": 0}"#, "link \"quill\""),
     ] {
         let robot = format!("{LIMITS}\n{robot}");

@@ -62,7 +62,7 @@ fn the_tip_stays_within_the_tolerance_of_the_world() {
     let with = |tolerance: &str| ANGLE.replace("]] }", &format!("]], tolerance = {tolerance} }}"));
     let off = |by: f64| KNOTS.replace("[2, 3, 1]", &format!("[2, 3, {}]", 1.0 + by));
     holds(judge(ANGLE, &off(9e-6), &both_steps()));
-    fails(judge(ANGLE, &off(1.1e-5), &both_steps()), "steps[1], step 2: from knot 1 to the next the tip");
+    fails(judge(ANGLE, &off(1.1e-5), &both_steps()), "steps[1], step 2: after knot 1, the tip");
     fails(judge(&with("1e-6"), &off(9e-6), &both_steps()), "within 0.000001 of piece 0");
     holds(judge(&with("1e-4"), &off(9e-5), &both_steps()));
     // The end of the line.

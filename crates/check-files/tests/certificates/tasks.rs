@@ -85,7 +85,7 @@ fn places_match_the_request_within_tolerance() {
 fn payloads_avoid_obstacles_that_the_arm_clears() {
     for (y, is_free) in [(0.79, true), (0.81, false)] {
         let post = format!("[[obstacle]]\ncircle = {{ center = [2, {y}], radius = 0.1 }}\n");
-        agrees(judge_carried_block(&post), is_free, "steps[1], step 2: from knot 2 to the next the payload");
+        agrees(judge_carried_block(&post), is_free, "steps[1], step 2: after knot 2, the payload");
         let other =
             format!("[[object]]\nname = \"other\"\ncircle = {{ center = [0, 0], radius = 0.1 }}\nat = [2, {y}]\n");
         agrees(judge_carried_block(&other), is_free, "");
@@ -107,13 +107,13 @@ fn only_the_second_link_may_touch_the_target() {
         judge(&world, &KNOTS.replace("1, 1, 1], [2, 1, 1]", &format!("1, 1, {y}], [2, 1, {y}]")), DONE)
     };
     holds(low(0.2));
-    fails(low(0.1), "link \"bridge\", collision 0 is not shown");
+    fails(low(0.1), "link \"bridge\", collision 0 is not proven");
     // The head may leave the place of the released object once, but not return.
     let more = "[[step]]\nmove = { joints = [3, 1] }\n";
     let world = format!("{HEAD}{BLOCK}{STEPS}{more}");
     let knots = format!("{KNOTS}, [6, 3, 2], [7, 3, 1]");
     let done = format!("{DONE}, {{\"step\": 4, \"knots\": [6, 7]}}");
-    fails(judge(&world, &knots, &done), "steps[3], step 4: from knot 6 to the next link \"head\"");
+    fails(judge(&world, &knots, &done), "steps[3], step 4: after knot 6, link \"head\"");
     // The last step may end inside the released object, but not with the bridge inside it.
     let placed = |y: f64| {
         let steps = STEPS.split("[[step]]\nmove").next().unwrap().replace("[3, 1]", &format!("[3, {y}]"));

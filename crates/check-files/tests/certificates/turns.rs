@@ -114,7 +114,7 @@ fn the_load_has_the_angles_of_each_moment() {
     holds(judge(&world, ["", &turning(2.86, FRAC_PI_2), ""]));
     fails(judge(&world, ["", &turning(2.5, FRAC_PI_2), ""]), "during a turn of the wrist, ");
     // After the pick, a turn at the beginning of the motion leaves the block turned for the rest of it.
-    fails(judge(&world, [&turning(1.9, FRAC_PI_2), "", ""]), "from knot 2");
+    fails(judge(&world, [&turning(1.9, FRAC_PI_2), "", ""]), "after knot 2, the payload");
 }
 
 /// Compares verdicts on random turns past random posts with dense samples.

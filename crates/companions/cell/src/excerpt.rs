@@ -11,7 +11,7 @@ use toml::de::DeValue;
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Excerpt {
     text: String,
-    /// Offsets in the text, each with the range of the original file from which the text comes from there on.
+    /// Offsets in the text, each with the range of the original file from which the text up to the next offset was copied.
     places: Vec<(usize, Range<usize>)>,
     /// The keys of a table, with their places in the file. `None` for another value.
     keys: Option<Vec<(String, Range<usize>)>>,

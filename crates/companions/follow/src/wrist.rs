@@ -62,7 +62,8 @@ struct Stretch {
 }
 
 impl WristAlong {
-    /// Returns true if the requirement is valid, and the limits and the joint's numbers are finite and positive.
+    /// Returns true if the required angle is valid, the limits on speed and acceleration are finite and positive, and the
+    /// joint's zero is finite.
     pub(crate) fn is_valid(&self) -> bool {
         let limits = [self.velocity, self.acceleration];
         self.guide.is_valid()

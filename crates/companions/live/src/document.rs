@@ -69,7 +69,7 @@ impl Document {
         let corners: usize = state.obstacles.iter().flat_map(|piece| &piece.shape).map(Form::corners).sum();
         if state.obstacles.len() > MAX_OBSTACLES || corners > MAX_CORNERS {
             return Err(format!(
-                "too many obstacles or corners: {} with {corners} in all; the live page allows {MAX_OBSTACLES} with {MAX_CORNERS} in all",
+                "too many obstacles or corners: the live page allows {MAX_OBSTACLES} obstacles with {MAX_CORNERS} corners in all, but there are {} with {corners}",
                 state.obstacles.len()
             ));
         }

@@ -244,7 +244,7 @@ impl Reader<'_> {
             (None, Some((from, to)), Some(steps), None) => match *steps.get_ref() {
                 n @ 1..=1_000_000 if n > 1 || from == to => Values::Stepped { from, to, count: n as usize },
                 n => {
-                    let message = format!(": {n} steps from {from} to {to} are too few or too many");
+                    let message = format!(": the number of steps from {from} to {to} is {n}");
                     return Err(wrong(steps.span(), message, "use 2 to a million steps"));
                 }
             },
@@ -340,7 +340,7 @@ impl Reader<'_> {
                 let near = file.nearest(&text, address);
                 let help = match near {
                     Some(near) if near == *address => "remove the address here, or from the other \"sets\"".into(),
-                    Some(near) => format!("{near} is such a number"),
+                    Some(near) => format!("{near} is a number that exists in the file"),
                     None => "name a number that exists in the file".into(),
                 };
                 self.wrong(self.target(tables, parameter, number), message, &help)

@@ -105,12 +105,11 @@ impl<'a> Summary<'a> {
     pub fn edges(&self) -> Vec<String> {
         let edge = |(parameter, value, _): (&Parameter, f64, _)| {
             let [from, to] = parameter.values.range();
-            let which =
-                if to - value <= value - from { format!("of at most {to}") } else { format!("of at least {from}") };
+            let which = if to - value <= value - from { format!("ends at {to}") } else { format!("begins at {from}") };
             // The digits of tables, without trailing zeros.
             let value = format_value(value).parse().unwrap_or(value);
             format!(
-                "the best {} is {value}, at the end of its range ({which}): a wider range may give a better layout",
+                "the best {} is {value}, and its range {which}: a wider range may give a better layout",
                 parameter.name
             )
         };

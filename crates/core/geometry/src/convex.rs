@@ -17,7 +17,7 @@ pub enum ConvexError {
         radius: f64,
     },
     /// A bar's length is zero, negative or not finite.
-    #[error("the length is {length}, but must be greater than 0")]
+    #[error("the length is {length}, but must be finite and greater than 0")]
     Length {
         /// The given length.
         length: f64,

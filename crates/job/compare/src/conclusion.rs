@@ -100,8 +100,8 @@ impl Comparison {
         }
         // The same number as in the table, if there is a bound.
         let longer = over(safest)
-            .map(|over| format!(", at most {over} longer than the optimum"))
-            .or_else(|| Some(format!(", {} longer than the shortest", percent(self.ratio(safest)? - 1.0))));
+            .map(|over| format!(", with a path at most {over} longer than the optimum"))
+            .or_else(|| Some(format!(", with a path {} longer than the shortest", percent(self.ratio(safest)? - 1.0))));
         format!("{who}: {near}, and `{}` {}{}.", safest.planner, clearance(safest), longer.unwrap_or_default())
     }
 }
@@ -133,12 +133,13 @@ mod tests {
         assert_eq!(
             all.conclusion(),
             "All 3 planners found a path: `a` comes within 25.00 % of the optimum, and `b` keeps 120.4 mm from \
-             obstacles, at most 150.00 % over the optimum."
+             obstacles, with a path at most 150.00 % longer than the optimum."
         );
         let some = comparison(&[("a", Some(1.25), 0.12), ("b", None, 0.0), ("c", Some(1.5), 0.05)]);
         assert_eq!(
             some.conclusion(),
-            "2 of 3 planners found a path: `a` has both the shortest and the safest, which keeps 120.0 mm from obstacles."
+            "2 of 3 planners found a path: that of `a` is both the shortest and the safest, and keeps 120.0 mm from \
+             obstacles."
         );
         let one = comparison(&[("a", Some(1.25), 0.12)]);
         assert_eq!(
@@ -150,7 +151,7 @@ mod tests {
     #[test]
     fn without_a_path_the_answer_comes_first() {
         let mut none = comparison(&[("a", None, 0.0), ("b", None, 0.0)]);
-        assert_eq!(none.conclusion(), "None of 2 planners found a path, or a proof that there is none.");
+        assert_eq!(none.conclusion(), "None of 2 planners found a path or a proof that there is none.");
         none.rows[1].outcome = Status::Infeasible;
         assert_eq!(none.conclusion(), "There is no path: 1 of 2 planners proved it.");
     }

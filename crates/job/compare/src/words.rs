@@ -216,18 +216,18 @@ mod tests {
         let words = words(&study(all));
         assert_eq!(
             words[0],
-            "10 problems: 10 with a certified path, 0 proven to have none, 0 open. Of them, wavefront left 1 open."
+            "10 problems: 10 with a certified path, 0 proven infeasible, 0 unknown. Of them, 1 unknown to wavefront."
         );
         assert_eq!(
             words[1],
-            "The shortest path found is longer than the optimum by at most 1.00 % (median; 1.00 % at worst): proven, on \
-             10 problems."
+            "The shortest path found is at most 1.00 % longer than the optimum (median of the proven gaps; the largest is \
+             1.00 %), on 10 problems."
         );
         assert_eq!(
             words[2],
             "Roadmaps found the shorter paths. Median length over the proven optimum: roadmaps 1.0100, fields 1.2000 \
-             (over 9 problems that all sides answered, each with its best planner). Roadmaps: better than fields in 9, \
-             worse in 0 (p = 0.004)."
+             (of 9 problems that all sides answered, each side with its best planner). Roadmaps: better than fields in \
+             9, worse in 0 (p = 0.004)."
         );
         assert!(words[3].starts_with("Fields answered sooner."), "{}", words[3]);
         assert_eq!(words.len(), 4, "clearance, motion and memory are missing: the text omits them");
@@ -244,8 +244,8 @@ mod tests {
         assert!(conclusions[2].contains("better than fields in 5, worse in 0 (p = 0.062)"), "{}", conclusions[2]);
         assert!(conclusions[3].contains("in 0, worse in 0 (p = 1.000)"), "{}", conclusions[3]);
         six.pop();
-        let figures = "Median length over the proven optimum: roadmaps 1.0000, fields 1.1000 (over 5 problems that \
-                       all sides answered, each with its best planner).";
+        let figures = "Median length over the proven optimum: roadmaps 1.0000, fields 1.1000 (of 5 problems that \
+                       all sides answered, each side with its best planner).";
         assert_eq!(words(&study(six))[2], figures, "too few problems: figures, and no claim");
     }
 

@@ -156,7 +156,7 @@ fn are_joints(robot: &RobotJoints) -> bool {
 /// let tampered = stored.replace("\"certified\":true", "\"certified\":false");
 /// let read: StoredPlan = serde_json::from_str(&tampered)?;
 /// let refused = read.planned_again(Searches::NONE).expect_err("planning says otherwise");
-/// assert!(refused.to_string().contains("result.certified is false, and planning gives true"));
+/// assert!(refused.to_string().contains("result.certified is false, but planning gives true"));
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Deserialize)]

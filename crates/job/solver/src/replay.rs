@@ -303,7 +303,7 @@ impl Phases {
         rounds.iter_mut().for_each(|round| round.lower = round.lower.min(bound.lower));
         rounds.iter_mut().last().into_iter().for_each(|last| last.lower = bound.lower);
         let caption = format!(
-            "The lower bound: the shortest line around the known walls. More strips find more walls, and raise the bound to {} {unit}",
+            "No path is shorter than the line around known walls; more strips raise it to {} {unit}",
             round_down(bound.lower, 4)
         );
         self.add(rounds.len(), caption, Shows::Bound { rounds, unit });

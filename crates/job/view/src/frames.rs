@@ -8,8 +8,7 @@ use cplan_theme::{INK, WHITE};
 
 /// Length of an axis that lies in the plane, in pixels.
 const AXIS_LENGTH: f64 = 52.0;
-/// Ratio of the length of an axis's projection to its own length below which the axis is drawn as perpendicular to the
-/// plane.
+/// An axis is drawn as perpendicular to the plane if its projection is shorter than this share of its length.
 const PERPENDICULAR_SHARE: f64 = 0.1;
 const AXIS_LETTERS: [&str; 3] = ["x", "y", "z"];
 

@@ -99,11 +99,18 @@ pub(super) fn help_for_limits(scene: &Scene, q: Configuration, in_file: bool) ->
     format!("angles are in radians; if degrees are meant, write {}", joined(&meant))
 }
 
+/// Hint to change the limits.
+macro_rules! change_limits {
+    () => {
+        "change the limits in the world file: of joints in [robot] limits, of motors in [robot] drives"
+    };
+}
+
 /// Hint about a configuration outside the limits.
-pub(super) const HELP_FOR_LIMITS: &str = "choose values within the limits, or change the limits in the world file: of joints in [robot] limits, of motors in [robot] drives";
+pub(super) const HELP_FOR_LIMITS: &str = concat!("choose values within the limits, or ", change_limits!());
 
 /// Hint about a tip position outside the limits.
-pub(super) const HELP_FOR_TIP: &str = "choose another point, or change the limits in the world file: of joints in [robot] limits, of motors in [robot] drives";
+pub(super) const HELP_FOR_TIP: &str = concat!("choose another point, or ", change_limits!());
 
 /// Explains why `q` is blocked: the worst pair of shapes for each link and obstacle.
 pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
@@ -115,14 +122,16 @@ pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
 pub(super) fn help_at(scene: &Scene, q: Configuration) -> String {
     let (mut shapes, mut links) = (Vec::new(), Vec::new());
     for Obstruction { contact, .. } in scene.obstructions(q) {
-        let Some(own) = scene.self_obstacle(contact.pair.obstacle) else { return help_for_contact(scene) };
+        let Some(own) = scene.self_obstacle(contact.pair.obstacle) else {
+            return help_for_contact(scene, "configuration");
+        };
         let (part, fixed) = (&scene.link(contact.pair).parts[contact.pair.part], &own.obstacle.name);
         let [of_fixed, of_part] = [own.number + 1, part.number + 1];
         shapes.push(format!("shape {of_part} of \"{}\" and shape {of_fixed} of \"{fixed}\"", part.body));
         links.push(format!("[\"{fixed}\", \"{}\"]", part.body));
     }
     if links.is_empty() {
-        return help_for_contact(scene);
+        return help_for_contact(scene, "configuration");
     }
     let (shapes, links) = (shapes.join(", "), links.join(", "));
     format!(
@@ -130,25 +139,26 @@ pub(super) fn help_at(scene: &Scene, q: Configuration) -> String {
     )
 }
 
-/// Returns the hint about a configuration in which the arm hits or nearly hits something.
-pub(super) fn help_for_contact(scene: &Scene) -> String {
+/// Returns the hint about a target at which the arm hits or nearly hits something. `target` names its kind: a
+/// configuration, or a point for the tip.
+fn help_for_contact(scene: &Scene, target: &str) -> String {
     let clearance = scene.workspace().clearance;
     if clearance > scene.arm().reach() {
         format!("the clearance is in metres; if {clearance} mm are meant, write {clearance}mm")
     } else if clearance > 0.0 {
-        "choose a configuration farther from the obstacle, or require less clearance".into()
+        format!("choose a {target} farther from the obstacle, or require less clearance")
     } else {
-        "choose a configuration away from the obstacle (touching counts as contact)".into()
+        format!("choose a {target} away from the obstacle (touching counts as contact)")
     }
 }
 
 /// Returns the hint for a target all of whose IK solutions are unusable. `outside` is true if some are outside the
 /// limits, and `blocked` if some are blocked.
 pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool) -> String {
-    let contact = help_for_contact(scene);
+    let contact = help_for_contact(scene, "point");
     match (outside, blocked) {
         (true, false) => HELP_FOR_TIP.to_owned(),
-        (true, true) => format!("{contact}, or {HELP_FOR_TIP}"),
+        (true, true) => format!("{contact}, or {}", change_limits!()),
         (false, _) => contact,
     }
 }

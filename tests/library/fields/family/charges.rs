@@ -115,7 +115,7 @@ fn is_in_trap([i, j]: [f64; 2]) -> bool {
 fn trapped_at(outcome: &Proposal) -> [f64; 2] {
     let Proposal::GaveUp(reason) = outcome else { panic!("{outcome:?}") };
     let (_, rest) = reason.split_once("local minimum of ").unwrap_or_else(|| panic!("{reason}"));
-    let (at, _) = rest.split_once(')').unwrap();
+    let (at, _) = rest.split_once(" at (").and_then(|(_, place)| place.split_once(')')).unwrap();
     let numbers: Vec<f64> = at.split(", ").map(|x| x.parse().unwrap()).collect();
     [numbers[0], numbers[1]]
 }

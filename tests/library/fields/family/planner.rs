@@ -230,7 +230,7 @@ fn divergence_and_traps_are_reasons() {
     };
     let trap = ZonedGrid::new(drawn("........\n.####...\n....#...\n....#...\n.####...\n........"), &scene(Vec::new()));
     let run = run(khatib, &trap, 2 * 8 + 2, 2 * 8 + 7);
-    assert!(reason(&run).contains("local minimum at ("), "{:?}", run.outcome);
+    assert!(reason(&run).contains("local minimum of ") && reason(&run).contains(" at ("), "{:?}", run.outcome);
     let Trace::Field { values: heights, .. } = &run.trace else { panic!("{:?}", run.trace) };
     assert_eq!(heights.iter().filter(|height| height.is_infinite()).count(), 10);
 }

@@ -259,8 +259,8 @@ fn an_unknown_answer_names_a_tolerance_that_works() {
     let Outcome::Unknown(why) = follow(&scene, &line, &settings).expect("usable settings") else {
         panic!("no room is left beside the end");
     };
-    let (_, advice) = why.split_once("; with `--tolerance ").unwrap_or_else(|| panic!("{why}"));
-    let text = advice.trim_end_matches("a motion is found with `");
+    let (_, advice) = why.split_once("; a motion is found with `--tolerance ").unwrap_or_else(|| panic!("{why}"));
+    let text = advice.trim_end_matches('`');
     assert!(["0.02mm", "0.05mm"].contains(&text), "{why}");
     let wider = Settings { tolerance: metres(text).expect("a length"), ..settings };
     let answer = follow(&scene, &line, &wider).expect("usable settings");

@@ -30,8 +30,8 @@ const COORDINATE_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 /// Maximum number of refinements of the strips.
 const MAX_REFINEMENTS: usize = 64;
 
-/// Number of paths at the beginning that are always found by a search, not by pulling the path before taut. Among wide
-/// strips, paths often lead through passages that do not exist.
+/// Number of searches before a path may instead be found by pulling the previous one taut. While strips are wide, paths
+/// often lead through passages that do not exist.
 const MIN_SEARCHED_PATHS: usize = 2;
 
 /// Maximum number of paths, whether found by a search or by pulling taut. Most paths follow a refused certificate.

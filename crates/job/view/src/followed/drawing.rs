@@ -51,7 +51,8 @@ pub fn in_workspace(line: &LineView, frame: &Frame) -> Vec<Item> {
     strokes.chain(marked).collect()
 }
 
-/// Returns the path of a point that moves with the arm, divided by the limits that the motion reaches.
+/// Returns the path of a point that moves with the arm, cut into stretches: each has the colour of the limit that the
+/// motion reaches on it.
 fn by_limit(line: &LineView, place: impl Fn(&[Configuration]) -> Vec<Step>) -> Vec<(Vec<Step>, Pen)> {
     let Some((motion, _)) = &line.motion else { return Vec::new() };
     let path = |from: f64, to: f64| place(&motion.played.between(from, to));

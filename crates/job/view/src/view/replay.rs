@@ -288,7 +288,7 @@ fn shown_items(chain: &Chain, each: usize, part: f64) -> Chain {
     Chain(chain.0[..each * count(chain.0.len() / each, part)].to_vec())
 }
 
-/// Returns the boxes that are visible. The other boxes are shown as undecided.
+/// Returns all boxes after the fraction `part` of the replay. Boxes that are decided later are drawn as undecided.
 fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
     let boxes: Vec<[Configuration; 2]> = kinds.iter().flat_map(|chain| chain.pairs()).collect();
     let ends = [kinds[0].0.len() / 2, (kinds[0].0.len() + kinds[1].0.len()) / 2];
