@@ -103,15 +103,15 @@ pub fn compare_in(scene: LoadedScene, words: &[String]) -> Result<Study, Failure
     Ok(run_planners(&args, &Cases::of_scene(scene, &args)?, None)?.0)
 }
 
+/// The name of a problem's files, and its start and goal if they were drawn.
+pub type ComparedProblem = (String, Option<[Configuration; 2]>);
+
 /// Returns the problems that [`compare_in`] compares with these words: for each, the name of files with its paths, without
 /// extension, and its start and goal. They are `None` if they are those of the world.
 ///
 /// # Errors
 /// Those of [`compare_in`].
-pub fn compared_problems(
-    scene: LoadedScene,
-    words: &[String],
-) -> Result<Vec<(String, Option<[Configuration; 2]>)>, Failure> {
+pub fn compared_problems(scene: LoadedScene, words: &[String]) -> Result<Vec<ComparedProblem>, Failure> {
     let cases = Cases::of_scene(scene, &args_of(words)?)?.cases;
     Ok(cases.into_iter().map(|case| (case.file, case.query)).collect())
 }

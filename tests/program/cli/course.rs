@@ -37,8 +37,8 @@ fn the_pages_of_the_course_need_nothing_else() {
         let folder = if name.starts_with("answers") { "lessons/answers/" } else { "lessons/" };
         let mut targets = 0;
         for target in values(&page, "href").into_iter().chain(values(&page, "src")) {
-            if target.starts_with('#') {
-                assert!(page.contains(&format!("id=\"{}\"", &target[1..])), "{name}: {target}");
+            if let Some(anchor) = target.strip_prefix('#') {
+                assert!(page.contains(&format!("id=\"{anchor}\"")), "{name}: {target}");
                 continue;
             }
             let network = target.starts_with("https://");

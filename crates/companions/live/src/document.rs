@@ -435,7 +435,7 @@ image = \"map.yaml\"
         let error = document().changed(&state(vec![kept_piece(3)]), None).unwrap_err();
         assert_eq!(error, "the text has no obstacle 4");
         let error = document().changed(&state(vec![kept_piece(0); MAX_OBSTACLES + 1]), None).unwrap_err();
-        assert!(error.contains("at most"), "{error}");
+        assert!(error.contains("the live page allows 1000 obstacles"), "{error}");
     }
 
     #[test]

@@ -155,7 +155,7 @@ mod tests {
     fn panics_are_caught_and_interrupts_are_not() {
         assert_eq!(caught(|| 7), Ok(7));
         let why = caught(|| -> u8 { panic!("corner {}", 3) });
-        assert_eq!(why, Err("cplan failed, which is a mistake in it: corner 3".into()));
+        assert_eq!(why, Err("internal error: corner 3; this is a defect of cplan, please report it".into()));
         let interrupt = cplan_interrupt::Interrupt::new();
         let stopped = interrupt.run(|| {
             caught(|| {

@@ -82,7 +82,7 @@ mod tests {
         assert_eq!(of("256"), Ok(CellCounts([256, 256])));
         assert_eq!(of("128x512"), Ok(CellCounts([128, 512])));
         for text in ["", "x", "7", "128x", "128x4096", "128x64x32", "-8", "12.5", "128 x 512"] {
-            assert!(of(text).unwrap_err().contains("neither a number from 8 to 2048"), "{text}");
+            assert!(of(text).unwrap_err().contains("is not a number from 8 to 2048"), "{text}");
         }
         for counts in [CellCounts([9, 9]), CellCounts([8, 2048])] {
             assert_eq!(of(&counts.to_string()), Ok(counts));

@@ -387,7 +387,8 @@ mod tests {
         placer.beside(&[named("bottle", of)]);
         let items = placer.into_items();
         let [Item::Outline(..), Item::Outline(steps, _), Item::Text(label)] = &items[..] else { panic!("{items:?}") };
-        assert_eq!(steps[1], Step::Line([150.0, 145.0]));
+        // The line ends at the corner of the shape that is nearest to the name.
+        assert_eq!(steps[1], Step::Line([155.0, 145.0]));
         assert!(label.at[1] < 126.0);
     }
 

@@ -59,10 +59,10 @@ pub fn voronoi() -> Figure {
                 ((f(k) < 0.0) != (f(l) < 0.0)).then(|| corners[k] + (corners[l] - corners[k]) * (f(k) / (f(k) - f(l))))
             };
             let ends: Vec<Point> = (0..4).filter_map(crossing).collect();
-            if let [a, b] = ends[..] {
-                if distances(a).iter().all(|d| *d > 0.0) {
-                    segments.push([a, b]);
-                }
+            if let [a, b] = ends[..]
+                && distances(a).iter().all(|d| *d > 0.0)
+            {
+                segments.push([a, b]);
             }
         }
     }

@@ -18,8 +18,11 @@ const WIDTH: f64 = 720.0;
 /// Height of letters, in pixels.
 const TEXT: f64 = 15.0;
 
-/// The figures with the names of their files in `docs/pictures/course`.
-pub const FIGURES: [(&str, fn() -> Figure); 16] = [
+/// The name of a figure's file in `docs/pictures/course`, and the function that draws it.
+pub type NamedFigure = (&'static str, fn() -> Figure);
+
+/// All figures.
+pub const FIGURES: [NamedFigure; 16] = [
     ("slice", shapes::slice),
     ("minkowski", shapes::minkowski),
     ("turning", shapes::turning),

@@ -158,9 +158,9 @@ impl<'a> Shaping<'a> {
     fn at_its_limits(&self, mut shape: Shape) -> Shape {
         let mut least = 0.0_f64;
         for w in shape.controls.windows(3) {
-            for j in 0..4 {
-                let bend = (w[2][j] - 2.0 * w[1][j] + w[0][j]).abs() / self.acceleration[j];
-                least = least.max(bend.sqrt()).max((w[2][j] - w[1][j]).abs() / self.velocity[j]);
+            for (j, (acceleration, velocity)) in self.acceleration.iter().zip(&self.velocity).enumerate() {
+                let bend = (w[2][j] - 2.0 * w[1][j] + w[0][j]).abs() / acceleration;
+                least = least.max(bend.sqrt()).max((w[2][j] - w[1][j]).abs() / velocity);
             }
         }
         shape.interval = least * (1.0 + RESERVE);

@@ -96,10 +96,9 @@ impl StepMember {
         let overlap = |of: &str, before_arrival: f64, after_departure: f64| {
             let parts = [("before_arrival", before_arrival), ("after_departure", after_departure)];
             match parts.into_iter().find(|(_, value)| !(0.0..=MAX_NUMBER).contains(value)) {
-                Some((what, value)) => Err(wrong(
-                    &format!("the {of}'s {what} is {value}"),
-                    &format!("write the seconds of the overlap, 0 or more"),
-                )),
+                Some((what, value)) => {
+                    Err(wrong(&format!("the {of}'s {what} is {value}"), "write the seconds of the overlap, 0 or more"))
+                }
                 None => Ok(RecordedOverlap { before_arrival, after_departure }),
             }
         };
