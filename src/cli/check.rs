@@ -70,7 +70,7 @@ pub struct CheckArgs {
 pub enum Expected {
     /// Free: within the limits, with the clearance from all obstacles
     Free,
-    /// Not free
+    /// Blocked: beyond a limit, or nearer to an obstacle than the clearance
     Blocked,
 }
 

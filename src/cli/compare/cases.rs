@@ -41,7 +41,7 @@ pub struct Case {
     pub file: String,
     /// Index of the case's world, from 0.
     pub world: usize,
-    /// The robot and the world, as they are read.
+    /// The robot and the world, without values of the command line.
     pub scene: Arc<LoadedScene>,
     /// The problem with the world's own start and goal. For random queries, start and goal have no meaning.
     pub base: Arc<MotionProblem>,

@@ -10,7 +10,7 @@ use crate::model::Status;
 use crate::space::{Path, Recording};
 use std::path::{Path as FilePath, PathBuf};
 
-/// Extensions of files with paths, in the order in which they are looked for.
+/// Extensions of files with paths, in the order of the search.
 const EXTENSIONS: [&str; 3] = ["csv", "json", "yaml"];
 
 /// The paths of another planner.

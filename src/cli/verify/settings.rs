@@ -10,7 +10,7 @@ use crate::options::word;
 use clap::Args;
 use std::path::PathBuf;
 
-/// How a recording is read and judged.
+/// Settings for reading and judging a recording.
 #[derive(Debug, Args)]
 pub struct Settings {
     /// Topic to judge in an .mcap recording, if several contain both joints of the arm.

@@ -1,4 +1,4 @@
-//! How the distance of two shapes changes while the joints of an arm move.
+//! The change of the distance of two shapes while the joints of an arm move.
 
 use cplan_geometry::{Convex, Point, Separation, Vector, perpendicular};
 use cplan_model::space::Configuration;

@@ -1,4 +1,4 @@
-//! Where one joint can be at given times, if it begins and ends at rest and its acceleration and speed are limited.
+//! The values that one joint can have at given times, if it begins and ends at rest and its acceleration and speed are limited.
 
 /// Widening of limits because of rounding, as a share of them.
 const ROUNDING: f64 = 1e-9;

@@ -4,7 +4,7 @@ use crate::chapter::Figure;
 use cplan_text::markup;
 use pulldown_cmark::{CowStr, Event, HeadingLevel, LinkType, Options, Parser, Tag, TagEnd, html};
 
-/// Where the links of a text lead.
+/// The destinations of the links of a text.
 pub struct Links<'a> {
     /// Names of the chapters, without extension.
     pub chapters: &'a [&'a str],
@@ -15,10 +15,10 @@ pub struct Links<'a> {
 }
 
 impl Links<'_> {
-    /// Converts a text. Links to pages outside the course become plain text, and comments are left out.
+    /// Converts a text. Links to pages outside the course become plain text, and comments are dropped.
     pub fn html(&self, text: &str) -> String {
         let mut converted = Vec::new();
-        // What follows an opening link or picture that is left out, down to its end.
+        // Open links that are dropped, and the words of the picture that the figure replaces.
         let (mut dropped_links, mut alternative): (usize, Option<String>) = (0, None);
         for event in Parser::new_ext(text, Options::ENABLE_TABLES) {
             if let Some(words) = &mut alternative {

@@ -87,7 +87,7 @@ fn check_accelerations(bars: &Bars, line: &Toolpath, speed: f64, states: &[State
     time
 }
 
-/// Returns the number of changes of the acceleration's sign, for each joint. Less than a thousandth of the limit is none.
+/// Returns the number of changes of the acceleration's sign, for each joint. Accelerations below a thousandth of the limit do not count.
 fn sign_changes(states: &[State], limit: f64) -> [usize; 2] {
     [0, 1].map(|k| {
         let signs = states.iter().map(|state| state.acceleration[k]).filter(|a| a.abs() > 1e-3 * limit);
@@ -152,7 +152,7 @@ fn random_cuts_have_the_accelerations_of_their_geometry() {
         let motion = found(&scene, &line, &settings);
         check(&bars, &scene, &line, &settings, &motion);
         let states = played(&bars, &motion.timed.trajectory, 5e-4);
-        // A fiftieth of what the joints' greatest accelerations give.
+        // A fiftieth of the tip's acceleration at the joints' greatest ones.
         at_top += check_accelerations(&bars, &line, speed, &states, 0.2);
         total += motion.timed.trajectory.duration();
     }

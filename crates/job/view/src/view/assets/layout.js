@@ -87,7 +87,7 @@ function buildPage(view) {
   };
   view.explain.watch(view.panels);
   view.budget.watch(view.panels);
-  // The pictures and the controls of time fit below what stands above them.
+  // The pictures and the controls of time fit below the header.
   const stage = view.root.querySelector('.stage');
   const fit = () => view.root.style.setProperty('--above', `${Math.round(stage.getBoundingClientRect().top + scrollY)}px`);
   const above = new ResizeObserver(fit);
