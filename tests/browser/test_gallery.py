@@ -89,7 +89,7 @@ def test_an_address_without_a_world_opens_the_pages_own(either, broken):
         packed = seen.do("() => Packed.write(JSON.stringify({ urdf: cplan.first.urdf, world: '[[obstacle]]\\nimage = \"den.yaml\"', options: 'shortest' }))")
         broken = f"#w={packed}"
     seen.do("(hash) => { location.hash = hash; }", broken)
-    seen.until("cplan.remarked?.includes('no readable world') && cplan.isCurrent")
+    seen.until("cplan.remarked?.includes('cannot be read') && cplan.isCurrent")
     assert settled(seen)["certified"] and crate(seen)[0] == [0.5, -1.6]
 
 
