@@ -34,6 +34,7 @@ mod obstacle;
 mod obstacle_trajectory;
 mod occupancy;
 mod pallet;
+mod pick_times;
 mod parsers;
 mod polygon;
 mod preference;

@@ -1,16 +1,17 @@
 //! The world file's `[[step]]` and `[task]`: which steps there are, and in which groups.
 
 use super::goal_table::GoalTable;
-use super::group::{Body, Group, Leaf, LeafAction, Node, When};
+use super::group::{Body, Group, Leaf, LeafAction, Node};
 use super::line_table::LineTable;
 use super::object::{MovableObject, NameList, Names};
 use super::pallet::Pallets;
+use super::pick_times::PickTimes;
 use super::reader::Reader;
 #[cfg(test)]
 use super::schema::*;
 use super::table::Table;
 use cplan_geometry::Pose;
-use cplan_handling::{MAX_STOP_TIME, Object, ToolValues};
+use cplan_handling::ToolValues;
 use cplan_model::{Elbow, Goal};
 use cplan_robot::{Cursor, Diagnostic, Length, Lengths, Number, Numbers, Spanned, Written, toml_table};
 use std::collections::BTreeSet;
@@ -149,10 +150,6 @@ toml_table! {
 
 /// Largest number of steps of a task, with repetitions counted. A robot would take some days for them.
 const MAX_STEPS: usize = 100_000;
-
-/// Distance from an axis, in metres, within which a position counts as on the axis. This is the precision with which
-/// people write positions.
-const ON_AXIS_DISTANCE: f64 = 1e-3;
 
 /// Unit to which the coordinates of a line's start are rounded, in metres. It is far below all tolerances, and hides the
 /// rounding of arcs.
@@ -398,57 +395,9 @@ impl<'a> StepReader<'a> {
             object,
             grasp: grasp.unwrap_or(default.grasp),
             supports: supports.unwrap_or_else(|| default.supports.clone()),
-            when: self.read_pick_times(step, &default.object)?,
+            when: PickTimes { at: step.at.as_ref(), window: step.window.as_ref() }
+                .read(self.reader, &default.object)?,
         })
-    }
-
-    /// Returns the times at which a moving object may be picked. `None` if the step states none.
-    fn read_pick_times(&self, step: &StepTable, object: &Object) -> Result<Option<When>, Diagnostic> {
-        let Some(stated) = step.at.as_ref().map(Spanned::span).or(step.window.as_ref().map(Spanned::span)) else {
-            return Ok(None);
-        };
-        let name = &object.name;
-        let refuse = |at: Range<usize>, message: String, help: &str| {
-            Err(self.reader.source.diagnostic_at(at, message).help(help))
-        };
-        let Some(trajectory) = &object.trajectory else {
-            let message = format!("object \"{name}\" does not move, so its pick cannot have `at` or `window`");
-            return refuse(stated, message, "remove `at` and `window`, or give the object a motion");
-        };
-        let mut times = vec![[0.0, MAX_STOP_TIME]];
-        if let Some(at) = &step.at {
-            times = trajectory.passes(self.reader.point(at, "pick, at")?, ON_AXIS_DISTANCE);
-            times.iter_mut().flatten().for_each(|time| *time = time.min(MAX_STOP_TIME));
-            if times.is_empty() {
-                let message = format!("object \"{name}\" does not pass this point");
-                return refuse(
-                    at.span(),
-                    message,
-                    "choose a point within a millimetre of the path of the object's origin",
-                );
-            }
-        }
-        if let Some(window) = &step.window {
-            let [from, to] = self.reader.number_pair(window, "window")?;
-            if !(0.0 <= from && from <= to) {
-                let message = format!("window [{from}, {to}] is invalid");
-                return refuse(
-                    window.span(),
-                    message,
-                    "write two times in seconds since the task's beginning, the earlier one first, both 0 or more",
-                );
-            }
-            let passed = times.clone();
-            times.iter_mut().for_each(|[begins, ends]| (*begins, *ends) = (begins.max(from), ends.min(to)));
-            times.retain(|[begins, ends]| begins <= ends);
-            if times.is_empty() {
-                let passes: Vec<String> = passed.iter().map(|[time, _]| format!("{time:.3} s")).collect();
-                let message =
-                    format!("object \"{name}\" is at this place at {}, outside the window", passes.join(", "));
-                return refuse(window.span(), message, "choose another window, or another place");
-            }
-        }
-        Ok(Some(When { times, at: stated }))
     }
 
     /// Returns the action of placing an object, with the position of its target in the file. `at` is the position of
