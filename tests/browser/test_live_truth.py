@@ -88,13 +88,13 @@ def test_wrong_options_are_told_beside_them(serve):
     field, notice = more.bounding_box(), seen.page.locator(".notice.options").bounding_box()
     assert 0 <= notice["y"] - field["y"] < 80
     # The picture is about the last plan, and says so.
-    assert seen.page.locator("main.behind").count() == 1
+    seen.page.locator("main.behind").wait_for()
     assert "not up to date" in seen.do("getComputedStyle(document.querySelector('.panels figcaption'), '::after').content")
     more.fill("")
     more.press("Enter")
     assert settled(seen)["certified"]
     assert notices(seen) == {} and more.get_attribute("aria-invalid") is None
-    assert seen.page.locator("main.behind").count() == 0
+    seen.page.locator("main.behind").wait_for(state="detached")
 
 
 def test_a_laptop_shows_the_tools_the_key_figures_and_the_controls_of_time_at_once(serve):
