@@ -12,12 +12,12 @@ def tables(settings: Settings) -> list[Table]:
     """One table: problems A and W20, two sizes."""
     table = Table(
         "Building a configuration space",
-        "Times are milliseconds on one core in one process: medians, with quartiles in brackets. parry2d tests "
-        "the centre of each cell for collision. If the first link collides, one test decides a whole row. Discs "
-        "are tested before exact shapes, and a test ends at the first hit. cplan's bitmap and rows answer the "
-        "same question from exact contact angles, with a bit or a byte per cell. In cplan's outer grid all of "
-        "each free cell is free. cplan's polygons are the free space with a margin of 1 mm, for any number of "
-        "cells.",
+        "Times are in milliseconds, on one core in one process: medians, with quartiles in brackets. With parry2d, "
+        "we test the centre of each cell for collision. If the first link collides, one test decides a whole row "
+        "of cells. Bounding discs are tested before exact shapes, and a test ends at the first hit. cplan's bitmap "
+        "and rows contain the same result, computed from exact contact angles, as a bit or a byte per cell. In "
+        "cplan's outer grid, a cell counts as free only if all of it is free. cplan's polygons describe the free "
+        "space with a margin of 1 mm; they have no cells.",
         [
             "problem",
             "cells",
@@ -39,7 +39,8 @@ def tables(settings: Settings) -> list[Table]:
             kinds = ("parry2d", "bitmap", "rows", "outer", "regions")
             row = [name, f"{cells} x {cells}", *(spread(clock[kind]) for kind in kinds), times(ratio)]
             table.rows.append(row)
-            table.leads.append(Lead(f"C-space of {name}, {cells} x {cells}", "parry2d", "cplan bitmap", ratio))
+            what = f"configuration space of {name}, {cells} x {cells}"
+            table.leads.append(Lead(what, "parry2d", "cplan bitmap", ratio))
             table.note(
                 f"{name}, {cells} x {cells}: {report['blocked']} of {report['cells']} cells are blocked. In single "
                 f"precision, parry2d differs from cplan in {report['differ']} cells; in double precision, it differs "

@@ -13,10 +13,11 @@ def table() -> Table:
     """Empty."""
     return Table(
         "Distances on a grid",
-        "Times are milliseconds from one goal to all free cells: medians, with quartiles in brackets. Steps are "
-        "moves to four neighbours. With eight neighbours, a diagonal move costs the square root of 2; cplan "
-        "allows such a move only if both cells beside it are free; scikit-image always allows it. Any direction "
-        "is the distance around the walls by moves in all directions, to first order; cplan does not offer it.",
+        "Each program computes the distances from one goal to all free cells. Times are in milliseconds: medians, "
+        'with quartiles in brackets. "Steps" counts moves to the four neighbours. With "eight neighbours", a '
+        "diagonal move costs the square root of 2. cplan allows a diagonal move only if both cells beside it are "
+        'free; scikit-image always allows it. "Any direction" is the distance around the walls for moves in all '
+        "directions, to first order; cplan does not offer it.",
         ["grid", "quantity", "program", "time", "over cplan's", "same values"],
     )
 

@@ -25,10 +25,10 @@ def markdown(machine: list[str], versions: list[str], tested: list[str], tables:
 def _summary(leads: list[Lead]) -> str:
     """Who is faster at what."""
     lines = ["### Where another program is faster", ""]
-    lines += ["The numbers are the other program's time over cplan's, by medians of this run.", ""]
+    lines += ["By medians of this run:", ""]
     lines += _grouped([lead for lead in leads if lead.ratio < 1]) or ["Nowhere in this run."]
     lines += ["", "### Where cplan is faster", ""]
-    lines += ["<details><summary>The other program's time over cplan's, by medians of this run</summary>", ""]
+    lines += ["<details><summary>All comparisons in which cplan is faster, by medians of this run</summary>", ""]
     lines += _grouped([lead for lead in leads if lead.ratio >= 1]) or ["Nowhere in this run."]
     lines += ["", "</details>"]
     return "\n".join(lines) + "\n"
@@ -40,10 +40,13 @@ def _grouped(leads: list[Lead]) -> list[str]:
     for lead in sorted(leads, key=lambda lead: lead.ratio):
         groups.setdefault((lead.what, lead.cplan), []).append(lead)
     ranked = sorted(groups.items(), key=lambda group: group[1][0].ratio)
-    return [
-        f"- {what} ({cplan}): " + ", ".join(f"{lead.peer} {times(lead.ratio)}" for lead in group) + "."
-        for (what, cplan), group in ranked
-    ]
+    return [f"- {what}: {_compared(cplan, group)}." for (what, cplan), group in ranked]
+
+
+def _compared(cplan: str, group: list[Lead]) -> str:
+    """How many times as long each peer takes."""
+    first, *others = (f"{lead.peer} takes {times(lead.ratio).rstrip('x')} times" for lead in group)
+    return ", ".join([f"{first} as long as {cplan}", *(other.replace(" takes ", " ") for other in others)])
 
 
 def write(results: str) -> None:

@@ -43,18 +43,18 @@ def table() -> Table:
     """Empty."""
     return Table(
         "Harmonic fields",
-        "The problem is Laplace's equation on the free cells: 1 at the goal, 0 on walls and beyond the edge. "
-        "Times are milliseconds: medians, with quartiles in brackets. Setup is all work that depends only on the "
-        "walls; a goal is the remaining work for one goal. The times of the other programs do not include the "
+        "The problem is Laplace's equation on the free cells: 1 at the goal, 0 on walls and beyond the edge. Times "
+        'are in milliseconds: medians, with quartiles in brackets. "Setup" is all work that depends only on the '
+        'walls; "a goal" is the remaining work for one goal. The times of the other programs do not include the '
         "assembly of their matrix. Errors are relative to scipy's direct solver, if it ran; the iterative solvers "
-        "stop at 1e-6. Dead ends are cells from which the goal can be reached, but which have no greater "
-        "neighbour: a robot that climbs the field gets stuck there.",
+        "stop at 1e-6. Dead ends are cells from which the goal can be reached, but which have no neighbour with a "
+        "greater value: a robot that climbs the field gets stuck there.",
         ["grid", "solver", "setup", "a goal", "setup and goal", "greatest error", "dead ends"],
         notes=[
-            "cplan multigrid is the library's solver for one equation, accurate to 1e-6 of the goal's value. "
-            "cplan harmonic is the planner's solver: each value satisfies the equation to a relative error of "
-            "1.5e-14. Some values are so small that the judge gets their logarithms. This solver takes more time, "
-            "and has no dead ends.",
+            "cplan multigrid is the library's solver for one equation, accurate to 1e-6 of the goal's value. cplan "
+            "harmonic is the planner's solver: each value satisfies the equation to a relative error of 1.5e-14. "
+            "Some values are so small that only their logarithms can be compared. This solver takes more time, and "
+            "has no dead ends.",
         ],
     )
 
@@ -110,7 +110,7 @@ def _peer(table: Table, cells: Cells, name: str, values: np.ndarray, error: str)
     own = cells.both("multigrid setup", "multigrid solve")
     table.leads.append(Lead(f"harmonic field, {cells.name}", name, "cplan multigrid", median(both) / median(own)))
     again = median(solve) / median(cells.clock["multigrid again"])
-    table.leads.append(Lead(f"one goal more, {cells.name}", name, "cplan multigrid", again))
+    table.leads.append(Lead(f"another goal, {cells.name}", name, "cplan multigrid", again))
     whole = median(both) / median(cells.clock["harmonic"])
     table.leads.append(Lead(f"harmonic field, {cells.name}", name, "cplan harmonic", whole))
     return [cells.name, name, spread(setup), spread(solve), spread(both), error, _dead_ends(cells, values)]

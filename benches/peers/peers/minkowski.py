@@ -11,10 +11,10 @@ def tables(settings: Settings) -> list[Table]:
     """One table, by number of corners."""
     table = Table(
         "Minkowski differences of convex polygons",
-        "Both polygons are regular with the same number of corners. Times are nanoseconds per corner of the "
+        "Both polygons are regular and have the same number of corners. Times are in nanoseconds per corner of the "
         "result: medians, with quartiles in brackets. The plain merge compares sides by a cross product in "
-        "doubles, which is correct for these polygons. cplan uses exact predicates, which are also correct "
-        "for sides that are parallel except for rounding.",
+        "doubles, which is correct for these polygons. cplan uses exact predicates, which are also correct for "
+        "nearly parallel sides.",
         ["corners", "cplan", "plain merge", "areas differ by"],
     )
     say("  differences")

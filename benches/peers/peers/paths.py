@@ -97,12 +97,12 @@ def paths_table(listed: list[Entry], verdicts: Verdicts) -> Table:
     bounds = _bounds(listed)
     table = Table(
         "Paths: problems A and B",
-        "Times are milliseconds from the scene in memory to the answer, by each program's own clock: medians, "
-        "with quartiles in brackets. Length is the median of the valid paths over the proven lower bound (A "
-        f"{bounds['A']:.4f} rad, B {bounds['B']:.4f} rad, by `cplan --gap 1e-4`). Valid counts the paths that are "
-        "free of collision at every 1e-4 rad, by the harness's own judge. Process is the time of the whole "
-        "process on A. In this time cplan also reads URDF and TOML and writes the timed trajectory; the others "
-        "print waypoints.",
+        "Times are in milliseconds, from the scene in memory to the answer, by each program's own clock: medians, "
+        "with quartiles in brackets. Length is the median over the valid paths, divided by the proven lower bound "
+        f"(A {bounds['A']:.4f} rad, B {bounds['B']:.4f} rad, by `cplan --gap 1e-4`). Valid counts the paths that "
+        "the judge finds free of collision at steps of 1e-4 rad. Process is the time of the whole process on A. In "
+        "this time cplan also reads URDF and TOML files and writes the timed trajectory; the others print "
+        "waypoints.",
         [
             "planner",
             "A ms",
@@ -127,9 +127,9 @@ def paths_table(listed: list[Entry], verdicts: Verdicts) -> Table:
             table.note(f"{entry.contender.name} was not run, or not to the end: {entry.failure}.")
     _add_leads(table, listed)
     table.note(
-        "The other programs stop at their first solution, or improve it for 1 s where the table says so. The "
-        'time limit is 2 s, on INF 1 s. cplan\'s times include the certificate, and for "shortest" and '
-        '"visibility" also the lower bound on the optimum.'
+        'The other programs stop at their first solution, except those marked "1 s", which improve it for one '
+        'second. The time limit is 2 s, and 1 s on INF. cplan\'s times include the certificate, and for "shortest" '
+        'and "visibility" also the lower bound on the optimum.'
     )
     return table
 
@@ -165,15 +165,16 @@ def _add_leads(table: Table, listed: list[Entry]) -> None:
                 is_first = not isinstance(entry.contender, Cplan) and not entry.contender.name.endswith(" s")
                 if answers and is_first:
                     ratio = median([a.ms for a in answers]) / reference
-                    table.leads.append(Lead(f"{name}, first answer", entry.contender.name, own, ratio))
+                    table.leads.append(Lead(f"problem {name}, first answer", entry.contender.name, own, ratio))
 
 
 def impossible_table(listed: list[Entry], verdicts: Verdicts) -> Table:
     """Problems that have none."""
     table = Table(
         "No path: problems INF and T",
-        "The table shows how often each program gave which answer, in its own words. Times are milliseconds: "
-        "medians, with quartiles in brackets. Every returned path is wrong, and the judge rejects each one.",
+        "The table quotes the answers of each program and says how often each was given. Times are in "
+        "milliseconds: medians, with quartiles in brackets. Every returned path is wrong, and the judge rejects "
+        "them all.",
         ["planner", "INF: answer", "INF ms", "T: answer", "T ms", "paths returned", "of these valid"],
     )
     for entry in listed:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from .figures import median, short, spread, times
+from .figures import median, short, spread
 from .settings import NotRunError, Settings, say
 from .table import Lead, Table
 
@@ -23,8 +23,9 @@ def tables(settings: Settings) -> list[Table]:
         "Shortest paths among polygons",
         "The polygons are random and disjoint, have ten corners each, are mostly not convex, and fill a fifth of "
         "the area. Build times are in milliseconds and query times in microseconds: medians, with quartiles in "
-        "brackets. A query time is the mean of 32 queries in each round. cplan triangulates, and its queries "
-        "search cones of sight in the triangulation, without the visibility graph. pyvisgraph builds the graph.",
+        "brackets. A query time is the mean of 32 queries in each round. cplan builds a triangulation, and its "
+        "queries need no visibility graph: they search cones of sight in the triangulation. pyvisgraph builds the "
+        "graph.",
         ["corners", "program", "build ms", "whole visibility graph ms", "query us", "greatest difference in length"],
     )
     sizes = [(100, settings.choose(20, 5), True), (1000, settings.choose(10, 3), not settings.quick)]
@@ -56,7 +57,8 @@ def _size(settings: Settings, table: Table, corners: int, rounds: int, slow: boo
             rows.append([name, "pyvisgraph", "-", f"{short(build)} (once)", short(each), difference])
             ratio = build / median(whole)
             table.leads.append(Lead(f"visibility graph of {name} corners", "pyvisgraph", "cplan", ratio))
-            table.note(f"{name} corners: pyvisgraph takes {times(ratio)} cplan's time for the visibility graph.")
+            times_as_long = f"{short(ratio)} times as long as cplan"
+            table.note(f"{name} corners: pyvisgraph takes {times_as_long} for the visibility graph.")
         except NotRunError as error:
             table.note(f"pyvisgraph was not run: {error}.")
     table.rows += rows

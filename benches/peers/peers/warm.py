@@ -26,10 +26,10 @@ def table(settings: Settings, problems: dict[str, Problem], verdicts: Verdicts, 
     """cplan's library calls beside OMPL's planners."""
     table = Table(
         "Answers from a warm process",
-        "The table shows library calls in one process, one after the other and without files. `decide` returns a "
-        "certified path or a checked proof. `shortest` is the default planner, without its bound and with it. "
-        "OMPL returns its first solutions, for different seeds. Times are milliseconds: medians, with quartiles "
-        "in brackets. Length is relative to the proven lower bound.",
+        "Here one process calls the library repeatedly, without files. `decide` returns a certified path or a "
+        "checked proof. `shortest` is the default planner, without and with the lower bound on the optimum. OMPL "
+        "returns its first solutions, for different seeds. Times are in milliseconds: medians, with quartiles in "
+        "brackets. Length is relative to the proven lower bound.",
         ["problem", "program", "ms", "answer", "length", "valid"],
     )
     for name, problem in problems.items():
@@ -42,7 +42,7 @@ def table(settings: Settings, problems: dict[str, Problem], verdicts: Verdicts, 
             for who, given in answers.items():
                 if who not in CPLAN.values():
                     ratio = median([a.ms for a in given]) / own
-                    table.leads.append(Lead(f"{name}, first answer, warm", who, CPLAN["decide"], ratio))
+                    table.leads.append(Lead(f"problem {name}, first answer, warm", who, CPLAN["decide"], ratio))
     return table
 
 
