@@ -6,8 +6,8 @@ use serde_json::{Map, Value};
 const HEAD: &str = "\
 # Every key of the world file
 
-Made from [the schema](world.schema.json) by `cargo run --example world_reference`; [the world file](world_file.md) explains it
-by examples. Unknown keys are errors. An angle may be written `\"30deg\"`, a length `\"20 mm\"` (units: mm, cm, dm, m, km, um, mil, in, ft, yd).
+This page is generated from [the schema](world.schema.json) by `cargo run --example world_reference`. [The world file](world_file.md)
+explains the keys by examples. cplan refuses keys that it does not know. An angle may be written `\"30deg\"`, a length `\"20 mm\"` (units: mm, cm, dm, m, km, um, mil, in, ft, yd).
 ";
 
 /// Returns the whole page. It describes the file itself first, and then all its tables, sorted by name.
@@ -52,7 +52,7 @@ fn rules(schema: &Value) -> Vec<String> {
         rules.push(match names(needs)[..] {
             [] => format!("`{key}` excludes {}.", listed(&excluded.into_iter().map(code).collect::<Vec<_>>(), "and")),
             ref needed => {
-                format!("`{key}` goes with {}.", listed(&needed.iter().copied().map(code).collect::<Vec<_>>(), "and"))
+                format!("`{key}` requires {}.", listed(&needed.iter().copied().map(code).collect::<Vec<_>>(), "and"))
             }
         });
     }

@@ -87,18 +87,18 @@ impl FromToml for LengthError {
 }
 
 toml_table! {
-    /// Errors of the robot and of the places of obstacles. A motion is free for every robot and all places within these
-    /// errors. Lengths are in m unless they have a unit.
+    /// Greatest errors of the robot and of the obstacles' positions. A motion must be free for all errors up to these.
+    /// Lengths are in m unless they have a unit.
     #[derive(Debug, Clone, Copy, Default, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "calibration"))]
     pub struct CalibrationTable {
         /// Displacement of the robot's base in any direction, and its rotation about joint 1: `"0.5 mm, 0.05deg"`.
         #[cfg_attr(feature = "schema", schemars(with = "Option<StatedError>"))]
         pub base: Option<ErrorBound>,
-        /// Error of each link's length: `"0.2 mm"`.
+        /// Displacement of each point of a link from its place on the link, in any direction: `"0.2 mm"`.
         #[cfg_attr(feature = "schema", schemars(with = "Option<StatedError>"))]
         pub links: Option<LengthError>,
-        /// Error of each joint's zero, for joints that turn and for joints that slide: `"0.02deg, 0.1 mm"`.
+        /// Error of each joint's zero, an angle for revolute and a length for prismatic joints: `"0.02deg, 0.1 mm"`.
         #[cfg_attr(feature = "schema", schemars(with = "Option<StatedError>"))]
         pub zeros: Option<ErrorBound>,
         /// Displacement of each obstacle in any direction; an obstacle's own `calibration` replaces it.

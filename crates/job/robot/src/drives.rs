@@ -7,8 +7,8 @@ use super::toml_values::{FromToml, TomlError, TomlValue};
 use crate::Spanned;
 use crate::toml_table;
 
-/// The motors of the two joints: a table; or "standard_scara" if the elbow's motor is mounted on the base; or "direct"
-/// if it is mounted on link 1.
+/// The motors of the two joints: "standard_scara" if the elbow's motor is mounted on the base, "direct" if it is
+/// mounted on link 1, or a table.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(inline, untagged))]
 pub enum DrivesValue {
@@ -28,15 +28,14 @@ impl FromToml for DrivesValue {
 }
 
 toml_table! {
-    /// The motors of two joints that turn. The shafts have the angles `gear[0] q1 + zero[0]` and
-    /// `gear[1] (ratio q1 + q2) + zero[1]`.
+    /// The motors of two revolute joints. At the joint values q1 and q2, the shafts have the angles
+    /// `gear[0] q1 + zero[0]` and `gear[1] (ratio q1 + q2) + zero[1]`.
     #[derive(Debug, Clone, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "drives"))]
     pub struct DrivesTable {
-        /// Place where the elbow's motor is mounted: `"base"` or `"link"`; by default `"base"`.
+        /// Body on which the elbow's motor is mounted: `"base"`, or `"link"` for link 1; by default `"base"`.
         pub elbow: Option<Spanned<String>>,
-        /// `ratio` in the formula `gear[1] (ratio q1 + q2)`, for an elbow's motor on the base; by default 1, for equal
-        /// pulleys.
+        /// For an elbow's motor on the base: `ratio` in the formula above; by default 1, as with equal pulleys.
         pub ratio: Option<Number>,
         /// Gear ratios: turns of each motor's shaft per turn of its output; negative for the opposite direction; by
         /// default [1, 1].
@@ -49,7 +48,7 @@ toml_table! {
         pub motors: Option<MotorTable>,
     }
 
-    /// Limits of both motors' shafts. They apply in addition to the limits of the joints.
+    /// Limits of both motors' shafts, in addition to the limits of the joints.
     #[derive(Debug, Clone, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "motors"))]
     pub struct MotorTable {

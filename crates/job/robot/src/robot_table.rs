@@ -20,13 +20,13 @@ toml_table! {
         pub at: Option<Lengths>,
         /// Angle of its root frame, rad; by default 0.
         pub angle: Option<Written>,
-        /// The two joints that move, from the base to the tip; needed only if the URDF has more than two movable
-        /// joints.
+        /// The two planned joints, from the base to the tip; needed only if the URDF has more than two movable joints.
         #[cfg_attr(feature = "schema", schemars(with = "Option<[String; 2]>"))]
         pub joints: Option<Spanned<Vec<Spanned<String>>>>,
         /// Link whose origin is the tip; by default the end of the chain.
         pub tip: Option<Spanned<String>>,
-        /// Values of the other movable joints, by name, rad or m; by default 0, clamped into their limits.
+        /// Values of the movable joints that are not planned, by name, rad or m; by default 0, or the limit nearest to
+        /// 0.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Quantity>"))]
         pub fixed: PerJoint<Written>,
         /// Least and greatest value of a joint, by name, rad or m, instead of the URDF's.
@@ -41,7 +41,8 @@ toml_table! {
         pub acceleration: PerJoint<Number>,
         /// Motors of two joints that turn, with their limits: a table, "standard_scara" or "direct".
         pub drives: Option<Spanned<DrivesValue>>,
-        /// Errors of the robot and of the places of obstacles, for which motions stay free; by default none.
+        /// Greatest errors of the robot and of the obstacles' positions. Motions are free for all errors up to these;
+        /// by default none.
         pub calibration: Option<Spanned<CalibrationTable>>,
         /// Greatest jerk of a joint, by name, rad/s3 or m/s3; by default without limit.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
@@ -49,27 +50,28 @@ toml_table! {
         /// Greatest torque or force of a joint, by name, N m or N, instead of the URDF's.
         #[cfg_attr(feature = "schema", schemars(default, with = "BTreeMap<String, Positive>"))]
         pub effort: PerJoint<Number>,
-        /// True if motions respect the joints' efforts, with the masses of the URDF.
+        /// True if torques and forces, computed with the masses of the URDF, must stay within the joints' `effort`
+        /// limits.
         #[cfg_attr(feature = "schema", schemars(default))]
         pub dynamics: bool,
         /// Acceleration of free fall in the robot's root frame, m/s2; by default [0, 0, -9.81].
         #[cfg_attr(feature = "schema", schemars(with = "Option<[f64; 3]>"))]
         pub gravity: Option<Numbers>,
-        /// True if links of the robot are obstacles to its other links; by default true.
+        /// True if links of the robot are obstacles for its other links; by default true.
         pub(crate) own_body: Option<bool>,
         /// Pairs of the robot's links that may touch each other.
         #[cfg_attr(feature = "schema", schemars(with = "Option<Vec<[String; 2]>>"))]
         pub ignore_contact: Option<Vec<Spanned<Vec<Spanned<String>>>>>,
-        /// Radius of the capsule that stands in for a link without geometry, m.
+        /// Radius of the capsule that replaces a link without geometry, m.
         #[cfg_attr(feature = "schema", schemars(with = "Option<PositiveLength>"))]
         pub bar: Option<Length>,
-        /// The wrist that keeps or changes the orientation of objects carried with payload "level".
+        /// The wrist, which keeps or changes the orientation of objects with payload "level".
         pub wrist: Option<WristTable>,
         /// Motion of the tool down and up at picks and places; by default the tool stays at its height.
         pub stroke: Option<StrokeTable>,
         /// Overlap of strokes and turns of the wrist with motions of the arm.
         pub(crate) arch: Option<Spanned<ArchValue>>,
-        /// How the gripper holds objects that do not state it; by default "rigid".
+        /// Payload of objects without `payload`; by default "rigid".
         #[cfg_attr(feature = "schema", schemars(with = "Option<HeldAs>"))]
         pub payload: Option<Spanned<String>>,
     }

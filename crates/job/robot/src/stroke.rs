@@ -13,25 +13,25 @@ toml_table! {
     #[derive(Debug, Clone, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "stroke"))]
     pub struct StrokeTable {
-        /// The joint that lowers the tool. It slides along the plane's normal, and the two joints of the arm carry it.
-        /// While the arm moves, it stays at its `fixed` value, except where `arch` allows overlaps.
+        /// The joint that lowers the tool: a prismatic joint along the plane's normal, which the two joints of the arm
+        /// carry. While the arm moves, it stays at its `fixed` value, except during strokes that `arch` allows.
         pub joint: Spanned<String>,
         /// Distance by which it lowers the tool, m; by default the object's lift.
         pub travel: Option<Length>,
         /// Top speed, m/s; by default the joint's.
         #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
         pub velocity: Option<Number>,
-        /// Greatest acceleration, m/s2; by default the joint's, or else top speed is reached in 0.25 s.
+        /// Greatest acceleration, m/s2; by default that of its joint, or else top speed is reached in 0.25 s.
         #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
         pub acceleration: Option<Number>,
-        /// Greatest jerk, m/s3; by default the joint's, or else without limit.
+        /// Greatest jerk, m/s3; by default the jerk limit of its joint, or else none.
         #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
         pub jerk: Option<Number>,
     }
 }
 
-/// Heights of the tool from which its strokes may overlap with motions of the arm; by default any height. With false,
-/// the arm is at rest during strokes and turns of the wrist.
+/// Heights of the tool above which the arm may move during a stroke; by default any height. With false, the arm rests
+/// during strokes and turns of the wrist.
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(inline, untagged))]
 pub enum ArchValue {
@@ -52,7 +52,7 @@ impl FromToml for ArchValue {
 }
 
 toml_table! {
-    /// Heights of the tool from which its strokes may overlap with motions of the arm.
+    /// Heights of the tool above which the arm may move during a stroke.
     #[derive(Debug, Clone, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "arch"))]
     pub struct ArchTable {

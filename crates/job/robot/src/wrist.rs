@@ -12,14 +12,14 @@ use cplan_handling::Wrist;
 use cplan_model::assumed_acceleration;
 
 toml_table! {
-    /// The wrist's limits. The wrist keeps the orientation of objects that are carried level, and turns them before a
-    /// place with another angle. It turns them while the arm moves if this is free, and if keeping the orientation and
-    /// turning together stay within these limits. With `arch = false`, it turns them while the arm is at rest.
+    /// Limits of the wrist. The wrist keeps the orientation of level payloads, and turns them if their place has
+    /// another angle. It turns them while the arm moves, if the payload stays free and the wrist within these limits.
+    /// With `arch = false`, it turns them while the arm is at rest.
     #[derive(Debug, Clone, PartialEq)]
     #[cfg_attr(feature = "schema", derive(JsonSchema), schemars(deny_unknown_fields, rename = "wrist"))]
     pub struct WristTable {
-        /// The joint of the wrist, whose values ROS 2 files then contain. Without it, these files hold the wrist still.
-        /// Lines along which the tool has an angle need it.
+        /// The wrist's joint. If it is stated, ROS 2 files contain its values; otherwise the wrist stands still in
+        /// them. Lines with a `wrist` angle need this key.
         pub joint: Option<Spanned<String>>,
         /// Top speed, rad/s.
         #[cfg_attr(feature = "schema", schemars(with = "Positive"))]
@@ -27,7 +27,7 @@ toml_table! {
         /// Greatest acceleration, rad/s2; by default top speed is reached in 0.25 s.
         #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
         pub acceleration: Option<Number>,
-        /// Greatest jerk of its turns, rad/s3; by default the joint's, or else without limit.
+        /// Greatest jerk, rad/s3; by default the jerk limit of its joint, or else none.
         #[cfg_attr(feature = "schema", schemars(with = "Option<Positive>"))]
         pub jerk: Option<Number>,
     }

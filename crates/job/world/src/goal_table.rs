@@ -18,8 +18,8 @@ toml_table! {
         /// With `tip`: side of the elbow, seen from joint 1 towards the tip, "left" or "right"; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         pub elbow: Option<Spanned<String>>,
-        /// Rectangles, each given by two opposite corners, m. The tip must reach any one of them. If a joint of the arm
-        /// turns, a rectangle stands for its middle. Not in steps.
+        /// Rectangles, each given by two opposite corners, m. The tip must reach one of them. If the arm has a revolute
+        /// joint, it must reach the middle of one of them. Not in steps.
         #[cfg_attr(test, schemars(with = "Option<Vec<[LengthPair; 2]>>"))]
         pub areas: Option<Spanned<Vec<Spanned<Vec<Lengths>>>>>,
         /// Value of the joint that lowers the tool, m; by default it is raised. Not in steps.

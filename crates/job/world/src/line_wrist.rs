@@ -7,8 +7,8 @@ use cplan_handling::{DEFAULT_WRIST_TOLERANCE, MAX_WRIST_TOLERANCE, MIN_WRIST_TOL
 use cplan_robot::{Diagnostic, FromToml, Quantity, Spanned, TomlError, TomlValue, Written, number, toml_table};
 use toml::de::DeValue;
 
-/// Angle of the tool along the line: an angle from the x axis, rad; "tangent" for the direction of the line; or an
-/// angle from that direction. By default any angle. This key needs [robot] wrist with a joint.
+/// Angle of the tool along the line: an angle from the x axis, rad; "tangent" for the direction of the line; or a table
+/// with an angle from that direction. By default any angle. This key needs a `joint` in `[robot] wrist`.
 #[cfg_attr(test, derive(JsonSchema), schemars(inline, untagged))]
 pub(super) enum WristValue {
     /// Angle of the tool from the x axis, rad.

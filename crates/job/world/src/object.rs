@@ -16,7 +16,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 toml_table! {
-    /// An object that can be picked and placed. It is an obstacle wherever it lies.
+    /// An object that can be picked and placed. Except while it is carried, it is an obstacle.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "object", extend("allOf" = [
         { "oneOf": [{ "required": ["polygon"] }, { "required": ["circle"] }] },
         { "oneOf": [{ "required": ["at"] }, { "required": ["pallet"] }] }
@@ -34,11 +34,11 @@ toml_table! {
         /// Initial position of its origin, m.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         at: Option<Lengths>,
-        /// Instead of `at`: a pallet. Initially, one such object lies on each place of the pallet.
+        /// Instead of `at`: a pallet. Initially, there is one such object on each place of the pallet.
         pallet: Option<Spanned<String>>,
         /// Initial angle, rad, relative to the pallet if there is one; by default 0.
         angle: Option<Written>,
-        /// Its extent along the plane's normal at its resting place, m; by default all heights.
+        /// Its extent along the plane's normal at its initial place, m; by default all heights.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         height: Option<Lengths>,
         /// Height by which it is raised while it is carried, m; by default 0.
@@ -47,7 +47,8 @@ toml_table! {
         /// Its mass, kg, distributed evenly over its outline; by default 0. Used for torques.
         #[cfg_attr(test, schemars(with = "Option<NotNegative>"))]
         mass: Option<Number>,
-        /// How the gripper holds the object; by default as `payload` in [robot] says.
+        /// "rigid": the object turns with link 2. "level": a wrist keeps its orientation. By default the `payload` of
+        /// [robot].
         #[cfg_attr(test, schemars(with = "Option<HeldAs>"))]
         payload: Option<Spanned<String>>,
         /// Point of the object to which the tip moves, in the object's own frame, m; by default its origin.
@@ -55,8 +56,8 @@ toml_table! {
         grasp: Option<Lengths>,
         /// Obstacles and objects that it may touch where it is picked and placed.
         supports: Option<NameList>,
-        /// True if a new object is at the initial place whenever the steps that pick it are repeated. The old one
-        /// disappears when the arm moves on.
+        /// True if each repetition of its pick finds a new object at the initial place. The old one disappears when the
+        /// arm moves on.
         #[cfg_attr(test, schemars(default))]
         renew: bool,
         /// Its motion from `at`, until it is picked; by default it is static.

@@ -31,7 +31,7 @@ toml_table! {
         holes: Option<Spanned<Vec<Ring>>>,
         /// A disc.
         circle: Option<CircleTable>,
-        /// Points of a thin wall, m. The wall has no area, but is an obstacle.
+        /// Points of a wall without thickness, m.
         #[cfg_attr(test, schemars(with = "Option<Vec<NumberPair>>", length(min = 2)))]
         polyline: Option<Ring>,
         /// An occupancy map: a YAML file of ROS's map server, which names a PGM or PNG. The name is relative to the
@@ -40,7 +40,7 @@ toml_table! {
         /// Whether unknown cells of an image are obstacles: "solid" or "free"; by default "solid".
         #[cfg_attr(test, schemars(with = "Option<UnknownAs>"))]
         unknown: Option<Spanned<String>>,
-        /// Origin of its own frame, in which its points are given, m; by default that of the world.
+        /// Origin of the frame in which its points are given, m; by default the origin of the world.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         at: Option<Lengths>,
         /// Angle of its frame, rad; by default 0.
@@ -51,7 +51,7 @@ toml_table! {
         /// heights.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         height: Option<Lengths>,
-        /// Least distance to keep from it, m; at least the world's `clearance`, which is the default.
+        /// Required distance from this obstacle, m; by default the world's `clearance`, and never less.
         #[cfg_attr(test, schemars(with = "Option<NotNegativeLength>"))]
         clearance: Option<Length>,
         /// Greatest displacement of the obstacle in any direction, m, or "1 mm". Motions stay free for each such

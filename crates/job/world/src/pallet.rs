@@ -8,8 +8,8 @@ use cplan_robot::{Diagnostic, Length, Lengths, Spanned, Written, quoted, toml_ta
 use std::collections::BTreeMap;
 
 toml_table! {
-    /// Places in rows and columns, on which objects lie or are placed. They are named "NAME 1,1", "NAME 1,2", and so
-    /// on: row and column, counted from 1.
+    /// Places for objects, in rows and columns. They are named "NAME 1,1", "NAME 1,2", and so on: row and column,
+    /// counted from 1.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "pallet"))]
     pub(super) struct PalletTable {
         /// Unique name among pallets.
@@ -29,8 +29,8 @@ toml_table! {
         /// Angle of the pallet about its place in row 1 and column 1, rad; by default 0. Objects on the pallet turn
         /// with it.
         angle: Option<Written>,
-        /// Height of its places along the plane's normal, m. The bottom of a placed object is at this height; by
-        /// default it is at the height at which the object was picked.
+        /// Height of its places along the plane's normal, m: the bottom of a placed object is at this height. By
+        /// default, objects are placed at the height at which they were picked.
         height: Option<Length>,
     }
 }

@@ -9,8 +9,8 @@ use cplan_model::{Preference, Region};
 use cplan_robot::{Diagnostic, Number, Numbers, Spanned, toml_table};
 
 toml_table! {
-    /// A region that field planners prefer or avoid: a region of tip positions, or a region in joint space. Where
-    /// regions overlap, the last one counts.
+    /// A region of tip positions or of joint space that field planners prefer or avoid. Where regions overlap, the last
+    /// one counts.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "preference", extend("oneOf" = [{ "required": ["configurations"] }, { "required": ["polygon"] }])))]
     pub(super) struct PreferenceTable {
         /// Name in messages and pictures.

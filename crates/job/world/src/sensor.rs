@@ -27,12 +27,12 @@ toml_table! {
         /// Number of rays; by default 360.
         #[cfg_attr(test, schemars(range(min = 1, max = 100_000)))]
         rays: Option<Spanned<u64>>,
-        /// Angle over which the rays are spread, rad; by default a whole turn, which is also the greatest value.
+        /// Angle over which the rays are spread, rad; at most a whole turn, which is the default.
         field_of_view: Option<Written>,
         /// Range, m; by default half the arm's reach.
         #[cfg_attr(test, schemars(with = "Option<PositiveLength>"))]
         range: Option<Length>,
-        /// Distance between readings on the path, in joint space, mixing rad and m; by default 0.1.
+        /// Distance on the path between two readings, in joint space (rad and m are added); by default 0.1.
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]
         step: Option<Number>,
         /// Greatest error of a distance, m; by default 0. Errors are distributed uniformly.

@@ -55,8 +55,8 @@ toml_table! {
         /// For a pick: side of the elbow, seen from joint 1 towards the tip, "left" or "right"; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
-        /// For the pick of a moving object: position of its origin at the pick, m; by default the earliest possible
-        /// one.
+        /// For the pick of a moving object: position of its origin at the pick, m; by default its position at the
+        /// earliest possible pick.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         at: Option<Lengths>,
         /// For the pick of a moving object: the earliest and the latest time of the pick, s; by default any time.
@@ -65,7 +65,8 @@ toml_table! {
         /// For a group: number of repetitions of its steps.
         #[cfg_attr(test, schemars(range(min = 1)))]
         repeat: Option<Spanned<i64>>,
-        /// For a group: "free" to do pairs of a pick and a place in the fastest order; by default "fixed".
+        /// For a group of picks and places: "free" lets cplan choose the fastest order of the pairs; by default
+        /// "fixed".
         #[cfg_attr(test, schemars(with = "Option<DoneIn>"))]
         order: Option<Spanned<String>>,
         /// Share of the joints' top speeds, above 0 and at most 1; by default 1.
@@ -113,7 +114,7 @@ toml_table! {
         elbow: Option<Spanned<String>>,
     }
 
-    /// Objects that are moved from one pallet to another, row by row: the first object to the first place, and so on.
+    /// Moves all objects from one pallet to another, row by row: the first object to the first place, and so on.
     #[cfg_attr(test, derive(JsonSchema), schemars(deny_unknown_fields, rename = "transfer"))]
     struct TransferTable {
         /// Name of the objects, without row and column.
@@ -136,7 +137,7 @@ toml_table! {
         /// Number of repetitions of the steps; by default one.
         #[cfg_attr(test, schemars(range(min = 1)))]
         repeat: Option<Spanned<i64>>,
-        /// "free" to do pairs of a pick and a place in the fastest order; by default "fixed".
+        /// For picks and places: "free" lets cplan choose the fastest order of the pairs; by default "fixed".
         #[cfg_attr(test, schemars(with = "Option<DoneIn>"))]
         order: Option<Spanned<String>>,
         /// Share of the joints' top speeds, above 0 and at most 1; by default 1.

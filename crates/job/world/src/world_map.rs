@@ -18,8 +18,7 @@ toml_table! {
     pub(super) struct MapTable {
         /// The line map.
         file: Spanned<String>,
-        /// A preference file. It has rectangles for field planners, and alternative goals, which are used unless the
-        /// world has a goal.
+        /// A preference file: rectangles for field planners, and goals, which are used if the world file has no goal.
         preferences: Option<Spanned<String>>,
         /// Metres per unit of the map and of the preference file; by default 0.001.
         #[cfg_attr(test, schemars(with = "Option<Positive>"))]
