@@ -25,28 +25,25 @@ def markdown(machine: list[str], versions: list[str], tested: list[str], tables:
 def _summary(leads: list[Lead]) -> str:
     """Who is faster at what."""
     lines = ["### Where another program is faster", ""]
-    lines += ["By medians of this run:", ""]
     lines += _grouped([lead for lead in leads if lead.ratio < 1]) or ["Nowhere in this run."]
-    lines += ["", "### Where cplan is faster", ""]
-    lines += ["<details><summary>All comparisons in which cplan is faster, by medians of this run</summary>", ""]
+    lines += ["", "### Where cplan is faster", "", "<details><summary>All comparisons</summary>", ""]
     lines += _grouped([lead for lead in leads if lead.ratio >= 1]) or ["Nowhere in this run."]
     lines += ["", "</details>"]
     return "\n".join(lines) + "\n"
 
 
 def _grouped(leads: list[Lead]) -> list[str]:
-    """A line for each thing that was compared, with all peers, the fastest first."""
+    """A table with a row for each thing that was compared, with all peers, the fastest first."""
     groups: dict[tuple[str, str], list[Lead]] = {}
     for lead in sorted(leads, key=lambda lead: lead.ratio):
         groups.setdefault((lead.what, lead.cplan), []).append(lead)
     ranked = sorted(groups.items(), key=lambda group: group[1][0].ratio)
-    return [f"- {what}: {_compared(cplan, group)}." for (what, cplan), group in ranked]
-
-
-def _compared(cplan: str, group: list[Lead]) -> str:
-    """How many times as long each peer takes."""
-    first, *others = (f"{lead.peer} takes {times(lead.ratio).rstrip('x')} times" for lead in group)
-    return ", ".join([f"{first} as long as {cplan}", *(other.replace(" takes ", " ") for other in others)])
+    rows = [
+        f"| {what} | {cplan} | " + ", ".join(f"{lead.peer}: {times(lead.ratio)}" for lead in group) + " |"
+        for (what, cplan), group in ranked
+    ]
+    head = ["| compared | cplan's program | time of the other program, divided by cplan's |", "|---|---|---|"]
+    return head + rows if rows else []
 
 
 def write(results: str) -> None:

@@ -47,7 +47,7 @@ def _size(settings: Settings, table: Table, corners: int, rounds: int, slow: boo
     for who in POLYANYA:
         difference = _difference(report["cplan"], report[who])
         rows.append([name, who, spread(clock[f"{who} build"]), "-", spread(query[who]), difference])
-        for what, stage in (("building", "build"), ("a query", "queries")):
+        for what, stage in (("building a mesh", "build"), ("a query", "queries")):
             ratio = median(clock[f"{who} {stage}"]) / median(clock[f"cplan {stage}"])
             table.leads.append(Lead(f"{what} among {name} corners", who, "cplan", ratio))
     if slow:

@@ -15,7 +15,7 @@ toml_table! {
         /// Coordinates of the tip, m.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         pub tip: Option<Lengths>,
-        /// With `tip`: side of the elbow, seen from joint 1 towards the tip, "left" or "right"; by default either.
+        /// With `tip`: side of the elbow, seen from joint 1 towards the tip; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         pub elbow: Option<Spanned<String>>,
         /// Rectangles, each given by two opposite corners, m. The tip must reach one of them. If the arm has a revolute

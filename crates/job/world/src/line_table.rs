@@ -52,7 +52,7 @@ toml_table! {
         r#move: Option<Lengths>,
         /// Angle of the tool along the line.
         wrist: Option<Spanned<WristValue>>,
-        /// Side of the elbow along the line, seen from joint 1 towards the tip: "left" or "right"; by default either.
+        /// Side of the elbow along the line, seen from joint 1 towards the tip; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
         /// Greatest deviation of the tool from the angle `wrist`, rad; by default 0.01. At corners where the line turns

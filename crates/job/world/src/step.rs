@@ -52,7 +52,7 @@ toml_table! {
         grasp: Option<Lengths>,
         /// For a pick: obstacles and objects that the object may touch; by default the `supports` of the object.
         supports: Option<NameList>,
-        /// For a pick: side of the elbow, seen from joint 1 towards the tip, "left" or "right"; by default either.
+        /// For a pick: side of the elbow, seen from joint 1 towards the tip; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
         /// For the pick of a moving object: position of its origin at the pick, m; by default its position at the
@@ -109,7 +109,7 @@ toml_table! {
         /// Height of the object's bottom there along the plane's normal, m; by default the height of the pallet, or
         /// else the height at which the object was picked.
         height: Option<Length>,
-        /// Side of the elbow there, seen from joint 1 towards the tip: "left" or "right"; by default either.
+        /// Side of the elbow there, seen from joint 1 towards the tip; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
     }
@@ -126,7 +126,7 @@ toml_table! {
         /// Obstacles and objects that the moved objects may touch at their new places; by default the `supports` of the
         /// objects.
         supports: Option<NameList>,
-        /// Side of the elbow at all picks and places, seen from joint 1 towards the tip: "left" or "right"; by default either.
+        /// Side of the elbow at all picks and places, seen from joint 1 towards the tip; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
     }
