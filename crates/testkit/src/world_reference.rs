@@ -79,7 +79,7 @@ fn kind(value: &Value, number: Number) -> String {
         Value::Array(_) => {
             let unit = |unit: &str| value["pattern"].as_str().is_some_and(|pattern| pattern.contains(unit));
             match (unit("deg"), unit("rad")) {
-                (true, true) => noun("an error of a length, of an angle, or of both", "errors"),
+                (true, true) => noun("a length, an angle, or both", "errors"),
                 (true, false) => noun("an angle or a length", "angles or lengths"),
                 (false, _) => noun("a length", "lengths"),
             }

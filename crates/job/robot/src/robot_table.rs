@@ -18,7 +18,7 @@ toml_table! {
         /// Position of the robot's root frame in the world, m; by default [0, 0].
         #[cfg_attr(feature = "schema", schemars(with = "Option<LengthPair>"))]
         pub at: Option<Lengths>,
-        /// Angle of its root frame, rad; by default 0.
+        /// Angle of the robot's root frame in the world, rad; by default 0.
         pub angle: Option<Written>,
         /// The two planned joints, from the base to the tip; needed only if the URDF has more than two movable joints.
         #[cfg_attr(feature = "schema", schemars(with = "Option<[String; 2]>"))]
