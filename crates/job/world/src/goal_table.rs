@@ -22,7 +22,7 @@ toml_table! {
         /// joint, it must reach the middle of one of them. Not in steps.
         #[cfg_attr(test, schemars(with = "Option<Vec<[LengthPair; 2]>>"))]
         pub areas: Option<Spanned<Vec<Spanned<Vec<Lengths>>>>>,
-        /// Value of the joint that lowers the tool, m; by default it is raised. Not in steps.
+        /// Value of the joint that lowers the tool, m; by default the tool is raised. Not in steps.
         pub stroke: Option<Length>,
         /// Value of the wrist's joint, rad; by default its value at the start. Not in steps.
         pub wrist: Option<Written>,

@@ -102,14 +102,14 @@ toml_table! {
         at: Option<Lengths>,
         /// Place of a pallet for the object's origin: "NAME 2,3".
         on: Option<Spanned<String>>,
-        /// Angle of a level payload there, rad; by default unchanged.
+        /// Angle of a level payload at this place, rad; by default unchanged.
         angle: Option<Written>,
-        /// Obstacles and objects that the object may touch there; by default the `supports` of the object.
+        /// Obstacles and objects that the object may touch at this place; by default the `supports` of the object.
         supports: Option<NameList>,
-        /// Height of the object's bottom there along the plane's normal, m; by default the height of the pallet, or
-        /// else the height at which the object was picked.
+        /// Height of the object's bottom at this place, along the plane's normal, m; by default the height of the
+        /// pallet, or else the height at which the object was picked.
         height: Option<Length>,
-        /// Side of the elbow there, seen from joint 1 towards the tip; by default either.
+        /// Side of the elbow at this place, seen from joint 1 towards the tip; by default either.
         #[cfg_attr(test, schemars(with = "Option<ElbowSide>"))]
         elbow: Option<Spanned<String>>,
     }

@@ -208,7 +208,7 @@ toml_table! {
         /// Coordinates of the tip, m. Exactly one IK solution must be within the limits and free.
         #[cfg_attr(test, schemars(with = "Option<LengthPair>"))]
         tip: Option<Lengths>,
-        /// Value of the joint that lowers the tool, m; by default it is raised.
+        /// Value of the joint that lowers the tool, m; by default the tool is raised.
         stroke: Option<Length>,
         /// Value of the wrist's joint, rad; by default its `fixed` value.
         wrist: Option<Written>,
