@@ -1,0 +1,86 @@
+"""Exercises with boxes of configurations: channels of free boxes, and walls of collision boxes."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from cplan._cplan import Arm, Problem, World, judge_boxes, separate
+from cplan.findings import check
+from cplan.grading._exercise import Array, Drawing, Exercise, Wrong, array, place
+
+
+def _read(answer: Any) -> Array:
+    """Converts boxes: least and greatest values, shape (n, 2, 2)."""
+    boxes = array(answer, "boxes", None, 2, 2)
+    for number, (lower, upper) in enumerate(boxes):
+        if (lower >= upper).any():
+            raise Wrong("empty", f"box {number} from {place(lower)} to {place(upper)} is empty", at=lower, box=number)
+    return boxes
+
+
+@dataclass(frozen=True)
+class Channel(Exercise[Array]):
+    """A channel of free boxes, from the box of the start to the box of the goal: shape (n, 2, 2), with the least and the
+    greatest values of each box. Boxes that follow each other share a portal.
+    """
+
+    arm: Arm
+    world: World
+
+    def read(self, answer: Any) -> Array:
+        return _read(answer)
+
+    def drawing(self, answer: Array) -> Drawing:
+        return Drawing(boxes=(answer.tolist(), [], []))
+
+    def judge(self, answer: Array) -> str:
+        problem = Problem(self.arm, self.world)
+        for what, q, (lower, upper) in (("start", problem.start, answer[0]), ("goal", problem.goals[0], answer[-1])):
+            if (np.asarray(q) < lower).any() or (np.asarray(q) > upper).any():
+                raise Wrong(what, f"the {what} {place(q)} is not in the {'first' if what == 'start' else 'last'} box", at=q)
+        for number, (verdict, at) in enumerate(judge_boxes(self.arm, self.world, answer.tolist())):
+            if at is None:
+                continue
+            figures = {"at": at, "box": number}
+            match verdict:
+                case "collision":
+                    contact = check(self.arm, self.world, at).contacts[0]
+                    why = f'link "{contact.link}" meets "{contact.obstacle}" at {place(at)}'
+                    raise Wrong(verdict, f"box {number} is not free: {why}", obstacle=contact.obstacle, **figures)
+                case "limits":
+                    raise Wrong(verdict, f"box {number} extends beyond the limits, to {place(at)}", **figures)
+            raise Wrong(verdict, f"box {number} is too near a C-obstacle to decide, about {place(at)}", **figures)
+        for number, (a, b) in enumerate(zip(answer, answer[1:])):
+            common = np.minimum(a[1], b[1]) - np.maximum(a[0], b[0])
+            if common.min() < 0 or common.max() <= 0:
+                why = f"boxes {number} and {number + 1} share no portal, that is a piece of a side"
+                raise Wrong("portal", why, at=a.mean(axis=0), box=number)
+        return f"{len(answer)} boxes, all certified free"
+
+
+@dataclass(frozen=True)
+class Proof(Exercise[Array]):
+    """A proof that no path exists: collision boxes that separate the start from all goals, shape (n, 2, 2), with the
+    least and the greatest values of each. On a circle, a box may go across the seam.
+    """
+
+    arm: Arm
+    world: World
+
+    def read(self, answer: Any) -> Array:
+        return _read(answer)
+
+    def drawing(self, answer: Array) -> Drawing:
+        return Drawing(boxes=([], answer.tolist(), []))
+
+    def judge(self, answer: Array) -> str:
+        boxes = answer.tolist()
+        for number, (verdict, at) in enumerate(judge_boxes(self.arm, self.world, boxes, colliding=True)):
+            if at is not None:
+                fault = "is free" if verdict == "free" else "cannot be decided"
+                raise Wrong(verdict, f"box {number} is not in collision: {place(at)} {fault}", at=at, box=number)
+        if not separate(self.arm, self.world, boxes):
+            start = Problem(self.arm, self.world).start
+            raise Wrong("not separated", "all boxes are in collision, but they leave a way from start to goal", at=start)
+        return f"{len(boxes)} boxes in collision separate start and goal"
