@@ -10,13 +10,11 @@ from cplan.findings import check
 from cplan.grading._exercise import Array, Drawing, Exercise, Wrong, array, place
 
 
-def _read(answer: Any) -> Array:
-    """Converts boxes: least and greatest values, shape (n, 2, 2)."""
-    boxes = array(answer, "boxes", None, 2, 2)
+def _refuse_empty(boxes: Array) -> None:
+    """Raises `Wrong` if a box has no area."""
     for number, (lower, upper) in enumerate(boxes):
         if (lower >= upper).any():
             raise Wrong("empty", f"box {number} from {place(lower)} to {place(upper)} is empty", at=lower, box=number)
-    return boxes
 
 
 @dataclass(frozen=True)
@@ -29,12 +27,13 @@ class Channel(Exercise[Array]):
     world: World
 
     def read(self, answer: Any) -> Array:
-        return _read(answer)
+        return array(answer, "boxes", None, 2, 2)
 
     def drawing(self, answer: Array) -> Drawing:
         return Drawing(boxes=(answer.tolist(), [], []))
 
     def judge(self, answer: Array) -> str:
+        _refuse_empty(answer)
         problem = Problem(self.arm, self.world)
         for what, q, (lower, upper) in (("start", problem.start, answer[0]), ("goal", problem.goals[0], answer[-1])):
             if (np.asarray(q) < lower).any() or (np.asarray(q) > upper).any():
@@ -42,7 +41,7 @@ class Channel(Exercise[Array]):
         for number, (verdict, at) in enumerate(judge_boxes(self.arm, self.world, answer.tolist())):
             if at is None:
                 continue
-            figures = {"at": at, "box": number}
+            figures: dict[str, Any] = {"at": at, "box": number}
             match verdict:
                 case "collision":
                     contact = check(self.arm, self.world, at).contacts[0]
@@ -69,12 +68,13 @@ class Proof(Exercise[Array]):
     world: World
 
     def read(self, answer: Any) -> Array:
-        return _read(answer)
+        return array(answer, "boxes", None, 2, 2)
 
     def drawing(self, answer: Array) -> Drawing:
         return Drawing(boxes=([], answer.tolist(), []))
 
     def judge(self, answer: Array) -> str:
+        _refuse_empty(answer)
         boxes = answer.tolist()
         for number, (verdict, at) in enumerate(judge_boxes(self.arm, self.world, boxes, colliding=True)):
             if at is not None:

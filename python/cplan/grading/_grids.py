@@ -126,6 +126,10 @@ class Harmonic(_OnGrid):
         around = self.neighbors(answer, 0.0)
         inner = ~self.blocked
         inner[self.goal] = False
+        reached = inner & ~np.isnan(self.grid.values if self.grid.values is not None else answer)
+        minimum = reached & (around.min(axis=0) >= answer)
+        if minimum.any():
+            raise self.wrong("minimum", "a local minimum besides the goal", _cell(minimum.argmax(), answer.shape))
         residual = np.where(inner, np.abs(around.mean(axis=0) - answer), 0.0)
         allowed = HARMONIC_TOLERANCE * np.abs(answer)
         excess = np.where(residual > allowed, residual / np.maximum(np.abs(answer), np.finfo(float).tiny), 0.0)
@@ -133,10 +137,6 @@ class Harmonic(_OnGrid):
             cell = _cell(excess.argmax(), answer.shape)
             why = f"{answer[cell]:.9g}, but the mean of its neighbours is {around.mean(axis=0)[cell]:.9g}"
             raise self.wrong("residual", why, cell, answer=float(answer[cell]), residual=float(residual[cell]))
-        reached = inner & ~np.isnan(self.grid.values if self.grid.values is not None else answer)
-        minimum = reached & (around.min(axis=0) >= answer)
-        if minimum.any():
-            raise self.wrong("minimum", "a local minimum besides the goal", _cell(minimum.argmax(), answer.shape))
         return f"harmonic in {int(inner.sum())} cells, without local minima"
 
     def _boundary(self, answer: Array) -> None:

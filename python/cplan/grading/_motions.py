@@ -60,22 +60,21 @@ class Path(Exercise[Array]):
 
 
 def refuse(found: Verification, what: str = "the path", **figures: Any) -> None:
-    """Raises the reason why a motion is not free, if it is not."""
+    """Raises the reason why a motion is not right, if it is not: wrong ends first, then limits, then contacts."""
+    if found.free:
+        return
+    if found.faults:
+        raise Wrong("ends", f"{what} does not lead from start to goal: {'; '.join(found.faults)}", **figures)
+    if found.limits_broken:
+        broken = found.limits_broken[0]
+        why = f'joint "{broken.joint}" reaches {broken.value:.6g}; its limit is {broken.allowed:.6g}'
+        raise Wrong("limits", f"{what} breaks a limit: {why}", at=broken.configuration, joint=broken.joint, **figures)
     moment = found.first_contact or found.undecided
-    match found.verdict:
-        case "free":
-            return
-        case "collision" if moment is not None:
-            where = f'at {place(moment.configuration)}, in segment {moment.sample}, link "{moment.link}" touches "{moment.obstacle}" or is too near'
-            raise Wrong("collision", f"{what} collides: {where}", at=moment.configuration, **_about(moment), **figures)
-        case "undecided" if moment is not None:
-            where = f'at {place(moment.configuration)}, link "{moment.link}" and "{moment.obstacle}" are too near to decide'
-            raise Wrong("undecided", f"{what} is not certified: {where}", at=moment.configuration, **_about(moment), **figures)
-        case "limits" if found.limits_broken:
-            broken = found.limits_broken[0]
-            why = f'joint "{broken.joint}" reaches {broken.value:.6g}; its limit is {broken.allowed:.6g}'
-            raise Wrong("limits", f"{what} breaks a limit: {why}", at=broken.configuration, joint=broken.joint, **figures)
-    raise Wrong(found.verdict, f"{what} is not right: {'; '.join(found.faults) or found.verdict}", **figures)
+    if moment is None:
+        raise Wrong(found.verdict, f"{what} is not certified", **figures)
+    fault = "collides" if found.verdict == "collision" else "is too near to decide"
+    where = f'at {place(moment.configuration)}, in segment {moment.sample}, with link "{moment.link}" and "{moment.obstacle}"'
+    raise Wrong(found.verdict, f"{what} {fault}: {where}", at=moment.configuration, **_about(moment), **figures)
 
 
 def _about(moment: Any) -> dict[str, Any]:

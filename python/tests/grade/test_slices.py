@@ -23,7 +23,7 @@ WRONG = {
     "one end too early by 1e-6": ([[LOWER - 1e-6, UPPER]], "extra"),
     "the other end too early by 1e-6": ([[LOWER, UPPER - 1e-6]], "missing"),
     "ends in degrees": ([np.degrees([LOWER, UPPER])], "limits"),
-    "rounded to a tenth of a degree": ([np.radians([-79.2, -38.3])], "extra"),
+    "rounded to a tenth of a degree": ([np.radians([-79.2, -38.3])], "missing"),
     "the other sign": ([[-UPPER, -LOWER]], "missing"),
     "a full turn further": ([[LOWER + TURN, UPPER + TURN]], "limits"),
     "a second interval": ([[LOWER, UPPER], [0.5, 0.6]], "extra"),
