@@ -4,6 +4,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import combinations
+from math import hypot
 
 Point = tuple[Fraction, Fraction]
 Ring = list[Point]
@@ -78,7 +79,7 @@ def difference(a: Sequence[Polygon], b: Sequence[Polygon], within: Ring) -> tupl
 def perimeter(polygons: Iterable[Polygon]) -> float:
     """Returns the length of all sides, rounded."""
     rings = [corners for polygon in polygons for corners in polygon]
-    return sum(float((p[0] - q[0]) ** 2 + (p[1] - q[1]) ** 2) ** 0.5 for r in rings for p, q in zip(r, r[1:] + r[:1]))
+    return sum(hypot(p[0] - q[0], p[1] - q[1]) for r in rings for p, q in zip(r, r[1:] + r[:1]))
 
 
 def _turn(a: Point, b: Point, c: Point) -> Fraction:

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from cplan._cplan import Arm, Problem, World, judge_boxes, separate
+from cplan._cplan import Arm, Problem, World, joint_ranges, judge_boxes, separate
 from cplan.findings import check
 from cplan.grading._exercise import Array, Drawing, Exercise, Wrong, array, place
 
@@ -35,9 +35,9 @@ class Channel(Exercise[Array]):
     def judge(self, answer: Array) -> str:
         _refuse_empty(answer)
         problem = Problem(self.arm, self.world)
-        for what, q, (lower, upper) in (("start", problem.start, answer[0]), ("goal", problem.goals[0], answer[-1])):
-            if (np.asarray(q) < lower).any() or (np.asarray(q) > upper).any():
-                raise Wrong(what, f"the {what} {place(q)} is not in the {'first' if what == 'start' else 'last'} box", at=q)
+        for what, which, q, box in (("start", "first", problem.start, answer[0]), ("goal", "last", problem.goals[0], answer[-1])):
+            if not self._contains(box, np.asarray(q)):
+                raise Wrong(what, f"the {what} {place(q)} is not in the {which} box", at=q)
         for number, (verdict, at) in enumerate(judge_boxes(self.arm, self.world, answer.tolist())):
             if at is None:
                 continue
@@ -56,6 +56,13 @@ class Channel(Exercise[Array]):
                 why = f"boxes {number} and {number + 1} share no portal, that is a piece of a side"
                 raise Wrong("portal", why, at=a.mean(axis=0), box=number)
         return f"{len(answer)} boxes, all certified free"
+
+    def _contains(self, box: Array, q: Array) -> bool:
+        """Returns true if a box contains a configuration, or a copy of it on circles."""
+        is_circle = [is_circle for _, _, is_circle in joint_ranges(self.arm, self.world)]
+        turns = np.where(is_circle, np.round((box.mean(axis=0) - q) / (2 * np.pi)), 0.0)
+        copy = q + 2 * np.pi * turns
+        return bool((box[0] <= copy).all() and (copy <= box[1]).all())
 
 
 @dataclass(frozen=True)

@@ -67,14 +67,13 @@ def _listed(names: frozenset[str]) -> str:
 
 @dataclass(frozen=True)
 class Solutions(Exercise[Array]):
-    """All free configurations that put the tip at the world's goal, a place of the tip: shape (n, 2), in any order.
+    """All free configurations that put the tip at the goal of the world, which is a place of the tip: shape (n, 2).
 
     The tip may be off by `tolerance`, metres.
     """
 
     arm: Arm
     world: World
-    tip: tuple[float, float]
     tolerance: float = 1e-9
 
     def read(self, answer: Any) -> Array:
@@ -86,7 +85,12 @@ class Solutions(Exercise[Array]):
     @cached_property
     def exact(self) -> Array:
         """All free solutions."""
-        return Problem(self.arm, World.from_text(self.world.toml)).goals
+        return Problem(self.arm, self.world).goals
+
+    @cached_property
+    def tip(self) -> tuple[float, float]:
+        """The place of the tip, metres."""
+        return check(self.arm, self.world, self.exact[0].tolist()).tip
 
     def judge(self, answer: Array) -> str:
         for number, q in enumerate(answer):

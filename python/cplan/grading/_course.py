@@ -99,9 +99,8 @@ def _blockers() -> Blockers:
 
 
 def _solutions() -> Solutions:
-    tip = (0.35, 1.2)
     arm = Arm.rr([1.0, 0.8], width=0.06, limits=[(-4.5, 4.5), (-4.5, 4.5)])
-    return Solutions(arm, World(POST, start=[-1.5, 0.0], goal={"tip": list(tip)}), tip)
+    return Solutions(arm, World(POST, start=[-1.5, 0.0], goal={"tip": [0.35, 1.2]}))
 
 
 def _payload() -> Path:
@@ -126,9 +125,12 @@ NAMES = tuple(_EXERCISES)
 """Names of the exercises of the course."""
 
 
-@lru_cache(maxsize=None)
+# Exercises keep what they compute, such as exact regions.
+_created = lru_cache(maxsize=None)(lambda name: _EXERCISES[name]())
+
+
 def exercise(name: str) -> Exercise[Any]:
     """Returns an exercise of the course by its name, such as "roadmaps 1"."""
     if name not in _EXERCISES:
         raise ValueError(f'there is no exercise "{name}"; there are {", ".join(NAMES)}')
-    return _EXERCISES[name]()
+    return _created(name)

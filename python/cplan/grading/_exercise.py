@@ -8,7 +8,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from cplan._cplan import Arm, Problem, World
+from cplan._cplan import Arm, InputError, Problem, World, joint_ranges
 from cplan._cplan import drawn as _drawn
 
 Array = NDArray[np.float64]
@@ -68,9 +68,16 @@ class Grade:
         """Returns a picture: the answer among the C-obstacles, and the arm at the fault."""
         shown = self._drawing.marked(self.figures.get("box"))
         places = [*(path[0] for path in shown.paths), *(edge[0] for edge in shown.edges)]
-        at = self.figures.get("at") or (places[0] if places else Problem(self._arm, self._world).start)
+        at = self.figures.get("at") or (places[0] if places else self._start())
         title = ["right" if self.right else f"wrong: {self.reason}", self.message]
         return _drawn(self._arm, self._world, title, at, shown.paths, shown.edges, shown.boxes)
+
+    def _start(self) -> Sequence[float]:
+        """Returns the start, or the middle of the joints' ranges in a world without one."""
+        try:
+            return Problem(self._arm, self._world).start
+        except InputError:
+            return [(lower + upper) / 2 for lower, upper, _ in joint_ranges(self._arm, self._world)]
 
     def _repr_html_(self) -> str:
         return self.svg()

@@ -16,7 +16,8 @@ Intervals = list[tuple[float, float]]
 
 @dataclass(frozen=True)
 class Slice(Exercise[Intervals]):
-    """The blocked intervals of joint 2 at the value `q1` of joint 1: pairs of contact angles, shape (n, 2).
+    """The blocked intervals of joint 2 at the value `q1` of joint 1: pairs of contact angles, shape (n, 2); [] if there are
+    none.
 
     Ends may differ from the exact ones by `tolerance`, rad or m. On a circle, an interval may go across the seam.
     """
@@ -27,6 +28,8 @@ class Slice(Exercise[Intervals]):
     tolerance: float = 1e-9
 
     def read(self, answer: Any) -> Intervals:
+        if isinstance(answer, (list, tuple)) and not answer:
+            return []
         rows = array(answer, "intervals", None, 2)
         for lower, upper in rows:
             if lower >= upper:

@@ -4,8 +4,9 @@ the angles at which link 1 touches a wall."""
 import cplan
 import numpy as np
 import pytest
+from cplan import _cplan
 from judged import is_graded
-from oracle import RADIUS, bar_to_polygon, root
+from oracle import RADIUS, bar_to_polygon, gap, root
 
 # Folded at least that far, no point of the arm is farther from the base than the nearest corner of the shelf.
 NEAREST = np.hypot(1.15, 0.18)
@@ -119,3 +120,31 @@ def test_limits_close_the_ends_of_a_wall() -> None:
     assert exercise.grade([FRONT_WALL])
     assert exercise.grade([[[-0.03, -2.9], [0.03, 2.9]]])
     assert exercise.grade([[[-0.03, -2.8], [0.03, 2.9]]]).reason == "not separated"
+
+
+def test_channels_on_circles_go_across_the_seam() -> None:
+    world = cplan.World({"name": "front", "polygon": FRONT}, start=[-0.8, 0.3], goal=[0.9, -0.3])
+    exercise = cplan.grading.Channel(cplan.Arm.rr([1.0, 0.8], width=0.06), world)
+    around = [[[-2.0, 0.2], [-0.8, 0.4]], [[-4.5, -0.4], [-1.9, 0.4]], [[0.9 - TURN, -0.4], [-4.4, -0.2]]]
+    assert exercise.grade(around), exercise.grade(around)
+    assert exercise.grade([*around[:2], [[0.9, -0.4], [1.0, -0.2]]]).reason == "portal"
+
+
+def test_verdicts_on_random_boxes_agree_with_samples() -> None:
+    channel = cplan.grading.exercise("cells 1")
+    shelf, crate = [[1.15, 0.18], [1.6, 0.18], [1.6, 0.3], [1.15, 0.3]], [[0.5, -1.6], [0.8, -1.6], [0.8, -1.3], [0.5, -1.3]]
+    random = np.random.default_rng(7)
+    lower = random.uniform(-2.9, 2.3, size=(300, 2))
+    boxes = np.stack([lower, lower + random.uniform(0.01, 0.6, size=(300, 2))], axis=1)
+    count = {"free": 0, "collision": 0, "undecided": 0}
+    for colliding in (False, True):
+        for (low, high), (verdict, at) in zip(boxes, _cplan.judge_boxes(channel.arm, channel.world, boxes.tolist(), colliding)):
+            count[verdict] += 1
+            inside = random.uniform(low, high, size=(20, 2))
+            if at is None:
+                # The verdict holds in the whole box.
+                assert all((gap(q, [shelf, crate]) <= 0) == colliding for q in inside)
+            elif verdict != "undecided":
+                assert (low <= at).all() and (at <= high).all()
+                assert (gap(at, [shelf, crate]) <= 0) != colliding
+    assert count["free"] > 300 and count["collision"] > 50 and count["undecided"] < 5, count

@@ -123,3 +123,15 @@ def test_a_required_clearance_counts() -> None:
     exercise = cplan.grading.Path(LOADED.arm, LOADED.world, clearance=0.01)
     assert exercise.grade(FOLDED)
     assert exercise.grade(dipping(0.009, LOAD)).reason == "collision"
+
+
+def test_full_turns_on_circles() -> None:
+    wall = {"name": "wall", "polygon": [[0.4, -0.04], [2.0, -0.04], [2.0, 0.04], [0.4, 0.04]]}
+    world = cplan.World(wall, start=[-0.8, 0.3], goal=[0.9, -0.3])
+    around = cplan.grading.Path(cplan.Arm.rr([1.0, 0.8], width=0.06), world)
+    # The goal is the same configuration after a full turn, and lies behind the start there.
+    assert around.grade([(-0.8, 0.3), (-1.5, 0.3), (0.9 - TURN, -0.3)])
+    # The turn is a motion, too: values that jump back by a turn sweep the arm through the wall.
+    assert around.grade([(-0.8, 0.3), (-1.5, 0.3), (0.9, -0.3)]).reason == "collision"
+    jump = around.grade([(-0.8, 0.3), (-1.5, 0.3), (0.9 - TURN, -0.3), (0.9, -0.3)])
+    assert (jump.reason, jump.figures["segment"]) == ("collision", 2)

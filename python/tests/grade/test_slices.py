@@ -1,5 +1,6 @@
 """Contact angles of a slice, against bisection of the distance to the shelf."""
 
+import cplan
 import numpy as np
 import pytest
 from judged import is_graded
@@ -36,6 +37,7 @@ WRONG = {
     "the greater end first": ([[UPPER, LOWER]], "shape"),
     "a flat list": ([LOWER, UPPER], "shape"),
     "not a number": ([[LOWER, np.nan]], "shape"),
+    "no interval": ([], "missing"),
     "an empty cell": (None, "shape"),
 }
 
@@ -48,3 +50,25 @@ def test_a_right_answer_is_right(answer: object) -> None:
 @pytest.mark.parametrize("answer, reason", WRONG.values(), ids=list(WRONG))
 def test_a_wrong_answer_is_wrong_for_its_reason(answer: object, reason: str) -> None:
     is_graded("c_obstacles 1", answer, reason)
+
+
+def test_a_free_slice_has_no_intervals() -> None:
+    arm, world = cplan.Arm.rr([1.0, 0.8], width=0.06), cplan.World({"name": "shelf", "polygon": SHELF})
+    free = cplan.grading.Slice(arm, world, q1=np.pi)
+    assert free.grade([]) and free.grade([[0.0, 1.0]]).reason == "extra"
+    assert free.grade(None).svg().startswith("<svg")
+
+
+@pytest.mark.parametrize("turns", [-1, 0, 2])
+def test_intervals_on_a_circle_go_across_the_seam(turns: int) -> None:
+    # The forearm is longer than link 1. Folded back, its end hits the post behind the base, from both sides of the seam.
+    post, lengths = [[-0.4, -0.24], [-0.3, -0.24], [-0.3, -0.14], [-0.4, -0.14]], (1.0, 1.6)
+    world = cplan.World({"name": "post", "polygon": post})
+    folded = cplan.grading.Slice(cplan.Arm.rr(lengths, width=0.06), world, q1=0.5)
+    first = root(lambda q2: gap((0.5, q2), [post], lengths), 2.0, np.pi)
+    last = root(lambda q2: gap((0.5, q2), [post], lengths), np.pi, 5.0)
+    assert first < np.pi < last
+    assert folded.grade([[first + turns * TURN, last + turns * TURN]])
+    assert folded.grade([[first, np.pi], [-np.pi, last - TURN]])
+    assert folded.grade([[first, np.pi]]).reason == "missing"
+    assert folded.grade([[first, last + 1e-6]]).reason == "extra"
