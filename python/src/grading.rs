@@ -54,7 +54,8 @@ pub fn judge_boxes(
     let found = interruptible(py, |_| {
         let scene = arm.among(world)?.scene;
         let judge = |one: &JointBox| match colliding {
-            true => collision_boxes(&scene, one).map_or_else(|verdict| verdict, |_| ("collision", None)),
+            true => collision_boxes(&scene, one)
+                .map_or_else(|(verdict, at)| (verdict, at.map(|at| inside(&scene, one, at))), |_| ("collision", None)),
             false => free_box(&scene, &Cell { lower: one[0], upper: one[1] }),
         };
         Ok(boxes.iter().map(judge).collect())
@@ -179,6 +180,12 @@ fn collision_boxes(scene: &Scene, one: &JointBox) -> Result<Vec<CollisionBox>, V
         }
     }
     Ok(found)
+}
+
+/// Returns the copy of a configuration that is nearest to the middle of a box.
+fn inside(scene: &Scene, &[lower, upper]: &JointBox, at: [f64; 2]) -> [f64; 2] {
+    let middle = Cell { lower, upper }.center();
+    scene.arm().topology().lift(at.into(), middle).into()
 }
 
 /// Returns the halves of a box, across the joint that moves these pairs more.

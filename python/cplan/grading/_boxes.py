@@ -89,5 +89,5 @@ class Proof(Exercise[Array]):
                 raise Wrong(verdict, f"box {number} is not in collision: {place(at)} {fault}", at=at, box=number)
         if not separate(self.arm, self.world, boxes):
             start = Problem(self.arm, self.world).start
-            raise Wrong("not separated", "all boxes are in collision, but they leave a way from start to goal", at=start)
+            raise Wrong("not separated", "all boxes are in collision, but they do not separate start and goal", at=start)
         return f"{len(boxes)} boxes in collision separate start and goal"
