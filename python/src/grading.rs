@@ -102,18 +102,23 @@ pub fn drawn(
         let paths: Vec<Path> =
             paths.into_iter().map(|path| Path::new(path.into_iter().map(Configuration::from).collect())).collect();
         let [free, stuck, mixed] = boxes.map(|list| list.into_iter().map(places).collect::<Vec<_>>());
-        let trace = if edges.is_empty() {
-            Trace::Boxes { free, stuck, mixed }
-        } else {
+        let trace = if !edges.is_empty() {
             let edges = edges.into_iter().map(places).collect();
-            Trace::Roads { edges, expanded: Vec::new(), kind: GraphKind::Roadmap }
+            Some(Trace::Roads { edges, expanded: Vec::new(), kind: GraphKind::Roadmap })
+        } else if free.len() + stuck.len() + mixed.len() > 0 {
+            Some(Trace::Boxes { free, stuck, mixed })
+        } else {
+            None
         };
+        let at = Configuration::from(at);
+        // With a path, the arm is shown at the goal, as in pictures of verified motions.
         Ok(cplan::view::svg(&View::of_picture(&Picture {
             title,
-            trace: Some(&trace),
+            goals: if paths.is_empty() { &[] } else { &[at.into()] },
+            trace: trace.as_ref(),
             paths: paths.iter().map(|path| ("answer".to_owned(), path)).collect(),
             c_obstacles: &contours(&scene),
-            ..Picture::new(&scene, at.into())
+            ..Picture::new(&scene, paths.first().map_or(at, Path::start))
         })))
     })?;
     found.map_err(|error: InputError| raised(py, &error))

@@ -52,7 +52,7 @@ class Blockers(Exercise[frozenset[str]]):
         alone = plan(self.arm, self._among(answer))
         if isinstance(alone, Found):
             why = f"among {_listed(answer)} alone a path of length {alone.length or 0:.4g} is certified"
-            raise Wrong("path exists", why, at=alone.path[len(alone.path) // 2], path=alone.path)
+            raise Wrong("path exists", why, at=alone.path[len(alone.path) // 2], path=alone.path.tolist())
         if not isinstance(alone, Infeasible):
             raise Wrong("undecided", f"whether a path exists among {_listed(answer)} alone is not decided")
         for name in sorted(answer):

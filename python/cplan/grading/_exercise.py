@@ -42,7 +42,7 @@ class Drawing:
         return replace(self, boxes=([b for b in free if b != wrong], [b for b in stuck if b != wrong], [wrong]))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Grade:
     """The grade of an answer. It is true if the answer is right, so `assert grade, grade` fails with the message.
 
@@ -67,7 +67,7 @@ class Grade:
     def svg(self) -> str:
         """Returns a picture: the answer among the C-obstacles, and the arm at the fault."""
         shown = self._drawing.marked(self.figures.get("box"))
-        places = [*(path[0] for path in shown.paths), *(edge[0] for edge in shown.edges)]
+        places = [*(path[-1] for path in shown.paths), *(edge[0] for edge in shown.edges)]
         at = self.figures.get("at") or (places[0] if places else self._start())
         title = ["right" if self.right else f"wrong: {self.reason}", self.message]
         return _drawn(self._arm, self._world, title, at, shown.paths, shown.edges, shown.boxes)
@@ -121,7 +121,7 @@ def array(answer: Any, name: str, *shape: int | None) -> Array:
     wanted = ", ".join("n" if size is None else str(size) for size in shape)
     try:
         rows = np.asarray(answer, dtype=float)
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise Wrong("shape", f"expected {name} as numbers of shape ({wanted})") from None
     if rows.ndim != len(shape) or not all(size == want or want is None and size for size, want in zip(rows.shape, shape)):
         raise Wrong("shape", f"expected {name} of shape ({wanted}), not {rows.shape}")

@@ -51,7 +51,7 @@ class _OnGrid(Exercise[Array]):
         """Converts one value per cell; values need not be finite."""
         try:
             values = np.array(answer, dtype=float)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise Wrong("shape", f"expected one number per cell, shape {self.cells}") from None
         if values.shape != self.cells:
             raise Wrong("shape", f"expected one number per cell, shape {self.cells}, not {values.shape}")

@@ -1,5 +1,7 @@
 """Blocking obstacles, and configurations that reach a place, against the law of cosines."""
 
+import pickle
+
 import cplan
 import numpy as np
 import pytest
@@ -91,3 +93,11 @@ def test_there_are_seven_chapters() -> None:
     assert chapters == {"c_obstacles", "roadmaps", "cells", "waves", "fields", "proofs", "tasks"}
     with pytest.raises(ValueError, match="there is no exercise"):
         cplan.grade("roadmaps 9", None)
+
+
+def test_grades_and_exercises_can_be_pickled() -> None:
+    grade = cplan.grade("proofs 2", [FRONT])
+    again = pickle.loads(pickle.dumps(grade))
+    assert (again.reason, again.message, again.figures, again.svg()) == (grade.reason, grade.message, grade.figures, grade.svg())
+    exercise = cplan.grading.exercise("tasks 1")
+    assert pickle.loads(pickle.dumps(exercise)).grade([RIGHT_SIDE, TURNED])
