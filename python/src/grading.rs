@@ -4,13 +4,14 @@ use crate::error::{raised, refused};
 use crate::problem::{Arm, World};
 use crate::signals::interruptible;
 use cplan::check::{Cell, CollisionBox, Deviation, Disconnection, Posture};
+use cplan::engine::findings::check;
 use cplan::input::{InputError, Overrides};
 use cplan::interrupt::checkpoint;
 use cplan::model::{Pair, Scene};
 use cplan::output::contours;
 use cplan::planner::{GraphKind, Trace};
 use cplan::space::{Configuration, JointRange, Path, Topology};
-use cplan::view::{Picture, View};
+use cplan::view::{CheckedView, Picture, View};
 use pyo3::prelude::*;
 use std::collections::VecDeque;
 
@@ -79,8 +80,8 @@ pub fn separate(py: Python<'_>, arm: &Arm, world: &World, boxes: Vec<JointBox>) 
     found.map_err(|error: InputError| raised(py, &error))
 }
 
-/// Draws the arm at a configuration, the configuration space, and an answer: paths, edges of a roadmap, and boxes, which
-/// are free, in collision or wrong.
+/// Draws the arm at a configuration with its contacts, the configuration space, and an answer: paths, edges of a roadmap,
+/// and boxes, which are free, in collision or wrong.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)]
 pub fn drawn(
@@ -111,15 +112,17 @@ pub fn drawn(
             None
         };
         let at = Configuration::from(at);
-        // With a path, the arm is shown at the goal, as in pictures of verified motions.
-        Ok(cplan::view::svg(&View::of_picture(&Picture {
+        let findings = check(&scene, at);
+        let start = if findings.free { at } else { paths.first().map_or(at, Path::start) };
+        let view = View::of_picture(&Picture {
             title,
-            goals: if paths.is_empty() { &[] } else { &[at.into()] },
             trace: trace.as_ref(),
             paths: paths.iter().map(|path| ("answer".to_owned(), path)).collect(),
             c_obstacles: &contours(&scene),
-            ..Picture::new(&scene, paths.first().map_or(at, Path::start))
-        })))
+            ..Picture::new(&scene, start)
+        });
+        let marked = if findings.free { view } else { view.with_findings(CheckedView::new(&scene, &findings)) };
+        Ok(cplan::view::svg(&marked))
     })?;
     found.map_err(|error: InputError| raised(py, &error))
 }

@@ -67,7 +67,7 @@ class Grade:
     def svg(self) -> str:
         """Returns a picture: the answer among the C-obstacles, and the arm at the fault."""
         shown = self._drawing.marked(self.figures.get("box"))
-        places = [*(path[-1] for path in shown.paths), *(edge[0] for edge in shown.edges)]
+        places = [*(path[0] for path in shown.paths), *(edge[0] for edge in shown.edges)]
         at = self.figures.get("at") or (places[0] if places else self._start())
         title = ["right" if self.right else f"wrong: {self.reason}", self.message]
         return _drawn(self._arm, self._world, title, at, shown.paths, shown.edges, shown.boxes)

@@ -115,6 +115,7 @@ def test_the_figures_name_the_place_of_the_collision() -> None:
     grade = cplan.grade("tasks 2", dipping(-1e-3, LOAD))
     assert (grade.figures["segment"], grade.figures["obstacle"]) == (3, "shelf")
     assert gap(grade.figures["at"], [SHELF], LOAD) <= 1e-9
+    assert "the arm, not free" in grade.svg()
     too_long = cplan.grade("roadmaps 2", FOLDED)
     assert too_long.figures == {"length": pytest.approx(np.hypot(0.2, 0.2) + 1.8 + 2.65 + 2.75), "bound": BOUND}
 
