@@ -1,4 +1,4 @@
-//! Verdicts of the judge on boxes of configurations, and pictures of answers: what the grader of exercises needs.
+//! Functions for the grader of exercises: verdicts of the judge on boxes of configurations, and pictures of answers.
 
 use crate::error::{raised, refused};
 use crate::problem::{Arm, World};
@@ -38,11 +38,11 @@ pub fn joint_ranges(py: Python<'_>, arm: &Arm, world: &World) -> PyResult<[(f64,
     Ok(loaded.scene.arm().topology().ranges.map(listed))
 }
 
-/// Judges closed boxes of configurations, each given by its least and its greatest values. The verdict is "free" or
-/// "collision" if it holds in the whole box, or if the box is not what was expected and a configuration shows that.
-/// Other verdicts are "limits" (free boxes only) and "undecided".
+/// Judges closed boxes of configurations, each given by its least and its greatest values. Boxes are expected free; with
+/// `colliding`, they are expected in collision, and their parts beyond the limits do not matter.
 ///
-/// With `colliding`, boxes are expected in collision, and their parts beyond the limits do not matter.
+/// If a box is proven as expected, the verdict is "free" or "collision" without a configuration. Otherwise the verdict
+/// comes with a configuration: the opposite verdict, "limits" or "undecided".
 #[pyfunction]
 #[pyo3(signature = (arm, world, boxes, colliding = false))]
 pub fn judge_boxes(

@@ -49,7 +49,7 @@ def test_students_get_empty_answers(notebook: Path) -> None:
     assert sum("# Your answer" in cell for cell in cells) == len(names(handed_out)) == len(names(notebook))
     assert not any("SOLUTION" in cell for cell in cells)
     assert not any(cell.get("outputs") for path in (notebook, handed_out) for cell in json.loads(path.read_text())["cells"])
-    # Each answer is empty, and graded as such.
+    # The grader refuses each empty answer.
     space: dict[str, Any] = {}
     for cell in cells:
         if cell.startswith("assert"):

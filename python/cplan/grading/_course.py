@@ -125,7 +125,7 @@ NAMES = tuple(_EXERCISES)
 """Names of the exercises of the course."""
 
 
-# Exercises keep what they compute, such as exact regions.
+# An exercise caches its exact regions and bounds.
 _created = lru_cache(maxsize=None)(lambda name: _EXERCISES[name]())
 
 
