@@ -55,7 +55,7 @@ class Channel(Exercise[Array]):
             if common.min() < 0 or common.max() <= 0:
                 why = f"boxes {number} and {number + 1} share no portal, that is a piece of a side"
                 raise Wrong("portal", why, at=a.mean(axis=0), box=number)
-        return f"{len(answer)} boxes, all certified free"
+        return f"all boxes are certified free, and lead from start to goal: {len(answer)}"
 
     def _contains(self, box: Array, q: Array) -> bool:
         """Returns true if a box contains a configuration, or a copy of it on circles."""
@@ -90,4 +90,4 @@ class Proof(Exercise[Array]):
         if not separate(self.arm, self.world, boxes):
             start = Problem(self.arm, self.world).start
             raise Wrong("not separated", "all boxes are in collision, but they do not separate start and goal", at=start)
-        return f"{len(boxes)} boxes in collision separate start and goal"
+        return f"the boxes are in collision, and separate start and goal: {len(boxes)}"

@@ -13,6 +13,9 @@ from cplan._cplan import drawn as _drawn
 
 Array = NDArray[np.float64]
 
+MAX_VALUE = 1e6
+"""Largest value of a joint that cplan reads, rad or m."""
+
 
 class Wrong(Exception):
     """The reason why an answer is wrong: a word for programs, a sentence, and figures. `at` is a configuration."""
@@ -125,8 +128,8 @@ def array(answer: Any, name: str, *shape: int | None) -> Array:
         raise Wrong("shape", f"expected {name} as numbers of shape ({wanted})") from None
     if rows.ndim != len(shape) or not all(size == want or want is None and size for size, want in zip(rows.shape, shape)):
         raise Wrong("shape", f"expected {name} of shape ({wanted}), not {rows.shape}")
-    if not np.isfinite(rows).all():
-        raise Wrong("shape", f"{name}: all numbers must be finite")
+    if not (np.abs(rows) <= MAX_VALUE).all():
+        raise Wrong("shape", f"{name}: all numbers must be finite, and at most {MAX_VALUE:g} in magnitude")
     return rows
 
 

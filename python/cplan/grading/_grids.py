@@ -32,6 +32,12 @@ class _OnGrid(Exercise[Array]):
         return space.grid
 
     @property
+    def exact(self) -> Array:
+        """The exact number of moves to the goal, NaN in cells without a number."""
+        assert self.grid.values is not None
+        return self.grid.values
+
+    @property
     def blocked(self) -> NDArray[np.bool_]:
         """True for each cell that is not proven free as a whole."""
         return self.grid.blocked
@@ -39,7 +45,7 @@ class _OnGrid(Exercise[Array]):
     @property
     def goal(self) -> Cell:
         """The goal's cell."""
-        [cell] = np.argwhere(self.grid.values == 0)
+        [cell] = np.argwhere(self.exact == 0)
         return int(cell[0]), int(cell[1])
 
     def middle(self, cell: Cell) -> Array:
@@ -89,8 +95,7 @@ class Wavefront(_OnGrid):
         return values
 
     def judge(self, answer: Array) -> str:
-        exact = self.grid.values
-        assert exact is not None
+        exact = self.exact
         different = (answer != exact) & ~(np.isnan(answer) & np.isnan(exact))
         # The first fault is the one nearest to the goal, because later ones may follow from it.
         order = np.where(np.isnan(exact), np.inf, exact)
@@ -126,14 +131,13 @@ class Harmonic(_OnGrid):
         around = self.neighbors(answer, 0.0)
         inner = ~self.blocked
         inner[self.goal] = False
-        reached = inner & ~np.isnan(self.grid.values if self.grid.values is not None else answer)
+        reached = inner & ~np.isnan(self.exact)
         minimum = reached & (around.min(axis=0) >= answer)
         if minimum.any():
             raise self.wrong("minimum", "a local minimum besides the goal", _cell(minimum.argmax(), answer.shape))
         residual = np.where(inner, np.abs(around.mean(axis=0) - answer), 0.0)
-        allowed = HARMONIC_TOLERANCE * np.abs(answer)
-        excess = np.where(residual > allowed, residual / np.maximum(np.abs(answer), np.finfo(float).tiny), 0.0)
-        if (residual > allowed).any():
+        excess = residual - HARMONIC_TOLERANCE * np.abs(answer)
+        if excess.max() > 0:
             cell = _cell(excess.argmax(), answer.shape)
             why = f"{answer[cell]:.9g}, but the mean of its neighbours is {around.mean(axis=0)[cell]:.9g}"
             raise self.wrong("residual", why, cell, answer=float(answer[cell]), residual=float(residual[cell]))

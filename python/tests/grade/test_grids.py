@@ -158,3 +158,16 @@ def test_a_right_field_is_right(answer: object) -> None:
 @pytest.mark.parametrize("answer, reason", NOT_HARMONIC.values(), ids=list(NOT_HARMONIC))
 def test_a_wrong_field_is_wrong_for_its_reason(answer: object, reason: str) -> None:
     is_graded("fields 1", answer, reason)
+
+
+def test_a_closed_pocket_has_no_numbers_and_no_field() -> None:
+    # The whole U with a lid: its inside is free, but closed.
+    bars = [(0.62, 1.42, 0.33, 0.43), (0.62, 1.42, 1.07, 1.17), (1.32, 1.42, 0.33, 1.17), (0.62, 0.72, 0.33, 1.17)]
+    obstacles = [{"name": f"bar {k}", "polygon": [[a, c], [b, c], [b, d], [a, d]]} for k, (a, b, c, d) in enumerate(bars)]
+    world = cplan.World(*obstacles, start=[0.1, 0.1], goal=[1.85, 0.75])
+    waves, fields = (kind(WAVES.arm, world, (20, 15)) for kind in (cplan.grading.Wavefront, cplan.grading.Harmonic))
+    steps, field = wave(waves.blocked, GOAL), harmonic(waves.blocked, GOAL)
+    assert not waves.blocked[START] and np.isnan(steps[START]) and field[START] == 0
+    assert waves.grade(steps) and fields.grade(field)
+    assert waves.grade(changed(steps, START, 7)).reason == "not reached"
+    assert fields.grade(changed(field, START, -1e-12)).reason == "residual"
