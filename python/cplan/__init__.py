@@ -33,6 +33,7 @@ from cplan._cplan import (
 from cplan._frames import PolygonTest, Trajectory
 from cplan.explaining import Explanation, explain
 from cplan.findings import Check, Comparison, Comparisons, Verification, check, compare, verify
+from cplan.grading import Grade, grade
 from cplan.planning import plan
 from cplan.studies import Results, Study
 
@@ -43,6 +44,7 @@ __all__ = [
     "Comparisons",
     "Explanation",
     "Found",
+    "Grade",
     "Infeasible",
     "InputError",
     "Options",
@@ -59,6 +61,7 @@ __all__ = [
     "check",
     "compare",
     "explain",
+    "grade",
     "minkowski_difference",
     "penetration_depth",
     "plan",

@@ -1,6 +1,6 @@
 from collections.abc import Callable, Sequence
 from os import PathLike
-from typing import Any, ClassVar, Literal, final
+from typing import Any, ClassVar, Literal, TypeAlias, final
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +26,11 @@ __all__ = [
     "check",
     "compare",
     "compared_problems",
+    "drawn",
     "explain",
     "explain_drawn",
+    "joint_ranges",
+    "judge_boxes",
     "minkowski_difference",
     "penetration_depth",
     "plan",
@@ -36,11 +39,14 @@ __all__ = [
     "rows_restored",
     "run",
     "seconds_in_rust",
+    "separate",
     "slices",
     "verify",
 ]
 
 __version__: str
+
+_Box: TypeAlias = Sequence[Sequence[float]]
 
 class InputError(ValueError):
     diagnostics: list[dict[str, Any]]
@@ -191,6 +197,20 @@ def restored(data: bytes) -> Found | Infeasible | Unknown: ...
 def penetration_depth(a: NDArray[np.float64], b: NDArray[np.float64]) -> float: ...
 def polygon_test(a: NDArray[np.float64], b: NDArray[np.float64]) -> PolygonTest: ...
 def minkowski_difference(a: NDArray[np.float64], b: NDArray[np.float64]) -> NDArray[np.float64]: ...
+def joint_ranges(arm: Arm, world: World) -> list[tuple[float, float, bool]]: ...
+def judge_boxes(
+    arm: Arm, world: World, boxes: Sequence[_Box], colliding: bool = False
+) -> list[tuple[Literal["free", "collision", "limits", "undecided"], list[float] | None]]: ...
+def separate(arm: Arm, world: World, boxes: Sequence[_Box]) -> bool: ...
+def drawn(
+    arm: Arm,
+    world: World,
+    title: Sequence[str],
+    at: Sequence[float],
+    paths: Sequence[Sequence[Sequence[float]]],
+    edges: Sequence[_Box],
+    boxes: Sequence[Sequence[_Box]],
+) -> str: ...
 def run(arguments: Sequence[str]) -> int: ...
 
 @disjoint_base

@@ -6,6 +6,7 @@
 mod error;
 mod findings;
 mod geometry;
+mod grading;
 mod plan;
 mod problem;
 mod signals;
@@ -43,6 +44,10 @@ fn _cplan(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(geometry::penetration_depth, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::polygon_test, module)?)?;
     module.add_function(wrap_pyfunction!(geometry::minkowski_difference, module)?)?;
+    module.add_function(wrap_pyfunction!(grading::joint_ranges, module)?)?;
+    module.add_function(wrap_pyfunction!(grading::judge_boxes, module)?)?;
+    module.add_function(wrap_pyfunction!(grading::separate, module)?)?;
+    module.add_function(wrap_pyfunction!(grading::drawn, module)?)?;
     module.add_function(wrap_pyfunction!(run, module)?)?;
     module.add("InputError", module.py().get_type::<error::InputError>())?;
     module.add("__version__", env!("CARGO_PKG_VERSION"))

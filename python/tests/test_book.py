@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[2]
-PAGES = [(ROOT / f"docs/{page}.md").read_text() for page in ("python", "study")]
+PAGES = [(ROOT / f"docs/{page}.md").read_text() for page in ("python", "study", "grading")]
 EXAMPLES = [example for page in PAGES for example in re.findall(r"```python\n(.*?)```\n\n```text\n(.*?)```", page, re.DOTALL)]
 
 
