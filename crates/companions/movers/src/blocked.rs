@@ -199,10 +199,9 @@ impl Stretch {
         }
     }
 
-    /// Finds the same times as [`Stretch::overlap_times`], for a piece that slides without turning. The distance
-    /// between two convex sets is a convex function of their offset, so the depth is a concave function of time. At
-    /// both `ends`, the depth is `round`, the sum of both radii. So the depth is at least that of a chord from an end
-    /// to a time with a greater depth.
+    /// Finds the same times as [`Stretch::overlap_times`], for a piece that slides without turning. The distance between two
+    /// convex sets is a convex function of their offset, so the depth is a concave function of time. At both `ends`, the depth
+    /// is `round`, the sum of both radii. So the depth is at least that of a chord from an end to a time with a greater depth.
     fn deep_in_passing(
         &self,
         around: &PartDeviation,

@@ -91,8 +91,7 @@ fn remaining_part(others: &[Interval], [from, to]: Interval) -> Option<Interval>
     (from <= to && left[0] <= left[1]).then_some(left)
 }
 
-/// Returns the first time in the closed interval from `from` to `to` at which a motion may begin. `None` if there is
-/// none.
+/// Returns the first time in the closed interval from `from` to `to` at which a motion may begin. `None` if there is none.
 pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> {
     let mut time = from;
     for &[lower, upper] in blocked {

@@ -193,8 +193,7 @@ pub fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     Some([cubic, quartic])
 }
 
-/// Returns the problem with one moving obstacle made static: the first one that the motion meets, at the place where
-/// they meet.
+/// Returns the problem with one moving obstacle made static: the first one that the motion meets, at the place where they meet.
 fn around_what_is_met(
     problem: &MotionProblem,
     trajectories: &[ObstacleTrajectory],

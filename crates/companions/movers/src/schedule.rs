@@ -225,8 +225,7 @@ impl Stops<'_> {
         least_duration((self.gone[to] - self.gone[from]).abs(), &limits)
     }
 
-    /// Finds the sequence of stops that reaches the last one earliest. Sequences that arrive after `before` are not
-    /// found.
+    /// Finds the sequence of stops that reaches the last one earliest. Sequences that arrive after `before` are not found.
     fn search(&mut self, before: f64) -> Result<Option<StopSequence>, TimingError> {
         // Only the first interval at the start can contain time 0.
         if self.safe[0].first().is_none_or(|first| first[0] > 0.0) {

@@ -50,9 +50,8 @@ pub enum EndpointError {
     },
 }
 
-/// Returns the differences from the start and from the goals that exceed [`END_TOLERANCE`]. Whole turns of continuous
-/// joints do not count. The motion may end at any of the goals. If it ends at none, the difference from the first goal
-/// is reported.
+/// Returns the differences from the start and from the goals that exceed [`END_TOLERANCE`]. Whole turns of continuous joints do
+/// not count. The motion may end at any of the goals. If it ends at none, the difference from the first goal is reported.
 pub fn endpoint_errors(arm: &Arm, recording: &Recording, start: Option<Goal>, goals: &[Goal]) -> Vec<EndpointError> {
     let positions = recording.positions();
     let (first, last) = (positions[0], positions[positions.len() - 1]);

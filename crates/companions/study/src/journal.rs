@@ -58,8 +58,7 @@ impl Journal {
     /// Opens the journal of a study and reads its rows, which are those of the first layouts, without a gap. Drops an
     /// incomplete last line, as it remains if the program is killed while writing.
     ///
-    /// With `fresh`, drops all rows, even if they belong to another study. A file that is not a journal is never
-    /// changed.
+    /// With `fresh`, drops all rows, even if they belong to another study. A file that is not a journal is never changed.
     ///
     /// # Errors
     /// A journal of another study, a file that is not a journal, a journal in use by another run, and errors of the

@@ -3,8 +3,7 @@
 use cplan_geometry::{Bounds, BoxTree, Convex, separation};
 use cplan_model::Obstacle;
 
-/// Depth up to which obstacles count as touching, in metres. It covers the rounding of numbers in files and of moved
-/// shapes.
+/// Depth up to which obstacles count as touching, in metres. It covers the rounding of numbers in files and of moved shapes.
 const TOUCHING_DEPTH: f64 = 1e-9;
 
 /// Describes two obstacles that overlap in the layout (`now`), but not in the files (`before`). Only pairs with an
@@ -26,8 +25,7 @@ pub(super) fn overlap(before: &[Obstacle], now: &[Obstacle]) -> Option<String> {
     None
 }
 
-/// Returns true if two obstacles have more than boundary points in common at some height, and neither lies on top of
-/// the other.
+/// Returns true if two obstacles have more than boundary points in common at some height, and neither lies on top of the other.
 fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
     if !(a.heights.object_definitely_meets(b.heights) && b.heights.object_definitely_meets(a.heights)) {
         return false;

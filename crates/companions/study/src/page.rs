@@ -49,8 +49,7 @@ impl Study {
         html + &foot(METHOD_NOTE)
     }
 
-    /// Returns the script that links maps, charts and tables, with its data: the layouts that the page shows in several
-    /// places.
+    /// Returns the script that links maps, charts and tables, with its data: the layouts that the page shows in several places.
     fn script(&self, summary: &Summary, rows: &[Row], linked: &BTreeSet<usize>) -> String {
         let shown = || rows.iter().filter(|row| linked.contains(&row.layout));
         let fact = |name: &str, text: String| json!([name, text]);
@@ -95,8 +94,7 @@ impl Study {
         table(&Table { columns: columns.collect(), rows }).replacen("<table", "<table class=\"words\"", 1)
     }
 
-    /// Draws a map for each pair of parameters. A cell shows whether a motion exists, and the best value of the
-    /// objective.
+    /// Draws a map for each pair of parameters. A cell shows whether a motion exists, and the best value of the objective.
     fn maps(&self, summary: &Summary, rows: &[Row], linked: &mut BTreeSet<usize>) -> String {
         let mapped = self.parameters.len().min(MAX_MAPPED_PARAMETERS);
         let pairs = (0..mapped).flat_map(|a| (a + 1..mapped).map(move |b| [a, b]));
@@ -303,8 +301,7 @@ struct Cell {
     found: usize,
     fitting: usize,
     cost: Option<f64>,
-    /// Rank, cost and number of the layout that represents the cell: the best one that fits, or else one with the best
-    /// ending.
+    /// Rank, cost and number of the layout that represents the cell: the best one that fits, or else one with the best ending.
     shown: Option<(usize, f64, usize)>,
 }
 

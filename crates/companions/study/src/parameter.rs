@@ -40,8 +40,7 @@ pub enum Values {
         from: f64,
         /// The greatest value.
         to: f64,
-        /// True for a Latin hypercube: of `n` draws, there is one in each of `n` equal intervals. False for independent
-        /// draws.
+        /// True for a Latin hypercube: of `n` draws, there is one in each of `n` equal intervals. False for independent draws.
         latin: bool,
     },
 }

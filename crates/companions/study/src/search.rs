@@ -96,8 +96,7 @@ impl<F> Landscape<'_, F> {
         let layouts: Vec<Vec<f64>> = places.iter().map(values).collect();
         let mut new: Vec<&Vec<f64>> = Vec::new();
         for values in &layouts {
-            // Different places often have the same values, because values are listed, or because places lie beyond a
-            // range.
+            // Different places often have the same values, because values are listed, or because places lie beyond a range.
             if let Entry::Vacant(entry) = costs.entry(key(values)) {
                 entry.insert(EXCLUDED_COST);
                 new.push(values);

@@ -227,8 +227,7 @@ pub fn false_claims<'a>(
 impl Ledger {
     /// Checks the claims about any motion.
     fn general(&mut self, arm: &Arm, recording: &Recording, claims: &Claims) {
-        // The motion of an exploration may have any of these outcomes. Any other result must state that a motion was
-        // found.
+        // The motion of an exploration may have any of these outcomes. Any other result must state that a motion was found.
         let of_exploration = ["reached", "explored", "unreachable", "unknown"];
         if let Some(status) = claims.status.as_ref().filter(|status| !of_exploration.contains(&status.as_str())) {
             self.check_equal("status", status, &"found".to_owned());

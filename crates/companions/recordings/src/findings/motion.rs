@@ -118,8 +118,7 @@ impl MotionFindings {
 /// Collisions and clearance along a motion.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct CollisionFinding {
-    /// Proven lower bound on the distance to every obstacle, in metres. Only for free motions with obstacles within
-    /// reach.
+    /// Proven lower bound on the distance to every obstacle, in metres. Only for free motions with obstacles within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
     /// The place where a free motion comes nearest to an obstacle.
@@ -172,8 +171,7 @@ pub struct MomentFinding {
     /// Time as in the file, in seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
-    /// Place on a motion without times: index of the waypoint, from 0, plus the fraction of the segment that follows
-    /// it.
+    /// Place on a motion without times: index of the waypoint, from 0, plus the fraction of the segment that follows it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub waypoint: Option<f64>,
     /// Index of the last sample at or before this moment, from 0.
@@ -247,8 +245,7 @@ impl MotionFindings {
         }
     }
 
-    /// Creates the findings about a recording before any check: the verdict is *free*; clearance and limits are not
-    /// judged.
+    /// Creates the findings about a recording before any check: the verdict is *free*; clearance and limits are not judged.
     pub(crate) fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
         let joints = &scene.arm().joints;
         Self {

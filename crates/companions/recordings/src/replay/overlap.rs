@@ -77,8 +77,7 @@ impl Overlaps {
         faults
     }
 
-    /// Returns the turns during a motion, each with the payload's covers. `None` if the wrist may not turn while the
-    /// arm moves.
+    /// Returns the turns during a motion, each with the payload's covers. `None` if the wrist may not turn while the arm moves.
     fn turns_during<'a>(
         &self,
         task: &Task,
@@ -97,9 +96,8 @@ impl Overlaps {
         Some(before.into_iter().chain(self.turn_at_end.map(|turn| during(turn, true))).collect())
     }
 
-    /// Checks the turns during a motion: the limits of the wrist, and collisions of the payload. Returns the worst
-    /// collision check, with its scene. `None` if no turn overlaps. Bounds on the clearance are improved up to
-    /// `sought`.
+    /// Checks the turns during a motion: the limits of the wrist, and collisions of the payload. Returns the worst collision
+    /// check, with its scene. `None` if no turn overlaps. Bounds on the clearance are improved up to `sought`.
     pub fn check_turns(
         &self,
         task: &Task,
@@ -134,8 +132,7 @@ impl Overlaps {
         let tool = task.stroke.as_ref()?;
         let times = motion.times()?;
         let depths: Vec<f64> = self.strokes().map(|stroke| stroke.depth).collect();
-        // The payload has another orientation before a turn that follows a pick, and after a turn that precedes a
-        // place.
+        // The payload has another orientation before a turn that follows a pick, and after a turn that precedes a place.
         let scenes = [self.turn_before.map(|turn| turn.from), self.turn_at_end.map(|turn| turn.to)]
             .map(|angle| state.arch_scene(task, (tool, &depths), picked, angle));
         let during = |stroke: PartialStroke, is_raising: bool| {

@@ -29,8 +29,7 @@ pub(super) fn faults(
     faults
 }
 
-/// Returns a recording whose first component is this value at the samples of a motion. It has the motion's
-/// interpolation.
+/// Returns a recording whose first component is this value at the samples of a motion. It has the motion's interpolation.
 fn recording(motion: &Recording, rows: &[[f64; 3]]) -> Result<Recording, RecordingError> {
     let column = |k: usize| rows.iter().map(|row| Configuration::new(row[k], 0.0)).collect::<Vec<_>>();
     let velocity = motion.velocities().map(|_| column(1));
