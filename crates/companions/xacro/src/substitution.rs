@@ -58,7 +58,8 @@ fn parts(text: &str) -> Result<Vec<Part<'_>>, Fault> {
 }
 
 impl Expander<'_> {
-    /// Evaluates a text. A text that is a single expression has that expression's type; any other is a string.
+    /// Evaluates a text. If the text is a single expression, the value has the type of that expression. Otherwise it is
+    /// a string.
     pub fn text(&mut self, text: &str, context: Context) -> Result<Value, Fault> {
         if !text.contains('$') {
             self.budget.spend(text.len())?;
@@ -89,7 +90,6 @@ impl Expander<'_> {
         Ok(Value::text(whole))
     }
 
-    /// Evaluates `$(...)`.
     fn extension(&mut self, text: &str, context: Context) -> Result<Value, Fault> {
         let (command, rest) = text.trim().split_once(char::is_whitespace).unwrap_or((text.trim(), ""));
         let rest = rest.trim();
@@ -168,7 +168,7 @@ impl Expander<'_> {
     }
 }
 
-/// Adds the expression's text to the message of a fault.
+/// Adds the text of the expression to the message of a fault.
 fn with_expression(expression: &str, fault: Fault) -> Fault {
     match fault {
         Fault::Here(message, hint) => {
@@ -209,7 +209,7 @@ impl Names for ContextNames<'_, '_> {
 }
 
 impl Expander<'_> {
-    /// Returns the property from which a parameter's default is forwarded.
+    /// Returns the property of the caller that is a parameter's default.
     pub fn forwarded(&mut self, scope: usize, name: &str) -> Result<Option<Value>, Fault> {
         self.property(scope, name)
     }
