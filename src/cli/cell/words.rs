@@ -1,4 +1,4 @@
-//! The answer about a cell for people.
+//! The answer about a cell in words.
 
 use super::Answered;
 use crate::model::Outcome;
