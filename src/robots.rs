@@ -25,7 +25,6 @@ fn expanded(source: &Source, arguments: &[(String, String)]) -> Result<Source, I
     Ok(source.converted(text, Arc::new(Files(expansion))))
 }
 
-/// The files of an expansion.
 #[derive(Debug)]
 struct Files(Expansion);
 

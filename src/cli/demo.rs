@@ -142,7 +142,6 @@ fn of_words<A: Args>(words: impl IntoIterator<Item = &'static str>) -> Result<A,
         .ok_or_else(|| Failure::Usage("internal error: the options of the demonstration have no defaults".into()))
 }
 
-/// Reads the line of the demonstration.
 fn built_in_line() -> Result<FollowedLine, Failure> {
     let [name, text] = FOLLOW_FILES[2];
     let line = read(text.as_bytes(), Format::GCode, &Placement::default());

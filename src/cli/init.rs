@@ -221,7 +221,6 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
 }
 
 impl InitArgs {
-    /// Returns the numbers of the arm by its data sheet.
     fn sheet_numbers(&self) -> Result<ArmNumbers, Failure> {
         match self.kind {
             Kind::Pr | Kind::Arch => {

@@ -17,10 +17,9 @@ use clap::{Args, ValueHint};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// The report as JSON.
 #[derive(Serialize)]
 struct Json<'a> {
-    /// True if planning is possible for the robot as it is.
+    /// True if planning is possible for this robot without changes.
     plannable: bool,
     #[serde(flatten)]
     inspection: &'a Inspection,

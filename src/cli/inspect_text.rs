@@ -92,7 +92,6 @@ fn branch(report: &Inspection, joint: &JointEntry) -> String {
     format!("{above}{name} ({kind}, line {line}) - {}", describe_link(report, child))
 }
 
-/// Describes a link and its shapes.
 fn describe_link(report: &Inspection, name: &str) -> String {
     let Some(LinkEntry { collision, visual, .. }) = report.links.iter().find(|l| l.name == name) else {
         return format!("\"{name}\" (not declared)");

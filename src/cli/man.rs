@@ -51,7 +51,6 @@ pub fn run(args: &ManArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Returns the page of one command.
 fn page(command: &Command) -> io::Result<Vec<u8>> {
     let man = Man::new(command.clone());
     let mut page = Vec::new();

@@ -1,4 +1,4 @@
-//! `cplan plan`, the main command: plans a certified motion from two files, or proves that there is none.
+//! `cplan plan`, the main command: plans a certified motion from two files, or proves that no motion exists.
 
 use super::exit::code_of;
 use super::explain;

@@ -57,7 +57,7 @@ pub struct RobotTable {
     pub limits: BTreeMap<String, [Range; 2]>,
     /// Limits of the shafts of motors, if given.
     pub drives: Option<Drives>,
-    /// Errors in spite of which motions must be free.
+    /// Errors that must not make a motion collide.
     pub calibration: Calibration,
     /// Radius of bars that replace links without geometry, if given.
     pub bar: Option<Decimal>,
@@ -328,7 +328,6 @@ impl Reader<'_> {
         Ok(Obstacle { name, at, turn, heights, trajectory, stated, ..Obstacle::new(outline) })
     }
 
-    /// Reads all obstacles.
     fn obstacles(&self, list: &Value, world: &mut World) -> ReadResult<()> {
         for (index, value) in self.list(list)?.into_iter().enumerate() {
             let mut obstacle = self.obstacle(value, false)?;

@@ -60,7 +60,6 @@ pub fn no_motion(arm: &Arm, world: &World, certificate: &Certificate, line: &Lin
     ))
 }
 
-/// Returns the point of the line at a position.
 fn place(line: &Line, position: &Decimal) -> Point {
     let piece = index(position, line.pieces.len());
     line.pieces[piece].at(&Interval::exact(parameter(position, piece)))

@@ -94,7 +94,7 @@ pub enum Answer {
     NoShorter,
 }
 
-/// A result of cplan, of which only the certificate is read.
+/// A result of cplan. Only its certificate is read.
 #[derive(Deserialize)]
 struct EnclosingResult<'a> {
     #[serde(borrow)]

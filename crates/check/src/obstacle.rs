@@ -30,7 +30,7 @@ pub struct Obstacle {
     pub trajectory: Option<Rc<dyn ObstacleTrajectory>>,
     /// Required distance and displacement in any direction, metres, that the world states for this obstacle.
     pub stated: [Option<Decimal>; 2],
-    /// Distances by which the obstacle is grown: in proofs of a collision, and in proofs that there is none.
+    /// Distances by which the obstacle is grown: in proofs of a collision, and in proofs of its absence.
     pub grown: [Interval; 2],
 }
 

@@ -21,7 +21,6 @@ use std::time::Duration;
 /// Largest number of remembered robots, and of remembered option lists.
 const MAX_REMEMBERED: usize = 256;
 
-/// The keys of a line.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LineKeys {

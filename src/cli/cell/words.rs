@@ -113,7 +113,6 @@ impl Answered<'_> {
     }
 }
 
-/// Describes a wait.
 fn waiting(Wait { from, to, at }: &Wait) -> String {
     let place = if *from == 0.0 { "at its start".into() } else { format!("at ({:.3}, {:.3})", at[0], at[1]) };
     format!("{place} from {from:.3} s to {to:.3} s")

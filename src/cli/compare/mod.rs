@@ -34,7 +34,6 @@ use recorded::planners_in;
 use runner::{ComparisonResults, Entry, Runner};
 use std::path::Path;
 
-/// A format of results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ReportFormat {
     /// Tables in Markdown.
@@ -240,7 +239,6 @@ impl Results<'_> {
         self.single().map_or_else(|| self.study.to_text(wide, emphasis), |single| single.to_text(wide, emphasis))
     }
 
-    /// Returns the content of a file.
     fn content(&self, format: ReportFormat) -> Result<String, Failure> {
         let (single, study) = (self.single(), self.study);
         Ok(match format {

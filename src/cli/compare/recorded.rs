@@ -78,7 +78,6 @@ impl RecordedPlanner {
     }
 }
 
-/// Reads and judges a file.
 fn judged_file(file: &FilePath, case: &Case, overrides: &Overrides) -> Result<(Recording, MotionFindings), InputError> {
     let loaded = (*case.scene).clone().with_margins(overrides.clearance, overrides.calibration)?;
     let overrides = match case.query {

@@ -8,7 +8,7 @@ use crate::model::{Outcome, Status};
 use cplan_follow::{Cause, Exclusion, Infeasible, Obstacle};
 use std::path::Path;
 
-/// Returns the text of the certificate. If there is none, prints a warning about its file.
+/// Returns the text of the certificate. If the answer has no certificate, prints a warning about its file.
 pub fn text(answered: &Answered, path: &Path) -> Option<String> {
     let Answered { args, loaded, line, answer, digests, .. } = answered;
     let asked = &Overrides { clearance: args.clearance, calibration: args.calibration, ..Overrides::default() };

@@ -216,7 +216,6 @@ fn name_obstacles(shapes: Vec<Shape>) -> Vec<ImportedObstacle> {
     given.into_iter().zip(shapes).map(|(name, shape)| ImportedObstacle { name, shape }).collect()
 }
 
-/// The names that are in use.
 #[derive(Default)]
 pub(super) struct Names {
     taken: HashSet<String>,

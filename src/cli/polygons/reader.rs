@@ -105,7 +105,6 @@ fn words(line: &str, from: usize) -> Vec<(&str, Range<usize>)> {
     line.split(SEPARATORS).filter(|word| !word.is_empty()).map(|word| (word, place(word))).collect()
 }
 
-/// Returns the points of a TOML file.
 fn toml_points(source: &Source) -> Result<Vec<PlacedPoint>, Diagnostic> {
     const HELP: &str = "write the corners as polygon = [[x, y], [x, y], ...]";
     let file: PolygonFile = toml::from_str(source.text()).map_err(|error| {

@@ -153,7 +153,6 @@ fn certificate(
     Ok(certificate.map_err(|why| why.to_string()))
 }
 
-/// Returns the view of a recorded motion.
 fn view(timed: TimedScene, recording: &Recording, findings: &MotionFindings) -> View {
     let (scene, path) = (timed.scene, recording.outline());
     // Show the arm at its collision.

@@ -102,7 +102,6 @@ fn collisions(arm: &Arm, collisions: &CollisionFinding, verdict: Judgement) -> V
     lines
 }
 
-/// Describes a violated limit.
 fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     let excess = &limit.excess;
     // A motor is described like the joint that it drives.

@@ -1,4 +1,4 @@
-//! Errors of the robot and the world in spite of which motions must be free, and clearances of single obstacles.
+//! Errors of the robot and the world that must not make a motion collide, and clearances of single obstacles.
 
 use super::{ReadResult, Reader, Value, length_with_unit};
 use cplan_check::arm::{Arm, Joint, Motion};
@@ -50,7 +50,6 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the error of a length.
     pub(super) fn length_error(&self, value: &Value) -> ReadResult<Decimal> {
         self.errors(value).map(|[length, _]| length)
     }

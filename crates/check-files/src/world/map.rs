@@ -79,7 +79,6 @@ impl<'a> Text<'a> {
         Ok(())
     }
 
-    /// Returns true if the next line begins with a key.
     fn next_line_begins_with(&self, key: &str) -> bool {
         self.lines.get(self.next).is_some_and(|(_, line)| line.starts_with(key))
     }

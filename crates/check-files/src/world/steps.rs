@@ -349,7 +349,6 @@ impl Steps<'_, '_> {
         Action::Pick { object, grasp, supports, passing: Box::new(passing) }
     }
 
-    /// Reads the supports that a table names.
     fn supports(&self, table: &DeTable) -> ReadResult<Option<Vec<usize>>> {
         let list = table.get("supports");
         list.map(|list| self.reader.supports(list, self.world, self.first, self.objects)).transpose()

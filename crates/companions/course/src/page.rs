@@ -76,7 +76,6 @@ fn neighbors(chapters: &[Chapter], at: usize) -> String {
     format!("<nav>{before}<a href=\"index.html\">All chapters</a>{after}</nav>\n")
 }
 
-/// Returns the page of a chapter.
 fn chapter_page(chapters: &[Chapter], names: &[&str], at: usize) -> String {
     let chapter = &chapters[at];
     let figure = chapter.figure();

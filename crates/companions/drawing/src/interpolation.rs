@@ -1,5 +1,5 @@
-//! Interpolating splines for curves of which a file states only the fit points. As in CAD programs, the splines are
-//! cubic, are parametrised by chord length, and have continuous curvature.
+//! Interpolating splines for curves that are given only by their fit points. As in CAD programs, the splines are cubic,
+//! are parametrised by chord length, and have continuous curvature.
 
 use crate::Point;
 

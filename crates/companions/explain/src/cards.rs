@@ -224,7 +224,7 @@ impl CardMaker<'_> {
     fn contours(&self, changed: &Scene, element: Element) -> Vec<ContourView> {
         let only = match element {
             Element::Obstacle { number } => Some(number),
-            // C-obstacles of revolute joints repeat after each turn, whatever the limits are.
+            // C-obstacles of revolute joints repeat after each turn, for any limits.
             Element::Limit { joint, .. } if !changed.arm().joints[joint].joint_type.is_revolute() => None,
             _ => return Vec::new(),
         };

@@ -250,7 +250,6 @@ fn misses(scene: &Scene, out: &OutOfReach) -> String {
     )
 }
 
-/// Describes a bottleneck.
 fn bottleneck_line(scene: &Scene, bottleneck: &Bottleneck) -> String {
     let clearance = scene.workspace().clearance;
     let lacking = bottleneck.missing_distance(clearance);

@@ -258,7 +258,6 @@ fn limit_after(joint: &Joint, side: Side, by: f64) -> f64 {
     if side == Side::Lower { lower - by } else { upper + by }
 }
 
-/// Formats a value of a joint for a headline.
 fn headline_value(joint: &Joint, value: f64, up: bool) -> String {
     if !joint.joint_type.is_revolute() {
         return headline_length(value, up);

@@ -117,7 +117,7 @@ pub fn explore(
     })
 }
 
-/// Returns the length of the shortest motion found with knowledge of the true world. `None` if none is found.
+/// Returns the length of the shortest motion found with knowledge of the true world. `None` if the search finds nothing.
 fn length_if_known(scene: &Scene, start: Configuration, goals: &GoalSet, settings: &Settings) -> Option<f64> {
     let problem = MotionProblem::new(scene.clone(), start, goals.clone()).ok()?;
     let options = Options { bounded: false, levels: settings.options.levels, ..Options::default() };

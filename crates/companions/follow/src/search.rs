@@ -36,7 +36,6 @@ pub(crate) struct Route {
 /// A path, the nodes and the IK solutions of its waypoints, and the waypoints at which the solution changes.
 type Sequence = (Path, Vec<usize>, Vec<usize>, Vec<usize>);
 
-/// The state of the search.
 pub(crate) struct Search<'a> {
     pub scene: &'a Scene,
     pub kinematics: &'a Kinematics<'a>,

@@ -68,7 +68,6 @@ const FOOT_STEPS: u32 = 3;
 struct Search {
     /// The curve; `None` if every curve tried is too far from the line.
     curve: Option<JointCurve>,
-    /// Number of vain rounds.
     vain_rounds: usize,
 }
 
@@ -99,7 +98,7 @@ impl<'a> Stretch<'a> {
         Self { driver, route, ends, path, drive, distances }
     }
 
-    /// Returns the fastest motion found, from rest to rest without a stop in between. `None` if none is found.
+    /// Returns the fastest motion found, from rest to rest without a stop in between.
     pub fn motion(&self) -> Result<Option<TimedMotion>, FollowError> {
         if self.ends[1] - self.ends[0] <= 1 {
             let curve = CertifiedCurve::from(self.path.clone());

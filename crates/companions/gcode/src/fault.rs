@@ -21,7 +21,7 @@ pub enum Cause {
     MotorRange,
     /// The arm hits an obstacle, or comes nearer than the clearance.
     Collision,
-    /// The same, while the joints move straight, as some firmwares play travels.
+    /// A collision while the joints move straight, as some firmwares play travels.
     JointMotion,
     /// No safe travel can replace an unsafe one.
     NoTravel,

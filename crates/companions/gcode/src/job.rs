@@ -18,7 +18,6 @@ impl FromStr for PenWords {
 }
 
 impl PenWords {
-    /// Returns true if a line has all these words.
     fn are_in(&self, line: &[(char, f64)]) -> bool {
         self.0.iter().all(|word| line.contains(word))
     }

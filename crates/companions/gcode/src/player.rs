@@ -137,7 +137,7 @@ impl<'a> Player<'a> {
     }
 
     /// Returns the first and the last number of whole turns that bring all values of a joint within its limits. If the
-    /// first exceeds the last, there is none.
+    /// first exceeds the last, no number does.
     pub fn turns(&self, joint: usize, [low, high]: [f64; 2]) -> [f64; 2] {
         let own = &self.kinematics.arm.joints[joint];
         match own.range {
@@ -314,7 +314,7 @@ impl<'a> Player<'a> {
     }
 }
 
-/// Returns the first proven fault of the parts of a move. If none is proven, returns the first fault.
+/// Returns the first proven fault of the parts of a move, or else the first fault.
 fn first_fault(parts: impl Iterator<Item = Result<(), Fault>>) -> Result<(), Fault> {
     let mut doubtful = Ok(());
     for part in parts {

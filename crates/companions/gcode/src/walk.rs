@@ -125,8 +125,8 @@ impl<'a> Walk<'a> {
         of(0).flat_map(|one| of(1).map(move |two| Configuration::new(one, two))).collect()
     }
 
-    /// Plans a safe travel for each broken one. Travels for which none is found become failed moves. `frame` is that of
-    /// the file, which must be able to state the places.
+    /// Plans a safe travel for each broken one. Travels without a safe substitute become failed moves. `frame` is that
+    /// of the file, which must be able to state the places.
     pub fn repair(&mut self, frame: Frame) -> Vec<Replaced> {
         let mut detours = Detours::new(self.player, frame);
         let mut chosen: Vec<Option<Configuration>> = vec![None; self.chains.len()];

@@ -19,7 +19,6 @@ const OVERLAP_TIME_STEP: f64 = 1e-3;
 /// Relative reduction of the least duration of a stretch. It covers rounding errors.
 const ROUNDING: f64 = 1e-9;
 
-/// A stretch of a path.
 struct Stretch {
     /// The middle of the stretch, and half of its extent.
     middle: Configuration,

@@ -175,7 +175,6 @@ impl Reader<'_> {
         self.wrong(words.span(), format!("options: {}", reasons.join("; ")), help)
     }
 
-    /// Reads a file that the study names.
     fn named(&self, which: NamedFile, name: Option<&Text>, open: OpenFile) -> Result<Source, InputError> {
         let named = name.map(|name| name.get_ref().as_str());
         open(which, named).map_err(|error| match (name, error.diagnostics()) {

@@ -153,7 +153,7 @@ impl Objective {
         }
     }
 
-    /// Converts a value to a cost, of which less is better. Applied to a cost, it returns the value.
+    /// Converts a value to a cost, where less is better. Applied to a cost, it returns the value.
     pub(super) fn cost(&self, value: f64) -> f64 {
         if self.most { -value } else { value }
     }

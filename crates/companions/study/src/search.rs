@@ -16,7 +16,7 @@ const GENERATION_SIZE: usize = 40;
 const EXCLUDED_COST: f64 = f64::INFINITY;
 
 impl Study {
-    /// Returns the cost of a row, of which less is better. The cost is infinite for a layout that has no motion or
+    /// Returns the cost of a row, where less is better. The cost is infinite for a layout that has no motion or
     /// violates a condition.
     pub fn cost(&self, row: &Row) -> f64 {
         let value = |objective: Objective| Some(objective.cost(row.measured[self.column(objective.measure)?]?));

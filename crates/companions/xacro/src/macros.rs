@@ -7,7 +7,6 @@ use crate::scope::{Block, Slot};
 use crate::value::Value;
 use std::rc::Rc;
 
-/// The definition of a macro.
 #[derive(Debug)]
 pub(crate) struct Macro {
     parameters: Vec<Parameter>,
@@ -21,7 +20,6 @@ struct Parameter {
     default: Option<Default>,
 }
 
-/// The default of a parameter.
 #[derive(Debug, PartialEq, Eq)]
 struct Default {
     /// True if the default is the caller's property of the same name. If the caller has no such property, `text` is used.
@@ -158,7 +156,6 @@ impl Expander<'_> {
         Ok(())
     }
 
-    /// Returns the default of a parameter that the call omits.
     fn default(
         &mut self,
         parameter: &Parameter,

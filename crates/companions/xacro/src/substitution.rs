@@ -19,7 +19,6 @@ pub(crate) struct Context {
     pub file: usize,
 }
 
-/// A part of a text.
 enum Part<'t> {
     Text(&'t str),
     /// The expression in `${...}`.
@@ -118,7 +117,6 @@ impl Expander<'_> {
         }
     }
 
-    /// Returns the value of an argument.
     fn argument(&mut self, name: &str) -> Result<Value, Fault> {
         self.asked_arguments.insert(name.to_owned());
         let value = self.arguments.get(name).or_else(|| self.given.get(name));

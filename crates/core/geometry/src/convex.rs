@@ -1,4 +1,4 @@
-//! The shape of which links and obstacles consist: a convex polygon grown by a radius.
+//! The basic shape of links and obstacles: a convex polygon grown by a radius.
 
 use super::predicates::{Orientation, orientation};
 use super::{Bounds, Point, Pose, Vector, hull};

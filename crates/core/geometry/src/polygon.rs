@@ -168,7 +168,6 @@ pub(super) fn check_ring(corners: &[Point]) -> Result<(), PolygonError> {
     }
 }
 
-/// Checks the number of corners and their coordinates.
 fn check_coordinates(corners: &[Point]) -> Result<(), PolygonError> {
     if corners.len() < 3 {
         return Err(PolygonError::TooFewCorners { count: corners.len() });

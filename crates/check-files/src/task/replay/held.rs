@@ -23,7 +23,6 @@ const PICK_TOLERANCE_DECIMALS: u32 = 3;
 /// Greatest turn of the wrist in either direction, radians. More than one full turn is implausible.
 const MAX_WRIST_TURN: i128 = 7;
 
-/// The carried object.
 pub(super) struct HeldObject {
     pub(super) object: usize,
     pub(super) on: Attachment,

@@ -202,7 +202,7 @@ impl<'a> Reader<'_, 'a> {
         self.open(points, place, origin)
     }
 
-    /// Adds a spline of which the file states only the fit points.
+    /// Adds a spline that is given only by its fit points.
     fn read_fit_spline(
         &mut self,
         record: &Record,

@@ -114,7 +114,6 @@ impl<'d, 'a> Reader<'d, 'a> {
         Ok(())
     }
 
-    /// Returns the origin of an entity in the file.
     fn origin(&self, entity: &Entity<'a>, place: &BlockPlacement<'a>) -> Result<Origin, Error> {
         let record = entity.record;
         let layer = layer(entity, place);

@@ -309,7 +309,6 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
     }
 
-    /// Returns the outlines of a `path` element.
     fn outlines_of_path(&self, node: Node, inside: &InheritedProperties) -> Result<Vec<Outline>, Error> {
         outlines(node.attribute("d").unwrap_or_default(), &inside.map).map_err(|why| {
             Error::new(self.line(node), format!("path data: {why}"), "save the drawing again, as a plain SVG")

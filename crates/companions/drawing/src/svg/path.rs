@@ -14,7 +14,6 @@ pub(super) struct Outline {
     pub is_closed: bool,
 }
 
-/// A curve of an outline.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum OutlineCurve {
     /// A straight line to this point.

@@ -53,7 +53,6 @@ impl Permits {
 
 /// The state that all connections share.
 struct Server {
-    /// Address of the server.
     address: SocketAddr,
     pages: Permits,
     host: Arc<Host>,

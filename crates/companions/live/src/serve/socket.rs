@@ -134,7 +134,6 @@ fn send_all(stream: TcpStream, outgoing: &Receiver<Outgoing>) {
     let _ = socket.get_mut().shutdown(Shutdown::Both);
 }
 
-/// Converts a message for the socket.
 fn to_socket_message(message: crate::Message) -> Message {
     match message {
         crate::Message::Text(text) => Message::Text(Utf8Bytes::from(text)),

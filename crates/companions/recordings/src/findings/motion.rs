@@ -18,7 +18,7 @@ pub enum Judgement {
     Undecided,
     /// Free, but the file states some wrong values.
     Claims,
-    /// Not known to collide, but does not lead from the required start to a required goal.
+    /// Not known to collide, but begins or ends at the wrong place.
     Ends,
     /// Not known to collide, but violates a limit.
     Limits,

@@ -205,7 +205,7 @@ pub enum Fault {
     /// The turn needs a wrist, but the world has none.
     #[error("the wrist turns, but the world has no wrist")]
     NoWrist,
-    /// The turn needs a carried object, but there is none.
+    /// The turn needs a carried object, but the gripper is empty.
     #[error("the wrist turns, but holds no level object")]
     Nothing,
 }

@@ -151,7 +151,7 @@ impl Overlaps {
         let checks = of(self.raising, true).into_iter().chain(of(self.lowering, false));
         let worse = |a: CollisionCheck, b: CollisionCheck| if b.is_worse_than(&a) { b } else { a };
         let mut check = checks.reduce(worse)?;
-        // The moments of the check count its own samples, of which there are more than in the recording.
+        // The moments of the check count its own samples, which are more than those of the recording.
         let number = |time: f64| times.partition_point(|sample| *sample <= time).saturating_sub(1);
         check.moments_mut().for_each(|moment| moment.sample = number(moment.time));
         let [scene, _] = scenes;

@@ -15,7 +15,6 @@ use crate::error::Fault;
 use crate::limits::Budget;
 use crate::value::Value;
 
-/// A parsed expression.
 #[derive(Debug)]
 pub(crate) enum Expression {
     Constant(Value),

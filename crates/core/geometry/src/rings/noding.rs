@@ -165,7 +165,6 @@ pub(super) fn is_counter_clockwise(points: &[Point], walk: &[usize]) -> bool {
     ends.reduce(lower).is_some_and(|(_, goes_out)| goes_out)
 }
 
-/// Splits a walk into loops.
 fn split_into_loops(walk: &[usize], vertices: usize) -> Vec<Vec<usize>> {
     const NO_INDEX: usize = usize::MAX;
     let mut place = vec![NO_INDEX; vertices];

@@ -232,7 +232,7 @@ mod tests {
                 separation(&part.shape().at(&pose), piece.shape()).distance
             };
             if hits == Hits::Never {
-                // Within rounding, the exhaustive method may report contacts that are none.
+                // Within rounding, the exhaustive method may report false contacts.
                 prop_assert!(expected == Hits::Never || exhaustive.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));
             } else if expected == Hits::Never {
                 prop_assert!(arcs.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));

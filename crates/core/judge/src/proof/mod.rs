@@ -24,7 +24,7 @@ use thiserror::Error;
 /// greater than the rounding of both values.
 const ROUNDING: f64 = 1e-12;
 
-/// A box of configurations in all of which one pair of shapes is too close.
+/// A box of configurations. In all of them, the same pair of shapes is too close.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CollisionBox {
     /// The box.

@@ -158,7 +158,6 @@ struct Stack {
     runs: Vec<Run>,
 }
 
-/// Groups all runs into stacks.
 fn stacks(rows: Vec<Vec<Run>>) -> Vec<Stack> {
     let (mut done, mut open): (Vec<Stack>, Vec<Stack>) = (Vec::new(), Vec::new());
     for (row, runs) in rows.into_iter().enumerate() {

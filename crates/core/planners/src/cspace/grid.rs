@@ -10,7 +10,7 @@ use cplan_model::space::{Configuration, Topology};
 pub struct Grid {
     /// Topology of the configuration space.
     pub topology: Topology,
-    /// What a free or a blocked cell proves about its configurations.
+    /// Statement that a free or a blocked cell proves about its configurations.
     pub proves: Proves,
     /// Number of cells along each axis.
     pub cells: [usize; 2],

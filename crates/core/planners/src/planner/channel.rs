@@ -29,12 +29,11 @@ pub(super) struct Adjacency {
     pub middles: Vec<Point>,
 }
 
-/// One end of a passage.
 #[derive(Debug, Clone, Copy)]
 enum PassageEnd {
     /// The start, or the centre of a cell.
     At(Point),
-    /// Alternative goals, of which the nearest one counts.
+    /// Alternative goals. The nearest one counts.
     Any(Segment),
 }
 

@@ -115,7 +115,6 @@ pub fn exact_path(
     Path::new(std::iter::once(query.start).chain(inner).chain([goal.0]).collect())
 }
 
-/// Returns the line with the exact start and the exact goal as its ends.
 fn with_exact_ends(
     grid: &Grid,
     query: &Query,

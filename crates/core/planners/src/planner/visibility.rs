@@ -225,7 +225,6 @@ impl Ends<'_> {
         });
     }
 
-    /// Joins a node with the visible goals in a triangle.
     fn join_goals_in_triangle(&mut self, root: NodeIndex, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
         for (_, part) in self.terminals.parts_in(triangle) {
             if let Some(seen) = sees(part) {

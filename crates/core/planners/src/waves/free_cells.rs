@@ -116,7 +116,6 @@ impl FreeCells {
         [before, after]
     }
 
-    /// Returns the number of words per row.
     pub(super) fn words(&self) -> usize {
         self.words
     }

@@ -1,4 +1,4 @@
-//! The wave over four neighbours that proceeds by tiles of cells, each of which fits in a word.
+//! The wave over four neighbours that proceeds by tiles of cells. Each tile fits in a word.
 
 use super::{FreeCells, UNREACHED};
 use std::collections::VecDeque;
