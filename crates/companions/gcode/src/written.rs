@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 /// Number of decimals of written coordinates: 0.0001 mm or 0.00001 inch.
 const DECIMALS: [i32; 2] = [4, 5];
 
-/// Longer units of a file are inches, metres.
+/// Length of a unit, metres, above which the unit is an inch.
 const MILLIMETRE: f64 = 1e-3;
 
 /// Greatest number of decimals, for coordinates of the program that need them.

@@ -101,7 +101,7 @@ pub fn time_among_moving_obstacles(
         let before = for_good.unwrap_or(f64::INFINITY).min(latest);
         if whole.trajectory.duration() < before {
             let along = |effort: Effort| {
-                // If jerks are limited, most of the computation goes into rounding corners, and a thorough search times
+                // If jerks are limited, rounding corners takes half of the computing time, and a thorough search times
                 // many motions.
                 let stops = effort == Effort::THOROUGH && Limits::from(scene.arm()).stops_at_corners();
                 let drive = if stops { options.drive.stopping_at_corners() } else { options.drive };

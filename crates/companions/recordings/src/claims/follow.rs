@@ -36,7 +36,7 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
             let near = 2.0 * within + (at - before).norm();
             let (mut found, mut next): (Vec<usize>, usize) = (Vec::new(), 0);
             for &leg in &legs {
-                // An earlier leg of the list already covers this one.
+                // Skip a leg that an earlier one already covers.
                 if leg >= next {
                     let passed = q[leg + 1..].iter().take_while(|corner| (*corner - at).norm() <= near).count();
                     next = (leg + passed).min(last) + 1;
