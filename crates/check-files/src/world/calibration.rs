@@ -172,7 +172,7 @@ impl Lengths {
     }
 
     /// Returns bounds on the displacements of points of both links, relative to the base, by errors of lengths and
-    /// zeros. `docs/certificate_checks.md` derives them.
+    /// zeros. `docs/certificate_checks.md` derives these bounds.
     fn displacements(&self, error: &Interval, [slides, turns]: &[Interval; 2], joints: &[Joint; 2]) -> [Interval; 2] {
         let zero = |joint: &Joint, lever: &Interval| match joint.motion {
             Motion::Turn(_) => turns * lever,

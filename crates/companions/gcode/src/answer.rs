@@ -148,7 +148,7 @@ impl Answer {
 /// planning of a motion for each unsafe travel that cannot follow an earlier path.
 ///
 /// # Errors
-/// [`GcodeError`]: unusable settings, a move without a necessary speed, and checksums.
+/// [`GcodeError`]: unusable settings, a move without a necessary speed, and a checksum on a line that must be replaced.
 pub fn judge(scene: &Scene, job: &Job, settings: &Settings) -> Result<Answer, GcodeError> {
     if !(settings.tolerance.is_finite() && settings.tolerance >= MIN_TOLERANCE) {
         return Err(GcodeError::Tolerance(settings.tolerance));
