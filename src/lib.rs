@@ -1,6 +1,6 @@
 //! cplan plans motions of planar two-joint arms in configuration space. There are three answers: a path whose whole
-//! continuous motion is *certified* free of collision; a *proof* that there is no path; or "unknown" at the resolution
-//! that was tried. No answer rests on samples alone.
+//! continuous motion is *certified* free of collision, a *proof* that there is no path, or "unknown" at the resolution
+//! that was tried. No answer depends only on samples.
 //!
 //! # The pipeline
 //!
@@ -32,14 +32,14 @@
 //!
 //! Long loops can be stopped from outside, see [`interrupt`].
 //!
-//! Crates import downwards only. The judge imports geometry and the model alone, so that it judges planners and
-//! searches independently. A test checks this.
+//! Crates import only crates below them. The judge imports only geometry and the model, so it is independent of
+//! planners and searches. A test checks this.
 //!
 //! # Conventions
 //!
 //! Lengths are metres, angles radians, times seconds. A configuration is the pair of joint values, base to tip. Paths
-//! hold unwrapped values: the values of a path that crosses the seam of a circle continue beyond it. Touching is
-//! contact. The same input gives the same output, byte for byte, except for optional computing times.
+//! have unwrapped values: on a path across the seam of a circle, values continue beyond the seam. Touching is contact.
+//! The same input gives the same output, byte for byte, except for optional computing times.
 #![forbid(unsafe_code)]
 
 #[cfg(feature = "program")]
@@ -76,7 +76,7 @@ pub use output::PlanOutput;
 pub use planning::plan;
 pub use space::Configuration;
 
-/// Data of a problem: the arm, its workspace, and the scene of both; also tasks, the robot's other joints, masses and
+/// Data of a problem: the arm, its workspace, and their scene; also tasks, the robot's other joints, masses and
 /// torques, and a sensor.
 pub mod model {
     pub use cplan_dynamics::{Torques, TorquesAt, keep_efforts};
@@ -103,14 +103,14 @@ pub mod check {
     pub use cplan_recordings::*;
 }
 
-/// Input: reads robots, worlds, maps and recordings, and returns problems, or errors with file, line and help.
+/// Input: reads robots, worlds, maps and recordings. Returns problems, or errors with file, line and help.
 pub mod input {
     pub use super::robots::robot;
     pub use cplan_robot::*;
     pub use cplan_world::load;
     pub use cplan_world::*;
 
-    /// Lets worlds name SVG drawings as lines, in the whole process. The program does this when it begins.
+    /// Allows worlds to name SVG drawings as lines, in the whole process. The program calls this at its start.
     #[cfg(feature = "program")]
     pub fn read_svg_lines() {
         cplan_toolpath::read_svg_by(cplan_drawing::read_line);
@@ -158,13 +158,14 @@ pub mod field {
     pub use cplan_planners::waves::{FreeCells, Move, Neighborhood, StepLabels, UNREACHED, search};
 }
 
-/// Brings the GPU to fields, as [`field::Device::Gpu`]. The program and [`plan`] do so; relaxations alone need the call.
+/// Makes the GPU available to fields, as [`field::Device::Gpu`]. The program and [`plan`] do this themselves. It is
+/// necessary only for relaxations alone.
 #[cfg(feature = "gpu")]
 pub fn bring_gpu() {
     field::Device::bring_gpu(cplan_gpu::shared);
 }
 
-/// This compiles and runs the README's example as a documentation test.
+/// Compiles and runs the README's example as a documentation test.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;

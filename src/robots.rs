@@ -1,4 +1,4 @@
-//! Robots in xacro: the conversion to URDF that this library brings.
+//! Conversion of xacro robots to URDF.
 
 use crate::input::{Conversion, Diagnostic, InputError, Origins, RobotFile, Source};
 use cplan_robot::read_bounded;
@@ -7,8 +7,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Returns the file of a robot, which is a URDF or xacro. Other functions take it instead of a path, which must be that
-/// of a URDF.
+/// Returns the file of a robot, which may be URDF or xacro. Functions that take the path of a URDF also take this instead.
 pub fn robot(path: impl AsRef<Path>) -> RobotFile {
     RobotFile { conversion: Some(EXPANSION), ..RobotFile::from(path) }
 }
@@ -26,7 +25,6 @@ fn expanded(source: &Source, arguments: &[(String, String)]) -> Result<Source, I
     Ok(source.converted(text, Arc::new(Files(expansion))))
 }
 
-/// The files of an expansion.
 #[derive(Debug)]
 struct Files(Expansion);
 

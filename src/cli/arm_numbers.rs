@@ -1,4 +1,4 @@
-//! The numbers of an arm that `cplan init` writes: its URDF, and its size beside that of the arm to begin with.
+//! The numbers of an arm that `cplan init` writes: its URDF, and its size in comparison with the template's arm.
 
 use super::init::Kind;
 
@@ -20,7 +20,7 @@ pub struct ArmNumbers {
 }
 
 impl ArmNumbers {
-    /// Returns the numbers of the arm to begin with.
+    /// Returns the numbers of the template's arm.
     pub fn of(kind: Kind) -> Self {
         let [links, limits, speeds] = match kind {
             Kind::Rr => [[0.5, 0.43], [2.9, 2.8], [2.0, 3.0]],
@@ -34,7 +34,7 @@ impl ArmNumbers {
         Self { links, stroke, lower, limits, speeds, drives: None }
     }
 
-    /// Returns the limits of each joint, lower and upper, as multiples of those of the arm to begin with.
+    /// Returns the lower and the upper limit of each joint, as multiples of those of the template's arm.
     pub fn limit_ratios(&self, kind: Kind) -> [[f64; 2]; 2] {
         let usual = Self::of(kind);
         [0, 1].map(|k| {
@@ -43,13 +43,13 @@ impl ArmNumbers {
         })
     }
 
-    /// Returns the sizes of the arm as multiples of those of the arm to begin with: along x and along y.
+    /// Returns the sizes of the arm along x and along y, as multiples of those of the template's arm.
     pub fn scale(&self, kind: Kind) -> [f64; 2] {
         let usual = Self::of(kind);
         match kind {
             Kind::Pp | Kind::Pr => [0, 1].map(|k| self.limits[k] / usual.limits[k]),
             Kind::Rp => [(self.links[0] + self.limits[1]) / (usual.links[0] + usual.limits[1]); 2],
-            // The template's world is that of the arm of two turning joints.
+            // The template's world suits an arm with two revolute joints.
             Kind::Rr | Kind::Scara | Kind::Arch => {
                 let [a, b] = Self::of(Kind::Rr).links;
                 [(self.links[0] + self.links[1]) / (a + b); 2]
@@ -57,7 +57,7 @@ impl ArmNumbers {
         }
     }
 
-    /// Returns the URDF: a template with these numbers. The widths of bodies follow from the lengths.
+    /// Returns the URDF: a template with these numbers. The lengths determine the widths of the bodies.
     pub fn urdf(&self, kind: Kind) -> String {
         let template = match kind {
             Kind::Rr => include_str!("starter/rr.urdf"),
@@ -145,8 +145,8 @@ pub fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6
 }
 
-/// Returns a text in which the numbers are multiplied by the factors, in turn: of each pair, the first one is for negative
-/// numbers.
+/// Returns a text in which the numbers are multiplied by the factors in turn. The first factor of a pair is for
+/// negative numbers.
 pub fn scaled(text: &str, factors: &[[f64; 2]]) -> String {
     let is_number = |c: char| c.is_ascii_digit() || c == '.' || c == '-';
     let (mut out, mut rest, mut count) = (String::new(), text, 0);

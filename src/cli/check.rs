@@ -1,4 +1,4 @@
-//! `cplan check`: reports if a configuration is free, and why.
+//! `cplan check`: reports whether a configuration is free, and why.
 
 use super::exit::{DONE, REFUTED};
 use super::failure::Failure;
@@ -129,7 +129,7 @@ fn view(args: &CheckArgs, loaded: &LoadedScene, q: Configuration, findings: &Con
     view.with_findings(CheckedView::new(scene, findings))
 }
 
-/// Returns the facts that the title and the key figures of a page do not say, those about the arm last.
+/// Returns the facts that the title and the key figures of a page do not state, with those about the arm last.
 fn page_facts(report: Vec<(&'static str, String)>) -> Vec<[String; 2]> {
     let mut facts: [Vec<[String; 2]>; 2] = Default::default();
     let mut current = "";
@@ -146,7 +146,7 @@ fn outcome(findings: &ConfigurationFindings) -> &'static str {
     if findings.free { "free" } else { "not free" }
 }
 
-/// Returns the lines of the report, with their keys. A line that continues the one before has an empty key.
+/// Returns the lines of the report, with their keys. The key of a continuation line is empty.
 fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings) -> Vec<(&'static str, String)> {
     let scene = &*loaded.scene.drawn();
     let arm = scene.arm();

@@ -3,10 +3,9 @@
 use clap::Command;
 use std::fmt::Write as _;
 
-/// Defines `Command`, clap's enum of the subcommands, `Command::read_alone`, and `Command::run`, which calls the
-/// `run` of a subcommand's file.
-/// The input consists of groups of lines `Name(file::Args)`. If `run` also takes the counter of the process's memory, the
-/// line is `Name(file::Args, meter)`. `GROUPS` lists the names in each group.
+/// Defines clap's enum `Command` of the subcommands, with `Command::read_alone`, and with `Command::run`, which calls
+/// `run` in the file of a subcommand. The input consists of groups of lines `Name(file::Args)`, or `Name(file::Args,
+/// meter)` if `run` also takes the counter of the process's memory. `GROUPS` lists the names in each group.
 macro_rules! commands {
     ($meter:ident: $($group:literal {
         $($(#[$cfg:meta])? $name:ident($file:ident::$args:ident $(, $context:ident)?),)+
@@ -21,8 +20,8 @@ macro_rules! commands {
         const GROUPS: &[(&str, &[&str])] = &[$(($group, &[$($(#[$cfg])? stringify!($name),)+])),+];
 
         impl Command {
-            /// Reads the command line of a subcommand, which is its first word, by the grammar of this subcommand alone.
-            /// `None` if the line is wrong or asks for help.
+            /// Reads the command line of a subcommand with the grammar of this subcommand alone. The first word is the
+            /// subcommand. `None` if the line is wrong, or asks for help.
             fn read_alone(line: &[OsString]) -> Option<Self> {
                 let name = line.first()?;
                 $($($(#[$cfg])?

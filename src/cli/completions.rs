@@ -40,10 +40,9 @@ pub fn run(args: &CompletionsArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Returns a corrected script for fish. The generated one has three defects. First, it takes the first file for a
-/// subcommand, so options after the files of `cplan URDF WORLD` would not be completed. Second, it completes nothing
-/// after an option without its value, nor after `help`, whose subcommands it does not know. Third, it lacks the values
-/// of positional arguments.
+/// Returns a corrected script for fish. The generated one has three defects. It mistakes the first file for a subcommand, so it
+/// does not complete options after the files of `cplan URDF WORLD`. It completes nothing after an option without its value, or
+/// after `help`, because it lacks the subcommands of `help`. And it lacks the values of positional arguments.
 fn for_fish(script: &str, grammar: &Command) -> String {
     let rules = script.find("complete -c").map_or("", |at| &script[at..]);
     let is_known = |line: &&str| !line.contains("__fish_cplan_using_subcommand help");

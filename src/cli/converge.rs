@@ -131,7 +131,7 @@ pub fn run(args: &ConvergeArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Greatest number of cells along an axis. With more, the hundreds of relaxations take hours.
+/// Greatest number of cells along an axis. With more, the hundreds of relaxations would take hours.
 const MAX_CELLS: usize = 256;
 
 fn cells(text: &str) -> Result<CellCounts, String> {

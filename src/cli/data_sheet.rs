@@ -10,7 +10,7 @@ use clap::Args;
 /// The range of a joint, in degrees or metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Range {
-    /// `None` for the negative upper end of a joint that turns, and for 0 of one that slides.
+    /// `None` for minus the upper end of a revolute joint, and for 0 of a prismatic one.
     lower: Option<f64>,
     upper: f64,
 }
@@ -27,8 +27,8 @@ fn range(text: &str) -> Result<Range, String> {
     }
 }
 
-/// Returns the URDF of the SCARA that `cplan init --kind scara` writes for these numbers, in metres, radians and radians per
-/// second. Numbers that are `None` are those of the arm that it writes without a data sheet.
+/// Returns the URDF of the SCARA that `cplan init --kind scara` writes for these numbers, in metres, radians and
+/// radians per second. `None` stands for the number of the arm without a data sheet.
 ///
 /// # Errors
 /// Numbers that cannot be those of a SCARA.
@@ -76,7 +76,7 @@ pub struct DataSheet {
     pub drives: Option<&'static str>,
 }
 
-/// Motors of two joints that turn, by the names of the key `drives` in world files.
+/// Motors of two revolute joints, by the names of the key `drives` in world files.
 const DRIVES: [Word<&str>; 2] = [
     ("standard_scara", "standard_scara", "The elbow's motor is mounted on the base, and a belt leads to the elbow"),
     ("direct", "direct", "The elbow's motor is mounted on the upper arm"),
@@ -95,7 +95,7 @@ impl DataSheet {
         is_plain && self.links.is_empty() && self.limits.is_empty() && self.speeds.is_empty()
     }
 
-    /// Returns the numbers of an arm: those of the data sheet, and the usual ones of this kind for the others.
+    /// Returns the numbers of an arm: those of the data sheet, and usual ones of this kind of arm for all others.
     ///
     /// # Errors
     /// Numbers that this kind of arm does not have, a wrong count of them, and numbers that cannot be metres or degrees.

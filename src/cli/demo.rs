@@ -21,7 +21,7 @@ pub const DEMO_ROBOT: &str = include_str!("../../robots/scara.urdf");
 /// The world of the demonstration: the SCARA cell.
 pub const DEMO_WORLD: &str = include_str!("../../workspaces/scara_cell.toml");
 
-/// The pick-and-place cycle by which SCARAs are compared.
+/// The standard pick-and-place cycle for the comparison of SCARAs.
 pub const ARCH_WORLD: &str = include_str!("../../workspaces/arch/pick_and_place.toml");
 
 /// Robot, world and line of the demonstration of lines.
@@ -127,7 +127,7 @@ fn follow_args(plan: &mut PlanArgs) -> Result<FollowArgs, Failure> {
     follow.print = PrintArgs { json, quiet };
     std::mem::swap(&mut follow.theme, &mut plan.theme);
     unset.print = PrintArgs { json, quiet };
-    // All other options must have their defaults.
+    // All other options must have their default values.
     if *plan == unset {
         return Ok(follow);
     }
@@ -142,14 +142,13 @@ fn of_words<A: Args>(words: impl IntoIterator<Item = &'static str>) -> Result<A,
         .ok_or_else(|| Failure::Usage("internal error: the options of the demonstration have no defaults".into()))
 }
 
-/// Reads the line of the demonstration.
 fn built_in_line() -> Result<FollowedLine, Failure> {
     let [name, text] = FOLLOW_FILES[2];
     let line = read(text.as_bytes(), Format::GCode, &Placement::default());
     line.map(FollowedLine::from).map_err(|error| Failure::Refused(format!("{name}: {}", error.message)))
 }
 
-/// Returns the path of a file in the folder. If the folder is the current one, leaves it out.
+/// Returns the path of a file in the folder. Omits the folder if it is the current one.
 pub fn in_folder(folder: &Path, name: &str) -> PathBuf {
     if folder == Path::new(".") { name.into() } else { folder.join(name) }
 }
@@ -157,7 +156,7 @@ pub fn in_folder(folder: &Path, name: &str) -> PathBuf {
 /// Number of blanks between the longest command and its description.
 const COLUMN_GAP: usize = 5;
 
-/// Returns the lines about what to do next. Further demonstrations write into the same folder.
+/// Returns the lines about further commands. Further demonstrations write into the same folder.
 fn next(picture: &Path, folder: &Path) -> String {
     let folder = if folder == Path::new(".") { String::new() } else { format!(" --dir {}", word(folder)) };
     let commands = [

@@ -4,14 +4,13 @@ use super::failure::Failure;
 use crate::input::{Diagnostic, DiagnosticKind};
 use serde::Serialize;
 
-/// An error as a JSON object. Its fields from `file` to `help` are those of the first diagnostic; `diagnostics` has all
-/// diagnostics.
+/// An error as a JSON object. The fields from `file` to `help` are those of the first diagnostic. `diagnostics` has all of them.
 #[derive(Debug, Serialize)]
 pub struct ErrorJson {
     /// The status, which is always `error`. No result has this status.
     status: &'static str,
-    /// The kind of error: `usage` for a wrong command line; `start` or `goal` for one that is missing, out of range or
-    /// not free; `input` for everything else.
+    /// The kind of error: `usage` for a wrong command line; `start` or `goal` if that is missing, out of range or not
+    /// free; `input` for everything else.
     kind: &'static str,
     #[serde(flatten)]
     first: DiagnosticJson,

@@ -2,7 +2,7 @@
 
 use crate::model::Status;
 
-/// Exit code: a certified path was found, or another command is done.
+/// Exit code: a certified path was found, or another command has succeeded.
 pub const DONE: u8 = 0;
 /// Exit code: bad input or I/O.
 pub const BAD_INPUT: u8 = 1;
@@ -10,12 +10,12 @@ pub const BAD_INPUT: u8 = 1;
 pub const USAGE: u8 = 2;
 /// Exit code: it is proven that there is no path.
 pub const INFEASIBLE: u8 = 3;
-/// Exit code of `verify`: a proven collision, a violated limit, or a task that differs from the requested one. Of `check`: not
-/// the expected answer.
+/// Exit code of `verify`: a proven collision, a violated limit, or a task that differs from the requested one. Exit
+/// code of `check`: not the expected answer.
 pub const REFUTED: u8 = 3;
 /// Exit code: neither a path nor a proof was found.
 pub const UNKNOWN: u8 = 4;
-/// Exit code of a study that Ctrl-C ends, the same as in shells.
+/// Exit code of a study that is ended by Ctrl-C, as in shells.
 #[cfg(feature = "study")]
 pub const INTERRUPTED: u8 = 130;
 

@@ -1,5 +1,5 @@
-//! `cplan explain`: the reasons why there is no motion, and changes that open a path. If there is a motion, the
-//! obstacles that make it longer.
+//! `cplan explain`: reasons why there is no motion, and changes that open a path. If there is a motion: the obstacles
+//! that make it longer.
 
 use super::exit::code_of;
 use super::failure::Failure;
@@ -111,8 +111,8 @@ pub enum ExplanationResult {
 }
 
 impl ExplanationResult {
-    /// Explains the world's motion or task. `overrides` replace start, goal and clearance of the world. `limit` is the
-    /// time limit ([`MotionQuestion::with_time_limit`]).
+    /// Explains the world's motion or task. `overrides` replace the world's start, goal and clearance. `limit` is the
+    /// time limit, see [`MotionQuestion::with_time_limit`].
     ///
     /// # Errors
     /// Overrides that do not suit the world, and an invalid task.
@@ -176,7 +176,7 @@ fn is_about_start(error: &InputError) -> bool {
     error.diagnostics().iter().all(|found| found.kind == DiagnosticKind::Start)
 }
 
-/// Returns the question about the motion that these rules read, and notes about the input.
+/// Returns the question about the motion under these rules for reading the world, and notes about the input.
 fn question_of(
     loaded: LoadedScene,
     overrides: &Overrides,
@@ -187,7 +187,7 @@ fn question_of(
     Ok((MotionQuestion::of_goals(query.problem.into_scene(), start, &query.stated_goals), query.notes))
 }
 
-/// Returns the question about the blocked start of a task, with the tool at its height there, and notes about the input.
+/// Returns the question about the blocked start of a task, with the tool at its height at the start, and notes about the input.
 fn blocked_start(loaded: LoadedScene, overrides: &Overrides) -> Result<(MotionQuestion, Vec<String>), InputError> {
     // Another defect of the world may hide the values of the tool's joints.
     let task = loaded.clone().resolve(overrides, Rules::Recording).ok().and_then(|loaded| loaded.task);
@@ -198,7 +198,7 @@ fn blocked_start(loaded: LoadedScene, overrides: &Overrides) -> Result<(MotionQu
     Ok((question.with_standstills(standstills), notes))
 }
 
-/// Explains the failed step of a task. Also returns a note that describes the step. `None` if no step fails.
+/// Explains the failed step of a task, and describes the step in a note. `None` if no step fails.
 pub fn failed_step(plan: &Plan, limit: Duration, options: &Options) -> Option<(Explanation, String)> {
     let (task, answer) = plan.task()?;
     let failed = answer.failed()?;

@@ -156,7 +156,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
     };
     let picture = |format: PictureFormat| {
         let figure = || view::figure(&args.theme.apply(view(&world, &done, done.trajectory.as_ref())));
-        // The page plays the readings, and needs no times of the motion.
+        // The page plays the readings, and does not need the times of the motion.
         let page_view = || view(&world, &done, None);
         let page = || exploration_page(&page_view(), world.problem.scene(), &sensor, &done, args.timings);
         Ok(format.bytes_of(figure, page)?)
@@ -168,7 +168,7 @@ pub fn run(args: &ExploreArgs) -> Result<u8, Failure> {
 }
 
 impl ExploreArgs {
-    /// Describes the reason why no exploration is possible, with a hint.
+    /// Describes why no exploration is possible, with a hint.
     fn refused(&self, error: &ExploreError) -> Failure {
         let (file, cure) = match error {
             ExploreError::Map(_) => (&self.files.world, "increase `cell` in [sensor], or narrow the limits of joint 1"),
@@ -211,7 +211,7 @@ fn motion_format(path: &Path) -> Result<Format, Failure> {
     }
 }
 
-/// Returns the status of an exploration that ended so.
+/// Returns the status of an exploration with this ending.
 fn status(ending: &Ending) -> Status {
     match ending {
         Ending::Reached | Ending::Explored { .. } => Status::Found,
@@ -220,7 +220,7 @@ fn status(ending: &Ending) -> Status {
     }
 }
 
-/// Returns the paths of the description and of the picture of a map.
+/// Returns the paths of a map's description and picture.
 fn map_files(description: &Path) -> Result<[PathBuf; 2], Failure> {
     if !matches!(description.extension().and_then(|e| e.to_str()), Some("yaml" | "yml")) {
         return Err(Failure::Usage(format!("{}: a map's name must end in .yaml", description.display())));

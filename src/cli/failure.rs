@@ -15,7 +15,7 @@ pub enum Failure {
     /// A defect of an input file or an override.
     #[error(transparent)]
     Input(#[from] InputError),
-    /// A blocked start or goal, with a hint how to explain it.
+    /// A blocked start or goal, with a hint for an explanation.
     #[error("{0}\n  hint: {1}")]
     Blocked(InputError, String),
     /// Planning with the options is refused.
@@ -34,10 +34,10 @@ pub enum Failure {
     /// A picture cannot be drawn.
     #[error(transparent)]
     Draw(#[from] DrawError),
-    /// A file, folder, address or stream that is not available, and the reason.
+    /// A file, folder, address or stream that is not available, with the reason.
     #[error("{0}")]
     Io(String),
-    /// A request that cannot be carried out, and the reason.
+    /// A request that cannot be fulfilled, with the reason.
     #[error("{0}")]
     Refused(String),
     /// A defect of the input that is part of a JSON report on stdout.

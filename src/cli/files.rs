@@ -1,4 +1,4 @@
-//! The input files that most subcommands have.
+//! The input files of most subcommands.
 
 use crate::input::{self, RobotFile};
 use clap::{Args, ValueHint};

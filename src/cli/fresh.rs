@@ -21,7 +21,7 @@ pub fn folder(path: &Path) -> Result<(), Failure> {
 /// Checks that files do not exist, unless `force` is set. `elsewhere` is the alternative that the message suggests.
 ///
 /// # Errors
-/// An existing file; the message names all existing ones.
+/// Existing files. The message names all of them.
 pub fn refuse_existing_files(files: &[PathBuf], force: bool, elsewhere: &str) -> Result<(), Failure> {
     // A symbolic link without a target counts as an existing file.
     let there: Vec<String> =
@@ -36,7 +36,7 @@ pub fn refuse_existing_files(files: &[PathBuf], force: bool, elsewhere: &str) ->
     )))
 }
 
-/// Returns a path as a word for a shell, in quotes if it needs them.
+/// Returns a path as a word for a shell, quoted if necessary.
 pub fn word(path: &Path) -> String {
     let text = path.display().to_string();
     let plain = |c: char| c.is_alphanumeric() || "._-/\\:+~".contains(c);

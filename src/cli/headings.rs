@@ -6,11 +6,11 @@ pub const QUERY: &str = "Query";
 pub const OUTPUT: &str = "Output";
 /// Options for planners.
 pub const PLANNER: &str = "Planner";
-/// Options of `cplan init` alone.
+/// Options only of `cplan init`.
 pub const DATA_SHEET: &str = "Data sheet";
-/// Options of `cplan explore` alone.
+/// Options only of `cplan explore`.
 pub const EXPLORATION: &str = "Exploration";
-/// Options of `cplan compare` alone.
+/// Options only of `cplan compare`.
 pub const COMPARISON: &str = "Comparison";
-/// Options of `cplan converge` alone.
+/// Options only of `cplan converge`.
 pub const RELAXATION: &str = "Relaxation";

@@ -1,5 +1,5 @@
-//! `cplan init`: writes a robot and a world to begin with, in which every key is explained; the robot, if asked for, by the
-//! numbers of its data sheet.
+//! `cplan init`: writes a robot and a world with explanations of all keys, as a start. With numbers of a data sheet, it
+//! writes that robot.
 
 use super::arm_numbers::{ArmNumbers, scaled};
 use super::data_sheet::DataSheet;
@@ -22,7 +22,7 @@ const ROBOT_FILE: &str = "arm.urdf";
 const WORLD_FILE: &str = "world.toml";
 const SCHEMA_FILE: &str = "world.schema.json";
 
-/// Text of the world file, in which `{{marks}}` stand where worlds of different arms differ.
+/// Text of the world file, with `{{marks}}` where the worlds of different arms differ.
 const WORLD_TEMPLATE: &str = include_str!("starter/world.toml");
 
 /// Texts for the marks, in a table for each kind of arm.
@@ -79,8 +79,8 @@ pub enum Kind {
     Arch,
 }
 
-/// Returns the text of the world of an arm with these numbers. `marks` is the name of its table in [`MARKS`]. Obstacles are
-/// `distance` times as far as in the template.
+/// Returns the text of the world of an arm with these numbers. `marks` is the name of its table in [`MARKS`]. Obstacles
+/// are at `distance` times their distance in the template.
 fn world(kind: Kind, marks: &str, numbers: &ArmNumbers, distance: f64) -> String {
     let all: BTreeMap<String, BTreeMap<String, String>> = toml::from_str(MARKS).expect("a table of texts for each arm");
     let [x, y] = numbers.scale(kind).map(|scale| scale * distance);
@@ -118,7 +118,7 @@ impl Kind {
         }
     }
 
-    /// Returns, for each joint, true if it turns and false if it slides.
+    /// Returns true for each revolute joint, and false for each prismatic one.
     pub fn turns(self) -> [bool; 2] {
         match self {
             Kind::Rr | Kind::Scara | Kind::Arch => [true, true],
@@ -138,7 +138,7 @@ impl Kind {
         }
     }
 
-    /// Returns the texts of the robot's file and of the world file for an arm with these numbers, with obstacles at this
+    /// Returns the texts of the robot's file and of the world file for an arm with these numbers. Obstacles are at this
     /// multiple of their usual distances.
     fn files_by(self, numbers: &ArmNumbers, distance: f64) -> [String; 2] {
         let marks = match self {
@@ -158,8 +158,8 @@ impl Kind {
         [numbers.urdf(self), world]
     }
 
-    /// Returns the files for an arm with these numbers, whose motion can be planned at once: its obstacles are at the first of
-    /// [`DISTANCES`] that leaves the arm a way. If none does, they are commented out.
+    /// Returns the files for an arm with these numbers. Obstacles are at the first of the [`DISTANCES`] for which the
+    /// motion is found. If there is none, they are commented out.
     fn files_of_sheet(self, numbers: &ArmNumbers) -> [String; 2] {
         let mut candidates = DISTANCES.into_iter().map(|distance| self.files_by(numbers, distance));
         if let Some(files) = candidates.find(|[robot, world]| is_found(robot, world)) {
@@ -177,7 +177,7 @@ impl Kind {
     }
 }
 
-/// Distances of obstacles that are tried, as multiples of those in the template.
+/// Multiples of the obstacles' distances in the template, in the order in which they are tried.
 const DISTANCES: [f64; 8] = [1.0, 1.1, 0.9, 1.2, 0.8, 1.35, 0.7, 1.5];
 
 /// Returns true if the motion of this world is found.
@@ -188,7 +188,7 @@ fn is_found(robot: &str, world: &str) -> bool {
     plan.is_some_and(|plan| plan.status() == Status::Found)
 }
 
-/// Returns a shipped world without the lines that only the tests of shipped worlds need.
+/// Returns a shipped world without lines that only the tests need.
 fn shipped(world: &str) -> String {
     let lines = world.lines().filter(|line| !line.starts_with("# robot:") && !line.starts_with("# expect:"));
     lines.fold(format!("#:schema ./{SCHEMA_FILE}\n"), |text, line| text + line + "\n")
@@ -221,7 +221,6 @@ pub fn run(args: &InitArgs) -> Result<u8, Failure> {
 }
 
 impl InitArgs {
-    /// Returns the numbers of the arm by its data sheet.
     fn sheet_numbers(&self) -> Result<ArmNumbers, Failure> {
         match self.kind {
             Kind::Pr | Kind::Arch => {

@@ -1,4 +1,4 @@
-//! `cplan inspect`: how the planner interprets a robot, and which defects prevent planning.
+//! `cplan inspect`: reports how the planner interprets a robot, and which defects prevent planning.
 
 use super::exit::{DONE, REFUTED};
 use super::failure::Failure;
@@ -17,10 +17,9 @@ use clap::{Args, ValueHint};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// The report as JSON.
 #[derive(Serialize)]
 struct Json<'a> {
-    /// True if the robot can be planned for as it is.
+    /// True if planning is possible for this robot without changes.
     plannable: bool,
     #[serde(flatten)]
     inspection: &'a Inspection,
@@ -36,12 +35,12 @@ impl<'a> Json<'a> {
     }
 }
 
-/// The report as the page reads it.
+/// The data of the report's page.
 #[derive(Serialize)]
 struct PageReport<'a> {
     #[serde(flatten)]
     json: Json<'a>,
-    /// Masses and effort limits. `None` if they are not known.
+    /// Masses and effort limits. `None` if they are unknown.
     #[serde(skip_serializing_if = "Option::is_none")]
     dynamics: Option<DynamicsEntry>,
     /// The report as the terminal shows it.
@@ -50,7 +49,7 @@ struct PageReport<'a> {
 
 #[derive(Serialize)]
 struct DynamicsEntry {
-    /// Mass of each arm link with everything that it carries, kg.
+    /// Mass of each arm link including everything that it carries, kg.
     masses: [f64; 2],
     /// Effort limit of each joint, N m or N. `None` if motions need not respect it.
     efforts: Option<[f64; 2]>,
@@ -138,8 +137,7 @@ pub fn run(args: &InspectArgs) -> Result<u8, Failure> {
     }
 }
 
-/// Writes the URDF to which a xacro robot expands. Warns about meshes that would not be found from the folder of the
-/// new file.
+/// Writes the URDF to which a xacro robot expands. Warns about meshes that are not found from the folder of the new file.
 fn write_expanded(robot: &RobotFile, path: &Path) -> Result<(), Failure> {
     let source = robot.read()?;
     if !source.is_converted() {

@@ -7,7 +7,7 @@ use crate::input::{
 use crate::model::Motors;
 use crate::text::{Columns, counted};
 
-/// Largest number of pairs of joints for which the report states why they form no arm. Further reasons are similar.
+/// Largest number of pairs of joints for which the report states why they do not form an arm. Further reasons are similar.
 const MAX_SHOWN_REFUSALS: usize = 12;
 
 /// Returns the whole report.
@@ -92,7 +92,6 @@ fn branch(report: &Inspection, joint: &JointEntry) -> String {
     format!("{above}{name} ({kind}, line {line}) - {}", describe_link(report, child))
 }
 
-/// Describes a link and its shapes.
 fn describe_link(report: &Inspection, name: &str) -> String {
     let Some(LinkEntry { collision, visual, .. }) = report.links.iter().find(|l| l.name == name) else {
         return format!("\"{name}\" (not declared)");
@@ -164,7 +163,7 @@ fn rate(joint: &JointEntry, what: &str, per: &str, rate: Option<RateEntry>) -> S
     format!("{what} {value} {}{per} ({source})", unit(joint))
 }
 
-/// Describes the motors, and the joint values that remain where they narrow the limits of joints.
+/// Describes the motors, and the remaining joint values where motors narrow the limits of joints.
 fn motors(lines: &mut Columns, report: &Inspection, entry: &MotorEntry) {
     let in_degrees = |[lower, upper]: [f64; 2]| {
         let [from, to] = [lower, upper].map(f64::to_degrees);

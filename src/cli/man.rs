@@ -1,4 +1,4 @@
-//! `cplan man`: manual pages, made from the texts of the help.
+//! `cplan man`: manual pages, generated from the texts of the help.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -51,7 +51,6 @@ pub fn run(args: &ManArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Returns the page of one command.
 fn page(command: &Command) -> io::Result<Vec<u8>> {
     let man = Man::new(command.clone());
     let mut page = Vec::new();
@@ -70,12 +69,12 @@ fn page(command: &Command) -> io::Result<Vec<u8>> {
     Ok(page)
 }
 
-/// Returns sections in roff of the texts that the help has below the options: examples, exit codes, and notes.
+/// Returns sections in roff from the texts that the help has below the options: examples, exit codes, and notes.
 fn sections(text: &str) -> String {
     let mut found: [(&str, &str, Vec<&str>); 3] =
         [("", "NOTES", Vec::new()), ("Exit codes:", "EXIT STATUS", Vec::new()), ("Examples:", "EXAMPLES", Vec::new())];
     for paragraph in text.split("\n\n").filter(|paragraph| !paragraph.is_empty()) {
-        // The empty heading, which every text begins with, is that of the notes.
+        // Every text begins with the empty heading, which is that of the notes.
         if let Some((heading, _, paragraphs)) = found.iter_mut().rev().find(|f| paragraph.starts_with(f.0)) {
             paragraphs.push(&paragraph[heading.len()..]);
         }
@@ -83,7 +82,7 @@ fn sections(text: &str) -> String {
     found.iter().filter(|f| !f.2.is_empty()).map(|(_, title, paragraphs)| section(title, paragraphs)).collect()
 }
 
-/// Formats a section. Indented lines, such as examples, are not joined to paragraphs.
+/// Formats a section. Indented lines, such as examples, are not joined into paragraphs.
 fn section(title: &str, paragraphs: &[&str]) -> String {
     let mut roff = format!(".SH \"{title}\"\n");
     for (i, paragraph) in paragraphs.iter().enumerate() {
@@ -106,7 +105,7 @@ fn section(title: &str, paragraphs: &[&str]) -> String {
     roff
 }
 
-/// Returns text in which roff finds no escapes and no requests, and from which hyphens can be copied.
+/// Returns text without escapes and requests of roff, from which hyphens can be copied.
 fn escape_roff(line: &str) -> String {
     let text = line.replace('\\', "\\e").replace('-', "\\-").replace('\'', "\\(aq");
     if text.starts_with('.') { format!("\\&{text}") } else { text }

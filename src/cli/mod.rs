@@ -162,7 +162,7 @@ struct Cli {
 }
 
 impl Cli {
-    /// Returns the command of a command line.
+    /// Reads the command from a command line.
     fn read(arguments: &[OsString]) -> Result<Command, clap::Error> {
         let cli = Self::from_arg_matches(&Self::for_messages().try_get_matches_from(arguments)?)?;
         match (cli.command, cli.files) {
@@ -207,7 +207,7 @@ fn grammar() -> clap::Command {
     Cli::command()
 }
 
-/// Hides the planners' options in the help of a command, which refers to `cplan planners` instead.
+/// Hides the options of planners in the help of a command. The help refers to `cplan planners` instead.
 fn without_planner_options(command: clap::Command) -> clap::Command {
     let planners: BTreeSet<String> =
         PlannerWords::command().get_opts().map(|option| option.get_id().to_string()).collect();
@@ -223,8 +223,8 @@ fn without_planner_options(command: clap::Command) -> clap::Command {
     })
 }
 
-/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. With `--json`, an
-/// error is also printed on stdout, as a JSON object. `meter` counts the process's memory, if that is possible.
+/// Runs the program with the process's arguments. A wrong command line ends it with exit code 2. With `--json`, errors
+/// are also printed on stdout, as JSON objects. `meter` counts the process's memory, if possible.
 pub fn run(meter: Option<MemoryMeter>) -> ExitCode {
     run_with(std::env::args_os().collect(), meter).into()
 }
@@ -262,8 +262,8 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
     })
 }
 
-/// Reads a command line by the grammar of its subcommand alone, since to build the grammar of all subcommands takes as
-/// long as to plan. `None` if the whole grammar must decide, also for help and error messages.
+/// Reads a command line with the grammar of its subcommand alone, because building the grammar of all subcommands takes
+/// as long as planning. `None` if the whole grammar must decide, and for help and error messages.
 fn read_alone(arguments: &[OsString]) -> Option<Command> {
     let is_command = |word: &str| word == "help" || Command::has_subcommand(word);
     let is_named = |word: &OsString| word.to_str().is_some_and(is_command);
@@ -280,8 +280,8 @@ fn read<A: Args>(line: &[OsString]) -> Option<A> {
     A::from_arg_matches(&grammar.try_get_matches_from(line).ok()?).ok()
 }
 
-/// Returns an error if the first word is neither a subcommand nor a file, or if there is no such subcommand to explain.
-/// Without this check, clap would take the third of several words for a subcommand, and report a conflict with two files.
+/// Returns an error if the first word is neither a subcommand nor a file, or if there is no such subcommand to explain. Without
+/// this check, clap would mistake the third of several words for a subcommand, and report a conflict with two files.
 fn misspelled_command_error(arguments: &[OsString]) -> Option<clap::Error> {
     let is_help = arguments.get(1).is_some_and(|word| word == "help");
     let given = arguments.get(if is_help { 2 } else { 1 })?;
@@ -329,7 +329,7 @@ mod tests {
         let examples: Vec<&str> = text.lines().map(str::trim).filter(|line| line.starts_with("cplan ")).collect();
         assert!(examples.len() > 30, "{examples:?}");
         for example in examples {
-            // Words in quotes count as one. Text after `>` is for the shell.
+            // Quoted words count as one. Text after `>` is for the shell.
             let quoted = example.split('"').enumerate();
             let parts = quoted.flat_map(|(i, part)| match i % 2 {
                 1 => vec![part],

@@ -8,9 +8,9 @@ use crate::view::View;
 use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
-/// The files that a command writes. Their names are checked before any work is done.
+/// The files that a command writes. Their names are checked before any computation.
 pub struct Outputs<T = ()> {
-    /// The results, each with its content, which its name determines.
+    /// The results, with the contents that their names determine.
     pub results: Vec<(PathBuf, T)>,
     /// The pictures and pages.
     pub pictures: Vec<(PathBuf, PictureFormat)>,
@@ -64,8 +64,8 @@ impl<T: Copy> Outputs<T> {
         self.others.iter().map(PathBuf::as_path).chain(results).chain(pictures)
     }
 
-    /// Writes all files, or none if a problem can be foreseen. `others` are further files. `result` returns a result, or
-    /// `None` if there is none, and `picture` a picture or a page.
+    /// Writes all files, or none if a problem can be foreseen. `others` are further files. `result` returns the bytes
+    /// of a result, or `None` if there is none. `picture` returns those of a picture or a page.
     ///
     /// # Errors
     /// I/O, and the errors of `result` and `picture`.
@@ -117,8 +117,8 @@ impl Outputs {
     }
 }
 
-/// Returns a function that returns the content of a file by its extension. `ends` has the known extensions, and `expected`
-/// is the message that lists them.
+/// Returns a function that determines the content of a file by its extension. `ends` has the known extensions, and
+/// `expected` is the message that lists them.
 pub fn by_extension<T: Copy>(ends: &[(&str, T)], expected: &str) -> impl Fn(&Path) -> Result<T, Failure> {
     move |path| {
         let extension = path.extension().map(|e| e.to_string_lossy().to_ascii_lowercase()).unwrap_or_default();
@@ -133,10 +133,10 @@ pub fn drawn(view: impl Fn() -> View) -> impl Fn(PictureFormat) -> Result<Vec<u8
     move |format| Ok(format.bytes(made.get_or_init(&view))?)
 }
 
-/// Checks that no two outputs are the same file, even with different spellings.
+/// Checks that no two outputs are the same file, also with different spellings.
 ///
 /// # Errors
-/// Two outputs that are the same file; the message names both.
+/// Two outputs that are the same file. The message names both.
 pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failure> {
     let mut known: Vec<(&Path, FileIdentity)> = Vec::new();
     for path in outputs {
@@ -151,10 +151,10 @@ pub fn distinct<'a>(outputs: impl Iterator<Item = &'a Path>) -> Result<(), Failu
     Ok(())
 }
 
-/// Checks that no output would overwrite a file that was read, even through links.
+/// Checks that no output would overwrite a file that was read, also through links.
 ///
 /// # Errors
-/// An output that is an input; the message names both.
+/// An output that is an input. The message names both.
 pub fn refuse_to_overwrite_inputs<'a>(
     mut outputs: impl Iterator<Item = &'a Path>,
     inputs: &[PathBuf],

@@ -1,4 +1,4 @@
-//! `cplan plan`, the main command: from two files to a certified motion, a proof, or neither.
+//! `cplan plan`, the main command: plans a certified motion from two files, or proves that no motion exists.
 
 use super::exit::code_of;
 use super::explain;
@@ -160,7 +160,7 @@ pub fn answer(
     }
     let mut asked = args.query.overrides();
     let stated_ends = loaded.resolved_ends();
-    // Warnings come first, because they may explain why start or goal is refused.
+    // Print warnings first, because they may explain why start or goal is refused.
     let ignored = args.options.effort.ignored(args.planner);
     loaded.robot.warnings.iter().chain(&ignored).for_each(|w| args.print.print_status(&format!("warning: {w}")));
     let problem = match &mut program {
@@ -178,8 +178,7 @@ pub fn answer(
     let plan = plan_with(&problem, &options, &mut |text| args.print.print_status(text))?;
     let begun = Instant::now();
     let program = program.map(|program| program.write(&plan, given.zip(about.as_ref()))).transpose()?;
-    // If start or goal was given by a place of the tip, or was moved to a limit, the certificate states its joint
-    // values.
+    // If start or goal was given by a tip position, or was moved to a limit, the certificate states its joint values.
     let asked = with_ends(asked, stated_ends, problem.query());
     let hint = if plan.status() == Status::Infeasible { explanation() } else { None };
     let text = program.as_ref().and_then(|program| program.text.as_deref());
@@ -195,7 +194,7 @@ pub fn answer(
     Ok(code)
 }
 
-/// Adds a hint to an error about a blocked start or goal that `cplan explain` can explain.
+/// Adds a hint to an error about a blocked start or goal, if `cplan explain` can explain it.
 fn with_hint_to_explain(failure: Failure, hint: impl FnOnce() -> Option<String>) -> Failure {
     let Failure::Input(error) = failure else { return failure };
     let is_end = |kind| matches!(kind, DiagnosticKind::Start | DiagnosticKind::Goal);
@@ -206,8 +205,7 @@ fn with_hint_to_explain(failure: Failure, hint: impl FnOnce() -> Option<String>)
     }
 }
 
-/// Returns the overrides. If the files do not state start and goal as joint values, adds the joint values that were
-/// found for them.
+/// Returns the overrides, completed by the joint values of start and goal if the files do not state these.
 pub fn with_ends(asked: Overrides, stated_ends: [Option<Configuration>; 2], query: &MotionProblem) -> Overrides {
     let goal = stated_ends[1].and(query.goals().pieces().first()).map(|goal| goal.ends()[0]);
     let implied = |end: Option<Configuration>, stated_ends| end.filter(|_| end != stated_ends).map(JointValues::from);
@@ -218,8 +216,7 @@ pub fn with_ends(asked: Overrides, stated_ends: [Option<Configuration>; 2], quer
     }
 }
 
-/// Refuses to write the values of a grid, its potential or its estimates if the planner has none, and to count labels
-/// that it does not have.
+/// Refuses to write the values of a grid, its potential or its estimates, or to number labels, if the planner has none.
 fn require_grid(args: &PlanArgs, outputs: &Outputs<PlanContent>, planner: &Planner) -> Result<(), Failure> {
     if args.labels_from > 0 && planner.method() != Method::Wavefront {
         return Err(Failure::Usage("--labels-from needs --planner wavefront: other planners label no cells".into()));
@@ -243,8 +240,8 @@ fn require_grid(args: &PlanArgs, outputs: &Outputs<PlanContent>, planner: &Plann
     Ok(())
 }
 
-/// Returns the view for a page: with the search of the planner and, for a motion that is proven not to exist, or for a task with such a
-/// motion, the cards of an explanation: what blocks it, and which changes open a path.
+/// Returns the view for a page, with the search of the planner. If a motion, or a motion of a task, is proven not to
+/// exist, the view also has the cards of an explanation: blocking obstacles, and changes that open a path.
 pub(super) fn page_view(plan: &Plan) -> View {
     let view = plan.view_with_replay();
     if plan.task().is_some() {
@@ -256,7 +253,7 @@ pub(super) fn page_view(plan: &Plan) -> View {
     with_explanation(view, &find_explanation(&question, &Options::default()))
 }
 
-/// Adds the cards of an explanation to the view of a task whose failed step has a motion that is proven not to exist.
+/// Adds the cards of an explanation to the view of a task whose failed step provably has no motion.
 fn explained_task(plan: &Plan, view: View) -> View {
     if plan.status() != Status::Infeasible || !plan.problem().timed().trajectories.is_empty() {
         return view;
@@ -291,7 +288,7 @@ fn written(
     });
     let member = certificate.as_ref().and_then(|(path, text)| Some((*path, serde_json::from_str(text).ok()?)));
     let mut written = files.write(plan, member)?;
-    // Pages and animations show the search of the planner, and pages explain why there is no motion.
+    // Pages and animations show the planner's search, and pages explain why there is no motion.
     let seen = |is_animated: bool| {
         let mut view = if is_animated { page_view(plan) } else { plan.view() };
         view.facts.extend(hint.iter().map(|hint| ["hint".to_owned(), (*hint).to_owned()]));

@@ -35,11 +35,11 @@ pub struct ProgramWriter {
     tolerance: JointTolerance,
     /// The clearance of the program, metres.
     clearance: f64,
-    /// The clearance that the plan has in addition, metres.
+    /// The additional clearance of the plan, metres.
     room: f64,
 }
 
-/// The text of a program, and its line in the summary.
+/// The text of a program, and a line about it for the summary.
 pub struct WrittenProgram {
     /// The text. `None` if the plan has no motion.
     pub text: Option<String>,
@@ -47,7 +47,7 @@ pub struct WrittenProgram {
 }
 
 impl ProgramArgs {
-    /// Returns the content of a file whose extension is of no known format.
+    /// Returns the content of a file with an unknown extension.
     ///
     /// # Errors
     /// The error about the format, unless a template writes the file.
@@ -65,7 +65,7 @@ impl ProgramArgs {
     /// Reads the template. `None` if no program is requested. `blend` is the requested radius for corners.
     ///
     /// # Errors
-    /// A template without a file to write, corners that must be rounded, and a defect of the template.
+    /// A template without an output file, corners that must be rounded, and a defect of the template.
     pub fn writer(&self, outputs: &Outputs<PlanContent>, blend: f64) -> Result<Option<ProgramWriter>, Failure> {
         let Some(name) = &self.template else { return Ok(None) };
         if !outputs.results.iter().any(|(_, content)| *content == PlanContent::Program) {
@@ -88,11 +88,11 @@ impl ProgramWriter {
         self.template.files()
     }
 
-    /// Returns the problem whose plan has a program: the arm rests during strokes and turns, and the clearance includes the
-    /// tolerance. Sets the clearance of the overrides.
+    /// Returns the problem for a program: the arm rests during strokes and turns, and the clearance includes the
+    /// tolerance. Also sets the clearance of the overrides.
     ///
     /// # Errors
-    /// The errors of [`Problem::of_scene`], with a hint for those that only the larger clearance causes, and a problem that
+    /// The errors of [`Problem::of_scene`], with a hint if only the larger clearance causes them, and a problem that
     /// cannot have a program.
     pub fn problem(&mut self, loaded: LoadedScene, asked: &mut Overrides) -> Result<Problem, Failure> {
         let loaded = loaded.without_arches();
@@ -109,7 +109,7 @@ impl ProgramWriter {
         })
     }
 
-    /// Describes the clearance that the tolerance adds.
+    /// Describes the additional clearance for the tolerance.
     fn describe_room(&self) -> String {
         format!("the program's joint tolerance of {} adds {} to the clearance", self.tolerance, length_up(self.room))
     }

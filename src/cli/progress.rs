@@ -16,8 +16,7 @@ const REDRAW_INTERVAL: Duration = Duration::from_millis(50);
 /// Width of the bar, in characters.
 const BAR_WIDTH: usize = 16;
 
-/// Width of a line, in characters. It is less than the width of usual terminals, because a line that is wrapped cannot
-/// be drawn again.
+/// Width of a line, in characters. It is less than that of usual terminals, because a wrapped line cannot be redrawn.
 const LINE_WIDTH: usize = 78;
 
 /// The form in which progress is shown.
@@ -29,7 +28,7 @@ enum ProgressMode {
     Bar,
     /// Prints a line at intervals, and at the end.
     Lines,
-    /// Prints a line at intervals. For work that is usually done at once.
+    /// Prints a line at intervals. For work that usually ends before the first line.
     LongLines,
 }
 
@@ -53,9 +52,8 @@ struct State {
 }
 
 impl Progress {
-    /// Creates a display for `total` runs, or other items named `noun`. It shows a bar on a terminal,
-    /// which vanishes at the end. Otherwise it prints a line every ten seconds and, unless there is a `single` problem, a
-    /// last line.
+    /// Creates a display for `total` runs, or other items named `noun`. On a terminal, it shows a bar, which vanishes
+    /// at the end. Otherwise it prints a line every ten seconds, and a last line unless there is a `single` problem.
     pub fn new(total: usize, noun: &'static str, single: bool, quiet: bool) -> Self {
         let mode = match (quiet, single) {
             (true, _) => ProgressMode::Silent,
@@ -84,7 +82,7 @@ impl Progress {
     pub fn done(&self) {
         let mut state = self.state();
         state.done += 1;
-        // The bar is drawn when the next run begins.
+        // The bar is redrawn when the next run begins.
         let prints_lines = matches!(self.mode, ProgressMode::Lines | ProgressMode::LongLines);
         if prints_lines && state.shown.elapsed() >= LINE_INTERVAL {
             state.shown = Instant::now();
@@ -98,7 +96,7 @@ impl Progress {
             ProgressMode::Silent | ProgressMode::LongLines => {}
             ProgressMode::Bar => print_on_stderr(&format!("\r{:LINE_WIDTH$}\r", "")),
             ProgressMode::Lines => {
-                // A search may end before it has made all the runs that were allowed.
+                // A search may end before it has made all allowed runs.
                 let done = self.state().done;
                 sinks::print_status(&line(done, done, self.noun, self.started.elapsed()));
             }
@@ -116,8 +114,7 @@ fn print_on_stderr(text: &str) {
     let _ = stderr.write_all(text.as_bytes()).and_then(|()| stderr.flush());
 }
 
-/// Returns the number of runs per second, and the remaining time at this rate. The remaining time is `None` if it is
-/// not known yet.
+/// Returns the number of runs per second, and the remaining time at this rate, or `None` if it is not known yet.
 fn rate(done: usize, total: usize, elapsed: Duration) -> (f64, Option<String>) {
     let rate = done as f64 / elapsed.as_secs_f64().max(1e-3);
     (rate, (done > 0 && done < total).then(|| time((total - done) as f64 / rate)))
@@ -141,8 +138,8 @@ fn line(done: usize, total: usize, noun: &str, elapsed: Duration) -> String {
     format!("{done} of {total} {noun}, {rate:.1} a second{left}")
 }
 
-/// Returns a progress bar with the numbers of [`line`]. It includes the name of the current run if there is room. The
-/// bar always has the same width.
+/// Returns a progress bar with the numbers of [`line`], and with the name of the current run if there is room. Its
+/// width never changes.
 fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     let full = (BAR_WIDTH * done).checked_div(total).unwrap_or(BAR_WIDTH).min(BAR_WIDTH);
     let (rate, left) = rate(done, total, elapsed);
@@ -153,8 +150,8 @@ fn bar(done: usize, total: usize, elapsed: Duration, now: &str) -> String {
     format!("{cut:LINE_WIDTH$}")
 }
 
-/// Returns a function that reports how many frames of an animation are drawn. The function prints at intervals, and
-/// only if the animation takes long.
+/// Returns a function that reports how many frames of an animation are drawn. It prints at intervals, and only if the
+/// animation takes long.
 pub fn pictures_done(path: &Path, print: &PrintArgs) -> impl FnMut(usize, usize) {
     const PICTURE_INTERVAL: Duration = Duration::from_secs(5);
     let begun = Instant::now();

@@ -20,7 +20,7 @@ use clap::{Args, ValueHint};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
-/// Default number of cells along a length that equals the arm's reach.
+/// Default number of cells over the length of the arm's reach.
 const DEFAULT_CELLS: f64 = 60.0;
 
 /// Report where the tip can go, and with which IK solutions.
@@ -160,7 +160,7 @@ fn summary(world: &LoadedProblem, reach: &Reach) -> String {
     format!("{}\n{}", title_of(world.problem.scene()), format_columns(&lines))
 }
 
-/// Returns the headline: the part of the workspace that the tip reaches, among all cells with an IK solution.
+/// Returns the headline: the fraction of the cells with an IK solution that the tip reaches.
 fn headline(reach: &Reach) -> String {
     let [reachable, unknown, unreachable, blocked] = reach.tally();
     let all = reachable + unknown + unreachable + blocked;

@@ -1,4 +1,4 @@
-//! `cplan recheck`: runs the checker of certificates on a result's proof or bound, or on a certificate.
+//! `cplan recheck`: checks the proof or the bound of a result, or a certificate, by independent checkers.
 
 use super::exit::DONE;
 use super::failure::Failure;
@@ -18,10 +18,10 @@ use serde::de::IgnoredAny;
 use std::fmt::Display;
 use std::path::{Path, PathBuf};
 
-/// Fraction of a bound that may be lost when the bound is computed again from its evidence. Some is lost because walls
-/// are found at finitely many points.
+/// Greatest fraction of a bound that may be lost when the bound is recomputed from its evidence. Some is lost because
+/// walls are found at finitely many points.
 const EVIDENCE_LOSS: f64 = 1e-3;
-/// If at most this fraction of a bound is lost, the loss is only rounding, so it is not reported.
+/// Greatest lost fraction of a bound that is attributed to rounding, and not reported.
 const UNREPORTED_LOSS: f64 = 1e-6;
 
 /// Check a proof, a bound or a certificate independently.
@@ -50,7 +50,7 @@ pub struct RecheckArgs {
     pub query: QueryArgs,
 }
 
-/// Checks the claims of a result file against the two input files. The result may have been made from other files.
+/// Checks the claims of a result file against the two input files, which may be other ones than those of the result.
 ///
 /// # Errors
 /// Bad input, a file without claims, and claims that do not hold.
@@ -60,7 +60,7 @@ pub fn run(args: &RecheckArgs) -> Result<u8, Failure> {
     let source = Source::read(&args.proof)?;
     let asked = args.query.overrides();
     let evidence = Evidence::of(source.text());
-    // A certificate states start and goal itself.
+    // A certificate itself states start and goal.
     let stated_ends = if asked == Overrides::default() && evidence.certificate {
         format!("the certificate holds: {}", check_certificate(args, "certificate", source.text())?)
     } else {
@@ -86,7 +86,7 @@ fn evidence_failure(args: &RecheckArgs, why: impl Display) -> Failure {
     Failure::Refused(format!("{}: {why}", args.proof.display()))
 }
 
-/// For each kind of evidence, whether a file has it.
+/// The kinds of evidence that a file has.
 #[derive(Default)]
 struct Evidence {
     /// True for a certificate, and for a result that contains one.
@@ -96,7 +96,7 @@ struct Evidence {
 }
 
 impl Evidence {
-    /// Returns which evidence a text has, from the names of the members of its JSON object. Any other text has none.
+    /// Returns the kinds of evidence in a text, by the names of the members of its JSON object. Other texts have none.
     fn of(text: &str) -> Self {
         #[derive(Deserialize)]
         struct Members {
@@ -114,7 +114,7 @@ impl Evidence {
     }
 }
 
-/// Checks a certificate, and returns the checker's statement about it. `what` names the evidence in messages.
+/// Checks a certificate, and returns the statement of the checker. `what` names the evidence in messages.
 ///
 /// # Errors
 /// Evidence that does not hold, and files that the checker does not understand.

@@ -10,8 +10,8 @@ use crate::output::{CSpaceFormat, FileFormat, PlanOutput as _};
 use serde_json::value::RawValue;
 use std::path::{Path, PathBuf};
 
-/// Least number of digits of a step's number in a file name. Numbers are padded with zeros, so that names sort in the
-/// order of the steps.
+/// Least number of digits of a step's number in a file name. Zeros pad the numbers, so that names sort in the order of
+/// the steps.
 const MIN_STEP_DIGITS: usize = 3;
 
 /// The content of a file that `cplan plan` writes.
@@ -41,7 +41,7 @@ impl PlanContent {
 /// The result files that are requested.
 pub struct ResultFiles {
     results: Vec<(Format, PathBuf)>,
-    /// True if each step is written to a file of its own.
+    /// True if each step has its own file.
     per_step: bool,
     /// Number of steps of the task; 1 for a single motion.
     steps: usize,
@@ -78,9 +78,8 @@ impl ResultFiles {
         Ok(files)
     }
 
-    /// Writes all files. If a problem can be foreseen, writes none. Warns on stderr about formats that cannot represent
-    /// a result without a trajectory. If a certificate is given, makes it a member of one of the files. Returns the
-    /// names of the written files.
+    /// Writes all files, or none if a problem can be foreseen. Warns on stderr about formats that cannot represent a result
+    /// without a trajectory. A given certificate becomes a member of one of the files. Returns the names of the written files.
     ///
     /// # Errors
     /// I/O.
@@ -111,7 +110,7 @@ impl ResultFiles {
         Ok(names)
     }
 
-    /// Returns true if each step is written to a file of its own in this format.
+    /// Returns true if each step has its own file in this format.
     fn parts(&self, format: Format) -> bool {
         self.per_step && matches!(format, Format::Csv | Format::Yaml)
     }
@@ -134,8 +133,8 @@ impl ResultFiles {
         if self.steps == 1 { first } else { format!("{first} to {}", self.part(path, self.steps).display()) }
     }
 
-    /// Warns about files with higher numbers. They come from an earlier, longer task, and could be mistaken for files
-    /// of this one.
+    /// Warns about existing files with higher numbers. They come from an earlier, longer task, and could be mistaken
+    /// for files of this one.
     fn warn_of_more(&self, path: &Path) {
         let next = self.part(path, self.steps + 1);
         if next.exists() {

@@ -6,7 +6,7 @@ use super::sinks;
 use crate::options::{Word, word};
 use clap::Args;
 
-/// The schema of world files. Like the others, a test of the crate with the types writes it.
+/// The schema of world files. A test of the crate with the types writes it, and also the other schemas.
 pub const WORLD_SCHEMA: &str = include_str!("../../docs/world.schema.json");
 
 /// Print the JSON schema of worlds, studies or configuration spaces.

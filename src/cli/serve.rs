@@ -110,13 +110,13 @@ pub fn run(args: &ServeArgs) -> Result<u8, Failure> {
     Ok(DONE)
 }
 
-/// Returns an address that a browser can open. A server that listens at all addresses of the machine has no address of its own;
-/// then it is the one by which the machine reaches others.
+/// Returns an address that a browser can open. If the server listens at all addresses of the machine, this is the
+/// address by which the machine reaches others.
 fn reachable(address: SocketAddr) -> SocketAddr {
     if !address.ip().is_unspecified() {
         return address;
     }
-    // A connection of UDP sends nothing. The address of the other end is reserved for documentation (RFC 5737, 3849).
+    // A UDP connection sends nothing. The other address is reserved for documentation (RFC 5737, 3849).
     let (here, other) = match address {
         SocketAddr::V4(_) => ("0.0.0.0:0", "192.0.2.1:9"),
         SocketAddr::V6(_) => ("[::]:0", "[2001:db8::1]:9"),

@@ -13,8 +13,8 @@ pub use signal_hook::consts::SIGTERM;
 /// Interval of the checks for a signal.
 const INTERVAL: Duration = Duration::from_millis(20);
 
-/// Runs `last` before Ctrl-C or one of these signals ends the process, and uses its result as the exit code. On systems
-/// that cannot handle a signal, it ends the process as usual.
+/// Runs `last` before Ctrl-C or one of these signals ends the process. Its result becomes the exit code. On systems
+/// that cannot handle a signal, the process ends as usual.
 pub fn run_before_exit(signals: &[i32], last: impl FnOnce() -> i32 + Send + 'static) {
     let is_ended = Arc::new(AtomicBool::new(false));
     for &signal in signals.iter().chain(&[SIGINT]) {

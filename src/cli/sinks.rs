@@ -18,8 +18,7 @@ pub fn print_status(text: &str) {
     let _ = writeln!(anstream::stderr(), "{}", terminal::message(&plain(text)));
 }
 
-/// Prints text on stdout. Control characters in the text are shown as visible characters, so that they do not affect
-/// the terminal.
+/// Prints text on stdout. Control characters become visible characters, so that they do not affect the terminal.
 ///
 /// # Errors
 /// I/O.
@@ -27,8 +26,8 @@ pub fn report(text: &str) -> Result<(), Failure> {
     print(&plain(text))
 }
 
-/// Prints text with styles on stdout. Names in the text must have no control characters. Outputs without colours get the
-/// text alone.
+/// Prints text with styles on stdout. Names in the text must not contain control characters. Outputs without colours
+/// get plain text.
 ///
 /// # Errors
 /// I/O.
@@ -62,7 +61,7 @@ pub fn print_json(json: &str) -> Result<(), Failure> {
     print(&plain_json(json))
 }
 
-/// Prints on stdout. If the reader closes the stream early (`cplan ... | head`), that is no error.
+/// Prints on stdout. A reader that closes the stream early (`cplan ... | head`) causes no error.
 ///
 /// # Errors
 /// I/O.

@@ -187,7 +187,7 @@ fn refuse_parquet(outputs: &[PathBuf]) -> Result<(), Failure> {
     })
 }
 
-/// Returns the path of the journal of an output file.
+/// Returns the path of the journal for an output file.
 fn part(path: &Path) -> PathBuf {
     let mut name = OsString::from(path);
     name.push(".part");
@@ -213,7 +213,7 @@ fn write_layout(study: &Study, layout: usize, outputs: &Outputs<Content>) -> Res
     Ok(DONE)
 }
 
-/// Prints a note if the robot of a layout differs from that of the study, but only the world of the layout is written.
+/// Prints a note if the robot of a layout differs from the study's, but only the world of the layout is written.
 fn note_robot(study: &Study, files: &[(PathBuf, Content)]) {
     let of = |wanted: Content| files.iter().find(|(_, content)| *content == wanted);
     if let (Some((world, _)), None, true) = (of(Content::World), of(Content::Robot), study.varies_robots()) {
@@ -248,7 +248,7 @@ fn bytes(
     })
 }
 
-/// Returns the world and the robot of a layout as texts. The world begins with a comment that contains the command that
+/// Returns the world and the robot of a layout as texts. A comment at the beginning of the world has the command that
 /// plans in it.
 fn texts(study: &Study, layout: usize, values: &[f64], files: &[(PathBuf, Content)]) -> [String; 2] {
     let [world, urdf] = study.layout(values);
@@ -270,7 +270,7 @@ fn command_of(study: &Study, world: &str, files: &[(PathBuf, Content)]) -> Strin
     let written = files.iter().find(|(_, content)| *content == Content::Robot).map(|(path, _)| path.to_string_lossy());
     let robot = match written {
         Some(written) => written.into_owned(),
-        // The study's robot file would be that of another layout.
+        // The robot's file of the study would be that of another layout.
         None if study.varies_robots() => Path::new(world).with_extension("urdf").to_string_lossy().into_owned(),
         None => short(&urdf.name()),
     };
@@ -278,7 +278,7 @@ fn command_of(study: &Study, world: &str, files: &[(PathBuf, Content)]) -> Strin
     words.map(for_a_shell).collect::<Vec<_>>().join(" ")
 }
 
-/// Shortens a path that leads into a folder and out again, if the short path leads to the same file.
+/// Removes detours through folders from a path, if the short path leads to the same file.
 fn short(name: &str) -> String {
     let mut short = PathBuf::new();
     for part in Path::new(name).components() {
@@ -293,7 +293,7 @@ fn short(name: &str) -> String {
     if same[0].is_some() && same[0] == same[1] { short.to_string_lossy().into_owned() } else { name.to_owned() }
 }
 
-/// Rows of a running study. The handler of Ctrl-C uses them, too.
+/// Rows of a running study, also for the handler of Ctrl-C.
 #[derive(Debug, Clone)]
 struct SharedRows(Arc<Mutex<Rows>>);
 
@@ -314,14 +314,12 @@ impl SharedRows {
         rows.journal.as_mut().map_or(Ok(()), |journal| journal.add(row))
     }
 
-    /// Removes the journal. This is for a finished study: all rows are in the output files, so nothing remains to be
-    /// continued.
+    /// Removes the journal of a finished study, because all rows are in the output files.
     fn remove(&self) -> Result<(), JournalError> {
         self.rows().journal.take().map_or(Ok(()), Journal::remove)
     }
 
-    /// Writes all rows to disk. Returns a message that states how many rows there are, and how many layouts the study
-    /// has (`total`).
+    /// Writes all rows to disk. Returns a message with the number of rows and the number of layouts in the study (`total`).
     fn stopped(&self, total: usize) -> String {
         let mut rows = self.rows();
         let count = rows.count;

@@ -8,7 +8,7 @@ use std::io::IsTerminal;
 
 use terminal_size::{Height, Width, terminal_size_of};
 
-/// Least width of wrapped lines, in characters. In narrower lines there would be hardly more than a word.
+/// Least width of wrapped lines, in characters. Narrower lines would have hardly more than one word.
 const MIN_WIDTH: usize = 40;
 
 /// Greatest width of messages and help, in characters. Longer lines are hard to read.
@@ -17,8 +17,8 @@ pub const WIDEST: usize = 80;
 /// The escape sequences before and after the best value of a column: bold.
 pub const BEST_VALUE: [&str; 2] = ["\u{1b}[1m", "\u{1b}[0m"];
 
-/// Returns the number of characters per line of a terminal: the variable `COLUMNS`, or the terminal's size. Returns
-/// `None` for other outputs.
+/// Returns the number of characters per line of a terminal, from the variable `COLUMNS` or the terminal's size. `None`
+/// for other outputs.
 fn width(is_terminal: bool, size: Option<(Width, Height)>) -> Option<usize> {
     let stated = || std::env::var("COLUMNS").ok()?.parse().ok();
     let seen = || size.map(|(Width(width), _)| usize::from(width));
@@ -48,11 +48,11 @@ pub fn message(text: &str) -> String {
     text
 }
 
-/// Beginning of a command. A line that begins so is not wrapped, so that it can be copied.
+/// Beginning of a command. Lines that begin with it are not wrapped, so that they can be copied.
 const COMMAND: &str = "cplan ";
 
-/// Wraps the lines of a message. Does not wrap commands. Does not wrap lines quoted from files either, because carets
-/// below such a line point at a column of it.
+/// Wraps the lines of a message, except commands and lines quoted from files. Carets below a quoted line point to one
+/// of its columns.
 fn wrap_message(text: &str, width: usize) -> String {
     let folded = |line: &str| {
         let blanks = line.chars().take_while(|c| *c == ' ').count();
@@ -75,8 +75,8 @@ fn wrap_summary(text: &str, width: usize) -> String {
     text.lines().map(narrowed).collect()
 }
 
-/// Colours the verdict, which ends at the first punctuation mark, by the exit code, and puts a sign before it: a green tick
-/// for what was found, a red cross for what is infeasible.
+/// Colours the verdict, which ends at the first punctuation mark, by the exit code. Puts a sign before it: a green tick
+/// for *found*, a red cross for *infeasible*.
 fn color_verdict(text: &str, code: u8) -> String {
     let (color, sign) = match code {
         DONE => (AnsiColor::Green, '\u{2713}'),
@@ -99,13 +99,13 @@ fn color_verdict(text: &str, code: u8) -> String {
     before
 }
 
-/// Makes the notes of a summary dim, which are less important than the result, and warnings yellow.
+/// Dims the notes of a summary, which are less important than the result, and makes warnings yellow.
 fn style_lines(text: &str) -> String {
     let styles =
         [("note ", Style::new().dimmed()), ("warning ", Style::new().fg_color(Some(AnsiColor::Yellow.into())))];
     let mut style = None;
     let line = |line: &str| {
-        // A line without a key continues the one before.
+        // A line without a key continues the previous one.
         if !line.starts_with(' ') {
             style = styles.iter().find(|(key, _)| line.starts_with(key)).map(|(_, style)| style);
         }

@@ -4,7 +4,7 @@ use crate::options::{finite, number_in};
 use cplan_follow::MIN_TOLERANCE;
 use cplan_text::metres;
 
-/// Longest time limit that a command accepts, in seconds: some thirty years.
+/// Longest accepted time limit, in seconds: about thirty years.
 const MAX_JOB_SECONDS: f64 = 1e9;
 
 /// Parses a least distance from obstacles: metres, or a length with its unit.
@@ -28,7 +28,7 @@ pub fn time_limit(text: &str) -> Result<f64, String> {
     )
 }
 
-/// Greatest distance by which a drawing or a line can be moved, in metres. Their coordinates are at most half of this.
+/// Greatest displacement of a drawing or a line, in metres. Their coordinates are at most half of this.
 const MAX_MOVE: f64 = 2e12;
 
 /// Parses a displacement `x,y`, in metres.

@@ -35,8 +35,7 @@ impl Variant {
         Ok(Self { label: words.join(" "), planner: options.planner(planner)?, options })
     }
 
-    /// Returns the planner, and the number of attempts with it. `base` has the settings that the variant does not
-    /// state.
+    /// Returns the planner, and its number of attempts. `base` has the settings that the variant does not state.
     pub fn completed_by(&self, base: &EffortArgs) -> (Planner, usize) {
         let effort = self.options.effort.completed_by(base);
         let planner = effort.apply_to(self.planner);
@@ -48,8 +47,7 @@ impl Variant {
         self.options.effort.ignored(self.planner.method())
     }
 
-    /// Returns the reason why the device that the options select is not available, with a hint. Returns `None` if it is
-    /// available.
+    /// Returns the reason why the selected device is not available, with a hint. `None` if it is available.
     pub fn missing(&self) -> Option<String> {
         self.options.field.missing()
     }

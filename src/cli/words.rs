@@ -72,7 +72,7 @@ pub(super) fn parse_verify_settings(words: &[String]) -> Result<Settings, Failur
     VerifyWords::try_parse_from(words).map(|words| words.settings).map_err(refused)
 }
 
-/// Returns a message if an option concerns files and printing instead of planning. Returns `None` for other errors.
+/// Returns a message if an option concerns files or printing instead of planning. `None` for other errors.
 fn message_about_misplaced_option(error: &clap::Error) -> Option<String> {
     let Some(ContextValue::String(option)) = error.get(ContextKind::InvalidArg) else { return None };
     let main_job = PlanArgs::augment_args(Files::augment_args(Command::new("cplan")));

@@ -1,4 +1,4 @@
-//! The files that a certificate is about: the URDF, the world, and the files that these refer to.
+//! The files that belong to a certificate: the URDF, the world, and the files to which these refer.
 
 use cplan_check::CheckError;
 use cplan_check::certificate::Certificate;
@@ -25,7 +25,7 @@ fn digest(bytes: &[u8]) -> String {
 }
 
 impl Files {
-    /// Prepares access to the files, and checks that the certificate is about these texts of the URDF and the world.
+    /// Prepares access to the files. Checks that the certificate belongs to these texts of the URDF and the world.
     ///
     /// # Errors
     /// If the certificate has digests that do not match the texts.

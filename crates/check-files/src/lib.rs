@@ -1,9 +1,9 @@
 //! An independent checker of cplan's certificates. This crate reads the files, and judges tasks and moving obstacles.
 //!
 //! [`check`] reads a URDF, a world and a certificate, and decides whether the certificate proves its answer, in exact
-//! arithmetic. Decimals are taken exactly as written. Roots, sines and cosines are enclosed between a lower and an
-//! upper bound. The checker shares no code with the planner. `cplan-check` judges certificates about one motion. This
-//! crate reads URDF and meshes, worlds and maps for it, and judges tasks by repeating their steps. In cplan's
+//! arithmetic. Decimals have exactly the value that is written. Roots, sines and cosines are enclosed between a lower
+//! and an upper bound. The checker shares no code with the planner. `cplan-check` judges certificates about one motion.
+//! This crate reads URDF and meshes, worlds and maps for it, and judges tasks by repeating their steps. In cplan's
 //! repository, `docs/certificate_format.md` describes the format and the meaning of each key, and
 //! `docs/certificate_checks.md` lists the conditions that are checked and explains why they suffice.
 //!
@@ -57,8 +57,8 @@ pub fn check(urdf: &str, world: &str, certificate: &str) -> Result<String, Check
     check_texts([urdf, world, certificate], [None, None])
 }
 
-/// Checks a certificate, given the paths of the three files. Other files to which the URDF and the world refer are
-/// looked up relative to the file that names them.
+/// Checks a certificate, given the paths of the three files. If the URDF or the world refers to other files, their
+/// paths are relative to the referring file.
 ///
 /// # Errors
 /// Same as [`check`], and if a file cannot be read.
@@ -71,20 +71,20 @@ pub fn check_files(urdf: &Path, world: &Path, certificate: &Path) -> Result<Stri
     check_beside(texts.each_ref().map(String::as_str), [urdf, world])
 }
 
-/// Checks a certificate, given the texts of the three files. `beside` has the paths of the URDF and the world. Other
-/// files are looked up relative to these paths.
+/// Checks a certificate, given the texts of the three files. `beside` has the paths of the URDF and the world. Paths of
+/// other files are relative to these.
 ///
 /// # Errors
-/// The errors of [`check`], and if a file cannot be read.
+/// Same as [`check`], and if a file cannot be read.
 pub fn check_beside(texts: [&str; 3], beside: [&Path; 2]) -> Result<String, CheckError> {
     check_texts(texts, beside.map(|path| Some(path.to_owned())))
 }
 
-/// Checks a certificate, given three texts, and the paths of the URDF and the world if they are known.
+/// Checks a certificate, given three texts, and the paths of the URDF and the world if known.
 fn check_texts([urdf, world, certificate]: [&str; 3], given: [Option<PathBuf>; 2]) -> Result<String, CheckError> {
     let certificate = certificate::read(certificate)?;
     let files = Files::new(&certificate, [urdf, world], given)?;
-    // Ignore a byte order mark.
+    // Drop a byte order mark.
     let [urdf, world] = [urdf, world].map(|text| text.strip_prefix('\u{feff}').unwrap_or(text));
     let mut world = WorldFile::read(world, &files)?;
     // A document type is harmless: the parser limits the size of entities.

@@ -174,8 +174,8 @@ impl<'a> Robot<'a> {
         Ok([1, 0].into_iter().find(moves))
     }
 
-    /// Finds the link whose origin is the tip. If the world names no link, it is the link farthest down the tree among
-    /// those that the second joint moves.
+    /// Finds the link whose origin is the tip. If the world does not name it, it is the deepest link of the tree that
+    /// the second joint moves.
     fn find_tip(&self, named: Option<&str>) -> ReadResult<&'a str> {
         let mut deepest = None;
         for link in self.tree.order.iter().filter(|link| named.is_none_or(|named| named == **link)) {

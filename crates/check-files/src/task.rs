@@ -1,4 +1,4 @@
-//! Checks certificates with the answer "found" and steps: a motion executes a task.
+//! Checks certificates with the answer "found" and with steps: a motion executes a task.
 
 mod lines;
 mod order;
@@ -16,7 +16,7 @@ use num_bigint::Sign;
 use order::{Order, rest_durations};
 use replay::Replay;
 
-/// Number of decimals of the tolerance of rest times: the arm may rest for `10^-6` s less than required.
+/// Number of decimals of the tolerance of rests: the arm may rest for `10^-6` s less than required.
 const REST_TOLERANCE_DECIMALS: u32 = 6;
 
 /// Checks that a motion executes all steps of a task.

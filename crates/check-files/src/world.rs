@@ -44,20 +44,20 @@ pub struct WorldFile {
     pub task: Option<Task>,
 }
 
-/// Values of the `[robot]` table that the checker uses. Quantities in degrees become enclosures; others are exact.
+/// Values of the `[robot]` table that the checker uses. Quantities in degrees become enclosures. Others are exact.
 pub struct RobotTable {
     /// Position of the robot's root frame; `angle` is the orientation of that frame.
     pub at: Corner,
     pub angle: Interval,
     /// Names of the two joints, if given.
     pub joints: Option<Vec<String>>,
-    /// Values at which other joints are held, by name.
+    /// Values of fixed joints, by name.
     pub fixed: BTreeMap<String, Range>,
     /// Enclosures of the lower and the upper limit of joints, by name.
     pub limits: BTreeMap<String, [Range; 2]>,
     /// Limits of the shafts of motors, if given.
     pub drives: Option<Drives>,
-    /// Errors for which motions stay free.
+    /// Errors that must not make a motion collide.
     pub calibration: Calibration,
     /// Radius of bars that replace links without geometry, if given.
     pub bar: Option<Decimal>,
@@ -152,7 +152,7 @@ impl Reader<'_> {
         Decimal::read(&text.replace('_', "")).or_else(|why: String| self.error(value, &why))
     }
 
-    /// Reads a length in metres: a number, or a text with its unit, exactly.
+    /// Reads a length in metres, exactly: a number, or a text with a unit.
     fn length(&self, value: &Value) -> ReadResult<Decimal> {
         let Some(text) = value.get_ref().as_str() else { return self.number(value) };
         length_with_unit(text).map_or_else(|| self.error(value, "expected a number, or a length such as \"20 mm\""), Ok)
@@ -308,7 +308,7 @@ impl Reader<'_> {
                 }
             }
         }
-        // An unreadable picture matters only if something uses it.
+        // A picture that cannot be read matters only if something uses it.
         let cells = |name: String| Cells::read(self.files, &self.file(&name)?, unknown_is_solid);
         outlines.extend(image.map(|name| Outline::Squares(cells(name).map(|cells| Rc::new(cells) as _))));
         let [outline] =
@@ -328,7 +328,6 @@ impl Reader<'_> {
         Ok(Obstacle { name, at, turn, heights, trajectory, stated, ..Obstacle::new(outline) })
     }
 
-    /// Reads all obstacles.
     fn obstacles(&self, list: &Value, world: &mut World) -> ReadResult<()> {
         for (index, value) in self.list(list)?.into_iter().enumerate() {
             let mut obstacle = self.obstacle(value, false)?;
@@ -340,7 +339,7 @@ impl Reader<'_> {
     }
 }
 
-/// Keys of `[start]` and `[goal]` with values of the tool's joints. They make a motion a task.
+/// Keys of `[start]` and `[goal]` for the values of the tool's joints. A motion with such keys is a task.
 const TOOL_KEYS: [&str; 2] = ["stroke", "wrist"];
 
 fn origin() -> Corner {

@@ -18,10 +18,10 @@ use cplan_check::world::World;
 use cplan_check::{CheckError, Input};
 use num_bigint::BigInt;
 
-/// Level up to which all cells are quartered. Cells are then about a hundredth of the domain.
+/// Level up to which all cells are quartered. At this level, cells are about a hundredth of the domain.
 const COARSE_LEVEL: u32 = 7;
 
-/// Number of rounds after which that level rises by one.
+/// Number of rounds after which the level rises by one.
 const ROUNDS_PER_LEVEL: u32 = 6;
 
 /// Maximum number of cells.
@@ -60,7 +60,6 @@ pub fn no_motion(arm: &Arm, world: &World, certificate: &Certificate, line: &Lin
     ))
 }
 
-/// Returns the point of the line at a position.
 fn place(line: &Line, position: &Decimal) -> Point {
     let piece = index(position, line.pieces.len());
     line.pieces[piece].at(&Interval::exact(parameter(position, piece)))
@@ -86,9 +85,9 @@ struct Candidate {
     cell: Cell,
     /// For each end of the stretch, true if the tip may be near it.
     ends: [bool; 2],
-    /// True if the cell touches a box.
+    /// True if the cell touches a collision box.
     is_beside_box: bool,
-    /// True if the tip is near both ends in the middle of the cell, and no box contains the middle.
+    /// True if the middle of the cell is in no box, and the tip is then near both ends.
     is_passage: bool,
 }
 
@@ -121,8 +120,8 @@ impl Search<'_> {
         groups(all, touches).into_iter().filter(connects).flatten().collect()
     }
 
-    /// Returns a cell with its relation to the stretch. Returns `None` if a box contains the cell, if the
-    /// elbow is on the wrong side in it, or if the tip stays away from the stretch in it.
+    /// Relates a cell to the stretch. Returns `None` if a box contains the cell, if the elbow is on the wrong side in
+    /// the whole cell, or if the tip stays away from the stretch there.
     fn candidate(&self, tip: &MovingBody, cell: Cell) -> Option<Candidate> {
         let ranges = cell.rectangle(&self.arm.domain);
         let is_excluded = self.elbow.is_some_and(|elbow| elbow.excludes(self.arm, &ranges[1]));

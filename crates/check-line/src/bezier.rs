@@ -19,14 +19,13 @@ pub fn cut(control: &[Point], u: &Interval) -> (Vec<Point>, Vec<Point>) {
     (first, second)
 }
 
-/// Returns the control points of the derivative by the parameter.
+/// Returns the control points of the derivative with respect to the parameter.
 pub fn derivative(control: &[Point]) -> Vec<Point> {
     let degree = Interval::whole(control.len() as i32 - 1);
     control.windows(2).map(|p| times(&minus(&p[1], &p[0]), &degree)).collect()
 }
 
-/// Returns an enclosure of a whole curve: the least one that contains all control points. Without control points, it is
-/// zero.
+/// Returns the least enclosure of all control points, which contains the whole curve. Without control points, it is zero.
 pub fn enclosure(control: &[Point]) -> Point {
     [0, 1].map(|k| {
         let ends = control.iter().map(|p| &p[k]);

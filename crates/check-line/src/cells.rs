@@ -1,4 +1,4 @@
-//! Rectangles that cover configurations, and which of them touch each other.
+//! Rectangles that cover configurations, and tests whether they touch each other.
 
 use cplan_check::decimal::Decimal;
 use cplan_check::domain::{Domain, Rectangle};
@@ -7,7 +7,7 @@ use num_bigint::BigInt;
 /// Maximum number of times that the domain is halved along each joint.
 pub const MAX_LEVEL: u32 = 40;
 
-/// A rectangle of the domain: each joint's range is one of `2^level` equal parts of its values.
+/// A rectangle of the domain. The range of each joint is one of `2^level` equal parts of its values.
 #[derive(Clone)]
 pub struct Cell {
     /// Number of times that the domain was halved along each joint.

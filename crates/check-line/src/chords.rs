@@ -11,13 +11,13 @@ use num_bigint::{BigInt, Sign};
 /// Maximum number of times that a piece is halved for its chords.
 const MAX_HALVINGS: u32 = 12;
 
-/// Maximum number of chords of a stretch. Stretches of usual evidence have less than a hundred.
+/// Maximum number of chords of a stretch. Usual stretches have less than a hundred.
 const MAX_CHORDS: usize = 20_000;
 
-/// Negative binary logarithm of the greatest deviation of chords, as a share of the tolerance: a quarter of it.
+/// Negative binary logarithm of the greatest deviation of chords, as a share of the tolerance: a quarter.
 const DEVIATION_BITS: u32 = 2;
 
-/// A segment, and a bound on the distance of the line's part from it. Numbers are in units of [`Interval`].
+/// A segment, and a bound on the distance of the line's part from the segment. Numbers are in units of [`Interval`].
 pub struct Chord {
     middle: Point,
     /// Direction of unit length. `None` if the segment may be a point.

@@ -12,7 +12,8 @@ pub enum Curve {
     Arc(Box<Arc>),
 }
 
-/// An arc of a circle or a spiral: `radius + growth u` from the centre, in direction `from + by u`, at the parameter `u`.
+/// An arc of a circle or a spiral. At the parameter `u`, it is `radius + growth u` from the centre, in the direction
+/// `from + by u`.
 #[derive(PartialEq)]
 pub struct Arc {
     pub center: Point,
@@ -35,7 +36,7 @@ impl Curve {
         }
     }
 
-    /// Returns the first and the second derivative by the parameter.
+    /// Returns the first and the second derivative with respect to the parameter.
     pub fn derivatives(&self, u: &Interval) -> [Point; 2] {
         match self {
             Self::Bezier(control) => {

@@ -1,4 +1,4 @@
-//! A measure of the tip's position that depends on joint 2 alone.
+//! A measure of the tip's position that depends only on joint 2.
 //!
 //! If joint 1 turns, it is the distance of the tip from joint 1. If joint 1 slides, it is the distance of the tip to the
 //! right of the straight line along which joint 1 slides. So configurations near a line are in narrow ranges of joint 2,
@@ -19,7 +19,7 @@ impl<'a> Measure<'a> {
         Self { arm }
     }
 
-    /// Returns the direction to the right of the axis of joint 1; `None` if joint 1 turns.
+    /// Returns the direction to the right of the axis of joint 1. `None` if joint 1 is revolute.
     fn aside(&self) -> Option<Point> {
         match &self.arm.joints[0].motion {
             Motion::Turn(_) => None,
@@ -28,8 +28,8 @@ impl<'a> Measure<'a> {
     }
 
     /// Returns the measure of the tip for all values of joint 2 in a range. Let `f` be the measure or its square, `m`
-    /// the middle of the range, and `f'` the derivative in the range. Then the values of `f` are in
-    /// `f(m) + f' (range - m)`.
+    /// the middle of the range, and `f'` an enclosure of the derivative in the range. Then `f(m) + f' (range - m)`
+    /// contains all values of `f`.
     pub fn of_tip(&self, range: &Interval) -> Interval {
         let [zero, one] = [0, 1].map(Interval::whole);
         let state = |value: Interval| {

@@ -14,10 +14,10 @@ use cplan_check::world::World;
 use cplan_check::{CheckError, Input};
 use num_bigint::BigInt;
 
-/// Maximum number of times that a span is halved. A hundredth of a second then becomes less than a nanosecond.
+/// Maximum number of halvings of a span. A hundredth of a second then becomes less than a nanosecond.
 const MAX_HALVINGS: u32 = 24;
 
-/// Maximum number of parts of spans for each reading of a motion. This takes some minutes.
+/// Maximum number of parts of spans for each interpolation of a motion. They take some minutes.
 const MAX_PARTS: usize = 4_000_000;
 
 /// Bound on the rounding error of control points of joint values, in units of `2^-FRACTION_BITS`.
@@ -28,10 +28,11 @@ const GUESS_BITS: u32 = 52;
 
 /// A part of the motion between two knots, and a part of a piece of the line.
 struct Span {
-    /// The knot, counted from the first one, and the shares of the time until the next knot, in units of [`Interval`].
+    /// The knot, counted from the first one, and a range of the time until the next knot, as shares of that time in
+    /// units of [`Interval`].
     knot: usize,
     shares: [BigInt; 2],
-    /// The piece and its parameters, in units of [`Interval`].
+    /// The piece, and a range of its parameter, in units of [`Interval`].
     piece: usize,
     parameters: [BigInt; 2],
 }
@@ -41,7 +42,7 @@ struct Span {
 struct Pairing {
     /// The parameter of the piece, in units of [`Interval`].
     u: BigInt,
-    /// Upper bound on the distance of the tip from there, in units.
+    /// Upper bound on the distance between the tip and this place, in units.
     off: BigInt,
 }
 
@@ -73,8 +74,8 @@ pub fn follows(arm: &Arm, world: &World, certificate: &Certificate, line: &Line)
     ))
 }
 
-/// Checks that the tip follows the line within the tolerance, for each reading of a motion, with the elbow on the line's
-/// side.
+/// Checks that the tip follows the line within the tolerance, with the elbow on the required side, for each
+/// interpolation of a motion.
 ///
 /// # Errors
 /// Those of [`spans`], and the first part of the motion on which the tip is not shown to follow the line.
@@ -91,11 +92,10 @@ pub fn stays_near(arm: &Arm, line: &Line, pieces: &[Piece]) -> Result<(), CheckE
     Ok(())
 }
 
-/// Pairs parts of the motion with parts of the line, from the beginning to the end of both.
+/// Pairs parts of the motion with parts of the line, from beginning to end.
 ///
 /// # Errors
-/// Places that do not begin or end with the motion and the line, that move backwards, or that omit a knot or the end of
-/// a piece.
+/// Places that do not begin or end with the motion and the line, that move backwards, or that omit a knot or the end of a piece.
 fn spans(line: &Line, knots: usize) -> Result<Vec<Span>, CheckError> {
     let places = &line.places;
     let is_at = |place: Option<&[Decimal; 2]>, ends: [usize; 2]| {
@@ -121,7 +121,7 @@ fn spans(line: &Line, knots: usize) -> Result<Vec<Span>, CheckError> {
     places.windows(2).enumerate().map(span).collect()
 }
 
-/// The check of one reading of a motion.
+/// The check of one interpolation of a motion.
 struct Follower<'a> {
     arm: &'a Arm,
     line: &'a Line,
@@ -132,8 +132,8 @@ struct Follower<'a> {
 }
 
 impl Follower<'_> {
-    /// Checks that the tip stays near a piece of the line during a span, in one reading of the motion from the span's knot
-    /// to the next.
+    /// Checks that the tip stays near a piece of the line during a span, for one interpolation between the span's knot
+    /// and the next one.
     fn check_span(&mut self, span: &Span, motion: &Piece, reading: usize) -> Result<(), CheckError> {
         let curve = &self.line.pieces[span.piece];
         let joints = cut(joint_curve(&motion.curves[reading]), &span.shares);
@@ -162,10 +162,10 @@ impl Follower<'_> {
         Ok(())
     }
 
-    /// Bounds the difference between the tip and its place on the line, as a function of the share `s` of the part.
-    /// Returns a bound on its second derivative, in units. The place at `s` has the parameter
-    /// `from + (to - from) (s + delay s (1 - s))`, with a delay between -1 and 1, so the place never moves backwards.
-    /// Also returns the delay, which is guessed so that the bound is small.
+    /// Considers the difference between the tip and its place on the line as a function of the share `s` of the part.
+    /// Returns a bound on its second derivative, in units. The place at `s` has the parameter `from + (to - from) (s +
+    /// delay s (1 - s))`. The delay is between -1 and 1, so the place never moves backwards. Also returns the delay,
+    /// which is guessed so that the bound is small.
     fn bend(&self, curve: &Curve, joints: &[Point], [from, to]: [&BigInt; 2]) -> (BigInt, f64) {
         let rates = bezier::derivative(joints);
         let bends = bezier::enclosure(&bezier::derivative(&rates));
@@ -182,7 +182,7 @@ impl Follower<'_> {
         (length(&minus(&minus(&tip, &place[0]), &place[1])).upper, delay)
     }
 
-    /// Returns the pairing for the middle of a part. Its place on the line lies between the places at the ends of the
+    /// Returns the pairing in the middle of a part. The place on the line lies between the places at the ends of the
     /// part, close to the point nearest to the tip.
     fn middle(&self, curve: &Curve, q: &Point, [from, to]: [&BigInt; 2], delay: f64) -> Pairing {
         let tip = tip::at(self.arm, q);

@@ -1,4 +1,4 @@
-//! The places that the tip can reach without regard to the limits of the joints.
+//! The places that the tip can reach if joints have no limits.
 
 use cplan_check::arm::{Arm, Motion};
 use cplan_check::interval::{Interval, Point, length, minus, sum};

@@ -12,22 +12,22 @@ use cplan_check::{CheckError, Input};
 use num_bigint::BigInt;
 use std::fmt;
 
-/// Number of parts of an arc whose ends are tried as guesses for the point nearest to a given point. Each part is at
-/// most a sixth of a radian long. From the best end, [`REFINEMENTS`] steps find the point to far below a picometre.
+/// Number of parts of an arc whose ends are tried as guesses for the point nearest to a given point. Each part is at most a
+/// sixth of a radian long. From the best end, [`REFINEMENTS`] steps find the point with an error far below a picometre.
 const ARC_PARTS: u32 = 40;
 
 /// Number of steps of Newton's method for a point of an arc.
 const REFINEMENTS: usize = 4;
 
-/// A line that a step of a task follows, and the places that the step's motion passes. The world states the tolerance.
+/// A line that a step of a task follows, and the places that the step's motion passes. The tolerance is the world's.
 pub struct StepLine(Line);
 
 impl StepLine {
-    /// Reads the line of a step from its JSON. `tolerance` and `elbow` are the world's, the former in metres.
+    /// Reads the line of a step from JSON. `tolerance`, in metres, and `elbow` are those of the world.
     ///
     /// # Errors
-    /// If the text is not a line, if it states a tolerance, an elbow or a stretch, or if a piece does not begin where the one before
-    /// it ends.
+    /// If the text is not a line, if it states a tolerance, an elbow or a stretch, or if a piece does not begin where
+    /// the previous one ends.
     pub fn read(text: &str, tolerance: &Decimal, elbow: Option<Elbow>) -> Result<Self, CheckError> {
         let mut text = LineText::read(text)?;
         if text.tolerance.is_some() || text.stretch.is_some() || text.elbow.is_some() {
@@ -50,8 +50,8 @@ impl StepLine {
         length(&minus(&tip, &self.0.pieces[0].at(&Interval::whole(0)))).upper
     }
 
-    /// Checks that the tip follows the line within the tolerance, for each reading of the motion. `motion` is the motion
-    /// of the step, from knot to knot.
+    /// Checks that the tip follows the line within the tolerance, for each interpolation of the motion. `motion` is the
+    /// motion of the step, from knot to knot.
     ///
     /// # Errors
     /// Places that omit a knot or the end of a piece of the line, and the first part of the motion on which the tip is
@@ -69,8 +69,7 @@ impl StepLine {
         points.len() == self.0.pieces.len() + 1 && self.0.pieces.iter().zip(points.windows(2)).all(is_between)
     }
 
-    /// Returns true if the line is an arc from the first point through the second one to the third one, of at most a whole
-    /// circle.
+    /// Returns true if the line is an arc of at most a whole circle, from the first point through the second to the third.
     pub fn is_arc_through(&self, [from, through, to]: &[Point; 3]) -> bool {
         let [piece @ Curve::Arc(arc)] = &self.0.pieces[..] else { return false };
         let is_circle = arc.growth == Interval::whole(0);
@@ -88,7 +87,7 @@ impl fmt::Display for StepLine {
     }
 }
 
-/// Returns the parameter at which a curve is near a point, in units of [`Interval`]: a guess from 0 to 1.
+/// Guesses the parameter, from 0 to 1, at which a curve is nearest to a point, in units of [`Interval`].
 fn nearest(curve: &Curve, point: &Point) -> BigInt {
     let one = Interval::whole(1);
     let samples = (0..=ARC_PARTS).map(|k| Interval::whole(k as i32).over(ARC_PARTS).lower);

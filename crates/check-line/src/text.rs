@@ -10,8 +10,8 @@ use num_bigint::BigInt;
 use serde::Deserialize;
 use std::fmt;
 
-/// Number of decimals of the greatest distance between two points that count as the same, as a share of the sum of one
-/// metre and the distance from the origin.
+/// Number of decimals of the greatest distance between points that count as equal. It is a share of one metre plus the
+/// distance from the origin.
 const GAP_DECIMALS: u32 = 8;
 
 #[derive(Deserialize)]
@@ -22,7 +22,7 @@ enum PieceText {
     Arc { center: Corner, radius: Decimal, from: Decimal, by: Decimal, growth: Option<Decimal> },
 }
 
-/// The member `line` of a certificate, or of a step of one.
+/// The member `line` of a certificate, or of a step in a certificate.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LineText {
@@ -46,7 +46,7 @@ impl LineText {
     }
 }
 
-/// A line, and its part in the evidence.
+/// A line, and the places or the stretch that the evidence states.
 pub struct Line {
     /// Greatest distance between the tip and the line, metres.
     pub tolerance: Decimal,
@@ -54,8 +54,8 @@ pub struct Line {
     pub pieces: Vec<Curve>,
     /// Number of the pieces that only lead the tip to the next piece.
     travels: usize,
-    /// Evidence for "found": moments of the motion, and the positions on the line at which the tip is near then. A
-    /// moment is a knot plus the share of the time until the next knot. A position is a piece plus its parameter.
+    /// Evidence for "found": pairs of a moment of the motion and a position on the line, at which the tip is near the
+    /// line. A moment is a knot plus a share of the time until the next knot. A position is a piece plus its parameter.
     pub places: Vec<[Decimal; 2]>,
     /// Evidence for "infeasible": the positions between which no motion follows the line.
     pub stretch: Option<[Decimal; 2]>,
@@ -75,7 +75,7 @@ impl Line {
     /// Makes a line from its text.
     ///
     /// # Errors
-    /// If it has no tolerance or no pieces, or if a piece does not begin where the one before it ends.
+    /// If it has no tolerance or no pieces, or if a piece does not begin where the previous one ends.
     pub fn new(text: LineText) -> Result<Self, CheckError> {
         let LineText { tolerance, pieces, travels, places, stretch, elbow } = text;
         let Some(tolerance) = tolerance else { return Err(wrong("\"line\" has no tolerance".into())) };
@@ -109,7 +109,7 @@ impl Line {
     }
 }
 
-/// Returns the greatest whole number up to `number`, and below `count`; 0 for negative numbers.
+/// Rounds down a number to an index below `count`. Negative numbers become 0.
 pub fn index(number: &Decimal, count: usize) -> usize {
     usize::try_from(number.floor(0)).unwrap_or(if *number < Decimal::whole(0) { 0 } else { usize::MAX }).min(count - 1)
 }

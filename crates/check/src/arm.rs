@@ -23,7 +23,7 @@ pub struct Joint {
     pub motion: Motion,
     /// Set of the joint's values: an interval or a circle.
     pub axis: Axis,
-    /// A range of values that certainly lies within the limits. `None` if the joint has no limits.
+    /// A range of values that certainly satisfy the limits. `None` if the joint has no limits.
     pub within: Option<Range>,
 }
 
@@ -50,6 +50,6 @@ pub struct Arm {
     pub bases: Vec<CollisionShape>,
     /// Obstacles made from [`Self::bases`], in the same order.
     pub own: Vec<Obstacle>,
-    /// Sentences for messages. They state assumptions that differ from the robot's file.
+    /// Sentences for messages, about assumptions that differ from the robot's file.
     pub notes: String,
 }

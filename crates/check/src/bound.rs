@@ -1,9 +1,9 @@
 //! Proof that no motion is shorter than some length.
 //!
-//! Walls are straight segments of configurations. All along a wall, a shape is too near a part of an obstacle. A
-//! shortest path around walls consists of straight legs between *corners*, which are ends of walls. Each corner has a
-//! *potential*: a claimed lower bound on the length of any path from the start to the corner. The check shows for each
-//! leg that no wall crosses: the potential grows along the leg by at most the leg's length.
+//! A wall is a straight segment of configurations. In all of them, a shape is too near a part of an obstacle. A
+//! shortest path around walls consists of straight legs between *corners*, the ends of walls. Each corner has a
+//! *potential*: a claimed lower bound on the length of any path from the start to the corner. For each leg that crosses
+//! no wall, the check shows that the potential grows along the leg by at most the leg's length.
 
 mod metric;
 mod places;
@@ -20,14 +20,14 @@ use crate::mover::{self, MovingBody};
 use crate::world::World;
 use plane::Plane;
 
-/// Maximum number of overlap tests along a wall. After that, the wall is not proven.
+/// Maximum number of overlap tests along a wall. If they do not suffice, the wall is not proven.
 const MAX_OVERLAP_TESTS: usize = 20_000;
 
 /// Maximum number of times that a wall is halved.
 const MAX_WALL_HALVINGS: u32 = 60;
 
 /// Checks that no motion is shorter than the certificate's length. The motions lead from the start to the goal, or to
-/// the configuration that the certificate states.
+/// the configuration that the certificate states instead.
 pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let Some(bound) = &certificate.bound else {
         return Err(CheckError::in_file(Input::Certificate, "it has no bound"));
@@ -66,7 +66,7 @@ pub fn no_shorter(arm: &Arm, world: &World, certificate: &Certificate) -> Result
 }
 
 /// Returns true if a shape and a part are proven to overlap along a whole wall. The wall is halved until the overlap is
-/// proven for a box around each piece, or until there were too many tests.
+/// proven for a box around each piece, or until there are too many tests.
 ///
 /// If the joints move a shape along the wall without turning it, the configurations in which the shape overlaps the
 /// part form a convex set. Then tests at the ends of the wall suffice.
@@ -83,7 +83,7 @@ fn closes(arm: &Arm, wall: &Wall, &Pair { body, part, beside }: &Pair) -> bool {
     let (mut left, mut last) = (vec![(0, 0)], 0);
     for _ in 0..MAX_OVERLAP_TESTS {
         let Some((k, cuts)) = left.pop() else { return true };
-        // A piece much longer than the one before is not tested: it would probably fail.
+        // A piece that is much longer than the previous one is not tested, because the test would probably fail.
         if cuts + 1 >= last && mover.overlaps(part, &cell(&from, &along, k, cuts)) {
             last = cuts;
         } else if cuts < MAX_WALL_HALVINGS {

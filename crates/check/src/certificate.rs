@@ -19,7 +19,7 @@ use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::value::RawValue;
 
-/// Value of the key `format` in certificates of this form.
+/// Value of the key `format` in certificates of the current form.
 pub const FORMAT: &str = "cplan certificate 1";
 
 /// A certificate: the query, and the evidence for the answer. Numbers are exact.
@@ -33,7 +33,7 @@ pub struct Certificate {
     pub urdf: Option<String>,
     /// SHA-256 of the world file, in hex.
     pub world: Option<String>,
-    /// SHA-256 of the files that the robot and the world refer to, in hex.
+    /// SHA-256 of the files to which the robot and the world refer, in hex.
     pub others: Option<Vec<String>>,
     /// The two joints, if the world does not name them.
     pub joints: Option<[String; 2]>,
@@ -47,7 +47,7 @@ pub struct Certificate {
     pub elbow: Option<Elbow>,
     /// The clearance, if it differs from the world's.
     pub clearance: Option<Decimal>,
-    /// Errors of the robot and the world that replace those of the world, as `--calibration` states them.
+    /// Errors of robot and world in the form of `--calibration`. They replace those of the world.
     pub calibration: Option<String>,
     /// Evidence for "found": the motion.
     pub motion: Option<Motion>,
@@ -59,12 +59,12 @@ pub struct Certificate {
     /// Parts of obstacles to which the evidence refers by their indices.
     #[serde(default)]
     pub parts: Vec<PartName>,
-    /// Evidence for "infeasible": collision boxes that separate start and goal. With a bound, the boxes have another
-    /// meaning: their configurations are not free, so they are no goals.
+    /// Evidence for "infeasible": collision boxes that separate start and goal. In a certificate with a bound, the
+    /// boxes only show that their configurations are not free, and so are no goals.
     pub boxes: Option<Vec<CollisionBox>>,
     /// Evidence that no motion is shorter than a length.
     pub bound: Option<Bound>,
-    /// For an answer about a motion along a line: the line as JSON. The crate `cplan-check-line` reads it.
+    /// The line as JSON, for an answer about a motion along a line. The crate `cplan-check-line` reads it.
     pub line: Option<Box<RawValue>>,
 }
 
@@ -114,7 +114,7 @@ struct TaskProof {
 /// If the text is not a certificate, has another format, or is a proof that a task is infeasible.
 pub fn read(text: &str) -> Result<Certificate, CheckError> {
     let text = serde_json::from_str::<EnclosingResult>(text).map_or(text, |result| result.certificate.get());
-    // Old proofs have keys that are unknown today, so check for them first.
+    // Test for old proofs first, because their keys are unknown today.
     if serde_json::from_str::<TaskProof>(text).is_ok() {
         let message = "the checker does not judge proofs that a task is infeasible (\"cases\"); the result of cplan states the reason";
         return Err(CheckError::in_file(Input::Certificate, message));

@@ -13,10 +13,10 @@ use crate::world::World;
 
 mod own;
 
-/// A part before it is grown by the clearance: its link if it belongs to the robot, its shape, and its heights.
+/// A part before it is grown by the clearance. The entries are its link if it belongs to the robot, its shape, and its heights.
 type Evident = (Option<Owner>, Shape, Option<Range>);
 
-/// Hint for parts whose name matches nothing, or more than one thing.
+/// Hint for parts whose name matches nothing, or several shapes.
 const PART_HINT: &str = "a part needs \"obstacle\", or \"own\" (a link of the robot) with the number of a shape";
 
 /// A part of an obstacle or of the robot to which evidence refers, grown by the clearance.
@@ -33,7 +33,7 @@ pub struct Pair<'a> {
     pub body: &'a Body,
     /// The part, grown by the clearance.
     pub part: &'a Shape,
-    /// The link, if the part belongs to the robot. Overlap is then tested in the box that [`Cell::for_link`] returns.
+    /// The link, if the part belongs to the robot. The overlap is then tested in the box that [`Cell::for_link`] returns.
     pub beside: Option<&'a Owner>,
 }
 
@@ -66,8 +66,7 @@ impl<'a> Contacts<'a> {
         Ok(Self { shapes, parts })
     }
 
-    /// Checks each box: in all its configurations, the shape must touch the part, or be nearer to it than the
-    /// clearance.
+    /// Checks for each box that the shape and the part collide, or violate the clearance, in all configurations of the box.
     ///
     /// # Errors
     /// The first box for which this is not shown.

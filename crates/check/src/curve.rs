@@ -7,8 +7,7 @@ use num_bigint::BigInt;
 /// Binary digits after the point of joint values in this module: values are multiples of `2^-FRACTION_BITS`.
 pub const FRACTION_BITS: u32 = 72;
 
-/// Binary digits before the point of joint values: they are below `2^INTEGER_BITS`, so that no sum or product
-/// overflows.
+/// Binary digits before the point of joint values. Values are below `2^INTEGER_BITS`, so sums and products do not overflow.
 pub const INTEGER_BITS: u32 = 28;
 
 /// Binary digits of a fraction of a chord: fractions are multiples of `2^-SHARE_BITS`.
@@ -17,8 +16,8 @@ const SHARE_BITS: u32 = 20;
 /// Maximum number of times that curves are halved.
 pub const MAX_HALVINGS: u32 = 40;
 
-/// Maximum number of times that a piece may have been halved before it is checked. A hundredth of a second then becomes
-/// less than a nanosecond.
+/// Maximum number of times that a piece may already have been halved before the check. A hundredth of a second then
+/// becomes less than a nanosecond.
 pub const MAX_PRIOR_HALVINGS: u32 = 24;
 
 /// Bound on the rounding error of a control point, in units of `2^-FRACTION_BITS`. Initially it is less than two units.
@@ -61,7 +60,8 @@ impl Piece {
     }
 }
 
-/// Returns the control points of both halves of a curve, by de Casteljau's algorithm. `middle` is the point between two.
+/// Returns the control points of both halves of a curve, by de Casteljau's algorithm. `middle` returns the point
+/// between two points.
 pub fn halves<T: Clone>(curve: &[T], middle: impl Fn(&T, &T) -> T) -> [Vec<T>; 2] {
     let (mut first, mut second) = (Vec::new(), Vec::new());
     let mut points = curve.to_vec();
@@ -86,9 +86,8 @@ pub struct Tube {
 }
 
 impl Tube {
-    /// Returns a tube that contains consecutive pieces. It contains exactly all their control points, and so the convex
-    /// hull of these. Its direction is along the chord from the first point to the last; it affects only the width of
-    /// the tube.
+    /// Returns a tube that contains consecutive pieces. It contains all their control points exactly, and so their convex hull.
+    /// Its direction is that of the chord from the first point to the last, which affects only the width of the tube.
     pub fn containing(pieces: &[Piece]) -> Self {
         let points = || pieces.iter().flat_map(|piece| piece.curves.iter().flatten());
         let end = |curve: &Vec<Values>| *curve.last().expect("a curve has points");

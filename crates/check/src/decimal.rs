@@ -8,15 +8,15 @@ use std::fmt;
 use std::ops::{Add, Mul, Neg, Sub};
 use std::str::FromStr;
 
-/// Maximum number of digits of a number, and maximum of its decimal exponent. Doubles need fewer, and computations with
-/// numbers of this size are still fast.
+/// Maximum number of digits of a number, and maximum of its decimal exponent. Doubles need fewer digits, and
+/// computations with such numbers are still fast.
 const MAX_DIGITS: usize = 1100;
 
-/// Maximum number of digits before the point, for numbers of robots and worlds: they must be below `10^15`. Larger
-/// numbers have no meaning, and could make computations slow.
+/// Maximum number of digits before the point of numbers in robots and worlds. Larger numbers have no meaning, and could
+/// make computations slow.
 const MAX_NUMBER_DIGITS: u32 = 15;
 
-/// The number `mantissa * 10^-scale`. Every decimal and every dyadic number has this form. Sums and products are exact.
+/// The number `mantissa * 10^-scale`. Every decimal number and every dyadic fraction has this form. Sums and products are exact.
 #[derive(Debug, Clone, Default)]
 pub struct Decimal {
     mantissa: BigInt,
@@ -67,11 +67,11 @@ impl Decimal {
     pub fn floor(&self, bits: u32) -> BigInt {
         let (numerator, denominator) = (&self.mantissa << bits, BigInt::from(10).pow(self.scale));
         let quotient = &numerator / &denominator;
-        // Division rounds towards 0.
+        // Division truncates towards 0.
         if &quotient * denominator > numerator { quotient - 1 } else { quotient }
     }
 
-    /// Returns the mantissas of both numbers for the greater of the two scales.
+    /// Returns the mantissas of both numbers at the greater of the two scales.
     fn aligned(&self, other: &Self) -> (BigInt, BigInt) {
         let scale = self.scale.max(other.scale);
         let of = |number: &Self| match scale - number.scale {

@@ -4,7 +4,7 @@ use crate::decimal::Decimal;
 use crate::interval::{BITS, Interval};
 use num_bigint::BigInt;
 
-/// Enclosures of half a turn exceed the known digits of pi by `2^-SEAM_BITS` radians.
+/// Enclosures of half a turn exceed the known digits of pi by `2^-SEAM_BITS` radians on each side.
 const SEAM_BITS: u32 = 100;
 
 /// All numbers from the first to the second, ends included.
@@ -30,7 +30,7 @@ pub enum Axis {
 /// The configuration space as a rectangle of the plane whose opposite borders may be identified.
 #[derive(Debug)]
 pub struct Domain {
-    /// A range that contains all values. The range of a circle reaches from slightly below -pi to slightly above pi.
+    /// A range that contains all values. For a circle, it extends from slightly below -pi to slightly above pi.
     pub ranges: Rectangle,
     /// Enclosures of a circle's -pi and pi, which are the same angle.
     pub seams: [Option<[Range; 2]>; 2],
@@ -39,7 +39,7 @@ pub struct Domain {
 impl Domain {
     /// Makes the domain of two joints.
     pub fn new(axes: [&Axis; 2]) -> Self {
-        // The enclosures are wide enough to contain half a turn in degrees.
+        // The enclosures are wide enough to contain half a turn that is given in degrees.
         let pi = Interval::pi().widened(&(BigInt::from(1) << (BITS - SEAM_BITS)));
         let turn = [(-&pi).ends(), pi.ends()];
         Self {
@@ -51,8 +51,8 @@ impl Domain {
         }
     }
 
-    /// Shifts the enclosure of a value into the domain: by whole turns for a continuous joint, not at all otherwise.
-    /// Returns `None` if the result does not lie within the domain.
+    /// Shifts the enclosure of a value of a continuous joint into the domain by whole turns. Leaves values of other
+    /// joints unchanged. Returns `None` if the result is not within the domain.
     pub fn wrapped(&self, axis: usize, value: &Range) -> Option<Range> {
         let within = |[low, high]: &Range| self.ranges[axis][0] <= *low && *high <= self.ranges[axis][1];
         if within(value) {

@@ -11,10 +11,10 @@ use num_bigint::BigInt;
 use serde::Deserialize;
 
 /// Number of decimals of the greatest sine of the angle by which an arm may be bent to the wrong side: `10^-5`, like
-/// the greatest error of a motion at its end.
+/// the greatest error at the ends of a motion.
 const BEND_DECIMALS: u32 = 5;
 
-/// Greatest range of joint 2, radians, on which the sides at both ends decide. It is less than half a turn.
+/// Greatest range of joint 2, radians, in which the sides at both ends decide. It must be less than half a turn.
 const MAX_RANGE: i32 = 3;
 
 /// The side of the straight line from joint 1 to the tip on which the elbow is. A straight arm is on both sides.
@@ -44,7 +44,7 @@ impl Elbow {
     /// Checks that the arm has an elbow.
     ///
     /// # Errors
-    /// If a joint slides.
+    /// If a joint is prismatic.
     pub fn of_arm(self, arm: &Arm) -> Result<(), CheckError> {
         let turns = arm.joints.iter().all(|joint| matches!(joint.motion, Motion::Turn(_)));
         match turns {
@@ -53,8 +53,8 @@ impl Elbow {
         }
     }
 
-    /// Returns two enclosures for all values of joint 2 in a range. The second is the product of both links' lengths.
-    /// The first is that product times the sine of the angle by which the arm is bent to the other side.
+    /// Returns two enclosures for all values of joint 2 in a range. The first is the product of both links' lengths,
+    /// times the sine of the angle by which the arm is bent to the other side. The second is the product alone.
     fn bend(self, arm: &Arm, second: &Interval) -> [Interval; 2] {
         let values = [Interval::whole(0), second.clone()];
         let tip = Chain::from(arm).point_at(&Attachment::Link(1), &arm.tip.shape.points[0], &values);
@@ -70,7 +70,7 @@ impl Elbow {
         self.bend(arm, &Interval::enclosing(second))[0].lower > BigInt::ZERO
     }
 
-    /// Checks that the elbow is on this side at a knot, up to the error that motions may have at their ends.
+    /// Checks that the elbow is on this side at a knot, up to the error that is allowed at the ends of motions.
     ///
     /// # Errors
     /// If it is not.
@@ -91,7 +91,7 @@ impl Elbow {
             let ends = [values().min(), values().max()].map(|end| end.expect("a curve has points"));
             let [from, to] = ends.map(|end| Interval::exact(BigInt::from(end) << (BITS - FRACTION_BITS)));
             let is_short = (&to - &from).upper <= Interval::whole(MAX_RANGE).lower;
-            // Between two values less than half a turn apart, a sine is positive only if it is at one of them.
+            // Between two angles less than half a turn apart, a sine is positive only if it is positive at one of them.
             if !(is_short && [from, to].iter().all(|end| self.is_near(arm, end))) {
                 return CheckError::fails(format!("after knot {knot}, the elbow does not stay on the {}", self.name()));
             }

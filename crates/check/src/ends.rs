@@ -17,7 +17,7 @@ pub struct End {
     what: &'static str,
     /// The configuration, tip position or area.
     pub at: Goal,
-    /// Description for messages if the certificate replaces the world's start or goal; otherwise empty.
+    /// Description for messages, if the certificate replaces the world's start or goal. Otherwise empty.
     own: String,
 }
 

@@ -26,7 +26,7 @@ pub enum CheckError {
         /// Description of the problem, and what to do about it.
         message: String,
     },
-    /// The certificate proves nothing. The message names the part that fails.
+    /// The certificate does not prove its answer. The message names the part that fails.
     #[error("{0}")]
     Fails(String),
 }
@@ -43,7 +43,7 @@ impl CheckError {
         Self::Input { input, line: None, message: message.into() }
     }
 
-    /// Makes an error for a part of the certificate that does not hold.
+    /// Returns an error for a part of the certificate that does not hold.
     ///
     /// # Errors
     /// Always.

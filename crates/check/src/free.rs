@@ -23,8 +23,8 @@ pub fn guard() -> BigInt {
     BigInt::from(1) << (BITS - 96)
 }
 
-/// Number of binary digits of a separating direction: as many as a double has. A rounded direction separates slightly
-/// less, in proportion to the ratio of an obstacle's size to its distance.
+/// Number of binary digits of a separating direction, as in a double. A rounded direction separates slightly less well.
+/// The loss is proportional to the size of an obstacle divided by its distance.
 const DIRECTION_BITS: u32 = 52;
 
 /// Number of tested parts of a motion after which the checker gives up. This takes some minutes.
@@ -43,8 +43,8 @@ pub struct Solid {
     ring: Vec<usize>,
 }
 
-/// A side of an obstacle, or a whole convex obstacle with its corners in order. `seen` has the corners in the frames of
-/// both links.
+/// A side of an obstacle, or a whole convex obstacle, with its corners in order. `seen` has the corners in the frames
+/// of both links.
 #[derive(Clone)]
 pub struct Side {
     shape: Shape,
@@ -64,9 +64,9 @@ pub enum Edge {
 /// The position of a point in the middle of a tube, and bounds on its motion within the tube.
 struct Moving {
     at: Point,
-    /// Derivatives of the position by each joint's value.
+    /// Derivatives of the position with respect to the joint values.
     rates: [Point; 2],
-    /// Upper bound on the difference between the point's displacement and its linear part, which the rates describe.
+    /// Upper bound on the difference between the displacement of the point and its linear part, which `rates` determine.
     bend: Interval,
 }
 
@@ -91,7 +91,7 @@ struct Placed<'a> {
     corners: OnceCell<Vec<Moving>>,
 }
 
-/// A stretch of a motion: a range of whole pieces, or a part of a piece with the number of times that it was halved.
+/// A stretch of a motion: a range of whole pieces, or a part of a piece with the number of its halvings.
 enum Stretch {
     Pieces(usize, usize),
     Part(Piece, u32),
@@ -112,7 +112,7 @@ fn perpendicular([x, y]: &Point) -> Point {
 }
 
 impl Solid {
-    /// Makes a shape that must keep farther than `kept` units away from sides.
+    /// Makes a shape that must keep more than `kept` units away from sides.
     pub fn new(chain: &Chain, on: Attachment, shape: &Shape, kept: &BigInt) -> Self {
         let (center, extent) = disc(&shape.points);
         Self {
@@ -156,7 +156,7 @@ impl Side {
     }
 }
 
-/// Returns a point in the middle of some points, and an upper bound on the distance of these points from it.
+/// Returns a point in the middle of some points, and an upper bound on its distance from them.
 fn disc(points: &[Point]) -> (Point, BigInt) {
     let middle = |k: usize| {
         let values = || points.iter().map(|p| p[k].middle().0);
@@ -185,8 +185,7 @@ impl<'a> Posture<'a> {
         Self { chain, tube, turns: [first, second, both], deviations, each }
     }
 
-    /// Returns the index in [`Self::turns`] of the angle by which a vector turns, given which joints turn it. `None` if
-    /// no joint does.
+    /// Returns the index in [`Self::turns`] of the angle by which the given joints turn a vector. `None` if no joint turns it.
     fn angle(by: [bool; 2]) -> Option<usize> {
         match by {
             [false, false] => None,
@@ -242,7 +241,7 @@ impl<'a> Posture<'a> {
         (&length(&across) + &moving.bend).upper
     }
 
-    /// Returns true if lines perpendicular to `n` separate the moving points from the still ones in the whole tube,
+    /// Returns true if lines perpendicular to `n` separate the moving points from the static ones in the whole tube,
     /// with a gap of more than `apart`.
     fn separates(&self, n: &Point, moving: &[Moving], still: &[Point], apart: &BigInt) -> bool {
         let size = length(n);
@@ -271,7 +270,7 @@ impl<'a> Posture<'a> {
             return true;
         }
         let corners = placed.corners.get_or_init(|| solid.corners.iter().map(|c| self.moving(c)).collect());
-        // Coordinates relative to the shape stay accurate far from the origin.
+        // Relative to the shape, coordinates stay accurate far from the origin.
         let seen = |p: &Point| rough(&minus(p, &placed.center.at));
         let here: Vec<[f64; 2]> = solid.ring.iter().map(|i| seen(&corners[*i].at)).collect();
         let there: Vec<[f64; 2]> = side.shape.points.iter().map(seen).collect();
@@ -284,7 +283,7 @@ impl<'a> Posture<'a> {
         if self.separates(&exact([x, y]), corners, &side.shape.points, &apart) {
             return true;
         }
-        // Try the same in the frame of the link, where the shape is at rest and the side moves.
+        // Try again in the frame of the link, where the shape is at rest and the side moves.
         let Attachment::Link(link) = solid.on else { return false };
         let by = [0, 1].map(|k| k <= link && matches!(self.chain.motions[k], Motion::Turn(_)));
         let [sine, cosine] = Self::angle(by).map_or([0.0, 1.0], |which| rough(&self.turns[which]));
@@ -294,7 +293,7 @@ impl<'a> Posture<'a> {
     }
 }
 
-/// Checks that each pair of a shape and an edge keeps the shape's required distance, along consecutive pieces.
+/// Checks that shapes keep their required distances from edges, along consecutive pieces.
 ///
 /// # Errors
 /// Returns the first stretch, shape and edge for which this is not shown.

@@ -1,4 +1,4 @@
-//! Certificates that there is no motion: "infeasible".
+//! Checks certificates with the answer "infeasible": there is no motion.
 
 use crate::arm::Arm;
 use crate::certificate::{Certificate, rectangles};

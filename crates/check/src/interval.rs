@@ -129,10 +129,10 @@ impl Interval {
 
     /// Returns enclosures of sine and cosine.
     ///
-    /// Sine and cosine change by at most as much as the angle. So their values at the middle of the enclosure, widened
-    /// by its radius, enclose all values. The angle at the middle is halved until it is below 1/16. Then Taylor's
-    /// series, whose terms alternate and decrease, gives its sine and cosine. Formulas for double angles undo the
-    /// halvings. Numbers are truncated after each step, and `error` bounds their deviation in units.
+    /// Sine and cosine change by at most as much as the angle. So the values at the middle of the enclosure, widened by
+    /// its radius, enclose all values. The angle in the middle is halved until it is below 1/16. Taylor's series, whose
+    /// terms then alternate and decrease, gives its sine and cosine. Formulas for double angles undo the halvings.
+    /// Numbers are truncated after each step, and `error` bounds their deviation in units.
     pub fn sin_cos(&self) -> [Self; 2] {
         let (middle, radius) = self.middle();
         if middle.sign() == Sign::NoSign {
@@ -143,9 +143,8 @@ impl Interval {
         let halvings = (angle.bits() + 4).saturating_sub(u64::from(BITS)) as u32;
         let x = &angle >> halvings;
         let square = (&x * &x) >> BITS;
-        // Each term is the one before times the truncated square, which is less than 1/256, and is truncated twice. So
-        // a term is off by at most about two units. Two extra terms account for the truncated series and for the
-        // rounding of the angle.
+        // Each term is the previous one times the truncated square, which is less than 1/256, and is truncated twice. So a term
+        // is off by at most about two units. Two extra terms account for the truncated series and for the rounding of the angle.
         let series = |first: &BigInt, from: u32| {
             let (mut sum, mut term, mut terms) = (first.clone(), first.clone(), 2_u32);
             for n in (from..).step_by(2) {
@@ -165,7 +164,7 @@ impl Interval {
         let ((mut sine, sine_error), (mut cosine, cosine_error)) = (series(&x, 2), series(&one, 1));
         let mut error = BigInt::from(sine_error.max(cosine_error));
         for _ in 0..halvings {
-            // Both factors are at most 1, so their product is off by at most the sum of their errors. It is doubled.
+            // Both factors are at most 1, so their product is off by at most the sum of their errors. The product is doubled.
             [sine, cosine] = [(&sine * &cosine) >> (BITS - 1), ((&cosine * &cosine) >> (BITS - 1)) - &one]
                 .map(|value| value.clamp(none.clone(), one.clone()));
             error = (error << 2u32) + 1;
@@ -229,8 +228,7 @@ impl Mul for &Interval {
     type Output = Interval;
     fn mul(self, other: Self) -> Interval {
         let is_negative = |n: &BigInt| n.sign() == Sign::Minus;
-        // If neither factor contains 0, or only as its lower end, the signs determine which ends give the least and the
-        // greatest product.
+        // Unless a factor contains 0 in its interior, the signs determine which ends give the least and the greatest product.
         let negative = [self, other].map(|factor| is_negative(&factor.lower));
         if [self, other].map(|factor| is_negative(&factor.upper)) == negative {
             let [(a, b), (c, d)] = [(self, negative[1]), (other, negative[0])].map(|(factor, is_turned)| {
@@ -291,7 +289,7 @@ pub fn length([x, y]: &Point) -> Interval {
     (&(&x * &x) + &(&y * &y)).sqrt()
 }
 
-// The following functions guess in floating point. Guesses direct the checks but decide nothing.
+// The following functions guess in floating point. Checks use guesses as directions to try, and decide nothing by them.
 
 /// Binary digits after the point that a number keeps when it is converted to floating point.
 const GUESS_BITS: u32 = 44;
@@ -322,7 +320,7 @@ mod tests {
         &high - &low < Decimal::dyadic(&BigInt::from(1), 155) && low < &from + &last && high > &from - &last
     }
 
-    // Digits from published tables (A000796, A049469, A049470) and, for other angles, the addition theorems.
+    // Digits from published tables (A000796, A049469, A049470), and for other angles from the addition theorems.
     #[test]
     fn known_digits_are_enclosed() {
         assert!(encloses_digits(Interval::pi(), "3.14159265358979323846264338327950288419716939937510582097494459"));

@@ -1,4 +1,4 @@
-//! Limits of a sum of both joint values: those of an elbow motor that is mounted on the base.
+//! Limits of a sum of both joint values, as an elbow motor that is mounted on the base has them.
 
 use crate::decimal::Decimal;
 use crate::domain::{Domain, Range, Rectangle};
@@ -7,7 +7,7 @@ use num_bigint::BigInt;
 /// Number of halvings of the range of joint 1 for the rectangles of [`JointSum::outside`].
 const HALVINGS: u32 = 12;
 
-/// The limits of `ratio q1 + q2`. Each is an enclosure, because angles in degrees are not exact in radians.
+/// The limits of `ratio q1 + q2`, as enclosures, because angles in degrees are not exact in radians.
 pub struct JointSum {
     /// Factor of joint 1.
     pub ratio: Decimal,
@@ -21,8 +21,8 @@ impl JointSum {
         &(&self.ratio * first) + second
     }
 
-    /// Returns rectangles of the domain in which no sum is allowed. Each spans one of many parts of joint 1's range.
-    /// Parts also begin and end where `boxes` do.
+    /// Returns rectangles of the domain in which the sum violates the limits everywhere. Each spans one of many parts
+    /// of joint 1's range. Parts also begin and end where `boxes` do.
     pub fn outside(&self, domain: &Domain, boxes: &[Rectangle]) -> Vec<Rectangle> {
         let [[left, right], [bottom, top]] = &domain.ranges;
         let width = &(right - left) * &Decimal::dyadic(&BigInt::from(1), HALVINGS);

@@ -1,11 +1,10 @@
 //! Checks certificates about one motion of an arm, in exact arithmetic.
 //!
-//! [`judge`] takes an [`Arm`], a [`World`] and a [`Certificate`], and decides whether the certificate proves its
-//! answer: a motion is free, there is no motion, or no motion is shorter than a length. Decimals are taken exactly as
-//! written. Roots, sines and cosines are enclosed between a lower and an upper bound. This crate shares no code with
-//! the planner and reads no files: `cplan-check-files` reads robots, worlds and maps, and judges tasks on top of it. In
-//! cplan's repository, `docs/certificate_checks.md` lists the conditions that are checked and explains why they
-//! suffice. In reading order:
+//! [`judge`] takes an [`Arm`], a [`World`] and a [`Certificate`], and decides whether the certificate proves its answer: a
+//! motion is free, there is no motion, or no motion is shorter than a length. Decimals have exactly the value that is written.
+//! Roots, sines and cosines are enclosed between a lower and an upper bound. This crate shares no code with the planner and
+//! reads no files: `cplan-check-files` reads robots, worlds and maps, and judges tasks on top of it. In cplan's repository,
+//! `docs/certificate_checks.md` lists the conditions that are checked and explains why they suffice. In reading order:
 //!
 //! | modules | subject |
 //! |---|---|
@@ -54,7 +53,7 @@ use world::World;
 ///
 /// # Errors
 /// [`CheckError::Fails`] names the first part of the certificate that does not hold. [`CheckError::Input`] reports
-/// input that the checker does not know.
+/// input that the checker cannot read.
 pub fn judge(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     match &certificate.answer {
         Answer::Found if certificate.bound.is_some() => {

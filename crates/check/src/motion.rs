@@ -13,15 +13,14 @@ use crate::scene::{Part, PlacedObstacle, check_parts_clear};
 use crate::shapes::CollisionShape;
 use crate::world::World;
 
-/// Maximum number of times that a piece of a motion is halved to check the joints' limits.
+/// Maximum number of halvings of a piece of the motion for the check of joint limits.
 const MAX_PIECE_HALVINGS: u32 = 40;
 
-/// Number of decimals of the angle, in radians, by which the elbow's motor may exceed its limits. Motions along the limit
-/// exceed it by the rounding of their joint values.
+/// Number of decimals of the angle, in radians, by which the elbow's motor may exceed its limits. The rounding of joint
+/// values makes motions along a limit exceed it.
 const SUM_DIGITS: u32 = 9;
 
-/// Factor by which control points are multiplied, so that they are exact decimals. It is a common multiple of the
-/// denominators in all interpolations.
+/// Factor that makes control points exact decimals: a common multiple of the denominators in all interpolations.
 pub const CONTROL_POINT_FACTOR: i32 = 60;
 
 impl Interpolation {
@@ -84,8 +83,8 @@ impl Motion {
     }
 }
 
-/// Checks that a motion leads from the start to the goal within the limits, and keeps farther than the clearance from
-/// all obstacles, including the arm's own links.
+/// Checks that a motion leads from the start to the goal within the limits, and keeps more than the clearance from all
+/// obstacles, including the arm's own links.
 pub fn check_motion(arm: &Arm, world: &World, certificate: &Certificate) -> Result<String, CheckError> {
     let clearance = certificate.clearance(world)?;
     let Some(motion) = &certificate.motion else {
@@ -125,7 +124,7 @@ pub fn check_knots(interpolation: &[Interpolation], knots: &[Vec<Decimal>]) -> R
     }
 }
 
-/// Returns the motion from the given knot to the next. If there is only one knot, returns a motion at rest.
+/// Returns the motion from the given knot to the next one, or a motion at rest if there is only one knot.
 pub fn piece(
     arm: &Arm,
     interpolation: &[Interpolation],
@@ -175,8 +174,8 @@ pub fn fine(sixty: &Decimal) -> Option<i128> {
     (fine.bits() < u64::from(FRACTION_BITS + INTEGER_BITS)).then(|| i128::try_from(fine).ok()).flatten()
 }
 
-/// Returns true if a curve stays between `low` and `high`, ends included. First tests the control points of the curve.
-/// If these do not decide, halves the curve and tests the control points of the halves, up to `halvings` times.
+/// Returns true if a curve stays between `low` and `high`, ends included. Tests the control points of the curve. If
+/// these do not decide, halves the curve up to `halvings` times.
 fn is_curve_within(control: &[Decimal], low: &Decimal, high: &Decimal, halvings: u32) -> bool {
     let is_within = |value: &Decimal| low <= value && value <= high;
     if control.iter().all(is_within) {

@@ -17,8 +17,8 @@ pub struct Cell {
 }
 
 impl Cell {
-    /// Returns the box in which contact with an obstacle is tested. If joint 1 carries `link`, it is the same box with
-    /// joint 1 at zero; otherwise it is the same box. `None` stands for an obstacle of the world.
+    /// Returns the box in which contact with an obstacle is tested. If joint 1 carries `link`, this is the same box
+    /// with joint 1 at zero. Otherwise, the box is unchanged. `None` stands for an obstacle of the world.
     pub fn for_link(mut self, link: Option<&Owner>) -> Self {
         if link.is_some_and(|link| link.is_carried) {
             (self.middle[0], self.half[0]) = (Interval::whole(0), Interval::whole(0));
@@ -41,14 +41,14 @@ impl From<&Rectangle> for Cell {
     }
 }
 
-/// Returns an upper bound on the displacement of a point at distance 1 from an axis when it turns by up to an angle. It
+/// Returns an upper bound on the displacement of a point at distance 1 from an axis, for turns by up to an angle. This
 /// is the length of the chord, which grows with the angle up to half a turn.
 fn chord(angle: &Interval) -> Interval {
     if angle.upper >= Interval::pi().lower {
         return Interval::whole(2);
     }
     if angle.upper < Interval::whole(1).in_halves(4).lower {
-        // The terms of the series alternate in sign, so this partial sum is an upper bound.
+        // The terms of the series alternate in sign, so the partial sum is an upper bound.
         let square = angle * angle;
         let cubed = (&square * angle).over(24);
         return &(angle - &cubed) + &(&cubed * &square).over(80);
@@ -58,7 +58,7 @@ fn chord(angle: &Interval) -> Interval {
 }
 
 impl Arm {
-    /// Returns the motion by a joint at a value: the sine and cosine of the turn, and the translation.
+    /// Returns the motion by a joint at a value: sine and cosine of the turn, and the translation.
     fn displaced(&self, joint: usize, value: &Interval) -> [Point; 2] {
         let [none, one] = [0, 1].map(Interval::whole);
         match &self.joints[joint].motion {
@@ -68,13 +68,13 @@ impl Arm {
     }
 }
 
-/// A body, with all data about its position and displacement that do not depend on the box.
+/// A body, with the data about its position and displacement that do not depend on the box.
 pub struct MovingBody<'a> {
     arm: &'a Arm,
     body: &'a Body,
     /// Corners of the body in floating point, for quick guesses.
     rough: Vec<[f64; 2]>,
-    /// Latest value of joint 1, and the motion by joint 1 at that value. Many consecutive boxes share it.
+    /// Latest value of joint 1, with the motion at this value. Many consecutive boxes share them.
     first: RefCell<(Interval, [Point; 2])>,
     /// Distance of the second joint from the first.
     offset: Interval,
@@ -118,8 +118,7 @@ impl<'a> MovingBody<'a> {
     /// Returns an upper bound on the displacement of the body's points from their positions in the middle of a box,
     /// while the joints stay within the box.
     ///
-    /// It suffices to bound the displacement of corners, because no point of a convex hull moves farther than all
-    /// corners.
+    /// It suffices to bound the displacement of the corners, because no point of a convex hull moves farther than every corner.
     pub fn farthest(&self, cell: &Cell) -> BigInt {
         let Self { arm, body, offset, reach: own, .. } = self;
         let half = &cell.half;
@@ -131,8 +130,8 @@ impl<'a> MovingBody<'a> {
                 &(offset * &chord(&half[0])) + &(own * &chord(&(&half[0] + &half[1])))
             }
             (Motion::Turn(_), Some(Motion::Slide(direction))) => {
-                // Move joint 2 first, and then turn by joint 1. The turn moves points the most at one end of the slide,
-                // because distance is convex.
+                // Move joint 2 first, and then turn by joint 1. At one end of the slide, the turn moves points the
+                // most, because distance is convex.
                 let slide = [&cell.middle[1] - &half[1], &cell.middle[1] + &half[1]];
                 let ends = slide.map(|value| sum(&arm.offset, &times(direction, &value)));
                 let points = &body.shape.points;
@@ -151,8 +150,8 @@ impl<'a> MovingBody<'a> {
         self.seems_to_overlap(shape, cell, &farthest) && overlap_by_more_than(&self.placed(cell), shape, &farthest)
     }
 
-    /// Guesses in floating point whether the exact test can succeed. A wrong guess costs only time or an inconclusive
-    /// answer.
+    /// Guesses in floating point whether the exact test can succeed. A wrong guess costs only time, or makes the answer
+    /// inconclusive.
     fn seems_to_overlap(&self, shape: &Shape, cell: &Cell, farthest: &BigInt) -> bool {
         let mut placed = self.rough.clone();
         for joint in (0..=self.body.link).rev() {
@@ -229,6 +228,6 @@ fn hull(a: &Range, b: &Range) -> Range {
     [(&a[0]).min(&b[0]).clone(), (&a[1]).max(&b[1]).clone()]
 }
 
-/// Maximum number of times that the domain is cut to find configurations for a tip position. The last rectangles are
-/// `10^-12` of the domain along each joint.
+/// Maximum number of times that the domain is cut in the search for configurations of a tip position. The last
+/// rectangles are `10^-12` of the domain along each joint.
 const MAX_DOMAIN_CUTS: u32 = 40;

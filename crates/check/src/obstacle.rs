@@ -28,16 +28,16 @@ pub struct Obstacle {
     pub heights: Option<Range>,
     /// Motion of the obstacle's frame; `None` for a static obstacle. The motion replaces `at` and `turn`.
     pub trajectory: Option<Rc<dyn ObstacleTrajectory>>,
-    /// Its own required distance, and its displacement in any direction, metres, if the world states them.
+    /// Required distance and displacement in any direction, metres, that the world states for this obstacle.
     pub stated: [Option<Decimal>; 2],
-    /// Distances by which it is grown: to show that it is hit, and to show that it is not.
+    /// Distances by which the obstacle is grown: in proofs of a collision, and in proofs of its absence.
     pub grown: [Interval; 2],
 }
 
 /// The region that an obstacle covers.
 #[derive(Clone)]
 pub enum Outline {
-    /// All points that the rings surround an odd number of times.
+    /// All points that the rings enclose an odd number of times.
     Polygon(Vec<Vec<Corner>>),
     /// Segments from each point to the next.
     Polyline(Vec<Corner>),
@@ -54,14 +54,14 @@ pub trait ObstacleTrajectory {
     /// Returns the frame's origin at a time, and the sine and cosine of its orientation.
     fn place(&self, time: &Decimal) -> [Point; 2];
 
-    /// Returns a shape in plane coordinates. It contains a shape of the frame at all times of a span.
+    /// Returns a shape in plane coordinates that contains a shape of the frame at all times of a span.
     fn swept_shape(&self, shape: &Shape, span: [&Decimal; 2]) -> Shape;
 }
 
 /// The solid squares of a picture, in the frame of its obstacle. A picture is an occupancy map.
 pub trait Squares {
-    /// Returns the corners of a rectangle of solid squares, given four points. The corners of the rectangle are the
-    /// corners of squares nearest to these points. Returns `None` if there is no such rectangle.
+    /// Returns the corners of a rectangle of solid squares. They are the corners of squares that are nearest to the
+    /// four given points. Returns `None` if there is no such rectangle.
     fn part(&self, given: &[Point]) -> Option<Vec<Point>>;
 
     /// Returns the border between solid and free squares, as straight pieces.
@@ -98,7 +98,7 @@ impl Obstacle {
         self.own.as_ref().is_some_and(|own| own.is_carried)
     }
 
-    /// Returns the obstacle's name for messages; `number` replaces a missing name.
+    /// Returns the obstacle's name for messages. `number` replaces a missing name.
     pub fn called(&self, number: usize) -> String {
         match (&self.own, &self.name) {
             (Some(_), Some(name)) => name.clone(),
@@ -189,8 +189,8 @@ impl Obstacle {
     /// Returns the sides from which shapes must keep away: the segments of the obstacle's border, its disc, or the
     /// link's shape. They are in plane coordinates for a static obstacle, and in its own frame for a moving one.
     ///
-    /// The sides suffice for this reason: a connected set that does not touch them is either inside the obstacle as a
-    /// whole or outside as a whole.
+    /// The sides suffice, because a connected set that does not touch them is either completely inside the obstacle or
+    /// completely outside.
     ///
     /// # Errors
     /// If the obstacle could not be read, or if it has too few points.
@@ -219,11 +219,11 @@ impl Obstacle {
         }
     }
 
-    /// Returns true if a point is inside the obstacle. The point must be farther than `farther` units from the border.
+    /// Returns true if a point is inside the obstacle. Its distance from the border must exceed `farther` units.
     /// Returns `None` if the enclosure of the point is too wide to decide.
     pub fn surrounds(&self, at: &Point, farther: &BigInt) -> Option<bool> {
         let own = self.own(at).map(|c| c.middle());
-        // The test uses the middle of the enclosure. No border lies between it and the point.
+        // Test the middle of the enclosure. No border lies between it and the point.
         let is_near = own.iter().map(|(_, radius)| radius).sum::<BigInt>() < *farther;
         let own = own.map(|(middle, _)| middle);
         is_near.then(|| match &self.outline {
@@ -234,7 +234,7 @@ impl Obstacle {
     }
 }
 
-/// Returns the index of the place nearest to `to`, measured between the middles of the enclosures.
+/// Returns the index of the place nearest to `to`. Distances are between middles of enclosures.
 fn nearest(places: &[Point], to: &Point) -> Option<usize> {
     let distance = |place: &Point| {
         let [x, y] = [0, 1].map(|k| (&place[k] - &to[k]).middle().0);

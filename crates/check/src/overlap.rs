@@ -1,4 +1,4 @@
-//! Overlap depth of two convex shapes: how far one must move until they no longer overlap.
+//! Overlap depth of two convex shapes: the distance that one must move until they no longer overlap.
 
 use crate::interval::{Interval, Point};
 use num_bigint::BigInt;
@@ -100,8 +100,8 @@ fn is_near<T: Integer>(p: &[T; 2], q: &[T; 2], distance: &T) -> bool {
     }
 }
 
-/// Returns true if a convex hull extends beyond the origin by more than `needed` in every direction. Its corners are
-/// given in order, turning left. `needed` may be negative.
+/// Returns true if a convex hull extends beyond the origin by more than `needed` in every direction. `ring` has its
+/// corners in order, turning left. `needed` may be negative.
 fn reaches<T: Integer>(ring: &[[T; 2]], needed: &T) -> bool {
     let zero = T::default();
     let edges = || ring.iter().zip(ring.iter().cycle().skip(1));
@@ -133,9 +133,8 @@ fn middles(shape: &Shape) -> (Vec<Exact>, BigInt) {
 ///
 /// Let `M` be the convex hull of all differences of a point of `b` and a point of `a`, and let `r` be the sum of the
 /// radii. Then `a` overlaps `b` by more than `depth` if `M` reaches beyond the origin by more than `depth - r` in every
-/// direction. The test uses the middles of the enclosures of the points, without rounding. To make up for that, it adds
-/// `error`, the maximum distance of a difference from its middle, to the required depth. In most cases the leading
-/// digits decide.
+/// direction. The test uses the middles of the points' enclosures, without rounding. To be safe, it adds `error`, the
+/// maximum distance of a difference from its middle, to the required depth. In most cases, the leading digits decide.
 pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     let [(a_middles, a_error), (b_middles, b_error)] = [a, b].map(middles);
     let error = a_error + b_error;
@@ -146,7 +145,7 @@ pub fn overlap_by_more_than(a: &Shape, b: &Shape, depth: &BigInt) -> bool {
     let [a_first, b_first] =
         [&a_middles, &b_middles].map(|points| points.iter().map(|p| p.each_ref().map(first)).collect::<Vec<_>>());
     let (ring, about) = (hull(differences(&b_first, &a_first)), first(&needed));
-    // Each coordinate of a difference of leading digits is off by less than one.
+    // Differences of leading digits are off by less than one in each coordinate.
     if reaches(&ring, &(about + 3)) {
         return true;
     }
@@ -185,7 +184,7 @@ mod tests {
         Shape { points: numbers.chunks(2).map(|p| [p[0].clone(), p[1].clone()]).collect(), radius: of(radius) }
     }
 
-    /// Asserts that the overlap depth is `depth`: the test succeeds for slightly less, and fails for slightly more.
+    /// Asserts the overlap depth: the test succeeds for slightly less than `depth`, and fails for slightly more.
     fn has_depth(a: &Shape, b: &Shape, depth: &str) {
         let little = of("1e-50").upper;
         for (a, b) in [(a, b), (b, a)] {
@@ -209,7 +208,7 @@ mod tests {
         let root = "0.7071067811865475244008443621048490392848359376884740365883398689";
         has_depth(&shape("1 0  0 1  -1 0  0 -1", "0"), &shape("0 0", "0"), root);
         has_depth(&shape("-1 0  1 0", "1"), &shape("2 0  4 0", "1"), "1");
-        // Extra points within the hull and repeated ones change nothing.
+        // Repeated points, and points within the hull, change nothing.
         has_depth(&shape("0 0  2 0  2 2  0 2  1 1  1 0  0 0", "0"), &shape("1 1  5 1  5 5  1 5", "0"), "1");
     }
 

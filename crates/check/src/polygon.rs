@@ -3,7 +3,7 @@
 use crate::decimal::Decimal;
 use num_bigint::Sign;
 
-/// A corner of a polygon, with its coordinates exactly as written.
+/// A corner of a polygon. Coordinates have exactly the values that are written.
 pub type Corner = [Decimal; 2];
 
 /// Returns the side of the line from `a` to `b` on which the point `p` lies: plus for left, minus for right.
@@ -13,19 +13,19 @@ pub fn side(a: &Corner, b: &Corner, p: &Corner) -> Sign {
     cross(&from_a(b), &from_a(p)).sign()
 }
 
-/// Iterates over each corner and the next one, all around the ring.
+/// Iterates over pairs of a corner and the next one, all around the ring.
 pub fn edges(ring: &[Corner]) -> impl Iterator<Item = (&Corner, &Corner)> {
     ring.iter().zip(ring.iter().cycle().skip(1))
 }
 
-/// Returns true if each side of the polygon has all other corners on its left. Returns false if a corner is repeated,
-/// because it then lies on the line of a side.
+/// Returns true if each side of the polygon has all other corners on its left. A repeated corner lies on the line of a
+/// side, so the result is then false.
 pub fn is_convex(ring: &[Corner]) -> bool {
     let others = |from: usize| (2..ring.len()).map(move |k| &ring[(from + k) % ring.len()]);
     ring.len() > 2 && edges(ring).enumerate().all(|(from, (a, b))| others(from).all(|p| side(a, b, p) == Sign::Plus))
 }
 
-/// Returns true if the rings surround a point an odd number of times. The point must not lie on a ring.
+/// Returns true if the rings enclose a point an odd number of times. The point must not lie on a ring.
 pub fn surrounds(rings: &[Vec<Corner>], point: &Corner) -> bool {
     let crosses = |&(a, b): &(&Corner, &Corner)| match (a[1] <= point[1], b[1] <= point[1]) {
         (true, false) => side(a, b, point) == Sign::Plus,
@@ -82,7 +82,7 @@ mod tests {
         ] {
             assert!(!holds(&l, &ring(outside)), "{outside}");
         }
-        // Runs back and forth between corners of two diamonds, through another corner and the gap between them.
+        // The ring runs back and forth between corners of two diamonds, through another corner and the gap between them.
         let diamonds = [ring("0 0  0.5 -1  1 0  0.5 1"), ring("2 0  2.5 -1  3 0  2.5 1")];
         assert!(!holds(&diamonds, &ring("0 0  2 0  0 0  2 0")));
         assert!(!holds(&[ring("-9 -9  9 -9  9 9  -9 9")], &ring("0 3  -2 -3  3 1  -3 1  2 -3")));

@@ -44,7 +44,7 @@ impl PlacedObstacle {
 }
 
 /// Checks along consecutive pieces of a motion that all parts keep away from all obstacles with which they can collide.
-/// `from` is the first configuration. An obstacle that is `None` is absent during these pieces.
+/// `from` is the first configuration. `None` stands for an obstacle that is absent during these pieces.
 ///
 /// # Errors
 /// The first stretch, part and obstacle for which this is not shown.
@@ -71,7 +71,7 @@ pub fn check_parts_clear(
         None => format!("obstacle {number}"),
     };
     let solids: Vec<&Solid> = parts.iter().map(|part| part.solid).collect();
-    // Parts that joint 2 carries move relative to obstacles that joint 1 carries. That motion depends on joint 2 alone.
+    // Parts that joint 2 carries move relative to obstacles that joint 1 carries. This motion depends only on joint 2.
     let is_carried = |number: usize| obstacles[number].as_ref().is_some_and(|present| present.obstacle.is_carried());
     let (turning, standing) = pairs.into_iter().partition(|[_, edge]| is_carried(owners[*edge]));
     let of_second: Vec<Piece> = pieces.iter().map(Piece::of_second).collect();
@@ -81,7 +81,7 @@ pub fn check_parts_clear(
         let Part { name, keeps, .. } = &parts[solid];
         CheckError::Fails(format!("after knot {knot}, {name} is not proven to stay {keeps} {}", called(owners[edge])))
     })?;
-    // A part that never touches the border of an obstacle is inside the obstacle only if it is inside initially.
+    // A part that never touches the border of an obstacle can be inside only if it is inside at the beginning.
     let time = &pieces[0].time[0];
     for part in parts {
         let corner = part.solid.corner_at(chain, from);

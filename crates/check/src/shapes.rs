@@ -9,9 +9,9 @@ use crate::overlap::Shape;
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Number of decimals of the least overlap of the heights of two links that can collide: `10^-9` m. Links often rest on
-/// one another, and rounded heights then overlap slightly. A shape and an obstacle that is no link touch if their heights
-/// are no farther apart than this.
+/// Number of decimals of the least overlap of heights with which two links can collide: `10^-9` m. Links often rest on
+/// one another, and their rounded heights then overlap slightly. A shape and an obstacle that is not a link touch if
+/// their heights are at most this far apart.
 const MIN_OVERLAP_DECIMALS: u32 = 9;
 
 /// Approximation of a link's shape, projected into the plane.
@@ -58,9 +58,9 @@ impl Body {
         self.enclosures(heights).is_some_and(|(own, [low, high])| own[1].upper < low.lower || high.upper < own[0].lower)
     }
 
-    /// Returns the heights at which other links can collide with this body: its own heights, reduced by the minimum
-    /// overlap at both ends. [`Outline::Around`] gives a superset of these heights, [`Outline::Within`] a subset.
-    /// `None` if the heights are unlimited.
+    /// Returns the heights at which other links can collide with this body: its own heights, reduced by the least
+    /// overlap at both ends. [`Outline::Around`] gives a superset of them, and [`Outline::Within`] a subset. `None` if
+    /// the heights are unlimited.
     pub fn inset_heights(&self, outline: Outline) -> Option<Range> {
         let by = Interval::from(&Decimal::power_of_ten(MIN_OVERLAP_DECIMALS));
         let [low, high] = self.heights.as_ref()?;
@@ -76,7 +76,7 @@ pub struct CollisionShape {
     pub link: String,
     /// Kind of the shape: `collision`, `visual`, or `bar` for a bar that the world defines.
     pub kind: &'static str,
-    /// Index among the link's shapes of that kind that have a size.
+    /// Index among those shapes of this kind and link that have a size.
     pub number: usize,
     /// The last joint that moves the shape, 0 or 1; `None` if the shape is static.
     pub last: Option<usize>,
@@ -86,7 +86,7 @@ pub struct CollisionShape {
     pub around: Body,
     /// A subset of the covered region.
     pub within: Body,
-    /// The robot's shapes that the shape may touch, in the words that name them in messages.
+    /// Shapes of the robot that this shape may touch, by their names in messages.
     pub ignored: BTreeSet<String>,
 }
 
@@ -102,13 +102,13 @@ impl fmt::Display for CollisionShape {
 }
 
 impl CollisionShape {
-    /// Describes the shape for an obstacle that is made from it.
+    /// Describes the shape as the owner of an obstacle.
     pub fn owner(&self) -> Owner {
         Owner { shape: self.to_string(), is_carried: self.last.is_some() }
     }
 
-    /// Returns true if `body` must keep away from an obstacle. This is so if the obstacle is at its height, and is not
-    /// a shape of the robot that this shape may touch. `body` is this shape, or the region that the shape sweeps as the tool turns.
+    /// Returns true if `body` must keep away from an obstacle, that is, if the obstacle is at its height and is not a
+    /// shape that may be touched. `body` is this shape, or the region that this shape sweeps when the tool turns.
     pub fn meets(&self, body: &Body, obstacle: &Obstacle) -> bool {
         let is_free = obstacle.own.as_ref().is_some_and(|own| self.ignored.contains(&own.shape));
         !is_free && !body.misses_heights(obstacle.heights.as_ref())
@@ -118,14 +118,14 @@ impl CollisionShape {
 /// A shape of the robot that is an obstacle for others.
 #[derive(Clone)]
 pub struct Owner {
-    /// The shape, in the words that name it in messages.
+    /// Name of the shape in messages.
     pub shape: String,
-    /// True if joint 1 carries the shape. Then its positions, and those of shapes that can collide with it, are given
-    /// with joint 1 at zero.
+    /// True if joint 1 carries the shape. Then positions of the shape, and of shapes that can collide with it, are
+    /// given with joint 1 at zero.
     pub is_carried: bool,
 }
 
-/// Finds a shape by its link, kind and number. If the shape is cut into layers, finds the layer that contains `height`.
+/// Finds a shape by its link, kind and number. If the shape is cut into layers, finds the layer at `height`.
 ///
 /// # Errors
 /// If there is no such shape, or if it has several layers and no height is given.

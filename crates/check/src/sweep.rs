@@ -4,19 +4,18 @@ use crate::decimal::Decimal;
 use crate::domain::{Domain, Range, Rectangle};
 use std::collections::BTreeSet;
 
-/// Maximum number of gaps between boxes. So many gaps need some hundred megabytes of memory.
+/// Maximum number of gaps between boxes. They need several hundred megabytes of memory.
 const MAX_GAPS: usize = 1 << 22;
 
-/// Maximum number of strips within the enclosure of a seam. Each of them is compared with each strip at the other end.
+/// Maximum number of strips within the enclosure of a seam. Each one is compared with each strip at the other end.
 const MAX_SEAM_STRIPS: usize = 100;
 
 /// The part of the domain outside the boxes. The domain is cut into strips at each value of joint 1 where a box begins
 /// or ends. In each strip, the *gaps* are the intervals of joint 2 that no box covers.
 struct Gaps {
-    /// The strips, one between each value of joint 1 and the next, ascending.
+    /// The strips between consecutive values of joint 1, ascending.
     strips: Vec<Strip>,
-    /// For each gap, a gap that represents its group of connected gaps. While groups are being joined, it may be a gap
-    /// on the path to the representative (union-find).
+    /// For each gap, a gap that represents its group of connected gaps, or a gap on the path to the representative (union-find).
     group: Vec<usize>,
     /// For each joint, the values at which boxes or the domain begin or end, ascending.
     values: [Vec<Decimal>; 2],
@@ -163,8 +162,7 @@ pub struct Reached {
 }
 
 impl Reached {
-    /// Computes the gaps that free motions from `start` may reach. Returns `None` if the boxes leave more gaps than the
-    /// checker can handle.
+    /// Computes the gaps that free motions from `start` may reach. `None` if there are more gaps than the checker can handle.
     pub fn new(domain: &Domain, boxes: &[Rectangle], start: &Rectangle) -> Option<Self> {
         let gaps = Gaps::new(domain, boxes)?;
         let groups = gaps.groups_that_meet(start).collect();
@@ -218,11 +216,11 @@ mod tests {
         // Adjacent boxes close the gap, even if their common end is written differently.
         assert!(separates([line(), line()], &[["0", "0.10", "-5", "0.3"], ["1e-1", "0.2", "0.3", "9"]]));
         assert!(!separates([line(), line()], &[["0", "0.1", "-5", "0.3"], ["0.1000000001", "0.2", "0.3", "9"]]));
-        // A wall does not separate if it stops just before the limit, has no thickness, or has swapped ends.
+        // A wall does not separate if it ends just before the limit, has no thickness, or has swapped ends.
         assert!(!separates([line(), line()], &[["0", "0.1", "-2", "2.0999999999999999999"]]));
         assert!(!separates([line(), line()], &[["0", "0", "-2", "2.1"]]));
         assert!(!separates([line(), line()], &[["0.1", "0", "-2", "2.1"]]));
-        // Around the goal.
+        // Boxes around the goal.
         let ring =
             [["0", "0.2", "-1", "1"], ["1.5", "1.6", "-1", "1"], ["0", "1.6", "-1", "0"], ["0", "1.6", "0.9", "1"]];
         assert!(separates([line(), line()], &ring));
@@ -240,7 +238,7 @@ mod tests {
             assert!(!separates([Axis::Circle, second.clone()], &[wall]));
             assert!(separates([Axis::Circle, second], &[wall, other]));
         }
-        // Joint 2 is continuous, so a free motion can go around a lid across its seam.
+        // Joint 2 is continuous, so a free motion can avoid a lid by crossing the seam.
         let roofed = [["-9", "9", "0.7", "0.8"], ["0", "0.1", "-4", "0.75"]];
         assert!(separates([line(), line()], &roofed));
         let short = [["-9", "9", "0.7", "0.8"], ["0", "0.1", "-3.1", "0.75"]];

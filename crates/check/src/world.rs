@@ -15,8 +15,8 @@ pub struct World {
     pub goal: Option<Goal>,
     /// Required distance between the arm and obstacles, metres.
     pub clearance: Decimal,
-    /// Obstacles without a motion of their own: those of the file, then the map's walls, then the objects at their
-    /// initial poses.
+    /// Obstacles without a motion of their own, in this order: those of the file, the map's walls, and the objects at
+    /// their initial poses.
     pub obstacles: Vec<Obstacle>,
     /// Moving obstacles of the file.
     pub movers: Vec<Obstacle>,
@@ -27,9 +27,9 @@ pub struct World {
 pub enum Goal {
     /// Joint values.
     Joints([Range; 2]),
-    /// A tip position; every configuration with the tip there, and with the elbow on the stated side, satisfies the goal.
+    /// A tip position. Every configuration with the tip there, and with the elbow on the stated side, satisfies the goal.
     Tip(Corner, Option<Elbow>),
-    /// Rectangles for the tip, given by opposite corners; any of them satisfies the goal.
+    /// Rectangles for the tip, given by opposite corners. A tip in any of them satisfies the goal.
     Areas(Vec<[Corner; 2]>),
 }
 

@@ -5,7 +5,7 @@ use crate::parallel::run_in_order;
 use std::io::{BufRead, ErrorKind, Read, Write};
 use std::sync::{Condvar, Mutex, PoisonError};
 
-/// Longest line, in bytes. With this limit, endless input ends with an error.
+/// Greatest length of a line, in bytes. So endless input ends with an error.
 const MAX_LINE_BYTES: u64 = 64 << 20;
 
 /// The byte order mark, which some programs write before a text in UTF-8.
@@ -26,7 +26,7 @@ pub struct Count {
     pub objects: usize,
 }
 
-/// Input that all jobs share.
+/// Input for all jobs.
 pub struct Input<R> {
     reader: R,
     /// Name of the input in messages.
@@ -45,8 +45,8 @@ impl<R: BufRead + Send> Input<R> {
         Self { reader, name: name.to_owned(), count: 0, lines: 0, is_over: false }
     }
 
-    /// Answers all lines with this number of jobs. `answer` returns the answer, and true if the line was a JSON object. The
-    /// work also ends when the reader of the output closes it.
+    /// Answers all lines with this number of jobs. `answer` returns the answer, and true if the line was a JSON object.
+    /// Also ends when the reader of the output closes it.
     ///
     /// # Errors
     /// Input that cannot be read, and output that cannot be written.
@@ -59,7 +59,7 @@ impl<R: BufRead + Send> Input<R> {
         let (shared, turn_changed) = (Mutex::new(self), Condvar::new());
         let input = || shared.lock().unwrap_or_else(PoisonError::into_inner);
         let work = |turn| {
-            // Each job waits until all lines before its own are read.
+            // Each job waits until all previous lines are read.
             let is_early = |input: &mut Self| input.lines != turn && !input.is_over;
             let line = turn_changed.wait_while(input(), is_early).unwrap_or_else(PoisonError::into_inner).next();
             turn_changed.notify_all();
@@ -73,10 +73,10 @@ impl<R: BufRead + Send> Input<R> {
                 (error.kind() != ErrorKind::BrokenPipe).then(|| Failure::Io(format!("stdout: {error}")))
             })
         };
-        // The work ends with `None` if nothing failed.
+        // If nothing failed, the work ends with `None`.
         let ended = run_in_order(usize::MAX, jobs, work, |answered| {
             answered.map_err(Some).and_then(|answered| answered.ok_or(None)).and_then(&mut write).inspect_err(|_| {
-                // Jobs must not wait for lines that nobody reads.
+                // Jobs must not wait for lines that will not be read.
                 input().is_over = true;
                 turn_changed.notify_all();
             })
@@ -132,7 +132,7 @@ mod tests {
         let mut written = Vec::new();
         let done = AtomicUsize::new(0);
         let answer = |line: &Line| {
-            // The first line is answered when all other jobs wait for it.
+            // The first line is answered while all other jobs wait for it.
             if line.number == 1 {
                 while done.load(Ordering::SeqCst) < 150 {
                     std::thread::yield_now();

@@ -81,7 +81,7 @@ fn field_names() -> Vec<&'static str> {
     Plan::FIELD_NAMES.into_iter().chain(MotionFindings::FIELD_NAMES.into_iter().filter(is_new)).collect()
 }
 
-/// The answer to a line, as JSON.
+/// The answer to a line as JSON.
 #[derive(Serialize)]
 struct Row<T> {
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -109,7 +109,7 @@ impl Serialize for Selected<'_> {
     }
 }
 
-/// The answer to a problem whose time was up.
+/// The answer to a problem whose time limit was reached.
 #[derive(Serialize)]
 struct Stopped {
     status: Status,
@@ -134,7 +134,7 @@ pub fn run(args: &BatchArgs) -> Result<u8, Failure> {
         }
         row(answer, &args.fields)
     });
-    // Each warning is printed once, in an order that does not depend on the number of jobs.
+    // Print each warning once, in an order that does not depend on the number of jobs.
     locked(&warnings).iter().for_each(|warning| sinks::print_status(&format!("warning: {warning}")));
     let count = count?;
     if count.lines > 0 && count.objects == 0 {
@@ -161,7 +161,7 @@ fn open_input(args: &BatchArgs) -> Result<Box<dyn Read + Send>, Failure> {
     Ok(Box::new(File::open(path).map_err(refused)?))
 }
 
-/// Returns the answer as a line of output. The second value is true if the line of input is a JSON object.
+/// Returns the answer as a line of output, and true if the line of input is a JSON object.
 fn row(answer: Answer, fields: &[String]) -> (String, bool) {
     let Answer { id, is_object, plan } = answer;
     let text = match plan {

@@ -1,4 +1,4 @@
-//! Converts lines to problems. Reads robots, worlds and option lists that several lines have only once.
+//! Converts lines to problems. Robots, worlds and option lists that several lines have in common are read only once.
 
 use super::lines::Line;
 use crate::cli::failure::Failure;
@@ -18,14 +18,13 @@ use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-/// Largest number of robots that are remembered, and of option lists.
+/// Largest number of remembered robots, and of remembered option lists.
 const MAX_REMEMBERED: usize = 256;
 
-/// The keys of a line.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct LineKeys {
-    /// The key `id`, which is copied to the answer as it is written.
+    /// The key `id`, which is copied to the answer unchanged.
     #[serde(rename = "id")]
     _id: Option<IgnoredAny>,
     urdf: Option<PathBuf>,
@@ -79,7 +78,7 @@ enum Named {
 
 /// The answer to a line.
 pub struct Answer {
-    /// The line's `id` as it is written, so that even very large numbers are preserved.
+    /// The line's `id` unchanged, so that even very large numbers are preserved.
     pub id: Option<Box<RawValue>>,
     /// True if the line is a JSON object.
     pub is_object: bool,
@@ -115,7 +114,7 @@ impl Reader {
     /// Answers a line within a time limit. `input` is the name of its file in messages.
     pub fn answer(&mut self, line: &Line, input: &str, limit: Option<Duration>) -> Answer {
         let refused = |message: String, help: &str| refused(input, line.number, message, help);
-        // The parser's position refers to the line, not to the whole file.
+        // The parser's position is within the line, not within the file.
         let json_error = |error: serde_json::Error| error.to_string().replace(" at line 1 column", " at column");
         let mut keys = match serde_json::from_slice::<HashMap<String, Box<RawValue>>>(&line.text) {
             Ok(keys) => keys,
@@ -134,7 +133,7 @@ impl Reader {
         };
         let given = serde_json::from_slice(&line.text)
             .map_err(|error| refused(json_error(error), "`cplan batch --help` describes the members of a line"));
-        // If planning fails for one line, the other lines are still answered.
+        // A failure for one line does not affect the others.
         let planned = given.and_then(|given| {
             let help = "please report it with this line; the other lines are answered";
             caught(|| self.plan_within_limit(given, &refused, limit)).unwrap_or_else(|why| Err(refused(why, help)))
@@ -229,7 +228,7 @@ fn written_options(options: Options, refused: &dyn Fn(String, &str) -> Failure) 
 }
 
 impl Named {
-    /// Returns the text of the file. `name` stands for the file name in messages if the text was given directly.
+    /// Returns the text of the file. If the text was given directly, `name` replaces the file name in messages.
     fn source(&self, name: &str) -> Result<Source, InputError> {
         match self {
             Self::File(path) => Source::read(path),
@@ -261,7 +260,7 @@ fn word(name: &str, value: &Value) -> Result<Option<String>, String> {
     })
 }
 
-/// Removes all entries if there is no room for another one. Repeated ones are added again later.
+/// Removes all entries if there is no room for another one. Entries that are needed again are added again.
 fn clear_if_full<K, V>(known: &mut HashMap<K, V>) {
     if known.len() >= MAX_REMEMBERED {
         known.clear();

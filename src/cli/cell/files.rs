@@ -6,7 +6,7 @@ use crate::space::{Derivative, Piece};
 use cplan_cell::{Cell, Coordination};
 use std::path::Path;
 
-/// Returns a motion as CSV or YAML. A YAML file whose name ends in that of an arm has the motion of this arm alone.
+/// Returns a motion as CSV or YAML. A YAML file whose name ends in the name of an arm has only the motion of this arm.
 pub fn motion(cell: &Cell, found: &Coordination, path: &Path, format: Format) -> String {
     let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
     let named = |arm: &usize| stem.ends_with(&cell.arms[*arm].name);
@@ -25,7 +25,7 @@ fn alone(cell: &Cell, found: &Coordination, arm: usize) -> JointMotion {
     JointMotion::new(joints, &found.motions[arm].trajectory, false)
 }
 
-/// Returns the motion of both arms on one clock. The samples are those of both motions; between them, both move as before.
+/// Returns the motion of both arms on one clock, with the samples of both motions. Additional samples do not change a motion.
 fn both(cell: &Cell, found: &Coordination) -> JointMotion {
     let motions = found.motions.each_ref().map(|motion| &motion.trajectory);
     let mut time: Vec<f64> = motions.iter().flat_map(|motion| motion.time.iter().copied()).collect();

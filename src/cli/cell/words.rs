@@ -1,4 +1,4 @@
-//! The answer about a cell for people.
+//! The answer about a cell in words.
 
 use super::Answered;
 use crate::model::Outcome;
@@ -113,7 +113,6 @@ impl Answered<'_> {
     }
 }
 
-/// Describes a wait.
 fn waiting(Wait { from, to, at }: &Wait) -> String {
     let place = if *from == 0.0 { "at its start".into() } else { format!("at ({:.3}, {:.3})", at[0], at[1]) };
     format!("{place} from {from:.3} s to {to:.3} s")

@@ -10,7 +10,7 @@ use crate::options::{EffortArgs, MotionArgs, planners, word};
 use clap::{ArgGroup, Args, ValueHint};
 use std::path::PathBuf;
 
-/// Greatest number of pairs. The results of so many pairs still fit into memory.
+/// Greatest number of pairs. The results for this many pairs still fit into memory.
 const MAX_QUERIES: i64 = 100_000;
 
 /// Run all planners on one problem or on many, side by side.

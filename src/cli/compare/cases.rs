@@ -1,4 +1,4 @@
-//! The problems of a comparison: a single one, a suite's, or random ones.
+//! The problems of a comparison: a single one, those of a suite, or random ones.
 
 use super::args::CompareArgs;
 use super::pairs::free_pairs;
@@ -20,9 +20,9 @@ pub struct Cases {
     pub title: String,
     /// The problems, at least one.
     pub cases: Vec<Case>,
-    /// The way in which random queries are drawn. `None` if the queries are those of the worlds.
+    /// The sampling of random queries. `None` for the queries of the worlds.
     pub sampling: Option<Sampling>,
-    /// Problems that were left out, each with the reason on the same line.
+    /// Problems that were left out, each with the reason, on one line.
     pub left_out: Vec<String>,
     /// Problems that could not be run.
     pub refused: Vec<Refusal>,
@@ -50,8 +50,8 @@ pub struct Case {
 }
 
 impl Case {
-    /// Returns the problem. For a random query, it is a copy: storing one for each of a million queries would take too
-    /// much memory.
+    /// Returns the problem. For a random query it is created on demand, because a million stored problems would take
+    /// too much memory.
     pub fn problem(&self) -> Cow<'_, MotionProblem> {
         match self.query {
             None => Cow::Borrowed(&self.base),
@@ -178,8 +178,7 @@ fn refusal(refused: &RefusedProblem) -> Refusal {
 /// blocked.
 fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure> {
     let scene = |member: input::Member| {
-        // Only a world that the command line names can have steps here. The request for its goal then reports the
-        // error.
+        // Only a world from the command line can have steps here. The request for its goal then reports the error.
         if member.scene.is_task() {
             member.scene.clone().problem(overrides)?;
         }
@@ -191,7 +190,7 @@ fn scenes(suite: Suite, overrides: &Overrides) -> Result<LoadedProblems, Failure
     Ok((scenes?, suite.refused))
 }
 
-/// Returns the problem itself. If `sampling` is given, returns as many random queries in its scene as it requests.
+/// Returns the problem itself, or random queries in its scene if `sampling` is given.
 ///
 /// # Errors
 /// A message if hardly any configuration is free.

@@ -10,13 +10,13 @@ use crate::output;
 use crate::space::Path;
 use crate::view::{self, Picture, View};
 
-/// Largest number of random queries for which a page has pictures. Each query has its own.
+/// Largest number of random queries with pictures on a page. Each query has its own picture.
 const MAX_DRAWN_QUERIES: usize = 6;
 
-/// Largest number of worlds for which a page has pictures. Each world has its own.
+/// Largest number of worlds with pictures on a page. Each world has its own picture.
 const MAX_DRAWN_WORLDS: usize = 60;
 
-/// Largest number of queries whose paths a page draws in one picture.
+/// Largest number of queries whose paths are drawn in one picture of a page.
 const MAX_OVERLAID_PATHS: usize = 300;
 
 /// Largest deviation of contours in a page's small pictures, as a fraction of the arm's reach.
@@ -37,7 +37,7 @@ pub fn pictures(cases: &Cases, study: &Study, done: &ComparisonResults) -> Vec<P
     let drawn = chosen.into_iter().take(MAX_DRAWN_WORLDS).filter_map(|problem| {
         let view = view(&cases.cases[problem], &study.comparisons[problem], &done.paths[problem]);
         let comparison = &study.comparisons[problem];
-        // The recommended paths lie above the others.
+        // The recommended paths are drawn above the others.
         let top =
             Purpose::ALL.into_iter().filter_map(|purpose| comparison.path_index(comparison.recommended(purpose)?));
         let top: Vec<usize> = top.collect();
@@ -102,8 +102,8 @@ pub fn view(case: &Case, comparison: &Comparison, paths: &[Option<Path>]) -> Vie
     })
 }
 
-/// Returns the default planner's proof, if planners proved that there is no path. Computes the proof again. This is
-/// cheaper than storing the proofs of all problems, because only a few are drawn.
+/// If planners proved that there is no path, returns the proof of the default planner. The proof is computed again,
+/// which is cheaper than storing the proofs of all problems, because only a few are drawn.
 fn proof(problem: &MotionProblem, comparison: &Comparison) -> Option<CheckedProof> {
     let is_proven = comparison.rows.iter().any(|row| row.outcome == Status::Infeasible);
     let made = is_proven.then(|| plan(&Problem::from(problem.clone()), &Options::default()))?.ok()?;

@@ -1,10 +1,9 @@
 //! `cplan compare`: every planner on the same problems, side by side.
 //!
-//! It provides the numbers that `report` shows. `cases` reads the problems: a single one, those of a suite, or random
-//! pairs. `pairs` draws random pairs with a generator of its own, so that a seed gives the same pairs in all versions.
-//! `runner` runs the planners on several threads, and measures times and memory. It also computes a lower bound for
-//! each problem, starting from the shortest path that any planner found. The allocator that counts bytes belongs to the
-//! program, not to the library: `cli::run` gets it as a `MemoryMeter`.
+//! `cases` reads the problems: a single one, those of a suite, or random pairs. `pairs` draws random pairs with a generator of
+//! its own, so that a seed gives the same pairs in all versions. `runner` runs the planners on several threads, and measures
+//! times and memory. It also computes a lower bound for each problem, beginning with the shortest path that any planner found.
+//! The allocator that counts bytes belongs to the program, not to the library. `cli::run` receives it as a `MemoryMeter`.
 
 mod args;
 mod cases;
@@ -35,7 +34,6 @@ use recorded::planners_in;
 use runner::{ComparisonResults, Entry, Runner};
 use std::path::Path;
 
-/// A format of results.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum ReportFormat {
     /// Tables in Markdown.
@@ -58,8 +56,8 @@ const REPORT_FORMATS: [(&str, ReportFormat); 5] = [
     ("log", ReportFormat::Arena),
 ];
 
-/// Compares planners, and returns the exit code. For a single problem it is that of the best answer. It is 1 if
-/// planners contradict each other.
+/// Compares planners, and returns the exit code. For a single problem, it is that of the best answer. If planners
+/// contradict each other, it is 1.
 ///
 /// # Errors
 /// Bad input and I/O.
@@ -106,8 +104,8 @@ pub fn compare_in(scene: LoadedScene, words: &[String]) -> Result<Study, Failure
 /// The name of a problem's files, and its start and goal if they were drawn.
 pub type ComparedProblem = (String, Option<[Configuration; 2]>);
 
-/// Returns the problems that [`compare_in`] compares with these words: for each, the name of files with its paths, without
-/// extension, and its start and goal. They are `None` if they are those of the world.
+/// Returns the problems that [`compare_in`] compares with these words. Each has the name, without extension, of files
+/// with its paths, and its start and goal. These are `None` for the world's own query.
 ///
 /// # Errors
 /// Those of [`compare_in`].
@@ -169,8 +167,8 @@ fn run_planners(
     Ok((study, done))
 }
 
-/// Returns the exit code. It is that of a failure if planners contradict each other, or if a problem could not be run
-/// (although all others have been run). Otherwise, it is that of the best answer to a single problem.
+/// Returns the exit code. It is that of a failure if planners contradict each other, or if a problem could not be run.
+/// Otherwise, it is that of the best answer to a single problem.
 fn exit_code(study: &Study, is_single: bool) -> u8 {
     match study.outcome_counts() {
         _ if !study.alarms().is_empty() || !study.refused.is_empty() => BAD_INPUT,
@@ -184,7 +182,7 @@ fn exit_code(study: &Study, is_single: bool) -> u8 {
 /// Returns the planners for each world.
 ///
 /// # Errors
-/// Options of a planner that need something that a world lacks, and a missing GPU.
+/// A world that lacks something that a planner's options need, and a missing GPU.
 fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure> {
     let methods = if args.planner.is_empty() { Method::ALL.to_vec() } else { args.planner.clone() };
     let plain = methods.iter().map(|&method| {
@@ -212,8 +210,8 @@ fn entries(args: &CompareArgs, cases: &Cases) -> Result<Vec<Vec<Entry>>, Failure
     cases.cases.chunk_by(|a, b| a.world == b.world).map(|world| of(&world[0])).collect()
 }
 
-/// Returns the options for a planner. Bounds are computed separately, in the same way for all planners. Only a planner
-/// whose path depends on its bound computes its own: `shortest`, and planners for which a gap is required.
+/// Returns the options for a planner. Bounds are computed separately, in the same way for all planners. Only planners
+/// whose path depends on their bound compute their own: `shortest`, and planners for which a gap is required.
 fn options(args: &CompareArgs, planner: Planner, levels: usize) -> Options {
     let bounded = planner.method() == Method::Shortest || planner.gap().is_some();
     let (drive, jerk) = (args.motion.drive(), args.motion.jerk);
@@ -241,7 +239,6 @@ impl Results<'_> {
         self.single().map_or_else(|| self.study.to_text(wide, emphasis), |single| single.to_text(wide, emphasis))
     }
 
-    /// Returns the content of a file.
     fn content(&self, format: ReportFormat) -> Result<String, Failure> {
         let (single, study) = (self.single(), self.study);
         Ok(match format {

@@ -3,16 +3,16 @@
 use crate::model::Scene;
 use crate::space::{Configuration, SplitMix64};
 
-/// Number of draws after which the search for free configurations ends if it has found too few. If 1 configuration in
-/// 10,000 is free, pairs are still found.
+/// Number of draws after which the search for free configurations gives up. It still finds pairs if 1 configuration in
+/// 10,000 is free.
 const MAX_DRAWS: usize = 200_000;
 
 /// Draws `count` pairs of free configurations. All are independent and uniform over the free part of the joint space
-/// (one turn on circles). One sequence of draws gives start, goal, start, goal and so on, joint 1 first; configurations
+/// (one turn on circles). One sequence of draws gives start, goal, start, goal and so on, joint 1 first. Configurations
 /// that are not free are dropped. A configuration is free if it keeps more than the scene's clearance from every
 /// obstacle. A smaller count gives the first pairs of a larger one.
 ///
-/// Returns `None` if hardly anything is free.
+/// Returns `None` if hardly any configuration is free.
 pub fn free_pairs(scene: &Scene, count: usize, seed: u64) -> Option<Vec<[Configuration; 2]>> {
     let mut draws = SplitMix64::new(seed);
     (0..count).map(|_| Some([free(scene, &mut draws)?, free(scene, &mut draws)?])).collect()
@@ -49,8 +49,8 @@ mod tests {
         assert_ne!(pairs[0][0], pairs[0][1]);
     }
 
-    /// Compares each quarter of the joint space: its fraction of the samples with its fraction of the free space, which
-    /// is counted on a grid. The two agree within five standard deviations.
+    /// Compares the samples in each quarter of the joint space with its free space, which is counted on a grid. The
+    /// fractions agree within five standard deviations.
     #[test]
     fn pairs_are_uniform_over_the_free_space_of_a_torus() {
         let scene = scene("planar_2r_continuous", "torus_open");

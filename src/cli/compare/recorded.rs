@@ -1,5 +1,5 @@
-//! Paths of other planners, from files: a folder for each planner, and in it a file for each problem. Each path is judged as
-//! `cplan verify` judges it.
+//! Paths of other planners, from files. Each planner has a folder, with a file for each problem. The paths are judged
+//! as by `cplan verify`.
 
 use super::cases::Case;
 use crate::cli::failure::Failure;
@@ -42,8 +42,8 @@ pub fn planners_in(place: &FilePath) -> Result<Vec<RecordedPlanner>, Failure> {
     Ok(planners)
 }
 
-/// Returns the name of the files for a problem, without extension: other characters than letters, digits and `.-_` become `_`. A
-/// problem without a name has the files `problem`.
+/// Returns the name of the files for a problem, without extension. Characters other than letters, digits and `.-_`
+/// become `_`. For a problem without a name, it is `problem`.
 pub fn file_stem(problem: &str) -> String {
     let is_kept = |c: char| c.is_alphanumeric() || ".-_".contains(c);
     let stem: String = problem.chars().map(|c| if is_kept(c) { c } else { '_' }).collect();
@@ -78,7 +78,6 @@ impl RecordedPlanner {
     }
 }
 
-/// Reads and judges a file.
 fn judged_file(file: &FilePath, case: &Case, overrides: &Overrides) -> Result<(Recording, MotionFindings), InputError> {
     let loaded = (*case.scene).clone().with_margins(overrides.clearance, overrides.calibration)?;
     let overrides = match case.query {

@@ -50,7 +50,7 @@ pub struct ComparisonResults {
     pub comparisons: Vec<Comparison>,
     /// For each case, the path of each planner that found one.
     pub paths: Vec<Vec<Option<Path>>>,
-    /// Time that all runs took together, from start to end.
+    /// Time from the start of the first run to the end of the last one.
     pub elapsed: Duration,
 }
 
@@ -74,7 +74,7 @@ type RunResult = Result<(Row, Option<Path>), PlanError>;
 /// Number of boxes for the warm-up run.
 const WARM_UP_BOXES: usize = 1000;
 
-/// Required gap between a lower bound and the shortest path that was found, as a fraction of the path's length.
+/// Required gap between a lower bound and the shortest known path, as a fraction of the path's length.
 const BOUND_GAP: f64 = 1e-4;
 
 impl Runner<'_> {
@@ -85,7 +85,7 @@ impl Runner<'_> {
     pub fn run(&self, cases: &Cases) -> Result<ComparisonResults, (String, PlanError)> {
         let clock = Instant::now();
         let width = self.entries.first().map_or(0, Vec::len);
-        // Each problem begins with another planner, because the first one to run fills the caches for the others.
+        // Each problem begins with another planner, because the first run fills the caches for the others.
         let runs = self.results_in_order(cases.cases.len() * width, |i| {
             let (number, turn) = (i / width, i % width);
             let case = &cases.cases[number];
@@ -119,7 +119,7 @@ impl Runner<'_> {
         Ok(ComparisonResults { comparisons, paths, elapsed: clock.elapsed() })
     }
 
-    /// Calls `work` for the numbers below `count`, on as many threads as there are jobs. Returns the results in order.
+    /// Calls `work` for all numbers below `count`, on one thread per job. Returns the results in order.
     fn results_in_order<T: Send>(&self, count: usize, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
         let mut results = Vec::with_capacity(count);
         let Ok(()) = run_in_order(count, self.jobs, work, |result| {
@@ -129,8 +129,8 @@ impl Runner<'_> {
         results
     }
 
-    /// Measures one run. Before the very first one, it makes a coarse run, so that the measured time does not include
-    /// loading the program.
+    /// Measures one run. A coarse run precedes the very first one, so that the measured time does not include loading
+    /// the program.
     fn measure_run(&self, case: &Case, entry: &Entry, is_first: bool) -> RunResult {
         let (label, options) = match entry {
             Entry::Planner { label, options } => (label, options),
@@ -190,8 +190,7 @@ impl Runner<'_> {
     }
 }
 
-/// Returns the path of the other kind that the planner also computes. Returns `None` if it has none. The time for this
-/// path is not measured.
+/// Returns the path of the other kind, if the planner also computes one. Its time is not measured.
 fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>, PlanError> {
     if !options.planner.method().has_own_path() || options.planner.path_kind() == PathKind::Middles {
         return Ok(None);
@@ -201,7 +200,7 @@ fn other_path(problem: &Problem, options: &Options) -> Result<Option<OtherPath>,
     Ok(made.length().map(|length| OtherPath { length, clearance: made.clearance() }))
 }
 
-/// Returns a lower bound on the length of all motions, within a gap of the shortest path if possible. `None` if there
+/// Returns a lower bound on the length of all motions, if possible within a gap of the shortest path. `None` if there
 /// is no path.
 fn lower_bound<'a>(problem: &MotionProblem, paths: impl Iterator<Item = &'a Path>, gap: f64) -> Option<f64> {
     let shortest = paths.min_by(|a, b| a.length().total_cmp(&b.length()))?;
@@ -214,7 +213,7 @@ pub fn length_unit(problem: &MotionProblem) -> String {
     if units[0] == units[1] { units[0].into() } else { units.join(", ") }
 }
 
-/// Returns the meter if memory can be measured. Otherwise prints the reason.
+/// Returns the meter if memory can be measured. Otherwise, prints why it cannot.
 pub fn meter(meter: Option<MemoryMeter>, jobs: usize, quiet: bool) -> Option<MemoryMeter> {
     if jobs > 1 && meter.is_some() && !quiet {
         sinks::print_status(

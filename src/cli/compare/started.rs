@@ -2,14 +2,14 @@
 
 use std::time::{Duration, SystemTime, UNIX_EPOCH};
 
-/// Returns the present time, such as `2026-11-21 14:03:53 UTC`.
+/// Returns the current time, such as `2026-11-21 14:03:53 UTC`.
 pub fn current_time() -> String {
     let since = SystemTime::now().duration_since(UNIX_EPOCH).unwrap_or(Duration::ZERO);
     written(since.as_secs())
 }
 
-/// Formats the time that is this many seconds after the beginning of 1970. Days are converted to dates by Howard
-/// Hinnant's `civil_from_days`. It counts eras of 400 years that begin in March, so that leap days come last.
+/// Formats a time in seconds since the beginning of 1970. Howard Hinnant's `civil_from_days` converts days to dates. It
+/// counts eras of 400 years that begin in March, so that leap days come last.
 fn written(seconds: u64) -> String {
     let (days, second) = (seconds / 86_400 + 719_468, seconds % 86_400);
     let (era, day_of_era) = (days / 146_097, days % 146_097);

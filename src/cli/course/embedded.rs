@@ -1,9 +1,9 @@
-//! The texts of the course, and the files that its figures need, within the program.
+//! The texts of the course, and the files for its figures, embedded in the program.
 
 use crate::input::Source;
 use std::path::Path;
 
-/// The chapters in their order: the name, and the text.
+/// Names and texts of the chapters, in their order.
 pub const CHAPTERS: [(&str, &str); 7] = [
     ("c_obstacles", include_str!("../../../docs/c_obstacles.md")),
     ("roadmaps", include_str!("../../../docs/roadmaps.md")),
@@ -14,7 +14,7 @@ pub const CHAPTERS: [(&str, &str); 7] = [
     ("tasks", include_str!("../../../docs/tasks.md")),
 ];
 
-/// The pictures of the chapters that are not replaced by live figures.
+/// The pictures of the chapters that no live figure replaces.
 pub const PICTURES: [(&str, &str); 19] = [
     ("course/astar.svg", include_str!("../../../docs/pictures/course/astar.svg")),
     ("course/boxes.svg", include_str!("../../../docs/pictures/course/boxes.svg")),

@@ -113,7 +113,7 @@ pub struct FollowArgs {
 }
 
 impl FollowArgs {
-    /// Returns the place of the line in the plane. If a placement is searched, the line is read without one.
+    /// Returns the place of the line in the plane. If a placement is searched for, the line is read without one.
     pub(super) fn placement(&self) -> Placement {
         match self.fit {
             Some(_) => Placement { unit: self.unit, ..Placement::default() },
@@ -121,7 +121,7 @@ impl FollowArgs {
         }
     }
 
-    /// Returns the placement by the options.
+    /// Returns the placement that the options state.
     pub(super) fn stated_placement(&self) -> Placement {
         Placement { unit: self.unit, scale: self.scale, turn: self.turn, shift: self.shift.unwrap_or_default() }
     }

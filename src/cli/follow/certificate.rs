@@ -8,7 +8,7 @@ use crate::model::{Outcome, Status};
 use cplan_follow::{Cause, Exclusion, Infeasible, Obstacle};
 use std::path::Path;
 
-/// Returns the text of the certificate. Without one, prints a warning about the file that would contain it.
+/// Returns the text of the certificate. If the answer has no certificate, prints a warning about its file.
 pub fn text(answered: &Answered, path: &Path) -> Option<String> {
     let Answered { args, loaded, line, answer, digests, .. } = answered;
     let asked = &Overrides { clearance: args.clearance, calibration: args.calibration, ..Overrides::default() };

@@ -1,4 +1,4 @@
-//! The files that the answer is written to.
+//! The files of an answer.
 
 use super::{Answered, FollowArgs, certificate, json, picture};
 use crate::cli::failure::Failure;
@@ -17,7 +17,7 @@ pub enum Content {
     Yaml,
 }
 
-/// Checks the names of the outputs before any work is done.
+/// Checks the names of the outputs before any computation.
 ///
 /// # Errors
 /// Unknown extensions, outputs that are the same file, and files that cannot be written.
@@ -28,13 +28,13 @@ pub fn outputs(args: &FollowArgs) -> Result<Outputs<Content>, Failure> {
     Outputs::new(&args.output, content, &args.picture, certificate)?.without_animation("a line")
 }
 
-/// Returns true if the certificate in this file is a member of a result.
+/// Returns true if the certificate with this file name is a member of a result.
 fn is_member(args: &FollowArgs, path: &Path) -> bool {
     let is_json = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("json"));
     is_json && args.output.iter().any(|result| result == path)
 }
 
-/// Writes all files. Without a motion, warns about those that can only contain one.
+/// Writes all files. Without a motion, warns about files that can only contain a motion.
 ///
 /// # Errors
 /// I/O, and pictures that cannot be drawn.
@@ -54,8 +54,8 @@ pub fn write(outputs: &Outputs<Content>, answered: &Answered) -> Result<(), Fail
     outputs.write(own, result, drawn(|| args.theme.apply(picture::view(answered))))
 }
 
-/// Returns the text of a file; `None` if it can only contain a motion and the answer has no motion. A certificate becomes
-/// a member of JSON.
+/// Returns the text of a file. `None` if it can only contain a motion and there is none. In JSON, a certificate becomes
+/// a member.
 fn text(answered: &Answered, content: Content, certificate: Option<&str>) -> Result<Option<String>, Failure> {
     let trajectory = match answered.answer {
         Outcome::Found(found) => Some(&found.timed.trajectory),
@@ -87,7 +87,8 @@ fn text(answered: &Answered, content: Content, certificate: Option<&str>) -> Res
     })
 }
 
-/// Returns a table with a column for the tool: 1 on the line, 0 during travels. Without travels, the table stays the same.
+/// Returns a table with an additional column for the tool: 1 on the line, 0 during travels. Without travels, the table
+/// is unchanged.
 fn with_tool(table: &str, tool: &[bool]) -> String {
     let values = tool.iter().map(|is_on| if *is_on { "1" } else { "0" });
     let column: Vec<&str> = ["tool"].into_iter().chain(values).collect();

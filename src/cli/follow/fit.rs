@@ -9,10 +9,10 @@ use cplan_follow::{Fitted, Settings, fit};
 use cplan_toolpath::{Placement, Toolpath};
 use serde_json::{Value, json};
 
-/// Number of turns that the search tries.
+/// Number of turns that are tried.
 const TURNS: u32 = 36;
 
-/// Freedom of the search for a placement.
+/// The freedom of the search for a placement.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Freedom {
     /// The position of the line.
@@ -21,7 +21,7 @@ pub enum Freedom {
     Turn,
 }
 
-/// A placement that was found, with the options that repeat it.
+/// The placement found, with the options that repeat it.
 pub struct Placed {
     placement: Placement,
     /// Approximate distance of the line from places that the arm cannot reach, metres.
@@ -33,7 +33,7 @@ pub struct Placed {
 /// Searches for a placement of a line.
 ///
 /// # Errors
-/// An angle on the command line that is to be searched, and those of following the line.
+/// An angle on the command line although the angle is searched for, and the errors of following the line.
 pub fn search(
     args: &FollowArgs,
     freedom: Freedom,

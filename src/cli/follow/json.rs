@@ -78,7 +78,6 @@ fn infeasible_object(answered: &Answered, infeasible: &Infeasible) -> Value {
     })
 }
 
-/// Returns a place on the line.
 fn place(place: &Place) -> Value {
     json!({
         "distance": place.distance,

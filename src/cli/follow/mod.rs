@@ -34,16 +34,16 @@ struct Answered<'a> {
     tolerance: f64,
     /// Greatest speed of the tip, metres per second, instead of the speeds of the line.
     speed: Option<f64>,
-    /// The side of the elbow along the line; `None` if either side will do.
+    /// The side of the elbow along the line. `None` for either side.
     elbow: Option<Elbow>,
-    /// The wrist that turns the tool; `None` if the tool's angle does not matter.
+    /// The wrist that turns the tool. `None` if the angle of the tool does not matter.
     wrist: Option<&'a FollowingWrist>,
     answer: &'a Followed,
-    /// The placement that was searched and found.
+    /// The placement that the search found.
     placed: Option<fit::Placed>,
-    /// For each sample of the motion, whether the tool is on the line; empty without a motion or travels.
+    /// For each sample of the motion, true if the tool is on the line. Empty without a motion or without travels.
     tool: Vec<bool>,
-    /// The digests of the files of robot and world, for a certificate.
+    /// The digests of the robot's and the world's files, for a certificate.
     digests: Option<Digests>,
 }
 
@@ -59,7 +59,7 @@ pub fn run(args: &FollowArgs) -> Result<u8, Failure> {
     answer(args, load, read::line)
 }
 
-/// Follows the line that `read_line` returns, in the scene that `load` returns. Its argument is true if the wrist turns.
+/// Follows the line from `read_line` in the scene from `load`. The argument of `load` is true if the wrist turns.
 ///
 /// # Errors
 /// Same as for [`run`].

@@ -9,7 +9,7 @@ use crate::space::{Configuration, JointRange, Path};
 use crate::view::{LineSettings, LineView, Picture, View};
 use cplan_follow::{Exclusion, Followed};
 
-/// Returns the picture: the line, the motion or the place without one, and the configuration space.
+/// Returns the picture: the line, its motion or the place where it fails, and the configuration space.
 pub fn view(answered: &Answered) -> View {
     let scene = &answered.loaded.scene;
     let found = answered.answer.found();
@@ -32,7 +32,7 @@ pub fn view(answered: &Answered) -> View {
     }
 }
 
-/// Returns a sentence about each IK solution that is excluded.
+/// Returns a sentence about each excluded IK solution.
 fn reasons(answered: &Answered) -> Vec<String> {
     let Followed::Infeasible(infeasible) = answered.answer else { return Vec::new() };
     let scene = &answered.loaded.scene;
@@ -63,7 +63,7 @@ fn line(answered: &Answered, scene: &Scene) -> LineView {
     }
 }
 
-/// Returns the first configuration of the motion. Without a motion, returns the one that is excluded, or else the one of
+/// Returns the first configuration of the motion. Without a motion, returns an excluded configuration, or else that of
 /// [`resting`].
 fn start(answered: &Answered) -> Configuration {
     let excluded = match answered.answer {
@@ -74,7 +74,7 @@ fn start(answered: &Answered) -> Configuration {
     resting(answered.loaded, excluded.map(|exclusion| Configuration::from(exclusion.q)))
 }
 
-/// Returns a configuration to show within the limits: this one, the world's start, or else the one nearest to zero.
+/// Returns a configuration within the limits for the picture: the given one, the world's start, or else the one nearest to zero.
 pub fn resting(loaded: &LoadedScene, q: Option<Configuration>) -> Configuration {
     let stated = match loaded.stated_ends()[0] {
         Some(Goal::Joints(q)) => Some(q),

@@ -8,11 +8,11 @@ use cplan_toolpath::{Format, Toolpath};
 use std::ffi::OsStr;
 use std::sync::Arc;
 
-/// Reads the line that the arguments name, and places it. Tolerance, speed and the tool's angle on the command line
-/// override those of the file.
+/// Reads the line that the arguments name, and places it. Tolerance, speed and tool angle on the command line override
+/// those of the file.
 ///
 /// # Errors
-/// A file that cannot be read, or that has something that the tip cannot follow: with line, column and a hint.
+/// A file that cannot be read, or a part of it that the tip cannot follow, with line, column and a hint.
 pub fn line(args: &FollowArgs) -> Result<FollowedLine, Failure> {
     let line = if args.path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case(OsStr::new("toml"))) {
         in_toml(args)?
@@ -40,7 +40,7 @@ fn with_rests(path: &Toolpath, seconds: f64) -> Result<Toolpath, cplan_toolpath:
     Toolpath::new(pieces).map(|rested| rested.with_notes(path.notes().to_vec()))
 }
 
-/// Reads a file with the keys of a step's table `follow`. It is placed by its own keys, and then by the arguments.
+/// Reads a file with the keys of a step's table `follow`. First its own keys place the line, and then the arguments do.
 fn in_toml(args: &FollowArgs) -> Result<FollowedLine, Failure> {
     if args.unit.is_some() {
         return Err(Failure::Usage("a line in TOML is in metres; leave out --unit".into()));

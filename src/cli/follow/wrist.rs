@@ -14,11 +14,11 @@ use cplan_handling::{
 };
 use serde_json::{Value, json};
 
-/// The wrist of a line, with the name of its joint.
+/// The wrist for a line, with the name of its joint.
 pub struct FollowingWrist {
     pub along: WristAlong,
     pub joint: String,
-    /// A note about its limits, if any is assumed.
+    /// A note about assumed limits of the wrist, if there are any.
     pub note: Option<String>,
 }
 
@@ -42,7 +42,7 @@ pub fn tool_tolerance(text: &str) -> Result<f64, String> {
     number_in(text, |x| (MIN_WRIST_TOLERANCE..=MAX_WRIST_TOLERANCE).contains(&x), &range)
 }
 
-/// Returns the requirement on the tool's angle: that of the arguments, or else that of the line.
+/// Returns the requirement on the tool's angle, from the arguments or else from the line.
 ///
 /// # Errors
 /// A tolerance without an angle.
@@ -59,7 +59,7 @@ pub fn guide(args: &FollowArgs, line: Option<WristGuide>) -> Result<Option<Wrist
 }
 
 impl FollowingWrist {
-    /// Returns the wrist of a line that asks for an angle of the tool. `None` for other lines.
+    /// Returns the wrist for a line that requires an angle of the tool. `None` for other lines.
     ///
     /// # Errors
     /// A world that does not name the wrist's joint.

@@ -30,7 +30,7 @@ const MAX_SHOWN: usize = 8;
 /// Commands by which many plotters move the pen.
 const PEN_WORDS: [&str; 4] = ["M3", "M5", "M280", "M300"];
 
-/// Length of the segments into which firmwares divide arcs by default, metres.
+/// Default length of the segments into which firmwares divide arcs, metres.
 const ARC_SEGMENT: f64 = 1e-3;
 
 /// Prove G-code for machines with their own kinematics.
@@ -136,7 +136,7 @@ pub fn run(args: &GcodeArgs) -> Result<u8, Failure> {
     let loaded =
         input::load_scene(args.files.robot(), &args.files.world)?.with_margins(args.clearance, args.calibration)?;
     loaded.require_static_obstacles("G-code can be judged only if all obstacles are static")?;
-    // A move that only comes near within the padding is not proven to collide.
+    // If only padding makes a move come too near, it is not proven to collide.
     let padded = loaded.scene.arm().links.iter().flat_map(|link| &link.parts).any(|part| part.padding > 0.0)
         || loaded.scene.workspace().obstacles.iter().any(|obstacle| obstacle.growth.padding > 0.0);
     if padded {
@@ -274,7 +274,7 @@ impl Answered<'_> {
     }
 }
 
-/// Returns a note about the words that move the pen, if a drawing move fails that may be a travel with a lifted pen.
+/// Returns a note about the words that move the pen, if a failed drawing move may be a travel with a lifted pen.
 fn pen_note(args: &GcodeArgs, job: &Job, answer: &Answer) -> Option<String> {
     let words =
         PEN_WORDS.iter().filter(|word| job.program.notes.iter().any(|note| note.contains(&format!("{word} ("))));
@@ -290,7 +290,7 @@ fn pen_note(args: &GcodeArgs, job: &Job, answer: &Answer) -> Option<String> {
     })
 }
 
-/// Returns a note about moves that begin at unstated places, if there are any.
+/// Returns a note about moves that begin at unstated places, if any.
 fn unstated(sources: &[Source]) -> Option<String> {
     let more = sources.len().saturating_sub(MAX_SHOWN);
     let shown: Vec<String> = sources.iter().take(MAX_SHOWN).map(|source| source.line.to_string()).collect();

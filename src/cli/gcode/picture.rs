@@ -35,7 +35,7 @@ pub fn view(answered: &Answered) -> View {
     view.with_line(LineView::new(scene, &line, answered.args.tolerance).with_marked_moves(marked))
 }
 
-/// Returns the moves of the written program, joined by travels where it does not state them.
+/// Returns the moves of the written program, with travels between moves that are not connected.
 fn line(answered: &Answered) -> Option<Toolpath> {
     let mut pieces: Vec<Piece> = Vec::new();
     for own in &answered.job.program.moves {

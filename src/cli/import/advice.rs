@@ -12,8 +12,7 @@ const USUAL_WIDTHS: [f64; 2] = [0.01, 100.0];
 /// Least and greatest value of both coordinates.
 type Bounds = [(f64, f64); 2];
 
-/// Adds notes about what looks unusual: an obstacle at the arm's base, an obstacle around all or some others, and the extent
-/// of the drawing.
+/// Adds notes about unusual features: an obstacle at the arm's base, an obstacle around others, and the extent of the drawing.
 pub(super) fn note(taken: &[ImportedObstacle], notes: &mut Notes) {
     let bounds: Vec<Bounds> = taken.iter().map(|taken| bounds(coordinates(&taken.shape))).collect();
     let border = border(taken, &bounds);
@@ -61,8 +60,8 @@ pub(super) fn bounds(points: impl Iterator<Item = [f64; 2]>) -> Bounds {
     })
 }
 
-/// Returns the index of the solid that surrounds all others. Returns `None` if there is none. Drawings often contain
-/// the walls of a room, or the reach of an arm, as such a solid.
+/// Returns the index of the solid that surrounds all others, if there is one. Drawings often contain the walls of a
+/// room, or the reach of an arm, as such a solid.
 fn border(taken: &[ImportedObstacle], bounds: &[Bounds]) -> Option<usize> {
     // Only the widest obstacle can surround the others.
     let width = |i: usize| bounds[i][0].1 - bounds[i][0].0;
@@ -95,7 +94,7 @@ fn surrounds(outer: &Bounds, inner: &Bounds) -> bool {
     (0..2).all(|k| outer[k].0 < inner[k].0 && inner[k].1 < outer[k].1)
 }
 
-/// Returns true for a solid without holes.
+/// Returns true if the shape is a solid without holes.
 fn is_solid(shape: &Shape) -> bool {
     match &shape.geometry {
         Geometry::Polygon { holes, .. } => holes.is_empty(),

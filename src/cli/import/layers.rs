@@ -45,8 +45,7 @@ pub(super) struct Layers<'a> {
     pub tolerance: f64,
 }
 
-/// Returns true if an obstacle is called `name`. That may be its own name, its layer, or the hidden layer of the block
-/// that contains it.
+/// Returns true if `name` is the name of an obstacle, its layer, or the hidden layer of a block that contains it.
 fn is_called(taken: &ImportedObstacle, name: &str) -> bool {
     equals_ignoring_case(&taken.name, name) || taken.shape.called().iter().any(|own| equals_ignoring_case(own, name))
 }
@@ -95,7 +94,7 @@ impl Layers<'_> {
             if !self.only.is_empty() && !among(self.only) || among(self.without) {
                 continue;
             }
-            // An obstacle that only its own layer selects may still be in a block that is hidden as a whole.
+            // An obstacle that is selected by its own layer may still be in a block that is hidden as a whole.
             let shape = &taken.shape;
             let is_asked_for = |own: &String| self.only.iter().any(|name| equals_ignoring_case(own, name));
             let is_taken = || {
@@ -153,7 +152,7 @@ fn walls(taken: ImportedObstacle, tolerance: f64, names: &mut Names) -> Vec<Impo
     rings.into_iter().map(&mut wall).collect()
 }
 
-/// Returns corners on a circle. The chords between them are at most `tolerance` away from it.
+/// Returns points on a circle whose chords are at most `tolerance` away from it.
 fn chords([x, y]: [f64; 2], radius: f64, tolerance: f64) -> Vec<[f64; 2]> {
     const MIN_CHORDS: f64 = 8.0;
     let half = (1.0 - tolerance / radius).clamp(0.0, 1.0).acos();

@@ -39,7 +39,7 @@ struct Json<'a> {
     world: Option<&'a str>,
 }
 
-/// An obstacle, and the part of the drawing from which it comes.
+/// An obstacle, and the part of the drawing from which it was made.
 #[derive(Serialize)]
 struct Entry<'a> {
     name: &'a str,
@@ -109,7 +109,7 @@ pub fn run(args: &ImportArgs) -> Result<u8, Failure> {
     }
     let text = world_file::text(args, &taken, &notes);
     let name = args.output.clone().unwrap_or_else(|| "the imported world".into());
-    // The text is read back. So the written world is valid, and the picture shows it as it will be read.
+    // Read the text back, so that the written world is valid, and the picture shows it as it will be read.
     let world = input::world_from(Source::in_memory(name, text.as_str()))?;
     let figure = || picture(args, &world, &taken);
     let page = || view::still_page(&args.title(), &figure());
@@ -141,7 +141,7 @@ fn picture(args: &ImportArgs, world: &World, taken: &[ImportedObstacle]) -> Figu
     view::obstacles(&[args.title(), below], obstacles, &layers)
 }
 
-/// Prints the result on stdout. If the world goes to stdout, prints the result on stderr.
+/// Prints the result on stdout, or on stderr if the world goes to stdout.
 fn report(
     args: &ImportArgs,
     taken: &[ImportedObstacle],

@@ -10,20 +10,20 @@ use std::f64::consts::PI;
 #[derive(Clone)]
 pub(super) struct ImportedObstacle {
     pub name: String,
-    /// The shape in metres. Its coordinates are relative to its frame if the world file states one.
+    /// The shape in metres, in coordinates of its frame if the world file states one.
     pub shape: Shape,
 }
 
 /// Note about shapes that are too small to be written.
 const NO_EXTENT_NOTE: &str = "parts without length or area: left out";
 
-/// The placement of a drawing: it is turned and then moved.
+/// The placement of a drawing: a rotation followed by a displacement.
 pub(super) struct Placement {
     pub turn: f64,
     pub shift: [f64; 2],
 }
 
-/// Coordinates in the file are rounded to this many steps per metre. A step of a nanometre is smaller than any
+/// Number of steps per metre to which coordinates in the file are rounded. A step of a nanometre is smaller than any
 /// measurement, and gives short numbers.
 const ROUNDING_STEPS_PER_METRE: f64 = 1e9;
 
@@ -59,7 +59,7 @@ pub(super) fn rounded(value: f64) -> f64 {
 }
 
 /// Returns the obstacles of a drawing, with their names in the world. An outline that crosses itself is replaced by the
-/// area that it encloses, or by thin walls if the area is too narrow.
+/// area that it encloses, or by thin walls if that is too narrow.
 pub(super) fn obstacles_of_drawing(
     shapes: Vec<Shape>,
     placement: &Placement,
@@ -127,7 +127,7 @@ fn is_sound(outer: &[[f64; 2]], holes: &[Ring]) -> bool {
     Polygon::new(points(outer), holes.iter().map(|hole| points(hole)).collect()).is_ok()
 }
 
-/// Refuses shapes at coordinates that no arm can reach. `shift` is the move of the drawing that options state.
+/// Refuses shapes at coordinates that no arm can reach. `shift` is the displacement of the drawing that options state.
 pub(super) fn within_reach(taken: &[ImportedObstacle], shift: [f64; 2]) -> Result<(), Diagnostic> {
     taken.iter().try_for_each(|ImportedObstacle { shape, .. }| {
         let greatest = |numbers: &mut dyn Iterator<Item = f64>| numbers.map(f64::abs).fold(0.0, f64::max);
@@ -147,8 +147,8 @@ pub(super) fn within_reach(taken: &[ImportedObstacle], shift: [f64; 2]) -> Resul
     })
 }
 
-/// Returns a hint for a drawing that is far from the arm. It suggests a move, in whole metres, that brings the middle
-/// of the drawing to the arm. If the drawing is too large for that, the hint suggests something else.
+/// Returns a hint for a drawing that is far from the arm. It suggests a displacement in whole metres that brings the
+/// middle of the drawing to the arm, or something else if the drawing is too large for that.
 fn distance_hint(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
     let points: Vec<[f64; 2]> = taken.iter().flat_map(|taken| coordinates(&taken.shape)).collect();
     let ends = |k: usize| {
@@ -165,7 +165,7 @@ fn distance_hint(taken: &[ImportedObstacle], shift: [f64; 2]) -> String {
     }
 }
 
-/// Iterates over points, in world coordinates, whose bounding box is that of the shape.
+/// Iterates over points, in world coordinates, that have the same bounding box as the shape.
 pub(super) fn coordinates(shape: &Shape) -> impl Iterator<Item = [f64; 2]> {
     let points = match &shape.geometry {
         Geometry::Polygon { outer, holes } => outer.iter().chain(holes.iter().flatten()).copied().collect(),
@@ -186,8 +186,8 @@ pub(super) fn placed(shape: &Shape, p: [f64; 2]) -> [f64; 2] {
 /// Names that count as missing, such as that of the layer that every DXF has.
 const MISSING_NAMES: [&str; 2] = ["", "0"];
 
-/// Gives each obstacle a unique name: its own, or that of its layer. If several obstacles share it, a number is added.
-/// Hidden obstacles are numbered after visible ones, so that names do not depend on the selection.
+/// Gives each obstacle a unique name: its own, or that of its layer. A number is added if several obstacles share the
+/// name. Hidden obstacles are numbered after visible ones, so that names do not depend on the selection.
 fn name_obstacles(shapes: Vec<Shape>) -> Vec<ImportedObstacle> {
     let base = |shape: &Shape| {
         let name = shape
@@ -204,7 +204,7 @@ fn name_obstacles(shapes: Vec<Shape>) -> Vec<ImportedObstacle> {
         let group: Vec<usize> = (0..shapes.len()).filter(|&i| shapes[i].hidden_by.is_some() == is_hidden).collect();
         let mut counts = HashMap::<String, usize>::new();
         group.iter().for_each(|&i| *counts.entry(base(&shapes[i])).or_default() += 1);
-        // The drawing may contain numbered names already.
+        // The drawing may already contain numbered names.
         let single: HashSet<String> =
             counts.into_iter().filter(|(_, count)| *count == 1).map(|(name, _)| name).collect();
         let single: HashSet<String> = single.into_iter().filter(|name| names.taken.insert(name.clone())).collect();
@@ -216,7 +216,6 @@ fn name_obstacles(shapes: Vec<Shape>) -> Vec<ImportedObstacle> {
     given.into_iter().zip(shapes).map(|(name, shape)| ImportedObstacle { name, shape }).collect()
 }
 
-/// The names that are in use.
 #[derive(Default)]
 pub(super) struct Names {
     taken: HashSet<String>,

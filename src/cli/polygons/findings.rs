@@ -4,7 +4,7 @@ use super::reader::GivenPolygon;
 use crate::geometry::{CornerInside, Point, SimplePolygon, simple_difference, simple_polygon_test};
 use serde::Serialize;
 
-/// The comparison of two polygons. Numbers of corners and sides begin with 1; side `i` begins at corner `i`.
+/// The comparison of two polygons. Corners and sides are numbered from 1. Side `i` begins at corner `i`.
 #[derive(Debug, Serialize)]
 pub struct Findings {
     /// True if the polygons have a point in common.
@@ -12,9 +12,9 @@ pub struct Findings {
     /// Penetration depth: the length of the shortest translation of A that separates the polygons. `None` if they are
     /// apart.
     pub depth: Option<f64>,
-    /// True if `depth` is exact up to rounding; false if it is a lower bound, because a polygon is not convex.
+    /// True if `depth` is exact up to rounding. False if it is only a lower bound, because a polygon is not convex.
     pub depth_is_exact: bool,
-    /// Distance of the polygons; 0 if they meet.
+    /// Distance of the polygons, or 0 if they meet.
     pub distance: f64,
     pub a: PolygonFinding,
     pub b: PolygonFinding,
@@ -61,7 +61,7 @@ pub struct CrossingFinding {
 pub struct PartFinding {
     /// Corners, counter-clockwise.
     pub corners: Vec<[f64; 2]>,
-    /// For each corner, the corners of B and of A whose difference it is.
+    /// For each corner, the numbers of the corners of B and of A whose difference it is.
     pub of: Vec<[usize; 2]>,
 }
 

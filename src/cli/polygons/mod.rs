@@ -1,4 +1,4 @@
-//! `cplan polygons`: whether two polygons meet, how deep, and their Minkowski difference.
+//! `cplan polygons`: reports whether two polygons meet, how deep, and their Minkowski difference.
 
 mod findings;
 mod reader;

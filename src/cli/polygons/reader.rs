@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// A polygon from the user.
 pub struct GivenPolygon {
     pub polygon: SimplePolygon,
-    /// Corrections of the input.
+    /// Notes about corrections of the input.
     pub notes: Vec<String>,
     /// The file with the polygon. `None` if its corners are on the command line.
     pub file: Option<PathBuf>,
@@ -26,12 +26,12 @@ struct PolygonFile {
     polygon: Vec<Numbers>,
 }
 
-/// Hint for text that is no list of points.
+/// Hint for text that is not a list of points.
 const POINTS_HELP: &str = "write each point as x,y, and a blank or a new line between points, such as \"0,0 1,0 1,1\"";
 /// Characters between the numbers of a text.
 const SEPARATORS: [char; 10] = [' ', '\t', '\r', '\n', ',', ';', '(', ')', '[', ']'];
 
-/// Reads the polygon with this name from a file, or from the word itself if it is a list of points.
+/// Reads a polygon from a file, or from the word itself if it is a list of points. `name` is the polygon's name in messages.
 ///
 /// # Errors
 /// A file that cannot be read, text that is no list of points, and points that do not form a simple polygon.
@@ -56,7 +56,7 @@ impl GivenPolygon {
     /// Returns the polygon, turned about the origin by an angle in radians.
     ///
     /// # Errors
-    /// A polygon with details so small that the rounding of the turn makes its boundary touch itself.
+    /// A polygon with such small details that its boundary touches itself after the rounding of the turn.
     pub fn turned(self, angle: f64) -> Result<Self, InputError> {
         let (sin, cos) = angle.sin_cos();
         let turn = |p: &Point| Point::new(cos * p.x - sin * p.y, sin * p.x + cos * p.y);
@@ -67,7 +67,7 @@ impl GivenPolygon {
     }
 }
 
-/// Returns the points of a text: two numbers each. A first line of letters is skipped, as the header of a table.
+/// Returns the points of a text, with two numbers each. Skips a first line of letters, as in the header of a table.
 fn text_points(source: &Source) -> Result<Vec<PlacedPoint>, Diagnostic> {
     let (mut points, mut from, mut is_first) = (Vec::new(), 0, true);
     for line in source.text().split_inclusive('\n') {
@@ -96,7 +96,7 @@ fn text_points(source: &Source) -> Result<Vec<PlacedPoint>, Diagnostic> {
     Ok(points)
 }
 
-/// Returns the words of a line with their places in the text, in which the line begins at `from`.
+/// Returns the words of a line that begins at `from` in the text, with their places in the text.
 fn words(line: &str, from: usize) -> Vec<(&str, Range<usize>)> {
     let place = |word: &str| {
         let start = from + (word.as_ptr() as usize - line.as_ptr() as usize);
@@ -105,7 +105,6 @@ fn words(line: &str, from: usize) -> Vec<(&str, Range<usize>)> {
     line.split(SEPARATORS).filter(|word| !word.is_empty()).map(|word| (word, place(word))).collect()
 }
 
-/// Returns the points of a TOML file.
 fn toml_points(source: &Source) -> Result<Vec<PlacedPoint>, Diagnostic> {
     const HELP: &str = "write the corners as polygon = [[x, y], [x, y], ...]";
     let file: PolygonFile = toml::from_str(source.text()).map_err(|error| {
@@ -124,7 +123,7 @@ fn toml_points(source: &Source) -> Result<Vec<PlacedPoint>, Diagnostic> {
     file.polygon.iter().map(point).collect()
 }
 
-/// Makes a polygon from points. Repeated neighbours, and a last point that repeats the first, are taken once.
+/// Makes a polygon from points. Drops repeated neighbours, and a last point that repeats the first.
 fn polygon(
     source: &Source,
     mut points: Vec<PlacedPoint>,
@@ -152,7 +151,7 @@ fn polygon(
     Ok(GivenPolygon { polygon, notes, file })
 }
 
-/// Returns the corner at which a list of corners is defective, if there is a single one, and a hint.
+/// Returns the corner at which a list of corners is defective, if it is a single one, and a hint.
 fn place_and_help(error: PolygonError) -> (Option<usize>, &'static str) {
     match error {
         PolygonError::TooFewCorners { .. } => (None, POINTS_HELP),

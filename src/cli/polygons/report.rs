@@ -1,4 +1,4 @@
-//! The comparison of two polygons, for people.
+//! The comparison of two polygons, as text.
 
 use super::findings::{CornerFinding, Findings, PartFinding, PolygonFinding};
 use crate::text::{Columns, counted, first_lines, short};
@@ -39,7 +39,7 @@ pub fn verdict(findings: &Findings) -> String {
     }
 }
 
-/// Adds lines with a key. Without lines, adds the line `none`.
+/// Adds lines with a key, or the line `none` if there are no lines.
 fn add(columns: &mut Columns, key: &str, lines: Vec<String>, none: &str) {
     let lines = if lines.is_empty() { vec![none.to_owned()] } else { lines };
     for (i, line) in first_lines(lines, |more| format!("and {more} more (--json lists all)")).iter().enumerate() {

@@ -1,5 +1,5 @@
-//! `cplan verify`: checks if a recorded motion is free of collision and within the limits, or if a recorded task is
-//! also the one that the world describes.
+//! `cplan verify`: checks whether a recorded motion is free of collisions and within the limits, and whether a recorded
+//! task is the task of the world.
 
 mod settings;
 mod text;
@@ -153,10 +153,9 @@ fn certificate(
     Ok(certificate.map_err(|why| why.to_string()))
 }
 
-/// Returns the view of a recorded motion.
 fn view(timed: TimedScene, recording: &Recording, findings: &MotionFindings) -> View {
     let (scene, path) = (timed.scene, recording.outline());
-    // The picture shows the arm at its collision.
+    // Show the arm at its collision.
     let shown = findings.collisions.first_contact.as_ref().map(|c| c.moment.configuration.into());
     View::of_picture(&Picture {
         title: vec![title_of(scene), format!("{} samples", findings.samples)],

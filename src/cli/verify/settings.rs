@@ -1,4 +1,4 @@
-//! Settings of a judgement, for one recording and for the lines of `cplan batch`.
+//! Settings of a judgement, for a recording and for the lines of `cplan batch`.
 
 use crate::cli::failure::Failure;
 use crate::engine::findings::{MotionFindings, verify};
@@ -56,7 +56,7 @@ impl Settings {
     }
 }
 
-/// A recording that is not read yet.
+/// A recording that has not been read yet.
 pub enum RecordingSource {
     /// A file.
     File(PathBuf),
@@ -77,7 +77,7 @@ pub struct JudgedRecording {
 /// Reads and judges a recording.
 ///
 /// # Errors
-/// Bad input, and settings that do not fit the recording. A collision is no error, because it is a result of the judgement.
+/// Bad input, and settings that do not fit the recording. A collision is a result, not an error.
 pub fn judge(loaded: LoadedScene, source: &RecordingSource, settings: &Settings) -> Result<JudgedRecording, Failure> {
     let mut loaded = loaded.with_margins(settings.clearance, settings.calibration)?;
     let mut recorded = match (source, &settings.topic) {

@@ -10,7 +10,7 @@ use crate::output::{Line, StepLine, configuration, format_columns, step_lines};
 use crate::space::Recording;
 use crate::text::{chosen_length, counted, fixed, format_distinct, length, length_down, length_unlike};
 
-/// Depth of a contact, in metres, below which it counts as rounding.
+/// Depth of a contact, in metres, up to which it is attributed to rounding.
 const TOUCHING_DEPTH: f64 = 1e-9;
 
 /// Returns the findings as text.
@@ -102,10 +102,9 @@ fn collisions(arm: &Arm, collisions: &CollisionFinding, verdict: Judgement) -> V
     lines
 }
 
-/// Describes a violated limit.
 fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     let excess = &limit.excess;
-    // A motor turns as the joint does that it drives.
+    // A motor is described like the joint that it drives.
     let joint = arm.joints.get(excess.joint).unwrap_or(&arm.joints[1]);
     let unit = joint.unit();
     // The allowed value has no sign.
@@ -127,7 +126,7 @@ fn broken(arm: &Arm, limit: &LimitFinding) -> String {
     format!("{}: {what}, {}", limit.joint, format_moment(&limit.moment))
 }
 
-/// Describes the turn of the wrist in which the payload hits an obstacle. Returns `None` if it hits nothing.
+/// Describes the turn of the wrist in which the payload hits an obstacle. `None` if it hits nothing.
 fn turn(step: &StepFinding) -> Option<Line> {
     let contact = step.turn.as_ref()?.contact.as_ref()?;
     let object = step.object.as_deref().or(step.carried.as_deref()).unwrap_or_default();

@@ -27,7 +27,7 @@ impl Files {
     /// Reads a file that the URDF or the world refers to.
     ///
     /// # Errors
-    /// If the file cannot be read, is larger than 256 MiB, or is not the one that the certificate is about.
+    /// If the file cannot be read, is larger than 256 MiB, or is not the file to which the certificate belongs.
     pub fn bytes(&self, input: Input, path: &Path) -> Result<Vec<u8>, CheckError> {
         if !path.is_file() {
             return Err(CheckError::in_file(

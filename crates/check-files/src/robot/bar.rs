@@ -11,7 +11,7 @@ use num_bigint::Sign;
 use std::collections::BTreeSet;
 
 impl Robot<'_> {
-    /// Makes the bar: all points within a radius of the segment from a joint to the next joint or to the tip.
+    /// Makes the bar: all points within a radius of the segment from a joint to the next joint or the tip.
     pub(super) fn bar(&self, last: usize, radius: &Decimal) -> ReadResult<CollisionShape> {
         if radius.sign() != Sign::Plus {
             return Err(CheckError::in_file(Input::World, "the radius of a bar must be positive"));

@@ -15,15 +15,15 @@ const MAX_NODES: usize = 1 << 16;
 /// Maximum number of vertices that the scene shows.
 const MAX_POINTS: usize = 1 << 22;
 
-/// Elements that place a node.
+/// Elements that transform the coordinates of a node.
 const TRANSFORM_ELEMENTS: [&str; 6] = ["matrix", "translate", "rotate", "scale", "lookat", "skew"];
-/// Maximum number of such elements per node.
+/// Maximum number of transformations per node.
 const MAX_TRANSFORM_ELEMENTS: usize = 16;
 
 /// Negative binary logarithm of the difference below which numbers count as equal.
 const EQUALITY_BITS: u32 = 40;
 
-/// A linear map followed by a translation. It is stored as a pose, but usually is not a rotation.
+/// A linear map followed by a translation. It is stored as a pose, but usually is no rotation.
 type Affine = Pose;
 
 struct Scene<'a> {
@@ -38,7 +38,7 @@ pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     let text = std::str::from_utf8(bytes).map_err(|_| "it is not text")?;
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let text = text.trim_start_matches('\u{feff}');
-    // Ignore comments before the declaration.
+    // Drop comments before the declaration.
     let before = text.find("<?xml").filter(|at| is_comment(&text[..*at]));
     let text = &text[before.unwrap_or(0)..];
     let document = Document::parse_with_options(text, options).map_err(|error| error.to_string())?;
@@ -60,7 +60,7 @@ pub fn vertices(bytes: &[u8]) -> Result<Vec<Vector>, String> {
     if let Some(shown) = shown {
         scene.show(shown, &to_file, 0)?;
     }
-    // If the scene shows nothing, all meshes count, in their own coordinates.
+    // If the scene shows nothing, use all meshes in their own coordinates.
     if scene.points.is_empty() {
         let meshes = children_named(root, "geometry").filter_map(|geometry| child(geometry, "mesh"));
         meshes.collect::<Vec<_>>().into_iter().try_for_each(|mesh| scene.positions(mesh, &to_file))?;
@@ -192,8 +192,7 @@ fn scaled(by: Vector) -> Affine {
     map
 }
 
-/// Returns the map from a node's coordinates to those of its parent. It applies the node's transformations from the
-/// last to the first.
+/// Returns the map from a node's coordinates to those of its parent. The node's last transformation is applied first.
 fn node_transform(node: Node) -> Result<Affine, String> {
     let mut all = Pose::identity();
     let is_one = |part: &Node| TRANSFORM_ELEMENTS.contains(&part.tag_name().name());
@@ -204,7 +203,7 @@ fn node_transform(node: Node) -> Result<Affine, String> {
         let kind = part.tag_name().name();
         let values = numbers(part)?;
         let vector = || [0, 1, 2].map(|k| values[k].clone());
-        // Up to rounding, the last row must be 0 0 0 1.
+        // The last row must be 0 0 0 1, up to rounding.
         let is_last_row = |k: usize| {
             (&values[k] - &Interval::whole(i32::from(k == 15))).magnitude()
                 < Interval::whole(1).in_halves(EQUALITY_BITS).lower
@@ -238,7 +237,7 @@ mod tests {
 
     const SHOWN: &str = "<scene><instance_visual_scene url=\"#v\"/></scene>";
 
-    /// Makes a file with a triangle in a node without placement, in centimetres.
+    /// Makes a file in centimetres, with a triangle in a node without transformations.
     fn triangle(node: &str, scene: &str) -> String {
         format!(
             r##"<?xml version="1.0"?><COLLADA><asset><unit meter="0.01"/></asset><geometry id="g"><mesh>

@@ -1,4 +1,4 @@
-//! Limits of motors as limits of joints, and of a sum of both joint values.
+//! Limits of motors, converted to limits of joints and of a sum of both joint values.
 
 use crate::world::drives::Drives;
 use cplan_check::arm::Joint;
@@ -16,7 +16,7 @@ pub fn narrow(drives: &Drives, joints: &mut [Joint; 2]) -> Option<JointSum> {
         return None;
     }
     let (Axis::Line(outer), Some(inner)) = (&joints[0].axis, &joints[0].within) else { return None };
-    // All values of joint 2 for which any value of joint 1 allows the sum.
+    // The range of joint 2 contains all values with which the sum is allowed for some value of joint 1.
     let turned = |first: &Range| {
         let mut turned = first.each_ref().map(|q1| &drives.ratio * q1);
         turned.sort();

@@ -8,14 +8,14 @@ use num_bigint::BigInt;
 /// Number of decimals of the least thickness of a layer: `10^-6` m.
 const MIN_THICKNESS_DECIMALS: u32 = 6;
 
-/// Number of decimals of the tolerance of layers: `10^-9` m. Vertices at most this far outside a layer belong to it.
+/// Number of decimals of the tolerance of layers: `10^-9` m. A vertex belongs to a layer if it is at most this far outside.
 const LAYER_TOLERANCE_DECIMALS: u32 = 9;
 
 fn metres(digits: u32) -> BigInt {
     Interval::from(&Decimal::power_of_ten(digits)).lower
 }
 
-/// Sorts heights, and drops each height that is less than the least thickness of a layer above the one before.
+/// Sorts heights. Drops a height if it is less than the least thickness above the previous one.
 pub fn cuts(mut ends: Vec<BigInt>) -> Vec<BigInt> {
     let thinnest = metres(MIN_THICKNESS_DECIMALS);
     ends.sort();
@@ -24,8 +24,8 @@ pub fn cuts(mut ends: Vec<BigInt>) -> Vec<BigInt> {
 }
 
 impl Surface {
-    /// Cuts the surface into layers. Returns, for each layer from the lowest upwards, its heights, and points whose
-    /// convex hull is the layer.
+    /// Cuts the surface into layers. Returns for each layer, from the lowest upwards, points whose convex hull is the
+    /// layer, and its heights.
     ///
     /// The result is empty if no cut goes through the surface, or if the edges of the surface are unknown.
     pub fn layers(&self, cuts: &[BigInt]) -> Vec<(Vec<Point>, [Interval; 2])> {
@@ -57,7 +57,7 @@ impl Surface {
     }
 
     /// Returns the points where edges cross the height of a cut. Omits edges whose ends are both within the tolerance
-    /// of the cut: these ends already belong to both layers.
+    /// of the cut, because these ends already belong to both layers.
     fn crossings(&self, cut: &BigInt, rounded: &BigInt) -> Vec<Point> {
         let [floor, top] = [cut - rounded, cut + rounded];
         let is_at = |height: &Interval| floor <= height.upper && height.lower <= top;
@@ -69,7 +69,7 @@ impl Surface {
             if from.1.lower >= *cut || *cut >= to.1.upper || is_at(&from.1) && is_at(&to.1) {
                 return None;
             }
-            // The crossing is on the edge, even if rounding puts it beyond an end.
+            // Rounding must not move the crossing beyond an end of the edge.
             let share = (&Interval::exact(cut.clone()) - &from.1).divided(&(&to.1 - &from.1));
             let one = BigInt::from(1) << BITS;
             let share = Interval { lower: share.lower.max(BigInt::ZERO), upper: share.upper.min(one) };

@@ -9,7 +9,7 @@ const MAX_FOLDER_DEPTH: usize = 4;
 /// Maximum number of folders searched below a folder.
 const MAX_FOLDERS: usize = 1_000;
 
-/// Finds the folders that are packages with this name: the folder itself, or those below it, nearest first.
+/// Finds the packages with this name: the folder itself, or folders below it, nearest first.
 pub fn declared(package: &str, folder: &Path) -> Vec<PathBuf> {
     let mut level = vec![folder.to_owned()];
     let (mut found, mut seen) = (Vec::new(), 0);
@@ -29,7 +29,7 @@ fn name(folder: &Path) -> Option<String> {
     Some(name.text()?.trim().to_owned())
 }
 
-/// Returns the folders in a folder, sorted by name, without hidden ones.
+/// Returns the folders in a folder, sorted by name, except hidden ones.
 fn subfolders(folder: &Path) -> Vec<PathBuf> {
     let entries = folder.read_dir().into_iter().flatten().filter_map(Result::ok);
     let is_folder = |entry: &std::fs::DirEntry| entry.file_type().is_ok_and(|kind| kind.is_dir());

@@ -1,4 +1,4 @@
-//! Reads meshes: the corners of their faces, whose convex hull is used for collisions, and the edges between corners.
+//! Reads meshes: the corners of faces, whose convex hull is the collision shape, and the edges between corners.
 
 use super::pose::Vector;
 use super::solid::Mesh;
@@ -27,8 +27,7 @@ const MAX_PARENT_FOLDERS: usize = 5;
 type Single = [u32; 3];
 
 impl<'a> Tree<'a> {
-    /// Reads a `<mesh>`. The outer error is a mistake in the URDF. The inner error is the reason why the mesh's file
-    /// cannot be read.
+    /// Reads a `<mesh>`. The outer error is a mistake in the URDF, the inner one the reason why the mesh's file cannot be read.
     pub(super) fn mesh(&self, node: Node<'a, 'a>) -> ReadResult<ReadResult<Mesh>> {
         let is_scaled = node.has_attribute("scale");
         let scale = if is_scaled { self.vector(node, "scale")? } else { [1; 3].map(Interval::whole) };
@@ -111,7 +110,7 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
                 let point = <[Decimal; 3]>::try_from(numbers).map_err(|_| "a vertex needs three numbers")?;
                 vertices.push(point.each_ref().map(Interval::from));
             }
-            // Numbers of textures and normals follow after slashes. Negative numbers count from the end.
+            // Slashes separate the numbers of textures and normals. Negative numbers count from the end.
             Some("f") => {
                 let mut face = Vec::new();
                 for word in words {
@@ -122,7 +121,7 @@ fn obj(bytes: &[u8]) -> Result<Mesh, String> {
                 }
                 faces.push(face);
             }
-            // Appearance, names and other keys without an effect on the shape.
+            // Skip appearance, names and other keys that do not affect the shape.
             None
             | Some("vt" | "vn" | "vp" | "g" | "o" | "s" | "mg" | "usemtl" | "mtllib" | "shadow_obj" | "trace_obj") => {}
             Some(word) if word.starts_with('#') => {}
@@ -181,10 +180,9 @@ fn exact_vector(corner: Single) -> Option<Vector> {
     Some([x?, y?, z?])
 }
 
-/// Returns the paths at which a mesh may be: relative to the URDF, or in a package. The package NAME of
-/// `package://NAME/...` is looked up in two ways. First: folders whose `package.xml` states NAME, among the folders above
-/// the URDF and those of `ROS_PACKAGE_PATH`, and below these. Then: folders that are called NAME in the same places and
-/// in `AMENT_PREFIX_PATH`.
+/// Returns the paths at which a mesh may be: relative to the URDF, or in a package. For `package://NAME/...`, these are
+/// first the folders whose `package.xml` states NAME, in or below the folders above the URDF and those of
+/// `ROS_PACKAGE_PATH`. Then they are folders called NAME in the same places and in `AMENT_PREFIX_PATH`.
 fn candidates(name: &str, urdf: &Path) -> Vec<PathBuf> {
     let Some(rest) = name.strip_prefix("package://") else {
         return vec![urdf.with_file_name(name.strip_prefix("file://").unwrap_or(name))];
@@ -205,7 +203,7 @@ fn candidates(name: &str, urdf: &Path) -> Vec<PathBuf> {
         own.into_iter().chain([folder.join(package)])
     };
     let places: Vec<PathBuf> = above.chain(ros).collect();
-    // A repository ends the search.
+    // Do not search above the root of a repository.
     let repository =
         places.iter().position(|place| place.join(".git").exists()).map_or(MAX_PARENT_FOLDERS, |at| at + 1);
     let declared =

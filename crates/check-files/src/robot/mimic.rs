@@ -18,8 +18,7 @@ impl<'a> Tree<'a> {
         self.error(joint, "joints mimic one another in a cycle")
     }
 
-    /// Returns the value of a joint: 0 for the two planned joints, and the value that follows from its leader for a
-    /// mimic joint.
+    /// Returns the value of a joint: 0 for the two planned joints. The value of a mimic joint follows from its leader.
     pub(super) fn value(&self, joint: Node<'a, 'a>, followed: usize) -> ReadResult<Interval> {
         let Some(mimic) = child(joint, "mimic") else {
             return match self.values.get(self.text(joint, "name")?) {
@@ -43,8 +42,8 @@ impl<'a> Tree<'a> {
 }
 
 impl<'a> Robot<'a> {
-    /// Checks that no joint that carries the tip or shapes mimics one of the given joints. The arm does not model how
-    /// the links of such a joint would move.
+    /// Checks that no joint that carries the tip or shapes mimics one of the given joints. The arm has no model for the
+    /// motion of such links.
     pub(super) fn check_independence(&self, joints: &[Node<'a, 'a>]) -> ReadResult<()> {
         for &link in &self.tree.order {
             let has_shapes = ["collision", "visual"].iter().any(|kind| child(self.tree.links[link], kind).is_some());

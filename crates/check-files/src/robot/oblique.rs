@@ -1,23 +1,22 @@
-//! Planar projections of cylinders that are neither perpendicular to the plane nor in it.
+//! Planar projections of cylinders whose axes are neither perpendicular to the plane nor in it.
 
 use cplan_check::interval::{BITS, Interval, Point, length, sum};
 use cplan_check::shapes::Outline;
 use num_bigint::Sign;
 
-/// Number of sides of the polygon that replaces half of an ellipse, the projection of a cylinder's end.
+/// Number of sides of a polygon that replaces half an ellipse. The ellipse is the projection of a cylinder's end.
 const ELLIPSE_STEPS: i32 = 16;
 
-/// Inverse of the tolerance for simple projections, which is 0.5 %. If the projection of a cylinder's end deviates from
-/// a disc by less, a disc replaces it. If the projection is flatter than this share, a rectangle replaces the cylinder.
+/// Inverse of the tolerance of simple projections, 0.5 %. A disc replaces a projected end that deviates from it by
+/// less. A rectangle replaces the cylinder if the projected ends are flatter than this share.
 const PROJECTION_TOLERANCE_DIVISOR: u32 = 200;
 
-/// Negative binary logarithm of a slope. If a cylinder's axis has at most this slope to the plane, it counts as lying
-/// in the plane.
+/// Negative binary logarithm of the greatest slope to the plane with which an axis counts as lying in the plane.
 const IN_PLANE_BITS: u64 = 44;
 
 /// Returns the core and the radius of the projection of an oblique cylinder. The projection is the convex hull of two
-/// ellipses, one for each end, with half-axes `radius` across the projected axis and `radius * tilt` along it. The core
-/// is symmetric about the middle.
+/// ellipses, one per end, with half-axes `radius` across the projected axis and `radius * tilt` along it. The core is
+/// symmetric about the middle.
 pub fn oblique(
     along: &Point,
     tilt: &Interval,
@@ -28,7 +27,7 @@ pub fn oblique(
     let end = along.each_ref().map(|c| c * half);
     let length = length(along);
     let (one, least) = (Interval::whole(1), Interval::whole(1).over(PROJECTION_TOLERANCE_DIVISOR));
-    // An axis whose enclosure is too wide to be useful is treated in the same way.
+    // A disc replaces the projected ends, also if the enclosure of the axis is too wide to be useful.
     if length.lower.sign() != Sign::Plus || tilt.lower >= (&one - &least).lower {
         return (vec![end], if outline == Outline::Around { radius.clone() } else { radius * tilt });
     }

@@ -15,8 +15,8 @@ use num_bigint::BigInt;
 use std::collections::{BTreeMap, BTreeSet};
 
 impl<'a> Robot<'a> {
-    /// Finds the last of the two joints that moves a link. Returns `Some(None)` for a static link. Returns `None` if
-    /// another movable joint carries the link, because then the position of the link is unknown.
+    /// Finds the last of the two joints that moves a link. `Some(None)` for a static link. `None` if another movable
+    /// joint carries the link, so that its position is unknown.
     pub(super) fn group(&self, link: &'a str) -> ReadResult<Option<Option<usize>>> {
         if let Some(last) = self.moving_joint(link)? {
             return Ok(Some(Some(last)));
@@ -56,7 +56,7 @@ impl<'a> Robot<'a> {
             let last = whole.last;
             let others = ends.iter().filter(|(other, _)| apart.contains(&(link, *other)));
             let cuts = cuts(others.flat_map(|(_, ends)| ends.clone()).collect());
-            // A link that turns with the wrist is replaced by a disc, and is not cut.
+            // A disc replaces a link that turns with the wrist. It is not cut.
             let turns =
                 self.tree.joints_above(link)?.iter().any(|joint| wrist.is_some() && joint.attribute("name") == wrist);
             let layers = surface.filter(|_| !turns).map_or_else(Vec::new, |surface| surface.layers(&cuts));
@@ -92,7 +92,7 @@ impl<'a> Robot<'a> {
     }
 }
 
-/// Converts a shape of a static link, or of a link that joint 1 carries, to plane coordinates, with joint 1 at zero.
+/// Converts a shape of a static link, or of a link that joint 1 carries, to plane coordinates with joint 1 at zero.
 fn at_zero(own: &CollisionShape, base: &Point) -> CollisionShape {
     let mut own = own.clone();
     if own.last.is_some() {

@@ -10,11 +10,12 @@ use cplan_check::shapes::{CollisionShape, Outline};
 use num_bigint::BigInt;
 use std::collections::VecDeque;
 
-/// Number of decimals of the distance within which shapes count as meeting: `10^-8` m. Links often begin where others
-/// end, so at some angles the shapes only touch.
+/// Number of decimals of the greatest distance at which shapes count as meeting: `10^-8` m. Links often begin where
+/// others end, so that the shapes only touch at some angles.
 const TOUCHING_DECIMALS: u32 = 8;
 
-/// Largest number of boxes of configurations in which one pair is tested. If they do not decide, the contact counts.
+/// Largest number of boxes of configurations for the test of a pair. If they do not decide, contact of the pair counts
+/// as a collision.
 const MAX_CELLS: usize = 4096;
 
 /// Ignores contact between shapes that are proven to meet in every configuration.
@@ -32,7 +33,7 @@ pub(super) fn ignore_permanent_contacts(arm: &mut Arm) {
     }
 }
 
-/// Returns true if `other` is an obstacle for the moving shape `own`, the two certainly share heights, and they are
+/// Returns true if `other` is an obstacle for the moving shape `own`, if they certainly share heights, and if they are
 /// proven to meet in every configuration.
 fn is_permanent(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool {
     let is_obstacle = other.last.is_none() || own.last == Some(1);
@@ -42,8 +43,8 @@ fn is_permanent(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool
         && (meet_at_axis(arm, own, other) || meet_in_boxes(arm, own, other))
 }
 
-/// Returns true if one shape contains a disc about the axis of the joint between the two, and the other reaches this
-/// disc. They then meet at every angle.
+/// Returns true if one shape contains a disc about the axis of the joint between them, and the other one reaches this
+/// disc. Then they meet at every angle.
 fn meet_at_axis(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool {
     let (axis, joint) = match (own.last, other.last) {
         (Some(0), None) => (arm.base.clone(), 0),
@@ -69,7 +70,7 @@ fn meet_at_axis(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool
 }
 
 /// Returns true if boxes are found that cover all configurations, and in each of which the shapes overlap. A box in
-/// which they may be apart is halved. The search fails at the first box in whose middle they are not proven to overlap.
+/// which they may be apart is halved. The search fails at the first box in the middle of which no overlap is proven.
 fn meet_in_boxes(arm: &Arm, own: &CollisionShape, other: &CollisionShape) -> bool {
     let (mover, beside) = (MovingBody::new(arm, &own.within), other.owner());
     let cell = |ranges: &Rectangle| Cell::from(ranges).for_link(Some(&beside));
@@ -110,8 +111,7 @@ fn is_same_shape(a: &CollisionShape, b: &CollisionShape) -> bool {
     (&a.link, a.kind, a.number) == (&b.link, b.kind, b.number)
 }
 
-/// Returns the mesh that consists of these layers, which are ordered from the lowest to the highest. The mesh counts as
-/// its convex hull.
+/// Returns the mesh that consists of these layers, ordered from the lowest to the highest. Its shape is the convex hull.
 fn uncut(layers: &[CollisionShape]) -> CollisionShape {
     let mut whole = layers[0].clone();
     for layer in &layers[1..] {

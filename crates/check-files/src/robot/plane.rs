@@ -18,8 +18,8 @@ pub struct Plane {
     pub across: [Vector; 2],
     /// Direction of heights.
     pub normal: Vector,
-    /// Sine of the greatest deviation of the joints from the plane: the angle between a revolute joint's axis and the
-    /// normal, or between a prismatic joint's axis and the plane.
+    /// Sine of the greatest deviation of the joints from the plane. This is the angle between the axis of a revolute
+    /// joint and the normal, or between the axis of a prismatic joint and the plane.
     pub off: BigInt,
 }
 
@@ -67,8 +67,7 @@ impl Plane {
         Some(Self { across, normal, off })
     }
 
-    /// Describes in words how much the joints deviate from the plane in which they are assumed to move. The text is
-    /// empty if the deviation is only rounding.
+    /// Describes in words how much the joints deviate from the plane. Empty if the deviation is only rounding.
     pub fn idealized(&self) -> String {
         let is_within = |digits: &u32| Interval::from(&Decimal::power_of_ten(*digits)).lower >= self.off;
         match (0..=ROUNDING_DECIMALS).rev().find(is_within) {
@@ -90,8 +89,8 @@ impl Plane {
         dot(v, &self.normal)
     }
 
-    /// Returns the projection of an axis onto the plane, scaled to unit length. Returns `None` if the axis may be
-    /// perpendicular to the plane.
+    /// Returns the projection of an axis onto the plane, scaled to unit length. `None` if the axis may be perpendicular
+    /// to the plane.
     pub fn direction(&self, axis: &Vector) -> Option<Point> {
         let flat = self.flat(axis);
         // A vector in the plane already has unit length.

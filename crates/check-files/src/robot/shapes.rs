@@ -18,9 +18,8 @@ pub struct PlacedShape<'a> {
 }
 
 impl<'a> Robot<'a> {
-    /// Finds all shapes that are checked for collisions: the collision shapes of each link, or its visual shapes if it
-    /// has no collision shapes. If one of the two moving parts of the arm has no shapes, or one of its meshes cannot be
-    /// read, the world's bar replaces it.
+    /// Finds all shapes that are checked for collisions: the collision shapes of each link, or its visual shapes if it has no
+    /// collision shapes. The world's bar replaces a moving part of the arm that has no shapes, or a mesh that cannot be read.
     ///
     /// # Errors
     /// If a shape cannot be read, even if the certificate does not refer to it. Only two kinds of unreadable shapes are

@@ -11,7 +11,7 @@ use cplan_check::shapes::{Body, Outline};
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
 
-/// Points of a solid. If the faces of the solid are known, also the edges of the faces, as pairs of indices of points.
+/// Points of a solid. If its faces are known, also the edges of the faces, as pairs of indices of points.
 pub struct Mesh {
     pub points: Vec<Vector>,
     pub edges: Vec<[usize; 2]>,
@@ -25,7 +25,7 @@ pub enum Solid {
         radius: Interval,
         half: Interval,
     },
-    /// A capsule or a sphere. `half` is half the distance between the centres of the caps: 0 for a sphere.
+    /// A capsule or a sphere. `half` is half the distance between the centres of the caps, which is 0 for a sphere.
     Capsule {
         radius: Interval,
         half: Interval,
@@ -39,8 +39,8 @@ impl Solid {
 }
 
 impl<'a> Tree<'a> {
-    /// Reads a `<geometry>` of the URDF. Returns `None` if the solid has no size. The outer error is a mistake in the
-    /// URDF. The inner error is the reason why the solid's mesh cannot be read.
+    /// Reads a `<geometry>` of the URDF. `None` if the solid has no size. The outer error is a mistake in the URDF, the
+    /// inner one the reason why the solid's mesh cannot be read.
     pub fn solid(&self, node: Node<'a, 'a>) -> ReadResult<Option<ReadResult<Solid>>> {
         let half = |n: &Decimal| Interval::from(n).half();
         let read = |name: &str| self.number(node, name);
@@ -157,9 +157,8 @@ impl Robot<'_> {
     }
 }
 
-/// Computes an outer and an inner approximation of the convex hull of points. Both have the corners of the hull of the
-/// middles of the enclosures, which is exact. The outer one also has a radius, which covers the distances of points
-/// from their middles.
+/// Computes an outer and an inner approximation of the convex hull of points. Both have the corners of the exact hull of the
+/// enclosures' middles. The outer one also has a radius, which covers the distances of points from their middles.
 pub fn bodies(last: Option<usize>, points: impl Iterator<Item = Point>, heights: &[Interval; 2]) -> [Body; 2] {
     let mut error = BigInt::ZERO;
     let middles = points.map(|p| {
@@ -172,8 +171,7 @@ pub fn bodies(last: Option<usize>, points: impl Iterator<Item = Point>, heights:
     let ring = hull(middles.collect());
     let widened = |middle: BigInt| Interval { lower: &middle - &error, upper: middle + &error };
     let points: Vec<Point> = ring.into_iter().map(|p| p.map(widened)).collect();
-    // The distances of a point and of a corner from their middles add up to less than two errors, across and along
-    // together.
+    // Together, the distances of a point and of a corner from their middles are less than two errors along each axis.
     [Interval::exact(&error * 4), Interval::whole(0)].map(|radius| {
         let shape = Shape { points: points.clone(), radius };
         Body { link: last.unwrap_or(0), shape, heights: Some(heights.clone()) }

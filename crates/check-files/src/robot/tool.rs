@@ -13,15 +13,15 @@ use cplan_check::{CheckError, Input};
 use num_bigint::{BigInt, Sign};
 use roxmltree::Node;
 
-/// Number of decimals of the maximum depth to which an object may press into its support, as a share of the arm's
+/// Number of decimals of the greatest depth to which an object may press into its support, as a share of the arm's
 /// reach: `10^-4`.
 const PENETRATION_DECIMALS: u32 = 4;
 
 /// Number of decimals of the maximum distance of the tip from the wrist's axis: `10^-6` m, for rounding in the URDF.
 const ON_AXIS_DECIMALS: u32 = 6;
 
-/// Number of decimals of the tolerance of axes along the normal: the cosine of the angle between the two is at least `1
-/// - 10^-9`.
+/// Number of decimals of the tolerance of axes along the normal. The cosine of the angle between axis and normal is at
+/// least `1 - 10^-9`.
 const UPRIGHT_DECIMALS: u32 = 9;
 
 /// Returns a lower bound on the depth of a point in a shape, with a relative error of about `10^-12`. Returns 0 if the
@@ -38,11 +38,11 @@ fn depth(shape: &Shape, point: &Point) -> BigInt {
     depth
 }
 
-/// Binary logarithm of the greatest depth, metres, that is found. The search finds one binary digit after another.
+/// Binary logarithm of the greatest depth that the search finds, metres. It finds one binary digit after another.
 const MAX_DEPTH_BITS: u32 = 10;
 const DEPTH_BITS: u32 = 60;
 
-/// Replaces the two approximations of a shape by discs about a point. In all orientations, the outer disc covers the
+/// Replaces both approximations of a shape by discs about a point. In all orientations, the outer disc covers the
 /// shape, and the shape covers the inner disc.
 ///
 /// # Errors
@@ -91,8 +91,8 @@ impl<'a> Robot<'a> {
         task.stroke.as_ref().map_or(Ok(()), |stroke| self.of_the_tool(&stroke.joint, "stroke").map(|_| ()))
     }
 
-    /// Returns a joint of the tool and the link that it carries. The joint must carry the tip, and its axis must be
-    /// along the plane's normal. Joints that mimic it must not carry shapes or the tip.
+    /// Returns a joint of the tool, and the link that it carries. The joint must carry the tip, and its axis must be
+    /// along the plane's normal. Joints that mimic it must carry neither shapes nor the tip.
     fn of_the_tool(&mut self, name: &str, what: &str) -> ReadResult<(Node<'a, 'a>, &'a str)> {
         let wrong = |why: &str| Err(CheckError::in_file(Input::World, format!("the {what}'s joint \"{name}\" {why}")));
         let found = self.tree.joints.iter().find(|(_, node)| node.attribute("name") == Some(name));
@@ -125,8 +125,8 @@ impl<'a> Robot<'a> {
         Ok(LiftAxis { is_upward, raised: self.tree.values.get(joint).cloned().unwrap_or(Interval::whole(0)) })
     }
 
-    /// Returns true if `joint`, which lowers the tool, carries a shape. A bar ends at the tip, so the joint carries the
-    /// bar if it carries the tip.
+    /// Returns true if `joint`, which lowers the tool, carries a shape. It carries a bar if it carries the tip, at
+    /// which the bar ends.
     ///
     /// # Errors
     /// If the links do not form a tree.
@@ -154,7 +154,7 @@ pub fn penetration_depth_allowed(arm: &Arm) -> Interval {
 
 /// The joint of a stroke, as an axis of heights.
 pub struct LiftAxis {
-    /// True if greater values of the joint are higher.
+    /// True if greater values of the joint raise the tool.
     is_upward: bool,
     /// Value of the joint with the tool raised.
     raised: Interval,
@@ -172,7 +172,7 @@ impl LiftAxis {
     }
 }
 
-/// Returns the least and the greatest height of a tool that is lowered by a length, relative to its raised position.
+/// Returns the least and the greatest height, relative to the raised tool, of a tool that is lowered by a length.
 pub fn swept_heights(by: &Decimal) -> [Decimal; 2] {
     let [raised, lowered] = [Decimal::whole(0), -by];
     if lowered < raised { [lowered, raised] } else { [raised, lowered] }
@@ -185,8 +185,8 @@ pub fn heights_to(height: &Interval) -> [Decimal; 2] {
     Interval { lower: height.lower.clone().min(zero.clone()), upper: height.upper.clone().max(zero) }.ends()
 }
 
-/// Extends a shape's heights to all heights that it has while the tool is in a range above its raised position. A bar
-/// ends at a height that stays the same, so it also keeps its own heights.
+/// Extends the heights of a shape to all heights that it has while the tool is in a range above its raised position.
+/// One end of a bar stays at its height, so a bar also keeps its own heights.
 pub fn displaced(shape: &CollisionShape, [least, most]: &[Decimal; 2]) -> Body {
     let body = &shape.around;
     let zero = Decimal::whole(0);

@@ -11,7 +11,7 @@ use num_bigint::{BigInt, Sign};
 use roxmltree::{Document, Node};
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Maximum range of a revolute joint, radians. A joint with a greater range counts as continuous.
+/// Greatest range of a revolute joint, radians. A joint with a greater range counts as continuous.
 const MAX_TURN_RANGE: i32 = 1000;
 
 /// Least absolute value of a limit that counts as no limit, radians or metres.
@@ -55,7 +55,7 @@ pub fn children<'a>(node: Node<'a, 'a>, name: &'static str) -> impl Iterator<Ite
     node.children().filter(move |n| n.tag_name().name() == name && n.tag_name().namespace() == namespace)
 }
 
-/// Returns true if an element belongs to xacro. The file must then be expanded first.
+/// Returns true if an element belongs to xacro. Such a file must be expanded first.
 fn is_xacro(node: &Node, robot: &Node) -> bool {
     let namespace = node.tag_name().namespace().filter(|namespace| Some(*namespace) != robot.tag_name().namespace());
     namespace.is_some_and(|namespace| namespace.ends_with("/xacro"))
@@ -66,7 +66,7 @@ pub fn child<'a>(node: Node<'a, 'a>, name: &'static str) -> Option<Node<'a, 'a>>
     children(node, name).next()
 }
 
-/// Returns true if a joint is movable and has a single value.
+/// Returns true if a joint is movable, and its value is a single number.
 pub fn moves(joint: &Node) -> bool {
     matches!(joint.attribute("type"), Some("revolute" | "continuous" | "prismatic"))
 }
@@ -261,8 +261,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Returns the limits of a joint. The world states them; otherwise they are the limits of the URDF, narrowed by its
-    /// soft limits.
+    /// Returns the limits of a joint: those of the world, or else those of the URDF, narrowed by its soft limits.
     pub fn limits(&self, joint: Node<'a, 'a>, world: &WorldFile) -> ReadResult<Limits> {
         let turns = joint.attribute("type") != Some("prismatic");
         if let Some(ends) = world.robot.limits.get(self.text(joint, "name")?) {
@@ -304,8 +303,8 @@ impl<'a> Tree<'a> {
         Ok(Limits::Ends([[low.clone(), low], [high.clone(), high]]))
     }
 
-    /// Returns two ranges of a joint's values: one that contains all values within the limits, and one that certainly
-    /// lies within them. Returns `None` for a continuous joint.
+    /// Returns two ranges of a joint's values. The first contains all values within the limits, and the second
+    /// certainly lies within them. `None` for a continuous joint.
     pub fn ends(&self, joint: Node<'a, 'a>, world: &WorldFile) -> ReadResult<Option<[Range; 2]>> {
         let (name, turns) = (self.text(joint, "name")?, joint.attribute("type") != Some("prismatic"));
         match self.limits(joint, world)? {
@@ -322,7 +321,7 @@ impl<'a> Tree<'a> {
         }
     }
 
-    /// Returns the default value of a joint that is held still: 0, or the limit nearest to 0.
+    /// Returns the default value of a fixed joint: 0, or the limit nearest to 0.
     pub fn rest(&self, joint: Node<'a, 'a>, world: &WorldFile) -> ReadResult<Interval> {
         let zero = Interval::whole(0);
         let Limits::Ends(ends) = self.limits(joint, world)? else { return Ok(zero) };

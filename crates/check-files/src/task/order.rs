@@ -19,7 +19,7 @@ pub(super) struct MatchedStep<'a> {
     pub(super) line: Option<StepLine>,
 }
 
-/// The state of the matching of executed steps with those of the world.
+/// The state of matching executed steps with those of the world.
 pub(super) struct Order<'a> {
     pub(super) left: Peekable<Enumerate<Iter<'a, ExecutedStep>>>,
     pub(super) renewed: Vec<usize>,
@@ -69,8 +69,8 @@ impl<'a> Order<'a> {
     }
 }
 
-/// Returns the time that the arm rests after each step. Checks that the arm rests between steps, before the first step
-/// and after the last one.
+/// Returns the time for which the arm rests after each step. Checks that the arm rests between steps, before the first
+/// step, and after the last one.
 pub(super) fn rest_durations(motion: &Motion, steps: &[MatchedStep]) -> Result<Vec<Decimal>, CheckError> {
     let knots = &motion.knots;
     let (mut last, mut all) = (0, Vec::new());

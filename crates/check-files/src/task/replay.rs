@@ -1,4 +1,4 @@
-//! Checks a task by repeating its steps one after the other.
+//! Checks a task by repeating its steps in order.
 
 mod arch;
 mod held;
@@ -28,14 +28,14 @@ use std::collections::BTreeMap;
 use std::iter;
 use std::ops::Range;
 
-/// The rule by which a carried object must keep away from an obstacle.
+/// The condition that a carried object must satisfy at an obstacle.
 #[derive(PartialEq)]
 enum ContactRule {
     Off,
-    /// The obstacle is a support. The object may press into it up to the allowed depth.
+    /// The obstacle is a support, into which the object may press up to the allowed depth.
     Pressed,
-    /// The object must keep away in all orientations about the tip. This rule applies to level objects and links that
-    /// joint 1 carries, because such links turn relative to the object.
+    /// The object must keep away in all orientations about the tip. This applies to a level object and a link that
+    /// joint 1 carries, because such a link turns relative to the object.
     Round,
 }
 
@@ -53,8 +53,8 @@ pub(super) struct Replay<'a> {
     keeps: String,
     /// Depth to which the carried object may press into its supports.
     pressed: Interval,
-    /// Obstacles and objects in their current state, then moving obstacles, then links of the robot. An entry is `None`
-    /// for the carried object.
+    /// Obstacles and objects in their current state, then moving obstacles, then links of the robot. `None` stands for
+    /// the carried object.
     present: Vec<Option<PlacedObstacle>>,
     /// All obstacles and links in their initial state.
     all: Vec<&'a Obstacle>,
@@ -63,18 +63,18 @@ pub(super) struct Replay<'a> {
     held: Option<HeldObject>,
     /// The joint that lowers the tool.
     lift: Option<LiftAxis>,
-    /// The stroke and the turn after the previous step, if they end during the motion of the next one.
+    /// The stroke and the turn after the previous step, if they end during the next motion.
     before: EndCurves,
-    /// Heights of the lowered tool at the start and at the goal, relative to the raised tool. `None` if the tool is
+    /// Height of the lowered tool at the start and at the goal, relative to the raised tool. `None` if the tool is
     /// raised there, or has been raised since.
     lowered: [Option<Interval>; 2],
-    /// Height of each object relative to its initial height, metres, at the place where it lies or was picked.
+    /// Height of each object, relative to its initial height, where it lies or was picked, metres.
     elevations: Vec<Decimal>,
-    /// Height of the present step's object relative to its initial height, metres, at the pick or the place.
+    /// Height of the current step's object, relative to its initial height, at the pick or the place, metres.
     elevation: Decimal,
     /// Objects that lie at other heights than initially, by their indices among the obstacles.
     elevated: BTreeMap<usize, Obstacle>,
-    /// Index among the obstacles of the object that was released last. `None` if it must not be touched any more.
+    /// Index among the obstacles of the object that was released last. `None` if it must no longer be touched.
     released: Option<usize>,
     /// Greatest deviation so far of an object or the tip from its required place.
     pub(super) off: BigInt,
@@ -87,10 +87,9 @@ enum ToolHeights<'a> {
     Raised,
     /// All heights during the stroke.
     Swept,
-    /// The carried object is checked at its final pose.
+    /// The final pose of the carried object.
     Lying,
-    /// The heights while the tool is in a range, which is relative to its raised position. Only shapes that the stroke
-    /// lowers are checked.
+    /// The heights while the tool is in a range above its raised position. Only shapes that the stroke lowers are checked.
     At(&'a [Decimal; 2]),
 }
 
@@ -160,14 +159,14 @@ impl<'a> Replay<'a> {
         &self.motion.knots[knot][0] - &self.motion.knots[0][0]
     }
 
-    /// Returns the pieces of the motion from a knot to another. If both are the same, returns a motion at rest.
+    /// Returns the pieces of the motion from one knot to another, or a motion at rest if both are the same.
     fn pieces(&self, knots: Range<usize>) -> Result<Vec<Piece>, CheckError> {
         let until = &self.motion.knots[..=knots.end];
         let piece = |knot: usize| piece(self.arm, &self.motion.interpolation, until, knot);
         (knots.start..knots.end.max(knots.start + 1)).map(piece).collect()
     }
 
-    /// Checks a step and updates the state. `after` are the steps that follow.
+    /// Checks a step, and updates the state. `after` has the steps that follow.
     pub(super) fn step(&mut self, matched: &MatchedStep, after: &[MatchedStep]) -> Result<(), CheckError> {
         let MatchedStep { step, done, renewed, line } = matched;
         // Objects return to their initial poses only after the arm has rested.
@@ -191,11 +190,11 @@ impl<'a> Replay<'a> {
             self.present[number] = Some(PlacedObstacle::new(&self.chain, self.all[number].clone())?);
             self.elevated.remove(&number);
             self.elevations[*object] = Decimal::whole(0);
-            // A renewed object counts as another object, so the exemption for the released one ends.
+            // A renewed object is another object than the released one, so it must not be touched.
             self.released = self.released.filter(|released| *released != number);
         }
         self.elevation = self.elevation_of(step);
-        // The arm stays where a step ends until its next motion begins.
+        // Between two motions, the arm stays where the first one ends.
         let (first, last) = (std::mem::replace(&mut self.knot, done.knots[1]), done.knots[1]);
         let (motion, released) = (self.motion, self.released);
         let (pieces, still) = (self.pieces(first..last)?, self.pieces(last..last)?);
@@ -252,14 +251,14 @@ impl<'a> Replay<'a> {
                 self.released = None;
             }
         }
-        // The last step leaves the arm there, and the exemptions of that step still apply.
+        // After the last step, the arm stays there, and the exemptions of that step still apply.
         if let Some(rest) = rest {
             self.free(&rest, &to, released, ToolHeights::Raised)?;
         }
         Ok(())
     }
 
-    /// Returns the height of a step's object relative to its initial height, metres, at the pick or the place.
+    /// Returns the height of a step's object, relative to its initial height, at the pick or the place, metres.
     fn elevation_of(&self, step: &Step) -> Decimal {
         match (&step.action, &self.held) {
             (Action::Pick { object, .. }, _) => self.elevations[*object].clone(),
@@ -283,8 +282,7 @@ impl<'a> Replay<'a> {
         Ok(())
     }
 
-    /// Returns the rule by which the carried object must keep away from an obstacle. Returns `None` if the two cannot
-    /// collide.
+    /// Returns the condition that the carried object must satisfy at an obstacle. `None` if they cannot collide.
     fn meets(&self, held: &HeldObject, obstacle: usize, tool: ToolHeights) -> Option<ContactRule> {
         let own = self.task.first + held.object;
         let (heights, others) = (self.all[own].heights.as_ref(), self.obstacle(obstacle).heights.as_ref());
@@ -307,7 +305,7 @@ impl<'a> Replay<'a> {
                 return None;
             }
         }
-        // A moving obstacle may or may not be there when the object arrives, so this check skips it.
+        // A moving obstacle may be elsewhere when the object arrives, so this check skips it.
         let moves = |present: &PlacedObstacle| present.obstacle.trajectory.is_some();
         if tool == ToolHeights::Lying && self.present[obstacle].as_ref().is_some_and(moves) {
             return None;
@@ -333,7 +331,7 @@ impl<'a> Replay<'a> {
         others.iter().map(|solid| part(solid, &*self.keeps, ContactRule::Off)).chain(supported).chain(round).collect()
     }
 
-    /// Checks two conditions when the motion of a carried object begins. No obstacle is inside the object. No support
+    /// Checks, when the motion of a carried object begins, that no obstacle is inside the object, and that no support
     /// is inside the part of the object that must keep away from supports.
     fn require_outside(
         &self,
@@ -368,8 +366,8 @@ impl<'a> Replay<'a> {
         bodies.any(|body| !body.misses_heights(heights))
     }
 
-    /// Checks that the arm, with its load, is free on pieces of motion that begin in the configuration `from`. The
-    /// second link may touch the object that was released last, and the obstacle with the index `also`.
+    /// Checks that arm and load are free on pieces of motion that begin in the configuration `from`. The second link
+    /// may touch the object that was released last, and the obstacle with the index `also`.
     fn free(&self, pieces: &[Piece], from: &Point, also: Option<usize>, tool: ToolHeights) -> Result<(), CheckError> {
         let heights = match (tool, &self.held) {
             (ToolHeights::Raised | ToolHeights::Lying, _) => None,

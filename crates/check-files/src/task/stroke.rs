@@ -1,5 +1,5 @@
-//! Strokes and turns that overlap with motions of the arm: the height of the tool, or the angle of the carried object,
-//! as a function of time.
+//! Strokes and turns that overlap with motions of the arm. The height of the tool, or the angle of the carried object,
+//! is a function of time.
 
 use crate::robot::tool::LiftAxis;
 use cplan_check::CheckError;
@@ -11,12 +11,12 @@ use num_bigint::{BigInt, Sign};
 /// certificates.
 const HEIGHT_TOLERANCE_DECIMALS: u32 = 9;
 
-/// Number of decimals of a distance that a stroke may turn back: `10^-12` m or radians, for rounding in certificates. With
-/// constant jerk from rest, the control point in the middle of the velocity is 0.
+/// Number of decimals of the greatest distance that a stroke may reverse: `10^-12` m or radians, for rounding in
+/// certificates. With constant jerk from rest, the control point in the middle of the velocity is 0.
 const ROUNDING_DECIMALS: u32 = 12;
 
-/// A stroke: cubic curves of the tool's height that never turn back. Heights are relative to the raised tool. Or a turn:
-/// its angles take the place of heights.
+/// A stroke: the tool's height as cubic curves that never reverse. Heights are relative to the raised tool. In a turn,
+/// angles replace heights.
 pub(super) struct StrokeCurve {
     /// Times of the knots, seconds after the start of the motion.
     times: Vec<Decimal>,
@@ -35,11 +35,12 @@ fn are_equal(a: &Interval, b: &Interval) -> bool {
 }
 
 impl StrokeCurve {
-    /// Makes a stroke from its knots, whose clock shows `start` when the motion starts. `ends` are the heights at which
-    /// the stroke must begin and end.
+    /// Makes a stroke from its knots. At the start of the motion, their clock shows `start`. `ends` are the heights at
+    /// which the stroke must begin and end.
     ///
     /// # Errors
-    /// If times do not increase, if the stroke turns back by more than rounding or moves at an end, or if an end is elsewhere.
+    /// If times do not increase, if the stroke reverses by more than rounding or moves at an end, or if an end has the
+    /// wrong height.
     pub(super) fn new(
         knots: &[[Decimal; 3]],
         start: &Decimal,
@@ -54,8 +55,8 @@ impl StrokeCurve {
         Ok(curve)
     }
 
-    /// Makes a turn from its knots, whose clock shows `start` when the motion starts. Angles are relative to the beginning
-    /// of the turn. It must end at the angle `by`.
+    /// Makes a turn from its knots. At the start of the motion, their clock shows `start`. Angles are relative to the
+    /// beginning of the turn, which must end at the angle `by`.
     ///
     /// # Errors
     /// Same as for [`StrokeCurve::new`].
@@ -89,7 +90,7 @@ impl StrokeCurve {
             if span.sign() != Sign::Plus {
                 return CheckError::fails(format!("the time of knot {} is not after that of the previous knot", k + 1));
             }
-            // Control points of the cubic's derivative, times positive numbers.
+            // Control points of the cubic's derivative, times a positive number.
             let middle = &(&(q - p) * &Decimal::whole(3)) - &(&span * &(v + w));
             let is_rounding = middle < rounding && -&middle < rounding;
             if [v, w].into_iter().any(goes_back) || (goes_back(&middle) && !is_rounding) {
@@ -111,8 +112,7 @@ impl StrokeCurve {
         &self.times[self.times.len() - 1]
     }
 
-    /// Returns the height at a time. Before the stroke, this is the height of the first knot, and after the stroke, the
-    /// height of the last knot.
+    /// Returns the height at a time. Before and after the stroke, this is the height at its beginning and its end.
     fn height_at(&self, time: &Decimal) -> Interval {
         let next = self.times.partition_point(|knot| knot <= time);
         if next == 0 || next == self.times.len() {
@@ -148,8 +148,8 @@ impl StrokeCurve {
         (&self.height_at(time) - height).magnitude() + tolerance() >= Interval::from(distance).lower
     }
 
-    /// Returns the least and the greatest height from one time to another. The stroke never turns back, so these are
-    /// the heights at both times.
+    /// Returns the least and the greatest height between two times. The stroke never reverses, so these are the heights
+    /// at both times.
     pub(super) fn range(&self, times: [&Decimal; 2]) -> [Decimal; 2] {
         let [a, b] = times.map(|time| self.height_at(time));
         Interval { lower: a.lower.min(b.lower), upper: a.upper.max(b.upper) }.ends()

@@ -1,4 +1,4 @@
-//! Errors of the robot and the world for which motions stay free, and clearances of single obstacles.
+//! Errors of the robot and the world that must not make a motion collide, and clearances of single obstacles.
 
 use super::{ReadResult, Reader, Value, length_with_unit};
 use cplan_check::arm::{Arm, Joint, Motion};
@@ -16,7 +16,7 @@ pub struct Calibration {
     base: Option<[Decimal; 2]>,
     /// Change of each link's length.
     links: Option<[Decimal; 2]>,
-    /// Offsets of the zeros of joints that slide, and of joints that turn.
+    /// Offsets of the zeros of prismatic joints, and of revolute joints.
     zeros: Option<[Decimal; 2]>,
     /// Displacement of obstacles.
     obstacles: Option<[Decimal; 2]>,
@@ -50,7 +50,6 @@ impl Reader<'_> {
         }
     }
 
-    /// Reads the error of a length.
     pub(super) fn length_error(&self, value: &Value) -> ReadResult<Decimal> {
         self.errors(value).map(|[length, _]| length)
     }
@@ -144,9 +143,9 @@ impl Calibration {
 struct Lengths {
     /// Greatest distances of the points of both links from their joints.
     links: [Interval; 2],
-    /// Greatest distance of joint 2 from joint 1.
+    /// Greatest distance between joints 1 and 2.
     between: Interval,
-    /// Greatest distance of any point from the place of joint 1 at zero.
+    /// Greatest distance of any point from the position of joint 1 at zero.
     reach: Interval,
 }
 
@@ -172,8 +171,8 @@ impl Lengths {
         Self { links, between, reach }
     }
 
-    /// Returns bounds on the displacements of points of both links that errors of lengths and zeros cause, relative to
-    /// the base. `docs/certificate_checks.md` derives them.
+    /// Returns bounds on the displacements of points of both links, relative to the base, by errors of lengths and
+    /// zeros. `docs/certificate_checks.md` derives these bounds.
     fn displacements(&self, error: &Interval, [slides, turns]: &[Interval; 2], joints: &[Joint; 2]) -> [Interval; 2] {
         let zero = |joint: &Joint, lever: &Interval| match joint.motion {
             Motion::Turn(_) => turns * lever,
@@ -187,7 +186,7 @@ impl Lengths {
     }
 }
 
-/// Returns the greatest distance of an obstacle's points from a place. `None` if it moves.
+/// Returns the greatest distance of a point of an obstacle from a place. `None` for a moving obstacle.
 fn farthest(obstacle: &Obstacle, from: &Point) -> Result<Option<Interval>, CheckError> {
     if obstacle.trajectory.is_some() {
         return Ok(None);

@@ -9,15 +9,15 @@ use cplan_check::polygon::{Corner, edges, is_convex, side, surrounds};
 use cplan_check::{CheckError, Input};
 use num_bigint::Sign;
 
-/// Two lower limits for objects that press into supports: on the sine of half the angle at each corner, and on the
-/// length of each side, metres. Each limit is 2 to the power of minus this number.
+/// Two limits for objects that press into supports, each a power of two with minus this exponent: the least sine of
+/// half the angle at a corner, and the least length of a side, metres.
 const MIN_SINE_BITS: u64 = 30;
 
-/// Negative binary logarithm of a share. Corners that turn inwards are moved by this share less than other corners.
+/// Negative binary logarithm of a share. Reflex corners are moved by this share less than other corners.
 const REFLEX_CORNER_BITS: u32 = 30;
 
-/// Returns convex shapes at the obstacle's place: the obstacle itself if it is convex, or else its sides. A set that
-/// does not touch these shapes does not touch the obstacle, provided that neither contains the other.
+/// Returns convex shapes at the obstacle's place: the obstacle itself if it is convex, or else its sides. If a set
+/// touches none of them, it does not touch the obstacle, unless one contains the other.
 ///
 /// # Errors
 /// Same as [`Obstacle::sides`].
@@ -29,8 +29,7 @@ pub fn solids(obstacle: &Obstacle) -> ReadResult<Vec<Shape>> {
 }
 
 /// Returns the part of an object that must keep away from its supports. Each corner is moved inwards along the bisector
-/// of its angle. It moves by `by`, or by up to `2^-30` of `by` less. The radius of a disc is reduced by `by`, at most
-/// to 0.
+/// of its angle, by `by` or up to `2^-30` of `by` less. The radius of a disc is reduced by `by`, but not below 0.
 ///
 /// # Errors
 /// If the object has no interior, or is too thin.
@@ -64,7 +63,7 @@ fn hull(obstacle: &Obstacle, corners: &[Corner]) -> Shape {
     Shape { points: corners.iter().map(|corner| obstacle.placed(&point(corner))).collect(), radius }
 }
 
-/// Returns the corners of a convex obstacle, turning left; the centre for a disc. Returns `None` if it is not convex.
+/// Returns the corners of a convex obstacle, turning left, or the centre of a disc. `None` if the obstacle is not convex.
 fn convex(obstacle: &Obstacle) -> Option<Vec<Corner>> {
     match &obstacle.outline {
         Outline::Circle(center, radius) => (radius.sign() != Sign::Minus).then(|| vec![center.clone()]),
@@ -94,7 +93,7 @@ fn without_straight_corners(ring: &[Corner]) -> Vec<Corner> {
 }
 
 /// Moves the corners of a ring by a length along the bisectors of their angles, inwards or outwards. The order of the
-/// corners stays the same. Returns `None` if the result turns in the other direction, or if corners are too sharp.
+/// corners stays the same. `None` if the result turns in the other direction, or if corners are too sharp.
 fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Corner>> {
     let turns_left = |ring: &[Corner]| {
         let doubled = edges(ring).map(|([a, b], [c, d])| &(a * d) - &(b * c));
@@ -112,8 +111,8 @@ fn inset(mut ring: Vec<Corner>, outwards: bool, by: &Interval) -> Option<Vec<Cor
     let corner = |k: usize| {
         let to = |other: usize| along(&minus(&points[other % points.len()], &points[k]));
         let [x, y] = minus(&to(k + 1)?, &to(k + points.len() - 1)?);
-        // The difference of the sides' directions is perpendicular to the bisector. Turned, it points to the left of
-        // both sides. A corner that turns inwards must stay off the lines of other sides despite rounding.
+        // The difference between the directions of both sides is perpendicular to the bisector. After a quarter turn,
+        // it points to the left of both sides. Rounding must not move a reflex corner onto the line of another side.
         let [last, next] = [points.len() - 1, 1].map(|other| &ring[(k + other) % ring.len()]);
         let is_reflex = side(last, &ring[k], next) == Sign::Minus;
         let by = if is_reflex { by - &by.in_halves(REFLEX_CORNER_BITS) } else { by.clone() };

@@ -22,11 +22,10 @@ pub struct Cells {
     turn: [Interval; 2],
 }
 
-/// Maximum number of border pieces. This many need about a gigabyte of memory.
+/// Maximum number of border pieces. They need about a gigabyte of memory.
 const MAX_PIECES: usize = 1 << 18;
 
-/// Darkness, from 0 to 255, of pixels that count as unknown for any thresholds. ROS's map savers write this value for
-/// unseen cells.
+/// Darkness, from 0 to 255, of pixels that are unknown for any thresholds. ROS's map savers write this value for unseen cells.
 const UNSEEN_DARKNESS: i32 = 50;
 
 /// The description of a map, as in the YAML file of ROS's map server. Numbers are exact. Unknown keys are ignored.
@@ -42,7 +41,7 @@ struct Description {
 }
 
 impl Cells {
-    /// Reads a description, and the picture that it refers to.
+    /// Reads a description and its picture.
     ///
     /// # Errors
     /// If it is not a description, or if the picture is neither PGM nor PNG.
@@ -91,7 +90,7 @@ impl Cells {
         Ok(Self { size, solid, side, at: [&x, &y].map(Interval::from), turn: Interval::from(&yaw).sin_cos() })
     }
 
-    /// Returns true if there is a square at these indices, and it is solid.
+    /// Returns true if the square with these indices exists and is solid.
     fn is_solid(&self, x: i64, y: i64) -> bool {
         let inside = |k: usize, n: i64| usize::try_from(n).ok().filter(|n| *n < self.size[k]);
         let (Some(x), Some(y)) = (inside(0, x), inside(1, y)) else { return false };
@@ -128,7 +127,7 @@ impl Squares for Cells {
         };
         let all = [[left, low], [right, low], [right, high], [left, high]];
         let is_one = left < right && low < high && all.iter().all(|corner| corners.contains(corner));
-        // Squares outside the picture are not solid, so the loop ends there.
+        // Squares outside the picture are not solid, so the loop ends at its border.
         let is_solid = is_one && (left..right).all(|x| (low..high).all(|y| self.is_solid(x, y)));
         is_solid.then(|| all.map(|corner| self.corner(corner)).to_vec())
     }

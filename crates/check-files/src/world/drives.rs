@@ -10,7 +10,7 @@ use num_bigint::Sign;
 pub struct Drives {
     /// Turns of the elbow's motor for each turn of joint 1.
     pub ratio: Decimal,
-    /// Enclosures of the least and the greatest value of joint 1, and of the sum `ratio q1 + q2`, that the motors allow.
+    /// Enclosures of the least and the greatest values that the motors allow: of joint 1, and of the sum `ratio q1 + q2`.
     pub limits: Option<[[Range; 2]; 2]>,
 }
 
@@ -74,8 +74,7 @@ impl Reader<'_> {
     }
 }
 
-/// Returns the limits of a joint value, or of the sum, that follow from the limits of the shaft. `None` if the gear is
-/// 0.
+/// Returns the limits of a joint value, or of the sum, that follow from limits of the shaft. `None` if the gear ratio is 0.
 fn limits(gear: &Decimal, zero: &Range, ends: [&Range; 2]) -> Option<[Range; 2]> {
     let is_one = *gear == Decimal::whole(1) && zero.iter().all(|zero| zero.sign() == Sign::NoSign);
     if is_one {

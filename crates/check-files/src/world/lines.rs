@@ -1,4 +1,4 @@
-//! Reads the lines of steps. Straight lines and arcs are read exactly; other lines are those of the certificate.
+//! Reads the lines of steps. Straight lines and arcs are read exactly. Other lines come from the certificate.
 
 use super::{ReadResult, Reader, Value};
 use cplan_check::decimal::Decimal;
@@ -8,22 +8,22 @@ use cplan_check::obstacle::point;
 use cplan_check_line::StepLine;
 use num_bigint::Sign;
 
-/// Number of decimals of the tolerance of a line that states none: `10^-5` m.
+/// Number of decimals of the default tolerance of a line: `10^-5` m.
 const DEFAULT_TOLERANCE_DECIMALS: u32 = 5;
 
 /// Keys that define the form of a line.
 const FORMS: [&str; 4] = ["points", "arc", "spline", "file"];
 
-/// Other keys of a line. The checker judges neither the speed nor the angle of the tool. It counts shapes that turn with the
-/// wrist as discs, so they are free at each angle.
+/// Other keys of a line. The checker judges neither the speed nor the angle of the tool. Shapes that turn with the
+/// wrist count as discs, so they are free at any angle.
 const MANNERS: [&str; 10] =
     ["radius", "speed", "tolerance", "unit", "scale", "turn", "move", "wrist", "wrist_tolerance", "elbow"];
 
-/// A line that a step of the world asks for.
+/// A line that a step of the world requires.
 pub struct WorldLine {
     /// Greatest distance between the tip and the line, metres.
     pub tolerance: Decimal,
-    /// True if the world asks for an angle of the tool.
+    /// True if the world requires an angle of the tool.
     pub has_tool_angle: bool,
     /// The side of the elbow all along the line. `None` if either side will do.
     pub elbow: Option<Elbow>,
@@ -45,7 +45,7 @@ impl WorldLine {
         self.form.is_some()
     }
 
-    /// Returns true if a line can be this one: if it has the same form, or if the checker does not read the form.
+    /// Returns true if the certificate's line agrees with this one: it has the same form, or the checker does not read the form.
     pub fn allows(&self, line: &StepLine) -> bool {
         match &self.form {
             None => true,

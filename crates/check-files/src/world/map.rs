@@ -52,7 +52,7 @@ impl Reader<'_> {
     }
 }
 
-/// A reader of the lines of a file, without comments. It knows the file's name.
+/// The lines of a file without comments, and the file's name.
 struct Text<'a> {
     name: &'a str,
     lines: Vec<(usize, &'a str)>,
@@ -79,7 +79,6 @@ impl<'a> Text<'a> {
         Ok(())
     }
 
-    /// Returns true if the next line begins with a key.
     fn next_line_begins_with(&self, key: &str) -> bool {
         self.lines.get(self.next).is_some_and(|(_, line)| line.starts_with(key))
     }
@@ -128,7 +127,7 @@ fn walls(files: &Files, path: &Path, unit: &Unit, is_framed: bool) -> Result<Vec
         let (from, to) = ([a, b], [c, d]);
         lines += 1;
         let is_point = from == to;
-        // Extend the wall at its end, or else at its beginning.
+        // Extend the current wall at its end, or else at its beginning.
         let open = walls.last_mut().and_then(|(called, wall)| {
             let at_end = [wall.back(), wall.front()].map(|end| end.is_some_and(|end| *end == from || *end == to));
             let end = at_end.iter().position(|found| *found)?;

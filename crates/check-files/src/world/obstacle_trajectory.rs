@@ -7,14 +7,14 @@ use cplan_check::obstacle::{ObstacleTrajectory, point};
 use cplan_check::overlap::Shape;
 use num_bigint::{BigInt, Sign};
 
-/// Uniform straight motion from stop to stop. The obstacle waits at the first stop until the time of that stop. It
-/// leaves the last stop at a constant velocity.
+/// Straight motion from stop to stop at constant speeds. The obstacle waits at the first stop until the time of that
+/// stop. After the last stop, it continues at a constant velocity.
 pub struct StopTrajectory {
     stops: Vec<Stop>,
     velocity: Point,
 }
 
-/// A time, with the position and the orientation that the frame has at that time.
+/// A time, and the position and the orientation of the frame at that time.
 struct Stop {
     time: Decimal,
     at: Point,
@@ -45,9 +45,8 @@ impl ObstacleTrajectory for StopTrajectory {
         [at, angle.sin_cos()]
     }
 
-    /// Returns the shape at the middle of the span, grown by its greatest displacement from there. Between stops, a
-    /// convex function of time bounds the displacement of a point. So the greatest displacement is at an end of the
-    /// span or at a stop.
+    /// Returns the shape at the middle of the span, grown by its greatest displacement from there. Between stops, a convex
+    /// function of time bounds the displacement of a point. So it is greatest at an end of the span or at a stop.
     fn swept_shape(&self, shape: &Shape, [from, to]: [&Decimal; 2]) -> Shape {
         let middle = Decimal::middle(from, to);
         let (at, angle) = self.pose(&middle);

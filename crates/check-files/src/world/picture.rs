@@ -60,7 +60,7 @@ fn in_png(bytes: &[u8]) -> Result<Picture, String> {
     }
 }
 
-/// Returns true if all colours of a PNG are in its palette, or if it has none.
+/// Returns true if all colours of a PNG are in its palette, or if there is no palette.
 fn is_in_palette(bytes: &[u8]) -> Result<bool, DecodingError> {
     let mut reader = Decoder::new(Cursor::new(bytes)).read_info()?;
     let (color, depth, width) =
@@ -94,7 +94,7 @@ fn greymap(mut rest: &[u8], is_text: bool) -> Result<Picture, String> {
         skip(&mut rest);
         shades
     } else {
-        // A single white space ends the header.
+        // A single white space character ends the header.
         comment(&mut rest);
         let bytes_each = if white > 255 { 2 } else { 1 };
         let (raster, after) =
@@ -144,7 +144,7 @@ mod tests {
     use super::*;
     use png::Encoder;
 
-    /// Returns a picture of two pixels per row, with two bits each. A reader must ignore the padding of a row.
+    /// Returns a picture with two pixels per row and two bits per pixel. A reader must ignore the padding of the rows.
     fn indexed(rows: &[u8]) -> Result<Picture, String> {
         let mut bytes = Vec::new();
         let mut encoder = Encoder::new(&mut bytes, 2, rows.len() as u32);

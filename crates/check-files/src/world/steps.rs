@@ -23,7 +23,7 @@ struct Pallet {
     height: Option<Decimal>,
 }
 
-/// All that steps can refer to.
+/// Everything to which steps can refer.
 struct Steps<'r, 'w> {
     reader: &'r Reader<'r>,
     world: &'w World,
@@ -50,7 +50,7 @@ impl Reader<'_> {
         let first = world.obstacles.len();
         let mut taken: BTreeSet<String> = world.all().filter_map(|obstacle| obstacle.name.clone()).collect();
         let mut objects = Vec::new();
-        // Supports may come later in the file than the objects on them.
+        // An object may come earlier in the file than its supports.
         let mut resting = Vec::new();
         for value in list("object")? {
             let of_family = self.object(value, is_level, &pallets, &mut objects)?;
@@ -135,7 +135,7 @@ impl Reader<'_> {
         Ok(Stroke { joint: self.text(joint)?, travel, arch: self.arch(arch)? })
     }
 
-    /// Reads the least heights for strokes during motions. Returns `None` if the arm must rest during strokes.
+    /// Reads the least heights for strokes during motions. `None` if the arm must rest during strokes.
     fn arch(&self, value: Option<&Value>) -> ReadResult<Option<Arch>> {
         let mut arch = Arch { rise: Decimal::whole(0), fall: Decimal::whole(0) };
         let Some(value) = value else { return Ok(Some(arch)) };
@@ -184,8 +184,8 @@ impl Reader<'_> {
         Ok((self.text(name)?, Pallet { places, turn, height }))
     }
 
-    /// Reads an object, or one object for each place of a pallet. Adds them to `objects`, and returns them as obstacles
-    /// at their initial poses.
+    /// Reads an object, or one object for each place of a pallet. Adds them to `objects`. Returns them as obstacles at
+    /// their initial poses.
     fn object(
         &self,
         value: &Value,
@@ -231,7 +231,7 @@ impl Reader<'_> {
         Ok(places)
     }
 
-    /// Returns the indices of the named obstacles and objects. A name may mean all objects of a pallet.
+    /// Returns the indices of the named obstacles and objects. The name of a pallet's objects stands for all of them.
     fn supports(&self, list: &Value, world: &World, first: usize, objects: &[Object]) -> ReadResult<Vec<usize>> {
         let mut all = Vec::new();
         for value in self.list(list)? {
@@ -253,7 +253,7 @@ impl Reader<'_> {
 const SHARED_STEP_KEYS: [&str; 4] = ["repeat", "order", "speed", "dwell"];
 
 impl Steps<'_, '_> {
-    /// Reads a list of steps as one group. The table `manner` states the group's repetitions and order.
+    /// Reads a list of steps as one group. The table `manner` states its repetitions and order.
     fn group(&mut self, list: &Value, manner: Option<&DeTable>, dwell: &Decimal) -> ReadResult<Group> {
         let reader = self.reader;
         let mut nodes = Vec::new();
@@ -287,7 +287,7 @@ impl Steps<'_, '_> {
                 Node::Group(group) => renewed.extend(&group.renewed),
             }
         }
-        // A single pair is executed in its own order.
+        // A group of a single pair has only one order.
         Ok(Group { is_free: is_free && nodes.len() > 2, nodes, repeat, renewed })
     }
 
@@ -349,7 +349,6 @@ impl Steps<'_, '_> {
         Action::Pick { object, grasp, supports, passing: Box::new(passing) }
     }
 
-    /// Reads the supports that a table names.
     fn supports(&self, table: &DeTable) -> ReadResult<Option<Vec<usize>>> {
         let list = table.get("supports");
         list.map(|list| self.reader.supports(list, self.world, self.first, self.objects)).transpose()
@@ -377,7 +376,7 @@ impl Steps<'_, '_> {
         Ok(Action::Place { at, angle: self.angle(table)?, supports: self.supports(table)?, height })
     }
 
-    /// Reads a transfer: returns a pick and a place for each object of a pallet, one after the other.
+    /// Reads a transfer: returns pairs of a pick and a place, one for each object of a pallet.
     fn transfer(&self, value: &Value) -> ReadResult<Vec<Action>> {
         let (reader, table) = (self.reader, self.reader.table(value)?);
         let (Some(name), Some(to)) = (table.get("objects"), table.get("to")) else {

@@ -8,8 +8,8 @@ use cplan_check::interval::{Interval, Point};
 use cplan_check::polygon::Corner;
 use cplan_check::world::Goal;
 
-/// Number of decimals of the tolerance of resting heights: `10^-6` m. An object rests on a support if its lower end
-/// reaches into the support by no more than this.
+/// Number of decimals of the tolerance of resting heights: `10^-6` m. An object rests on a support if it reaches into
+/// the support by at most this.
 pub const RESTING_DECIMALS: u32 = 6;
 
 /// The task that the steps of a world describe.
@@ -20,7 +20,7 @@ pub struct Task {
     pub steps: Group,
     pub wrist: Option<Wrist>,
     pub stroke: Option<Stroke>,
-    /// True if the world has no steps. The only step is then the move to the goal.
+    /// True if the world has no steps. Then the only step is the move to the goal.
     pub is_move: bool,
     /// Values of the stroke's joint at the start and the goal, metres. `None` if the tool is raised there.
     pub lowered: [Option<Decimal>; 2],
@@ -48,7 +48,7 @@ pub struct Wrist {
     pub turns_on_the_way: bool,
 }
 
-/// The joint that lowers the tool, and the distance by which it does. If the distance is `None`, it is the distance by
+/// The joint that lowers the tool, and the distance. If the distance is `None`, the tool is lowered by the distance by
 /// which objects are lifted.
 pub struct Stroke {
     pub joint: String,
@@ -106,7 +106,7 @@ pub struct Step {
     pub elbow: Option<Elbow>,
 }
 
-/// Time and place at which a moving object must be picked. `None` for those that the step does not state.
+/// Required time and place for the pick of a moving object. `None` for those that the step does not state.
 #[derive(Default)]
 pub struct MovingPick {
     /// Range of allowed times, seconds after the task began.
@@ -117,7 +117,7 @@ pub struct MovingPick {
 
 /// The action of a step.
 pub enum Action {
-    /// The tip moves to a point of an object. From then on, the object is attached to it.
+    /// The tip moves to a point of an object, to which it is then attached.
     Pick {
         object: usize,
         grasp: Corner,
@@ -129,7 +129,7 @@ pub enum Action {
         at: Point,
         angle: Option<Interval>,
         supports: Option<Vec<usize>>,
-        /// Height of the object's bottom there, metres. `None` if it is the height at which the object was picked.
+        /// Height of the object's bottom there, metres. `None` for the height at which the object was picked.
         height: Option<Decimal>,
     },
     Move(Goal),
@@ -155,8 +155,7 @@ impl Task {
         Some(stroke.travel.as_ref().unwrap_or(&self.objects[object].lift))
     }
 
-    /// Returns the rules for an object that is picked from `supports`, and placed by the step `placing` if there is
-    /// one.
+    /// Returns the rules for an object that is picked from `supports`. `placing` is the step that places it, if there is one.
     pub fn carrying(&self, object: usize, supports: &[usize], placing: Option<&Step>) -> CarryRules {
         let mut carrying = CarryRules { supports: supports.to_vec(), may_turn: false };
         if let Some(Action::Place { angle, supports, .. }) = placing.map(|step| &step.action) {

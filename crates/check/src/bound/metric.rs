@@ -7,14 +7,13 @@ use crate::interval::{Interval, Point, length};
 use num_bigint::{BigInt, Sign};
 use std::fmt;
 
-/// Returns a lower bound on the distance between two rectangles along each axis. It is 0 if they may overlap along the
-/// axis.
+/// Returns a lower bound on the distance between two rectangles along each axis. It is 0 if they may overlap along that axis.
 fn axis_distances(a: &Point, b: &Point) -> [BigInt; 2] {
     [0, 1].map(|k| (&b[k].lower - &a[k].upper).max(&a[k].lower - &b[k].upper).max(BigInt::ZERO))
 }
 
 impl fmt::Display for Metric {
-    /// Writes the text that follows a length in a message: nothing, the weights, or seconds with the speeds.
+    /// Writes the text that follows a length in a message: nothing, the weights, or "seconds" with the speeds.
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Euclidean => Ok(()),
@@ -45,13 +44,12 @@ impl Metric {
         CheckError::fails("the metric's weights or speeds must be greater than 0 and not too large")
     }
 
-    /// Returns true if the metric is the greatest entry of a displacement. If false, it is the root of the sum of
-    /// squares.
+    /// Returns true if the length of a displacement is its greatest entry. If false, it is the root of the sum of squares.
     pub(super) fn is_greatest(&self) -> bool {
         matches!(self, Self::Speeds(_) | Self::MotorSpeeds(_))
     }
 
-    /// Returns true if the metric of a displacement depends on the magnitudes of its entries alone.
+    /// Returns true if the length of a displacement depends only on the magnitudes of its entries.
     pub(super) fn is_of_entries(&self) -> bool {
         !matches!(self, Self::Motor(_))
     }

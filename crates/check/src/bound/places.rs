@@ -7,8 +7,8 @@ use crate::interval::{BITS, Interval, Point};
 use num_bigint::{BigInt, Sign};
 use std::collections::BTreeMap;
 
-/// A place in the plane of the metric. Its coordinates are scaled, so that Euclidean lengths or greatest entries are
-/// lengths in the metric.
+/// A place in the plane of the metric. Its coordinates are scaled so that Euclidean distances, or greatest differences
+/// of coordinates, are lengths in the metric.
 #[derive(Clone)]
 pub(super) struct Place {
     pub(super) at: Point,
@@ -36,8 +36,8 @@ pub(super) struct WallCopy {
     pub(super) ends: [Place; 2],
 }
 
-/// Overlapping walls on one line, merged into one. `ends` are its ends along joint 2. `beside` are the places where
-/// ends of other walls touch it, from smaller and from greater values of joint 1.
+/// Overlapping walls on one line, merged into one. `ends` are its ends along joint 2. `beside` has the places where
+/// ends of other walls touch it: from smaller values of joint 1, and from greater ones.
 pub(super) struct WallRun {
     pub(super) ends: [Interval; 2],
     pub(super) beside: [Vec<Interval>; 2],
@@ -88,8 +88,7 @@ pub(super) fn runs(copies: &[WallCopy]) -> BTreeMap<Line, Vec<WallRun>> {
 }
 
 impl Place {
-    /// Makes the copy of a rectangle shifted by whole turns. Returns `None` if the copy is too far away; see
-    /// [`MAX_COORDINATE`].
+    /// Copies a rectangle, shifted by whole turns. Returns `None` if the copy is too far away, see [`MAX_COORDINATE`].
     pub(super) fn new(metric: &Metric, rectangle: &Rectangle, turns: [i64; 2]) -> Option<Self> {
         let at = [0, 1].map(|k| {
             let turns = Interval::exact(BigInt::from(2 * turns[k]) << BITS);
@@ -104,10 +103,10 @@ impl Place {
         Some(Self { at, coarse: [first?, second?], line })
     }
 
-    /// Returns the side of the line from `a` to `b` on which this place certainly lies: 1 for left, -1 for right, and 0
-    /// if this is uncertain.
+    /// Returns the side of the line from `a` to `b` on which this place certainly lies: 1 for left, -1 for right, 0 if
+    /// uncertain.
     pub(super) fn side(&self, a: &Self, b: &Self) -> i8 {
-        // Coarse middles are off by less than two units, so differences are off by less than four.
+        // Coarse middles are off by less than two units, and so their differences by less than four.
         let middle = |place: &Self| place.coarse.map(|[low, high]| (low + high) / 2);
         let wide = |place: &Self| place.coarse.iter().any(|[low, high]| high - low > 2);
         let ([ax, ay], [bx, by], [px, py]) = (middle(a), middle(b), middle(self));

@@ -11,7 +11,7 @@ use std::cell::Cell;
 use std::collections::BTreeMap;
 use std::ops::RangeInclusive;
 
-/// Maximum number of copies of walls on all turns that a path of the certified length can reach.
+/// Maximum number of copies of walls, on all turns, that a path of the certified length can reach.
 const MAX_COPIES: usize = 200_000;
 
 /// An end of a wall at which shortest paths may turn.
@@ -20,8 +20,8 @@ pub(super) struct Corner {
     at: Place,
     /// Lower bound on the length of paths from the corner to a goal.
     rest: BigInt,
-    /// Claimed lower bound on the length of paths from the start to the corner. If it is `None`, the bound is the
-    /// certified length minus `rest`.
+    /// Claimed lower bound on the length of paths from the start to the corner. `None` stands for the certified length
+    /// minus `rest`.
     potential: Option<BigInt>,
 }
 
@@ -54,13 +54,13 @@ impl<'a> Plane<'a> {
             ))
         };
         let from = Place::new(metric, start, [0, 0]).ok_or_else(too_long)?;
-        // The copies of a rectangle that paths of this length can reach.
+        // The copies of a rectangle that paths of the certified length can reach.
         let copies = |rectangle: &Rectangle| -> Option<Vec<([i64; 2], Place)>> {
             let turns = [0, 1].map(|k| {
                 let Axis::Circle = axes[k] else { return Some(0..=0) };
                 let (turn, value) =
                     (metric.scaled(k, &double(Interval::pi())), metric.scaled(k, &Interval::enclosing(&rectangle[k])));
-                // Include one more turn on either side, for rounding.
+                // One more turn on either side covers rounding.
                 let reach = metric.reach(k, &length.upper);
                 let least = (&from.at[k].lower - &reach - &value.upper) / &turn.lower - 1;
                 let most = (&from.at[k].upper + &reach - &value.lower) / &turn.lower + 1;
@@ -149,7 +149,7 @@ impl<'a> Plane<'a> {
         let sources = corners.iter().filter_map(|c| Some((&c.at, c.potential.as_ref()?, Some(c.name))));
         let none = BigInt::ZERO;
         for (at, potential, name) in sources.chain([(&self.start, &none, None)]) {
-            // A wall that blocks one leg often blocks many others from the same place.
+            // A wall that blocks one leg often blocks other legs from the same place.
             let latest = Cell::new(0);
             let bars = |to: &Place| self.bars(at, to, &latest);
             let from = || name.map_or_else(|| "the start".to_owned(), end_name);
@@ -173,7 +173,7 @@ impl<'a> Plane<'a> {
         if length.sign() != Sign::Plus {
             return true;
         }
-        // Compare in coarse units first: most legs are much longer.
+        // Compare in coarse units first, which suffices for most legs.
         let Ok(coarse) = i64::try_from((length >> COARSE_SHIFT) + 1) else { return false };
         let [x, y] = [0, 1].map(|k| {
             let ([a, b], [c, d]) = (from.coarse[k], to.coarse[k]);
@@ -194,7 +194,7 @@ impl<'a> Plane<'a> {
         let first = self.copies.partition_point(|copy| copy.begins() < low - self.widest);
         let last = self.copies.partition_point(|copy| copy.begins() <= high);
         let near = &self.copies[first..last.max(first)];
-        // A wall that blocks a leg is usually near the leg's beginning.
+        // A wall that blocks a leg is usually near the beginning of the leg.
         let crosses = |copy: &WallCopy| copy.crosses(from, to);
         let is_onward = from.coarse[0][0] <= to.coarse[0][0];
         if let Some(at) = if is_onward { near.iter().position(crosses) } else { near.iter().rposition(crosses) } {

@@ -7,7 +7,7 @@ use serde::Deserialize;
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Bound {
-    /// Target configuration; the goal by default.
+    /// Target configuration. By default, this is the goal.
     pub to: Option<[Decimal; 2]>,
     /// Claimed lower bound on the length of every motion, in units of the metric.
     pub length: Decimal,
@@ -20,21 +20,21 @@ pub struct Bound {
     pub potentials: Vec<Potential>,
 }
 
-/// Metric: the length of a displacement, computed from its two entries.
+/// Metric: a rule that computes the length of a displacement from its two entries.
 #[derive(Deserialize, Default)]
 #[serde(rename_all = "snake_case")]
 pub enum Metric {
     /// Root of the sum of squares.
     #[default]
     Euclidean,
-    /// Root of the sum of squares after multiplying each entry by a factor.
+    /// Root of the sum of squares, after each entry is multiplied by a factor.
     Weights([Decimal; 2]),
     /// The greater of the two times, seconds, that the joints need at these speeds.
     Speeds([Decimal; 2]),
     /// The greatest of three times, seconds: those of the two joints, and that of an elbow motor on the base.
     MotorSpeeds(MotorSpeeds),
     /// Root of the sum of squares of the angles of both motors. The number is the factor of joint 1 in the angle of the
-    /// second motor.
+    /// elbow's motor.
     Motor(Decimal),
 }
 
@@ -72,8 +72,7 @@ pub struct Potential {
     pub wall: usize,
     /// The end of the wall: 0 for its first configuration, 1 for its last.
     pub end: usize,
-    /// Numbers of whole turns by which each joint is shifted. They turn the wall as written into the copy to which the
-    /// bound applies.
+    /// Numbers of whole turns by which the wall as written is shifted along each joint. The bound applies to the shifted copy.
     #[serde(default)]
     pub turns: [i64; 2],
     /// The lower bound.

@@ -6,7 +6,7 @@ use crate::error::CheckError;
 use crate::polygon::Corner;
 use serde::Deserialize;
 
-/// A shape of the URDF, identified by its number among the link's shapes of the same kind.
+/// A shape of the URDF. Its number counts the link's shapes of the same kind.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ShapeName {

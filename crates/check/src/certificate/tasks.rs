@@ -12,7 +12,7 @@ pub struct ExecutedStep {
     pub step: usize,
     /// Indices of the first and the last knot of the step's motion.
     pub knots: [usize; 2],
-    /// Angle, radians, by which the wrist turns the load to the left, before a place or after a pick.
+    /// Angle by which the wrist turns the load to the left before a place or after a pick, radians.
     pub turn: Option<Decimal>,
     /// Knots of the turn: time, angle so far and angular velocity. `None` if the arm rests during the turn.
     pub turning: Option<Vec<[Decimal; 3]>>,
@@ -21,8 +21,8 @@ pub struct ExecutedStep {
     pub lowering: Option<Vec<[Decimal; 3]>>,
     /// Knots of the stroke that raises the tool after the step. `None` if the arm rests during this stroke.
     pub raising: Option<Vec<[Decimal; 3]>>,
-    /// Knots of the stroke that raises the tool before the first step. `None` if the arm rests during it.
+    /// Knots of the stroke that raises the tool before the first step. `None` if the arm rests during this stroke.
     pub raising_first: Option<Vec<[Decimal; 3]>>,
-    /// For a step along a line: the line as JSON. The crate `cplan-check-line` reads it.
+    /// The line as JSON, for a step along a line. The crate `cplan-check-line` reads it.
     pub line: Option<Box<RawValue>>,
 }

@@ -6,7 +6,7 @@ use crate::certificate::PartName;
 use crate::error::{CheckError, Input};
 use crate::shapes::{Outline, named};
 
-/// Finds the shape of a link that is an obstacle for other links, or one of its layers.
+/// Finds the shape, or the layer of a shape, of a link that is an obstacle for other links.
 ///
 /// # Errors
 /// If the name is incomplete, or if no shape that is checked for collisions has this name.

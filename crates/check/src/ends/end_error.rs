@@ -12,13 +12,13 @@ use crate::interval::{BITS, Interval, Point, length, minus};
 use crate::world::Goal;
 use num_bigint::BigInt;
 
-/// Number of decimals of the maximum error of a motion at its start or goal: `10^-5` radians or metres. Rounding to six
-/// decimals, in joints several metres from the tip, causes about this error.
+/// Number of decimals of the maximum error of a motion at its start or goal: `10^-5` radians or metres. For joints
+/// several metres from the tip, rounding to six decimals causes about this error.
 const END_TOLERANCE_DECIMALS: u32 = 5;
 
 impl End {
-    /// Describes the end in words. `knot` is the first or last one of a motion. If it is not exactly at the end, adds a
-    /// power of ten that bounds its distance from the end.
+    /// Describes the end in words. `knot` is the first or the last knot of a motion. If it is not exactly at the end,
+    /// adds a power of ten that bounds its distance.
     ///
     /// # Errors
     /// If the distance exceeds `10^-5`.

@@ -13,7 +13,7 @@ use crate::world::Goal;
 pub const MAX_ENCLOSED_PARTS: usize = 2000;
 
 /// Maximum number of rectangles that cover the configurations for a tip position, in a proof that no motion is shorter.
-/// A rough cover is enough there.
+/// Such a proof needs only a rough cover.
 pub const MAX_LOCATED_PARTS: usize = 500;
 
 impl End {
@@ -34,8 +34,8 @@ impl End {
         }
     }
 
-    /// Returns rectangles that cover all configurations at which a motion may begin or end. Configurations in rectangles
-    /// that `is_left_out` excludes need not be covered. There are at most `most` rectangles for each tip position.
+    /// Returns rectangles that cover all configurations at which a motion may begin or end. Configurations that
+    /// `is_left_out` excludes need not be covered. There are at most `most` rectangles for each tip position.
     ///
     /// # Errors
     /// If values are outside the limits.
@@ -63,8 +63,8 @@ impl End {
 }
 
 impl Arm {
-    /// Returns the tip positions that a rectangle of the goal means, given its opposite corners. They are all positions
-    /// in it if both joints are prismatic, and only its centre otherwise.
+    /// Returns the tip positions that a goal rectangle stands for, given its opposite corners. If both joints are
+    /// prismatic, these are all positions in it. Otherwise it is the centre.
     pub fn area(&self, [a, b]: &[Corner; 2]) -> Point {
         if self.joints.iter().any(|joint| !matches!(joint.motion, Motion::Slide(_))) {
             return [0, 1].map(|k| Interval::from(&Decimal::middle(&a[k], &b[k])));

@@ -7,7 +7,7 @@ use crate::interval::{Interval, Point, sum};
 use crate::obstacle::Obstacle;
 
 /// A vector that turns and grows with the joints: `R(±(s1 q1 + s2 q2)) (at + direction q)`. `by` states which joints
-/// turn it. `back` states that the sign is minus. `slide` is the joint whose value `q` moves it along a direction.
+/// turn it. `back` means that the sign is minus. `slide` is the joint whose value `q` moves it along `direction`.
 #[derive(Clone)]
 pub(super) struct Term {
     pub(super) by: [bool; 2],
@@ -40,7 +40,7 @@ fn negative(a: &Point) -> Point {
     [-&a[0], -&a[1]]
 }
 
-/// Adds a vector that does not turn to a sum of vectors, merging it with an existing one if possible.
+/// Adds a vector that does not turn to a sum of vectors. Merges it with an existing one if possible.
 fn shifted(terms: &mut Terms, by: &Point) {
     match terms.iter_mut().find(|term| term.by == [false; 2]) {
         Some(still) => still.at = sum(&still.at, by),
@@ -103,8 +103,7 @@ impl Chain {
         }
     }
 
-    /// Returns the sense in which positive values of a joint turn: 1 to the left, -1 to the right, 0 if the joint is
-    /// prismatic.
+    /// Returns the sense in which positive values of a joint turn: 1 for left, -1 for right, and 0 for a prismatic joint.
     pub(super) fn sign(&self, joint: usize) -> Interval {
         Interval::whole(match self.motions[joint] {
             Motion::Turn(sign) => sign,
@@ -112,7 +111,7 @@ impl Chain {
         })
     }
 
-    /// Returns the position of a point that is attached to a link, or to a shape that stays level.
+    /// Returns the position of a point that is attached to a link, or to a shape that never turns.
     pub(super) fn attached_point(&self, on: &Attachment, a: &Point) -> Terms {
         match on {
             Attachment::Link(link) => self.link_point(*link, a),
@@ -129,13 +128,12 @@ impl Chain {
         self.sum_at(&self.attached_point(on, a), values)
     }
 
-    /// Converts an object from plane coordinates to the frame of the second link, which picks it up in this
-    /// configuration.
+    /// Converts an object from plane coordinates to the frame of the second link, which picks it up in this configuration.
     pub fn obstacle_in_second_link(&self, lying: &Obstacle, values: &Point) -> Obstacle {
         lying.clone().moved(self.coordinates_in_second_link(&lying.at, values), self.turn(1, &lying.turn, true, values))
     }
 
-    /// Converts an attached object to the plane coordinates that it has in a configuration.
+    /// Converts an attached object to the plane coordinates that it has in this configuration.
     pub fn attached_obstacle_in_plane(&self, on: &Attachment, hanging: &Obstacle, values: &Point) -> Obstacle {
         let turn = match on {
             Attachment::Level(_) => hanging.turn.clone(),

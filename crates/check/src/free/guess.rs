@@ -1,4 +1,4 @@
-//! Guesses of a direction that may separate two shapes. The caller verifies them.
+//! Guesses a direction that may separate two shapes. The caller verifies it.
 
 /// Returns the indices of the points on the convex hull, in order (Andrew 1979).
 pub(super) fn ring(points: &[[f64; 2]]) -> Vec<usize> {
@@ -23,14 +23,12 @@ pub(super) fn ring(points: &[[f64; 2]]) -> Vec<usize> {
     if ring.is_empty() { order } else { ring }
 }
 
-/// Returns the direction from one shape to the nearest point of the other. Returns `None` unless they are farther apart
-/// than `apart`.
+/// Returns the direction from one shape to the nearest point of the other. `None` unless their distance exceeds `apart`.
 pub(super) fn direction(here: &[[f64; 2]], there: &[[f64; 2]], apart: f64) -> Option<[f64; 2]> {
     let minus = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
     let dot = |a: [f64; 2], b: [f64; 2]| a[0] * b[0] + a[1] * b[1];
-    // The vector from a point to the nearest point of a segment. Between the ends of the segment, it is perpendicular
-    // to the segment. Computing it as the difference of two positions would lose all digits if the vector is much
-    // shorter than the segment.
+    // Returns the vector from a point to the nearest point of a segment. Between the ends of the segment, it is perpendicular to
+    // the segment. A difference of two positions would lose all digits of a vector that is much shorter than the segment.
     let to_segment = |p: [f64; 2], a: [f64; 2], b: [f64; 2]| {
         let (along, to) = (minus(b, a), minus(a, p));
         let square = dot(along, along);

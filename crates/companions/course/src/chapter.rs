@@ -12,9 +12,9 @@ pub struct Chapter<'a> {
 /// The live figure of a chapter.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Figure {
-    /// Name of the page, with the place at which it opens: `proofs.html#learn=proofs`.
+    /// Name of the page with its anchor: `proofs.html#learn=proofs`.
     pub address: String,
-    /// The still picture, which the figure replaces: `pictures/no_path.svg`.
+    /// The still picture that the figure replaces: `pictures/no_path.svg`.
     pub picture: String,
     /// Path of the robot.
     pub robot: String,
@@ -58,7 +58,7 @@ impl<'a> Chapter<'a> {
         questions + rest
     }
 
-    /// Returns the live figure. `None` if the chapter has no figure, or no command that writes it.
+    /// Returns the live figure. `None` if the chapter has no figure, or no command that creates it.
     pub fn figure(&self) -> Option<Figure> {
         let address = self.text.lines().find_map(|line| line.strip_prefix(LIVE)?.strip_suffix(" -->"))?;
         let page = address.split('#').next()?;

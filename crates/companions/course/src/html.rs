@@ -8,7 +8,7 @@ use pulldown_cmark::{CowStr, Event, HeadingLevel, LinkType, Options, Parser, Tag
 pub struct Links<'a> {
     /// Names of the chapters, without extension.
     pub chapters: &'a [&'a str],
-    /// Path from the page to the folder of the course: empty, or `../`.
+    /// Path from the page to the folder of the course: empty or `../`.
     pub root: &'a str,
     /// The live figure, which replaces its picture. `None` if the text has none.
     pub figure: Option<&'a Figure>,
@@ -18,7 +18,7 @@ impl Links<'_> {
     /// Converts a text. Links to pages outside the course become plain text, and comments are dropped.
     pub fn html(&self, text: &str) -> String {
         let mut converted = Vec::new();
-        // Open links that are dropped, and the words of the picture that the figure replaces.
+        // Open links that are dropped, and the alternative text of the picture that the figure replaces.
         let (mut dropped_links, mut alternative): (usize, Option<String>) = (0, None);
         for event in Parser::new_ext(text, Options::ENABLE_TABLES) {
             if let Some(words) = &mut alternative {
@@ -59,8 +59,7 @@ impl Links<'_> {
         page
     }
 
-    /// Returns the address of a link within the course, or of a link into the network. `None` for pages that are not part of
-    /// the course.
+    /// Returns the address of a link within the course or to the internet. `None` for pages outside the course.
     fn target(&self, link: &str) -> Option<String> {
         if link.starts_with("https://") || link.starts_with('#') {
             return Some(link.to_owned());
@@ -77,13 +76,11 @@ impl Links<'_> {
     }
 }
 
-/// Begins a link.
 fn link(target: String) -> Event<'static> {
     let (dest_url, nothing) = (target.into(), CowStr::Borrowed(""));
     Event::Start(Tag::Link { link_type: LinkType::Inline, dest_url, title: nothing.clone(), id: nothing })
 }
 
-/// Begins a heading of this level.
 fn heading(level: HeadingLevel) -> Event<'static> {
     Event::Start(Tag::Heading { level, id: None, classes: Vec::new(), attrs: Vec::new() })
 }

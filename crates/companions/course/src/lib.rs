@@ -1,11 +1,11 @@
-//! The course as pages that need no server and no network: chapters with figures, exercise sheets without answers, and the
-//! answers in a folder of their own, which a teacher may withhold.
+//! The course as pages that need no server and no network: chapters with figures, exercise sheets without answers, and
+//! a separate folder with the answers, which a teacher may withhold.
 //!
 //! ```text
 //! docs/*.md -> Chapter -> Page (HTML)
 //! ```
 //!
-//! The caller makes the live figures: each chapter has the command that writes its figure ([`Chapter::figure`]).
+//! The caller creates the live figures. Each chapter has the command for its figure ([`Chapter::figure`]).
 
 mod chapter;
 mod html;

@@ -1,4 +1,4 @@
-//! The pages: an index, the chapters, all exercises on one sheet, all answers on another one.
+//! The pages: an index, the chapters, a sheet of all exercises, and a sheet of all answers.
 
 use crate::chapter::Chapter;
 use crate::html::Links;
@@ -14,14 +14,14 @@ pub struct CourseFile {
     pub text: String,
 }
 
-/// Gives the frame of a live figure the height that the figure reports, and all the width that the window has.
+/// Script that gives a live figure the height that it reports, and the full width of the window.
 const SCRIPT: &str = include_str!("course.js");
 
-/// The style of the pages, after that of all pages of cplan.
+/// Style of the pages, in addition to that of all pages of cplan.
 const STYLE: &str = include_str!("course.css");
 
-/// Returns the pages of the course and their style sheet. The live figures and the pictures are not among them. `has_lab` states that
-/// there is a page `lab.html`, with a planner inside.
+/// Returns the pages of the course and their style sheet. The live figures and the pictures are not included. `has_lab`
+/// states whether there is a page `lab.html` that contains the planner.
 pub fn files(chapters: &[Chapter], has_lab: bool) -> Vec<CourseFile> {
     let names: Vec<&str> = chapters.iter().map(|chapter| chapter.name).collect();
     let of = |path: &str, text: String| CourseFile { path: path.to_owned(), text };
@@ -35,7 +35,6 @@ pub fn files(chapters: &[Chapter], has_lab: bool) -> Vec<CourseFile> {
     files
 }
 
-/// Returns a page around its content.
 fn page(title: &str, root: &str, content: &str) -> String {
     let title = markup(title);
     format!(
@@ -63,7 +62,7 @@ fn index(chapters: &[Chapter], has_lab: bool) -> String {
     page("Configuration spaces: a course", "", &content)
 }
 
-/// Returns the links to the chapters beside this one and to the index.
+/// Returns the links to the previous and the next chapter, and to the index.
 fn neighbors(chapters: &[Chapter], at: usize) -> String {
     let to = |chapter: Option<&Chapter>, words: [&str; 2]| {
         let link = |chapter: &Chapter| {
@@ -77,7 +76,6 @@ fn neighbors(chapters: &[Chapter], at: usize) -> String {
     format!("<nav>{before}<a href=\"index.html\">All chapters</a>{after}</nav>\n")
 }
 
-/// Returns the page of a chapter.
 fn chapter_page(chapters: &[Chapter], names: &[&str], at: usize) -> String {
     let chapter = &chapters[at];
     let figure = chapter.figure();
@@ -110,7 +108,7 @@ fn answers(chapters: &[Chapter], names: &[&str]) -> String {
         "<h1>Answers</h1>\n<p>For teachers. Remove this folder from what students get: no other page leads here.</p>\n",
     );
     for chapter in chapters {
-        // Answers are open at once.
+        // Show answers unfolded.
         let answers = chapter.answers().replace("<details>", "<details open>");
         let (title, answers) = (markup(chapter.title()), links.html(&answers));
         let _ = write!(content, "<section>\n<h2>{title}</h2>\n{answers}</section>\n");

@@ -1,8 +1,8 @@
 //! Approximates curves by chords. Corners lie on the curve, and no point of the curve is farther from its chord than a
 //! tolerance.
 //!
-//! A curve whose second derivative by its parameter stays within `bend` is at most `bend / 8` times the square of the
-//! parameter's step away from its chord.
+//! If the second derivative of a curve with respect to its parameter is at most `bend`, a chord over a step `s` of the
+//! parameter is at most `bend s^2 / 8` away from the curve.
 
 use crate::Point;
 use crate::map::Map;
@@ -11,7 +11,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// Greatest number of chords of a curve. A tolerance that needs more must be a mistake.
 const MAX_CHORDS: f64 = 1e5;
 
-/// The error that a curve would need too many chords.
+/// A curve would need too many chords.
 #[derive(Debug)]
 pub(crate) struct TooFineCurve;
 
@@ -22,7 +22,7 @@ fn chords(bend: f64, range: f64, tolerance: f64) -> Result<usize, TooFineCurve> 
     if count <= MAX_CHORDS { Ok(count as usize) } else { Err(TooFineCurve) }
 }
 
-/// Returns points of a curve at parameters from 0 to 1, without the first and with the last.
+/// Returns points of a curve at `count` equal steps of the parameter from 0 to 1, without the first point.
 fn points_along(count: usize, at: impl Fn(f64) -> Point) -> impl Iterator<Item = Point> {
     (1..=count).map(move |k| at(k as f64 / count as f64))
 }
@@ -49,7 +49,6 @@ impl Ellipse {
         [0, 1].map(|k| self.center[k] + self.u[k] * cos + self.v[k] * sin)
     }
 
-    /// Returns the length of the longer half axis.
     fn longest(self) -> f64 {
         // The half axes are the singular values of the matrix with the columns `u` and `v`.
         let square: f64 = [self.u, self.v].iter().flatten().map(|x| x * x).sum();
@@ -63,13 +62,11 @@ impl Ellipse {
         Ok(points_along(count, move |part| self.at(from + by * part)))
     }
 
-    /// Returns the points of the whole ellipse.
     pub fn ring(self, tolerance: f64) -> Result<Vec<Point>, TooFineCurve> {
         Ok(self.arc(0.0, TAU, tolerance)?.collect())
     }
 }
 
-/// An arc of a circle.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct CircularArc {
     pub center: Point,
@@ -97,9 +94,8 @@ impl CircularArc {
         })
     }
 
-    /// Returns the curve whose distance from the arc changes linearly from `first` to `last`. A positive distance is
-    /// outwards; a negative one is inwards, and at most the radius. The chords are within the tolerance after `map` is
-    /// applied.
+    /// Returns the curve whose distance from the arc changes linearly from `first` to `last`. Positive distances are outwards.
+    /// Negative ones are inwards, and at most the radius. The chords are within the tolerance after `map` is applied.
     pub fn spiral(self, first: f64, last: f64, map: &Map, tolerance: f64) -> Result<Vec<Point>, TooFineCurve> {
         let Self { center, radius, from, by } = self;
         let bend = radius + first.abs().max(last.abs()) + 2.0 * (last - first).abs() / by.abs();
@@ -163,7 +159,7 @@ impl Spline {
             && weights.iter().all(|&w| w > 0.0)
     }
 
-    /// Returns points of the spline. Spans are halved until the middle of each chord is within half of the tolerance.
+    /// Returns points of the spline. Halves each span until the middle of each chord is within half of the tolerance.
     pub fn points(&self, tolerance: f64) -> Result<Vec<Point>, TooFineCurve> {
         let (first, last) = (self.degree, self.control.len());
         let mut points = vec![self.at(first, self.knots[first])];
@@ -201,7 +197,6 @@ impl Spline {
     }
 }
 
-/// Returns the distance of a point from a segment.
 fn distance(p: Point, a: Point, b: Point) -> f64 {
     let along = [b[0] - a[0], b[1] - a[1]];
     let square = along[0] * along[0] + along[1] * along[1];

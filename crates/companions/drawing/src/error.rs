@@ -8,7 +8,7 @@ pub struct Error {
     pub line: Option<usize>,
     /// Description of the defect.
     pub message: String,
-    /// Hint how to correct the file.
+    /// Hint for the correction of the file.
     pub cure: String,
 }
 

@@ -1,4 +1,4 @@
-//! The region that rings surround.
+//! The region that rings enclose.
 
 use crate::{Point, Ring};
 use i_overlay::core::fill_rule::FillRule as Rule;
@@ -6,7 +6,7 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::Solver;
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 
-/// The rule that determines which points are inside rings that cross or surround each other.
+/// The rule that determines which points are inside several rings.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FillRule {
     /// Points with a nonzero winding number are inside.
@@ -15,8 +15,8 @@ pub enum FillRule {
     EvenOdd,
 }
 
-/// Returns the region that rings enclose under a fill rule, as polygons that do not cross themselves or each other.
-/// Each polygon has an outer ring and holes. Corners are rounded to a grid of about 1e-17 of the rings' extent.
+/// Returns the region that rings enclose under a fill rule, as polygons that do not cross themselves or each other. Each polygon
+/// has an outer ring and holes. Corners are rounded to a grid of about 1e-17 times the extent of the rings.
 pub fn filled(rings: &[Ring], rule: FillRule) -> Vec<(Ring, Vec<Ring>)> {
     let rule = match rule {
         FillRule::NonZero => Rule::NonZero,

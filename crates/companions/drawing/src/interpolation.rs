@@ -1,5 +1,5 @@
-//! Interpolating splines for curves that a file gives only by their fit points. As in CAD programs, they are cubic,
-//! parametrised by chord length, and have continuous curvature.
+//! Interpolating splines for curves that are given only by their fit points. As in CAD programs, the splines are cubic,
+//! are parametrised by chord length, and have continuous curvature.
 
 use crate::Point;
 
@@ -12,8 +12,8 @@ pub(crate) enum EndConditions {
     Closed,
 }
 
-/// Number of points that are repeated on each side of a closed curve, which is computed as an open one. Each of these
-/// points at least halves the influence of the artificial end.
+/// Number of points that are repeated on each side of a closed curve, so that it can be computed as an open one. Each
+/// repeated point at least halves the influence of the artificial end.
 const REPEATED_POINTS: usize = 64;
 
 /// Returns the curve as connected cubic Bézier curves. Consecutive points must differ.
@@ -38,7 +38,7 @@ fn open(points: &[Point], directions: [Option<Point>; 2]) -> Vec<[Point; 4]> {
     let slopes: Vec<Point> =
         points.windows(2).zip(&steps).map(|(w, step)| [0, 1].map(|k| (w[1][k] - w[0][k]) / step)).collect();
     let [first_direction, last_direction] = directions.map(|direction| direction.and_then(unit));
-    // Coefficients before, at and after a point, and the right-hand side.
+    // Coefficients of the previous, the current and the next point, and the right-hand side.
     let row = |i: usize| match (i, first_direction, last_direction) {
         (0, Some(direction), _) => ([0.0, 1.0, 0.0], direction),
         (0, None, _) => ([0.0, 2.0, 1.0], slopes[0].map(|x| 3.0 * x)),

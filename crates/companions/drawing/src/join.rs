@@ -15,7 +15,7 @@ pub(crate) struct Chain {
     pub gap: f64,
 }
 
-/// The places where curves end. Two ends that are nearer than `reach` have the same place.
+/// The places where curves end. Ends that are nearer to each other than `reach` have the same place.
 struct Places {
     reach: f64,
     cells: HashMap<[i64; 2], Vec<usize>>,
@@ -44,8 +44,8 @@ fn distance(a: Point, b: Point) -> f64 {
     (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
-/// Joins curves at places where exactly two of them end. Where three or more curves end, it is ambiguous which ones
-/// belong together. Each curve has at least two points.
+/// Joins curves at places where exactly two curves end. Where more curves end, the connection is ambiguous. Each curve
+/// must have at least two points.
 pub(crate) fn joined(curves: &[Vec<Point>], reach: f64) -> Vec<Chain> {
     let mut places = Places { reach, cells: HashMap::new(), at: Vec::new() };
     let ends: Vec<[usize; 2]> =
@@ -56,7 +56,7 @@ pub(crate) fn joined(curves: &[Vec<Point>], reach: f64) -> Vec<Chain> {
     }
     let mut is_used = vec![false; curves.len()];
     let mut chains = Vec::new();
-    // Follow chains with two ends first, from one of the ends. The remaining curves form closed loops.
+    // First follow chains from their free ends. The remaining curves form closed loops.
     let is_end = |curve: usize| ends[curve].iter().position(|&place| at_place[place].len() != 2);
     let starts = (0..curves.len()).filter_map(|curve| Some((curve, is_end(curve)?)));
     for (first, side) in starts.chain((0..curves.len()).map(|curve| (curve, 0))) {
@@ -100,7 +100,7 @@ fn chain(
             _ => break,
         };
     }
-    // A line there and back surrounds no area.
+    // A line and its way back enclose no area.
     if place == begin && at_place[place].len() == 2 && chain.points.len() > 3 {
         let last = chain.points.pop().expect("two points or more");
         chain.gap = chain.gap.max(distance(last, chain.points[0]));

@@ -23,11 +23,10 @@
 //!
 //! # Guarantees
 //!
-//! Corners lie on the curves that they approximate, and no point of a curve is farther than [`Settings::tolerance`]
-//! from its chord. So an outline loses at most that much where it is convex, and gains at most that much where it is
-//! concave. Circles stay circles as long as the map does not stretch them. Ends closer than the tolerance are joined.
-//! Nothing is dropped silently: [`Drawing::notes`] lists all ignored and changed elements. An outline may cross itself;
-//! [`filled`] returns the region that it surrounds.
+//! Corners lie on the curves that they approximate, and no point of a curve is farther than [`Settings::tolerance`] from its
+//! chord. So an outline is at most that much too small where it is convex, and too large where it is concave. Circles remain
+//! circles unless they are stretched. Ends closer than the tolerance are joined. Nothing is dropped silently: [`Drawing::notes`]
+//! lists all ignored and changed elements. An outline may cross itself. [`filled`] returns the region that it encloses.
 //!
 //! The size of the result is bounded, even with nested blocks or curves of a million chords: a drawing of more than
 //! [`MAX_POINTS`] points is refused.
@@ -88,7 +87,7 @@ impl Format {
 /// Reads a drawing.
 ///
 /// # Errors
-/// If the file is broken, or does not have that format.
+/// If the file is defective, or does not have that format.
 pub fn read(bytes: &[u8], format: Format, settings: &Settings) -> Result<Drawing, Error> {
     let settings = &Settings { tolerance: settings.tolerance.max(MIN_TOLERANCE), ..*settings };
     match format {

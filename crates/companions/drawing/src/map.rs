@@ -42,13 +42,13 @@ impl Map {
         Map { u: self.vector(inner.u), v: self.vector(inner.v), o: self.point(inner.o) }
     }
 
-    /// Returns the frame of a map that does not distort shapes: the image of the origin, and the rotation. The rotation
-    /// is that of the y axis, because x may be mirrored.
+    /// Returns the frame of a map that does not distort shapes: the image of the origin, and the rotation of the y
+    /// axis. The x axis may be mirrored.
     pub fn frame(&self) -> Frame {
         Frame { at: self.o, angle: (-self.v[0]).atan2(self.v[1]) }
     }
 
-    /// Returns the scale factor. Returns `None` if it is not the same in all directions.
+    /// Returns the scale factor. `None` if it depends on the direction.
     pub fn similarity(&self) -> Option<f64> {
         const EQUALITY_TOLERANCE: f64 = 1e-9;
         let [u, v] = [self.u, self.v].map(|[x, y]| x.hypot(y));

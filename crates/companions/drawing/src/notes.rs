@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::fmt;
 
-/// A remark about elements that were omitted or changed.
+/// A note about elements that were omitted or changed.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Note {
     /// Kind of element and what was done to it, such as `TEXT: left out`.
@@ -26,15 +26,14 @@ impl fmt::Display for Note {
     }
 }
 
-/// Greatest number of different notes that are listed. All further ones are counted together, because nobody would read
-/// them.
+/// Greatest number of different notes that are listed, because nobody would read more. All others are counted together.
 const MAX_KINDS: usize = 48;
 
 /// Notes, counted for each pair of element and message.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Notes {
     counted: Vec<(Vec<String>, Note)>,
-    /// Index of each note, by the words that select its element and by the message.
+    /// Index of each note, by the words that select its element and by its message.
     places: HashMap<(Vec<String>, String), usize>,
 }
 
@@ -44,7 +43,7 @@ impl Notes {
         self.add_of(Vec::new(), message, line);
     }
 
-    /// Adds a note about an element that has a layer or name. `whose` lists all words that select the element.
+    /// Adds a note about an element that can be selected. `whose` lists the words that select it: layer and name.
     pub fn add_of(&mut self, whose: Vec<String>, message: impl Into<String>, line: Option<usize>) {
         let message = message.into();
         let place = *self.places.entry((whose.clone(), message.clone())).or_insert_with(|| {
@@ -54,7 +53,7 @@ impl Notes {
         self.counted[place].1.count += 1;
     }
 
-    /// Returns all notes, in the order of the first occurrence of their kinds.
+    /// Returns all notes, in the order of their first occurrences.
     pub fn all(&self) -> Vec<Note> {
         self.of(|_| true)
     }

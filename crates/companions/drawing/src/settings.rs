@@ -8,9 +8,9 @@ pub struct Settings {
     /// Greatest distance between a curve and its chords, and between ends that are joined, metres. At least
     /// [`MIN_TOLERANCE`].
     pub tolerance: f64,
-    /// Unit of the file's numbers. With `None`, it is the unit that the file states.
+    /// Unit of the file's numbers. `None` for the unit that the file states.
     pub unit: Option<Unit>,
-    /// Factor by which everything is scaled in addition, about the drawing's origin. Positive.
+    /// Additional factor by which everything is scaled about the drawing's origin. Positive.
     pub scale: f64,
 }
 

@@ -11,7 +11,7 @@ pub type Ring = Vec<Point>;
 /// The content of a file.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Drawing {
-    /// Shapes in the order of the file; joined shapes have the position of their first piece.
+    /// Shapes in the order of the file. A joined shape has the position of its first piece.
     pub shapes: Vec<Shape>,
     /// Notes about content that was omitted or changed.
     pub notes: Notes,

@@ -11,10 +11,10 @@ use std::collections::BTreeMap;
 /// Greatest number of points of a drawing. A drawing with more points would be useless for planning.
 pub const MAX_POINTS: usize = 1 << 21;
 
-/// Greatest coordinate, metres. Beyond it, the rounding of doubles exceeds tolerances.
+/// Greatest coordinate, metres. Beyond it, doubles are coarser than tolerances.
 const MAX_COORDINATE: f64 = 1e12;
 
-/// Greatest distance, metres, between two ends that coincide except for the rounding of rotations and scales.
+/// Greatest distance, metres, between ends that differ only by the rounding of rotations and scales.
 const ROUNDING: f64 = 1e-9;
 
 /// The origin of a shape in the file.
@@ -36,7 +36,7 @@ impl Origin {
     }
 }
 
-/// Shapes in the order of the file, and open curves that are still to be joined.
+/// Shapes in the order of the file, and open curves that will be joined.
 pub(crate) struct Sheet {
     pub tolerance: f64,
     pub notes: Notes,
@@ -64,14 +64,14 @@ impl Sheet {
         self.note(format!("{what}: left out"), origin);
     }
 
-    /// Returns the error that a curve needs too many chords to be within the tolerance.
+    /// Creates the error that a curve needs too many chords to stay within the tolerance.
     pub fn too_fine(&self, origin: &Origin) -> Error {
         let (kind, tolerance) = (&origin.kind, self.tolerance);
         let message = format!("{kind}: too many chords are needed for a tolerance of {tolerance} m");
         Error::new(origin.line, message, "use a larger tolerance, or check the unit")
     }
 
-    /// Returns the chords of a curve, or the error that there would be too many.
+    /// Converts the failure to approximate a curve to an error about the element.
     pub fn chords<T>(&self, chords: Result<T, TooFineCurve>, origin: &Origin) -> Result<T, Error> {
         chords.map_err(|TooFineCurve| self.too_fine(origin))
     }
@@ -121,7 +121,7 @@ impl Sheet {
         Ok(())
     }
 
-    /// Adds a curve, to be joined with others of its group whose ends meet its own.
+    /// Adds a curve. It will be joined with curves of its group whose ends meet its ends.
     pub fn open(&mut self, points: Vec<Point>, group: usize, origin: &Origin) -> Result<(), Error> {
         let points = without_repeated_points(points, false);
         if points.len() < 2 {
@@ -146,14 +146,13 @@ impl Sheet {
         }
     }
 
-    /// Adds a whole ellipse, already mapped.
+    /// Adds a whole ellipse in coordinates of the drawing.
     pub fn ellipse(&mut self, ellipse: &Ellipse, origin: &Origin) -> Result<(), Error> {
         let ring = self.chords(ellipse.ring(self.tolerance), origin)?;
         self.closed(ring, origin)
     }
 
-    /// Checks that the coordinates of points are within range, and adds the points to the total number, which has a
-    /// limit.
+    /// Checks that coordinates are within range, and counts the points towards the limit of the drawing.
     fn check_and_count<'a>(&mut self, points: impl Iterator<Item = &'a Point>, origin: &Origin) -> Result<(), Error> {
         for point in points {
             self.points += 1;
@@ -211,7 +210,7 @@ impl Sheet {
     }
 }
 
-/// Removes points that repeat the previous one; in a ring the first follows the last.
+/// Removes points that repeat the previous one. In a ring, the last point precedes the first.
 pub(crate) fn without_repeated_points(mut points: Vec<Point>, is_ring: bool) -> Vec<Point> {
     points.dedup();
     while is_ring && points.len() > 1 && points.first() == points.last() {
@@ -220,7 +219,7 @@ pub(crate) fn without_repeated_points(mut points: Vec<Point>, is_ring: bool) -> 
     points
 }
 
-/// Returns true if all corners lie on one line, by their stored coordinates.
+/// Returns true if all corners lie on one line, in their rounded coordinates.
 fn has_no_area(ring: &[Point]) -> bool {
     let [a, rest @ ..] = ring else { return true };
     let far = rest.iter().max_by(|p, q| distance(a, p).total_cmp(&distance(a, q)));

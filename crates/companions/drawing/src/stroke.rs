@@ -1,10 +1,10 @@
-//! The area that a line with a width covers, with butt ends and mitred corners.
+//! The area of a line with a width, with butt ends and mitred corners.
 
 use crate::curve::{CircularArc, TooFineCurve};
 use crate::map::Map;
 use crate::{Point, Ring};
 
-/// A straight or bent segment whose width changes linearly.
+/// A straight or curved segment whose width changes linearly.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {
     pub ends: [Point; 2],
@@ -15,7 +15,7 @@ pub(crate) struct Piece {
 /// Greatest length of a mitre, in half widths. A longer mitre is cut off, as in SVG and PostScript.
 const MAX_MITRE: f64 = 4.0;
 
-/// Greatest gap between the edges of consecutive pieces that counts as smooth, as a fraction of the width.
+/// Greatest gap between the edges of consecutive pieces without a corner, as a fraction of the width.
 const SMOOTH_TOLERANCE: f64 = 1e-9;
 
 impl Piece {
@@ -51,13 +51,12 @@ impl Piece {
     }
 }
 
-/// Returns the point at a distance in some direction.
 fn offset_point(p: Point, direction: Point, distance: f64) -> Point {
     [0, 1].map(|k| p[k] + direction[k] * distance)
 }
 
-/// Returns rings that cover the same area as the pieces, counter-clockwise after `map` is applied. Each piece must
-/// start where the previous one ends, have a length above 0, and be wider than 0 somewhere.
+/// Returns rings that cover the same area as the pieces. They are counter-clockwise after `map` is applied. Each piece
+/// must start where the previous one ends, and must have a positive length and somewhere a positive width.
 pub(crate) fn covering_rings(
     pieces: &[Piece],
     is_closed: bool,
@@ -76,7 +75,7 @@ pub(crate) fn covering_rings(
         }
     }
     let mut rings = Vec::new();
-    // Corners are in the rings as well, so that neighbours share their borders to the last bit.
+    // The rings include the corners, so that neighbours share their borders exactly.
     for (piece, [left, right]) in pieces.iter().zip(&edges) {
         let [a, b] = piece.ends;
         let back: Vec<Point> = right.iter().rev().copied().collect();

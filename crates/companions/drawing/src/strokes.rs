@@ -11,11 +11,11 @@ pub struct Stroke {
     pub line: usize,
     /// The point where the outline begins, metres.
     pub start: Point,
-    /// The curves in order. Each begins where the one before it ends. A closed outline ends where it begins.
+    /// The curves in order. Each begins where the previous one ends. A closed outline ends where it begins.
     pub curves: Vec<StrokeCurve>,
 }
 
-/// A curve of an outline, from the end of the curve before it. Lengths are in metres.
+/// A curve of an outline. It begins where the previous one ends. Lengths are in metres.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum StrokeCurve {
     /// A straight line to this point.
@@ -47,11 +47,11 @@ pub struct Strokes {
 /// Reads the outlines of all visible elements of an SVG, filled or not. The origin is the lower left corner of the
 /// page, and y points upwards, as for [`crate::read`].
 ///
-/// Curves are exact. Only arcs of ellipses that are no circles become cubic curves, which deviate from the ellipse by
-/// less than a millionth of its size. [`Settings::tolerance`] has no effect.
+/// Curves are exact, except for arcs of ellipses. These become cubic curves that deviate by less than a millionth of
+/// the ellipse's size. [`Settings::tolerance`] has no effect.
 ///
 /// # Errors
-/// If the file is broken, is not SVG, or has more than [`crate::MAX_POINTS`] curves.
+/// If the file is defective, is not SVG, or has more than [`crate::MAX_POINTS`] curves.
 pub fn strokes(bytes: &[u8], settings: &Settings) -> Result<Strokes, Error> {
     svg::read_strokes(text(bytes)?, settings)
 }

@@ -1,5 +1,5 @@
-//! The bottleneck of an infeasible motion. All obstacles shrink equally until the first path opens; the bottleneck is
-//! the narrowest place of that path.
+//! The bottleneck of an infeasible motion. All obstacles shrink equally until a path opens. The bottleneck is the
+//! narrowest place of that path.
 
 use super::change::{fineness, middle, shrunk_pieces};
 use super::threshold::{Threshold, threshold};
@@ -8,26 +8,24 @@ use cplan_geometry::{Convex, Point, separation};
 use cplan_model::space::Configuration;
 use cplan_model::{Contact, Obstruction};
 
-/// The narrowest place of the path that is the first to open. To open it, the clearance is reduced first, and then all
-/// obstacles shrink by one distance.
+/// The narrowest place of the first path that opens. To open it, the clearance is reduced first, and then all obstacles
+/// shrink by one distance.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Bottleneck {
-    /// Amount at which the path opens, in metres: the reduction of the clearance plus the distance by which obstacles
-    /// shrink.
+    /// Amount at which the path opens, in metres: the reduction of the clearance plus the shrinking of the obstacles.
     pub by: Threshold,
-    /// The configuration on the opened path that is nearest to the shrunk obstacles.
+    /// Configuration on this path that is nearest to the shrunk obstacles.
     pub at: Configuration,
-    /// The point of the plane at which the arm is deepest in an obstacle in this configuration.
+    /// Point of the plane at which the arm, in this configuration, reaches deepest into an obstacle.
     pub point: Point,
-    /// Collisions of the arm at that configuration: for each link and obstacle, the deepest pair of shapes.
+    /// Collisions of the arm in this configuration: for each link and obstacle, the deepest pair of shapes.
     pub hits: Vec<Obstruction>,
 }
 
 /// Tolerance of the amount by which shapes are shrunk, as a fraction of the amount.
 const RELATIVE_TOLERANCE: f64 = 1e-2;
 
-/// Least tolerance of the amount of shrinking, as a fraction of the tolerance of changes. Decisions closer to the
-/// threshold take long.
+/// Least tolerance of the amount, as a fraction of the tolerance of changes. Decisions closer to the threshold take long.
 const MIN_TOLERANCE_SHARE: f64 = 1.0 / 16.0;
 
 /// Number of configurations along the path at which the missing distance is computed.
@@ -54,8 +52,7 @@ fn missing_distance(hits: &[Obstruction], clearance: f64) -> f64 {
     worst.iter().map(|(_, lack)| lack).sum()
 }
 
-/// Finds the bottleneck of an infeasible question. `None` if something other than obstacles and clearance blocks the
-/// motion.
+/// Finds the bottleneck of an infeasible question. `None` if the motion is blocked even without obstacles and clearance.
 pub fn bottleneck(question: &MotionQuestion, boxes: usize) -> Option<Bottleneck> {
     let scene = question.scene();
     let clearance = scene.workspace().clearance;

@@ -17,18 +17,18 @@ use cplan_view::{
     listed_number, object,
 };
 
-/// Largest share of the visible workspace by which it grows on a side to include changed obstacles.
+/// Largest extension of the visible workspace on a side to show changed obstacles, as a share of the visible part.
 const MAX_GROWTH: f64 = 0.35;
 
 /// Distance between a changed obstacle and the border of the workspace, as a share of the visible part.
 const MARGIN: f64 = 0.04;
 
-/// A card of the page: a change of the world with the path that it opens, or a configuration to look at. Also the obstacle
-/// after the change.
+/// A card of the page, and the obstacle after the change. The card shows a change of the world with the path that it
+/// opens, or a configuration.
 type Card = (Object, Option<ObstacleView>);
 
-/// Returns the explanation for a page: the reason in a sentence, a sentence about the proof, and cards. `frame` is the
-/// visible part of the workspace.
+/// Returns the explanation for a page: the reason in a sentence, a sentence about the proof, and the cards. `frame` is
+/// the visible part of the workspace.
 pub fn explanation_section(explanation: &Explanation, frame: [[f64; 2]; 2]) -> Section {
     let question = &explanation.question;
     let maker = CardMaker { question, grain: RoundingSteps::of(question.scene().arm()) };
@@ -59,7 +59,6 @@ pub fn blocking(explanation: &Explanation) -> Option<BlockingView> {
     Some(BlockingView { blockers, at })
 }
 
-/// Makes cards for a question.
 struct CardMaker<'a> {
     question: &'a MotionQuestion,
     grain: RoundingSteps,
@@ -106,8 +105,8 @@ impl CardMaker<'_> {
         (card, view)
     }
 
-    /// Returns the change of the world file, for pages that can apply it. Its numbers are not rounded, because the path is
-    /// certified for exactly these.
+    /// Returns the change of the world file, for pages that can apply it. Its numbers are not rounded, because the path
+    /// is certified only for these numbers.
     fn edit(&self, changed: &MotionQuestion, change: &Change) -> Option<Object> {
         match change.element {
             Element::Obstacle { number } => {
@@ -221,11 +220,11 @@ impl CardMaker<'_> {
         format!("{}, {}", value(0), value(1))
     }
 
-    /// Returns the C-obstacles that are different in the world with a change.
+    /// Returns the C-obstacles that differ in the world after a change.
     fn contours(&self, changed: &Scene, element: Element) -> Vec<ContourView> {
         let only = match element {
             Element::Obstacle { number } => Some(number),
-            // Shapes of revolute joints repeat after each turn, for any limits.
+            // C-obstacles of revolute joints repeat after each turn, for any limits.
             Element::Limit { joint, .. } if !changed.arm().joints[joint].joint_type.is_revolute() => None,
             _ => return Vec::new(),
         };
@@ -243,7 +242,7 @@ impl CardMaker<'_> {
         contour_views(&shown.collect::<Vec<_>>(), self.grain)
     }
 
-    /// Returns the values of both joints after a change of a limit. `None` for another change.
+    /// Returns the ranges of both joints after a change of a limit. `None` for other changes.
     fn domains(&self, changed: &Scene, element: Element) -> Option<[[f64; 2]; 2]> {
         let domain = |k: usize| changed.arm().joints[k].range.domain().into();
         matches!(element, Element::Limit { .. }).then(|| [domain(0), domain(1)])
@@ -267,7 +266,7 @@ fn extended<'a>(frame: [[f64; 2]; 2], changed: impl Iterator<Item = &'a Obstacle
     })
 }
 
-/// Returns a shape in the form that the live page edits. `None` if a world file cannot describe it.
+/// Returns a shape in the form that the live page edits. `None` if world files have no such shape.
 fn edited_shape(shape: &Shape) -> Option<Object> {
     match shape {
         Shape::Polygon(corners) => Some(object!("polygon": corners)),

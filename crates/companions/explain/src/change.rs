@@ -7,18 +7,17 @@ use cplan_model::{Obstacle, Outcome};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Tolerance of changes, in metres or radians. If the arm reaches less than a metre, changes of lengths have this
-/// fraction of the reach as their tolerance.
+/// Tolerance of changes, in metres or radians. If the reach of the arm is less than a metre, lengths have this fraction
+/// of the reach as their tolerance.
 const CHANGE_TOLERANCE: f64 = 1e-3;
 
 /// Largest tolerance of a change, as a fraction of the largest possible change.
 const MAX_TOLERANCE_SHARE: f64 = 1e-2;
 
-/// Number of directions in which an obstacle is moved.
+/// Number of directions in which moves of an obstacle are tried.
 const MOVE_DIRECTIONS: usize = 16;
 
-/// Number of refinements of the best direction. Each tries one direction on either side of it, at half the angle of the
-/// refinement before.
+/// Number of refinements of the best direction. Each one tries the directions on both sides of it, at half the previous angle.
 const DIRECTION_REFINEMENTS: u32 = 3;
 
 /// The kind of change made to a blocker.
@@ -32,10 +31,9 @@ pub enum ChangeKind {
     },
     /// All sides of the obstacle, which is convex, are moved inwards.
     Eroded,
-    /// The obstacle is scaled about the middle of its bounding box. The amount of the change is the motion of its
-    /// farthest point.
+    /// The obstacle is scaled about the middle of its bounding box. The amount is the displacement of its farthest point.
     Scaled {
-        /// The fraction of its size that remains.
+        /// Fraction of its size that remains.
         to: f64,
     },
     /// The joint's range is extended.
@@ -44,13 +42,13 @@ pub enum ChangeKind {
     Lowered,
 }
 
-/// The other elements that are in the world when a change is tried.
+/// The other elements that remain in the world when a change is tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum ChangeContext {
     /// All elements of the world.
     World,
-    /// Only the other blockers of the set. This applies if another set blocks all paths as well.
+    /// Only the other blockers of the set. Used if another set also blocks all paths.
     Set,
 }
 
@@ -61,15 +59,14 @@ pub struct Change {
     pub element: Element,
     /// The kind of change.
     pub cure: ChangeKind,
-    /// The elements that were in the world when the change was tried.
+    /// The elements that remained in the world when the change was tried.
     pub among: ChangeContext,
     /// The amount of the change that opens a path, in metres or radians.
     pub by: Threshold,
 }
 
 /// Returns the smallest changes of a blocker for an infeasible `question`, one for each kind of change that applies to
-/// it. The amount of a move is an upper bound on the least amount, because only 16 directions and some between them are
-/// tried.
+/// it. The amount of a move is only an upper bound on the least amount, because not all directions are tried.
 pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext, boxes: usize) -> Vec<Change> {
     let scene = question.scene();
     let fine = fineness(question);
@@ -81,7 +78,7 @@ pub fn changes(question: &MotionQuestion, element: Element, among: ChangeContext
             let moved = moving(question, obstacle, number, fine, boxes).map(|(cure, by)| made(cure, by));
             moved.into_iter().chain(shrunk).collect()
         }
-        // Nobody changes a robot's body or motors to open a path.
+        // Changes of a robot's body or motors are not a practical advice.
         Element::Link { .. } | Element::Motor => Vec::new(),
         Element::Limit { joint, side } => {
             let turns = scene.arm().joints[joint].joint_type.is_revolute();
@@ -115,22 +112,21 @@ fn shrinking(
     let ask = |by: f64| question.with_pieces(number, shrunk_pieces(obstacle, by)).answer(boxes);
     let by = threshold(0.0, most, fine.min(MAX_TOLERANCE_SHARE * most), ask)?;
     if by.opens >= most {
-        // The obstacle has vanished. That its removal opens a path was known before.
+        // The obstacle has vanished. It was known before that its removal opens a path.
         return None;
     }
     let cure = if is_eroded(obstacle) { ChangeKind::Eroded } else { ChangeKind::Scaled { to: 1.0 - by.opens / most } };
     Some((cure, by))
 }
 
-/// Returns true if all sides of an obstacle can move inwards. Pieces of a non-convex obstacle would come apart, and a
-/// wall has no inside.
+/// Returns true if all sides of an obstacle can be moved inwards. Pieces of a non-convex obstacle would come apart, and
+/// a wall has no inside.
 fn is_eroded(obstacle: &Obstacle) -> bool {
     matches!(&obstacle.pieces[..], [only] if only.depth() > 0.0)
 }
 
-/// Returns the pieces of an obstacle that has shrunk so that no point of it has moved by more than `by`. All sides of a
-/// convex obstacle move inwards; others are scaled about the middle of their bounding box. Returns no pieces if the
-/// obstacle is too thin.
+/// Returns the pieces of an obstacle after shrinking that moves no point by more than `by`. A convex obstacle shrinks by moving
+/// all sides inwards. Others are scaled about the middle of their bounding box. Returns no pieces if the obstacle vanishes.
 pub(super) fn shrunk_pieces(obstacle: &Obstacle, by: f64) -> Vec<Convex> {
     let (pieces, growth) = (obstacle.real_pieces(), obstacle.growth.total);
     let eroded = is_eroded(obstacle).then(|| pieces[0].eroded(by).into_iter().collect::<Vec<_>>());
@@ -153,8 +149,8 @@ pub(super) fn middle(obstacle: &Obstacle) -> Option<(Point, f64)> {
     Some((middle, pieces.iter().map(|piece| piece.reach_from(middle)).fold(0.0, f64::max)))
 }
 
-/// Finds the smallest move of an obstacle that opens a path. Doubles the step until some direction opens one. Then
-/// bisects the step in those directions, and tries directions beside the best one.
+/// Finds the smallest move of an obstacle that opens a path. Doubles the step until a path opens in some directions.
+/// Then bisects the step in these directions, and tries others beside the best one.
 fn moving(
     question: &MotionQuestion,
     obstacle: &Obstacle,

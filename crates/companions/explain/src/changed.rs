@@ -6,8 +6,8 @@ use cplan_geometry::{Convex, Point, Pose, Vector};
 use cplan_model::{Obstacle, Scene, Shape};
 
 impl Change {
-    /// Returns the explained question with this change. `set` is the blocking set that the change is for. If the change
-    /// was tried among that set only, the other elements are removed.
+    /// Returns the question with this change. `set` is the blocking set to which the change belongs. If the change was
+    /// tried with that set only, all other elements are removed.
     pub fn apply(&self, question: &MotionQuestion, set: &BlockingSet) -> MotionQuestion {
         let rest = match self.among {
             ChangeContext::World => question.clone(),
@@ -51,7 +51,7 @@ impl Change {
     }
 }
 
-/// Returns the shape that consists of exactly these pieces, if a world file can describe it.
+/// Returns the shape of the world file that consists of exactly these pieces, if there is one.
 fn shape_of(pieces: &[Convex]) -> Shape {
     match pieces {
         [piece] if piece.core().len() == 1 => Shape::Circle { center: piece.core()[0], radius: piece.radius() },
@@ -60,7 +60,6 @@ fn shape_of(pieces: &[Convex]) -> Shape {
     }
 }
 
-/// Returns the shape scaled about a point.
 fn scaled(shape: &Shape, center: Point, share: f64) -> Shape {
     let moved = |p: &Point| center + (p - center) * share;
     let all = |points: &[Point]| points.iter().map(moved).collect();

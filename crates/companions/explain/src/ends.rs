@@ -7,26 +7,26 @@ use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Arm, Elbow, Obstruction, Scene, inverse};
 use cplan_planners::cspace::{NearestFree, nearest_free};
 
-/// Number of values of each joint in the lattice with which the search for the tip's nearest place starts.
+/// Number of values per joint in the lattice with which the search for the tip's nearest place starts.
 const SAMPLES_PER_JOINT: usize = 128;
 
 /// Smallest step of the search for the tip's nearest place, as a fraction of a joint's range.
 const MIN_STEP: f64 = 1e-12;
 
-/// A start or goal that is outside the limits, or at which the arm hits or comes too near to an obstacle.
+/// A start or goal that is outside the limits, or not free.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockedEnd {
     /// The end that is blocked.
     pub end: End,
     /// The configuration. For a tip goal, an IK solution.
     pub at: Configuration,
-    /// Distance of each joint's value outside its range, in radians or metres; 0 inside the range.
+    /// Distance of each joint's value from its range, in radians or metres; 0 inside the range.
     pub beyond: [f64; 2],
     /// Obstacles that the arm hits there, or that it comes too near to.
     pub hits: Vec<Obstruction>,
-    /// The scene of these hits, if the arm hits them while it stands still. `None` for the scene of the motion.
+    /// The scene of these hits, if the arm hits them at rest. `None` for the scene of the motion.
     pub standing: Option<StandstillScene>,
-    /// The nearest free configuration. `None` if no configuration is free, or if the arm stands still.
+    /// The nearest free configuration. `None` if no configuration is free, or if the arm is at rest.
     pub nearest: Option<NearestFree>,
 }
 
@@ -36,8 +36,8 @@ impl BlockedEnd {
         self.standing.as_ref().map_or(scene, |standing| &standing.scene)
     }
 
-    /// Returns the angle of the elbow's motor outside its range, in radians. `None` if it is inside, or has no range of its
-    /// own.
+    /// Returns the distance of the elbow motor's angle from its range, in radians. `None` if the angle is inside, or
+    /// has no range.
     pub fn beyond_motor(&self, arm: &Arm) -> Option<f64> {
         let (sum, motors) = arm.topology().sum.zip(arm.motors)?;
         let beyond = (sum.lower - sum.of(self.at)).max(sum.of(self.at) - sum.upper);
@@ -58,15 +58,14 @@ pub struct OutOfReach {
     pub tip: Point,
     /// The required side of the elbow. `None` if either side will do.
     pub elbow: Option<Elbow>,
-    /// The nearest place found that the tip can reach if there are no obstacles. Its distance from the goal is an upper
-    /// bound on that of the nearest place.
+    /// The nearest place found that the tip can reach without obstacles. A nearer one may exist.
     pub nearest: Point,
     /// The joint values at that place.
     pub at: Configuration,
 }
 
-/// Finds the problems with start and goals of a question. Goals are reported only if all of them are blocked; then the
-/// goal nearest to a free configuration comes first.
+/// Finds the problems with start and goals of a question. Goals are reported only if all of them are blocked. The goal
+/// nearest to a free configuration comes first.
 pub fn blocked_ends(question: &MotionQuestion) -> (Vec<BlockedEnd>, Option<OutOfReach>) {
     let mut blocked: Vec<BlockedEnd> = Vec::new();
     if !question.is_start_free() {
@@ -86,7 +85,7 @@ pub fn blocked_ends(question: &MotionQuestion) -> (Vec<BlockedEnd>, Option<OutOf
                 if within.is_empty() { beyond } else { within.iter().map(|piece| piece.at(0.5)).collect() }
             }
         };
-        // A goal that equals the start has already been reported as the start.
+        // A goal that equals the start is already reported as the start.
         let elsewhere = goals.into_iter().filter(|&q| q != question.start());
         let mut goals: Vec<BlockedEnd> = elsewhere.map(|q| blocked_end(question, End::Goal, q)).collect();
         let far = |end: &BlockedEnd| end.nearest.map_or(f64::INFINITY, |nearest| nearest.distance);
@@ -113,8 +112,8 @@ fn blocked_end(question: &MotionQuestion, end: End, at: Configuration) -> Blocke
     }
 }
 
-/// Finds the place nearest to a goal that the tip reaches within the limits, with the elbow on the stated side. Starts at the best configuration of a
-/// lattice. Then improves it by steps that become smaller and smaller.
+/// Finds the place nearest to a goal that the tip reaches within the limits, with the elbow on the stated side.
+/// Improves the best configuration of a lattice by ever smaller steps.
 fn nearest_tip(arm: &Arm, tip: Point, elbow: Option<Elbow>) -> OutOfReach {
     let ranges = arm.topology().ranges;
     let at = |share: [f64; 2]| {

@@ -12,13 +12,13 @@ use cplan_model::{Outcome, Status};
 use cplan_solver::{Answer, Options, Unknown, solve};
 use std::time::Duration;
 
-/// Largest number of boxes for each decision about a blocker or a change, of which there are many.
+/// Largest number of boxes for most decisions about a blocker or a change.
 const BOXES_PER_DECISION: usize = 20_000;
 
-/// Largest number of boxes for each of the few blockers that are undecided with [`BOXES_PER_DECISION`].
+/// Largest number of boxes for a blocker that is undecided with [`BOXES_PER_DECISION`]. There are few such blockers.
 const BOXES_FOR_LAST_DECISIONS: usize = 1_000_000;
 
-/// The reasons why there is no motion, or why the motion that exists is not shorter.
+/// The reasons why there is no motion, or why there is no shorter one.
 #[derive(Debug, Clone)]
 pub struct Explanation {
     /// The question.
@@ -27,13 +27,12 @@ pub struct Explanation {
     pub outcome: Outcome<FoundExplanation, InfeasibleExplanation>,
     /// The failed step that the question is about. `None` for the question of a single motion.
     pub failure: Option<StepFailure>,
-    /// True if the time limit was reached. Then sets may contain needless elements, and changes and savings may be
-    /// missing.
+    /// True if the time limit was reached. Then sets may contain unnecessary elements, and changes or savings may be missing.
     pub is_stopped: bool,
 }
 
-/// A step of a task that fails. The task may have other choices, so its answer may be unknown although the motion of the
-/// step is infeasible.
+/// A step of a task that fails. The whole task may be unknown even if the motion of the step is infeasible, because it
+/// may have other choices.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StepFailure {
     /// The answer to the whole task: infeasible or unknown.
@@ -56,9 +55,9 @@ pub struct FoundExplanation {
 /// Reasons why there is no motion.
 #[derive(Debug, Clone, Default)]
 pub struct InfeasibleExplanation {
-    /// Proof that the whole world has no motion. `None` if the start or all goals are blocked, which needs no proof.
+    /// Proof that the world has no motion. `None` if the start or all goals are blocked, which needs no proof.
     pub proof: Option<CheckedProof>,
-    /// Problems with start and goals, if the arm cannot be there.
+    /// Defects of start and goals.
     pub ends: Vec<BlockedEnd>,
     /// The nearest place that the tip can reach, if the goal is out of reach.
     pub out_of_reach: Option<OutOfReach>,
@@ -78,9 +77,9 @@ impl Explanation {
 }
 
 /// Explains a question. For a motion that is found, reports the elements that make it longer. Otherwise reports the
-/// blocking elements, the smallest change of each that opens a path, and where the motion gets stuck.
+/// blocking elements, the smallest change of each that opens a path, and the narrowest place.
 ///
-/// It usually takes tenths of a second. The question's time limit starts when it is known whether there is a motion.
+/// It usually takes tenths of a second. The time limit of the question begins when it is known whether there is a motion.
 pub fn explain(question: &MotionQuestion, options: &Options) -> Explanation {
     let answer = question.problem().map(|problem| solve(&problem, options, &mut |_| ()));
     let started = question.started();
@@ -128,7 +127,7 @@ fn closed(question: &MotionQuestion, proof: Option<CheckedProof>) -> InfeasibleE
     let sets = blocking_sets(question, proof.clone(), [BOXES_PER_DECISION, BOXES_FOR_LAST_DECISIONS]);
     let changes = sets.iter().map(|set| changes_of_set(question, set)).collect();
     let (ends, out_of_reach) = blocked_ends(question);
-    // A path of the motion does not show where an arm is stuck that stands still.
+    // If the arm collides at rest, a path of the motion does not show why.
     let is_moving = ends.iter().all(|end| end.standing.is_none());
     let bottleneck = if is_moving { bottleneck(question, BOXES_PER_DECISION) } else { None };
     InfeasibleExplanation { proof, ends, out_of_reach, sets, changes, bottleneck }

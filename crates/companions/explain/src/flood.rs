@@ -1,4 +1,4 @@
-//! Sets of free IK solutions that certified straight motions connect, and the trees of these motions.
+//! Sets of free IK solutions that are connected by certified straight motions, and the trees of these motions.
 
 use super::motion_tree::Origin;
 use super::reach::{Access, Reach};
@@ -27,7 +27,7 @@ pub struct Reached {
     pub origin: Origin,
 }
 
-/// A node that waits for its turn, ordered by the length of the motion to it.
+/// A node in the queue, ordered by the length of the motion to it.
 #[derive(PartialEq)]
 struct Waiting {
     length: f64,
@@ -63,7 +63,7 @@ pub struct Solutions<'a> {
     /// Index of the first node of each cell, and the number of nodes.
     firsts: Vec<usize>,
     size: [usize; 2],
-    /// For nodes that a flood reached: beginning of the straight motion to them, and the length of the whole motion.
+    /// For each node that a flood reached, the beginning of the straight motion to it, and the length of the whole motion.
     arrivals: Vec<Option<(Beginning, f64)>>,
     /// True for the nodes of earlier floods.
     visited: Vec<bool>,
@@ -102,10 +102,10 @@ impl<'a> Solutions<'a> {
         self.visited[node]
     }
 
-    /// Finds all nodes, except those of earlier floods, that certified motions connect with `seed`, from cell to
-    /// neighbouring cell. `route` is the origin of the motion to the seed, with the configuration there. A node may occur
-    /// several times in the result; the last motion to it is the shortest. Where a straight motion from an earlier node is
-    /// certified, it replaces the detour through the cells, so that motions are short and have few waypoints.
+    /// Finds all nodes that certified motions connect with `seed`, from cell to neighbouring cell, except those of
+    /// earlier floods. `route` is the origin of the motion to the seed, with the configuration there. If a node occurs
+    /// several times in the result, the last motion to it is the shortest. A certified straight motion from an earlier
+    /// node replaces the detour through the cells, so motions are short and have few waypoints.
     ///
     /// This is the algorithm Theta* without a goal (Nash, Daniel, Koenig and Felner, 2007).
     pub fn flood(&mut self, seed: usize, route: Option<(Origin, Configuration)>) -> Vec<Reached> {
@@ -152,7 +152,7 @@ impl<'a> Solutions<'a> {
         self.scene.arm().topology().distance(from, to)
     }
 
-    /// Returns the cells beside a cell, also across its corners.
+    /// Returns the cells that share a side or a corner with a cell.
     fn neighbours(&self, place: usize) -> impl Iterator<Item = usize> + use<> {
         let [columns, rows] = self.size;
         let [x, y] = [place % columns, place / columns];
@@ -161,8 +161,8 @@ impl<'a> Solutions<'a> {
         places.filter(move |&other| other != place)
     }
 
-    /// Returns the solution of a cell that is nearest to a configuration. Of the two solutions with different elbows,
-    /// it has the same elbow.
+    /// Returns the solution of a cell that is nearest to a configuration. If the solutions have different elbows, it is
+    /// the one with the same elbow.
     fn nearest(&self, place: usize, joints: Configuration) -> Option<usize> {
         let far = |&node: &usize| self.distance(joints, self.nodes[node].joints);
         (self.firsts[place]..self.firsts[place + 1]).min_by(|a, b| far(a).total_cmp(&far(b)))

@@ -34,7 +34,7 @@ impl Explanation {
     }
 }
 
-/// Returns the kind and name of an element. Obstacles are counted from 1 for human readers.
+/// Returns kind and name of an element. Obstacles are counted from 1, as for readers of text.
 fn of_element(scene: &Scene, element: Element) -> Value {
     match element {
         Element::Obstacle { number } => {

@@ -1,5 +1,5 @@
-//! Explanations: why there is no motion, or why a step of a task fails, and which changes open a path; for a motion that
-//! exists, which elements make it longer.
+//! Explains why there is no motion, or why a step of a task fails, and which changes open a path. For a motion that
+//! exists, explains which elements make it longer.
 //!
 //! ```
 //! use cplan_explain::{MotionQuestion, explain};

@@ -1,9 +1,9 @@
-//! Certified motions from the home configuration to many IK solutions, as a tree: each solution is reached by a
-//! straight motion from another one, or from the end of a planned route.
+//! A tree of certified motions from the home configuration to many IK solutions. A straight motion leads to each
+//! solution, from another solution or from the end of a planned route.
 
 use cplan_model::space::{Configuration, Path, Topology};
 
-/// Origin of the straight motion that ends in a solution. Solutions are counted through all cells, in order.
+/// Origin of the straight motion to a solution. Solutions have consecutive numbers through all cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
     /// The last waypoint of a planned route from home.
@@ -17,7 +17,7 @@ pub enum Origin {
 pub struct MotionTree {
     /// Waypoints of the planned routes. Each begins at home.
     pub routes: Vec<Vec<Configuration>>,
-    /// For each solution, where the straight motion to it begins. `None` if no certified motion leads to the solution.
+    /// For each solution, the origin of the straight motion to it. `None` if no certified motion leads to it.
     pub origins: Vec<Option<Origin>>,
 }
 
@@ -30,7 +30,7 @@ impl MotionTree {
     /// Adds a planned path to a solution. Returns the origin of its last straight motion.
     pub fn add_path(&mut self, solution: usize, path: &Path) -> Origin {
         let [before @ .., _] = path.waypoints() else { unreachable!("a path has a waypoint") };
-        // A path of a single waypoint ends at home.
+        // If the path has a single waypoint, that is home.
         let route = if before.is_empty() { path.waypoints() } else { before };
         self.routes.push(route.to_vec());
         let origin = Origin::Route(self.routes.len() - 1);
@@ -38,8 +38,8 @@ impl MotionTree {
         origin
     }
 
-    /// Returns the certified motion from home to a solution with the values `joints`. `None` if there is no
-    /// certified motion. Values of a circle continue beyond a turn, so that all motions between waypoints are straight.
+    /// Returns the certified motion from home to a solution with the values `joints`. `None` if there is no certified
+    /// motion. Values of continuous joints may exceed a turn, so that all motions between waypoints are straight.
     pub fn motion_to(
         &self,
         solution: usize,

@@ -1,4 +1,4 @@
-//! An explanation for people, in words and as a picture.
+//! An explanation for readers, in words and as a picture.
 
 use super::cards::{blocking, explanation_section};
 use super::words::{bounds, headline, instruction};
@@ -11,7 +11,7 @@ use cplan_view::output::names::capitalized;
 use cplan_view::output::{Line, configuration, contours, format_columns, goal_lines, status, title_of};
 use cplan_view::{Picture, Section, View};
 
-/// If an explanation was stopped early, cplan suggests a time limit that is longer by this factor.
+/// Factor for the time limit that cplan suggests if an explanation was stopped early.
 const TIME_LIMIT_FACTOR: f64 = 12.0;
 
 /// Returns the verdict, and then the reasons.
@@ -49,8 +49,8 @@ pub fn with_explanation(view: View, explanation: &Explanation) -> View {
     }
 }
 
-/// Adds an explanation of the step that fails to the view of its task. The reason becomes the title. Leaves the view
-/// unchanged if no obstacles or limits are known whose removal opens a path.
+/// Adds an explanation of the step that fails to the view of its task. The reason becomes the title. The view remains
+/// unchanged if no set of elements is known whose removal opens a path.
 pub fn with_step_explanation(mut view: View, explanation: &Explanation) -> View {
     let Some(closed) = explanation.outcome.infeasible() else { return view };
     if closed.sets.iter().all(|set| set.blockers.is_empty()) {
@@ -121,7 +121,7 @@ fn verdict(explanation: &Explanation) -> String {
     }
 }
 
-/// Returns a note with the option for more time, if the time limit ended the explanation early.
+/// Returns a note with an option for more time, if the time limit stopped the explanation.
 fn time_limit_note(explanation: &Explanation) -> Option<String> {
     let limit = explanation.question.time_limit().filter(|_| explanation.is_stopped)?.as_secs_f64();
     let more = short((TIME_LIMIT_FACTOR * limit).max(TIME_LIMIT.as_secs_f64()));
@@ -235,7 +235,7 @@ fn end_lines(scene: &Scene, blocked: &BlockedEnd) -> Vec<Line> {
     lines
 }
 
-/// Describes how far a tip goal is out of reach.
+/// Describes the distance of a tip goal from the reach.
 fn misses(scene: &Scene, out: &OutOfReach) -> String {
     let OutOfReach { tip, nearest, at, elbow } = out;
     format!(
@@ -250,7 +250,6 @@ fn misses(scene: &Scene, out: &OutOfReach) -> String {
     )
 }
 
-/// Describes a bottleneck.
 fn bottleneck_line(scene: &Scene, bottleneck: &Bottleneck) -> String {
     let clearance = scene.workspace().clearance;
     let lacking = bottleneck.missing_distance(clearance);

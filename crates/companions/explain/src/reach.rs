@@ -1,5 +1,5 @@
-//! Reachability: the places that the tip can reach from a home configuration, with their IK solutions. The answers are
-//! certified, or proven impossible.
+//! Reachability: the places that the tip can reach from a home configuration, with their IK solutions. Each answer is
+//! certified, proven impossible, or unknown.
 
 use super::flood::Solutions;
 use super::motion_tree::MotionTree;
@@ -14,10 +14,10 @@ use serde::{Serialize, Serializer};
 /// Largest number of square cells that are examined.
 pub const MAX_PLACES: usize = 4_000_000;
 
-/// Largest number of boxes for the decision about one set of connected solutions.
+/// Largest number of boxes for the decision about a set of connected solutions.
 const BOXES_PER_SET: usize = 20_000;
 
-/// Number of values of each joint in the sample of configurations that bounds the places of the tip.
+/// Number of values per joint in the sample that bounds the places of the tip.
 const SAMPLES_PER_JOINT: usize = 256;
 
 /// Reachability of a configuration from the home configuration.
@@ -52,8 +52,8 @@ impl Access {
 /// A solution of the inverse kinematics.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Solution {
-    /// Joint values within the limits, base to tip. For a solution with a free joint, these are the values that a
-    /// motion reaches, or otherwise those nearest to home.
+    /// Joint values within the limits, base to tip. If a joint is free, these are the values that a motion reaches, or
+    /// otherwise those nearest to home.
     #[serde(serialize_with = "pair")]
     pub joints: Configuration,
     /// Reachability of the solution.
@@ -76,10 +76,9 @@ pub struct Reach {
     pub corner: [f64; 2],
     /// Number of cells along x and along y.
     pub size: [usize; 2],
-    /// For each cell, the solutions that put the tip at its centre, row by row from the lowest row. Empty if the centre
-    /// is out of reach.
+    /// IK solutions for the tip at the centre of each cell, row by row from the lowest row. Empty if the centre is out of reach.
     pub places: Vec<Vec<Solution>>,
-    /// Certified motions to the solutions, which are counted through all cells in order.
+    /// Certified motions to the solutions, which have consecutive numbers through all cells.
     #[serde(skip)]
     pub motions: MotionTree,
 }
@@ -91,8 +90,8 @@ impl Reach {
         Point::from([0, 1].map(|k| self.corner[k] + self.cell * (at[k] as f64 + 0.5)))
     }
 
-    /// Iterates over the cells with solutions. For each, returns its index, the best reachability of its solutions, and
-    /// how many of them have that reachability.
+    /// Iterates over the cells with solutions. Each item is the index of a cell, the best reachability of its
+    /// solutions, and the number of solutions with that reachability.
     pub fn best(&self) -> impl Iterator<Item = (usize, Access, usize)> {
         self.places.iter().enumerate().filter_map(|(number, solutions)| {
             let best = solutions.iter().map(|solution| solution.access).min()?;
@@ -119,18 +118,18 @@ impl Reach {
 }
 
 /// Computes the IK solutions for the centre of each square cell of side `cell`, in metres. For each solution, decides
-/// whether a motion from `home` leads to it that keeps the world's clearance.
+/// whether a motion that keeps the world's clearance leads to it from `home`.
 ///
-/// Solutions of neighbouring cells are connected if a straight motion to one of them is certified, which begins at the
-/// other one or at an earlier solution of the same set. Of each set of connected solutions, only one is decided. A
-/// certified motion to it extends to the whole set, and a proof that it is unreachable holds for the whole set. Returns
-/// `None` if there are more than [`MAX_PLACES`] cells.
+/// Two solutions of neighbouring cells are connected if a straight motion to one of them is certified, either from the
+/// other one or from an earlier solution of the same set. Only one solution of each connected set is decided. A
+/// certified motion to it extends to the whole set, and so does a proof that it is unreachable. Returns `None` if there
+/// are more than [`MAX_PLACES`] cells.
 ///
 /// Takes `O(n)` certificates for `n` solutions, and one decision per set.
 pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
     let arm = scene.arm();
     let [lower, upper] = tip_bounds(arm)?;
-    // A whole number of cells. One more on each side, because the tip may reach beyond the sample.
+    // Cover the sample by whole cells, and one more on each side, because the tip may reach beyond the sample.
     let first = [0, 1].map(|k| (lower[k] / cell).floor() - 1.0);
     let count = [0, 1].map(|k| (upper[k] / cell).floor() - first[k] + 2.0);
     if !(cell > 0.0 && count[0] * count[1] <= MAX_PLACES as f64) {
@@ -144,7 +143,7 @@ pub fn reach(scene: &Scene, home: Configuration, cell: f64) -> Option<Reach> {
         places: Vec::new(),
         motions: MotionTree::default(),
     };
-    // A solution with a free joint stands for many configurations. One of them that can be reached suffices.
+    // A solution with a free joint represents many configurations. It is reachable if one of them is.
     let mut open = Vec::new();
     let mut number = 0;
     for place in 0..reach.size[0] * reach.size[1] {
@@ -190,8 +189,8 @@ fn is_free(scene: &Scene, q: Configuration) -> bool {
     certify(scene, Path::new(vec![q])).is_ok()
 }
 
-/// Decides for all free solutions whether a motion from home leads to them: set by set, beginning with the solution
-/// nearest to home.
+/// Decides for all free solutions whether a motion from home leads to them, set by set. The solution nearest to home
+/// comes first.
 fn decide_places(scene: &Scene, reach: &mut Reach) {
     let mut solutions = Solutions::new(scene, reach);
     for seed in solutions.by_distance(reach.home) {
@@ -225,8 +224,8 @@ fn decide_access(scene: &Scene, home: Configuration, to: impl Into<GoalSet>) -> 
     }
 }
 
-/// Returns the result for a solution with a free joint, and adds the motion to it. The solution is blocked only if all
-/// of its configurations are blocked, and reachable if any of them is reachable.
+/// Returns the result for a solution with a free joint, and adds the motion to it. The solution is reachable if any of
+/// its configurations is, and blocked only if all of them are blocked.
 fn solution_with_free_joint(
     scene: &Scene,
     home: Configuration,
@@ -250,7 +249,7 @@ mod tests {
     use super::*;
     use cplan_model::{Joint, Obstacle, Workspace};
 
-    /// A post that the arm must go around, and a first joint that turns without end.
+    /// Returns a scene with a post that the arm must go around, and with a continuous first joint.
     fn scene() -> Scene {
         let mut arm = Arm::rr([1.0, 0.8], 0.04).expect("an arm");
         arm.joints[1] = Joint::turning("elbow", -2.8, 2.8);

@@ -1,12 +1,11 @@
-//! Reachable places of the tip in pictures and pages: cells of the workspace, and their IK solutions in the configuration
-//! space.
+//! The reachable places of the tip in pictures and pages: cells of the workspace, and IK solutions in the configuration space.
 
 use super::{Access, Origin, Reach, Solution};
 use cplan_model::Arm;
 use cplan_theme::{OCCUPIED, REACHED, REACHED_TWICE, Rgb, UNKNOWN, UNREACHABLE, role_or_hex};
 use cplan_view::{CellLayer, Object, RoundingSteps, Section, object};
 
-/// Code that shows the section in a page.
+/// Script that shows the section in a page.
 const SCRIPT: &str = include_str!("reach.js");
 
 /// Colour and meaning of each kind of cell: one free solution, several, proven unreachable, colliding, unknown.
@@ -58,18 +57,17 @@ fn free(reach: &Reach) -> impl Iterator<Item = &Solution> {
     reach.places.iter().flatten().filter(|solution| solution.access != Access::Blocked)
 }
 
-/// Returns the reachable places for pages. `cells` has the kind of each cell as a character, row by row from the lowest
-/// row; a dot stands for a cell out of reach. `counts` has the number of their IK solutions, as a character. `access` has
-/// the kind of each solution, `1` for one that a motion reaches, and `origins` the beginning of the straight motion to it:
-/// the index of another solution, `-2 - r` for the end of route `r`, or -1 if there is no certified motion. Routes begin at
-/// home.
+/// Returns the reachable places for pages. `cells` has a character for the kind of each cell, row by row from the lowest row; a
+/// dot means that the cell is out of reach. `counts` has a character for the number of its IK solutions. `access` has the kind
+/// of each solution, `1` if a motion reaches it. `origins` has the beginning of the straight motion to it: the index of another
+/// solution, `-2 - r` for the end of route `r`, or -1 if there is no certified motion. Routes begin at home.
 fn document(reach: &Reach, grain: RoundingSteps) -> Object {
     let letter = |access, count| char::from(b'0' + style_index(access, count) as u8);
     let mut cells = vec!['.'; reach.places.len()];
     for (place, access, count) in reach.best() {
         cells[place] = letter(access, count);
     }
-    // A solution with a free joint is one of infinitely many; there are never more than a few per cell.
+    // A solution with a free joint represents infinitely many. Otherwise, there are only a few per cell.
     let count = |solutions: &Vec<Solution>| char::from(b'0' + solutions.len().min(9) as u8);
     let origin = |origin: &Option<Origin>| match *origin {
         None => -1,

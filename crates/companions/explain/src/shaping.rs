@@ -14,14 +14,14 @@ pub struct Saving {
     pub path: Path,
     /// Length of that path.
     pub length: f64,
-    /// Lower bound on how much shorter the shortest path is without the element.
+    /// Lower bound on the saving: the shortest path is shorter by at least this without the element.
     pub at_least: f64,
-    /// Upper bound on how much shorter the shortest path is without the element.
+    /// Upper bound on the saving.
     pub at_most: f64,
 }
 
-/// Returns the elements whose removal is proven to make the shortest path shorter than that of `answer`, the greatest
-/// saving first. Plans a shortest path without each element in turn, until the question's time is up.
+/// Returns the elements whose removal is proven to shorten the shortest path, the one with the greatest saving first.
+/// Plans a shortest path without each element in turn, until the question's time is up.
 pub fn savings(question: &MotionQuestion, answer: &Answer, options: &Options) -> Vec<Saving> {
     let Some(whole) = answer.bound() else { return Vec::new() };
     let mut savings = Vec::new();

@@ -4,20 +4,20 @@ use cplan_interrupt::checkpoint;
 use cplan_judge::{CertifiedPath, CheckedProof};
 use cplan_model::Outcome;
 
-/// Bounds on the amount of a change at which a path opens.
+/// Bounds on the least amount of a change that opens a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Threshold {
-    /// The amount of a change with which there is a certified path.
+    /// An amount with which there is a certified path.
     pub opens: f64,
     /// A certified path with the amount `opens`.
     pub path: CertifiedPath,
     /// A smaller amount with which it is proven that there is no path. If it differs from `opens` by more than the
-    /// tolerance, nothing is known about the amounts between the two.
+    /// tolerance, the amounts in between are undecided.
     pub closed: f64,
 }
 
 /// Finds the threshold between `closed` and `most`, to `tolerance`. `ask` decides whether an amount opens a path.
-/// Returns `None` if it is not proven that `closed` leaves no path, or if no path is found with `most`.
+/// Returns `None` if `closed` is not proven to leave no path, or if no path is found with `most`.
 ///
 /// Doubles the step until a path is found, then bisects: `O(log((most - closed) / tolerance))` calls of `ask`.
 pub(super) fn threshold(
@@ -48,7 +48,7 @@ pub(super) fn threshold(
         let by = f64::midpoint(known.below, *open);
         known.record(by, ask(by));
     }
-    // Undecided amounts lie between those with and those without a path. Continue below them.
+    // Undecided amounts lie between amounts without a path and those with one. Continue below the undecided ones.
     let mut unknown = known.below;
     while unknown - known.closed > tolerance {
         let by = f64::midpoint(known.closed, unknown);
@@ -62,9 +62,9 @@ pub(super) fn threshold(
 
 /// Results for the amounts of a change that were tried.
 struct KnownResults {
-    /// The greatest amount with which it is proven that there is no path.
+    /// Greatest amount with which it is proven that there is no path.
     closed: f64,
-    /// The greatest amount that was tried without finding a path.
+    /// Greatest tried amount with which no path was found.
     below: f64,
     /// The least amount with which a path was found, and that path.
     open: Option<(f64, CertifiedPath)>,

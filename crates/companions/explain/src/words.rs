@@ -17,7 +17,7 @@ const DIRECTION_TOLERANCE: f64 = 1.0;
 const DIRECTIONS: [&str; 8] =
     ["right", "up and right", "up", "up and left", "left", "down and left", "down", "down and right"];
 
-/// Returns the reason in a sentence that a person would say: `The front wall is in the way.`
+/// Returns the reason in everyday words: `The front wall is in the way.`
 pub fn headline(explanation: &Explanation) -> String {
     let scene = explanation.question.scene();
     match &explanation.outcome {
@@ -60,7 +60,7 @@ fn headline_of_infeasible(scene: &Scene, closed: &InfeasibleExplanation) -> Stri
     format!("{}{also}.", blame(scene, first))
 }
 
-/// Says that the elements of a set are in the way, without the full stop.
+/// Names the elements of a set that are in the way, without a full stop.
 fn blame(scene: &Scene, set: &BlockingSet) -> String {
     capitalized(&blame_in_words(scene, set))
 }
@@ -134,8 +134,8 @@ pub fn evidence(explanation: &Explanation) -> String {
     }
 }
 
-/// Returns a change as an instruction: `Move it 614 mm right`. `is_only` is true if "it" can mean nothing else than the
-/// changed obstacle. The number is rounded so that the instruction does enough.
+/// Returns a change as an instruction: `Move it 614 mm right`. `is_only` is true if "it" can only mean the changed
+/// obstacle. The number is rounded so that the change is large enough.
 pub fn instruction(scene: &Scene, change: &Change, is_only: bool) -> String {
     let opens = change.by.opens;
     let what = || match change.element {
@@ -169,8 +169,8 @@ pub fn instruction(scene: &Scene, change: &Change, is_only: bool) -> String {
     }
 }
 
-/// Returns the amount with which there is a path, and that without one: `613.6 mm opens a path, certified`
-/// and `613.0 mm does not, proven`. For a move or an erosion this is the distance, otherwise the value after the change.
+/// Returns the amount with which there is a path, and that without one: `613.6 mm opens a path, certified` and `613.0
+/// mm does not, proven`. A move or an erosion is described by its distance, another change by the value after it.
 pub fn bounds(scene: &Scene, set: &BlockingSet, change: &Change) -> [String; 2] {
     let (opens, closed) = (change.by.opens, change.by.closed);
     let [open, shut] = match (change.cure, change.element) {
@@ -204,7 +204,7 @@ pub(super) fn leaves_nothing(scene: &Scene, change: &Change) -> bool {
     shrinks && change.changed_obstacle(scene).is_some_and(|obstacle| obstacle.pieces.is_empty())
 }
 
-/// Says that an obstacle is gone if it shrinks so much. `by` is the amount.
+/// Describes the shrinking of an obstacle by the amount `by`, or that nothing of it is left.
 fn shrinking(change: &Change, by: &str) -> String {
     match change.cure {
         ChangeKind::Scaled { .. } => format!("shrinking it to {by}"),
@@ -217,7 +217,7 @@ fn positive_down(metres: f64) -> String {
     if metres == 0.0 { "0 mm".into() } else { length_down(metres) }
 }
 
-/// Says which other elements were in the way when a change was tried, if not all of them were.
+/// States which other elements were in the way when a change was tried, unless all of them were.
 fn context(scene: &Scene, set: &BlockingSet, change: &Change) -> String {
     if change.among == ChangeContext::World {
         return String::new();
@@ -258,7 +258,6 @@ fn limit_after(joint: &Joint, side: Side, by: f64) -> f64 {
     if side == Side::Lower { lower - by } else { upper + by }
 }
 
-/// Formats a value of a joint for a headline.
 fn headline_value(joint: &Joint, value: f64, up: bool) -> String {
     if !joint.joint_type.is_revolute() {
         return headline_length(value, up);
@@ -277,7 +276,7 @@ fn precise_value(joint: &Joint, value: f64, up: bool) -> String {
     if value.abs() < 1.0 { format!("{} mm", round(1e3 * value, 1)) } else { format!("{} m", round(value, 4)) }
 }
 
-/// Returns the direction of a move in words, with degrees unless it is one of the eight directions that have words.
+/// Returns the direction of a move in words. Adds the angle in degrees unless the direction is one of the eight that have words.
 fn direction_in_words([x, y]: [f64; 2]) -> String {
     let degrees = y.atan2(x).to_degrees().rem_euclid(360.0);
     let eighth = (degrees / 45.0).round();

@@ -16,22 +16,21 @@ use cplan_solver::{Options, Unknown, solve};
 use cplan_text::{counted, listed};
 use std::collections::{BTreeSet, HashSet};
 
-/// Number of configurations of an optimistic path that are examined for unknown map cells. They are counted from the
-/// first one that is not known to be free. (An optimistic path counts unknown space as free.)
+/// Number of configurations of an optimistic path that are examined for unknown map cells, from the first one that is
+/// not known to be free. (An optimistic path counts unknown space as free.)
 const PLACES_AHEAD: usize = 8;
 
-/// Largest number of configurations that are examined for a better view. Examining them takes several milliseconds.
+/// Largest number of configurations that are examined as candidates for a better view. This takes several milliseconds.
 const MAX_VIEWS: usize = 150;
 
-/// Largest number of cells along a wall that one straight motion passes. It is enough to smooth the steps of the grid,
-/// but too little to cut corners.
+/// Largest number of cells that a straight motion along a wall passes. It smooths the steps of the grid, but does not
+/// cut corners.
 const WALL_SMOOTHING_CELLS: usize = 4;
 
 /// The next action.
 pub enum Decision {
     Done(Ending),
-    /// Follow a certified path. The second value is the cell of the grid at which a reading is to be taken; `None` if
-    /// that is not the purpose.
+    /// Follow a certified path. The second value is the cell of the grid where a reading is intended, if that is the purpose.
     Go(CertifiedPath, Option<usize>),
 }
 
@@ -45,8 +44,8 @@ impl Explorer<'_> {
         if joined.is_empty() { self.go_back() } else { self.exploring(&joined) }
     }
 
-    /// Returns to the start of the last leg, because from here no straight motion reaches the centre of a cell. Ends
-    /// the exploration if the last leg was already such a return.
+    /// Returns to the start of the last leg, because no straight motion from here reaches the centre of a cell. Ends
+    /// the exploration if the last leg already was such a return.
     fn go_back(&mut self) -> Decision {
         let last = self.legs.last().filter(|_| !self.is_back).map(|leg| leg.curve.curve().path().waypoints());
         let reversed = last.map(|waypoints| Path::new(waypoints.iter().rev().copied().collect()));
@@ -55,10 +54,10 @@ impl Explorer<'_> {
         certified.map_or_else(|| Decision::Done(self.too_coarse()), |path| Decision::Go(path, None))
     }
 
-    /// Returns to the last visited place from which something new can be reached. It is called if the configurations
-    /// that are reachable from here show nothing new. Cells that no steps of the grid connect may be connected by the
-    /// path so far. If there is no such place, returns the number of configurations that are reachable from any visited
-    /// place.
+    /// Returns to the last visited place from which something new can be reached. Called if no configuration that is
+    /// reachable from here shows anything new. Others may be reachable, because the path so far may connect cells that
+    /// the steps of the grid do not connect. If there is no such place, returns the number of configurations that are
+    /// reachable from any visited place.
     fn return_to_last_place(&mut self, reach: &Reach) -> Result<Decision, usize> {
         let mut is_reached = vec![false; self.known.grid.blocked.len()];
         reach.cells.iter().for_each(|&cell| is_reached[cell] = true);
@@ -123,8 +122,7 @@ impl Explorer<'_> {
         }
     }
 
-    /// Follows the harmonic potential of all frontier configurations, starting at the nearest cell that a straight
-    /// motion reaches.
+    /// Follows the harmonic potential of all frontier configurations, from the nearest cell that a straight motion reaches.
     fn uphill(&mut self, joined: &[usize]) -> Option<Vec<usize>> {
         let mut side = Grid { blocked: vec![true; self.known.grid.blocked.len()], ..self.known.grid };
         let (from, goals) = joined.iter().find_map(|&from| {
@@ -136,7 +134,7 @@ impl Explorer<'_> {
         let route = harmonic_path(&component, component.position_of(from)?)?;
         let route: Vec<usize> = route.into_iter().map(|position| component.cell(position)).collect();
         let KnownSpace { grid, closed, .. } = &self.known;
-        // The potential does not take into account that steps between free cells may be closed.
+        // The potential ignores that steps between free cells may be closed.
         if !route.windows(2).any(|step| closed.contains(&[step[0], step[1]])) {
             return Some(route);
         }
@@ -145,9 +143,8 @@ impl Explorer<'_> {
         (reach.cells.last() == Some(&end)).then(|| reach.route(end))
     }
 
-    /// Marks as free in `side` the cells that are reachable from a cell without crossing the frontier. Also marks the
-    /// frontier cells beside them, and returns these. Cells behind the frontier have no effect on the potential before
-    /// it.
+    /// Marks the cells that are reachable from a cell without crossing the frontier as free in `side`. Also marks the frontier
+    /// cells next to them, and returns these. Cells behind the frontier do not influence the potential before it.
     fn up_to_frontier(&mut self, from: usize, side: &mut Grid) -> Vec<usize> {
         let is_new = std::mem::replace(&mut side.blocked[from], false);
         let (mut open, mut goals) = (if is_new { vec![from] } else { Vec::new() }, Vec::new());
@@ -167,7 +164,7 @@ impl Explorer<'_> {
     }
 
     /// Moves to the nearest wall, and along it to the first frontier configuration. Returns `None` if the walk returns
-    /// to its beginning and has found none.
+    /// to its beginning without finding one.
     fn along_wall(&mut self, joined: &[usize]) -> Option<Vec<usize>> {
         let KnownSpace { grid, closed, .. } = &self.known;
         let mut begin = None;
@@ -233,9 +230,9 @@ impl Explorer<'_> {
         reach.route_to(found)
     }
 
-    /// Returns the path to the best view. The candidates show everything that the nearest frontier configuration shows,
-    /// unless an unknown obstacle hides it. So nothing is left behind for which the arm would have to return. The best
-    /// view is the candidate with the greatest [`worth`]; if several are equal, the nearest of them.
+    /// Returns the path to the best view. A candidate shows everything that the nearest frontier configuration shows,
+    /// unless an unknown obstacle hides it. So the arm need not return for something that was left behind. The best
+    /// view is the candidate with the greatest [`worth`]. If several are equal, it is the nearest of them.
     ///
     /// The search stops at the distance beyond which no candidate can be better, and after [`MAX_VIEWS`] candidates.
     /// Farther away, fewer configurations are examined, but at least one per distance between readings.
@@ -287,8 +284,8 @@ impl Explorer<'_> {
                 );
                 return Decision::Done(Ending::Unreachable(why));
             }
-            // The goal's planner may give up, for example in a local minimum of a field. The other strategies can still
-            // continue.
+            // The planner for the goal may give up, for example in a local minimum of a field. Other strategies can
+            // still continue.
             Outcome::Unknown(_) => return self.detour(goals, &BTreeSet::new()),
         };
         let places = places(optimistic.path(), self.sensor.step);
@@ -299,7 +296,7 @@ impl Explorer<'_> {
             }
             free.push(place);
         }
-        // If the last leg along an optimistic path showed nothing new, a part of the next one would not, either. But a
+        // If the last leg along an optimistic path showed nothing new, a part of the next one will not, either. But a
         // path that is free to its end leads to the goal.
         let is_worth = free.len() > places.len() || free.len() > 1 && !self.is_stalled;
         let ahead = &places[(free.len() - 1).min(places.len())..];
@@ -314,7 +311,7 @@ impl Explorer<'_> {
     }
 
     /// Moves to the nearest configuration from which one of the cells `in_the_way` is visible. If there is none, moves
-    /// to the best view. If there is no view either, moves to the goal within known space.
+    /// to the best view. If nothing new can be seen, moves to the goal within known space.
     fn detour(&mut self, goals: &GoalSet, in_the_way: &BTreeSet<usize>) -> Decision {
         let joined = join(&self.solid, &self.known.grid, self.at);
         if joined.is_empty() {
@@ -368,9 +365,8 @@ impl Explorer<'_> {
     }
 }
 
-/// Returns the problem of moving to those goals that are not known to be blocked. If all are blocked, returns the
-/// ending of the exploration. The goals are free in the true world, so the blocking cells are unknown, or the map is
-/// too coarse.
+/// Returns the problem of moving to those goals that are not known to be blocked. If all are blocked, returns the ending of the
+/// exploration. The goals are free in the true world, so either the blocking cells are unknown, or the map is too coarse.
 fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<MotionProblem, Ending> {
     let is_blocked = |piece: &&Segment| piece.is_point() && !scene.obstructions(piece.ends()[0]).is_empty();
     let (blocked, open): (Vec<&Segment>, Vec<&Segment>) = goals.pieces().iter().partition(is_blocked);
@@ -385,15 +381,14 @@ fn problem(scene: Scene, start: Configuration, goals: &GoalSet) -> Result<Motion
     MotionProblem::new(scene, start, open).map_err(|error| Ending::Unknown(error.to_string()))
 }
 
-/// Returns how much a view is worth. It shows `seen` cells for the first time, at the distance `length`.
+/// Returns the worth of a view that shows `seen` new cells, at the distance `length`.
 ///
-/// Short distances have priority: a configuration at twice the distance must show 64 times as many cells. Experiments
-/// led to this ratio (CPLAN_WORLDS of `planning exploring`).
+/// Short distances have priority: a configuration at twice the distance must show 64 times as many cells. This ratio
+/// results from experiments (CPLAN_WORLDS of `planning exploring`).
 fn worth(seen: u32, length: f64, step: f64) -> f64 {
     f64::from(seen).powf(1.0 / 6.0) / (length + step / 2.0)
 }
 
-/// Formats two numbers for people.
 fn format_configuration(q: Configuration) -> String {
     format!("{:.4}, {:.4}", q[0], q[1])
 }

@@ -16,18 +16,18 @@ use cplan_solver::{Options, solve};
 use cplan_text::counted;
 use cplan_world::Sensor;
 
-/// Greatest distance from a goal, in joint space, at which the arm counts as being at the goal. It covers rounding when
-/// whole turns are added to the goal.
+/// Greatest distance from a goal, in joint space, at which the arm counts as being at the goal. It covers the rounding
+/// of added whole turns.
 const GOAL_TOLERANCE: f64 = 1e-9;
 
-/// Explores the world of `scene` from `start`. The explorer knows only what the sensor's readings show. Calls
+/// Explores the world of `scene` from `start`. The explorer uses only the sensor's readings of this world. Calls
 /// `progress` regularly.
 ///
-/// The exploration is deterministic, except for the measured times of decisions. A decision costs a shortest-path
-/// search over the grid of configurations, and certificates. With a goal, it also costs a plan.
+/// The exploration is deterministic, except for the measured times of decisions. A decision takes a shortest-path
+/// search over the grid of configurations, and certificates; with a goal, also a plan.
 ///
 /// # Errors
-/// A map with too many cells, a known map of another world, or a strategy that needs a goal if there is none.
+/// A map with too many cells, a known map of another world, or a missing goal that the strategy needs.
 pub fn explore(
     scene: &Scene,
     sensor: &Sensor,
@@ -117,19 +117,19 @@ pub fn explore(
     })
 }
 
-/// Returns the length of the shortest motion that is found in the true world. `None` if none is found.
+/// Returns the length of the shortest motion found with knowledge of the true world. `None` if the search finds nothing.
 fn length_if_known(scene: &Scene, start: Configuration, goals: &GoalSet, settings: &Settings) -> Option<f64> {
     let problem = MotionProblem::new(scene.clone(), start, goals.clone()).ok()?;
     let options = Options { bounded: false, levels: settings.options.levels, ..Options::default() };
     solve(&problem, &options, &mut |_| ()).path().map(Path::length)
 }
 
-/// The state of an exploration: the arm's configuration, and everything that is known.
+/// The state of an exploration: the arm's configuration, and all knowledge about the world.
 pub struct Explorer<'a> {
     pub sensor: &'a Sensor,
     pub settings: &'a Settings,
     pub goals: Option<&'a GoalSet>,
-    /// The true scene. Decisions read only its arm and its clearance.
+    /// The true scene. Decisions use only its arm and its clearance.
     pub scene: &'a Scene,
     pub survey: Survey,
     /// The arm among all cells that are not known to be free.
@@ -137,10 +137,9 @@ pub struct Explorer<'a> {
     pub known: KnownSpace,
     pub frontier: Frontier,
     pub at: Configuration,
-    /// True if the last leg along an optimistic path showed nothing new. A part of the next such path would show
-    /// nothing new either.
+    /// True if the last leg along an optimistic path showed nothing new. A part of the next such path would not, either.
     pub is_stalled: bool,
-    /// True if the last leg returned to where the arm had been.
+    /// True if the last leg returned to a configuration where the arm had been before.
     pub is_back: bool,
     pub legs: Vec<Leg>,
     errors: SplitMix64,
@@ -153,7 +152,7 @@ pub struct Explorer<'a> {
 }
 
 impl Explorer<'_> {
-    /// Takes a reading at the arm's configuration. Returns true if it shows anything new.
+    /// Takes a reading at the arm's configuration. Returns true if it shows something new.
     fn take_reading(&mut self) -> bool {
         let new = self.survey.record_reading(self.sensor, self.scene.arm(), self.at, &mut self.errors);
         let is_new = !new.is_empty();
@@ -189,9 +188,9 @@ impl Explorer<'_> {
         self.frontier.contains(&self.survey, self.sensor, cell)
     }
 
-    /// Moves along a path and takes readings on it. If `until` is a cell, the arm moves in order to take a reading
-    /// there. Then it stops as soon as that reading would show nothing new. If `until` is `None`, it stops at the first
-    /// reading that shows something new.
+    /// Moves along a path and takes readings on it. If `until` is a cell, the purpose is a reading there, and the arm
+    /// stops as soon as that reading would show nothing new. If `until` is `None`, the arm stops at the first reading
+    /// that shows something new.
     ///
     /// # Errors
     /// The reason why a part of the path cannot be certified or timed.
@@ -217,7 +216,7 @@ impl Explorer<'_> {
         if gone.len() == 1 {
             return Ok(());
         }
-        // Only a part of the path may have been followed. It is free, too, but needs a certificate of its own.
+        // The arm may have followed only a part of the path. That part is free, but needs its own certificate.
         let path = certify(&self.solid, Path::new(gone)).map_err(|rejection| format!("a leg: {rejection:?}"))?;
         let timed =
             self.settings.options.drive.along(&self.solid, &path, 1.0).map_err(|error| format!("a leg: {error}"))?;

@@ -10,7 +10,7 @@ use cplan_world::Sensor;
 /// The frontier configurations of a grid: those at which a reading would show something new.
 ///
 /// Known cells stay known. So a configuration that leaves the frontier never returns to it, and the number of new cells
-/// that are visible from a configuration only decreases. Earlier counts are therefore upper bounds, and all queries
+/// that are visible from a configuration never increases. Earlier counts are therefore upper bounds, and all queries
 /// together cost little more than a few readings per configuration.
 #[derive(Debug)]
 pub struct Frontier {
@@ -27,26 +27,25 @@ pub struct Frontier {
     count: u32,
     /// Index of the configuration that [`Frontier::evaluate_ahead`] examines next.
     ahead: usize,
-    /// Number of configurations from which new cells were expected to be visible, but whose reading showed none.
+    /// Number of configurations whose reading showed nothing new, although it was expected to.
     pub given_up: usize,
 }
 
-/// Number of configurations that are examined in advance at each decision. They take a fraction of a millisecond.
+/// Number of configurations that are examined in advance per decision. This takes a fraction of a millisecond.
 const CONFIGURATIONS_AHEAD: usize = 256;
 
-/// What is known about a reading that has not been taken.
+/// Knowledge about a reading that has not been taken.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct ExpectedReading {
-    /// A cell of the map that the reading shows, as long as the cell is unknown. `None` if no such cell has been
-    /// computed.
+    /// A cell of the map that the reading shows while the cell is unknown. `None` if no such cell has been computed.
     witness: Option<usize>,
-    /// Upper bound on the number of new cells that the reading shows. If it is 0, it stays 0.
+    /// Upper bound on the number of new cells that the reading shows. Once it is 0, it stays 0.
     most: u32,
 }
 
 impl Frontier {
-    /// Creates the frontier over the configurations of a grid. Nothing has been examined yet, so only the range of the
-    /// sensor bounds the number of visible cells.
+    /// Creates the frontier over the configurations of a grid. Initially, only the sensor's range bounds the number of
+    /// visible cells.
     pub fn new(survey: &Survey, sensor: &Sensor, arm: &Arm, grid: &Grid) -> Self {
         let cells = survey.map().cells.len();
         // A cell that meets the disc of the sensor's range lies within a disc that is larger by the diagonal of a cell.
@@ -71,7 +70,7 @@ impl Frontier {
         self.edges = Some(Edges::new(survey, sensor.range));
     }
 
-    /// Records that something new was seen, so that the cells next to free ones may have changed.
+    /// Discards the cells next to free ones, because something new was seen.
     pub fn forget_edges(&mut self) {
         self.edges = None;
     }
@@ -80,7 +79,7 @@ impl Frontier {
     pub fn contains(&mut self, survey: &Survey, sensor: &Sensor, cell: usize) -> bool {
         let prospect = &mut self.configurations[cell];
         if prospect.most > 0 && !prospect.witness.is_some_and(|witness| survey.is_unknown(witness)) {
-            // If no ray reaches an unknown cell now, none ever will.
+            // If no ray reaches an unknown cell now, none will later.
             prospect.witness = survey.reachable_unknown(sensor, self.sensor_poses[cell], self.edges.as_ref());
             if prospect.witness.is_none() {
                 prospect.most = 0;
@@ -89,8 +88,8 @@ impl Frontier {
         prospect.most > 0
     }
 
-    /// Examines some of the configurations that may be on the frontier, in turn. So no decision has to examine all of
-    /// them. If a reading there would show nothing new, that result is permanent.
+    /// Examines some of the configurations that may be on the frontier, in turn, so that no decision has to examine all
+    /// of them. If a reading would show nothing new, that result is permanent.
     pub fn evaluate_ahead(&mut self, survey: &Survey, sensor: &Sensor, grid: &Grid) {
         let mut asked = 0;
         for _ in 0..self.configurations.len() {
@@ -135,8 +134,8 @@ impl Frontier {
         self.configurations[cell].most
     }
 
-    /// Records that a reading at a cell of the grid showed nothing new, although new cells were expected. Random errors
-    /// of distances can be the cause. The cell then leaves the frontier.
+    /// Records that a reading at a cell of the grid showed nothing new, contrary to the expectation. Random errors of
+    /// distances can be the cause. The cell then leaves the frontier.
     pub fn record_nothing_new(&mut self, cell: usize) {
         if self.configurations[cell].most > 0 {
             self.configurations[cell].most = 0;

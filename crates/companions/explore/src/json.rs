@@ -8,8 +8,8 @@ impl Exploration {
     /// Returns the exploration as JSON, without the picture of the map: the ending, the map's counts, every reading,
     /// every leg, and the motion.
     ///
-    /// `readings` are rows of both joints' values, the length of the path until then and the number of new cells.
-    /// `decisions_ms` is present only if `timed`, so that otherwise the same input gives the same text.
+    /// Each row of `readings` has both joint values, the length of the path so far, and the number of new cells.
+    /// `decisions_ms` is present only if `timed`. Without it, the same input gives the same text.
     pub fn to_json(&self, joints: [&str; 2], sensor: &Sensor, timed: bool) -> Value {
         let map = self.survey.map();
         let [free, occupied, unknown] = self.survey.counts();

@@ -10,14 +10,14 @@ use cplan_planners::waves::{FreeCells, Neighborhood};
 /// A grid of configurations. A cell of the grid is blocked if the arm, at the centre of the cell, touches a map cell
 /// that is not known to be free.
 ///
-/// For each blocked configuration, one such map cell is recorded as its witness. The configuration is examined again
-/// only when its witness becomes known. So all updates of an exploration together cost only a few examinations per
+/// One such map cell is recorded as the witness of each blocked configuration. The configuration is examined again only
+/// when its witness becomes known. So all updates of an exploration together take only a few examinations per
 /// configuration, plus reading the map.
 #[derive(Debug)]
 pub struct KnownSpace {
     /// The grid; the centres of its cells are the configurations.
     pub grid: Grid,
-    /// Steps between free centres of neighbouring cells that are known not to be free.
+    /// Steps between neighbouring free cells that are not free themselves.
     pub closed: BlockedMoves,
     /// For each map cell, the configurations of which it is the witness.
     by_witness: Vec<Vec<u32>>,
@@ -37,8 +37,7 @@ impl KnownSpace {
 
     /// Updates the grid with newly known map cells. Returns the configurations that become free, ascending.
     pub fn update(&mut self, survey: &Survey, arm: &Arm, new: &[usize]) -> Vec<usize> {
-        // A closed step may be free now: fewer cells count as solid, and obstacles that were seen may be lower than
-        // assumed.
+        // A closed step may be free now: fewer cells are solid, and obstacles may be lower than assumed before they were seen.
         if !new.is_empty() {
             self.closed.clear();
         }
@@ -46,8 +45,8 @@ impl KnownSpace {
         self.reconsider(survey, arm, by_witness)
     }
 
-    /// Closes a step that is not free, and the blocked steps connected to it. A passage that is too narrow for one step
-    /// is too narrow for many others. If these stayed open, each of them would cost a path that ends there.
+    /// Closes a step that is not free, and the blocked steps connected to it. A passage that is too narrow for one step is
+    /// usually too narrow for many others. If these stayed open, the arm would plan a path through each of them in turn.
     pub fn close(&mut self, solid: &Scene, step: [usize; 2]) {
         let (free, motions) = (FreeCells::new(&self.grid), straight_motions(solid));
         let mut found = vec![step];

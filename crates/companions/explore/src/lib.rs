@@ -1,9 +1,8 @@
 //! Planning in a world that a sensor reveals step by step.
 //!
-//! The given world is the true one. The explorer knows only the cells that its [`Sensor`](cplan_world::Sensor) has
-//! seen, and treats all others as solid. Before a motion begins, it is certified within the space that is known to be
-//! free, so the arm never enters unseen space. The player of an exploration certifies each motion once more, in the
-//! true world.
+//! The given world is the true one. The explorer knows only the cells that its [`Sensor`](cplan_world::Sensor) has seen, and
+//! treats all others as solid. Each motion is certified within the known free space before it begins, so the arm never enters
+//! unseen space. The page that plays an exploration certifies each motion once more, in the true world.
 //!
 //! ```text
 //! look -> map -> known free configurations, frontier among them -> decision -> certified leg -> on the way: look ...
@@ -14,12 +13,12 @@
 //! - *Reached*: the arm is at the goal.
 //! - *Explored*: no reading at any reachable configuration of the grid would show anything new. This is decided, not
 //!   estimated: rays are as wide as the cells that they cross, so the result of a reading is known in advance up to the
-//!   first unknown cell of each ray ([`Survey::reachable_unknown`]). With distance errors, a reading may fail to show
-//!   cells that it promised. Such configurations are counted.
+//!   first unknown cell of each ray ([`Survey::reachable_unknown`]). With distance errors, a reading may not show the
+//!   expected cells. Such configurations are counted.
 //! - *Unreachable*: proven. Either no path leads to the goal past the occupied cells, whatever the unseen cells
-//!   contain; or nothing new can be seen, and no path leads there in the known space. An occupied cell counts as solid
-//!   as a whole, so a passage narrower than cells is closed: this is a statement about the map, not about the world.
-//! - *Unknown*: no other ending within the allowed number of decisions, or the grid is too coarse for the path.
+//!   contain; or nothing new can be seen, and no path leads there in the known space. An occupied cell is solid as a
+//!   whole, so passages narrower than a cell are closed. The proof is about the map, not about the world.
+//! - *Unknown*: the allowed number of decisions was reached without another ending, or the grid is too coarse for the path.
 //!
 //! ```
 //! use cplan_explore::{Ending, Settings, Strategy, explore};

@@ -3,8 +3,7 @@
 use super::survey::Survey;
 use cplan_world::Occupancy;
 
-/// Shades of free, unknown and occupied cells. With the thresholds of [`map_description`], a reader classifies the
-/// cells in the same way.
+/// Shades of free, unknown and occupied cells. A reader with the thresholds of [`map_description`] restores the same classes.
 const CELL_SHADES: [u8; 3] = [254, 205, 0];
 
 /// Returns the YAML description of a picture. `picture` is the file name of the picture in the same folder.

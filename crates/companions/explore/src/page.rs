@@ -1,4 +1,4 @@
-//! The page that plays an exploration: the known and seen parts of the workspace, and the growing configuration space.
+//! The page that plays an exploration: the known and visible parts of the workspace, and the growing configuration space.
 
 use super::{Ending, Exploration};
 use cplan_model::Scene;
@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 const STYLE: &str = include_str!("exploration.css");
 
-/// Code that draws an exploration, after the code of a view.
+/// Scripts that draw an exploration, after the script of a view.
 const SCRIPTS: [&str; 2] = [include_str!("coverage.js"), include_str!("exploration.js")];
 
 /// Returns an exploration as one self-contained HTML file. `view` has the arm, the real world and the facts. If `timed`,

@@ -8,7 +8,7 @@ use cplan_planners::cspace::Grid;
 use cplan_planners::waves::{FreeCells, Neighborhood};
 use std::collections::{BTreeSet, VecDeque};
 
-/// Steps between centres of neighbouring cells that are not free, although both centres are.
+/// Steps between neighbouring cells that are not free, although both centres are.
 pub type BlockedMoves = BTreeSet<[usize; 2]>;
 
 /// The cells that can be reached from a configuration, and the shortest paths to them from cell to cell.
@@ -23,8 +23,8 @@ pub struct Reach {
 
 /// Cells that are still to be examined, in one queue for each length of a step and one for the start.
 ///
-/// The search takes costs in ascending order, and each queue adds the same length to them. So each queue is sorted
-/// without a heap.
+/// The search takes cells in ascending order of cost, and all entries of a queue add the same length to it. So each
+/// queue is sorted without a heap.
 #[derive(Debug, Default)]
 struct OpenQueues([VecDeque<(f64, usize)>; 4]);
 
@@ -40,7 +40,7 @@ impl OpenQueues {
     }
 }
 
-/// Marks that there is no cell.
+/// Represents a missing cell.
 const NO_CELL: u32 = u32::MAX;
 
 impl Reach {
@@ -142,8 +142,8 @@ pub fn straight_motions(scene: &Scene) -> StraightMotions<'_> {
     StraightMotions::new(scene, scene.workspace().clearance)
 }
 
-/// Removes waypoints. From each waypoint that is kept, a galloping search looks for a far one among the next `most`
-/// that a free straight motion reaches.
+/// Removes waypoints. From each remaining waypoint, a galloping search finds a far one that a free straight motion
+/// reaches, among the next `most`.
 ///
 /// # Errors
 /// The index of the first step, if no free straight motion leads even to the next waypoint.
@@ -177,7 +177,7 @@ pub fn tightened(scene: &Scene, waypoints: &[Configuration], most: usize) -> Res
     Ok(Path::new(kept))
 }
 
-/// Returns configurations along a path that are at most `step` apart. They include all corners, but not the start.
+/// Returns configurations along a path, at most `step` apart, including all corners but not the start.
 pub fn places(path: &Path, step: f64) -> Vec<Configuration> {
     let pieces = path.segments().flat_map(|(from, to)| {
         let count = ((to - from).norm() / step).ceil().max(1.0) as usize;

@@ -15,8 +15,8 @@ pub enum Ending {
     Explored {
         /// Number of reachable configurations of the grid.
         configurations: usize,
-        /// Number of configurations whose readings were expected to show something new, but did not. Errors of
-        /// distances can cause this; without errors it is 0.
+        /// Number of configurations whose readings showed nothing new, although they were expected to. It is 0 unless
+        /// distances have errors.
         given_up: usize,
     },
     /// It is proven that no path leads to the goal in the known space, in which an occupied cell is solid as a whole.
@@ -67,7 +67,7 @@ pub struct Exploration {
     pub ending: Ending,
     /// The final map.
     pub survey: Survey,
-    /// Cells of the map that were known initially, without a reading: cells around the arm, and cells of a known map.
+    /// Cells of the map that were known without a reading: those around the arm, and those of a known map.
     pub surroundings: Vec<usize>,
     /// All readings, in order.
     pub readings: Vec<SensorReading>,
@@ -80,8 +80,8 @@ pub struct Exploration {
     pub trajectory: Option<Trajectory>,
     /// Length of the whole path, in joint space.
     pub length: f64,
-    /// Length, in joint space, of the shortest path to the goal that is found in the true world. An arm that knew the
-    /// world would take this path. `None` unless the goal was reached.
+    /// Length, in joint space, of the shortest path to the goal that is found with knowledge of the true world. `None`
+    /// unless the goal was reached.
     pub known_length: Option<f64>,
     /// Computing time of each decision.
     pub decisions: Vec<Duration>,

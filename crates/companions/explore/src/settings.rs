@@ -12,8 +12,8 @@ use thiserror::Error;
 #[serde(rename_all = "snake_case")]
 pub enum Strategy {
     /// Follows an optimistic path to the goal, as far as space is known to be free. The planner of the options finds
-    /// this path; it counts unknown space as free. If following it shows nothing new, moves to a place from which its
-    /// unknown cells are visible, or as [`Strategy::View`] does.
+    /// this path, and counts unknown space as free. If this shows nothing new, moves to a place from which unknown
+    /// cells of the path are visible, or else as [`Strategy::View`].
     #[default]
     Goal,
     /// Moves to a frontier configuration that shows everything that the nearest one shows, and more than others at a
@@ -23,8 +23,8 @@ pub enum Strategy {
     Nearest,
     /// Follows the harmonic potential whose goals are all frontier configurations (Prestes et al. 2002).
     Harmonic,
-    /// Follows the boundary of the known free space, which stays to the right, up to the first frontier configuration.
-    /// If there is none on the boundary, moves to the nearest frontier configuration.
+    /// Follows the boundary of the known free space, with this boundary to the right, up to the first frontier
+    /// configuration. If there is none on the boundary, moves to the nearest frontier configuration.
     Wall,
 }
 
@@ -49,7 +49,7 @@ pub struct Settings {
 impl Default for Settings {
     fn default() -> Self {
         let options = Options::default();
-        // Corners are not rounded: the arm stops at each and takes a reading.
+        // The arm stops at each corner and takes a reading, so corners are not rounded.
         let drive = Drive { blend: 0.0, ..options.drive };
         let options = Options { drive, bounded: false, ..options };
         Self { strategy: Strategy::default(), cells: [96, 96], surveyed: None, known: None, decisions: 10_000, options }

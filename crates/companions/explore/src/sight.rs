@@ -1,4 +1,4 @@
-//! The cells of a map from which an unknown cell may be seen. From all other cells, no ray needs to be traced.
+//! The cells of a map from which an unknown cell may be visible. Rays need not be traced from any other cell.
 
 use super::survey::Survey;
 use super::views::CellsByRow;
@@ -13,26 +13,25 @@ pub struct Edges {
     within_sight: Vec<bool>,
 }
 
-/// Marks a cell from which no path leads to an unknown cell.
+/// Represents a cell from which no path leads to an unknown cell.
 const NO_EDGE: u32 = u32::MAX;
 
 impl Edges {
     /// Computes the cells for the current map and for rays no longer than `range`.
     ///
-    /// A ray moves from cell to cell across their sides, always across the same two of the four sides, and through free
-    /// cells. If no path that crosses only two of the sides leads from a cell to an unknown one, then no ray does.
-    /// Linear in the number of cells.
+    /// A ray moves from cell to cell through free cells, and always crosses the same two of the four sides. If no path
+    /// of this kind leads from a cell to an unknown one, then no ray does. Linear in the number of cells.
     pub fn new(survey: &Survey, range: f64) -> Self {
         let rows = survey.edges();
         let known = &survey.map().cells;
         let [width, height] = survey.map().size;
-        // Largest number of sides that a ray crosses: along each axis one more than the whole cells of the range, and
-        // one for rounding.
+        // Largest number of sides that a ray crosses. Along each axis, this is one more than the whole cells within the
+        // range, and one for rounding.
         let most_sides = (range / survey.map().resolution * SQRT_2 + 3.0).min(f64::from(NO_EDGE - 1)) as u32;
         let mut is_edge = vec![false; known.len()];
         rows.iter().for_each(|(row, columns)| columns.iter().for_each(|column| is_edge[row * width + column] = true));
         let mut within_sight: Vec<bool> = known.iter().map(|&cell| cell == Occupancy::Unknown).collect();
-        // For each column, the number of sides between the nearest unknown cell and the cell in the row before; then
+        // For each column, the number of sides between a cell of the previous row and the nearest unknown cell. Then
         // the same for the current row.
         let mut sides = vec![NO_EDGE; width];
         for (is_down, is_right) in [(false, false), (false, true), (true, false), (true, true)] {

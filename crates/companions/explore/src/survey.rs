@@ -1,4 +1,4 @@
-//! The known part of a world, cell by cell, and its true contents.
+//! The known part of a world, cell by cell, and the true contents of the cells.
 
 use super::views::{CELL_RADIUS, Crossing};
 use cplan_geometry::{Convex, Point, Pose, Vector, shapes_meet};
@@ -15,16 +15,16 @@ const MAP_MARGIN: f64 = 2.0;
 /// A map that a sensor fills in. A known cell never changes.
 ///
 /// The sensor's rays are as wide as the cells that they cross. A ray ends at the first occupied cell, and the cells
-/// before it are empty. So a cell that is known to be free is free as a whole. The result of a reading can be predicted
-/// up to the first unknown cell of each ray.
+/// before it are empty. So a free cell is free as a whole, and the result of a reading can be predicted up to the first
+/// unknown cell of each ray.
 #[derive(Debug, Clone)]
 pub struct Survey {
     pub(super) known: OccupancyMap,
-    /// Range from the lowest obstacle's floor to the highest obstacle's top. The space above and below is known to be
-    /// free.
+    /// Range from the bottom of the lowest obstacle to the top of the highest one. The space above and below is known
+    /// to be free.
     heights: Heights,
-    /// For each occupied cell, the range from the lowest floor to the highest top of the obstacles in it. A reading
-    /// that shows the cell also shows this range.
+    /// For each occupied cell, the range from the lowest bottom to the highest top of its obstacles. A reading that
+    /// shows the cell also shows this range.
     truth: Vec<Option<Heights>>,
 }
 
@@ -233,9 +233,8 @@ impl Survey {
     /// Records the result of a reading at `q`. Returns the cells that became known, in the order in which they were
     /// seen.
     ///
-    /// If distances have errors, only facts are recorded that hold for every possible error. A cell is free if the ray
-    /// crosses it before all cells in which it may have ended. If it can have ended in one cell only, that cell is
-    /// occupied.
+    /// If distances have errors, only facts that hold for every possible error are recorded. Cells that the ray crosses before
+    /// the first cell in which it may have ended are free. If it can have ended in only one cell, that cell is occupied.
     pub fn record_reading(
         &mut self,
         sensor: &Sensor,
@@ -250,7 +249,7 @@ impl Survey {
             let error = if sensor.noise > 0.0 { sensor.noise * (2.0 * errors.unit() - 1.0) } else { 0.0 };
             let hit = crossings.iter().position(|crossing| self.truth[crossing.cell].is_some());
             let reported = hit.map(|hit| crossings[hit].enters + error);
-            // Index of the first cell in which the ray may have ended, and true if it can have ended in no other.
+            // Index of the first cell in which the ray may have ended, and true if it must have ended there.
             let (first, is_sole) = match (hit, reported) {
                 (Some(hit), Some(reported)) if sensor.noise > 0.0 => {
                     let may_be =
@@ -272,8 +271,8 @@ impl Survey {
         new
     }
 
-    /// Records the contents of the cells that the arm, grown by `margin`, touches at `q`. They count as known, because
-    /// the user who placed the arm there has seen them.
+    /// Records the contents of the cells that the arm, grown by `margin`, touches at `q`. They are known, because the
+    /// user who placed the arm there has seen them.
     pub fn survey_around(&mut self, arm: &Arm, q: Configuration, margin: f64) -> Vec<usize> {
         let mut new = self.under(arm, q, margin);
         new.retain(|&cell| self.is_unknown(cell));
@@ -283,8 +282,8 @@ impl Survey {
         new
     }
 
-    /// Returns the arm among everything that is not known to be free. With `unknown_is_free`, only the obstacles that
-    /// have been seen are solid.
+    /// Returns a scene in which everything that is not known to be free is solid. With `unknown_is_free`, only
+    /// obstacles that have been seen are solid.
     pub fn scene(&self, arm: &Arm, clearance: f64, unknown_is_free: bool) -> Scene {
         let seen = self.known.cells.iter().zip(&self.truth).filter(|(label, _)| **label == Occupancy::Occupied);
         let mut layers: Vec<Heights> = Vec::new();

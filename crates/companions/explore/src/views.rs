@@ -34,8 +34,8 @@ pub(super) struct Crossing {
 }
 
 impl Survey {
-    /// Iterates, in order, over the cells that a ray crosses completely within the range of the sensor (from side to
-    /// side: Amanatides, Woo 1987).
+    /// Iterates, in order, over the cells that a ray crosses from side to side within the range of the sensor
+    /// (Amanatides, Woo 1987).
     pub(super) fn crossings(&self, from: Point, angle: f64, range: f64) -> impl Iterator<Item = Crossing> + use<> {
         let cell = self.known.resolution;
         let (size, local) = (self.known.size, (from - self.origin()) / cell);
@@ -74,7 +74,7 @@ impl Survey {
         }
     }
 
-    /// Returns true if some ray of a reading has one of the `wanted` cells as its first unknown cell.
+    /// Returns true if one of the `wanted` cells is the first unknown cell of some ray of a reading.
     pub fn shows_any(&self, sensor: &Sensor, sensor_pose: SensorPose, wanted: &CellsByRow) -> bool {
         let width = self.known.size[0];
         let is_wanted = |cell: usize| {
@@ -85,7 +85,7 @@ impl Survey {
     }
 
     /// Returns the first unknown cell of a ray for which `is_asked` is true. Traces only rays that may cross one of the
-    /// given cells, unless the sensor itself is in an unknown cell.
+    /// given cells. If the sensor itself is in an unknown cell, traces all rays.
     fn first_towards(
         &self,
         sensor: &Sensor,
@@ -184,7 +184,7 @@ impl Survey {
         rows(height, |y| (0..width).filter(|&x| is_edge(x, y)).collect())
     }
 
-    /// Iterates over those of some cells that lie within a range of a point, up to rounding.
+    /// Iterates over the given cells that lie within a range of a point, up to rounding.
     fn near<'a>(&self, cells: &'a CellsByRow, point: Point, range: f64) -> impl Iterator<Item = usize> + use<'a> {
         let local = (point - self.origin()) / self.known.resolution;
         let [width, height] = self.known.size;

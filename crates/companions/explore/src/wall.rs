@@ -3,8 +3,8 @@
 use super::reach::BlockedMoves;
 use cplan_planners::cspace::Grid;
 
-/// A heading, in eighths of a turn from `+q1` towards `+q2`. A wall follower moves along the axes, so its headings are
-/// even.
+/// A heading, in eighths of a turn from `+q1` towards `+q2`. A wall follower moves only along the axes, so its headings
+/// are even.
 pub type Heading = usize;
 
 /// A place on a walk along a wall.
@@ -24,8 +24,8 @@ pub fn is_beside_wall(grid: &Grid, cell: usize) -> bool {
 /// Returns the next place of a walk that keeps the wall to its right (the right-hand rule of mazes, with Moore's
 /// neighbours). `None` if there is no wall beside the cell, or no free neighbour.
 ///
-/// The wall is the first blocked neighbour in the order from behind on the right to behind on the left. There are
-/// finitely many places and headings, so the walk eventually repeats itself.
+/// The wall is the first blocked neighbour, counted from behind on the right round the front to behind on the left.
+/// Places and headings are finitely many, so the walk eventually repeats itself.
 pub fn next(grid: &Grid, closed: &BlockedMoves, at: Place) -> Option<Place> {
     let Place { cell, heading } = at;
     let wall = (0..8).map(|turn| (heading + 5 + turn) % 8).find(|&side| is_wall(grid, cell, side))?;

@@ -6,7 +6,7 @@ use cplan_model::{Arm, Joint, Link, Obstacle, Outcome, Scene, Workspace};
 use cplan_toolpath::{Curve, Piece, Source, Toolpath};
 use std::time::Instant;
 
-/// Number of runs. The fastest one counts, because others share the machine.
+/// Number of runs. The fastest one counts, because other programs share the machine.
 const RUNS: usize = 30;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

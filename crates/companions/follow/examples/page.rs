@@ -6,13 +6,13 @@ use cplan_model::{Arm, Joint, Link, Outcome, Scene, Workspace};
 use cplan_toolpath::{Curve, Piece, Point, Source, Toolpath};
 use std::time::Instant;
 
-/// Number of pieces without an argument.
+/// Default number of pieces.
 const PIECES: usize = 10_000;
 
 /// Height of a letter, metres.
 const HEIGHT: f64 = 3e-3;
 
-/// Number of letters of a row.
+/// Number of letters per row.
 const LETTERS: usize = 50;
 
 /// The strokes of letters, on a grid of 4 x 6.
@@ -46,8 +46,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// Returns the pieces of a page of letters, with a travel before each stroke, and hooks of nanometres as drawing programs
-/// write them.
+/// Returns the pieces of a page of letters. A travel leads to each stroke. Strokes end in hooks of nanometres, as
+/// drawing programs write them.
 fn page(count: usize) -> Vec<Piece> {
     let unit = HEIGHT / 6.0;
     let mut pieces: Vec<Piece> = Vec::new();

@@ -7,7 +7,7 @@ use cplan_toolpath::{Curve, Piece, Point, Source, Toolpath, polyline, spline};
 use std::f64::consts::TAU;
 use std::time::Instant;
 
-/// Number of runs. The fastest one counts, because others share the machine.
+/// Number of runs. The fastest one counts, because other programs share the machine.
 const RUNS: usize = 3;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

@@ -1,12 +1,12 @@
 //! The smooth curve in joint space along a route.
 //!
-//! Between two waypoints on a piece of the line, the joints move along the cubic whose tangents are those of the line's own
-//! IK solution. Such cubics deviate from the line by far less than the straight motions between the waypoints. Where
-//! consecutive ones have the same tangent, the motion needs no blend, so that its acceleration follows the bends of the
-//! line instead of alternating between those of chords and of blends.
+//! Between two waypoints on a piece of the line, the joints move along a cubic. Its tangents are those of the curve in
+//! joint space that puts the tip exactly on the line. Such cubics deviate from the line by far less than straight
+//! motions. Where consecutive cubics have the same tangent, the motion needs no blend. So its acceleration follows the
+//! bends of the line, and does not alternate between chords and blends.
 //!
-//! Legs stay straight where they are straight pieces of the line as a whole, as in a curve that a file writes as short
-//! lines, and near singular places, where tangents vary too much.
+//! A leg stays straight if it is a whole straight piece of the line, as in a curve that a file writes as short lines.
+//! It also stays straight near singular places, where tangents vary too much.
 
 use crate::motion::Driver;
 use crate::nodes::Part;
@@ -18,33 +18,33 @@ use cplan_model::space::Configuration;
 use cplan_motion::CurvedLeg;
 use cplan_toolpath::{Curve, wrapped};
 
-/// Least cosine of the angles between a leg and the tangents at its ends.
+/// Least cosine of the angle between a leg and a tangent at its end. Other legs stay straight.
 const MIN_COSINE: f64 = 0.7;
 
-/// Least sine of the angle between the motions of the tip by the two joints.
+/// Least sine of the angle between the two directions in which the joints move the tip.
 const MIN_SINE: f64 = 1e-6;
 
-/// Greatest difference of tangents that counts as none, as a share of the turn along the legs.
+/// Greatest difference between the tangents of two legs that needs no blend, as a share of the turn along the legs.
 const SMOOTH_SHARE: f64 = 0.01;
 
-/// Greatest difference of tangents that always counts as none: rounding.
+/// Greatest difference of tangents that is attributed to rounding.
 const SMOOTH_TURN: f64 = 1e-7;
 
-/// Greatest difference of the wrist's slopes that counts as none, as a share of 1 plus the slope.
+/// Greatest difference of the wrist's slopes that needs no blend, as a share of 1 plus the slope.
 const SMOOTH_SLOPE_SHARE: f64 = 1e-3;
 
-/// Difference of angles, radians, up to which the tool has the direction of a piece.
+/// Greatest angle, radians, between the tool and a piece that is attributed to rounding.
 const ANGLE_ROUNDING: f64 = 1e-9;
 
 /// The directions of the joints and the wrist at both ends of each leg of a route.
 pub(crate) struct Course {
     /// Unit tangents of curved legs; `None` for straight legs.
     pub tangents: Vec<Option<[Configuration; 2]>>,
-    /// Derivatives of the wrist's value by the distance in joint space; 0 without a wrist.
+    /// Derivatives of the wrist's value with respect to the distance in joint space; 0 without a wrist.
     pub slopes: Vec<[f64; 2]>,
     /// True for each waypoint that is passed without a blend.
     pub is_smooth: Vec<bool>,
-    /// Lengths of the straight legs.
+    /// Displacements of the joints along the legs.
     chords: Vec<Configuration>,
 }
 
@@ -54,7 +54,7 @@ impl Course {
         let q = route.path.path().waypoints();
         let chords: Vec<Configuration> = q.windows(2).map(|leg| leg[1] - leg[0]).collect();
         let legs = || 0..chords.len();
-        // Results state a path with the extents of its corners, so a path without corners is straight.
+        // A path without corners must be straight, because results state only a path with the extents of its corners.
         let tangents = |leg| if chords.len() == 1 { None } else { driver.tangents(route, leg, chords[leg]) };
         let tangents: Vec<_> = legs().map(tangents).collect();
         let slope = |leg: usize| wrist.map_or([0.0; 2], |wrist| driver.slopes(route, leg, tangents[leg], wrist));
@@ -95,13 +95,13 @@ impl Course {
 }
 
 impl Driver<'_> {
-    /// Returns the part of the line along a leg of a route, if it is one.
+    /// Returns the part of the line along a leg. `None` unless the leg has exactly one part.
     fn part_of_leg(&self, route: &Route, leg: usize) -> Option<Part> {
         let [from, to] = [route.nodes[leg], route.nodes[leg + 1]];
         (from + 1 == to).then(|| self.nodes.parts[from])
     }
 
-    /// Returns the derivative of the joint values by the parameter of the line, at an end of a leg.
+    /// Returns the derivative of the joint values with respect to the parameter of the line, at an end of a leg.
     fn pace(&self, route: &Route, leg: usize, end: usize) -> Option<Configuration> {
         let part = self.part_of_leg(route, leg)?;
         let [x, y] = self.line.curve(part.piece).derivative(part.ends[end]);
@@ -124,7 +124,7 @@ impl Driver<'_> {
         tangents.iter().all(|tangent| tangent.dot(&chord) >= MIN_COSINE * chord.norm()).then_some(tangents)
     }
 
-    /// Returns the derivatives of the wrist's value at both ends of a leg, by the distance in joint space.
+    /// Returns the derivatives of the wrist's value with respect to the distance in joint space, at both ends of a leg.
     fn slopes(
         &self,
         route: &Route,
@@ -139,7 +139,7 @@ impl Driver<'_> {
         let Some((tangents, part)) = tangents.zip(self.part_of_leg(route, leg)) else { return even };
         let piece = &self.line.pieces[part.piece];
         let arm = self.scene.arm();
-        // The turn of the tool, and the difference between its angle and the direction of the piece, at an end.
+        // At an end: the turning rate of the tool, and the difference between its angle and the required one.
         let at_end = |end: usize| match wrist.guide.angle {
             ToolAngle::Fixed(_) => Some([0.0; 2]),
             ToolAngle::Tangent(offset) if !piece.is_travel => {
@@ -153,7 +153,8 @@ impl Driver<'_> {
         };
         let Some(known) = at_end(0).zip(at_end(1)) else { return even };
         let ([first, off], [last, next]) = known;
-        // At a slight corner, the angle is between those of both pieces. The tool leaves that of a piece gradually.
+        // At a slight corner, the angle of the tool is between those of both pieces. Along a leg, it departs from that
+        // of the piece gradually.
         let gradual = match [off == 0.0, next == 0.0] {
             [true, _] => [0.0, 2.0 * next / length],
             [_, true] => [-2.0 * off / length, 0.0],

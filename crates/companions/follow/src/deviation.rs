@@ -1,16 +1,16 @@
 //! The proven distance between a line and a motion as controllers play it.
 //!
-//! Controllers join samples by polynomials of several kinds. [`Deviation`] bounds the distance for cubics; here, the
-//! differences of the others from these cubics are added.
+//! Controllers join samples by polynomials of several kinds. [`Deviation`] bounds the distance for cubics. This module
+//! adds bounds on the differences between cubics and the other polynomials.
 
 use cplan_deviation::{Deviation, Kinematics, ToolDeviation};
 use cplan_handling::{Derivative, Piece, WristJoint};
 use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
 
-/// Returns an upper bound on the distance between a line and each piece of a motion, metres. Every motion counts that
-/// readers of the samples may play: cubics through positions and velocities, polynomials that also have the accelerations
-/// at their beginnings, and with `quintics` those that have them at both ends.
+/// Returns an upper bound on the distance between a line and each piece of a motion, metres. The bound holds for all
+/// polynomials by which controllers join the samples: cubics through positions and velocities, polynomials with the
+/// stated acceleration at the beginning, and with `quintics` also those with the stated accelerations at both ends.
 pub(crate) fn bounds(deviation: &Deviation, trajectory: &Trajectory, quintics: bool) -> Vec<f64> {
     let pieces = trajectory.pieces();
     let mut bounds = deviation.of_pieces(&pieces);
@@ -20,9 +20,9 @@ pub(crate) fn bounds(deviation: &Deviation, trajectory: &Trajectory, quintics: b
     bounds
 }
 
-/// Returns a bound on the distance of the tip between the cubic through two samples and the polynomials that also have
-/// the accelerations there. Their difference is `u^2 (1 - u)^2` times a polynomial whose values at the ends are half
-/// the differences of the accelerations.
+/// Returns a bound on how far the tip moves if polynomials with the stated accelerations replace the cubic between two
+/// samples. Polynomials and cubic differ by `u^2 (1 - u)^2` times a polynomial. The values of the latter at the ends
+/// are half the differences of the accelerations.
 fn difference(kinematics: &Kinematics, trajectory: &Trajectory, index: usize, piece: &Piece, quintics: bool) -> f64 {
     let duration = piece.to - piece.from;
     let off = |sample: usize, u: f64| {
@@ -39,7 +39,7 @@ fn difference(kinematics: &Kinematics, trajectory: &Trajectory, index: usize, pi
 }
 
 /// Returns an upper bound on the difference between the angle of the tool and the required one, radians, for the same
-/// motions as [`bounds`]. The trajectory has a wrist with this joint.
+/// motions as [`bounds`]. The trajectory must have a wrist.
 pub(crate) fn tool_bound(tool: &ToolDeviation, joint: &WristJoint, trajectory: &Trajectory, quintics: bool) -> f64 {
     let arm = tool.deviation.kinematics.arm;
     let rate = |planned: [f64; 2], turning: f64| WristJoint::link_2_angle(arm, planned) + joint.sign * turning;

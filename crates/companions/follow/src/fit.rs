@@ -1,9 +1,10 @@
 //! Places a line where the arm can follow it with one IK solution.
 //!
-//! For each IK solution, a grid over the reach states the distance of each place from the nearest one that the solution
-//! excludes: it is out of reach, outside the limits, or collides. The *room* of a placement is the least of these distances
-//! along the line. It changes at most by the distance by which the line moves, so branch and bound finds the placement with
-//! the most room. The grid proves nothing: [`follow`] judges the placements with the most room, one after the other.
+//! For each IK solution, a grid over the reach has the distance of each cell from the nearest excluded place. At an
+//! excluded place, the tip is out of reach, or the solution is outside the limits or collides. The *room* of a
+//! placement is the least of these distances along the line. If the line moves, its room changes by at most the length
+//! of the move. So branch and bound finds the placement with the most room. The grid proves nothing: [`follow`] judges
+//! the placements with the most room, one after the other.
 
 use crate::proof::{Cause, Infeasible};
 use crate::{FollowError, Followed, Settings, follow};
@@ -20,16 +21,16 @@ use std::f64::consts::{PI, TAU};
 /// Number of cells of the grid along the longer side of the reach.
 const CELLS: f64 = 192.0;
 
-/// Number of values of each joint from which the extent of the reach is computed.
+/// Number of values per joint at which the extent of the reach is sampled.
 const REACH_SAMPLES: u32 = 65;
 
-/// Share of the reach by which the grid is larger on each side, because the reach is sampled.
+/// Extension of the sampled reach on each side, as a share of its extent, because samples miss its border.
 const REACH_MARGIN: f64 = 0.02;
 
 /// Greatest number of points of the line that are compared with the grid.
 const MAX_POINTS: usize = 4000;
 
-/// Greatest number of points of a piece. A piece that needs more is far larger than the reach.
+/// Greatest number of points of a piece. Only pieces that are far larger than the reach would need more.
 const MAX_PIECE_POINTS: f64 = 1e5;
 
 /// Size of the smallest boxes of displacements, and accuracy of the room, in cells.
@@ -47,20 +48,20 @@ const WIDTH_DIRECTIONS: u32 = 180;
 /// A line at the place where it was placed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fitted {
-    /// The placement.
+    /// The chosen placement.
     pub placement: Placement,
     /// The line at this place.
     pub path: Toolpath,
-    /// Approximate distance between the line and the nearest place that the IK solution excludes, metres. `None` if no
+    /// Approximate distance between the line and the nearest place that excludes the IK solution, metres. `None` if no
     /// placement was found.
     pub room: Option<f64>,
     /// The motion along the line; or the reason why the line was not placed.
     pub answer: Followed,
 }
 
-/// Searches for a displacement of a line, and for one of several turns, so that the arm can follow the line without a change
-/// of its IK solution, as far as possible from all places that the solution excludes. The scale of `placement` applies.
-/// `progress` is called after each turn. The time is bounded: at most twelve placements are followed.
+/// Searches for a placement of a line at which the arm can follow it without a change of its IK solution. Displacements
+/// are free; turns come from a list. Placements far from all excluded places are preferred. The scale of `placement`
+/// applies. `progress` is called after each turn. At most twelve placements are followed, so the time is bounded.
 ///
 /// The answer is infeasible only if two points of the line are farther apart than any two places of the tip.
 ///
@@ -100,7 +101,7 @@ pub fn fit(
     }
     let mut first_reason = None;
     for followed in 0..MAX_FOLLOWED {
-        // A further turn is only chosen if it gives more room than the grid can mistake.
+        // Choose another turn only if it gives more room by at least the error of the grid.
         let more = |a: &Candidate, b: &Candidate| b.room > a.room + if a.room > 0.0 { b.field.cell } else { 0.0 };
         let best = candidates.iter_mut().reduce(|a, b| if more(a, b) { b } else { a }).expect("a turn");
         if best.room <= 0.0 {
@@ -142,15 +143,14 @@ pub fn fit(
 
 /// The room of the places of one IK solution.
 struct Field {
-    /// The least corner of the grid.
+    /// The corner of the grid with the least coordinates.
     low: Point,
     /// Size of a cell, metres.
     cell: f64,
     size: [usize; 2],
-    /// For each cell, the distance of its centre from the nearest excluded place, metres; negative for excluded cells: the
-    /// distance from the nearest place that is allowed.
+    /// Signed distance of each cell's centre from the border of the excluded places, metres. Negative for excluded cells.
     room: Vec<f64>,
-    /// The extent of the reach: its least and its greatest coordinates.
+    /// The least and the greatest coordinates of the reach.
     reach: [Point; 2],
 }
 
@@ -223,7 +223,7 @@ fn is_free(scene: &Scene, kinematics: &Kinematics, point: Point, solution: usize
     pairs.any(is_within) && scene.clearance(q) > scene.workspace().clearance
 }
 
-/// Returns for each cell the distance between its centre and that of the nearest cell with the wanted value, in cells.
+/// Returns the distance of each cell's centre from the nearest cell with the wanted value, in cells.
 fn distances(cells: &[bool], [width, height]: [usize; 2], wanted: bool) -> Vec<f64> {
     let mut along = vec![f64::INFINITY; cells.len()];
     for x in 0..width {
@@ -247,7 +247,8 @@ fn distances(cells: &[bool], [width, height]: [usize; 2], wanted: bool) -> Vec<f
     (0..cells.len()).map(nearest).collect()
 }
 
-/// Returns points along a line, as far apart as cells of this size or a multiple of it. Those far from the middle come first.
+/// Returns points along a line: at most one per square of side `cell`, or of a larger square if there would be too
+/// many. Points far from the middle come first.
 fn points(path: &Toolpath, cell: f64) -> Vec<Point> {
     let mut size = cell;
     loop {
@@ -272,8 +273,8 @@ fn points(path: &Toolpath, cell: f64) -> Vec<Point> {
     }
 }
 
-/// Returns the proof that a line is too large for all placements: two of its points are farther apart than any two places of
-/// the tip.
+/// Returns the proof that a line is too large for every placement: two of its points are farther apart than any two
+/// places of the tip.
 fn too_large(kinematics: &Kinematics, path: &Toolpath, scale: f64, tolerance: f64) -> Option<Infeasible> {
     let arm = kinematics.arm;
     let reach = 2.0 * (arm.offset.norm() + arm.tip.norm());
@@ -301,7 +302,7 @@ struct Candidate<'a> {
     points: Vec<Point>,
     shift: Vector,
     room: f64,
-    /// Displacements in vain. Those nearby are not tried any more.
+    /// Displacements that failed. Displacements close to them are not tried.
     excluded: Vec<Vector>,
 }
 
@@ -328,7 +329,7 @@ impl<'a> Candidate<'a> {
                 continue;
             }
             let shift = self.rounded(middle);
-            // A box is only of interest if its bound exceeds the room that is known.
+            // Only a room that lets the box improve on the known room must be computed exactly.
             let room = self.room_at(shift, self.room.min(self.room + resolution - half.norm()));
             let (bound, is_excluded) = (room + half.norm() + (shift - middle).norm(), self.is_excluded(shift));
             if room > self.room && !is_excluded {
@@ -342,7 +343,7 @@ impl<'a> Candidate<'a> {
         }
     }
 
-    /// Excludes the displacement, and searches again.
+    /// Excludes the current displacement, and searches again.
     fn exclude(&mut self) {
         self.excluded.push(self.shift);
         self.search();
@@ -352,7 +353,7 @@ impl<'a> Candidate<'a> {
         self.excluded.iter().any(|other| (shift - other).norm() < 2.0 * self.field.cell)
     }
 
-    /// Returns the room of a displacement, or if it is less than `enough`, some number between both.
+    /// Returns the room of a displacement. If it is less than `enough`, the result may be anything from the room to `enough`.
     fn room_at(&self, shift: Vector, enough: f64) -> f64 {
         let mut least = f64::INFINITY;
         for point in &self.points {
@@ -364,7 +365,7 @@ impl<'a> Candidate<'a> {
         least
     }
 
-    /// Returns a displacement with few digits, as options state it.
+    /// Rounds a displacement to the few digits that options state.
     fn rounded(&self, shift: Vector) -> Vector {
         let decimals = (-(RESOLUTION * self.field.cell).log10()).ceil().clamp(0.0, 12.0) as usize;
         shift.map(|x| format!("{x:.decimals$}").parse::<f64>().unwrap_or(x) + 0.0)

@@ -15,41 +15,41 @@ use cplan_model::space::Configuration;
 use cplan_model::{Outcome, Scene};
 use cplan_text::{chosen_length, length, metres};
 
-/// Shares of the tolerance that the straight motions in joint space and the blends may use each, in the order in which they
-/// are tried until the motion is proven to be within the tolerance. Their deviations have the same direction where the line
-/// is smooth, so they do not add up there.
+/// Shares of the tolerance for straight motions in joint space, and also for blends. They are tried in this order until
+/// the motion is proven to be within the tolerance. Where the line is smooth, both deviations have the same direction
+/// and do not add up, so each may use more than half of the tolerance.
 const SHARES: [f64; 3] = [0.7, 0.28, 0.11];
 
-/// Share of the tolerance up to which places out of reach are replaced by the nearest ones in reach.
+/// Share of the tolerance by which a place may be out of reach. It is then replaced by the nearest place in reach.
 pub(crate) const SLACK_SHARE: f64 = 0.25;
 
-/// Shares of the tolerance for lines with places that are farther out of reach: for the motions between nodes, and for the
-/// distance of these places from the reach.
+/// Shares of the tolerance for lines that are farther out of reach in places: the first for motions between nodes, the
+/// second for the distance of these places from the reach.
 const OUTER_SHARES: [[f64; 2]; 2] = [[0.97, 0.9], [0.999, 0.995]];
 
-/// Share of the tolerance up to which the length of a piece is tiny, and from which merged pieces may deviate.
+/// Length up to which a piece is tiny, and greatest deviation of merged pieces, as a share of the tolerance.
 const MERGED_SHARE: f64 = 0.1;
 
-/// Greatest change of a heading by merging, as a share of the tolerance of the tool's angle.
+/// Greatest change of a piece's heading by merging, as a share of the tolerance of the tool's angle.
 const MERGED_TURN_SHARE: f64 = 0.1;
 
-/// Factor by which the line is divided more finely for a proof, if the nodes of the search give no proof. The number of
-/// nodes grows with its root.
+/// Factor by which the deviation of parts is reduced for a proof, if the nodes of the search give none. The number of
+/// nodes grows with the root of this factor.
 const PROOF_FINENESS: f64 = 64.0;
 
-/// Number of parts of each piece for a proof, if that does not make too many. Long parts may be blocked in the middle.
+/// Number of parts of each piece for a proof, unless there would be too many nodes. Long parts may be blocked in the middle.
 const PROOF_PARTS: usize = 64;
 
-/// Factor by which the tolerance is lowered if no motion is proven to be within it.
+/// Factor by which the tolerance is reduced if no motion is proven to be within it.
 const TOLERANCE_FACTOR: f64 = 0.1;
 
-/// Factors by which the hint widens the tolerance, in the order of the attempts.
+/// Factors for the tolerance that the hint recommends, in the order in which they are tried.
 const WIDER_FACTORS: [f64; 3] = [2.0, 5.0, 20.0];
 
-/// Number of routes on which the wrist's range is tried.
+/// Number of routes that are tried until the wrist stays within its range.
 const WRIST_ROUTES: u32 = 8;
 
-/// Greatest number of nodes before the line is divided more finely for a proof.
+/// Greatest number of nodes of a line that is divided more finely for a proof.
 const MAX_COARSE_NODES: usize = 20_000;
 
 /// The input of a motion along a line.
@@ -60,7 +60,7 @@ pub(crate) struct Follower<'a> {
     /// The line of the file.
     pub line: &'a Line<'a>,
     pub settings: &'a Settings,
-    /// The configurations in which the motion begins and ends. With `None`, any IK solutions will do.
+    /// The configurations at which the motion begins and ends. `None` if any IK solutions may be used.
     pub ends: Option<[Configuration; 2]>,
 }
 
@@ -68,14 +68,14 @@ pub(crate) struct Follower<'a> {
 #[expect(clippy::large_enum_variant, reason = "one exists at a time")]
 enum Attempt {
     Found(Found),
-    /// A motion that is not proven to be within the tolerance: the position of the tip where the bound on its distance is
-    /// greatest, or `None` if only the angle of the tool may be wrong.
+    /// A motion that is not proven to be within the tolerance. It has the position of the tip where the bound on the
+    /// distance is greatest, or `None` if only the angle of the tool is unproven.
     TooFar(Option<Point>),
     NoRoute(Stuck),
     TooLong,
 }
 
-/// The place that no route passes.
+/// The place that no route reaches.
 struct Stuck {
     place: Place,
     /// True if the range of the wrist is the reason.
@@ -85,8 +85,9 @@ struct Stuck {
 }
 
 impl Follower<'_> {
-    /// Searches for a motion, with smaller shares of the tolerance until the motion is proven to be within it. `prove`
-    /// searches for a proof if there is no sequence of IK solutions. `option` returns the words that advise a tolerance.
+    /// Searches for a motion, with decreasing shares of the tolerance, until a motion is proven to be within the
+    /// tolerance. If no sequence of IK solutions is found, `prove` searches for a proof. `option` formulates the option
+    /// that sets a tolerance, for the hint.
     pub fn run<P: From<Infeasible>>(
         &self,
         prove: &dyn Fn(&Prover, &Search) -> Option<P>,
@@ -127,7 +128,7 @@ impl Follower<'_> {
         Ok(Outcome::Unknown(self.advised(why, option)?))
     }
 
-    /// Returns the reason of an unknown answer with the advice to use a greater tolerance, if a motion is found within it.
+    /// Returns the reason of an unknown answer. If a motion is found with a greater tolerance, adds this tolerance as a hint.
     fn advised(&self, why: String, option: &dyn Fn(&str, f64) -> String) -> Result<String, FollowError> {
         Ok(match self.wider_tolerance()? {
             Some((text, tolerance)) => format!("{why}; a motion is found with {}", option(&text, tolerance)),
@@ -148,7 +149,8 @@ impl Follower<'_> {
         Division { deviation: share * tolerance, slack: SLACK_SHARE * tolerance, least_parts: 1, turn, is_even }
     }
 
-    /// Returns a motion within a smaller tolerance, which is one within the given tolerance.
+    /// Searches for a motion within smaller tolerances, because a motion may be proven to be within the given tolerance
+    /// only if it is planned with a smaller one.
     fn within_less(&self) -> Result<Option<Found>, FollowError> {
         let smaller = Settings { tolerance: TOLERANCE_FACTOR * self.settings.tolerance, ..*self.settings };
         if smaller.tolerance < MIN_TOLERANCE {
@@ -162,7 +164,7 @@ impl Follower<'_> {
         }
     }
 
-    /// Returns a greater tolerance within which a motion is found, as text with its unit and in metres.
+    /// Returns a greater tolerance with which a motion is found, as text and in metres.
     fn wider_tolerance(&self) -> Result<Option<(String, f64)>, FollowError> {
         for factor in WIDER_FACTORS {
             let text = chosen_length(factor * self.settings.tolerance).replace(' ', "");
@@ -195,7 +197,7 @@ impl Follower<'_> {
         let (route, turns) = match self.route(&mut search, (line, nodes)) {
             Ok(found) => found,
             Err(out_of_range) => {
-                // The search knows the last node that it reached; the one after it is the obstacle.
+                // The search knows the last node that it reached. The next one is where it fails.
                 let next = (search.furthest.get() + usize::from(search.has_begun())).min(nodes.nodes.len() - 1);
                 let place = merged.place(written, &out_of_range.unwrap_or(nodes.nodes[next].place));
                 let out_of_reach = kinematics.distance_out_of_reach(place.point).max(0.0);
@@ -213,7 +215,7 @@ impl Follower<'_> {
         Ok(Attempt::Found(Found { timed, deviation, changes, waypoints, tool_deviation: tool }))
     }
 
-    /// Returns the answer if no route passes a place: a motion beside the reach of the arm, a proof, or the reason.
+    /// Returns the answer if no route reaches a place: a motion along the border of the reach, a proof, or the reason.
     fn without_route<P: From<Infeasible>>(
         &self,
         stuck: Stuck,
@@ -247,10 +249,11 @@ impl Follower<'_> {
         })
     }
 
-    /// Returns the cheapest certified route on which the wrist's joint stays within its range, with its values.
+    /// Returns a cheap certified route on which the wrist's joint stays within its range, with the values of this joint.
     ///
     /// # Errors
-    /// No such route was found. If the wrist is the reason: the first place where it would leave its range.
+    /// No such route was found. If the wrist is the reason, the error is the first place where it would leave its
+    /// range.
     fn route(
         &self,
         search: &mut Search,
@@ -273,7 +276,7 @@ impl Follower<'_> {
         Err(stuck)
     }
 
-    /// Searches for a proof at a finer division of the line.
+    /// Searches for a proof with a finer division of the line.
     pub fn prove_finely(&self, prover: &Prover) -> Option<Infeasible> {
         if prover.nodes.nodes.len() > MAX_COARSE_NODES {
             return None;

@@ -3,10 +3,10 @@
 //! [`follow`] gives one of three answers:
 //!
 //! - *found*: a motion within the joints' limits whose tip stays within the tolerance of the line, in the order of the
-//!   line. The bound on the distance holds between samples, for all motions that controllers make of the samples. The
-//!   motion is certified to be free of collisions.
-//! - *infeasible*, with a proof: a place is out of reach, or each IK solution there is outside the limits or collides. Or
-//!   each solution is excluded somewhere, and the line has no place between at which the arm could change it.
+//!   line. This holds also between the samples, for all usual interpolations of controllers. The motion is certified to
+//!   be free of collisions.
+//! - *infeasible*, with a proof: a place is out of reach, or each IK solution there is outside the limits or collides.
+//!   Or each solution is excluded somewhere on a stretch of the line where the arm cannot change its solution.
 //! - *unknown*, with the reason.
 //!
 //! ```
@@ -24,20 +24,19 @@
 //!
 //! # Method
 //!
-//! Pieces far below the tolerance are merged for planning (`merge`); proofs and the final check of the distance are about
-//! the line of the file. The line is divided into parts (`nodes`) so short that the tip stays near each part while the joints move straight
-//! from its beginning to its end. A search (`search`) chooses the IK solution on each part, and where to change it. The
-//! joints move along smooth curves through the nodes (`course`). The corners between them are blended, each as far as the
-//! tolerance allows (`motion`), and the crate `cplan-motion` times it. With limits on jerks, a smooth curve near the line replaces the blended path between two
-//! stops (`smooth`), with control points whose spacing changes gradually (`spacing`). Finally the motion is judged from
-//! its samples alone (`deviation`).
+//! Pieces far below the tolerance are merged for planning (`merge`); proofs and the final check of the distance are about the
+//! line of the file. The line is divided into short parts (`nodes`): while the joints move straight from one end of a part to
+//! the other, the tip stays near the line. A search (`search`) chooses the IK solution for each part, and the places where it
+//! changes. The joints move along smooth curves through the nodes (`course`). The corners between these curves are blended as
+//! far as the tolerance allows (`motion`), and the crate `cplan-motion` computes the timing. With limits on jerks, a smooth
+//! curve near the line replaces the blended path between two stops (`smooth`), with control points whose spacing changes
+//! gradually (`spacing`). Finally the motion is judged from its samples alone (`deviation`).
 //!
-//! With two joints, the tip's position leaves only the choice between two IK solutions. They meet where the arm is
-//! straight or folded. There the arm can change between them; near such places the joints are fast, so the limits on
-//! their speeds slow down the tip.
+//! For most positions of the tip, an arm with two joints has two IK solutions. They meet where the arm is straight or folded.
+//! The arm can change its solution there. Near such places the joints are fast, so their speed limits slow down the tip.
 //!
-//! A travel (G0) is a straight move of the tip as fast as the joints allow, with stops at both ends. It is held within
-//! the same tolerance, so nothing surprising happens between two cuts.
+//! A travel (G0) is a straight move of the tip as fast as the joints allow, with stops at both ends. The tip stays
+//! within the same tolerance of this move.
 //!
 //! [`fit`] searches for a placement of the line at which it can be followed with one IK solution.
 #![forbid(unsafe_code)]
@@ -76,18 +75,18 @@ use follower::Follower;
 use proof::Prover;
 use search::Search;
 
-/// Greatest turn of the line's direction between two nodes, as a multiple of the tool's tolerance. The tool turns evenly
-/// between them, so its angle deviates by far less.
+/// Greatest turn of the line's direction between two nodes, as a multiple of the tolerance of the tool's angle. The
+/// tool turns evenly between nodes, so its angle deviates by far less than this turn.
 const TURN_TOLERANCES: f64 = 10.0;
 
 /// Settings of a motion along a line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Greatest distance between the tip's path and the line, metres. At least [`MIN_TOLERANCE`].
+    /// Greatest distance between the tip's path and the line, metres, at least [`MIN_TOLERANCE`].
     pub tolerance: f64,
-    /// Greatest speed of the tip, metres per second, instead of the speeds that the file states.
+    /// Greatest speed of the tip, metres per second. Replaces the speeds that the file states.
     pub speed: Option<f64>,
-    /// Greatest speed of the tip on the whole line, travels included, metres per second; `None` for none.
+    /// Greatest speed of the tip on the whole line, including travels, metres per second. `None` for no limit.
     pub tip_speed: Option<f64>,
     /// Share of the joints' top speeds to use, above 0 and at most 1.
     pub share: f64,
@@ -95,7 +94,7 @@ pub struct Settings {
     pub period: f64,
     /// The wrist that turns the tool; `None` if the angle of the tool does not matter.
     pub wrist: Option<WristAlong>,
-    /// The side of the elbow; `None` if either side will do. Arms without an elbow ignore it.
+    /// The side of the elbow. `None` for either side. Arms without an elbow ignore it.
     pub elbow: Option<Elbow>,
 }
 
@@ -116,7 +115,7 @@ impl Default for Settings {
 }
 
 impl Settings {
-    /// Returns the greatest turn of the line's direction between two nodes, radians; infinite if it does not matter.
+    /// Returns the greatest turn of the line's direction between two nodes, radians. Infinite if the direction does not matter.
     fn greatest_turn(&self) -> f64 {
         self.wrist.map_or(f64::INFINITY, |wrist| match wrist.guide.angle {
             ToolAngle::Fixed(_) => f64::INFINITY,
@@ -153,18 +152,18 @@ pub enum FollowError {
         "numbers of the wrist are invalid: all must be finite, limits positive, and the tolerance from {MIN_WRIST_TOLERANCE} to {MAX_WRIST_TOLERANCE} rad"
     )]
     Wrist,
-    /// A tool that must follow the direction of the line although jerks are limited.
+    /// A tool must follow the direction of the line although jerks are limited.
     #[error(
         "the tool cannot follow the line's direction while jerks are limited; give the tool a fixed angle, or remove `jerk` from [robot]"
     )]
     TangentWithJerk,
-    /// A motion that stays too fast for the wrist.
+    /// The wrist is too fast although the motion was slowed down.
     #[error("all motions that were tried are too fast for the wrist; give the wrist a higher acceleration")]
     WristTooSlow,
     /// The motion cannot be timed.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// A part of a certified path was not certified by itself.
+    /// A part of a certified path could not be certified by itself.
     #[error("a part of the path could not be certified; use a smaller tolerance")]
     Uncertified,
 }
@@ -190,8 +189,8 @@ pub type Followed = Outcome<Found, Infeasible>;
 
 /// Returns a motion whose tip follows a line, or a proof that no motion does.
 ///
-/// The motion begins and ends at rest at the ends of the line. It keeps the scene's clearance. It takes time linear in
-/// the length of the line and in the inverse root of the tolerance.
+/// The motion begins and ends at rest at the ends of the line. It keeps the scene's clearance. The time for planning is
+/// proportional to the length of the line and to `1 / sqrt(tolerance)`.
 ///
 /// # Errors
 /// [`FollowError`]: unusable settings, or a motion that cannot be timed.
@@ -203,8 +202,8 @@ pub fn follow(scene: &Scene, path: &Toolpath, settings: &Settings) -> Result<Fol
     follower.run(&prove, &|text, _| format!("`--tolerance {text}`"))
 }
 
-/// Returns a motion along a line from one configuration to another, up to whole turns of joints on circles. Both put the
-/// tip at the ends of the line. Else as [`follow`]; the reason of a proof is given in words.
+/// Like [`follow`], but from one configuration to another, which must put the tip at the ends of the line. Whole turns
+/// of continuous joints do not count. If no motion exists, returns the reason in words.
 ///
 /// # Errors
 /// [`FollowError`]: unusable settings, or a motion that cannot be timed.

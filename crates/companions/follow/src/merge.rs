@@ -1,15 +1,15 @@
-//! The pieces of a line that a motion is planned along: pieces far below the tolerance are merged.
+//! Merges those pieces of a line that are far shorter than the tolerance.
 //!
-//! A file may have pieces of a few nanometres: a hook before a travel, the rounding of a closed outline, micrometre steps
-//! along a curve. A motion cannot follow their directions, and needs not to. Tiny pieces near one point are omitted, so the
-//! pieces before and after them may be a gap apart. Longer sequences of tiny pieces become straight chords. Only the
-//! planning uses the merged pieces: the distance of the motion is judged against the line of the file.
+//! A file may have pieces of a few nanometres: a hook before a travel, the rounding of a closed outline, micrometre
+//! steps along a curve. A motion cannot follow their directions, and need not. Tiny pieces near one point are omitted,
+//! which may leave a gap between the pieces before and after them. Longer sequences of tiny pieces become straight
+//! chords. Only planning uses the merged pieces. The distance of the motion is judged against the line of the file.
 
 use cplan_deviation::{Foot, Line, Place};
 use cplan_geometry::{Point, cross};
 use cplan_toolpath::{Curve, Piece, wrapped};
 
-/// A line with its tiny pieces merged.
+/// A line after the merging of tiny pieces.
 pub(crate) struct Merged {
     /// The pieces for planning; at least one.
     pub pieces: Vec<Piece>,
@@ -17,22 +17,22 @@ pub(crate) struct Merged {
     pub joints: Vec<Point>,
     /// For each joint, true if the tip stops there because a travel begins or ends.
     pub stops: Vec<bool>,
-    /// For each piece, the pieces of the line that it stands for: the first one, and the one after the last one.
+    /// For each merged piece, the range of pieces of the line that it replaces: the first one, and the one after the last.
     sources: Vec<[usize; 2]>,
 }
 
 /// Limits of merging.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Merging {
-    /// Length up to which a piece is tiny, and the greatest distance of merged pieces from those that replace them, metres.
+    /// Length up to which a piece is tiny, metres. Also the greatest distance between merged pieces and their replacement.
     pub size: f64,
-    /// Greatest difference between the headings of a chord and a piece that it replaces, radians; infinite if it does not
-    /// matter.
+    /// Greatest difference between the headings of a chord and of a piece that it replaces, radians. Infinite if
+    /// headings do not matter.
     pub turn: f64,
 }
 
 impl Merged {
-    /// Merges the tiny pieces of a line. It takes `O(n)` for `n` pieces.
+    /// Merges the tiny pieces of a line, in `O(n)` for `n` pieces.
     pub fn new(line: &Line, merging: Merging) -> Self {
         let own = line.pieces;
         let start: Point = own[0].curve.start().into();
@@ -66,7 +66,8 @@ impl Merged {
         merged
     }
 
-    /// Appends a piece that stands for the pieces from `first` to `until` of a line, after the omitted ones.
+    /// Appends a piece that replaces the pieces of a line from `first` up to, but excluding `until`. The pieces from
+    /// `omitted` to `first` are dropped.
     fn push(&mut self, own: &[Piece], piece: Piece, [omitted, first, until]: [usize; 3]) {
         let changes = |pair: &[Piece]| pair[0].is_travel != pair[1].is_travel;
         let rest = |pieces: &[Piece]| pieces.iter().filter_map(|piece| piece.dwell).reduce(|a, b| a + b);
@@ -82,7 +83,7 @@ impl Merged {
         self.sources.push([first, until]);
     }
 
-    /// Returns the place of the line as written for one of the merged pieces.
+    /// Converts a place on the merged pieces to the line of the file.
     pub fn foot(&self, Foot { piece, u }: Foot) -> Foot {
         let [first, until] = self.sources[piece];
         let position = u * (until - first) as f64;
@@ -90,7 +91,7 @@ impl Merged {
         Foot { piece: first + within, u: (position - within as f64).clamp(0.0, 1.0) }
     }
 
-    /// Returns the place of the line as written for a place of the merged pieces.
+    /// Converts a place on the merged pieces to the line of the file, with its point.
     pub fn place(&self, line: &Line, place: &Place) -> Place {
         let Foot { piece, u } = self.foot(Foot { piece: place.piece, u: place.u });
         line.place(piece, u)
@@ -103,11 +104,11 @@ fn is_near(curve: &Curve, point: Point, size: f64) -> bool {
     far[0].max(far[1]) + curve.length() / 2.0 <= size
 }
 
-/// Returns the end of the longest sequence of tiny pieces from `first` on that is near the chord from a point to its end.
-/// The sequence has at least one piece, which may be longer than the others. The tip rests nowhere but at its end.
+/// Returns the end of the longest sequence of tiny pieces, beginning with `first`, that one chord from a point
+/// replaces. The sequence has at least one piece, which may be longer. Dwells occur only at its end.
 fn chord_end(own: &[Piece], first: usize, from: Point, Merging { size, turn }: Merging) -> usize {
     let radius = size / 2.0;
-    // The directions from the point in which all chords are near the pieces, as differences from that of the first chord.
+    // Directions of chords from the point that stay near the pieces so far, relative to the first chord.
     let (mut middle, mut least, mut greatest) = (None, f64::NEG_INFINITY, f64::INFINITY);
     let (mut farthest, mut end) = (0.0_f64, first + 1);
     for (number, piece) in own.iter().enumerate().skip(first) {

@@ -18,29 +18,29 @@ use cplan_model::Scene;
 use cplan_model::space::{Configuration, Path};
 use cplan_motion::{BlendedPath, CurveDrive, TimedMotion, TipSpeed, WristLimit, along_curve, blend_curved};
 
-/// Cosine of the angle between two legs beyond which the motion stops between them: it almost returns on itself.
+/// Cosine of the angle between two legs below which the motion stops between them, because it almost reverses.
 const REVERSAL_COSINE: f64 = -0.95;
 
-/// Cosine of the angle by which the tip may turn at a corner that a motion with limited jerk passes without a stop.
+/// Cosine of the greatest turn of the tip at a corner that a motion with limited jerks passes without a stop.
 const SMOOTH_CORNER_COSINE: f64 = 0.985;
 
-/// Share of the tolerance that a waypoint leaves over by which a blend may deviate from it.
+/// Greatest deviation of a blend from its waypoint, as a share of the tolerance that the waypoint itself does not use.
 const BLEND_ROOM_SHARE: f64 = 0.7;
 
-/// Share of the tool's tolerance by which blends may change its angle.
+/// Greatest change of the tool's angle by a blend, as a share of the tolerance of this angle.
 const BLEND_TOOL_SHARE: f64 = 0.2;
 
-/// Greatest radius of a blend beside a curved leg, as a share of the leg. The blend leaves the line along its tangent, so
-/// the rest of the leg bends more.
+/// Greatest radius of a blend beside a curved leg, as a share of the leg. The blend leaves the line along its tangent,
+/// so the remaining leg is curved more strongly.
 const CURVED_LEG_SHARE: f64 = 0.25;
 
 /// Number of times that a motion is slowed down for the wrist.
 const SLOWDOWNS: u32 = 8;
 
-/// Excess over the limits of the wrist that counts as rounding, as a share.
+/// Excess over the limits of the wrist that is attributed to rounding, as a share.
 const WRIST_ROUNDING: f64 = 2e-7;
 
-/// Factor by which such a motion is slowed down further than the excess of the wrist demands.
+/// Extra factor by which a motion is slowed down, beyond the excess of the wrist.
 const SLOWDOWN_MARGIN: f64 = 1.01;
 
 /// A motion along a route, with proven bounds.
@@ -50,7 +50,7 @@ pub(crate) struct Motion {
     pub deviation: f64,
     /// Bound on the difference between the tool's angle and the required one, radians; `None` without a wrist.
     pub tool: Option<f64>,
-    /// Position of the tip where the first bound is greatest, metres.
+    /// Position of the tip where the bound on its distance is greatest, metres.
     pub farthest: Point,
 }
 
@@ -60,17 +60,17 @@ pub(crate) struct Driver<'a> {
     pub kinematics: &'a Kinematics<'a>,
     /// The line of the file.
     pub written: &'a Line<'a>,
-    /// The line with its tiny pieces merged.
+    /// The line after the merging of tiny pieces.
     pub line: &'a Line<'a>,
     pub merged: &'a Merged,
     pub nodes: &'a Nodes,
     pub settings: &'a Settings,
-    /// Greatest distance of a blend from its corner, for the tip, metres.
+    /// Greatest distance of the tip on a blend from the corner, metres.
     pub blend: f64,
 }
 
 impl Driver<'_> {
-    /// Returns the fastest motion along a route that is found, with a wrist that turns as given.
+    /// Returns the fastest motion found along a route. `turns` are the values of the wrist.
     pub fn motion(&self, route: &Route, turns: Option<&Turns>) -> Result<Motion, FollowError> {
         let is_smooth = self.scene.arm().limits_jerks();
         let speeds = self.leg_speeds(route);
@@ -94,8 +94,8 @@ impl Driver<'_> {
         Err(FollowError::WristTooSlow)
     }
 
-    /// Returns the motion along a whole route with blends. If rounding takes the wrist beyond a limit between samples, the
-    /// motion is planned again with a slower wrist.
+    /// Returns the blended motion along a whole route. If the wrist exceeds a limit between samples because of
+    /// rounding, plans again with lower limits for the wrist.
     fn within_wrist(
         &self,
         route: &Route,
@@ -116,7 +116,7 @@ impl Driver<'_> {
         Err(FollowError::WristTooSlow)
     }
 
-    /// Returns a motion with proven bounds.
+    /// Computes bounds on the deviations of a motion.
     fn judged(&self, route: &Route, timed: TimedMotion, is_smooth: bool) -> Motion {
         let deviation = self.deviation(route, [0, route.nodes.len() - 1]);
         let bounds = bounds(&deviation, &timed.trajectory, is_smooth).into_iter().enumerate();
@@ -130,8 +130,8 @@ impl Driver<'_> {
         Motion { timed, deviation: bound, tool, farthest }
     }
 
-    /// Returns the motion along a whole route with curved legs and blends. The arm stops where the wrist turns at rest, and for
-    /// dwells.
+    /// Returns the motion along a whole route, with curved legs and blends. The arm stops for dwells, and where the
+    /// wrist turns while the arm rests.
     fn blended(
         &self,
         route: &Route,
@@ -182,9 +182,9 @@ impl Driver<'_> {
         Ok(whole.expect("at least one part"))
     }
 
-    /// Returns the motions with limits on jerks from each stop of a route to the next one, each with the waypoint where it
-    /// begins. The arm stops where it must, at corners of the line, and where the limit on the tip's speed changes. `share`
-    /// is the share of the joints' top speeds to use.
+    /// Returns motions with limited jerks between consecutive stops of a route, each with the waypoint where it begins.
+    /// The arm stops where it must, at corners of the line, and where the limit on the tip's speed changes. `share` is
+    /// the share of the joints' top speeds to use.
     fn smooth_parts(
         &self,
         route: &Route,
@@ -196,7 +196,7 @@ impl Driver<'_> {
         let is_corner = |w: usize| self.is_corner(route.nodes[w]) || speeds[w] != speeds[w - 1];
         let is_stop = |w: &usize| self.must_stop(q, route, *w) || is_corner(*w);
         let stops: Vec<usize> = [0].into_iter().chain((1..last).filter(is_stop)).chain([last]).collect();
-        // A stretch without a motion is halved, with a stop between the halves.
+        // If no motion is found for a stretch, it is halved, with a stop in the middle.
         let mut open: Vec<[usize; 2]> = stops.windows(2).rev().map(|pair| [pair[0], pair[1]]).collect();
         let mut parts = Vec::new();
         while let Some([from, to]) = open.pop() {
@@ -220,18 +220,18 @@ impl Driver<'_> {
         if waypoints.len() == route.path.path().waypoints().len() {
             return Ok(route.path.clone());
         }
-        // The whole path is certified, so the part is as well, unless the search takes another course.
+        // A part of a certified path can be certified, unless the search for its certificate fails.
         certify(self.scene, Path::new(waypoints.to_vec())).map_err(|_| FollowError::Uncertified)
     }
 
-    /// Returns the options of a motion with a limit on the tip's speed, which legs use in shares.
+    /// Returns the options of a motion whose tip has at most this speed. `legs` has the limit of each leg as a share of it.
     fn drive<'b>(&'b self, speed: f64, legs: &'b [f64], share: f64) -> CurveDrive<'b> {
         let is_limited = speed.is_finite() && speed > 0.0;
         let tip = is_limited.then(|| TipSpeed { legs, ..TipSpeed::new(self.scene.arm(), speed) });
         CurveDrive { tip, share, period: self.settings.period, wrist: None }
     }
 
-    /// Returns the check of the distance between the line and a motion from one waypoint to another.
+    /// Returns the check of the distance between a motion and the line, from one waypoint to another.
     pub(crate) fn deviation(&self, route: &Route, waypoints: [usize; 2]) -> Deviation<'_> {
         let parts = &self.nodes.parts;
         let foot = |node: usize| match node.checked_sub(1) {
@@ -239,7 +239,7 @@ impl Driver<'_> {
             None => Foot { piece: 0, u: 0.0 },
         };
         let (last, end) = (route.nodes.len() - 1, Foot { piece: self.written.pieces.len() - 1, u: 1.0 });
-        // The first and the last waypoints stand for the ends of the line, even if the arm rests on a part of it.
+        // The first and the last waypoint represent the ends of the line, even if the arm rests on a part of it.
         let ends = waypoints.map(|w| match w {
             0 => foot(0),
             w if w == last => end,
@@ -248,10 +248,8 @@ impl Driver<'_> {
         Deviation { kinematics: self.kinematics, line: self.written, tolerance: self.settings.tolerance, ends }
     }
 
-    /// Returns the greatest speed of the tip on each leg, metres per second; infinite without a limit.
-    ///
-    /// The limits of the joints bound the tip's speed as well, so legs without a limit get a finite speed if others have
-    /// one.
+    /// Returns the greatest speed of the tip on each leg, metres per second. All are infinite if no leg has a limit. If
+    /// only some legs have a limit, the others get a finite speed that exceeds what the joints can do.
     fn leg_speeds(&self, route: &Route) -> Vec<f64> {
         let speed = |leg: usize| {
             let part = route.nodes[leg + 1].saturating_sub(1);
@@ -266,28 +264,28 @@ impl Driver<'_> {
         let arm = self.scene.arm();
         let fastest = Configuration::from_fn(|k, _| arm.joints[k].velocity);
         let at = |q: &Configuration| self.kinematics.motion_within(*q, Configuration::zeros(), fastest);
-        // Between waypoints the tip's reach is hardly greater than at them.
+        // Between waypoints, the joints move the tip hardly faster than at waypoints.
         let bound = 2.0 * route.path.path().waypoints().iter().map(at).fold(0.0, f64::max);
         speeds.into_iter().map(|speed| speed.unwrap_or(bound)).collect()
     }
 
-    /// Returns the greatest radius of the blend at a waypoint: the tip's path stays within the allowed distance.
+    /// Returns the greatest radius of the blend at a waypoint with which the tip's path stays within the allowed distance.
     fn radius(&self, q: &[Configuration], route: &Route, course: &Course, w: usize) -> f64 {
         if w == 0 || w + 1 >= q.len() || self.must_stop(q, route, w) {
             return 0.0;
         }
         let directions = [course.direction(w - 1, 1), course.direction(w, 0)];
         let tips = directions.map(|d| self.kinematics.velocity(q[w], d));
-        // The middle of a blend is at a quarter of this times the radius from the corner.
+        // The middle of a blend is `radius * off / 4` from the corner.
         let off = (tips[1] - tips[0]).norm();
-        // Beside the reach of the arm, the waypoint itself is away from the line.
+        // At the border of the reach, the waypoint itself is not on the line.
         let room = self.blend.min(BLEND_ROOM_SHARE * (self.settings.tolerance - self.nodes.nodes[route.nodes[w]].off));
         let of_legs = [w - 1, w].into_iter().filter_map(|leg| Some(CURVED_LEG_SHARE * course.curved_length(leg)?));
         let most = of_legs.fold(f64::INFINITY, f64::min);
         if off > 0.0 { most.min(4.0 * room / off) } else { most }
     }
 
-    /// Returns the greatest radius of the blend at a waypoint at which the tool keeps its angle.
+    /// Returns the greatest radius of the blend at a waypoint with which the tool keeps its angle.
     fn tool_radius(&self, course: &Course, wrist: &WristAlong, w: usize) -> f64 {
         if w == 0 || w >= course.slopes.len() {
             return 0.0;
@@ -296,29 +294,28 @@ impl Driver<'_> {
             let of_arm = WristJoint::link_2_angle(self.scene.arm(), course.direction(leg, end).into());
             of_arm + wrist.joint.sign * course.slopes[leg][end]
         };
-        // The middle of a blend is at a quarter of this times the radius from the corner.
+        // In the middle of a blend, the angle differs by `radius * off / 4`.
         let off = (slope(w, 0) - slope(w - 1, 1)).abs();
         if off > 0.0 { 4.0 * BLEND_TOOL_SHARE * wrist.guide.tolerance / off } else { f64::INFINITY }
     }
 
-    /// Returns true if every motion stops at an inner waypoint: a travel begins or ends there, the line says that the tip
-    /// rests there, or the joints turn back.
+    /// Returns true if every motion must stop at an inner waypoint: a travel begins or ends there, the line has a dwell
+    /// there, or the joints turn back.
     pub(crate) fn must_stop(&self, q: &[Configuration], route: &Route, w: usize) -> bool {
         let [before, after] = legs(q, w);
         self.is_stop(route.nodes[w]) || self.dwell(route, w).is_some() || before.dot(&after) < REVERSAL_COSINE
     }
 
-    /// Returns the time for which the tip rests at a waypoint, seconds; `None` if the line has no dwell there.
+    /// Returns the duration of the dwell at a waypoint, seconds. `None` if the line has none there.
     fn dwell(&self, route: &Route, w: usize) -> Option<f64> {
-        // A waypoint stands for all nodes after those of the one before it.
+        // A waypoint represents all nodes after the previous waypoint.
         let first = w.checked_sub(1).map_or(0, |before| route.nodes[before] + 1);
         let parts = (first.max(1)..=route.nodes[w]).map(|node| self.nodes.parts[node - 1]);
         let ends = parts.filter(|part| part.ends[1] == 1.0);
         ends.filter_map(|part| self.line.pieces[part.piece].dwell).reduce(|a, b| a + b)
     }
 
-    /// Returns true if two pieces of the line meet at a node, and their directions differ too much for a motion with
-    /// limited jerk.
+    /// Returns true if two pieces of the line meet at a node, and a motion with limited jerks must stop there.
     fn is_corner(&self, node: usize) -> bool {
         let parts = &self.nodes.parts;
         let Some((before, after)) = node.checked_sub(1).and_then(|part| parts.get(part).zip(parts.get(node))) else {
@@ -338,7 +335,7 @@ impl Driver<'_> {
     }
 }
 
-/// Joins a motion and the next one, with a rest in between, seconds.
+/// Joins two motions. `dwell` is the rest in between, seconds.
 fn joined(mut before: TimedMotion, dwell: Option<f64>, next: TimedMotion) -> TimedMotion {
     before.trajectory.then(dwell.unwrap_or(0.0), &next.trajectory);
     TimedMotion { curve: before.curve.then(&next.curve), ..before }

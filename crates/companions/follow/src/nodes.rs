@@ -1,4 +1,4 @@
-//! Places on the line, so dense that the arm can move straight in joint space from each to the next.
+//! Divides the line at nodes. While the joints move straight between neighbouring nodes, the tip stays near the line.
 
 use cplan_deviation::{Kinematics, Line, Place, sag};
 use cplan_geometry::Point;
@@ -7,26 +7,26 @@ use cplan_model::space::Configuration;
 use cplan_toolpath::Curve;
 use std::f64::consts::FRAC_PI_2;
 
-/// Greatest number of places. A line that needs more is too long for its tolerance.
+/// Greatest number of nodes. A line that needs more is too long for its tolerance.
 pub(crate) const MAX_NODES: usize = 400_000;
 
 /// Greatest number of halvings of a piece. Near singular places, joint values change like the root of the distance, so
-/// the least parts are about this fine.
+/// parts must be about this short.
 const MAX_HALVINGS: u32 = 44;
 
 /// Number of parts into which a cubic curve is cut initially.
 const CUBIC_PARTS: u32 = 4;
 
-/// A place of the line, with the joint values there.
+/// A place of the line, with its IK solutions.
 #[derive(Debug, Clone)]
 pub(crate) struct Node {
     pub place: Place,
-    /// Both IK solutions, continued without jumps from the node before; `None` if the tip cannot reach the place or a
-    /// joint is free there.
+    /// Both IK solutions, which continue those of the previous node. `None` if the place is out of reach, or if a joint
+    /// is free there.
     pub solutions: Option<[Configuration; 2]>,
-    /// Distance of the tip from the place with these solutions, metres.
+    /// Distance between the tip in these solutions and the place, metres.
     pub off: f64,
-    /// True if the solutions continue those of the node before.
+    /// True if the solutions continue those of the previous node without jumps.
     pub is_continued: bool,
 }
 
@@ -38,7 +38,7 @@ pub(crate) struct Part {
     pub ends: [f64; 2],
 }
 
-/// The places of a line in order. Part `i` is between the nodes `i` and `i + 1`.
+/// The nodes of a line in order. Part `i` is between the nodes `i` and `i + 1`.
 pub(crate) struct Nodes {
     pub nodes: Vec<Node>,
     pub parts: Vec<Part>,
@@ -47,22 +47,22 @@ pub(crate) struct Nodes {
 /// Settings for the division of a line.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Division {
-    /// Greatest deviation of the tip on a straight motion in joint space between two nodes, metres.
+    /// Greatest distance of the tip from the line while the joints move straight between two nodes, metres.
     pub deviation: f64,
-    /// Distance from the reach up to which a place is replaced by the nearest one in reach, metres.
+    /// Distance from the reach up to which a place is replaced by the nearest place in reach, metres.
     pub slack: f64,
     /// Least number of parts of each piece.
     pub least_parts: u32,
-    /// Greatest turn of the line's direction between two nodes of a piece, radians; infinite if it does not matter.
+    /// Greatest turn of the line's direction between two nodes of a piece, radians. Infinite if it does not matter.
     pub turn: f64,
-    /// True if all parts of a cubic curve must be as short as its strongest bend demands. So a wrist turns evenly along it, and
-    /// a smooth curve has evenly spaced points.
+    /// True if all parts of a cubic curve are as short as its strongest bend demands. Then a wrist turns evenly along
+    /// it, and a smooth curve has evenly spaced points.
     pub is_even: bool,
 }
 
 impl Nodes {
-    /// Divides a line. With `joints`, the motion begins, passes from each piece to the next one, and ends at these points,
-    /// which may differ from the ends of the pieces. `None` if it would need more than [`MAX_NODES`].
+    /// Divides a line. If `joints` is given, the motion begins, passes from piece to piece, and ends at these points,
+    /// which may differ from the ends of the pieces. `None` if there are more than [`MAX_NODES`].
     pub fn new(kinematics: &Kinematics, line: &Line, joints: Option<&[Point]>, division: Division) -> Option<Self> {
         let mut divider = Divider { kinematics, line, joints, division, nodes: Vec::new(), parts: Vec::new() };
         for (piece, own) in line.pieces.iter().enumerate() {
@@ -97,7 +97,7 @@ impl Divider<'_, '_> {
         let joint = self.joint(piece, u);
         let target = self.kinematics.reachable(joint.unwrap_or(place.point), self.division.slack);
         let solutions = target.and_then(|target| self.kinematics.solutions(target));
-        // At a joint, the end of the piece before and the beginning of the piece after it may differ.
+        // Where two pieces join, the end of the first and the beginning of the second may differ.
         let next = if joint.is_some() { piece + usize::from(u > 0.0) } else { piece };
         let other = self.line.pieces.get(next).filter(|_| next > piece).map_or(place.point, |p| p.curve.start().into());
         let far = |q: &Configuration| {
@@ -108,7 +108,7 @@ impl Divider<'_, '_> {
         Node { place, solutions, off, is_continued: false }
     }
 
-    /// Returns the point at which the motion passes an end of a piece.
+    /// Returns the point where the motion passes an end of a piece.
     fn joint(&self, piece: usize, u: f64) -> Option<Point> {
         let joint = match u {
             0.0 => piece,
@@ -123,7 +123,7 @@ impl Divider<'_, '_> {
         self.nodes.push(node);
     }
 
-    /// Appends the nodes of a part of a piece, up to the part's end. Its beginning is the last node.
+    /// Appends the nodes of a part of a piece. The last node is at the beginning of the part.
     fn divide(&mut self, piece: usize, [from, to]: [f64; 2]) -> Option<()> {
         let mut open = vec![(self.node(piece, to), 0_u32)];
         let mut from = from;
@@ -132,7 +132,8 @@ impl Divider<'_, '_> {
             let last = self.nodes.last().expect("the line's first node");
             let to = next.place.u;
             let Some((solutions, deviation)) = self.continued(last, &next, piece, [from, to]) else {
-                // One end is out of reach. If so is the line's part, the nodes prove it.
+                // An end of the part is out of reach, or a joint is free there. The part is not divided: nodes out of
+                // reach suffice for a proof.
                 self.accept(next, piece, [from, to])?;
                 from = to;
                 continue;
@@ -166,8 +167,8 @@ impl Divider<'_, '_> {
         Some(())
     }
 
-    /// Returns the solutions of `next` that continue those of `last`, and the greater one of the deviations of the tip
-    /// on the straight motions between them.
+    /// Returns the solutions of `next` that continue those of `last`. Also returns a bound on the distance of the tip
+    /// from the line on the straight motions to them, the greater one of both.
     fn continued(&self, last: &Node, next: &Node, piece: usize, ends: [f64; 2]) -> Option<([Configuration; 2], f64)> {
         let (before, after) = (last.solutions?, next.solutions?);
         let lifted = [0, 1].map(|s| self.kinematics.near(after[s], before[s]));
@@ -180,8 +181,8 @@ impl Divider<'_, '_> {
     }
 }
 
-/// Returns a bound on the distance of the tip from the straight line between its two ends, at equal shares of a straight
-/// motion in joint space.
+/// Bounds the distance between the tip on a straight motion in joint space and the point at the same share of the
+/// straight line between both positions of the tip.
 pub(crate) fn chord_deviation(kinematics: &Kinematics, from: Configuration, to: Configuration) -> f64 {
     let d = to - from;
     kinematics.bend((from + to) / 2.0, d / 2.0, d, d) / 8.0

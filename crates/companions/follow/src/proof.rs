@@ -1,12 +1,12 @@
 //! Proofs that no motion follows a line.
 //!
-//! All configurations that put the tip within the tolerance of a place lie in one box for each IK solution and whole
+//! All configurations that put the tip within the tolerance of a place lie in boxes, one for each IK solution and whole
 //! turn ([`Kinematics::solution_box`]). If all these boxes are outside the joint limits, or collide as a whole, then no
 //! motion follows the line past that place.
 //!
-//! Where the line stays farther than the tolerance from all singular places, the boxes of a stretch form separate bands.
-//! A motion cannot change from one band to another there. So there is no motion either if each band has some place that
-//! is excluded, not necessarily the same one. The range of a wrist excludes solutions as well (`proof_wrist`).
+//! While the line stays farther than the tolerance from all singular places, these boxes form separate bands. A motion
+//! cannot change from one band to another. So there is no motion if each band is excluded at some place of the stretch,
+//! even if these places differ. The range of a wrist excludes solutions as well (`proof_wrist`).
 
 use crate::nodes::{Nodes, chord};
 use crate::proof_wrist::{self, Winding, WristExcess};
@@ -20,13 +20,13 @@ use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Pair, Scene};
 use cplan_text::{length, length_down};
 
-/// Greatest difference of joint values at both ends of a part for which no whole turn can be hidden between them.
+/// Greatest change of a joint between both ends of a part. A smaller change cannot hide a whole turn.
 const MAX_STEP: f64 = 0.5;
 
-/// Greatest length of a part as a share of its distance from joint 1, for the same reason.
+/// Greatest length of a part as a share of its distance from joint 1. A shorter part cannot hide a whole turn.
 const MAX_STEP_SHARE: f64 = 0.1;
 
-/// Allowance for rounding in comparisons of distances with the tolerance, as a share of the distances.
+/// Allowance for rounding when distances are compared with the tolerance, as a share of the distances.
 const ROUNDING: f64 = 1e-12;
 
 /// A proof that no motion follows a line.
@@ -34,10 +34,10 @@ const ROUNDING: f64 = 1e-12;
 pub struct Infeasible {
     /// The reason.
     pub cause: Cause,
-    /// The place that the reason refers to; for [`Cause::NoChange`], the first one.
+    /// The place of the reason. For [`Cause::NoChange`], the first excluded place.
     pub place: Place,
-    /// All exclusions that the proof needs: one for each IK solution and whole turn within the limits or near them. Empty
-    /// if the place is out of reach.
+    /// All exclusions of the proof: one for each IK solution and whole turn within the limits or near them. Empty if
+    /// the place is out of reach.
     pub evidence: Vec<Exclusion>,
 }
 
@@ -49,21 +49,22 @@ pub enum Cause {
         /// Lower bound on the distance of the place from all points that the tip can reach, metres.
         by: f64,
     },
-    /// The line is larger than the reach, so that it cannot be followed at any placement: two of its points are farther apart
-    /// than any two places of the tip. [`crate::fit`] states it.
+    /// Two points of the line are farther apart than any two places of the tip, so it cannot be followed at any
+    /// placement. Only [`crate::fit`] gives this reason.
     TooLarge {
         /// Distance between two points of the line, metres.
         width: f64,
         /// Upper bound on the distance between two places of the tip, metres.
         reach: f64,
     },
-    /// Each IK solution at the place violates a limit or collides.
+    /// Each IK solution at the place is excluded.
     Excluded(Vec<Exclusion>),
     /// Each IK solution is excluded somewhere on a stretch, and cannot be changed within the stretch.
     NoChange(Vec<Exclusion>),
 }
 
-/// An IK solution that is excluded at a place, with everything that keeps the tip within the tolerance of it.
+/// An IK solution that is excluded at a place, together with all configurations near it whose tip is within the
+/// tolerance of the place.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Exclusion {
     /// Number of the IK solution, 0 or 1.
@@ -72,7 +73,7 @@ pub struct Exclusion {
     pub place: Place,
     /// The joint values that put the tip at the place.
     pub q: [f64; 2],
-    /// The obstacle.
+    /// The reason for the exclusion.
     pub by: Obstacle,
 }
 
@@ -126,8 +127,8 @@ impl Prover<'_> {
         self.at_one_place(&excluded).or_else(|| self.on_a_stretch(&excluded))
     }
 
-    /// Returns the reason why no motion follows the line from one sheet to another, if it is proven: the sheet is the same
-    /// along the whole line, and it is another one at the end, or excluded somewhere.
+    /// Returns the reason why no motion follows the line from one sheet to another, if this is proven. The motion must
+    /// stay on one sheet along the whole line, but the sheets differ, or the sheet is excluded somewhere.
     pub fn prove_between(&self, [from, to]: [usize; 2]) -> Option<String> {
         if !(0..self.nodes.parts.len()).all(|part| self.is_separate(part)) {
             return None;
@@ -166,7 +167,7 @@ impl Prover<'_> {
             }
             for (sheet, (known, new)) in found.iter_mut().zip(here).enumerate() {
                 let wound = winding.add(self, node, sheet);
-                // The last place where a sheet is excluded is nearest to where the next one is.
+                // Keep the last exclusion of each sheet, because it is closest to those of the other sheets.
                 *known = new.clone().or(wound).or(known.take());
             }
             if count > 0 && found.iter().all(Option::is_some) {
@@ -224,21 +225,21 @@ impl Prover<'_> {
         self.exclusion_at(node, sheet, by)
     }
 
-    /// Returns the exclusion of a sheet at a node for a reason.
+    /// Creates the exclusion of a sheet at a node for a reason.
     pub fn exclusion_at(&self, node: usize, sheet: usize, by: Obstacle) -> Option<Exclusion> {
         let q = self.sheets.unlimited(node, sheet)?;
         Some(Exclusion { solution: self.sheets.sheets[sheet].solution, place: self.place(node), q: [q[0], q[1]], by })
     }
 
-    /// Returns the middle of the box of a sheet at a node, and half of its size. `None` if it is not known.
+    /// Returns the box of a sheet at a node: its middle, and half of its size. `None` if it is unknown.
     pub fn solution_box(&self, node: usize, sheet: usize) -> Option<(Configuration, [f64; 2])> {
         let q = self.sheets.unlimited(node, sheet)?;
         let solution = self.sheets.sheets[sheet].solution;
         let known = self.kinematics.solution_box(self.place(node).point, solution, self.tolerance)?;
-        // The box is known up to whole turns, and its middle is near the solution.
+        // The kinematics give the box up to whole turns. Its middle is near the solution.
         let middle = self.kinematics.near(known.middle, q);
         let is_near = (0..2).all(|k| (middle[k] - q[k]).abs() <= known.half[k] + 1e-6);
-        // Sheets that are not listed must be outside the limits with the whole box.
+        // The box must be smaller than this limit, so that the boxes of sheets that are not listed are outside the limits.
         let is_known = is_near && known.half[0].max(known.half[1]) < LISTED_BEYOND_LIMITS;
         is_known.then_some((middle, known.half))
     }
@@ -250,7 +251,7 @@ impl Prover<'_> {
         }
     }
 
-    /// Returns the exclusion of an IK solution that is outside the limits with all whole turns.
+    /// Returns the exclusion of an IK solution that is outside the limits with every number of whole turns.
     fn outside(&self, node: usize, solution: usize) -> Option<Exclusion> {
         let place = self.place(node);
         let known = self.kinematics.solution_box(place.point, solution, self.tolerance)?;
@@ -262,7 +263,7 @@ impl Prover<'_> {
                 if self.kinematics.arm.joints[k].joint_type.is_revolute() {
                     let turn = std::f64::consts::TAU;
                     let away = known.middle[k] - middle;
-                    // Distance from the middle of the range to the nearest copy.
+                    // Compare the distance between the middle of the range and the nearest equivalent value.
                     room < turn / 2.0 && (away - (away / turn).round() * turn).abs() > room
                 } else {
                     (known.middle[k] - middle).abs() > room
@@ -274,7 +275,7 @@ impl Prover<'_> {
         Some(Exclusion { solution, place, q, by: Obstacle::Limit(joint) })
     }
 
-    /// Returns a pair that collides, or is nearer than the clearance, in the whole box.
+    /// Returns a pair that violates the clearance in the whole box.
     fn collision(&self, middle: Configuration, half: [f64; 2]) -> Option<Pair> {
         let clearance = self.scene.workspace().clearance;
         let posture = Posture::new(self.inner, middle);
@@ -287,7 +288,7 @@ impl Prover<'_> {
     }
 }
 
-/// Returns one exclusion for each IK solution: a collision if there is one, because a limit may concern only another
+/// Returns one exclusion per IK solution. Collisions take precedence, because a violated limit may concern only one
 /// number of whole turns.
 fn one_each(mut list: Vec<Exclusion>) -> Vec<Exclusion> {
     list.sort_by_key(|exclusion| matches!(exclusion.by, Obstacle::Limit(_)));

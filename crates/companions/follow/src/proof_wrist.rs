@@ -1,8 +1,9 @@
 //! Proofs about the range of the wrist's joint.
 //!
-//! At a place of the line, the joint's value is known up to whole turns, the tolerance of the tool's angle, and the box of
-//! the IK solution. Between two stops, the value changes continuously with the place. So a solution is excluded if its value
-//! is outside the range with all whole turns, or if the joint would turn by more than its range.
+//! At a place of the line, the IK solution determines the joint's value up to whole turns. The value is uncertain by
+//! the tolerance of the tool's angle and the size of the solution's box. Between two stops, it changes continuously. So
+//! a solution is excluded if its value is outside the range with every number of whole turns, or if the joint would
+//! turn by more than its range.
 
 use crate::proof::{Exclusion, Obstacle, Prover};
 use crate::wrist::WristAlong;
@@ -15,19 +16,19 @@ use std::f64::consts::PI;
 /// Allowance for rounding, radians.
 const ROUNDING: f64 = 1e-9;
 
-/// Greatest uncertainty of the joint's value, radians, with which values at two neighbouring nodes have the same number of
-/// whole turns.
+/// Greatest uncertainty of the joint's value, radians. With less, the number of whole turns cannot change between
+/// neighbouring nodes.
 const MAX_UNCERTAINTY: f64 = 1.0;
 
-/// Greatest turn of the line between two nodes, radians, for the same reason.
+/// Greatest turn of the line between two nodes, radians. With less, the number of whole turns cannot change between them.
 const MAX_TURN: f64 = 0.5;
 
 /// The reason why a wrist excludes an IK solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum WristExcess {
-    /// The joint would be at this value, radians, or at one that differs by whole turns.
+    /// The joint would have this value, radians, or one that differs by whole turns. The range follows.
     Value(f64, [f64; 2]),
-    /// The joint would turn by this angle along the line without a stop, radians.
+    /// The joint would turn by this angle between two stops, radians. The range follows.
     Turn(f64, [f64; 2]),
 }
 
@@ -45,13 +46,14 @@ impl WristExcess {
     }
 }
 
-/// Values of the wrist's joint on one sheet since the last stop, up to whole turns that are the same for all.
+/// Values of the wrist's joint on one sheet since the last stop. All may differ from the true ones by the same number
+/// of whole turns.
 #[derive(Debug, Clone, Copy)]
 struct Wound {
     middle: Configuration,
     angle: f64,
     value: f64,
-    /// The least upper bound on a value so far, and the greatest lower bound.
+    /// The least upper bound and the greatest lower bound on the values so far.
     extremes: [f64; 2],
 }
 
@@ -63,7 +65,7 @@ impl Winding {
         Self(vec![None; sheets])
     }
 
-    /// Forgets all values, because another IK solution or another number of whole turns is possible from here on.
+    /// Forgets all values. Called where the IK solution or the number of whole turns may change.
     pub fn forget(&mut self) {
         self.0.fill(None);
     }
@@ -114,8 +116,8 @@ impl Winding {
     }
 }
 
-/// Returns the reason why the wrist excludes a sheet at a node, if its value is outside the range with all whole turns.
-/// `middle` and `half` are the box of the solution.
+/// Returns the reason why the wrist excludes a sheet at a node: its value is outside the range with every number of
+/// whole turns. `middle` and `half` are the box of the solution.
 pub(crate) fn outside(prover: &Prover, node: usize, middle: Configuration, half: [f64; 2]) -> Option<WristExcess> {
     let wrist = prover.wrist?;
     let JointRange::Interval { lower, upper } = wrist.joint.range else { return None };
@@ -129,7 +131,7 @@ pub(crate) fn outside(prover: &Prover, node: usize, middle: Configuration, half:
     })
 }
 
-/// Returns the required angles of the tool on arrival at a node and on departure from it, radians. `None` on travels.
+/// Returns the required angles of the tool at a node on arrival and on departure, radians. `None` on travels.
 fn required(prover: &Prover, wrist: &WristAlong, node: usize) -> [Option<f64>; 2] {
     let offset = match wrist.guide.angle {
         ToolAngle::Fixed(angle) => return [Some(angle); 2],
@@ -143,7 +145,7 @@ fn required(prover: &Prover, wrist: &WristAlong, node: usize) -> [Option<f64>; 2
     [heading(node.checked_sub(1), 1), heading(Some(node), 0)]
 }
 
-/// Returns the greatest difference of the joint's value from the one in the middle of a box, radians.
+/// Returns the greatest difference between the joint's values in a box and at its middle, radians.
 fn uncertainty(prover: &Prover, wrist: &WristAlong, half: [f64; 2]) -> f64 {
     let weights = WristJoint::weights(prover.kinematics.arm);
     wrist.guide.tolerance + weights[0].abs() * half[0] + weights[1].abs() * half[1] + ROUNDING

@@ -1,9 +1,9 @@
 //! The cheapest sequence of IK solutions along a line.
 //!
-//! States are the sheets at the nodes. Within a sheet, the arm moves straight in joint space from each node to the next.
-//! It changes the sheet at a node if the straight motion between both joint values keeps the tip within the tolerance:
-//! that is so at singular places, where the solutions meet. Whether motions are free is checked only for the sequence
-//! that is cheapest otherwise, and after a collision for all motions.
+//! States are the sheets at the nodes. Within a sheet, the arm moves straight in joint space from each node to the
+//! next. It may change the sheet at a node if the straight motion between both configurations keeps the tip within the
+//! tolerance, as at singular places, where the solutions meet. Initially, collisions are checked only along the
+//! cheapest sequence. If that collides, they are checked for all motions.
 
 use crate::nodes::{Division, Nodes, chord_deviation};
 use crate::sheets::Sheets;
@@ -15,14 +15,14 @@ use cplan_model::space::{Configuration, JointRange, Path};
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
-/// Difference of joint values, radians or metres, up to which a configuration is that of a sheet: rounding of inverse
-/// kinematics.
+/// Greatest difference between a configuration and a sheet that is attributed to the rounding of inverse kinematics,
+/// radians or metres.
 const END_ROUNDING: f64 = 1e-6;
 
-/// Cost of a change of the sheet, seconds, in addition to the time that its motion takes.
+/// Cost of a change of the sheet, seconds, in addition to the duration of its motion.
 const CHANGE_COST: f64 = 0.1;
 
-/// A sequence of configurations, and the part of the line that leads to each of them.
+/// A sequence of waypoints along the line.
 pub(crate) struct Route {
     pub path: CertifiedPath,
     /// For each waypoint: the index of its node.
@@ -33,10 +33,9 @@ pub(crate) struct Route {
     pub changes: Vec<usize>,
 }
 
-/// A path, and for each waypoint its node and its IK solution; and the waypoints at which the solution changes.
+/// A path, the nodes and the IK solutions of its waypoints, and the waypoints at which the solution changes.
 type Sequence = (Path, Vec<usize>, Vec<usize>, Vec<usize>);
 
-/// The state of the search.
 pub(crate) struct Search<'a> {
     pub scene: &'a Scene,
     pub kinematics: &'a Kinematics<'a>,
@@ -44,17 +43,17 @@ pub(crate) struct Search<'a> {
     pub nodes: &'a Nodes,
     pub sheets: &'a Sheets<'a>,
     pub division: Division,
-    /// The configurations in which the motion begins and ends. With `None`, any IK solutions will do.
+    /// The configurations at which the motion begins and ends. `None` if any IK solutions may be used.
     pub ends: Option<[Configuration; 2]>,
-    /// For each part and sheet: true if the motion is within the limits and the tolerance, and not known to collide.
+    /// For each part and sheet, true if the motion is within limits and tolerance, and not known to collide.
     open: Vec<bool>,
-    /// For each part and sheet: true if the motion is not shown to be free.
+    /// For each part and sheet, true if the motion is not shown to be free.
     pub blocked: Vec<bool>,
     /// The last node that a sequence reaches.
     pub furthest: Cell<usize>,
 }
 
-/// A step to a state: from the same node or the one before.
+/// The cheapest step to a state. It begins at the same node or at the previous one.
 #[derive(Debug, Clone, Copy)]
 struct Step {
     cost: f64,
@@ -98,12 +97,12 @@ impl<'a> Search<'a> {
         Some([self.sheets.at(part, sheet)?, self.sheets.at(part + 1, sheet)?])
     }
 
-    /// Returns true if the motion can begin with some sheet.
+    /// Returns true if some sheet may be used at the beginning.
     pub fn has_begun(&self) -> bool {
         (0..self.count()).any(|sheet| self.is_end(0, sheet))
     }
 
-    /// Returns true if the motion may begin (0) or end (1) with a sheet.
+    /// Returns true if a sheet may be used at the beginning (`end` = 0) or at the end (1).
     pub fn is_end(&self, end: usize, sheet: usize) -> bool {
         let node = if end == 0 { 0 } else { self.nodes.nodes.len() - 1 };
         let Some(q) = self.sheets.at(node, sheet) else { return false };
@@ -113,7 +112,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Returns true if the motion of a sheet over a part is within the limits and the tolerance.
+    /// Returns true if the motion along a part on a sheet is within the limits and the tolerance.
     fn is_near(&self, part: usize, sheet: usize) -> bool {
         let Some([from, to]) = self.motion(part, sheet) else { return false };
         let own = &self.nodes.parts[part];
@@ -122,9 +121,10 @@ impl<'a> Search<'a> {
         self.nodes.nodes[part + 1].is_continued && bound <= self.division.deviation * (1.0 + 1e-9)
     }
 
-    /// Returns the cheapest sequence that is certified. Returns `None` if no considered sequence is certified.
+    /// Returns the cheapest certified sequence. `None` if no examined sequence is certified.
     pub fn route(&mut self) -> Option<Route> {
-        // Changes are checked here, and a change that collides closes its node.
+        // After the first collision, all motions on sheets are checked. Later, only changes of the sheet can collide,
+        // and the motions beside them are closed.
         for attempt in 0..=self.nodes.nodes.len() {
             checkpoint();
             let (path, nodes, solutions, changes) = self.cheapest()?;
@@ -155,7 +155,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Closes the motions beside the first change of a path that is not free. Returns false if all are free.
+    /// Closes the motions beside the first change of a path that collides. Returns false if all changes are free.
     fn close_first_blocked(&mut self, path: &Path, nodes: &[usize], solutions: &[usize]) -> bool {
         let motions = StraightMotions::new(self.scene, self.scene.workspace().clearance);
         let mut legs = path.waypoints().windows(2).enumerate();
@@ -173,8 +173,8 @@ impl<'a> Search<'a> {
         closed
     }
 
-    /// Closes the part of the line before a waypoint of a route for the IK solution of that waypoint, so that further
-    /// routes avoid it. Returns false if it is closed already.
+    /// Closes the part before a waypoint of a route for the IK solution there, so that later routes avoid it. Returns
+    /// false if it is closed already.
     pub fn close_before(&mut self, route: &Route, waypoint: usize) -> bool {
         let (part, count) = (route.nodes[waypoint].saturating_sub(1), self.count());
         let mut closed = false;
@@ -184,13 +184,13 @@ impl<'a> Search<'a> {
         closed
     }
 
-    /// Returns the least time of a straight motion, seconds.
+    /// Returns the least duration of a straight motion, seconds.
     fn cost(&self, from: Configuration, to: Configuration) -> f64 {
         let joints = &self.scene.arm().joints;
         (0..2).map(|k| (to[k] - from[k]).abs() / joints[k].velocity).fold(0.0, f64::max)
     }
 
-    /// Returns the whole turns to add to joints on circles, so that `to` is nearest to `from`.
+    /// Returns the whole turns of continuous joints that bring `to` closest to `from`.
     fn turns_between(&self, from: Configuration, to: Configuration) -> Configuration {
         let joints = &self.scene.arm().joints;
         Configuration::from_fn(|k, _| match joints[k].range {
@@ -199,7 +199,7 @@ impl<'a> Search<'a> {
         })
     }
 
-    /// Returns the displacement of a change between two sheets at a node, if the tip stays within the tolerance.
+    /// Returns the motion of a change between two sheets at a node, if the tip stays within the tolerance.
     fn change(&self, node: usize, from: usize, to: usize) -> Option<[Configuration; 2]> {
         let [a, b] = [self.sheets.at(node, from)?, self.sheets.at(node, to)?];
         let b = b + self.turns_between(a, b);
@@ -227,7 +227,7 @@ impl<'a> Search<'a> {
             if (0..count).any(|sheet| steps[node * count + sheet].cost.is_finite()) {
                 self.furthest.set(node);
             }
-            // One change at a node is enough: after it, another one would only lead on to a third sheet there.
+            // One change per node is enough: a second one would only lead to a third sheet.
             let before: Vec<f64> = (0..count).map(|sheet| steps[node * count + sheet].cost).collect();
             for (from, to) in (0..count).flat_map(|from| (0..count).map(move |to| (from, to))) {
                 if from == to
@@ -259,7 +259,7 @@ impl<'a> Search<'a> {
         Some(self.path(&states))
     }
 
-    /// Returns the configurations of a sequence of states, unwrapped, without repetitions.
+    /// Returns the configurations of a sequence of states in unwrapped values, without repetitions.
     fn path(&self, states: &[(usize, usize)]) -> Sequence {
         let (mut waypoints, mut nodes, mut solutions) = (Vec::<Configuration>::new(), Vec::new(), Vec::<usize>::new());
         let mut changes = Vec::new();
@@ -273,7 +273,7 @@ impl<'a> Search<'a> {
                 changes.push(if is_same { waypoints.len() - 1 } else { waypoints.len() });
             }
             if is_same {
-                // The same configuration belongs to both solutions where they meet.
+                // Where the solutions meet, both have this configuration.
                 *nodes.last_mut().expect("a node") = node;
                 *solutions.last_mut().expect("a solution") = solution;
                 continue;

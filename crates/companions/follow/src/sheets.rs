@@ -1,4 +1,5 @@
-//! IK solutions as sheets: continuous functions of the place on the line, one per solution and whole turn.
+//! IK solutions as sheets. A sheet is a continuous function of the place on the line, for one solution and one number
+//! of whole turns.
 
 use crate::nodes::{Node, Nodes};
 use cplan_deviation::Kinematics;
@@ -7,15 +8,14 @@ use cplan_model::space::{Configuration, JointRange};
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Values beyond a limit by at most this, radians or metres, are set to the limit: such an excess is rounding.
+/// Greatest excess over a limit that is attributed to rounding, radians or metres. Such a value is set to the limit.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
-/// Distance, radians, that nodes keep from the ends of the range of the sum of joint values. It covers the motion between
-/// nodes.
+/// Distance of nodes from the ends of the range of the sum of joint values, radians. It covers the motion between nodes.
 const SUM_INSET: f64 = 1e-4;
 
-/// Greatest distance beyond the limits, radians, of a sheet that is listed although it is outside them at all nodes. Other
-/// joint values near it may be inside, and proofs must exclude them too.
+/// Greatest distance of a listed sheet beyond the limits, radians. Values near such a sheet may be within the limits,
+/// so proofs must exclude it, too.
 pub(crate) const LISTED_BEYOND_LIMITS: f64 = 1.5;
 
 /// Greatest number of whole turns of a joint that are considered in either direction.
@@ -42,7 +42,7 @@ pub(crate) struct Sheets<'a> {
 }
 
 impl<'a> Sheets<'a> {
-    /// Lists the sheets with the elbow on a side; those of both sides if there is no side.
+    /// Lists the sheets with the elbow on a side, or on both sides if `elbow` is `None`.
     pub fn new(kinematics: &'a Kinematics<'a>, nodes: &'a Nodes, elbow: Option<Elbow>) -> Self {
         let nodes = &nodes.nodes[..];
         let solutions = match elbow.filter(|_| kinematics.arm.only_turns()) {
@@ -59,7 +59,7 @@ impl<'a> Sheets<'a> {
         list
     }
 
-    /// Returns the whole turns with which a joint is within its limits at some node, or near them.
+    /// Returns the whole turns with which a joint's value is within its limits, or near them, at some node.
     fn turns(&mut self, joint: usize, solution: usize) -> Vec<f64> {
         let own = &self.kinematics.arm.joints[joint];
         let JointRange::Interval { lower, upper } = own.range else { return vec![0.0] };
@@ -77,7 +77,7 @@ impl<'a> Sheets<'a> {
         (first.max(-MAX_TURNS)..=last.min(MAX_TURNS)).map(|turns| turns as f64 * TAU).collect()
     }
 
-    /// Returns the joint values of a sheet at a node, without regard to limits. `None` if the place is out of reach.
+    /// Returns the joint values of a sheet at a node, ignoring limits. `None` if the place is out of reach.
     pub fn unlimited(&self, node: usize, sheet: usize) -> Option<Configuration> {
         let Sheet { solution, turns } = self.sheets[sheet];
         Some(self.nodes[node].solutions?[solution] + turns)

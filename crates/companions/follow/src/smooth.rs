@@ -1,13 +1,14 @@
-//! Motions with limits on jerks: along smooth curves in joint space, near the line.
+//! Motions with limited jerks, along smooth curves in joint space near the line.
 //!
-//! Between two stops, control points of a cubic B-spline are placed on the line's own IK solution. Each is moved outwards
-//! by a sixth of the second difference of its neighbours, so that the spline passes almost through the line's points, and
-//! rounds corners. Where the spline is too far from the line, the control points are placed more densely. The crate
-//! `cplan-motion` finds the fastest motion along the spline.
+//! Between two stops, the curve is a cubic B-spline. Its control points begin as configurations with the tip on the
+//! line. Each is then moved outwards by a sixth of the second difference, so that the spline almost passes through
+//! these configurations, and rounds corners. Where the spline is too far from the line, the control points are placed
+//! more densely. The crate `cplan-motion` finds the fastest motion along the spline.
 //!
-//! Near a hairpin of the line that is narrow compared with the tolerance, the check of the distance may count the way back
-//! too early, and finds everything after it too far. Denser control points do not help. A curve within a small share of
-//! the tolerance does, because the check turns to the way back only if it is nearer by such a share.
+//! If a hairpin of the line is narrower than the tolerance, the check of the distance may assign a place of the motion
+//! to the second leg too early, and then finds everything after it too far from the line. Denser control points do not
+//! help. A curve within a small share of the tolerance does, because the check changes to the second leg only if that
+//! is nearer by such a share.
 
 use crate::follower::SLACK_SHARE;
 use crate::motion::Driver;
@@ -22,52 +23,51 @@ use cplan_model::space::Configuration;
 use cplan_motion::{CertifiedCurve, CurveDrive, JointCurve, TimedMotion, along_curve, along_joint_curve};
 use std::cell::Cell;
 
-/// Shares of the tolerance that are tried in turn, until a motion is found without rounds in vain.
+/// Shares of the tolerance for the curve. They are tried in turn until a motion is found without a vain round.
 const TOLERANCE_SHARES: [f64; 3] = [1.0, 0.1, 0.01];
 
-/// Share of the tolerance that the curve may use. The motion along it needs the rest, because it cuts bends as well.
+/// Share of the tolerance that the curve may use. The motion along the curve needs the rest, because it cuts bends, too.
 const CURVE_SHARE: f64 = 0.6;
 
-/// Distance of a waypoint from the chord of its neighbourhood, as a multiple of the tolerance, that determines how large
-/// this neighbourhood is. The first spacing of the control points is proportional to its size. So it depends on the
-/// line's bends, and not on the number of pieces by which the file writes them.
+/// Size of a waypoint's neighbourhood: the waypoint is this far from the chord of the neighbourhood, as a multiple of
+/// the tolerance. The first spacing of the control points is proportional to this size. So the spacing depends on the
+/// line's bends, and not on the number of pieces in the file.
 const BULGE_TOLERANCES: f64 = 3.0;
 
-/// First spacing of the control points, as a multiple of half the size of a waypoint's neighbourhood.
+/// First spacing of the control points, as a multiple of half the size of a neighbourhood.
 const FIRST_SPACING: f64 = 3.0;
 
-/// Least number of spacings on a stretch. With more of them, the motion would begin more slowly, because it passes the
+/// Least number of spacings on a stretch. More of them would slow down the beginning of the motion, which passes the
 /// first ones in a fixed sequence of jerks.
 const MIN_SPACINGS: f64 = 16.0;
 
-/// Least spacing at the ends of a stretch, as a share of the greatest one.
+/// Least spacing at the ends of a stretch, as a share of the greatest spacing.
 const MIN_END_SHARE: f64 = 0.01;
 
-/// Number of times that control points are placed more densely.
+/// Greatest number of rounds. Each round places control points more densely.
 const MAX_ROUNDS: usize = 24;
 
-/// Number of rounds in vain after which the search for a curve ends. In such a round, the number of pieces that are too far
-/// increases although the control points are denser. Usually it is reduced at once to a few.
+/// Number of vain rounds after which the search for a curve ends. In a vain round, more pieces are too far from the
+/// line than before, although the control points are denser. Usually, one round leaves only a few.
 const MAX_VAIN_ROUNDS: usize = 2;
 
 /// Greatest number of control points of a stretch.
 const MAX_POINTS: usize = 50_000;
 
-/// Greatest number of steps of a motion for each piece of its curve, if pieces of the motion are too far from the line. Six
-/// halvings of the steps bring a motion four thousand times nearer to its curve.
+/// Greatest number of steps of a motion per piece of its curve, if the motion is too far from the line. Six halvings of
+/// the steps reduce the distance between motion and curve by a factor of four thousand.
 const MAX_STEPS_PER_PIECE: usize = 64;
 
-/// Number of steps up to which they are always halved.
+/// Number of steps up to which halving is always allowed.
 const FREE_STEPS: usize = 20_000;
 
-/// Number of steps of the search for the point of a line beside a leg of the path.
+/// Number of iterations that find the point of the line next to a point of a leg.
 const FOOT_STEPS: u32 = 3;
 
 /// The result of the search for a curve.
 struct Search {
-    /// The curve; `None` if all of them are too far away.
+    /// The curve; `None` if every curve tried is too far from the line.
     curve: Option<JointCurve>,
-    /// Number of rounds in vain.
     vain_rounds: usize,
 }
 
@@ -79,7 +79,7 @@ pub(crate) struct Stretch<'a> {
     pub ends: [usize; 2],
     pub path: &'a CertifiedPath,
     pub drive: CurveDrive<'a>,
-    /// Distance along the path in joint space of each waypoint from the first one on.
+    /// Distance of each waypoint from the first one along the path, in joint space.
     distances: Vec<f64>,
 }
 
@@ -98,8 +98,7 @@ impl<'a> Stretch<'a> {
         Self { driver, route, ends, path, drive, distances }
     }
 
-    /// Returns the fastest motion that is found, from rest to rest without a stop between. Returns `None` if no motion is
-    /// found.
+    /// Returns the fastest motion found, from rest to rest without a stop in between.
     pub fn motion(&self) -> Result<Option<TimedMotion>, FollowError> {
         if self.ends[1] - self.ends[0] <= 1 {
             let curve = CertifiedCurve::from(self.path.clone());
@@ -122,10 +121,10 @@ impl<'a> Stretch<'a> {
         Ok(best)
     }
 
-    /// Returns the fastest motion along a curve that is found within a tolerance of the line.
+    /// Returns the fastest motion found along a curve, within a tolerance of the line.
     fn motion_along(&self, curve: &JointCurve, tolerance: f64) -> Option<TimedMotion> {
         let most = FREE_STEPS.max(MAX_STEPS_PER_PIECE * curve.pieces().len());
-        // With more steps, pieces count as near, so that the search ends, and its result is dropped.
+        // Beyond the allowed number of steps, report no piece as too far, so that the search ends. Its result is then dropped.
         let is_dropped = Cell::new(false);
         let too_far = |pieces: &[Piece]| {
             let far = if is_dropped.get() { vec![] } else { self.too_far(pieces, tolerance, 1.0) };
@@ -139,7 +138,7 @@ impl<'a> Stretch<'a> {
         (!is_dropped.get()).then_some(timed)
     }
 
-    /// Returns the indices of the pieces that are farther from the line than a share of a tolerance.
+    /// Returns the indices of the pieces whose distance from the line exceeds a share of the tolerance.
     fn too_far(&self, pieces: &[Piece], tolerance: f64, share: f64) -> Vec<usize> {
         let tolerance = share * tolerance;
         let mut deviation = self.driver.deviation(self.route, self.ends);
@@ -162,7 +161,7 @@ impl<'a> Stretch<'a> {
             let pieces = curve.pieces();
             let mut far = self.too_far(&pieces, tolerance, CURVE_SHARE);
             if far.is_empty() {
-                // With the whole tolerance, other places of the line may count.
+                // With the whole tolerance, the check may assign pieces to other places of the line.
                 far = self.too_far(&pieces, tolerance, 1.0);
             }
             if far.is_empty() {
@@ -175,7 +174,7 @@ impl<'a> Stretch<'a> {
             before = far.len();
             let mut is_marked = vec![false; distances.len()];
             for piece in far {
-                // A piece is between two points, and depends on their neighbours too.
+                // A piece lies between two points, but also depends on their neighbours.
                 let until = (piece + 2).min(distances.len());
                 is_marked[piece.saturating_sub(2)..until].fill(true);
             }
@@ -184,7 +183,7 @@ impl<'a> Stretch<'a> {
         Search { curve: None, vain_rounds }
     }
 
-    /// Returns the spacing that the bends at the waypoints suggest.
+    /// Returns the first spacing, which follows from the bends at the waypoints.
     fn first_spacing(&self, tolerance: f64) -> Spacing {
         let length = self.distances[self.distances.len() - 1];
         let widest = length / MIN_SPACINGS;
@@ -194,13 +193,13 @@ impl<'a> Stretch<'a> {
             (1..last).map(|w| [self.distances[w], widest.min(FIRST_SPACING * self.half_neighborhood(w, tolerance))]);
         let mut places: Vec<[f64; 2]> =
             [[0.0, end(0)]].into_iter().chain(inner).chain([[length, end(last - 1)]]).collect();
-        // Legs may be shorter than the rounding of distances.
+        // Legs may be so short that their distances are equal after rounding.
         places.dedup_by(|next, place| next[0] <= place[0]);
         Spacing::new(places)
     }
 
-    /// Returns about the distance in which a motion along a leg reaches its top speed from rest, with the limited jerk. Over
-    /// the first spacing from a stop, the motion passes one fixed sequence of jerks.
+    /// Estimates the distance in which a motion along a leg reaches its top speed from rest with the limited jerk. The
+    /// first spacing after a stop has a fixed sequence of jerks.
     fn start_distance(&self, leg: usize) -> f64 {
         let (q, arm) = (self.path.path().waypoints(), self.driver.scene.arm());
         let joints = &arm.joints;
@@ -216,7 +215,7 @@ impl<'a> Stretch<'a> {
         if jerk.is_finite() { speed * (speed / jerk).sqrt() } else { f64::INFINITY }
     }
 
-    /// Returns half the size of the neighbourhood of an inner waypoint in which the path is almost straight.
+    /// Returns half the size of a neighbourhood of an inner waypoint in which the path is almost straight.
     fn half_neighborhood(&self, w: usize, tolerance: f64) -> f64 {
         let (q, d) = (self.path.path().waypoints(), &self.distances);
         let most = BULGE_TOLERANCES * tolerance;
@@ -233,14 +232,14 @@ impl<'a> Stretch<'a> {
             }
             half = own;
             if from == 0 || to + 1 == d.len() {
-                // Beside an end, the neighbourhood is as large as the distance from it, at least.
+                // Near an end, the neighbourhood extends at least to that end.
                 return half;
             }
             around *= 2;
         }
     }
 
-    /// Returns the points of a spline near the line, for points of the line at these distances.
+    /// Returns control points of a spline near the line, one for each of these distances along the path.
     fn control(&self, distances: &[f64]) -> Vec<Configuration> {
         let mut leg = 0;
         let on_line = |&distance: &f64| {
@@ -257,7 +256,7 @@ impl<'a> Stretch<'a> {
         control
     }
 
-    /// Returns the configuration that puts the tip on the line, at a distance along the path.
+    /// Returns the configuration that puts the tip on the line, at a distance along the path in joint space.
     fn at(&self, leg: usize, distance: f64) -> Configuration {
         let q = self.path.path().waypoints();
         let (from, along) = (q[leg], q[leg + 1] - q[leg]);
@@ -270,7 +269,8 @@ impl<'a> Stretch<'a> {
         }
         let part = &self.driver.nodes.parts[nodes[0]];
         let on_line = |u: f64| self.solution_near(straight, part.piece, u);
-        // A configuration of the line beside the straight one. The distance along the leg increases with the parameter.
+        // Find the parameter at which the configuration of the line is level with the straight one. The distance along
+        // the leg increases with the parameter.
         let [mut low, mut high] = [(part.ends[0], -share), (part.ends[1], 1.0 - share)];
         let mut found = straight;
         for _ in 0..FOOT_STEPS {
@@ -283,7 +283,7 @@ impl<'a> Stretch<'a> {
         self.within_limits(found)
     }
 
-    /// Returns the IK solution at a place of the line that is near a configuration.
+    /// Returns the IK solution at a place of the line that is closest to a configuration.
     fn solution_near(&self, near: Configuration, piece: usize, u: f64) -> Option<Configuration> {
         let kinematics = self.driver.kinematics;
         let slack = SLACK_SHARE * self.driver.settings.tolerance;

@@ -1,27 +1,27 @@
-//! The spacing of control points along a stretch: dense where the line bends, and changing gradually.
+//! The spacing of control points along a stretch. It is dense where the line bends, and changes gradually.
 
-/// Greatest change of the spacing per distance. With a gradual spacing, the rate at which a motion passes the control
-/// points changes gradually too.
+/// Greatest change of the spacing per distance. If the spacing changes gradually, so does the rate at which a motion
+/// passes the control points.
 const GRADIENT: f64 = 0.15;
 
-/// Number of neighbours on each side over which spacings are averaged, twice.
+/// Number of neighbours on each side that enter an average. Spacings are averaged twice.
 const SMOOTHING: usize = 4;
 
 /// Factor by which the spacing is reduced where a curve is too far from the line.
 const REFINEMENT: f64 = 0.6;
 
-/// The spacing as a function of the distance along a stretch, linear between places.
+/// The spacing as a function of the distance along a stretch, piecewise linear.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Spacing {
-    /// The wanted spacing: distances, increasing from 0 to the length of the stretch, each with the spacing there.
+    /// The wanted spacing, as pairs of a distance and the spacing there. Distances increase from 0 to the length of the stretch.
     wanted: Vec<[f64; 2]>,
     /// The smooth spacing, in the same form.
     smooth: Vec<[f64; 2]>,
 }
 
 impl Spacing {
-    /// Creates a smooth spacing that is nowhere greater than the wanted one, with a limited gradient. The places are pairs
-    /// of a distance and a spacing, both positive except the first distance. Distances increase.
+    /// Creates a smooth spacing with a limited gradient. It never exceeds the wanted one. The places are pairs of a
+    /// distance and a spacing, both positive except the first distance. Distances increase.
     pub fn new(mut places: Vec<[f64; 2]>) -> Self {
         let limit = |before: [f64; 2], place: &mut [f64; 2]| {
             place[1] = place[1].min(before[1] + GRADIENT * (place[0] - before[0]).abs());
@@ -38,12 +38,12 @@ impl Spacing {
         Self { wanted: places, smooth }
     }
 
-    /// Returns distances with this spacing, from 0 to the length of the stretch.
+    /// Returns the distances of control points with this spacing, from 0 to the length of the stretch.
     pub fn distances(&self) -> Vec<f64> {
         distances(&self.smooth)
     }
 
-    /// Returns a smaller spacing at the marked ones of [`Spacing::distances`].
+    /// Returns a smaller spacing around the marked points of [`Spacing::distances`].
     pub fn finer(&self, distances: &[f64], is_marked: &[bool]) -> Self {
         let [wanted, smooth] = [&self.wanted, &self.smooth].map(|places| spacings(places, distances));
         let own = |k: usize| if is_marked[k] { REFINEMENT * smooth[k] } else { wanted[k] };
@@ -52,7 +52,7 @@ impl Spacing {
     }
 }
 
-/// Returns distances with a spacing, from 0 to the length of the stretch.
+/// Returns the distances of points with a spacing, from 0 to the length of the stretch.
 fn distances(places: &[[f64; 2]]) -> Vec<f64> {
     let segments: Vec<Segment> = places.windows(2).map(Segment::new).collect();
     let total: f64 = segments.iter().map(|segment| segment.count).sum();
@@ -71,8 +71,8 @@ fn distances(places: &[[f64; 2]]) -> Vec<f64> {
     distances
 }
 
-/// Returns a smoother spacing that is nowhere greater: the least spacing among neighbours, averaged over the same
-/// neighbours.
+/// Returns a smoother spacing that never exceeds the given one: the least spacing among neighbours, averaged over the
+/// same neighbours.
 fn smoothed(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let distances = distances(places);
     let own = spacings(places, &distances);
@@ -89,7 +89,7 @@ fn smoothed(places: &[[f64; 2]]) -> Vec<[f64; 2]> {
     distances.into_iter().zip(spacings).map(|(distance, spacing)| [distance, spacing]).collect()
 }
 
-/// Returns the spacings at increasing distances.
+/// Interpolates the spacings at increasing distances.
 fn spacings(places: &[[f64; 2]], distances: &[f64]) -> Vec<f64> {
     let mut segment = 0;
     let spacing = |&distance: &f64| {
@@ -106,7 +106,7 @@ struct Segment {
     from: f64,
     spacing: f64,
     gradient: f64,
-    /// Number of control points on the part.
+    /// Number of spacings on the part.
     count: f64,
 }
 
@@ -122,7 +122,7 @@ impl Segment {
         self.spacing + self.gradient * (distance - self.from)
     }
 
-    /// Returns the distance at a number of spacings from the beginning.
+    /// Returns the distance that is `number` spacings from the beginning.
     fn distance(&self, number: f64) -> f64 {
         let growth = self.gradient * number;
         let share = if growth.abs() < 1e-9 { 1.0 } else { growth.exp_m1() / growth };

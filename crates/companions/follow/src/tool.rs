@@ -1,4 +1,4 @@
-//! The samples during which the tool is on the line.
+//! The samples at which the tool is on.
 
 use crate::Found;
 use cplan_deviation::{Deviation, Foot, Kinematics, Line};
@@ -6,8 +6,8 @@ use cplan_model::Arm;
 use cplan_toolpath::Toolpath;
 
 impl Found {
-    /// Returns for each sample whether the tool is on the line, which the motion follows within a tolerance, metres. The tool
-    /// is off from the arrival where a travel begins to the arrival where the travel ends.
+    /// Returns for each sample whether the tool is on. It is off from the arrival at the beginning of a travel to the
+    /// arrival at the end of the travel. `tolerance` is the distance within which the motion follows the line, metres.
     pub fn tool(&self, arm: &Arm, path: &Toolpath, tolerance: f64) -> Vec<bool> {
         let trajectory = &self.timed.trajectory;
         let (kinematics, line) = (Kinematics::new(arm), Line::new(path));
@@ -27,7 +27,7 @@ impl Found {
         tool
     }
 
-    /// Returns the first one of the samples at which the arm rests where it is at a moment, which counts samples.
+    /// Returns the first sample of the rest at a moment. Moments count samples.
     fn arrival(&self, moment: f64) -> usize {
         let positions = &self.timed.trajectory.position;
         let near = (moment.round() as usize).min(positions.len() - 1);

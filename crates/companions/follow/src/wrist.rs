@@ -1,9 +1,9 @@
 //! The wrist's joint along a route.
 //!
-//! The required angle of the tool is known up to whole turns. On a stretch between two stops it is continuous, and so are
-//! the joint's values. If the joint has limits, the whole turns of each stretch are chosen so that all values are within
-//! them, and the joint turns least between the stretches ([`WristAlong::turns`]). At a sharp corner, the tool turns while
-//! the arm rests. On travels, the joint turns evenly from its value before to the one after.
+//! The line determines the angle of the tool up to whole turns. On a stretch between two stops, the angle is continuous, and so
+//! are the joint's values. If the joint has limits, the whole turns of each stretch are chosen so that all values are within
+//! them, and the joint turns least between the stretches ([`WristAlong::turns`]). At a sharp corner, the tool turns while the
+//! arm rests. On travels, the joint turns evenly from its value before to the one after.
 
 use crate::nodes::Nodes;
 use crate::search::Route;
@@ -14,13 +14,13 @@ use cplan_model::space::JointRange;
 use cplan_toolpath::wrapped;
 use std::f64::consts::TAU;
 
-/// Values beyond a limit of the joint by at most this, radians, count as at the limit: such an excess is rounding.
+/// Greatest excess over a limit of the joint that is attributed to rounding, radians.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
 /// Greatest number of whole turns of the joint that are considered in either direction.
 const MAX_TURNS: f64 = 100.0;
 
-/// Cost of a turn from the joint's default value to the first value on the line, as a share of that of turns on the line.
+/// Cost of the turn from the joint's default value to its first value on the line, relative to the same turn on the line.
 const REST_SHARE: f64 = 1e-3;
 
 /// A wrist that turns the tool along a line.
@@ -40,22 +40,22 @@ pub struct WristAlong {
 /// the arm rests there while the wrist turns.
 pub(crate) type Turns = Vec<[f64; 2]>;
 
-/// Returns the values at the waypoints from one to another: on departure from the first, and on arrival at the others.
+/// Returns the values at the waypoints from one to another: on departure from the first, and on arrival at each other one.
 pub(crate) fn values_between(turns: &[[f64; 2]], from: usize, to: usize) -> Vec<f64> {
     let arrivals = turns[from + 1..=to].iter().map(|[arrival, _]| *arrival);
     std::iter::once(turns[from][1]).chain(arrivals).collect()
 }
 
-/// The required angles of the tool at a waypoint, up to whole turns, radians: on arrival and on departure. `None` on
-/// travels.
+/// The required angles of the tool at a waypoint, on arrival and on departure, up to whole turns, radians. `None` on travels.
 #[derive(Clone, Copy)]
 struct Angles {
     ends: [Option<f64>; 2],
-    /// True if the arm rests between both.
+    /// True if the arm stops between arrival and departure.
     is_stop: bool,
 }
 
-/// The values of the joint at consecutive waypoints between two stops, up to whole turns.
+/// The values of the joint at consecutive waypoints between two stops. All may differ from the true ones by the same
+/// number of whole turns.
 struct Stretch {
     first: usize,
     values: Vec<f64>,
@@ -74,14 +74,14 @@ impl WristAlong {
     /// Returns the values of the joint along a route.
     ///
     /// # Errors
-    /// The waypoint at which the joint leaves its range, whatever whole turns are chosen.
+    /// The waypoint at which the joint leaves its range with every choice of whole turns.
     pub(crate) fn turns(&self, arm: &Arm, line: &Line, nodes: &Nodes, route: &Route) -> Result<Turns, usize> {
         let q = route.path.path().waypoints();
         let mut before = None;
         let angles: Vec<Angles> = (0..q.len())
             .map(|waypoint| {
                 let last = route.nodes[waypoint];
-                // A change of the IK solution repeats a node.
+                // At a change of the IK solution, two waypoints have the same node.
                 let first = before.map_or(0, |node: usize| node + 1);
                 before = Some(last);
                 self.angles(line, nodes, [first, last])
@@ -109,7 +109,7 @@ impl WristAlong {
         Ok(joined(&values, &lengths, self.joint.rest))
     }
 
-    /// Returns the required angles at a waypoint, which stands for these nodes.
+    /// Returns the required angles at a waypoint that represents these nodes.
     fn angles(&self, line: &Line, nodes: &Nodes, [first, last]: [usize; 2]) -> Angles {
         let offset = match self.guide.angle {
             ToolAngle::Fixed(angle) => return Angles { ends: [Some(angle); 2], is_stop: false },
@@ -134,9 +134,9 @@ impl WristAlong {
         Angles { ends: ends.map(|angle| Some(angle? + offset)), is_stop }
     }
 
-    /// Returns the whole turns to add to the values of each stretch, radians. The joint turns least between the stretches.
+    /// Returns the whole turns to add to the values of each stretch, radians. They minimise the turns between stretches.
     fn shifts(&self, stretches: &[Stretch]) -> Result<Vec<f64>, usize> {
-        // For each stretch: the possible shifts, each with the least cost up to there and the choice for the stretch before.
+        // For each stretch, its possible shifts. Each has the least cost so far, and the choice for the previous stretch.
         let mut table: Vec<Vec<(f64, f64, usize)>> = Vec::new();
         for (k, stretch) in stretches.iter().enumerate() {
             let ends = |k: usize| [stretches[k].values[0], stretches[k].values[stretches[k].values.len() - 1]];
@@ -167,8 +167,7 @@ impl WristAlong {
         Ok(shifts)
     }
 
-    /// Returns the whole turns that bring all values of a stretch into the range, radians. Without limits these are the
-    /// numbers of turns `near`.
+    /// Returns the whole turns that bring all values of a stretch into the range, radians. Without limits, returns `near`.
     fn candidates(&self, stretch: &Stretch, mut near: Vec<f64>) -> Result<Vec<f64>, usize> {
         let JointRange::Interval { lower, upper } = self.joint.range else {
             near.dedup();
@@ -189,7 +188,7 @@ impl WristAlong {
     }
 }
 
-/// Returns the stretches of waypoints between stops and travels, with the joint's values up to whole turns of each stretch.
+/// Splits the waypoints into stretches between stops and travels, with the joint's values up to whole turns of each stretch.
 fn stretches(angles: &[Angles], value: &dyn Fn(usize, f64) -> f64) -> Vec<Stretch> {
     let mut stretches = Vec::new();
     let mut open: Option<(Stretch, f64)> = None;
@@ -221,8 +220,7 @@ fn begun(first: usize, angle: f64, value: &dyn Fn(usize, f64) -> f64) -> Stretch
     Stretch { first, values: vec![value(first, angle)] }
 }
 
-/// Returns the values with those on travels: there, the joint turns evenly over the length of the legs. Without any value,
-/// it stays at `rest`.
+/// Fills in the values on travels: the joint turns evenly over the length of the legs. Without any value, it stays at `rest`.
 fn joined(values: &[[Option<f64>; 2]], lengths: &[f64], rest: f64) -> Vec<[f64; 2]> {
     let mut distance = vec![0.0];
     lengths.iter().for_each(|length| distance.push(distance[distance.len() - 1] + length));

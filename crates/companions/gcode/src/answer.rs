@@ -9,18 +9,19 @@ use cplan_handling::{DEFAULT_TOLERANCE, MIN_TOLERANCE};
 use cplan_model::{Elbow, Scene, Status};
 use cplan_toolpath::ProgramMove;
 
-/// Greatest difference between the drawing moves of the program and those of the written one, metres. It is rounding.
+/// Greatest difference between the drawing moves of the program and of the written one, metres. It covers rounding.
 const MAX_DIFFERENCE: f64 = 1e-9;
 
-/// The segments into which the firmware divides each line. On a segment, the joints move straight.
+/// The firmware's division of each line into segments, on which the joints move straight.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub enum Segments {
-    /// They are so short that the tip stays within the tolerance of the line.
+    /// Segments so short that the tip stays within the tolerance of the line.
     #[default]
     Short,
-    /// They have at most this length, metres.
+    /// Segments of at most this length, metres.
     OfLength(f64),
-    /// Straight lines have as many as Marlin or RepRapFirmware computes from the length of the move and its speed (F).
+    /// Segments of straight lines as in Marlin or RepRapFirmware: their number follows from the length and the speed
+    /// (F) of the move.
     PerSecond {
         /// Number of segments per second.
         rate: f64,
@@ -46,9 +47,9 @@ impl Segments {
 /// Settings for the judgement of a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Settings {
-    /// Greatest distance between the tip and the line that the machine may have, metres. At least [`MIN_TOLERANCE`].
+    /// Greatest distance of the tip from the line in the machine, metres, at least [`MIN_TOLERANCE`].
     pub tolerance: f64,
-    /// The segments of each line, on which the joints move straight.
+    /// Division of each line into segments, on which the joints move straight.
     pub segments: Segments,
     /// The side of the elbow. `None` if the machine can be set up with either side.
     pub elbow: Option<Elbow>,
@@ -63,16 +64,16 @@ impl Default for Settings {
     }
 }
 
-/// The reason why a program cannot be judged, or not be written.
+/// The reason why a program cannot be judged or written.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum GcodeError {
     /// A length of segments, or their number per second, is not a positive number.
     #[error("the length of segments, or their number per second, is {0}, but must be a finite number above 0")]
     Segment(f64),
-    /// A number of segments per second for a firmware that divides lines otherwise, or not at all.
+    /// The firmware does not divide lines by a number of segments per second.
     #[error("{0} does not divide lines by segments per second; state the length of segments, or leave the number out")]
     SegmentsPerSecond(Dialect),
-    /// A move without a speed, which determines its number of segments.
+    /// A move has no speed, although the speed determines its number of segments.
     #[error(
         "line {0}: no speed is stated before this move, but the number of segments depends on the speed; write an F before this line"
     )]
@@ -80,7 +81,7 @@ pub enum GcodeError {
     /// The tolerance is too small, or not a number.
     #[error("the tolerance is {0} m; it must be a finite number of at least {MIN_TOLERANCE} m")]
     Tolerance(f64),
-    /// A side of the elbow for an arm without one.
+    /// The arm has no elbow, but a side of the elbow is required.
     #[error("only arms with two revolute joints have an elbow; leave out the side of the elbow")]
     NoElbow,
     /// A travel with a checksum would have to be replaced.
@@ -88,7 +89,7 @@ pub enum GcodeError {
     Checksum(usize),
 }
 
-/// A move that the machine cannot play, or that is not proven.
+/// A move that the machine cannot play, or that is not proven to be safe.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Failed {
     /// The move.
@@ -102,12 +103,12 @@ pub struct Failed {
 pub struct Travel {
     /// Number of its line.
     pub line: usize,
-    /// The places of the moves instead of it, from the first beginning to the last end, metres.
+    /// The ends of the moves that replace it, from the beginning to the end of the travel, metres.
     pub points: Vec<[f64; 2]>,
 }
 
 impl Travel {
-    /// Returns the number of moves in its place.
+    /// Returns the number of moves that replace it.
     pub fn moves(&self) -> usize {
         self.points.len() - 1
     }
@@ -122,15 +123,15 @@ pub struct Answer {
     pub failed: Vec<Failed>,
     /// All travels that are replaced, in order.
     pub replaced: Vec<Travel>,
-    /// The program with safe travels; `None` if a move fails, or if no travels are replaced by request.
+    /// The program with safe travels. `None` if a move fails, or if travels should not be replaced.
     pub text: Option<Vec<u8>>,
-    /// The answer with the other side of the elbow, if it was tried and fails too.
+    /// The answer for the other side of the elbow, if that was tried and fails, too.
     pub other: Option<Box<Answer>>,
 }
 
 impl Answer {
-    /// Returns the status: found if all moves are proven, infeasible if the machine cannot play the program with any side of
-    /// the elbow that may be used.
+    /// Returns the status. It is *found* if all moves are proven, and *infeasible* if the machine cannot play the
+    /// program with any permitted side of the elbow.
     pub fn status(&self) -> Status {
         let is_proven = |answer: &Self| answer.failed.iter().any(|failed| failed.fault.is_proven);
         if self.failed.is_empty() {
@@ -143,11 +144,11 @@ impl Answer {
     }
 }
 
-/// Judges a program, and replaces unsafe travels if that is requested. It takes time linear in the number of moves, and a
-/// motion is planned for each unsafe travel for which no earlier path is suitable.
+/// Judges a program, and replaces unsafe travels on request. The time is proportional to the number of moves, plus the
+/// planning of a motion for each unsafe travel that cannot follow an earlier path.
 ///
 /// # Errors
-/// [`GcodeError`]: settings that cannot be used, moves without a speed that is needed, and checksums.
+/// [`GcodeError`]: unusable settings, a move without a necessary speed, and a checksum on a line that must be replaced.
 pub fn judge(scene: &Scene, job: &Job, settings: &Settings) -> Result<Answer, GcodeError> {
     if !(settings.tolerance.is_finite() && settings.tolerance >= MIN_TOLERANCE) {
         return Err(GcodeError::Tolerance(settings.tolerance));
@@ -180,7 +181,7 @@ pub fn judge(scene: &Scene, job: &Job, settings: &Settings) -> Result<Answer, Gc
         .collect();
     let mut walks: Vec<(Option<Elbow>, Walk)> =
         players.iter().map(|(elbow, player)| (*elbow, Walk::new(player, &job.program.moves))).collect();
-    // The side with which fewer moves fail comes first.
+    // Prefer the side with fewer failed moves.
     walks.sort_by_key(|(_, walk)| (walk.failed.len(), walk.broken.len()));
     let mut best: Option<Answer> = None;
     for (elbow, walk) in walks {
@@ -196,7 +197,7 @@ pub fn judge(scene: &Scene, job: &Job, settings: &Settings) -> Result<Answer, Gc
     Ok(best.expect("at least one side"))
 }
 
-/// Replaces travels if that is requested, and proves the written program.
+/// Replaces travels on request, and proves the written program.
 fn finished(job: &Job, settings: &Settings, elbow: Option<Elbow>, mut walk: Walk) -> Result<Answer, GcodeError> {
     let moves = &job.program.moves;
     let replaced = if settings.repairs { walk.repair(job.setup.frame) } else { Vec::new() };
@@ -219,20 +220,19 @@ fn finished(job: &Job, settings: &Settings, elbow: Option<Elbow>, mut walk: Walk
     Ok(answer)
 }
 
-/// Returns the program with other travels.
 fn text(job: &Job, replaced: &[Replaced]) -> Result<Vec<u8>, GcodeError> {
     if replaced.is_empty() {
         return Ok(job.bytes.clone());
     }
     let text = String::from_utf8_lossy(&job.bytes);
-    // The reader counts characters after a byte order mark.
+    // The reader counts characters after the byte order mark.
     let (mark, rest) = text.split_at(text.len() - text.trim_start_matches('\u{feff}').len());
     let form = (job.setup.dialect, job.setup.frame);
     let program = written::program(rest, &job.program.moves, replaced, form).map_err(GcodeError::Checksum)?;
     Ok(format!("{mark}{program}").into_bytes())
 }
 
-/// Reads a written program, and judges it again. Returns a move that differs from the program or is not proven.
+/// Reads a written program, and judges it again. Returns the first move that differs from the program, or that is not proven.
 fn first_unproven(job: &Job, walk: &Walk, text: &[u8]) -> Option<Failed> {
     let moves = &job.program.moves;
     if text == job.bytes {

@@ -1,9 +1,9 @@
 //! Safe travels: planned in joint space, and written as straight lines in the plane.
 //!
-//! The planner may use the configurations of one IK solution only: the range of joint 2 is cut where both solutions meet.
-//! So a proof that there is no path is one for the machine. The path is divided until the machine can play the straight lines
-//! between its places. Paths that keep off obstacles and limits need few lines, so such paths are tried first. A travel
-//! along places of an earlier one is tried before all others, because it takes no planning.
+//! The planner uses the configurations of one IK solution only: the range of joint 2 ends where both solutions meet. So
+//! a proof that there is no path holds for the machine, too. The path is divided until the machine can play the
+//! straight lines between its places. Paths with margins to obstacles and limits need few lines, so they are tried
+//! first. Before any planning, the places of earlier travels are tried.
 
 use crate::Frame;
 use crate::fault::{Cause, Fault};
@@ -17,38 +17,39 @@ use cplan_solver::{Options, solve};
 use cplan_toolpath::{Curve, Modes, ProgramMove};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// Shares of the margins below to try, in this order. Only an answer without margins proves that there is no travel.
+/// Shares of the margins below, in the order in which they are tried. Only an answer without margins can prove that
+/// there is no travel.
 const MARGIN_SHARES: [f64; 4] = [1.0, 0.2, 0.02, 0.0];
 
 /// Extra clearance to try, as a share of the arm's reach.
 const EXTRA_CLEARANCE: f64 = 0.03;
 
-/// Share of the clearance at the ends of a travel that may be extra clearance.
+/// Greatest extra clearance, as a share of the room that the ends of a travel have beyond the required clearance.
 const END_SHARE: f64 = 0.5;
 
-/// Distance from joint limits and from singular places to try, radians or metres.
+/// Margin to joint limits and singular places, radians or metres.
 const LIMIT_MARGIN: f64 = 0.1;
 
 /// Greatest number of lines of a travel.
 const MAX_LINES: usize = 200;
 
-/// Shortest part of a path that becomes a line, as a share of the path.
+/// Shortest part of a path that may become a line, as a share of the path.
 const MIN_SHARE: f64 = 1e-4;
 
-/// Difference of joint values between a path and the end of a line that leads to a place on it, radians or metres. A larger
-/// one means another whole turn.
+/// Greatest difference between joint values on the path and those at the end of a line, radians or metres. A greater
+/// one means that the number of whole turns differs.
 const SAME_TURN: f64 = 0.1;
 
-/// Number of planned travels that the next ones may use again.
+/// Number of planned travels whose places may be used again.
 const MAX_KNOWN: usize = 16;
 
-/// A travel to replace.
+/// A travel that must be replaced.
 pub(crate) struct Travel<'a> {
     pub own: &'a ProgramMove,
     /// The reason why the machine cannot play it.
     pub fault: &'a Fault,
     pub start: Configuration,
-    /// The joint values at its end. There are several if a joint has a range of more than a turn.
+    /// Possible joint values at its end. There are several if the range of a joint exceeds a turn.
     pub goals: Vec<Configuration>,
 }
 
@@ -71,7 +72,7 @@ impl<'a> Detours<'a> {
     /// Plans a safe travel.
     ///
     /// # Errors
-    /// The search proves that there is no safe travel, or finds none.
+    /// No safe travel was found; the fault states whether this is proven.
     pub fn plan(&mut self, travel: &Travel) -> Result<Found, Fault> {
         if let Some(found) = self.along_known(travel) {
             return Ok(found);
@@ -103,7 +104,7 @@ impl<'a> Detours<'a> {
     /// Returns the problem in joint space, with a share of all margins.
     ///
     /// # Errors
-    /// An end is not free.
+    /// An end that is not free.
     fn problem(&self, travel: &Travel, share: f64) -> Result<MotionProblem, Fault> {
         let (scene, arm) = (self.player.scene, self.player.kinematics.arm);
         let mut ranges = [arm.joints[0].range, self.side(travel.start[1])];
@@ -111,7 +112,7 @@ impl<'a> Detours<'a> {
         for (k, range) in ranges.iter_mut().enumerate() {
             if let JointRange::Interval { lower, upper } = range {
                 let inner = [*lower, *upper];
-                // Ends beyond a limit by rounding are on it.
+                // Ends that exceed a limit by rounding are set to the limit.
                 let within = |q: &Configuration| q[k].clamp(inner[0], inner[1]);
                 *lower = ends().map(within).fold(inner[0] + share * LIMIT_MARGIN, f64::min);
                 *upper = ends().map(within).fold(inner[1] - share * LIMIT_MARGIN, f64::max);
@@ -136,7 +137,7 @@ impl<'a> Detours<'a> {
         }
         let within = |q: &Configuration| Configuration::from_fn(|k, _| ranges[k].clamp(q[k]));
         let (start, goals) = (within(&travel.start), travel.goals.iter().map(within).collect::<Vec<_>>());
-        // A goal that is clamped by more than rounding has another number of whole turns of joint 2.
+        // If clamping changes a goal by more than rounding, the goal has another number of whole turns of joint 2. Omit it.
         let is_near = |(goal, stated): &(&Configuration, &Configuration)| (**goal - **stated).amax() < SAME_TURN;
         let goals: GoalSet =
             goals.iter().zip(&travel.goals).filter(is_near).map(|(goal, _)| Segment::point(*goal)).collect();
@@ -151,7 +152,8 @@ impl<'a> Detours<'a> {
         })
     }
 
-    /// Returns the range of joint 2 within which the IK solution stays the same. It contains `q2`, up to rounding.
+    /// Returns the range of joint 2 on the current side of the place where both IK solutions meet. It contains `q2`, up
+    /// to rounding.
     fn side(&self, q2: f64) -> JointRange {
         use JointType::{Prismatic, Revolute};
         let arm = self.player.kinematics.arm;
@@ -207,7 +209,7 @@ impl<'a> Detours<'a> {
         Some(self.fewer(own, &points))
     }
 
-    /// Returns places with fewer lines between them, if the machine can play these.
+    /// Removes places as long as the machine can play the lines between the others.
     fn fewer(&self, own: &ProgramMove, points: &[(Point, Configuration)]) -> Found {
         let (mut kept, mut from) = (Vec::new(), 0);
         while from + 1 < points.len() {
@@ -225,10 +227,11 @@ impl<'a> Detours<'a> {
         (kept, points[points.len() - 1].1)
     }
 
-    /// Plays a straight travel from given joint values. Returns the joint values at its end if the machine can play it.
+    /// Plays a straight travel from given joint values. Returns the joint values at its end. `None` if the machine
+    /// cannot play it.
     fn line(&self, own: &ProgramMove, [from, to]: [Point; 2], at: Configuration) -> Option<Configuration> {
         let curve = Curve::Line { from: from.into(), to: to.into() };
-        // The line with the word Z is only known when the program is written, and then judged again.
+        // Which line gets the word Z is known only when the program is written. It is then judged again.
         let modes = Modes { words: Default::default(), ..own.modes.clone() };
         let swept = self.player.play(&curve, &modes).ok()?;
         let turns = self.player.kinematics.near(swept.start, at) - swept.start;
@@ -243,7 +246,7 @@ impl<'a> Detours<'a> {
         (is_within && (swept.start - at).amax() <= SAME_TURN).then_some(swept.end)
     }
 
-    /// Returns a travel along places of an earlier one, if the machine can play it.
+    /// Returns a travel along places of an earlier one. `None` if the machine can play none.
     fn along_known(&self, travel: &Travel) -> Option<Found> {
         let [from, to] = [travel.own.piece.curve.start(), travel.own.piece.curve.end()].map(Point::from);
         let is_goal = |q: &Configuration| travel.goals.iter().any(|goal| (goal - q).amax() <= SAME_TURN);

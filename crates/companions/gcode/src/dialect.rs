@@ -3,7 +3,7 @@
 use cplan_toolpath::Source;
 use std::fmt;
 
-/// A firmware, as far as its programs and its travels differ from others.
+/// A firmware, with its own rules for programs and travels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Dialect {
     /// Marlin with SCARA kinematics.
@@ -37,14 +37,14 @@ impl Dialect {
         }
     }
 
-    /// Returns true if the firmware may play a travel (G0) without segments: Marlin and RepRapFirmware with SCARA
-    /// kinematics move the joints straight from its beginning to its end. Such travels must also be free in this motion.
+    /// Returns true if the firmware may play a travel (G0) without segments: Marlin and RepRapFirmware with SCARA kinematics
+    /// move the joints straight from its beginning to its end. So such travels must be free in this motion, too.
     pub fn travels_by_joints(self) -> bool {
         matches!(self, Dialect::Marlin | Dialect::Duet)
     }
 
-    /// Returns the default of the least length of segments, metres, for firmwares that divide lines into a number of segments
-    /// per second: `SCARA_MIN_SEGMENT_LENGTH` in Marlin, the T of M669 in RepRapFirmware. `None` for other firmwares.
+    /// Returns the default of the least length of segments, metres: `SCARA_MIN_SEGMENT_LENGTH` in Marlin, the T of M669
+    /// in RepRapFirmware. `None` for firmwares that do not divide lines by a number of segments per second.
     pub fn least_segment(self) -> Option<f64> {
         match self {
             Dialect::Marlin => Some(0.5e-3),
@@ -53,8 +53,8 @@ impl Dialect {
         }
     }
 
-    /// Returns the dialect that a program names in a comment, or by words that only this firmware has, with the first such
-    /// line. `None` without such a line, or if it names several dialects.
+    /// Returns the dialect that a program names in a comment, or that alone has some word of the program, with the
+    /// first such line. `None` if there is no such line, or if the program names several dialects.
     pub fn of_program(text: &str) -> Option<(Self, Source)> {
         let of_line = |line: &str| -> Vec<Self> {
             let at = line.find([';', '(']).unwrap_or(line.len());

@@ -11,7 +11,7 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Cause {
-    /// The tip cannot be there.
+    /// The tip cannot reach a place.
     OutOfReach,
     /// The tip passes the axis of joint 1, so that the joints would jump.
     Singular,
@@ -21,9 +21,9 @@ pub enum Cause {
     MotorRange,
     /// The arm hits an obstacle, or comes nearer than the clearance.
     Collision,
-    /// The arm does so while the joints move straight, as some firmwares play travels.
+    /// A collision while the joints move straight, as some firmwares play travels.
     JointMotion,
-    /// There is no safe travel instead.
+    /// No safe travel can replace an unsafe one.
     NoTravel,
     /// The move is too long or too complicated to decide.
     Undecided,
@@ -34,7 +34,7 @@ pub enum Cause {
 pub struct Fault {
     /// The kind of the reason.
     pub cause: Cause,
-    /// The reason in words, which follow the number of the line.
+    /// The reason in words, to follow the number of the line.
     pub reason: String,
     /// Place of the tip, metres.
     pub place: Point,

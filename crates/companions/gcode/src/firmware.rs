@@ -1,10 +1,10 @@
-//! Lines that a firmware runs otherwise than a machine tool. Marlin and Klipper run one command per line, need it in each
-//! line, and know no comments in parentheses.
+//! Lines that a firmware reads otherwise than a machine tool. Marlin and Klipper run one command per line, require a
+//! command in each line, and know no comments in parentheses.
 
 use super::Dialect;
 use cplan_toolpath::Error;
 
-/// Commands that a firmware may leave out where the program has not left the defaults: these modes hold at its beginning.
+/// Commands that set defaults. A firmware may lack them if the program never leaves these modes.
 const DEFAULTS: [&str; 8] = ["G17", "G21", "G40", "G49", "G54", "G80", "G90", "G94"];
 
 /// A letter with its number, and its column from 1.
@@ -16,8 +16,8 @@ struct Word {
 /// Checks that a firmware runs all commands of a program.
 ///
 /// # Errors
-/// The first wrong checksum or number of a line, or else the first word that the firmware leaves out, or reads otherwise,
-/// with its line and column.
+/// The first wrong checksum or line number. Otherwise, the first word that the firmware ignores or reads otherwise,
+/// with line and column.
 pub(crate) fn check(text: &str, dialect: Dialect) -> Result<(), Error> {
     check_numbers(text, dialect)?;
     if !matches!(dialect, Dialect::Marlin | Dialect::Klipper) {
@@ -74,8 +74,7 @@ pub(crate) fn check(text: &str, dialect: Dialect) -> Result<(), Error> {
     Ok(())
 }
 
-/// Checks the checksums of lines, and for Marlin the numbers of lines. Of lines with a checksum, it accepts only the number
-/// after that of the last line with a number.
+/// Checks the checksums of lines. For Marlin, the numbers of lines must also increase, in lines with a checksum by one.
 fn check_numbers(text: &str, dialect: Dialect) -> Result<(), Error> {
     let mut last = None;
     for (line, number) in text.trim_start_matches('\u{feff}').lines().zip(1..) {
@@ -96,7 +95,7 @@ fn check_numbers(text: &str, dialect: Dialect) -> Result<(), Error> {
             continue;
         };
         if let Some((_, rest)) = code.split_once("M110") {
-            // Another N is the number that the command sets.
+            // A second N is the number that the command sets.
             let set = rest.split_once('N').map(|(_, set)| set.trim_start());
             let set = set.and_then(|set| set.split(|c: char| !c.is_ascii_digit()).next()?.parse().ok());
             last = Some(set.unwrap_or(named));
@@ -142,7 +141,7 @@ fn words(code: &str) -> Vec<Word> {
     words
 }
 
-/// Returns true if a firmware takes a part of a comment in parentheses, or of the text after it, for words.
+/// Returns true if the firmware reads words in a comment in parentheses, or in the text after it.
 fn misreads(before: &[Word], comment: &str) -> bool {
     if before.last().is_some_and(Word::takes_rest) {
         return false;

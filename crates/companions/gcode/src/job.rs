@@ -1,10 +1,10 @@
-//! A program with its text, and the words that lift its pen.
+//! A program with its text, and the words that lift and lower its pen.
 
 use super::{Dialect, Frame, firmware};
 use cplan_toolpath::{Curve, Program, read_program};
 use std::str::FromStr;
 
-/// The words of a line that moves the pen, such as `M300 S50`.
+/// Words of lines that move the pen, such as `M300 S50`.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PenWords(Vec<(char, f64)>);
 
@@ -18,7 +18,6 @@ impl FromStr for PenWords {
 }
 
 impl PenWords {
-    /// Returns true if a line has all these words.
     fn are_in(&self, line: &[(char, f64)]) -> bool {
         self.0.iter().all(|word| line.contains(word))
     }
@@ -51,15 +50,15 @@ pub struct Setup {
 pub struct Job {
     pub(crate) bytes: Vec<u8>,
     pub(crate) setup: Setup,
-    /// The moves, at their places in the world. Straight moves with a lifted pen are travels.
+    /// The moves, in coordinates of the world. Straight moves with a lifted pen are travels.
     pub program: Program,
 }
 
 impl Job {
-    /// Reads a program. Straight moves (G1) while a stated pen is lifted count as travels, too.
+    /// Reads a program. If a pen is stated, straight moves (G1) with the lifted pen count as travels, too.
     ///
     /// # Errors
-    /// Words that the machine would follow otherwise than cplan, with their lines; broken text; a program without moves.
+    /// Words that the machine would read otherwise than cplan, with their lines; defective text; a program without moves.
     pub fn read(bytes: &[u8], setup: &Setup) -> Result<Self, cplan_toolpath::Error> {
         let mut program = read_program(bytes, setup.home)?;
         firmware::check(&String::from_utf8_lossy(bytes), setup.dialect)?;
@@ -81,14 +80,14 @@ impl Job {
         Self::read(bytes, &self.setup)
     }
 
-    /// Returns the number of drawing moves, and that of travels.
+    /// Returns the number of drawing moves, and the number of travels.
     pub fn counts(&self) -> [usize; 2] {
         let travels = self.program.moves.iter().filter(|own| own.piece.is_travel).count();
         [self.program.moves.len() - travels, travels]
     }
 }
 
-/// Returns for each line of a program whether the pen is lifted before and after it.
+/// Returns for each line of a program whether the pen is lifted both before and after it.
 fn lifted(text: &str, pen: &Pen) -> Vec<bool> {
     let mut is_up = false;
     let of_line = |line: &str| {
@@ -96,7 +95,7 @@ fn lifted(text: &str, pen: &Pen) -> Vec<bool> {
         match (pen.up.are_in(&words), pen.down.are_in(&words)) {
             (true, false) => is_up = true,
             (false, true) => is_up = false,
-            // If a line has the words of both, more words say more.
+            // If both sets of words are in the line, the larger one decides.
             (true, true) => is_up = pen.up.0.len() > pen.down.0.len(),
             (false, false) => {}
         }
@@ -105,7 +104,7 @@ fn lifted(text: &str, pen: &Pen) -> Vec<bool> {
     text.lines().map(of_line).collect()
 }
 
-/// Returns the words of a line without comments; `None` if it has something else.
+/// Returns the words of a line without comments. `None` if the line has anything else.
 fn words(line: &str) -> Option<Vec<(char, f64)>> {
     let mut code = line.split(';').next().unwrap_or_default().to_owned();
     while let Some((from, to)) = code.find('(').and_then(|from| Some((from, from + code[from..].find(')')?))) {

@@ -1,9 +1,9 @@
 //! Judges G-code for machines that compute the kinematics of their arm themselves, and replaces unsafe travels.
 //!
-//! Such a machine moves the tip along each line of the program, and keeps the side of its elbow. [`judge`] proves for each
-//! line that the arm can follow it within its limits and free of collisions, or states the reason why not. Travels (G0) that
-//! the machine cannot play are planned again in joint space, and written as straight lines that it can play. All other lines
-//! remain unchanged, byte for byte.
+//! Such a machine moves the tip along each line of the program, with the elbow always on the same side. [`judge`]
+//! proves for each line that the arm can follow it within its limits and without collisions, or states why it cannot.
+//! Travels (G0) that the machine cannot play are planned again in joint space, and written as straight lines that it
+//! can play. All other lines remain unchanged, byte for byte.
 //!
 //! ```
 //! use cplan_gcode::{Job, Settings, Setup, judge};
@@ -21,9 +21,9 @@
 //!
 //! # Method
 //!
-//! `player` proves a single move. `walk` joins the moves of the program to chains. `detour` plans a travel with the solver
-//! of the main job, and divides its path into lines. `written` writes the program, which is then read and judged again:
-//! the proof is about the digits of the file.
+//! `player` proves a single move. `walk` joins the moves of the program into chains. `detour` plans a travel with the
+//! solver of the main job, and divides its path into lines. `written` writes the program. The written file is then read
+//! and judged again, so the proof holds for its digits.
 #![forbid(unsafe_code)]
 
 mod answer;

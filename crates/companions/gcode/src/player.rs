@@ -1,9 +1,9 @@
 //! A move as a firmware plays it: with one IK solution, the tip within the tolerance of the line.
 //!
-//! The line is divided into parts. All configurations of the IK solution that put the tip within the tolerance of a part lie
-//! in one box ([`Kinematics::solution_box`]), and the boxes of consecutive parts overlap. So the joints follow the line
-//! without jumps, and the boxes bound their values. The judge bounds the distance between the arm and obstacles over each
-//! box, and halves parts that are too long for that ([`CurveSearch`]).
+//! The line is divided into parts. All configurations of the IK solution that put the tip within the tolerance of a
+//! part lie in one box ([`Kinematics::solution_box`]), and the boxes of consecutive parts overlap. So the joints follow
+//! the line without jumps, and the boxes bound their values. [`CurveSearch`] bounds the distance between arm and
+//! obstacles over each box, and halves parts that are too long.
 
 use crate::fault::{Cause, Fault};
 use crate::{Dialect, Segments, Settings};
@@ -16,22 +16,22 @@ use cplan_model::space::{Configuration, JointRange};
 use cplan_toolpath::{Curve, Modes};
 use std::f64::consts::TAU;
 
-/// Distance beyond the reach that counts as rounding, metres.
+/// Greatest distance beyond the reach that is attributed to rounding, metres.
 const REACH_ROUNDING: f64 = 1e-9;
 
-/// Excess over a joint limit that counts as rounding, radians or metres.
+/// Greatest excess over a joint limit that is attributed to rounding, radians or metres.
 pub(crate) const LIMIT_ROUNDING: f64 = 1e-9;
 
-/// Greatest half of a box of a revolute joint, radians. Boxes below half a turn continue each other without ambiguity.
+/// Greatest half of a box of a revolute joint, radians. Boxes below half a turn determine the number of whole turns.
 const MAX_HALF_TURN: f64 = 1.0;
 
 /// Greatest number of parts of a move.
 const MAX_PARTS: usize = 20_000;
 
-/// Relative rounding of the firmware's numbers of segments. It computes them with seven digits.
+/// Relative rounding error of the firmware's numbers of segments, which it computes with seven digits.
 const FIRMWARE_ROUNDING: f64 = 1e-5;
 
-/// Greatest number of distance evaluations for a part of a move.
+/// Greatest number of distance computations for a part of a move.
 const MAX_EVALUATIONS: usize = 200_000;
 
 /// The joint values along a move, up to whole turns.
@@ -45,17 +45,17 @@ pub(crate) struct Swept {
 }
 
 impl Swept {
-    /// Returns the values of an arm that rests.
+    /// Returns the values of an arm at rest.
     pub fn at_rest(q: Configuration) -> Self {
         Self { start: q, end: q, low: q, high: q }
     }
 
-    /// Returns the values with whole turns added.
+    /// Adds whole turns to the values.
     pub fn turned(&self, by: Configuration) -> Self {
         Self { start: self.start + by, end: self.end + by, low: self.low + by, high: self.high + by }
     }
 
-    /// Returns the values of this move and the next one.
+    /// Joins the values of this move and the next one.
     pub fn then(&self, next: &Self) -> Self {
         Self { start: self.start, end: next.end, low: self.low.inf(&next.low), high: self.high.sup(&next.high) }
     }
@@ -74,7 +74,7 @@ pub(crate) struct Player<'a> {
 }
 
 impl<'a> Player<'a> {
-    /// Creates an arm with its firmware.
+    /// Creates the player for an arm and a firmware.
     pub fn new(
         scene: &'a Scene,
         kinematics: &'a Kinematics<'a>,
@@ -86,7 +86,7 @@ impl<'a> Player<'a> {
         Self { scene, kinematics, vicinity, solution, tolerance, segments, dialect }
     }
 
-    /// Plays a move with its modes. The whole turns of the result are any.
+    /// Plays a move with its modes. The result is determined up to whole turns.
     pub fn play(&self, curve: &Curve, modes: &Modes) -> Result<Swept, Fault> {
         let swept = match self.counts(curve, modes)? {
             None => self.line(curve)?,
@@ -102,8 +102,8 @@ impl<'a> Player<'a> {
         Ok(swept)
     }
 
-    /// Returns both numbers of segments that the firmware may divide a move into, which differ at most by its rounding.
-    /// `None` if the tip stays within the tolerance of the line.
+    /// Returns the least and the greatest number of segments into which the firmware may divide a move. They differ
+    /// only by its rounding. `None` if the segments are short enough for the tolerance.
     fn counts(&self, curve: &Curve, modes: &Modes) -> Result<Option<[f64; 2]>, Fault> {
         let of_length = |length: f64| Some([(curve.length() / length).ceil().max(1.0); 2]);
         let (rate, least, arcs) = match self.segments {
@@ -114,7 +114,7 @@ impl<'a> Player<'a> {
         let (Curve::Line { .. }, Some(feed), Some(least)) = (curve, modes.feed, least) else {
             return Ok(of_length(arcs));
         };
-        // Marlin counts the height, too, and leaves out a part of a segment. RepRapFirmware rounds to the nearest number.
+        // Marlin includes the height, and drops a fraction of a segment. RepRapFirmware rounds to the nearest number.
         let (rise, half) = if self.dialect == Dialect::Marlin { (modes.rise, 0.0) } else { (Some(0.0), 0.5) };
         let rise = if modes.words[2].is_some() { rise } else { Some(0.0) };
         let Some(rise) = rise else {
@@ -136,8 +136,8 @@ impl<'a> Player<'a> {
         solutions.map(|both| both[self.solution]).ok_or_else(|| Fault::singular(point, true))
     }
 
-    /// Returns the numbers of whole turns that bring all values of a joint within its limits: the first one and the last
-    /// one. If the first one is greater, no whole turn does so.
+    /// Returns the first and the last number of whole turns that bring all values of a joint within its limits. If the
+    /// first exceeds the last, no number does.
     pub fn turns(&self, joint: usize, [low, high]: [f64; 2]) -> [f64; 2] {
         let own = &self.kinematics.arm.joints[joint];
         match own.range {
@@ -152,7 +152,7 @@ impl<'a> Player<'a> {
         }
     }
 
-    /// Returns the first joint that no whole turn brings within its limits with all values of a box.
+    /// Returns the first joint for which no whole turn brings all values of a box within the limits.
     pub fn joint_outside(&self, low: Configuration, high: Configuration) -> Option<usize> {
         (0..2).find(|&k| {
             let [first, last] = self.turns(k, [low[k], high[k]]);
@@ -160,11 +160,12 @@ impl<'a> Player<'a> {
         })
     }
 
-    /// Checks that the elbow's motor stays in its range over a box of joint values about those at a place of the tip.
+    /// Checks that the elbow's motor stays within its range over a box of joint values, given its middle and half of
+    /// its size, at a place of the tip.
     pub fn keeps_motor_range(&self, point: Point, q: Configuration, half: [f64; 2]) -> Result<(), Fault> {
         let Some(sum) = self.kinematics.arm.topology().sum else { return Ok(()) };
         let turns = [0, 1].map(|k| self.turns(k, [q[k]; 2]));
-        // A joint with a range of more than a turn leaves it open which sum the motor has.
+        // If the range of a joint exceeds a turn, the sum of the joints, and so the motor's angle, is ambiguous.
         if turns.iter().any(|[first, last]| first != last) {
             return Err(Fault::motor(point, false));
         }
@@ -184,7 +185,7 @@ impl<'a> Player<'a> {
         }
     }
 
-    /// Plays a line in a number of segments on which the joints move straight.
+    /// Plays a line as segments on which the joints move straight.
     fn segments(&self, curve: &Curve, count: f64) -> Result<Swept, Fault> {
         if count > MAX_PARTS as f64 {
             let why = format!("the move needs more than {MAX_PARTS} segments");
@@ -207,7 +208,7 @@ impl<'a> Player<'a> {
         Ok(swept.expect("a segment has ends"))
     }
 
-    /// Plays a line with the tip in the plane.
+    /// Plays a line along which the tip moves straight.
     fn line(&self, curve: &Curve) -> Result<Swept, Fault> {
         let mut swept = Swept::at_rest(self.at(curve.start().into())?);
         let mut parts: Vec<([f64; 2], SolutionBox)> = Vec::new();
@@ -230,8 +231,8 @@ impl<'a> Player<'a> {
         Ok(swept)
     }
 
-    /// Plays a part of a line, from joint values near those before it. Returns the box of the IK solution within the tolerance
-    /// of the part, too. `None` if only shorter parts can be judged.
+    /// Plays a part of a line. Its joint values continue `before`. Also returns the box of the IK solution within the
+    /// tolerance of the part. `None` if the part must be divided.
     fn part(
         &self,
         curve: &Curve,
@@ -272,8 +273,8 @@ impl<'a> Player<'a> {
         self.kinematics.solution_box(point, self.solution, near).filter(is_small)
     }
 
-    /// Checks that the arm keeps the clearance on a part of a line, with the tip within the tolerance of it. A box of the
-    /// whole part is known.
+    /// Checks that the arm keeps the clearance on a part of a line while the tip is within the tolerance. `whole` is a
+    /// box for the whole part.
     fn keeps_clear(&self, curve: &Curve, [a, b]: [f64; 2], whole: &SolutionBox) -> Result<(), Fault> {
         let mut search = CurveSearch::deciding(self.scene, self.scene.workspace().clearance, MAX_EVALUATIONS);
         let on_part = |middle: f64, half: f64| {
@@ -288,7 +289,8 @@ impl<'a> Player<'a> {
         search.curve(&self.vicinity, on_part).map_err(|rejection| self.blocked(rejection))
     }
 
-    /// Checks that the arm keeps the clearance while the joints move straight, each within the tolerance of the tip.
+    /// Checks that the arm keeps the clearance while the joints move straight. Each joint may deviate by as much as
+    /// moves the tip by the tolerance.
     fn straight(&self, from: Configuration, to: Configuration) -> Result<(), Fault> {
         let joints = &self.kinematics.arm.joints;
         let reach = self.kinematics.arm.reach();
@@ -312,7 +314,7 @@ impl<'a> Player<'a> {
     }
 }
 
-/// Returns the first proven fault of the parts of a move, or else the first one.
+/// Returns the first proven fault of the parts of a move, or else the first fault.
 fn first_fault(parts: impl Iterator<Item = Result<(), Fault>>) -> Result<(), Fault> {
     let mut doubtful = Ok(());
     for part in parts {

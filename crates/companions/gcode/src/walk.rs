@@ -1,8 +1,8 @@
 //! A program from its first move to its last, with one IK solution.
 //!
-//! The joints continue from move to move, so the moves form chains. A chain ends where a travel cannot be played as the
-//! program states it; a safe travel leads from there to the next chain. Within a chain all joint values are known up to
-//! whole turns, and a joint with a range of more than a turn may allow several.
+//! The joints continue from move to move, so the moves form chains. A chain ends where the machine cannot play a travel
+//! of the program. A safe travel then leads to the next chain. Within a chain, the joint values are known up to whole
+//! turns. If the range of a joint exceeds a turn, several numbers of whole turns may be possible.
 
 use crate::Frame;
 use crate::detour::{Detours, Travel};
@@ -14,15 +14,15 @@ use cplan_model::space::Configuration;
 use cplan_toolpath::{Curve, ProgramMove};
 use std::f64::consts::TAU;
 
-/// Greatest gap between the end of a move and the next one, metres. It is rounding.
+/// Greatest gap between the end of a move and the beginning of the next one, metres. It covers rounding.
 const MAX_GAP: f64 = 1e-9;
 
-/// The chains of a program, and what interrupts them.
+/// The chains of a program, and the moves that interrupt them.
 pub(crate) struct Walk<'a> {
     player: &'a Player<'a>,
     moves: &'a [ProgramMove],
     chains: Vec<Swept>,
-    /// Moves that cannot be played, by their index.
+    /// Moves that the machine cannot play, by their index.
     pub failed: Vec<(usize, Fault)>,
     /// Unsafe travels, each between two chains.
     pub broken: Vec<Broken>,
@@ -33,7 +33,7 @@ pub(crate) struct Broken {
     /// Index of the move.
     pub index: usize,
     pub fault: Fault,
-    /// The chains before and after it.
+    /// The chains before and after the travel.
     chains: [usize; 2],
 }
 
@@ -41,7 +41,7 @@ pub(crate) struct Broken {
 pub(crate) struct Replaced {
     /// Index of the move.
     pub index: usize,
-    /// The places to which it leads, the last one at its end.
+    /// The ends of its moves; the last one is the end of the travel.
     pub points: Vec<Point>,
 }
 
@@ -57,12 +57,12 @@ impl<'a> Walk<'a> {
         walk
     }
 
-    /// Walks through other moves with the same IK solution.
+    /// Walks through other moves with the same player.
     pub fn again<'b>(&'b self, moves: &'b [ProgramMove]) -> Walk<'b> {
         Walk::new(self.player, moves)
     }
 
-    /// Adds a move after a chain, and returns the chain that it belongs to or begins.
+    /// Adds a move to a chain. Returns the chain after the move, which may be a new one.
     fn add(&mut self, index: usize, chain: Option<usize>) -> Option<usize> {
         let ProgramMove { piece, modes } = &self.moves[index];
         let played = self.player.play(&piece.curve, modes).and_then(|swept| {
@@ -115,7 +115,7 @@ impl<'a> Walk<'a> {
         Ok(self.begin(Swept::at_rest(q)))
     }
 
-    /// Returns the whole turns that bring a chain within the limits.
+    /// Returns the whole turns that bring all joint values of a chain within the limits.
     fn turns(&self, chain: usize) -> Vec<Configuration> {
         let Swept { low, high, .. } = self.chains[chain];
         let of = |joint: usize| {
@@ -125,7 +125,8 @@ impl<'a> Walk<'a> {
         of(0).flat_map(|one| of(1).map(move |two| Configuration::new(one, two))).collect()
     }
 
-    /// Plans a safe travel for each broken one, which the file can state in its frame. Returns them, and adds the others to the failed moves.
+    /// Plans a safe travel for each broken one. Travels without a safe substitute become failed moves. `frame` is that
+    /// of the file, which must be able to state the places.
     pub fn repair(&mut self, frame: Frame) -> Vec<Replaced> {
         let mut detours = Detours::new(self.player, frame);
         let mut chosen: Vec<Option<Configuration>> = vec![None; self.chains.len()];
@@ -145,7 +146,7 @@ impl<'a> Walk<'a> {
                     replaced.push(Replaced { index, points });
                 }
                 Err(fault) => {
-                    // From another whole turn there might be one.
+                    // With another number of whole turns, there might be a safe travel.
                     let is_proven = fault.is_proven && (turns.len() == 1 || fault.cause != Cause::NoTravel);
                     self.failed.push((index, Fault { is_proven, ..fault }));
                 }
@@ -155,7 +156,7 @@ impl<'a> Walk<'a> {
         replaced
     }
 
-    /// Counts unsafe travels among the failed moves.
+    /// Keeps unsafe travels as failed moves.
     pub fn keep_travels(&mut self) {
         self.failed.extend(std::mem::take(&mut self.broken).into_iter().map(|broken| (broken.index, broken.fault)));
         self.failed.sort_by_key(|(index, _)| *index);

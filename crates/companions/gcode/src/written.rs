@@ -1,4 +1,4 @@
-//! Writes a program again with other travels. All other lines remain unchanged.
+//! Writes a program with other travels. All other lines remain unchanged.
 
 use crate::walk::Replaced;
 use crate::{Dialect, Frame};
@@ -6,23 +6,23 @@ use cplan_geometry::Point;
 use cplan_toolpath::{Modes, ProgramMove};
 use std::collections::BTreeMap;
 
-/// Number of decimals of written coordinates: a ten-thousandth of a millimetre, or a hundred-thousandth of an inch.
+/// Number of decimals of written coordinates: 0.0001 mm or 0.00001 inch.
 const DECIMALS: [i32; 2] = [4, 5];
 
-/// Greatest number of metres per unit with which a file counts as one in millimetres.
+/// Length of a unit, metres, above which the unit is an inch.
 const MILLIMETRE: f64 = 1e-3;
 
 /// Greatest number of decimals, for coordinates of the program that need them.
 const MAX_DECIMALS: usize = 10;
 
-/// Difference between a written number and its value that counts as rounding, in the unit of the file.
+/// Greatest rounding of a written number, in the unit of the file.
 const ROUNDING: f64 = 1e-9;
 
 /// The places that a line can state with few decimals.
 pub(crate) struct Grid {
     frame: Frame,
     origin: Point,
-    /// Metres between two places.
+    /// Distance between neighbouring places, metres.
     step: f64,
 }
 
@@ -50,7 +50,7 @@ fn number(value: f64) -> String {
     }
 }
 
-/// Returns the words X and Y of a move from one place of the world to another.
+/// Returns the words X and Y of a move between two places of the world.
 fn coordinates(modes: &Modes, frame: Frame, from: Point, to: Point) -> String {
     let [from, to] = [from, to].map(|point| frame.to_file(point));
     let origin = if modes.is_relative { from } else { Point::from(modes.origin) };
@@ -95,8 +95,8 @@ pub(crate) fn program(
     Ok(written)
 }
 
-/// Returns the lines of a travel through places. The first one is the line of the program with other words X and Y, so that
-/// its modes, its speed and its other words hold from the beginning. A word Z that lowers the tool moves to the last one.
+/// Returns the lines of a travel through places. The first one is the line of the program with other words X and Y, so its
+/// modes, its speed and its other words apply from the beginning. A word Z that lowers the tool moves to the last line.
 fn travel(line: &str, own: &ProgramMove, frame: Frame, points: &[Point]) -> Vec<String> {
     let (modes, start) = (&own.modes, Point::from(own.piece.curve.start()));
     let characters: Vec<char> = line.chars().collect();
@@ -113,12 +113,12 @@ fn travel(line: &str, own: &ProgramMove, frame: Frame, points: &[Point]) -> Vec<
     for (range, text) in edits {
         first.extend(&characters[from..range.start]);
         first.push_str(&text);
-        // A removed word takes the spaces after it along.
+        // The spaces after a removed word are removed, too.
         let spaces = characters[range.end..].iter().take_while(|c| **c == ' ' && text.is_empty()).count();
         from = range.end + spaces;
     }
     first.extend(&characters[from..]);
-    // The spaces before a removed word at the end of the line.
+    // So are the spaces before a removed word at the end of the line.
     if !line.ends_with(' ') {
         first.truncate(first.trim_end_matches(' ').len());
     }

@@ -1,15 +1,15 @@
-//! Compares times on this machine's GPU with those of Silva 2011 (chapter 6: 85 x 65 cells, until the squared changes
-//! of a sweep are below 1e-6), and prints nanoseconds per cell on large open squares: `cargo run --release -p cplan-gpu
-//! --example times -- 2048 8192`.
+//! Compares times on this machine's GPU with those of Silva 2011 (chapter 6: 85 x 65 cells, until the sum of squared
+//! changes of a sweep is below 1e-6). Also prints nanoseconds per cell on large open squares: `cargo run --release -p
+//! cplan-gpu --example times -- 2048 8192`.
 //!
-//! The source does not publish its states of play. Here the field is empty, with a goal in the middle of one end and
-//! ten robots for the local drifts. So the rows are of the same kind, but sweep counts differ.
+//! The source does not publish the positions of its robots. Here the field is empty, with a goal in the middle of one
+//! end, and ten robots where drifts are local. So the numbers of sweeps differ from the source.
 
 use cplan_fields::{Boundary, CellEquations, Factor, Measure, Order, Relaxation, Stopping};
 use cplan_gpu::{Gpu, GpuError, GridEquations, Multigrid};
 use std::time::Instant;
 
-/// Rows and columns of the source's field.
+/// Rows and columns of the field in the source.
 const FIELD_SIZE: [usize; 2] = [65, 85];
 
 /// Number of runs of each benchmark. The fastest run counts.
@@ -26,7 +26,7 @@ fn along(_: usize, _: usize) -> [f64; 2] {
     [0.0, 0.5]
 }
 
-/// Returns the drift of a cell if it applies only within six cells of ten robots.
+/// Returns a drift that acts only within six cells of ten robots.
 fn local(i: usize, j: usize) -> [f64; 2] {
     let near = (0..10).any(|k| i.abs_diff(6 + 13 * (k % 5)).pow(2) + j.abs_diff(20 + 40 * (k / 5)).pow(2) < 36);
     if near { [0.0, 0.8] } else { [0.0; 2] }
@@ -63,8 +63,7 @@ fn timed<T>(runs: usize, mut work: impl FnMut() -> Result<T, GpuError>) -> Resul
     best.ok_or_else(|| GpuError::Refused("no run".into()))
 }
 
-/// A benchmark: name, drift, whether differences are upwind, relaxation, and the published times on a CPU and on
-/// a GPU.
+/// A benchmark: name, drift, upwind differences or not, relaxation, and the published times on a CPU and on a GPU.
 type Row = (&'static str, Drift, bool, Relaxation, &'static str, &'static str);
 
 fn main() -> Result<(), GpuError> {
@@ -102,7 +101,7 @@ fn main() -> Result<(), GpuError> {
     for n in sizes {
         let problem = problem([n; 2], none, false)?;
         let sweeps = |max_sweeps| Stopping { below: 0.0, max_sweeps, ..stopping };
-        // Without the way there and back, which both have.
+        // Subtract the transfers to and from the GPU, which both runs contain.
         let (few, _) = timed(3, || gpu.relax(&problem, &gs, &sweeps(64)))?;
         let (many, _) = timed(3, || gpu.relax(&problem, &gs, &sweeps(192)))?;
         let cells = (n * n) as f64;

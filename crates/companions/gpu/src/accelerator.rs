@@ -1,4 +1,4 @@
-//! The GPU as the device that relaxes fields.
+//! The GPU as a device for the relaxation of fields.
 
 use super::{Ending, Gpu, GpuError, GridEquations};
 use cplan_fields::{Accelerator, CellEquations, Convergence, Domain, RelaxError, Relaxation, Stopping};

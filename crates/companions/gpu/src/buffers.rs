@@ -12,8 +12,7 @@ pub(super) fn blocks(columns: usize, rows: usize) -> [u32; 2] {
 }
 
 impl Gpu {
-    /// Creates a buffer that kernels can read and write, with these numbers in it. If there are no numbers, the buffer
-    /// has room for one word.
+    /// Creates a buffer that kernels can read and write, filled with these numbers. An empty buffer has room for one word.
     pub(super) fn storage<T: bytemuck::NoUninit>(&self, numbers: &[T]) -> Result<wgpu::Buffer, GpuError> {
         let bytes: &[u8] = if numbers.is_empty() { &[0; 16] } else { bytemuck::cast_slice(numbers) };
         let (needed, limits) = (bytes.len() as u64, self.device.limits());
@@ -42,7 +41,6 @@ impl Gpu {
         self.device.create_bind_group(&wgpu::BindGroupDescriptor { label: None, layout, entries: &entries })
     }
 
-    /// Submits the commands that `record` records.
     pub(super) fn submit(&self, record: impl FnOnce(&mut wgpu::ComputePass)) {
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         record(&mut encoder.begin_compute_pass(&wgpu::ComputePassDescriptor::default()));
@@ -61,7 +59,7 @@ impl Gpu {
         let mut encoder = self.device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
         encoder.copy_buffer_to_buffer(buffer, 0, &copy, 0, bytes);
         self.queue.submit([encoder.finish()]);
-        // An error is reported again, with its reason, when the range is read.
+        // If mapping fails, reading the range reports the error with its reason.
         copy.slice(..).map_async(wgpu::MapMode::Read, |_| {});
         self.device.poll(wgpu::PollType::wait_indefinitely()).map_err(|error| failed(&error))?;
         let range = copy.slice(..).get_mapped_range().map_err(|error| failed(&error))?;
@@ -69,7 +67,7 @@ impl Gpu {
     }
 }
 
-/// Runs `work` and returns the driver's errors, on which wgpu would otherwise panic.
+/// Runs `work`, and returns errors of the driver on which wgpu would otherwise panic.
 pub(super) fn with_driver_errors<T>(
     device: &wgpu::Device,
     work: impl FnOnce() -> Result<T, GpuError>,

@@ -45,7 +45,7 @@ struct Next {
 /// All levels on the GPU, with their variables.
 pub(super) struct Cycle {
     stages: Vec<Stage>,
-    /// Correction on the finest level, which a cycle computes. The next field is the right-hand side for it.
+    /// Correction on the finest level, the result of a cycle. The next field is its right-hand side.
     pub x: wgpu::Buffer,
     pub right: wgpu::Buffer,
 }

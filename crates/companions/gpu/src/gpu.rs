@@ -4,7 +4,7 @@ use super::buffers::with_driver_errors;
 use std::fmt;
 use thiserror::Error;
 
-/// Reasons why the GPU gave no solution.
+/// The reason why the GPU found no solution.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum GpuError {
     /// There is no suitable adapter.
@@ -20,7 +20,7 @@ pub enum GpuError {
         "a buffer of {needed} bytes is needed, but the GPU allows at most {most}\n  hint: use fewer cells, or solve on the CPU"
     )]
     TooLarge {
-        /// Size of the largest buffer needed, in bytes.
+        /// Size of the largest necessary buffer, in bytes.
         needed: u64,
         /// Largest buffer of the adapter, in bytes.
         most: u64,
@@ -85,7 +85,7 @@ impl Gpu {
             max_storage_buffer_binding_size: most.max_storage_buffer_binding_size,
             ..wgpu::Limits::downlevel_defaults()
         };
-        // The kernels need more than the smallest guaranteed limits.
+        // The kernels need more storage buffers than the guaranteed minimum.
         let required_limits = wgpu::Limits { max_storage_buffers_per_shader_stage: 6, ..required_limits };
         let wanted = wgpu::DeviceDescriptor { required_limits, ..wgpu::DeviceDescriptor::default() };
         let (device, queue) = pollster::block_on(adapter.request_device(&wanted)).map_err(|e| no_adapter(&e))?;

@@ -1,4 +1,4 @@
-//! The problem to solve: a grid of cells with an equation at each.
+//! The problem to solve: a grid of cells, each with a value or an equation.
 
 use super::GpuError;
 use cplan_fields::{Boundary, CellEquations};
@@ -14,13 +14,13 @@ pub struct GridEquations {
     pub(super) equations: CellEquations,
 }
 
-/// Largest number of cells: places are counted in 32 bits, with four weights per cell.
+/// Largest number of cells. Cells are counted in 32 bits, and each has four weights.
 const MAX_CELLS: usize = 1 << 29;
 
 impl GridEquations {
-    /// Creates a grid of `cells[0]` rows and `cells[1]` columns. `boundaries[0]` applies beyond the first and the last row.
-    /// `outside` is the value beyond [`Boundary::High`]. Lists have one entry per cell, row by row. Where `unknown` is false,
-    /// `values` are fixed; where it is true, they are the initial values. Takes `O(cells)`.
+    /// Creates a grid of `cells[0]` rows and `cells[1]` columns. `boundaries[0]` applies beyond the first and the last
+    /// row. `outside` is the value beyond [`Boundary::High`]. Lists have one entry per cell, row by row. `values` are
+    /// fixed where `unknown` is false. Elsewhere they are the initial values. Takes `O(cells)`.
     ///
     /// # Errors
     /// [`GpuError::Refused`] if a list does not have one entry per cell, a number is not finite, or there are more than
@@ -59,7 +59,7 @@ impl GridEquations {
         Self::new(self.cells, self.boundaries, self.outside, values, self.unknown, self.equations)
     }
 
-    /// Returns the axes that are circles with an odd number of cells, as bits; rows are bit 0.
+    /// Returns a bit for each axis that is a circle with an odd number of cells. Bit 0 is for the rows.
     pub(super) fn odd_circles(cells: [usize; 2], boundaries: [Boundary; 2]) -> u32 {
         let odd = |axis: usize| u32::from(boundaries[axis] == Boundary::Periodic && cells[axis] % 2 == 1);
         odd(0) + 2 * odd(1)

@@ -1,4 +1,4 @@
-//! Memory layout of red-black grids: one grid of half the width per colour.
+//! Memory layout of red-black grids: each colour is a grid of half the width.
 
 /// The memory layout.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -14,7 +14,7 @@ impl Half {
         Self { rows, columns, half: columns.div_ceil(2) }
     }
 
-    /// Returns the number of places of both colours. If the number of columns is odd, some places have no cell.
+    /// Returns the number of places of both colours. With an odd number of columns, some places have no cell.
     pub fn places(self) -> usize {
         2 * self.rows * self.half
     }
@@ -23,7 +23,7 @@ impl Half {
         ((i + j) % 2 * self.rows + i) * self.half + j / 2
     }
 
-    /// Spreads numbers of cells to their places. Places without a cell get the default value.
+    /// Moves the numbers of cells to their places. Places without a cell get the default value.
     pub fn spread<T: Copy + Default>(self, of: impl Fn(usize) -> T) -> Vec<T> {
         let mut spread = vec![T::default(); self.places()];
         for i in 0..self.rows {
@@ -34,8 +34,7 @@ impl Half {
         spread
     }
 
-    /// Returns one number per cell, row by row, from the numbers at their places. This is the inverse of
-    /// [`Half::spread`].
+    /// Returns one number per cell, row by row, from the places. The inverse of [`Half::spread`].
     pub fn gathered(self, spread: &[f32]) -> Vec<f64> {
         let cells = (0..self.rows).flat_map(|i| (0..self.columns).map(move |j| (i, j)));
         cells.map(|(i, j)| f64::from(spread[self.place(i, j)])).collect()
@@ -68,8 +67,7 @@ mod tests {
 
     #[test]
     fn a_colour_has_its_cells_in_the_order_of_their_rows() {
-        // The formulas of the source: place j of row i is column 2 j + (i mod 2) of one colour, 2 j + 1 - (i mod 2) of
-        // the other.
+        // In the source, place j of row i is column 2 j + (i mod 2) of one colour, and column 2 j + 1 - (i mod 2) of the other.
         let half = Half::new([3, 6]);
         for i in 0..3 {
             for j in 0..3 {

@@ -3,12 +3,12 @@
 use super::GridEquations;
 use cplan_fields::Boundary;
 
-/// Factor by which the diffusion between blocks of 2 x 2 cells is reduced. In open space, 2 would be exact, because
-/// block centres are twice as far apart. A slightly smaller value keeps corrections small where blocks meet walls, so
-/// that cycles converge (tested on random walls of up to 1024 x 1024 cells).
+/// Factor by which the diffusion between blocks of 2 x 2 cells is reduced. In open space, 2 would be exact, because the
+/// centres of blocks are twice as far apart as those of cells. A slightly smaller value keeps corrections small where
+/// blocks meet walls, so that cycles converge (tested on random walls of up to 1024 x 1024 cells).
 const DIFFUSION_REDUCTION: f64 = 1.7;
 
-/// Least number of rows or columns of a grid that is still coarsened.
+/// Least number of rows or columns of a grid that has a coarser level.
 const MIN_COARSENED_SIDE: usize = 8;
 
 /// Equations on a grid, row by row: `own * x - sum of side * neighbour = right`.
@@ -22,12 +22,12 @@ pub(super) struct Level {
     pub sides: Vec<[f64; 4]>,
 }
 
-/// For each side of a cell, the side of the neighbour there that faces the cell.
+/// For each side of a cell, the side of the neighbour that faces it.
 const OPPOSITE_SIDE: [usize; 4] = [1, 0, 3, 2];
 
 impl Level {
-    /// Returns the finest level, with the problem's weights. If a cell is its own neighbour on a side, the weight of
-    /// that side is subtracted from the cell's diagonal coefficient.
+    /// Returns the finest level, with the problem's weights. If a cell is its own neighbour on a side, its diagonal
+    /// coefficient is reduced by the weight of that side.
     pub fn finest(problem: &GridEquations, weights: impl Fn(usize) -> [f64; 4]) -> Self {
         let count = problem.values.len();
         let mut level = Self {
@@ -73,13 +73,13 @@ impl Level {
     }
 
     /// Returns the level of blocks of 2 x 2 cells. Its couplings are the flows through common sides, with diffusion
-    /// divided by [`DIFFUSION_REDUCTION`]. Drift that exceeds diffusion is taken upwind, so that coefficients keep
-    /// their signs on every level. `O(cells)`.
+    /// divided by [`DIFFUSION_REDUCTION`]. Where drift exceeds diffusion, differences are upwind, so that coefficients
+    /// keep their signs on every level. Takes `O(cells)`.
     fn coarser(&self) -> Self {
         let cells = self.cells.map(|n| n.div_ceil(2));
         let count = cells[0] * cells[1];
         let block = |cell: usize| cell / self.cells[1] / 2 * cells[1] + cell % self.cells[1] / 2;
-        // For each block and side: flow out, flow in, and loss to walls.
+        // For each block and side: outflow, inflow, and loss to walls.
         let (mut there, mut back, mut lost) = (vec![[0.0; 4]; count], vec![[0.0; 4]; count], vec![0.0; count]);
         for cell in (0..self.own.len()).filter(|&cell| self.own[cell] > 0.0) {
             let here = block(cell);
@@ -120,8 +120,7 @@ impl Level {
         levels
     }
 
-    /// Returns the coefficients in single precision, as five lists one after the other, in the order that the kernels
-    /// use.
+    /// Returns the coefficients in single precision as five consecutive lists, in the order of the kernels.
     pub fn planes(&self) -> Vec<f32> {
         let sides = (0..4).flat_map(|side| self.sides.iter().map(move |sides| sides[side] as f32));
         sides.chain(self.own.iter().map(|&own| own as f32)).collect()

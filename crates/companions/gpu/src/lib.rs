@@ -1,12 +1,12 @@
 //! Relaxation and multigrid of five-point problems among walls on a GPU.
 //!
-//! The problem is a rectangle of cells. Some have given values. Each other cell is a weighted mean of its four
-//! neighbours (Laplace's equation, with or without drift), or the mean plus a fraction of the slope. Rows and columns
-//! may be circles, or end at walls or mirrors.
+//! The problem is a rectangle of cells. Some have given values. The value of any other cell is a weighted mean of its
+//! four neighbours (Laplace's equation, with or without drift), or their mean plus a fraction of the slope. Rows and
+//! columns may be circles, or end at walls or mirrors.
 //!
 //! - [`Gpu::open`] opens the adapter through Vulkan, Metal or Direct3D 12, or returns a clear error.
 //! - [`Gpu::relax`] runs Jacobi, weighted Jacobi, Gauss-Seidel or SOR relaxation until a stopping rule holds.
-//! - [`shared`] brings it to fields, as [`cplan_fields::Device::Gpu`].
+//! - [`shared`] makes it available for fields, as [`cplan_fields::Device::Gpu`].
 //! - [`Gpu::solve`] solves linear problems by multigrid, refined to double precision.
 //!
 //! ```no_run
@@ -26,14 +26,14 @@
 //!
 //! # Method
 //!
-//! Red-black relaxations work on one grid of half the width per colour. Cell `(i, j)` is place `j / 2` of row `i` of
+//! Red-black relaxations store each colour as a grid of half the width. Cell `(i, j)` is place `j / 2` of row `i` of
 //! colour `(i + j) mod 2`, so neighbouring threads read neighbouring numbers (Silva 2011). A sweep takes one dispatch
 //! per colour. Circles of odd length need a few more, because neighbours across the seam have the same colour and must
 //! be updated one after the other.
 //!
 //! Changes are summed in two passes: within each block of 32 x 8 cells, then over the blocks. The source's blocks of 32
-//! x 32 exceed the limits that WebGPU guarantees. The GPU evaluates the stopping rule after every sweep, so no extra
-//! sweeps are run, and the program waits for the GPU only once in several dozen sweeps.
+//! x 32 exceed the limits that WebGPU guarantees. The GPU evaluates the stopping rule after every sweep, so it runs no
+//! extra sweeps, and the program waits for the GPU only once per several dozen sweeps.
 //!
 //! # Guarantees
 //!

@@ -7,10 +7,10 @@ use super::{Gpu, GpuError, GridEquations};
 use cplan_fields::{Boundary, CellEquations};
 use cplan_interrupt::checkpoint;
 
-/// Stopping rule of multigrid.
+/// Rule that ends a multigrid solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Multigrid {
-    /// Largest residual to reach, as a fraction of the greatest value.
+    /// Residual to reach, as a fraction of the greatest value.
     pub below: f64,
     /// Largest number of cycles.
     pub max_cycles: u32,
@@ -29,30 +29,28 @@ pub struct Solution {
     pub values: Vec<f64>,
     /// Number of cycles.
     pub cycles: u32,
-    /// Largest residual: the greatest difference between a value and the one that its neighbours imply, as a fraction
-    /// of the greatest value.
+    /// Largest difference between a value and the one that its neighbours imply, as a fraction of the greatest value.
     pub residual: f64,
-    /// True if the requested residual was reached. If false, further cycles did not help, or their largest number was
-    /// reached.
+    /// True if the requested residual was reached. Otherwise, further cycles made no progress, or their largest number
+    /// was reached.
     pub converged: bool,
 }
 
-/// Number of cycles between residuals in double precision.
+/// Number of cycles between two residuals in double precision.
 const CYCLES_PER_ROUND: u32 = 2;
 
-/// Largest fraction of the residual that a round may leave if it counts as progress.
+/// Largest fraction of the residual that may remain after a round with progress.
 const MAX_RESIDUAL_RATIO: f64 = 0.5;
 
 /// Number of consecutive rounds without progress after which the solver stops.
 const MAX_IDLE_ROUNDS: u32 = 4;
 
 impl Gpu {
-    /// Solves a linear problem by multigrid: F-cycles in single precision on the GPU compute corrections for residuals
-    /// that the CPU computes in double precision. Takes `O(cells)` per cycle and about 38 bytes per cell on the GPU.
+    /// Solves a linear problem by multigrid. The CPU computes residuals in double precision, and F-cycles in single
+    /// precision on the GPU compute corrections. Takes `O(cells)` per cycle and about 38 bytes per cell on the GPU.
     /// With random walls and mild drifts, a cycle leaves about a third of the error.
     ///
-    /// The residual bounds the error: for Laplace's equation in a corridor of `n` cells, by a factor of at most `n^2 /
-    /// 2`.
+    /// The error is at most a multiple of the residual: at most `n^2 / 2` for Laplace's equation in a corridor of `n` cells.
     ///
     /// # Errors
     /// [`GpuError::Refused`] for [`CellEquations::Altered`], which is not linear. [`GpuError::TooLarge`] and
@@ -100,12 +98,12 @@ impl Gpu {
                 Ok(())
             })?;
         }
-        // Rounds without progress may have made the result worse.
+        // Rounds without progress may have increased the residual.
         let (values, residual) = best;
         Ok(Solution { values, residual, ..solved })
     }
 
-    /// Returns the values after so many cycles have corrected them. `left` is the residual before.
+    /// Returns the values after these cycles of corrections. `left` is the residual before them.
     fn values_after_cycles(
         &self,
         cycle: &Cycle,
@@ -113,7 +111,7 @@ impl Gpu {
         values: &[f64],
         left: &[f64],
     ) -> Result<Vec<f64>, GpuError> {
-        // Scale the residual, so that corrections stay above the least number of single precision.
+        // Scale the residual, so that corrections do not underflow in single precision.
         let scale = left.iter().fold(0.0, |greatest: f64, value| greatest.max(value.abs()));
         let right: Vec<f32> = left.iter().map(|value| (value / scale) as f32).collect();
         self.queue.write_buffer(&cycle.right, 0, bytemuck::cast_slice(&right));
@@ -126,7 +124,7 @@ impl Gpu {
     }
 }
 
-/// Computes the residual of each cell, and the greatest one as a fraction of the greatest value. `O(cells)`.
+/// Computes the residual of each cell, and the greatest residual as a fraction of the greatest value. Takes `O(cells)`.
 fn residual(
     problem: &GridEquations,
     finest: &Level,

@@ -10,25 +10,24 @@ use cplan_interrupt::checkpoint;
 /// A relaxed field.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RelaxedField {
-    /// One value per cell, row by row. Given values are unchanged up to rounding to single precision.
+    /// One value per cell, row by row. Given values are rounded to single precision.
     pub values: Vec<f64>,
     /// Number of sweeps.
     pub sweeps: usize,
-    /// The measure in the last sweep; infinite if there was none.
+    /// The measure of change in the last sweep. Infinite without a sweep.
     pub change: f64,
     /// Reason why the relaxation ended.
     pub ending: Ending,
 }
 
-/// Largest number of sweeps that are submitted at once. It is even, so that Jacobi's two buffers have their original
-/// roles afterwards.
+/// Largest number of sweeps that are submitted at once. It is even, so that Jacobi's two buffers then have their original roles.
 const MAX_SWEEPS_PER_SUBMISSION: usize = 64;
 
-/// Largest number of cell updates submitted at once. They take a fraction of a second on any GPU, so that no driver
-/// assumes a hang.
+/// Largest number of cell updates that are submitted at once. They take a fraction of a second on any GPU, so drivers
+/// do not assume that it hangs.
 const MAX_UPDATES_PER_SUBMISSION: usize = 1 << 28;
 
-/// Ratio of a value to the greatest initial value above which a relaxation counts as diverged.
+/// Multiple of the greatest initial value above which a relaxation counts as diverged.
 const DIVERGENCE_FACTOR: f32 = 1e30;
 
 /// Least number of sweeps without progress after which a relaxation ends with [`Ending::Floor`].
@@ -39,8 +38,8 @@ const MIN_IDLE_SWEEPS: usize = 64;
 #[derive(Debug, Clone, Copy, bytemuck::Pod, bytemuck::Zeroable)]
 pub(super) struct Turn {
     pub colour: u32,
-    /// Region of the cells that are updated: 0 for most cells. On circles of odd length, 1 is the last row, 2 the last
-    /// column, and 3 the cell that is in both.
+    /// The region of the updated cells: 0 for most cells. On circles of odd length, 1 is the last row, 2 the last
+    /// column, and 3 the cell in both.
     pub region: u32,
     /// Index of the first partial sum of this turn.
     pub slot: u32,
@@ -164,9 +163,9 @@ impl Gpu {
     }
 }
 
-/// Returns the relative change that may be pure rounding: eight units in the last place, or more with over-relaxation.
-/// Over-relaxation by `2 - d` accumulates rounding over about `1 / d` sweeps, and by measurement amplifies it as much
-/// again. A change of a thousandth is always more than rounding.
+/// Returns the greatest relative change that may be only rounding: eight units in the last place, or more with
+/// over-relaxation. Over-relaxation by `2 - d` accumulates rounding over about `1 / d` sweeps, and measurements show
+/// about the same amplification again. A change of a thousandth is never only rounding.
 fn rounding(factor: f64) -> f32 {
     let kept = (2.0 - factor).clamp(1e-2, 1.0).powi(-2);
     ((8.0 * kept) as f32 * f32::EPSILON).min(1e-3)
@@ -184,7 +183,7 @@ fn divergence_bound(problem: &GridEquations) -> f32 {
 
 fn diverged(values: &[f64], problem: &GridEquations, sweeps: u32) -> GpuError {
     let bound = f64::from(divergence_bound(problem));
-    // NaN also counts as diverged. The first such value may have been overwritten; then report the greatest.
+    // NaN also counts as diverged. The first such value may have been overwritten. Then report the greatest value.
     let lost = values.iter().position(|value| value.is_nan() || value.abs() > bound);
     let largest = || (0..values.len()).max_by(|&a, &b| values[a].abs().total_cmp(&values[b].abs()));
     let at = lost.or_else(largest).unwrap_or(0);
@@ -227,8 +226,8 @@ fn rule(
     }
 }
 
-/// Returns the coefficients of a stencil in the order of places. A place has none, one or four coefficients, depending
-/// on the stencil.
+/// Returns the coefficients of a stencil in the order of places. Each place has zero, one or four of them, depending on
+/// the stencil.
 fn coefficients(equations: &CellEquations, half: Half) -> Vec<f32> {
     match equations {
         CellEquations::Mean => Vec::new(),

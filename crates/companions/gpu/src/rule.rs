@@ -7,9 +7,9 @@ use cplan_fields::Measure;
 pub enum Ending {
     /// The measure fell below its bound, or nothing changed.
     Converged,
-    /// Single precision allows no further progress: the measure did not decrease, and changes were within rounding, for
-    /// 64 sweeps, or for as many as there are rows or columns if these are more. Rounding is eight units in the last
-    /// place, or more with over-relaxation.
+    /// Single precision allows no further progress. The measure did not decrease, and changes were within rounding, for
+    /// a number of sweeps: at least 64, and at least the number of rows and of columns. Rounding is eight units in the
+    /// last place, or more with over-relaxation.
     Floor,
     /// The limit on the number of sweeps was reached.
     Unconverged,
@@ -38,7 +38,7 @@ pub(super) struct Rule {
     pub beyond: f32,
     /// Greatest relative change that may be only rounding.
     pub rounding: f32,
-    /// Number of sweeps with only rounding after which the relaxation ends with [`Ending::Floor`].
+    /// Number of sweeps with changes within rounding after which the relaxation ends with [`Ending::Floor`].
     pub patience: u32,
     pub unused: [u32; 2],
 }

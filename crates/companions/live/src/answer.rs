@@ -15,23 +15,22 @@ use cplan_world::{LoadedProblem, LoadedScene};
 use serde::Deserialize;
 use std::time::Duration;
 
-/// Time limit of a plan while the user drags something. With the time for drawing, the page can then follow about ten
-/// times per second.
+/// Time limit of a plan during a drag. Together with the drawing, the page can then update about ten times per second.
 const DRAG_TIME: Duration = Duration::from_millis(60);
 
-/// Least and greatest time limit for showing the obstacles without a plan, after the time for a plan is up. Between
-/// these two, the limit equals that of a plan.
+/// Least and greatest time limit for the answer without a plan, after the time for a plan is up. In between, it equals
+/// the time limit of a plan.
 const SHOW_TIME: [Duration; 2] = [Duration::from_secs(1), Duration::from_secs(5)];
 
-/// The part of a request's time limit that is already spent. On some hosts, slow work can be ended only by ending the
-/// whole session, with all that it has in memory. The next session then continues the request.
+/// The part of a request's time limit that is already spent. On some hosts, slow work can be stopped only by ending the
+/// whole session. The next session then continues the request.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum TimeSpent {
     /// No time is spent.
     #[default]
     Nothing,
-    /// The time for a plan is spent: the answer shows the world without a plan.
+    /// The time for a plan is spent. The answer shows the world without a plan.
     Plan,
     /// All of the time is spent.
     All,
@@ -41,16 +40,16 @@ pub enum TimeSpent {
 pub struct Deadlines {
     /// Time limit of a plan.
     limit: Duration,
-    /// Stops a plan while the user drags something.
+    /// Stops a plan during a drag.
     pub drag: Interrupt,
     /// Stops any other plan.
     pub plan: Interrupt,
-    /// Stops the drawing without a plan, which must not take much longer than a plan.
+    /// Stops the drawing of an answer without a plan.
     pub show: Interrupt,
 }
 
 impl Deadlines {
-    /// Creates the deadlines of a request, counted from now. `spent` is the part of its time limit that is spent.
+    /// Creates the deadlines of a request from now on. `spent` is the part of its time limit that is already spent.
     pub fn new(interrupt: &Interrupt, spent: TimeSpent, limit: Duration) -> Self {
         let show = limit.clamp(SHOW_TIME[0], SHOW_TIME[1]);
         let (drag, plan, show) = match spent {
@@ -66,7 +65,7 @@ impl Deadlines {
     /// Returns the answer to a request whose time is up.
     ///
     /// # Errors
-    /// `stopped`, if a newer request was the cause. The page expects an answer to that one instead.
+    /// `stopped`, if a newer request was the cause. The page then expects only the answer to the newer one.
     pub fn timed_out(&self, stopped: Interrupted) -> Result<AnswerReply, Interrupted> {
         match stopped {
             Interrupted::TimeUp => Ok(AnswerReply {
@@ -84,7 +83,7 @@ pub fn time_up(limit: Duration) -> String {
     format!("not decided within {} s", limit.as_secs_f64())
 }
 
-/// Returns the answer to a request for which nothing can be planned, with the reason.
+/// Returns the answer to a request for which no plan is possible, with the reason.
 pub fn refused(about: &'static str, error: String) -> AnswerReply {
     AnswerReply { error: Some(error), about: Some(about), ..AnswerReply::default() }
 }
@@ -94,7 +93,7 @@ pub struct Answering<'a> {
     pub options: &'a Options,
     pub contours: &'a Contours,
     pub deadlines: &'a Deadlines,
-    /// True to include a replay of the planner's search.
+    /// True to include the replay of the planner's search.
     pub think: bool,
     /// The text of the world. `None` for answers that are not final.
     pub toml: Option<String>,
@@ -154,8 +153,8 @@ impl Answering<'_> {
         }
     }
 
-    /// Returns the complete answer about a motion. The search for a path may take long, so this sends the configuration
-    /// space before it.
+    /// Returns the complete answer about a motion. The search for a path may take long, so the configuration space is
+    /// sent first.
     ///
     /// # Errors
     /// A newer request has arrived.
@@ -183,7 +182,7 @@ impl Answering<'_> {
         }
     }
 
-    /// Returns the answer with the configuration space but without a path, if there is time for it.
+    /// Returns the answer with the configuration space but without a path, if there is enough time.
     fn without_path(
         &self,
         scene: TimedScene,

@@ -10,10 +10,10 @@ use cplan_view::output::names::capitalized;
 use cplan_world::LoadedScene;
 use serde_json::{Value, json};
 
-/// Largest number of blocked configurations that are drawn. More would hide each other.
+/// Largest number of blocked configurations that are drawn. More of them would hide each other.
 const MAX_SHOWN: usize = 4;
 
-/// Depth of an overlap below which shapes are reported as touching, in metres.
+/// Depth up to which overlapping shapes are reported as touching, in metres.
 const TOUCHING_DEPTH: f64 = 1e-9;
 
 /// Returns the answer about a world whose start or goal is unusable.
@@ -92,14 +92,13 @@ fn describe_contact(scene: &Scene, hit: &Obstruction) -> String {
     }
 }
 
-/// Formats a length with three significant digits.
 fn millimetres(metres: f64) -> String {
     let length = metres * 1e3;
     let digits = [10.0, 100.0].into_iter().filter(|bound| length < *bound).count();
     if length < 0.01 { format!("{length:.1e} mm") } else { format!("{length:.digits$} mm") }
 }
 
-/// Formats the diagnostics without file, line and column, because the user does not see the text.
+/// Formats the diagnostics without file, line and column, because the user does not see the file.
 pub fn without_places(error: &InputError) -> String {
     let mut sentences: Vec<String> =
         error.diagnostics().iter().map(|diagnostic| capitalized(&diagnostic.message)).collect();

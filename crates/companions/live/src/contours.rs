@@ -19,7 +19,7 @@ struct Known {
     of: Option<(Arm, f64)>,
     /// Entries in the order of the obstacles of the last scene.
     entries: Vec<Entry>,
-    /// Contours of the links that other links can hit, each with the number of its obstacle.
+    /// Contours of links that other links can hit, each with the number of its obstacle.
     own: Vec<CObstacle>,
 }
 
@@ -38,8 +38,8 @@ impl Entry {
 }
 
 impl Contours {
-    /// Returns the contours for pictures of a scene without payload, obstacle by obstacle. Computes only those of
-    /// obstacles that the last scene did not have.
+    /// Returns the contours for pictures of a scene without payload, obstacle by obstacle. Computes only the contours
+    /// of obstacles that are not in the last scene.
     pub fn of(&self, scene: &Scene) -> Vec<CObstacle> {
         let obstacles = &scene.workspace().obstacles;
         let of = Some((scene.arm().clone(), scene.workspace().clearance));
@@ -51,7 +51,7 @@ impl Contours {
             known.found(obstacles)
         };
         let missing: Vec<usize> = (0..obstacles.len()).filter(|&k| found[k].is_none()).collect();
-        // The cache is not borrowed during the computation, which can be interrupted at any time.
+        // The computation may be interrupted at any time, so it must not borrow the cache.
         let mut made = trace_contours(scene, &missing).into_iter();
         let entries: Vec<Entry> = found.into_iter().filter_map(|entry| entry.or_else(|| made.next())).collect();
         let numbered = |(number, entry): (usize, &Entry)| {
@@ -68,8 +68,8 @@ impl Contours {
 }
 
 impl Known {
-    /// Finds the cached entry of each obstacle. If obstacles appear or disappear, the entries of the others are one or
-    /// two places away.
+    /// Finds the cached entry of each obstacle. If obstacles appeared or disappeared, the others have moved by one or
+    /// two positions.
     fn found(&self, obstacles: &[Obstacle]) -> Vec<Option<Entry>> {
         let mut next = 0;
         let mut one = |obstacle: &Obstacle| {

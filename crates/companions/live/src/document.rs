@@ -13,7 +13,7 @@ pub struct Document {
 }
 
 impl Document {
-    /// Parses a text. `None` if it is not TOML; the code that reads the text as a world reports the reason.
+    /// Parses a text. `None` if it is not TOML. The reader of worlds then reports the reason.
     pub fn parse(text: &str) -> Option<Self> {
         Some(Self { text: text.to_owned(), toml: text.parse().ok()? })
     }
@@ -61,7 +61,8 @@ impl Document {
         self.by_motion().unwrap_or_default().0.iter().map(form).collect()
     }
 
-    /// Returns the text, changed so that it matches the state of the page. If it already matches, it stays the same.
+    /// Returns the text with the changes that make it match the state of the page. A text that already matches remains
+    /// unchanged.
     ///
     /// # Errors
     /// The reason, if the state is too large, or refers to obstacles that the text does not have.
@@ -108,7 +109,7 @@ impl Document {
             return Ok(false);
         }
         let mut after = ArrayOfTables::new();
-        // Tables are written in the order of their positions. A table without a position follows the table before it.
+        // Tables are written in the order of their positions. A table without a position follows the previous table.
         let last = before.iter().chain(&moving).filter_map(Table::position).max();
         let places: Vec<_> = before.iter().map(Table::position).collect();
         for (k, piece) in pieces.iter().enumerate() {
@@ -165,7 +166,7 @@ fn set_value(table: &mut dyn TableLike, key: &str, item: Item) {
     }
 }
 
-/// Writes `key = [a, b]` as the only content of the table `name`. Returns true if this is a change.
+/// Writes `key = [a, b]` as the only content of the table `name`. Returns true if the text changes.
 fn change_place(toml: &mut DocumentMut, name: &str, key: &str, [a, b]: Pair) -> bool {
     let other = if key == "joints" { "tip" } else { "joints" };
     let now = toml.get(name).and_then(Item::as_table_like);
@@ -177,7 +178,7 @@ fn change_place(toml: &mut DocumentMut, name: &str, key: &str, [a, b]: Pair) -> 
         Some(table) => {
             table.remove(other);
             if key == "joints" {
-                // Joint values state the side of the elbow.
+                // Joint values determine the side of the elbow.
                 table.remove("elbow");
             }
             set_value(table, key, Item::Value(new));
@@ -192,7 +193,7 @@ fn change_place(toml: &mut DocumentMut, name: &str, key: &str, [a, b]: Pair) -> 
     true
 }
 
-/// Writes the limits of a joint into the table `robot.limits`. Returns true if this is a change.
+/// Writes the limits of a joint into the table `robot.limits`. Returns true if the text changes.
 ///
 /// # Errors
 /// The text has something else in the place of these tables.
@@ -236,7 +237,7 @@ fn written(shape: &Form) -> Value {
 
 /// Returns the shape of an obstacle's table. `None` unless it has exactly one shape that the page can change.
 fn form(table: &Table) -> Option<Form> {
-    // If the obstacle has a frame of its own, its points are not world coordinates.
+    // In a frame of its own, the obstacle's points are not world coordinates.
     if table.contains_key("at") || table.contains_key("angle") {
         return None;
     }
@@ -408,7 +409,7 @@ image = \"map.yaml\"
         assert_eq!(pair(again.toml["goal"].get("tip")), Some([1.0, 2.0]));
     }
 
-    /// Tests that the indices of the page count only static obstacles, and that moving ones stay unchanged.
+    /// Tests that the page's indices count only static obstacles, and that moving obstacles remain unchanged.
     #[test]
     fn moving_obstacles_are_not_editable() {
         let cart = "[[obstacle]]\ncircle = { center = [0, 0], radius = 0.1 }\nmotion = { velocity = [0.1, 0] }\n";

@@ -7,8 +7,8 @@ use cplan_world::{LoadedScene, Overrides, Rules};
 use serde_json::value::RawValue;
 use std::time::Duration;
 
-/// Returns the explanation of a world's motion as JSON. It takes at most `limit` after it is known whether there is a
-/// path, or the usual time if that is less.
+/// Returns the explanation of a world's motion as JSON. Once it is known whether there is a path, the explanation takes
+/// at most `limit` or the usual time limit, whichever is shorter.
 ///
 /// # Errors
 /// The reason why this world cannot be explained.

@@ -17,14 +17,14 @@ struct Choice {
     puzzle: Option<Puzzle>,
 }
 
-/// A puzzle in a world. The page decides by the program's answer whether it is solved.
+/// A puzzle in a world. The page decides from the program's answer whether it is solved.
 #[derive(Debug, Serialize)]
 struct Puzzle {
     text: &'static str,
     verdict: &'static str,
     /// The part of the world that the user may change: the positions of the `obstacles`, or the `clearance`.
     free: &'static str,
-    /// Length that the path of a solution must have, which is a proven lower bound. `None` if length does not matter.
+    /// Length that the path must have in a solution. It is a proven lower bound. `None` if the length does not matter.
     length: Option<f64>,
     /// Least clearance that the user must set, in metres. `None` if clearance does not matter.
     clearance: Option<f64>,
@@ -99,7 +99,7 @@ const CHOICES: [Choice; 14] = [
     },
 ];
 
-/// A value slightly below the largest clearance with a path through the narrow slot, in metres.
+/// Clearance slightly below the largest one with a path through the narrow slot, in metres.
 const NARROW_SLOT_CLEARANCE: f64 = 0.0341;
 
 const fn world(name: &'static str, title: &'static str, robot: &'static str, world: &'static str) -> Choice {
@@ -115,16 +115,16 @@ impl Puzzle {
 /// The gallery, as the page reads it.
 #[derive(Debug, Serialize)]
 pub struct Gallery {
-    /// For a page with the program inside, its initial files, and the time limit of a plan in seconds. `None` for a
-    /// page that a server serves.
+    /// Initial files and time limit of a plan, in seconds, for a page with the program inside. `None` for a page that a
+    /// server serves.
     alone: Option<(Files, f64)>,
     robots: BTreeMap<&'static str, &'static str>,
     choices: [Choice; 14],
 }
 
 impl Gallery {
-    /// Creates the gallery of a page. `alone` has files and time limit of a page with the program inside; it is `None`
-    /// for a page that a server serves.
+    /// Creates the gallery of a page. `alone` has the initial files and the time limit of a page with the program
+    /// inside. It is `None` for a page that a server serves.
     pub fn new(alone: Option<(Files, Duration)>) -> Self {
         let alone = alone.map(|(files, time)| (files, time.as_secs_f64()));
         Self { alone, robots: BTreeMap::from(ROBOTS), choices: CHOICES }
@@ -141,7 +141,7 @@ mod tests {
     use cplan_world::{Overrides, scene_from};
     use std::collections::BTreeSet;
 
-    /// A solution of each puzzle. It replaces parts of the world's text.
+    /// A solution of each puzzle, as replacements of parts of the world's text.
     const SOLUTIONS: [(&str, &[[&str; 2]]); 6] = [
         ("close", &[["[0.02, -0.9], [0.02, -0.12], [0.0, -0.12]", "[0.02, -0.75], [0.02, 0.03], [0.0, 0.03]"]]),
         ("round", &[["[0.7, -1.5]", "[0.7, 0.0]"]]),

@@ -1,30 +1,30 @@
-//! The live page, in which users move obstacles, start and goal while the plan follows; and the session that answers
-//! it.
+//! The live page, in which users move obstacles, start and goal while the plan is updated, and the session that answers
+//! the page.
 //!
 //! ```text
 //! page (assets) <-- messages (protocol) --> session: text of the world -> input -> plan -> view
 //! ```
 //!
 //! With each request, the page sends its whole state, as a change of the text that it received. So a message may be
-//! dropped if there is a newer one. The same code that reads world files reads the changed text. Messages travel over a
-//! socket (`serve`), or within a page that contains the program (`StandalonePage`).
+//! dropped if a newer one exists. The reader of world files reads the changed text. Messages travel over a socket
+//! (`serve`), or within a page that contains the program (`StandalonePage`).
 //!
 //! - The page handles undo. `document` changes the TOML, and keeps comments and unknown keys.
-//! - While the user drags, a session answers without bound and motion (`result::quick_answer`) if that takes at most
-//!   60 ms, and otherwise with the configuration space only (`Pace`). When the drag ends, the answer is complete.
-//!   Contours of unmoved obstacles are cached (`contours`).
+//! - During a drag, a session answers with a path but without a bound or a motion (`result::quick_answer`). If that
+//!   takes more than 60 ms, it answers with the configuration space only (`Pace`). When the drag ends, the answer is
+//!   complete. Contours of unmoved obstacles are cached (`contours`).
 //! - Menus come from the command line's grammar (`menus`). Unchosen options are not sent, so the page has no defaults
 //!   of its own.
-//! - Errors state their subject. For a start or goal that is not free they list the IK solutions and the obstacles in
-//!   contact (`blocked`), without references to files.
-//! - Each change gives the page's world a new number (`edition`), and an answer belongs to the number in its request.
-//!   The badge says certified only for the final answer to the current number, with a working connection. Edits are
-//!   kept in the browser (`keep`), under the program's initial text.
+//! - Errors state their subject. For a blocked start or goal, they list the IK solutions and the obstacles in contact
+//!   (`blocked`), without references to files.
+//! - Each change gives the page's world a new number (`edition`). A request contains this number, and its answer
+//!   belongs to it. The badge says *certified* only for the final answer to the current number, and while the
+//!   connection works. Edits are kept in the browser (`keep`), under the program's initial text.
 //! - `explain` answers why there is no path. The page shows a card for each change that opens one (`why`), and applies it
 //!   on request.
-//! - The page speaks first: it opens the program's initial world, or the one in its address (`gallery`): arm, world and
-//!   options, which it sends as text (`Host::from_texts`). Worlds that name files with which the program was not started
-//!   are refused (`Host::read`).
+//! - The page sends the first message. It opens the program's initial world, or sends the arm, the world and the
+//!   options of its address (`gallery`) as text (`Host::from_texts`). Worlds that name files with which the program was
+//!   not started are refused (`Host::read`).
 //! - The page's code (`assets`) extends that of `draw::shell`: `alone` (the program inside the page, without a server),
 //!   `link` (one request under way, the latest next), `gallery` (worlds to open, and links), `keep`, `notices`
 //!   (problems, shown in place), `scene` (state and history), `edit` (pointer and keys), `controls`, `live`.
@@ -73,7 +73,7 @@ pub struct Host {
     options: String,
     /// Time that a plan may take.
     time: Duration,
-    /// True if the arm and the world name no other files, so that a link can contain both.
+    /// True if arm and world name no other files, so that a link can contain them completely.
     is_whole: bool,
 }
 
@@ -112,7 +112,7 @@ impl Host {
         }
         let scene =
             self.scene.with_world_text(&self.urdf, self.world.with_text(text)).map_err(|error| error.to_string())?;
-        // Any text that can be read as a world is TOML.
+        // A text that can be read as a world is always TOML.
         Ok((document.ok_or("this is no TOML")?, scene))
     }
 }

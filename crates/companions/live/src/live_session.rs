@@ -19,7 +19,7 @@ use serde_json::json;
 use serde_json::value::RawValue;
 use std::sync::Arc;
 
-/// Number of bisection steps when the tip is moved towards a place that it cannot reach.
+/// Number of bisection steps of a move of the tip towards a place that it cannot reach.
 const REACH_BISECTIONS: usize = 24;
 
 /// A page's text, and the world that it describes.
@@ -51,7 +51,7 @@ impl LiveSession {
         }
     }
 
-    /// Continues a session with the text that a page has, and with the number of that text.
+    /// Continues a session with the text that a page has, and with its number.
     ///
     /// # Errors
     /// The reason, with its position in the text.
@@ -91,8 +91,7 @@ impl LiveSession {
         }
     }
 
-    /// Returns the message with the world. `begins` is true for a world that was opened, and false for one that was
-    /// loaded as a text.
+    /// Returns the message with the world. `begins` is true if the world was opened, and false if it was loaded as a text.
     pub fn world(&self, id: u64, begins: bool) -> Reply {
         let arm = self.scene.scene.arm();
         let names = self.scene.scene.workspace().obstacles.iter().map(|obstacle| obstacle.name.clone());
@@ -148,7 +147,7 @@ impl LiveSession {
         Ok(())
     }
 
-    /// Replaces the world by another text and plans in it. If the text is not a valid world, keeps the old one.
+    /// Replaces the world by another text, and plans in it. An invalid text leaves the old world in place.
     fn load(
         &mut self,
         id: u64,
@@ -157,7 +156,7 @@ impl LiveSession {
         (interrupt, spent): (&Interrupt, TimeSpent),
         send: &mut dyn FnMut(Reply),
     ) {
-        // Newer requests do not stop loading, because they may refer to the text that is loaded.
+        // Newer requests must not stop the loading, because they may refer to the new text.
         let deadlines = Deadlines::new(&Interrupt::new(), spent, self.host.time);
         let read = deadlines.plan.run(|| self.host.read(text)).unwrap_or_else(|_| Err(time_up(self.host.time)));
         match read {
@@ -179,7 +178,7 @@ impl LiveSession {
         }
     }
 
-    /// Plans, and sends the answer. Sends nothing if it was interrupted.
+    /// Plans, and sends the answer. Sends nothing after an interruption.
     fn plan(&self, ask: &PlanRequest, deadlines: &Deadlines, send: &mut dyn FnMut(Reply)) {
         let begun = Instant::now();
         let id = ask.id;
@@ -193,8 +192,8 @@ impl LiveSession {
         }
     }
 
-    /// Returns the answer, unless it was interrupted. The search for a path can take long, so this sends the
-    /// configuration space before it.
+    /// Returns the answer, unless it was interrupted. Sends the configuration space first, because the search for a
+    /// path may take long.
     fn answer(
         &self,
         ask: &PlanRequest,
@@ -290,8 +289,8 @@ impl LiveSession {
     }
 }
 
-/// Returns an IK solution within the limits that puts the tip at a place: the one nearest to `near`. If the tip cannot
-/// reach the place, it moves towards the place as far as it can, on a straight line from where it is.
+/// Returns the IK solution within the limits that puts the tip at a place and is nearest to `near`. If the place is out
+/// of reach, the tip moves towards it on a straight line as far as possible.
 fn follow(arm: &Arm, tip: Point, near: Configuration) -> Configuration {
     let reached = |tip: Point| nearest_ik_solution(arm, tip, near);
     if let Some(q) = reached(tip) {

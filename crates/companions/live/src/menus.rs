@@ -1,7 +1,7 @@
 //! The page's menus: the options of each planner, and their values.
 //!
-//! Names, values and defaults come from the command line's grammar. The page does not send defaults, so they cannot
-//! differ from those of the program.
+//! Names, values and defaults come from the command line's grammar. The page does not send defaults, so it cannot
+//! contradict those of the program.
 
 use super::options::Options;
 use clap::{Arg, Command};
@@ -11,16 +11,15 @@ use cplan_roadmaps::Prm;
 use cplan_solver::{DEFAULT_CELLS, GridSpace, Method, Planner, Setting};
 use serde_json::{Value, json};
 
-/// An option with its own menu. The user types all other options.
+/// An option with a menu of its own. All other options are typed.
 struct Choice {
     name: &'static str,
     label: &'static str,
-    /// Values and labels of the menu, for an option that takes any number. If empty, the menu has the values that the
-    /// grammar lists.
+    /// Values and labels of the menu for a numeric option. If empty, the menu has the values that the grammar lists.
     numbers: &'static [(&'static str, &'static str)],
     /// Returns the default of the option for a planner. `None` if the grammar states it.
     standard: fn(Method) -> Option<String>,
-    /// Returns true if the planner uses the option. A planner may accept an option that it ignores.
+    /// Returns true if the planner uses the option. Planners may accept options that they ignore.
     is_for: fn(Method) -> bool,
 }
 
@@ -55,7 +54,7 @@ const CHOICES: [Choice; 8] = [
     listed("space", "cells by", |_| Some(GridSpace::default().name().to_owned())),
 ];
 
-/// Returns the default of `--cells`. By default, the cells of fields are square in joint space.
+/// Returns the default of `--cells`. The cells of fields are square in joint space by default.
 fn cells(planner: Method) -> Option<String> {
     Some(match Planner::named(planner).cells() {
         Some(cells) => cells.to_string(),

@@ -1,12 +1,12 @@
-//! Parses planner and options of the page by the grammar of the command line.
+//! Parses planner and options of the page with the grammar of the command line.
 
 use clap::{Command, CommandFactory, Parser};
 use cplan_model::Scene;
 use cplan_options::{MotionArgs, PlannerArgs, planners, word};
 use cplan_solver::Method;
 
-/// Shortest time between samples that a page may request, in seconds. The trajectory is drawn and sent to a browser, so
-/// it must not have too many samples.
+/// Shortest time between samples that a page may request, in seconds. It limits the number of samples that are drawn
+/// and sent to the browser.
 const MIN_PERIOD: f64 = 1e-3;
 
 /// A planner and its options.
@@ -39,7 +39,7 @@ impl Options {
     pub fn parse(text: &str) -> Result<Self, String> {
         let grammar = Grammar::try_parse_from(text.split_whitespace()).map_err(|error| {
             let text = error.to_string();
-            // The usage in the error describes a command line, so it is removed.
+            // Remove the usage from the error, because it describes a command line.
             let lines: Vec<&str> = text.lines().map(str::trim).take_while(|line| !line.is_empty()).collect();
             let line = lines.join(" ");
             line.strip_prefix("error: ").unwrap_or(&line).to_owned()

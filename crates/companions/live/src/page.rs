@@ -24,8 +24,7 @@ const SCRIPTS: [&str; 14] = [
     include_str!("assets/live.js"),
 ];
 
-/// Content security policy of a page with the program inside. The page may run the program in a worker, but must not
-/// load anything.
+/// Content security policy of a page with the program inside. The page may run the program in a worker, but must load nothing.
 const CONTENT_POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; style-src 'unsafe-inline'; \
                       img-src blob: data:; font-src data:; base-uri 'none'; form-action 'none'";
 
@@ -43,7 +42,7 @@ pub fn standalone_page(files: Files, time: Duration, program: &[u8]) -> String {
     live(&policy, &(data(&Gallery::new(Some((files, time)))) + &worker + &program))
 }
 
-/// Returns the page's data as JSON. Within a script, only a less-than sign could end it, so it is escaped.
+/// Returns the page's data as JSON. The sign `<` is escaped, because only it could end the script.
 fn data(gallery: &Gallery) -> String {
     let json = serde_json::to_string(gallery).unwrap_or_default().replace('<', "\\u003c");
     element("gallery", "application/json", &json)

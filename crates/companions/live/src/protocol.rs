@@ -17,12 +17,11 @@ pub type Pair = [f64; 2];
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 pub enum Request {
-    /// Opens these files. Without files, opens the ones with which the program started. The program replies with the
-    /// world.
+    /// Opens these files, or the program's initial files. The reply is the world.
     Open {
-        /// Number of the request, which its answers repeat.
+        /// Number of the request. Its answers repeat this number.
         id: u64,
-        /// The files; `None` for those of the program.
+        /// The files. `None` for the program's initial files.
         files: Option<Files>,
     },
     /// Plans in the world that the page shows.
@@ -31,7 +30,7 @@ pub enum Request {
     Explain(PlanRequest),
     /// Replaces the world by another text, and plans in it.
     Load {
-        /// Number of the request, which its answers repeat.
+        /// Number of the request. Its answers repeat this number.
         id: u64,
         /// The world file's text.
         text: String,
@@ -73,9 +72,9 @@ pub struct Files {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlanRequest {
-    /// Number of the request, which its answers repeat.
+    /// Number of the request. Its answers repeat this number.
     pub id: u64,
-    /// Number of the world's text that `state` changes; see [`Reply::World`].
+    /// Number of the text that `state` changes, see [`Reply::World`].
     pub base: u64,
     /// True for a final position, which needs a complete answer. False for a position during a drag.
     #[serde(rename = "final")]
@@ -89,7 +88,7 @@ pub struct PlanRequest {
     pub think: bool,
 }
 
-/// The part of a world that the page can change, as a whole.
+/// The editable part of a world, as a whole.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct State {
@@ -188,7 +187,7 @@ pub enum End {
 #[derive(Debug, Serialize)]
 #[serde(tag = "kind", rename_all = "lowercase")]
 pub enum Reply {
-    /// A world that was opened or loaded: its editable parts, and the data that the page needs with them.
+    /// A world that was opened or loaded: its editable parts, and further data for the page.
     World(Value),
     /// The result of a plan.
     Answer(Box<AnswerReply>),
@@ -243,14 +242,14 @@ pub struct AnswerReply {
     pub is_final: bool,
     /// True if this is the last answer to the request.
     pub done: bool,
-    /// Description of a defect of options, world, start or goal, without references to files. `None` if there is no
-    /// defect. If there is one, there is no verdict.
+    /// Description of a defect of options, world, start or goal, without references to files. An answer with a defect
+    /// has no verdict.
     pub error: Option<String>,
     /// Subject of the error.
     pub about: Option<&'static str>,
     /// Configurations of the start or the goal that are not free.
     pub blocked: Vec<Value>,
-    /// `found`, `infeasible` or `unknown`. `None` if there is an error, or the plan is not finished.
+    /// `found`, `infeasible` or `unknown`. `None` if there is an error, or if the plan is not finished.
     pub verdict: Option<&'static str>,
     /// True if the whole motion is proven free.
     pub certified: bool,

@@ -14,7 +14,7 @@ use cplan_view::output::{replayed, view_with};
 use cplan_view::{Picture, View};
 use serde_json::value::RawValue;
 
-/// Returns the answer for a scene without a path: its configuration space, and the reason in a word or two.
+/// Returns the answer for a scene without a path: its configuration space, and a short reason.
 pub fn without_path(
     scene: TimedScene,
     ends: (Configuration, &[Segment]),
@@ -67,13 +67,13 @@ fn picture<'a>(
     Picture { title, goals, c_obstacles, ..Picture::new(scene, start) }
 }
 
-/// Describes the arm in one line. During a drag, the page always has the same number of lines.
+/// Describes the arm in one line. So the page has the same number of lines throughout a drag.
 fn arm_of(scene: &Scene) -> String {
     let [first, second] = scene.arm().joints.each_ref().map(|joint| joint.name.as_str());
     format!("{} arm, joints {first} and {second}", scene.arm().kind())
 }
 
-/// Returns an answer with this verdict, in the words of the page.
+/// Creates an answer with this verdict, in the page's word for it.
 fn reply_with_status(status: Status) -> AnswerReply {
     AnswerReply { verdict: Some(status.name()), certified: status == Status::Found, ..AnswerReply::default() }
 }
@@ -105,7 +105,7 @@ pub fn full_answer(
     let figures = Figures {
         length,
         length_unit: arm.unit_in(bound.map_or(Metric::Euclidean, |bound| bound.metric)),
-        // Among moving obstacles, the bound says little, since it ignores them.
+        // The bound ignores moving obstacles, so it says little in their presence.
         lower_bound: bound.filter(|_| problem.timed().trajectories.is_empty()).map(|bound| bound.lower),
         clearance: plan.clearance(),
         closest: plan.closest(),

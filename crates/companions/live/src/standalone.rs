@@ -1,4 +1,4 @@
-//! The live page with the program inside. It has no server, threads or files, and its work cannot be interrupted.
+//! The live page with the program inside. The program has no server, threads or files, and cannot be interrupted.
 
 use super::{Files, Host, LiveSession, Message, Reply, Request, TimeSpent};
 use cplan_interrupt::Interrupt;
@@ -10,14 +10,14 @@ use std::time::Duration;
 #[derive(Debug, Deserialize)]
 #[serde(tag = "do", rename_all = "lowercase", deny_unknown_fields)]
 enum Order {
-    /// Opens these files. The program replies with the world.
+    /// Opens these files. The reply is the world.
     Open {
-        /// Number of the request, which its answers repeat.
+        /// Number of the request. Its answers repeat this number.
         id: u64,
         files: Files,
         /// Time limit of a plan, in seconds.
         seconds: f64,
-        /// The text that the page already has. If it is given, the program does not reply.
+        /// The text that the page already has. If it is given, there is no reply.
         held: Option<NumberedText>,
     },
     /// Handles a request of the protocol.

@@ -1,5 +1,4 @@
-//! Times at which moving obstacles block the arm at a configuration. They are exact in time, as slices are exact in
-//! joint space.
+//! Times at which moving obstacles block the arm at a configuration. The times are exact up to the tolerances below.
 
 use cplan_geometry::{
     Convex, Interval, Point, Pose, Vector, cross, merge_in_place, separation, separation_at, sliding,
@@ -11,19 +10,18 @@ use cplan_model::space::Configuration;
 use cplan_model::{Pair, Scene};
 use std::cell::OnceCell;
 
-/// Fraction of the lengths involved by which shapes are enlarged. It is far more than rounding, but too little to
-/// matter.
+/// Relative enlargement of shapes, as a fraction of the distances and sizes involved. It covers rounding errors.
 const SHAPE_ENLARGEMENT: f64 = 1e-9;
 
-/// Greatest motion of a turning obstacle in one step of the computation, as a fraction of the lengths involved. A step
-/// may also be as long as a quarter of the motion of the arm's part. A contact may seem to begin too early, and to end
-/// too late, by one step.
+/// Longest motion of a turning obstacle in one time step, as a fraction of the distances and sizes involved. A quarter
+/// of the deviation of the arm's part is also allowed, if that is more. A contact may seem to begin one step too early,
+/// and to end one step too late.
 const TURN_STEP: f64 = 1e-3;
 
 /// The set of deviations of a single configuration: only zero.
 pub const NO_DEVIATION: Deviation = Deviation::Box([0.0; 2]);
 
-/// The moving obstacles of a scene, prepared for computing times of contact.
+/// The moving obstacles of a scene, prepared for the computation of contact times.
 pub struct MovingObstacles<'a> {
     scene: &'a Scene,
     clearance: f64,
@@ -37,7 +35,6 @@ pub struct MovingObstacles<'a> {
 #[derive(Debug, Clone, Copy)]
 pub struct Meeting {
     pair: Pair,
-    /// The interval of time that is examined.
     within: Interval,
     stretch: usize,
 }
@@ -50,7 +47,7 @@ impl Meeting {
     }
 }
 
-/// A part of the arm at a posture, and a bound on its deviation from there. All pairs with this part share it.
+/// A part of the arm at a posture, with a bound on its deviation from there. Shared by all pairs that contain the part.
 pub struct PartDeviation<'a> {
     pair: Pair,
     /// The part in its own frame.
@@ -66,7 +63,7 @@ pub struct PartDeviation<'a> {
 }
 
 impl<'a> PartDeviation<'a> {
-    /// Returns the entry for the part of a meeting. Reuses `known` if it is for the same part.
+    /// Returns the entry for the part of a meeting. Returns `known` if it belongs to the same part.
     pub fn of<'k>(
         known: &'k mut Option<Self>,
         movers: &MovingObstacles<'a>,
@@ -124,7 +121,7 @@ impl Stretch {
         }
     }
 
-    /// Returns true if the piece stays farther than `distance` from a disc during an interval of time.
+    /// Returns true if the piece keeps more than `distance` from a disc during the whole interval of time.
     fn is_beyond(&self, (point, radius): (Point, f64), distance: f64, [from, to]: Interval) -> bool {
         let far =
             |between: f64, own: f64| distance + radius + own + SHAPE_ENLARGEMENT * (distance + radius + own + between);
@@ -158,15 +155,15 @@ impl Stretch {
     }
 
     /// Finds the times at which the distance of a turning piece from a part is at most `grow`. The result may include
-    /// more times. It is computed in steps in which the piece moves by at most `step`.
+    /// other times. The piece moves by at most `step` in each time step.
     fn turning(&self, around: &PartDeviation, within: Interval, [grow, step]: [f64; 2], out: &mut Vec<Interval>) {
         // The piece is near during the whole interval, or the interval is too short to decide.
         let decide = |most: f64, drifts: f64, _| (most <= grow || drifts <= step).then_some(true);
         self.divide(around, within, grow, decide, out);
     }
 
-    /// Finds times at which the piece overlaps a part by more than `deeper`. It may omit some: its ends are accurate to
-    /// `shortest` seconds.
+    /// Finds times at which the piece overlaps a part by more than `deeper`. The ends of the intervals are accurate to
+    /// `shortest` seconds, so short overlaps may be missing.
     fn overlap_times(
         &self,
         around: &PartDeviation,
@@ -178,9 +175,10 @@ impl Stretch {
         self.divide(around, within, -deeper, decide, out);
     }
 
-    /// Finds the intervals that `decide` accepts. It gets an upper bound on the distance during the interval, the motion from
-    /// its middle to its ends, and its duration; with `None`, the interval is divided. Intervals during which the distance is
-    /// greater than `near` are not examined.
+    /// Divides an interval of time, and collects the subintervals that `decide` accepts. The arguments of `decide` are
+    /// an upper bound on the distance during the subinterval, the motion of the piece from the middle to an end, and
+    /// the duration. `Some(true)` accepts the subinterval, `Some(false)` rejects it, and `None` divides it further.
+    /// Subintervals during which the distance exceeds `near` are skipped.
     fn divide(
         &self,
         around: &PartDeviation,
@@ -201,9 +199,9 @@ impl Stretch {
         }
     }
 
-    /// Does the same as [`Stretch::overlap_times`] for a piece that slides without turning. The distance to a convex set is a
-    /// convex function of the place, so the depth is a concave function of time. At both `ends`, the depth is `round`,
-    /// the sum of both radii. So if a chord from an end to a deeper time is deep enough, the depth is as well.
+    /// Finds the same times as [`Stretch::overlap_times`], for a piece that slides without turning. The distance between two
+    /// convex sets is a convex function of their offset, so the depth is a concave function of time. At both `ends`, the depth
+    /// is `round`, the sum of both radii. So the depth is at least that of a chord from an end to a time with a greater depth.
     fn deep_in_passing(
         &self,
         around: &PartDeviation,
@@ -277,7 +275,7 @@ impl<'a> MovingObstacles<'a> {
     }
 
     /// Finds the times of a meeting at which some deviation of the part may be nearer to the obstacle than the
-    /// clearance. The result includes all such times and possibly others, in no order. Returns true if it added any.
+    /// clearance. The result includes all such times, possibly others, and is unordered. Returns true if it added any.
     ///
     /// A shape that slides past another one meets it during a single interval of time, which has a closed form
     /// ([`sliding`]); the other shape is grown by the deviation of the arm's part. If the shape turns, the time is
@@ -311,7 +309,7 @@ impl<'a> MovingObstacles<'a> {
     }
 
     /// Finds times of a meeting at which the part, grown by the clearance, overlaps the obstacle at every deviation.
-    /// The result may omit some such times, and is in no order. Its ends are accurate to `shortest` seconds.
+    /// The result may omit some such times, and is unordered. Its ends are accurate to `shortest` seconds.
     ///
     /// The overlap must be deeper than the deviation of the part.
     pub(crate) fn collision_times(
@@ -375,13 +373,12 @@ fn common([a, b]: Interval, [from, to]: Interval) -> Option<Interval> {
     (both[0] <= both[1]).then_some(both)
 }
 
-/// Returns a disc around a shape.
 fn disc(shape: &Convex) -> (Point, f64) {
     let [low, high] = shape.bounds();
     ((low + high) * 0.5, (high - low).norm() / 2.0)
 }
 
-/// Returns the times from 0 on that lie between the given intervals, the ends of which belong to the intervals.
+/// Returns the times after 0 that are not inside the given intervals. The ends of the given intervals count as outside.
 pub fn complement(intervals: &[Interval]) -> Vec<Interval> {
     let (mut left, mut from) = (Vec::new(), 0.0);
     for &[lower, upper] in intervals {

@@ -7,21 +7,20 @@ use cplan_interrupt::checkpoint;
 use cplan_judge::Posture;
 use cplan_motion::{Place, Span};
 
-/// Largest motion of a point of the arm in half of a stretch of a motion, as a fraction of the arm's reach. A stretch
-/// with a larger motion is halved.
+/// A stretch is halved if a point of the arm moves farther than this in half of it. A fraction of the arm's reach.
 const MAX_STRETCH_MOTION: f64 = 4e-3;
 
-/// Shortest duration of a stretch that is halved, in seconds.
+/// Shortest duration of a stretch that may be halved, in seconds.
 const MIN_STRETCH_TIME: f64 = 2e-3;
 
-/// Returns the times within a window at which a motion must not begin, because a moving obstacle would, or might, come
-/// nearer to the arm than the clearance. The result is a superset, in order and disjoint.
+/// Returns the departure times in a window at which the motion would, or might, come nearer to a moving obstacle than
+/// the clearance. The result includes all such times and possibly others. Its intervals are in order and disjoint.
 ///
 /// Consider a stretch of the motion from `a` to `b` seconds after departure. If obstacles block it at times `[c, d]`
 /// ([`MovingObstacles::near`]), the motion must not begin in `[c - b, d - a]`. For a long stretch this interval is much
-/// too long; for a single moment it is exact. So stretches are halved, the longest first. A stretch is not halved
-/// further if the middles of stretches already block all departures that it may block. Fine stretches are therefore
-/// needed only near the ends of the blocked intervals.
+/// too long; for a single moment it is exact. So stretches are halved, the longest first. A stretch is not halved if
+/// the middles of other stretches already block all the departures that it may block. So short stretches are needed
+/// only near the ends of the blocked intervals.
 pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: Interval) -> Vec<Interval> {
     let scene = movers.scene();
     let finest = MAX_STRETCH_MOTION * scene.arm().reach();
@@ -35,7 +34,7 @@ pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: In
             let posture = Posture::new(scene, middle);
             let [begins, ends] = span.ends().map(|place| time_at(pieces, place));
             let (mut moves, mut known) = (0.0_f64, None);
-            // Departures that are not known to be blocked, and the meetings that may block them.
+            // Departures that may be blocked but are not known to be, and the meetings that may block them.
             let (mut departures, mut open) = (Vec::new(), Vec::new());
             for meeting in meetings {
                 let around = PartDeviation::of(&mut known, movers, &posture, deviation, meeting);
@@ -76,13 +75,13 @@ pub fn blocked_departures(movers: &MovingObstacles, pieces: &[Piece], window: In
     blocked
 }
 
-/// Returns the time since the motion began, in seconds.
+/// Returns the time of a place, in seconds since the motion began.
 fn time_at(pieces: &[Piece], (piece, share): Place) -> f64 {
     pieces[piece].time(share) - pieces[0].from
 }
 
-/// Returns an interval, shortened at both ends by those of the `others` that contain its ends. The others are in order
-/// and disjoint. `None` if nothing is left.
+/// Shortens an interval at both ends by those `others` that contain its ends. The others are in order and disjoint.
+/// Returns `None` if nothing remains.
 fn remaining_part(others: &[Interval], [from, to]: Interval) -> Option<Interval> {
     let holding = |time: f64| {
         let next = others.partition_point(|[begins, _]| *begins <= time);
@@ -92,7 +91,7 @@ fn remaining_part(others: &[Interval], [from, to]: Interval) -> Option<Interval>
     (from <= to && left[0] <= left[1]).then_some(left)
 }
 
-/// Returns the first time from `from` to `to`, both included, at which a motion may begin. `None` if there is none.
+/// Returns the first time in the closed interval from `from` to `to` at which a motion may begin. `None` if there is none.
 pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> {
     let mut time = from;
     for &[lower, upper] in blocked {
@@ -107,7 +106,7 @@ pub fn first_departure(blocked: &[Interval], from: f64, to: f64) -> Option<f64> 
     (time <= to && time < f64::INFINITY).then_some(time)
 }
 
-/// Returns the next time of a trajectory. These times are whole nanoseconds.
+/// Returns a time that is later even after rounding: times of trajectories are whole nanoseconds.
 fn next_time(time: f64) -> f64 {
     time + 2e-9
 }

@@ -2,11 +2,11 @@
 //!
 //! Position on a path and time form a plane, in which moving obstacles are forbidden regions. The steps are:
 //! - A path past the static obstacles is certified first, without the moving ones.
-//! - Along it, the arm moves from rest to rest between places at which it may wait. For each of these motions, the
-//!   blocked departures are intervals of time (`departures`). They are exact, as slices are in joint space (`blocked`).
+//! - Along it, the arm moves from rest to rest between places where it may wait. `departures` computes at which times
+//!   each of these motions must not begin, from the times at which obstacles block a configuration (`blocked`).
 //! - A search over safe intervals finds the earliest motion (`schedule`).
 //! - If it finds no motion, `refutation` tries to prove that no timing avoids the obstacles along this path.
-//! - Other paths lead around the moving obstacle at the place where the motion meets it.
+//! - Further paths are planned around the moving obstacle, at the place where the motion meets it.
 //! - The result is judged in time, like any recording, by [`cplan_motion::recorded::certify_in_time`].
 
 mod blocked;
@@ -31,15 +31,15 @@ use cplan_text::counted;
 use refutation::has_no_timing;
 use schedule::{Effort, ScheduledMotion, schedule};
 
-/// Largest number of paths that are tried. The first is the planner's path. The others lead around the obstacles that
-/// motions along earlier paths meet.
+/// Largest number of paths that are tried. The first is the planner's path. Each further path leads around a moving
+/// obstacle that the motion along an earlier path meets.
 const MAX_PATHS: usize = 3;
 
-/// Fraction by which later paths may exceed the shortest one, unless the user requests a gap. Such paths are found in
-/// much less time. They have fewer corners, so most of them are driven faster.
+/// Gap of further paths, unless the user requests one. Such paths are found much faster than shortest ones. They have
+/// fewer corners, so the arm usually moves faster along them.
 const PATH_GAP: f64 = 0.03;
 
-/// Difference of two times up to which they count as equal, in seconds. Times are whole nanoseconds.
+/// Largest difference of two times that count as equal, in seconds. Times are whole nanoseconds.
 const TIME_ROUNDING: f64 = 1e-8;
 
 /// The search for motions among moving obstacles, for plans.
@@ -69,10 +69,9 @@ impl MoverSearch for Search {
     }
 }
 
-/// Returns the earliest motion along the paths that are tried: the certified path, and then others. The loose obstacles
-/// of the problem's scene follow `trajectories`. `first` is the motion along the certified path without
-/// moving obstacles, at the required speed. The clearance of the motion includes moving obstacles. If there is no motion,
-/// returns the reason in words.
+/// Returns the earliest motion along the certified path and a few other paths. The problem's loose obstacles follow
+/// `trajectories`. `first` is the motion along the certified path without moving obstacles, at the required speed. The
+/// clearance of the motion includes moving obstacles. If there is no motion, returns the reason in words.
 ///
 /// # Errors
 /// A path that cannot be timed.
@@ -96,14 +95,14 @@ pub fn time_among_moving_obstacles(
         ways += 1;
         let best = found.last();
         let for_good = best.filter(|best| best.may_stay_forever()).map(ScheduledMotion::duration);
-        // If the arm can stay at the end of the best motion, only earlier motions count. So a path is skipped if it
-        // takes longer even without waits.
+        // If the arm can stay for ever where the best motion ends, only earlier motions are better. So a path is
+        // skipped if its motion takes longer even without waits.
         let latest = demand.arrival.map_or(f64::INFINITY, |[_, ends]| ends + TIME_ROUNDING);
         let before = for_good.unwrap_or(f64::INFINITY).min(latest);
         if whole.trajectory.duration() < before {
             let along = |effort: Effort| {
-                // If jerks are limited, rounding corners takes as long as everything else together, and there are many
-                // motions here.
+                // If jerks are limited, rounding corners takes half of the computing time, and a thorough search times
+                // many motions.
                 let stops = effort == Effort::THOROUGH && Limits::from(scene.arm()).stops_at_corners();
                 let drive = if stops { options.drive.stopping_at_corners() } else { options.drive };
                 let along = schedule(&movers, &path, &whole, &drive, demand, effort, before)?;
@@ -119,7 +118,7 @@ pub fn time_among_moving_obstacles(
             }
             found.extend(better);
         }
-        // If a motion ends as early as allowed, another path cannot improve it.
+        // A motion that ends as early as allowed cannot be improved.
         let soonest = demand.until.or(demand.arrival.map(|[begins, _]| begins)).unwrap_or(0.0);
         let is_best = |best: &ScheduledMotion| {
             best.may_stay_forever() && (best.waits.is_empty() || best.duration() <= soonest + TIME_ROUNDING)
@@ -154,7 +153,7 @@ fn reason(ways: usize, refuted: usize, movers: usize) -> String {
     format!("a path exists past the static obstacles, but {moves}; {known}")
 }
 
-/// Certifies a motion for both interpolations that programs use between its samples.
+/// Certifies a motion for both interpolations that programs use between samples.
 fn certified_in_time(timed: TimedScene, found: ScheduledMotion, ways: usize) -> Option<(TimedMotion, Timing)> {
     let ScheduledMotion { timed: TimedMotion { curve, trajectory }, waits, free_until } = found;
     let (mut clearance, mut nearest) = (f64::INFINITY, None);
@@ -177,7 +176,7 @@ fn certified_in_time(timed: TimedScene, found: ScheduledMotion, ways: usize) -> 
 }
 
 /// Returns a proven lower bound on the distance between moving obstacles and the arm while it stands at `q` for some
-/// seconds, from time 0. `None` if the bound is not more than the clearance.
+/// seconds, from time 0. `None` if the bound does not exceed the required clearance.
 pub fn clearance_at_rest(timed: TimedScene, q: Configuration, seconds: f64) -> Option<f64> {
     let times = if seconds > 0.0 { vec![0.0, seconds] } else { vec![0.0] };
     let (positions, velocities) = (vec![q; times.len()], vec![Configuration::zeros(); times.len()]);
@@ -185,7 +184,7 @@ pub fn clearance_at_rest(timed: TimedScene, q: Configuration, seconds: f64) -> O
     certify_in_time(timed, &standing, timed.scene.workspace().clearance).clearance()
 }
 
-/// Returns a motion as recordings for both interpolations: by cubics, and by the polynomials that it states.
+/// Returns a motion as recordings for both interpolations: by cubics, and by the polynomials of the trajectory.
 pub fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     let rows = |values: &[[f64; 2]]| values.iter().map(|&row| Configuration::from(row)).collect::<Vec<_>>();
     let (position, velocity) = (rows(&trajectory.position), rows(&trajectory.velocity));
@@ -194,8 +193,7 @@ pub fn recordings(trajectory: &Trajectory) -> Option<[Recording; 2]> {
     Some([cubic, quartic])
 }
 
-/// Returns the problem in which one moving obstacle is static. It is the first one that the motion meets, at the place
-/// of that meeting.
+/// Returns the problem with one moving obstacle made static: the first one that the motion meets, at the place where they meet.
 fn around_what_is_met(
     problem: &MotionProblem,
     trajectories: &[ObstacleTrajectory],

@@ -16,17 +16,16 @@ const MIN_STRETCHES: usize = 64;
 /// Accuracy of the times of overlap, in seconds.
 const OVERLAP_TIME_STEP: f64 = 1e-3;
 
-/// Fraction by which the least duration of a stretch is lowered. It is far more than rounding.
+/// Relative reduction of the least duration of a stretch. It covers rounding errors.
 const ROUNDING: f64 = 1e-9;
 
-/// A stretch of a path.
 struct Stretch {
     /// The middle of the stretch, and half of its extent.
     middle: Configuration,
     half: Configuration,
     /// Lower bound on the duration of a motion from one end of the stretch to the other, seconds.
     takes: f64,
-    /// Times at which the arm may be in the stretch, computed when first needed. At all other times, every posture of
+    /// Times at which the arm may be in the stretch. Computed when first needed. At all other times, every posture of
     /// the stretch overlaps a moving obstacle.
     left: OnceCell<Vec<Interval>>,
 }
@@ -46,21 +45,20 @@ impl Stretch {
     }
 }
 
-/// Returns true if it is proven that no motion along a path reaches its end with the clearance from moving obstacles.
-/// The motion may go forwards and backwards, at all speeds that the joints allow.
+/// Returns true if it is proven that no motion along a path reaches its end while keeping the clearance from moving
+/// obstacles. The motion may go forwards and backwards, at any speed that the joints allow.
 ///
-/// Position on the path and time form a plane. For each stretch of the path, the function finds the times at which all
-/// postures of the stretch overlap a moving obstacle, deeper than the arm moves within the stretch. A search begins at
-/// the start at time 0. It continues to neighbouring stretches at times that are open in both, at no more than the
-/// joints' top speeds. Only the stretches and times that it reaches are examined.
+/// Each stretch of the path is blocked while all its postures overlap a moving obstacle, more deeply than the arm moves
+/// within the stretch. A search over position and time begins at the start of the path at time 0. From a stretch, it
+/// enters the neighbouring stretches at times when neither is blocked, at no more than the top speeds of the joints.
+/// Blocked times are computed only for the stretches that the search reaches.
 pub fn has_no_timing(movers: &MovingObstacles, path: &Path) -> bool {
     let stretches = stretches(path, movers.scene().arm());
     let Some(first) = stretches.first() else { return false };
     if first.remaining_times(movers).first().is_none_or(|left| left[0] > 0.0) {
         return true;
     }
-    // For each stretch, open interval, and end of the stretch (first or second), the earliest time at which it can be
-    // reached.
+    // Earliest time at which each end (0 or 1) of a stretch can be reached, in each of its open intervals.
     let mut known: BTreeMap<(usize, usize, usize), f64> = BTreeMap::new();
     let mut open = BinaryHeap::from([Reverse((OrderedF64(0.0), 0, 0, 0))]);
     known.insert((0, 0, 0), 0.0);

@@ -10,24 +10,24 @@ use cplan_motion::{CertifiedCurve, Drive, Limits, TimedMotion, TimingError, Traj
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, BinaryHeap};
 
-/// Number of configurations on a path for which safe times are computed.
+/// Number of configurations along a path at which safe times are computed.
 const PLACES_PER_PATH: usize = 64;
 
 /// Limits of the search for the timing of a motion along a path.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Effort {
-    /// Largest number of places where the arm may wait, besides the ends. A motion is timed for each pair of places.
+    /// Largest number of places where the arm may wait, in addition to the ends. Each pair of places may need a motion.
     most_stops: usize,
-    /// True to add places that are spread evenly over the path, up to the largest number.
+    /// True to add evenly spread places up to that number.
     spread: bool,
     /// True if the arm may also move back along the path.
     backward: bool,
 }
 
 impl Effort {
-    /// A search that suffices for most motions, and takes milliseconds.
+    /// Limits that suffice for most motions. The search takes milliseconds.
     pub const QUICK: Self = Self { most_stops: 6, spread: false, backward: false };
-    /// A search that also finds motions through short intervals of time.
+    /// Limits with which the search also finds motions through short gaps in time.
     pub const THOROUGH: Self = Self { most_stops: 12, spread: true, backward: true };
 }
 
@@ -36,22 +36,22 @@ impl Effort {
 pub struct TimingRequirements {
     /// Fraction of the joints' top speeds at which the arm moves.
     pub speed: f64,
-    /// Times within which the motion must arrive, in seconds since the time from which it may begin. Events after the
-    /// arrival are ignored. With `None`, the arm must be able to stay at the goal for ever, if that is possible.
+    /// Interval in which the motion must arrive, in seconds since the earliest departure. Events after the arrival are
+    /// ignored. If `None`, the arm should be able to stay at the goal for ever.
     pub arrival: Option<Interval>,
-    /// Time until which the arm must be able to wait at the goal if it arrives earlier. `None` if it need not wait.
+    /// Time until which the arm must be able to wait at the goal after an earlier arrival. `None` if it need not wait.
     pub until: Option<f64>,
 }
 
 impl TimingRequirements {
-    /// The requirements on a single motion of the whole query.
+    /// Requirements for a query with a single motion.
     pub const UNCONSTRAINED: Self = Self { speed: 1.0, arrival: None, until: None };
 }
 
 /// A motion along a path, with waits.
 #[derive(Debug, Clone)]
 pub struct ScheduledMotion {
-    /// The curve, with a corner at each place where the arm waits, and the whole motion.
+    /// The whole motion, and its curve with a corner at each place where the arm waits.
     pub timed: TimedMotion,
     /// Waits in order.
     pub waits: Vec<Wait>,
@@ -89,7 +89,7 @@ struct Stops<'a> {
     /// Distance of each stop from the beginning of the path, in ascending order. The first and the last stop are its
     /// ends.
     at: Vec<f64>,
-    /// Time to reach each stop from the first one at the joints' top speeds, in seconds.
+    /// Time from the first stop to each stop at the joints' top speeds, in seconds.
     gone: Vec<f64>,
     /// For each stop, the intervals of time in which the arm may stay there.
     safe: Vec<Vec<Interval>>,
@@ -115,11 +115,11 @@ struct StopSequence {
     free_until: f64,
 }
 
-/// The earliest known arrivals, and those from which the search must still continue.
+/// The earliest known arrivals, and the queue of those that the search must still extend.
 struct EarliestArrivals {
     known: BTreeMap<SafeStop, Arrival>,
     open: BinaryHeap<Reverse<(OrderedF64, usize, usize)>>,
-    /// Earliest known arrival at the goal after which the arm can stay for ever. Later arrivals are useless.
+    /// Earliest known arrival at the goal after which the arm can stay for ever. Later arrivals need no search.
     earliest_permanent_arrival: f64,
 }
 
@@ -130,19 +130,18 @@ impl EarliestArrivals {
         reached
     }
 
-    /// Removes and returns the earliest arrival from which the search has not continued yet.
+    /// Removes and returns the earliest arrival in the queue.
     fn next(&mut self) -> Option<(SafeStop, f64)> {
         loop {
             let Reverse((OrderedF64(time), stop, interval)) = self.open.pop()?;
-            // The queue may still have an entry for a later arrival that has been improved.
+            // The queue may still contain an arrival for which an earlier one has been found since.
             if self.known[&(stop, interval)].time >= time {
                 return Some(((stop, interval), time));
             }
         }
     }
 
-    /// Returns true if an arrival at `time` is earlier than the known arrival at this stop and interval, or if none is
-    /// known.
+    /// Returns true if no arrival at this stop and interval is known, or if `time` is earlier than the known one.
     fn is_improved_by(&self, at: SafeStop, time: f64) -> bool {
         self.known.get(&at).is_none_or(|known| known.time > time)
     }
@@ -159,7 +158,7 @@ impl EarliestArrivals {
         self.open.push(Reverse((OrderedF64(arrival.time), at.0, at.1)));
     }
 
-    /// Returns the stops up to an arrival. Each has its departure, and the last its arrival.
+    /// Returns the stops up to an arrival. Each has its departure time, and the last one its arrival time.
     fn stops_to(&self, end: SafeStop) -> Vec<(usize, f64)> {
         let mut stops = vec![(end.0, self.known[&end].time)];
         let mut at = end;
@@ -172,12 +171,12 @@ impl EarliestArrivals {
     }
 }
 
-/// Computes the earliest motion along a path. It goes from rest to rest between places at which it may wait. `None` if
-/// there is no such motion, or if none ends before the time `before` where the arm can stay. `whole` is the motion
-/// without a wait.
+/// Computes the earliest motion along a path. The motion goes from rest to rest between places where the arm may wait.
+/// If possible, it ends where the arm can stay for ever. Returns `None` if no such motion arrives by the time `before`.
+/// `whole` is the motion without a wait.
 ///
-/// It searches over safe intervals (Phillips, Likhachev 2011): within one safe interval of a stop, the earliest arrival
-/// is always the best. If possible, the motion ends where the arm can stay for ever.
+/// The search is over safe intervals (Phillips, Likhachev 2011): within one safe interval of a stop, the earliest
+/// arrival is always the best.
 ///
 /// # Errors
 /// A part of the path that cannot be timed.
@@ -226,8 +225,7 @@ impl Stops<'_> {
         least_duration((self.gone[to] - self.gone[from]).abs(), &limits)
     }
 
-    /// Finds the sequence of stops that reaches the last one earliest. Does not find sequences that arrive after
-    /// `before` where the arm can stay.
+    /// Finds the sequence of stops that reaches the last one earliest. Sequences that arrive after `before` are not found.
     fn search(&mut self, before: f64) -> Result<Option<StopSequence>, TimingError> {
         // Only the first interval at the start can contain time 0.
         if self.safe[0].first().is_none_or(|first| first[0] > 0.0) {
@@ -249,7 +247,7 @@ impl Stops<'_> {
                 continue;
             }
             let backward = self.effort.backward;
-            // The goal comes first, because an early arrival there makes other departures useless.
+            // Try the goal first: an early arrival there makes other departures useless.
             for next in (0..=last).rev().filter(|&next| next != stop && (backward || next > stop)) {
                 self.depart(&mut reached, at, time, next)?;
             }
@@ -299,13 +297,13 @@ impl Stops<'_> {
     }
 
     /// Returns the time until which the arm may stay at the goal after arriving at `time`. Infinite if the requirements
-    /// state times of arrival, because events after the arrival are then ignored.
+    /// limit the arrival, because events after it are then ignored.
     fn stay_until(&self, interval: usize, time: f64) -> f64 {
         let last = self.at.len() - 1;
         let until = self.safe[last][interval][1];
         match self.demand.arrival {
             None => until,
-            // A path of length zero has no arrival: the arm must be able to stay there until the requested time.
+            // A path of length zero has no arrival, so the arm must be able to stay there until the requested time.
             Some([begins, _]) if last == 0 && self.demand.until.unwrap_or(begins).max(time) > until => until,
             Some(_) => f64::INFINITY,
         }
@@ -354,8 +352,8 @@ fn posture_at<'a>(movers: &MovingObstacles<'a>, path: &Path, distance: f64) -> P
     Posture::new(movers.scene(), path.part(distance, distance).start())
 }
 
-/// Returns the places where the arm may wait: the ends of the path, and the ends of its parts that no obstacle ever
-/// comes near. A thorough search adds more places.
+/// Returns the places where the arm may wait: the ends of the path, and the ends of those parts of the path that no
+/// moving obstacle ever comes near. A thorough search adds more places.
 fn places(movers: &MovingObstacles, path: &Path, effort: Effort) -> Vec<f64> {
     let length = path.length();
     if length == 0.0 {

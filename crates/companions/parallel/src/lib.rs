@@ -1,4 +1,4 @@
-//! Runs work on several threads, and passes on its results in order.
+//! Runs work on several threads, and returns the results in order.
 
 use std::collections::BTreeMap;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
@@ -6,13 +6,13 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Largest number of results per thread that wait for an earlier result.
+/// Largest number of finished results per thread that wait for an earlier result.
 const MAX_WAITING_PER_THREAD: usize = 64;
 
-/// Runs a piece of work. If the work panics, returns the message of the panic, so that other pieces can continue.
+/// Runs a piece of work. A panic becomes an error, so that other pieces can continue.
 ///
 /// # Errors
-/// The message of the panic. An interruption of the whole run is passed on.
+/// The message of the panic. An interruption of the whole run unwinds further.
 pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let message = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
@@ -24,10 +24,10 @@ pub fn caught<T>(work: impl FnOnce() -> T) -> Result<T, String> {
 }
 
 /// Runs `count` pieces of work on `jobs` threads. Passes the results to `each` on the calling thread, in order and as
-/// soon as possible, until `each` fails. A panic of a piece is passed on to the caller.
+/// early as possible, until `each` fails. A panic in a piece unwinds to the caller.
 ///
 /// # Errors
-/// The error of `each`. Pieces that are running finish, and no others start.
+/// The error of `each`. Running pieces finish, and no others start.
 pub fn run_in_order<T: Send, E>(
     count: usize,
     jobs: usize,
@@ -52,7 +52,7 @@ pub fn run_in_order<T: Send, E>(
                         break;
                     }
                     match catch_unwind(AssertUnwindSafe(|| work(i))) {
-                        // After an error of `each`, nobody receives results.
+                        // After an error of `each`, nothing receives the results.
                         Ok(result) => drop(sender.send((i, result))),
                         Err(panic) => {
                             turns.end();
@@ -77,7 +77,7 @@ pub fn run_in_order<T: Send, E>(
     })
 }
 
-/// The state of a run: index of the next result to be passed on, and whether new work may start.
+/// The state of a run: the index of the next result for `each`, and whether new work may start.
 struct TurnState {
     state: Mutex<(usize, bool)>,
     turn_changed: Condvar,
@@ -89,7 +89,7 @@ impl TurnState {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Waits until piece `i` may start, that is, until few enough results wait for an earlier one. Returns false if the
+    /// Waits until piece `i` may start: few enough finished results may wait for an earlier one. Returns false if the
     /// run has ended.
     fn may_begin(&self, i: usize) -> bool {
         let is_early = |(due, is_over): &mut (usize, bool)| !*is_over && i >= *due + self.most;
@@ -107,7 +107,7 @@ impl TurnState {
     }
 }
 
-/// Releases all waiting threads when it is dropped, even after an error or a panic.
+/// Releases all waiting threads when it is dropped, also after an error or a panic.
 struct StopGuard<'a>(&'a TurnState);
 
 impl Drop for StopGuard<'_> {
@@ -172,7 +172,7 @@ mod tests {
         let work = |i: usize| {
             begun.fetch_add(1, Ordering::SeqCst);
             if i == 0 {
-                // As many pieces as may start have started, and no more will, however long the first one takes.
+                // All pieces that may start have started. No more will start while the first one runs.
                 while begun.load(Ordering::SeqCst) < 3 * MAX_WAITING_PER_THREAD {
                     std::thread::yield_now();
                 }

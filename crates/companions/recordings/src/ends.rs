@@ -6,9 +6,9 @@ use cplan_model::{Arm, Elbow, Goal};
 use cplan_text::length;
 use thiserror::Error;
 
-/// Largest distance of a motion's ends from the required start and goal, radians or metres. If joint values are printed
-/// with six decimals, a tip several metres from its joints moves by about this much. It is less than the repeatability
-/// of any arm.
+/// Largest allowed distance between the ends of a motion and the required start and goal, in radians or metres. If
+/// joint values are printed with six decimals, the tip of an arm of several metres is uncertain by about this much. The
+/// tolerance is smaller than the repeatability of any arm.
 pub const END_TOLERANCE: f64 = 1e-5;
 
 /// A difference from the required start or goal.
@@ -50,9 +50,8 @@ pub enum EndpointError {
     },
 }
 
-/// Returns the differences from the start and from the goals that exceed [`END_TOLERANCE`], up to whole turns of joints
-/// on circles. It suffices if the motion ends at one of the goals. If it ends at none, the difference from the first
-/// one is reported.
+/// Returns the differences from the start and from the goals that exceed [`END_TOLERANCE`]. Whole turns of continuous joints do
+/// not count. The motion may end at any of the goals. If it ends at none, the difference from the first goal is reported.
 pub fn endpoint_errors(arm: &Arm, recording: &Recording, start: Option<Goal>, goals: &[Goal]) -> Vec<EndpointError> {
     let positions = recording.positions();
     let (first, last) = (positions[0], positions[positions.len() - 1]);

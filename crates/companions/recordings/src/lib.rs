@@ -1,13 +1,15 @@
 //! Judges recorded motions and tasks of any origin, and the claims in their files.
 //!
 //! - [`verify`] returns the verdict on a recording with all findings, as `cplan verify` prints it.
-//! - [`replay()`] repeats a recorded task: it matches the recorded steps with the task's (`order`), tracks the objects
-//!   and the load from the recorded configurations (`state`), and judges each motion in the scene of its moment.
+//! - [`replay()`] repeats a recorded task: it matches the recorded steps with those of the task (`order`), computes the
+//!   places of the objects and of the load from the recorded configurations (`state`), and judges each motion among the
+//!   objects as they are at that time.
 //! - [`false_claims`] judges the claims of a result. The samples are the motion, and all other members are claims about
 //!   it.
 //! - [`farthest_from_plan`] compares a recorded motion with the planned one.
 //!
-//! Collisions, limits and turns are judged by [`cplan_motion::recorded`], as are the motions that cplan plans itself.
+//! [`cplan_motion::recorded`] judges collisions, limits and turns, both for recordings and for the motions that cplan
+//! plans itself.
 
 mod claims;
 mod ends;

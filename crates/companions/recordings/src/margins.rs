@@ -1,12 +1,12 @@
-//! The margins of a recorded motion.
+//! The margins of a recorded motion to obstacles and limits.
 
 use cplan_handling::{HeldMotion, Recording, TimedScene};
 use cplan_motion::recorded::swept_by_tool;
 use cplan_motion::{BodyNames, MarginSearch, Margins, MotionStretch};
 use cplan_world::LoadedScene;
 
-/// Returns the margins of a motion that is proven free with this clearance, in metres. While a tool moves, each part of the
-/// arm counts with all heights and angles that it has during the motion.
+/// Returns the margins of a motion that is proven free with this clearance, in metres. If a tool moves, each part of
+/// the arm counts with all heights and angles that it takes during the motion.
 pub(super) fn margins(
     loaded: &LoadedScene,
     recording: &Recording,

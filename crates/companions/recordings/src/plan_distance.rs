@@ -1,9 +1,9 @@
 //! The greatest distance of a recorded motion from a planned one.
 //!
-//! The distance of a place of the recorded motion is that from the nearest place of the planned one. Times are not compared,
-//! since a controller may begin later, or move more slowly. The planned motion is replaced by chords that are near enough.
-//! The distance of the recorded motion changes no faster than the motion itself, which bounds it between the places of
-//! the search.
+//! The distance of a place of the recorded motion is that to the nearest place of the planned motion, at whatever time:
+//! a controller may begin later, or move more slowly. Chords replace the planned motion up to a small tolerance.
+//! Between two places of the recorded motion, the distance changes by at most as much as the arm moves. This bounds the
+//! distance in intervals, which are halved until the greatest distance is known.
 
 use cplan_geometry::Point;
 use cplan_handling::{Piece, Recording};
@@ -21,10 +21,10 @@ const CHORD_TOLERANCE: f64 = 1e-6;
 /// Greatest number of chords per piece of the planned motion.
 const MAX_CHORDS: f64 = 4096.0;
 
-/// Share of the greatest distance up to which it is known.
+/// Relative accuracy of the greatest distance.
 const RELATIVE_TOLERANCE: f64 = 1e-2;
 
-/// Distance, radians or metres, up to which the greatest distance is known in any case.
+/// Absolute accuracy of the greatest distance, radians or metres. The coarser of both accuracies applies.
 const TOLERANCE: f64 = 1e-5;
 
 /// Greatest number of halvings of a piece of the recorded motion.
@@ -36,16 +36,16 @@ const CHORDS_PER_BOX: usize = 32;
 /// The place of a recorded motion that is farthest from a planned one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FarthestPlace {
-    /// Distance from the planned motion, radians or metres: the greatest one up to 1 % or a hundredth of a milliradian
-    /// or millimetre.
+    /// Distance from the planned motion, radians or metres. The greatest distance exceeds it by at most 1 % or 1e-5,
+    /// whichever is more.
     pub distance: f64,
     /// The place.
     pub moment: Moment,
 }
 
-/// Returns the place of a recorded motion whose configuration is farthest from the planned motion, by Euclidean distance in
-/// joint space, and that whose tip is farthest from the path of the planned tip. Whole turns of continuous joints between
-/// both motions do not count.
+/// Returns two places of a recorded motion: the one farthest from the planned motion, by Euclidean distance in joint
+/// space, and the one where the tip is farthest from the path of the planned tip. Whole turns of continuous joints
+/// between the two motions do not count.
 pub fn farthest_from_plan(arm: &Arm, recording: &Recording, plan: &Recording) -> [FarthestPlace; 2] {
     let shift = turns_between(arm, recording.positions()[0], plan.positions()[0]);
     let pieces = recording.pieces();
@@ -66,7 +66,7 @@ fn turns_between(arm: &Arm, from: Configuration, to: Configuration) -> Configura
     Configuration::new(turns(0), turns(1))
 }
 
-/// Returns bounds on the speed of the tip per unit of each joint.
+/// Returns bounds on the speed of the tip per unit of speed of each joint.
 fn tip_rates(arm: &Arm, recording: &Recording) -> [f64; 2] {
     let [first, second] = arm.joints.each_ref().map(|joint| joint.joint_type.is_revolute());
     let pieces = recording.pieces();
@@ -75,7 +75,7 @@ fn tip_rates(arm: &Arm, recording: &Recording) -> [f64; 2] {
     [if first { out } else { 1.0 }, if second { arm.tip.norm() } else { 1.0 }]
 }
 
-/// Returns the corners of chords of a motion in joint space, and of the path of its tip.
+/// Returns the corners of two chains of chords: of the motion in joint space, and of the path of its tip.
 fn chords(arm: &Arm, plan: &Recording) -> (Vec<Configuration>, Vec<Point>) {
     let reach = tip_rates(arm, plan);
     let mut corners = vec![plan.positions()[0]];
@@ -86,7 +86,7 @@ fn chords(arm: &Arm, plan: &Recording) -> (Vec<Configuration>, Vec<Point>) {
             let steps = control.windows(2).map(|pair| (pair[1][k] - pair[0][k]).abs());
             piece.degree() as f64 * steps.fold(0.0, f64::max)
         };
-        // Bounds on the second derivatives of the configuration and of the tip by the share of the piece.
+        // Bounds on the second derivatives of configuration and tip with respect to the share of the piece.
         let of_joints = bend[0].hypot(bend[1]);
         let turned = speed(0) + speed(1);
         let of_tip = reach[0] * bend[0] + reach[1] * bend[1] + (1.0 + reach[0]) * turned * turned;
@@ -141,8 +141,8 @@ impl Chords {
     }
 }
 
-/// Returns the place with the greatest distance. `most` bounds the change of the distance, given bounds on the motion of
-/// both joints.
+/// Returns the place with the greatest distance. `most` converts bounds on the motion of both joints into a bound on
+/// the change of the distance.
 fn farthest(
     pieces: &[Piece],
     distance: &dyn Fn(Configuration) -> f64,

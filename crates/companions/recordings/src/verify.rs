@@ -14,8 +14,8 @@ use cplan_motion::recorded::{
 use cplan_robot::InputError;
 use cplan_world::{AllJoints, LoadedRecording, LoadedScene, Overrides, Rules};
 
-/// Judges a recording. It must lead from the world's start to its goal, or to those of `overrides`. If `anywhere` is
-/// true, it may begin and end at any configuration. A recording with steps is judged as the world's task.
+/// Judges a recording. It must lead from the start to the goal of the world, or of `overrides`. If `anywhere` is true,
+/// it may begin and end at any configuration. A recording with steps is judged as the world's task.
 ///
 /// # Errors
 /// Overrides that do not suit the world, and steps that an arm of this kind cannot do.
@@ -47,7 +47,6 @@ pub fn verify(
     Ok(findings.leaving(claims))
 }
 
-/// Judges the recording as one motion.
 fn judge_motion(
     loaded: &LoadedScene,
     (recording, held): (&Recording, &[HeldMotion]),
@@ -101,7 +100,8 @@ fn judge_motion(
         [] => check_collision(scene, recording, clearance),
         held => check_collision_with(scene, recording, held, clearance),
     };
-    // During steps, the tool comes down to objects. With its motion, the arm is judged among the obstacles alone.
+    // During steps, the tool moves down to objects, so the moving tool is judged without objects. The arm with its tool
+    // at rest is judged with them.
     let without_objects;
     let (checked, collision_check) = if loaded.has_steps() && !held.is_empty() {
         without_objects = loaded.without_objects();
@@ -113,7 +113,7 @@ fn judge_motion(
         (scene, with_tool(loaded.timed()))
     };
     let collision_check = match collision_check {
-        // Shapes that are grown for errors may meet although no robot within the errors collides.
+        // Shapes that are enlarged for errors may touch although no robot within the errors collides.
         CollisionCheck::Collision { deepest, .. } if loaded.world.has_errors() => {
             let certain = TimedScene { scene: &scene.inner(), ..loaded.timed() };
             let is_collision =
@@ -135,8 +135,8 @@ fn judge_motion(
     Ok(findings.with_faults(Judgement::Claims, false_claims))
 }
 
-/// Returns the worse of two checks of a motion, each with its scene: a collision, then what is undecided, then the lesser
-/// clearance.
+/// Returns the worse of two checks of a motion, each with its scene. A collision is worst, then an undecided check,
+/// then the smaller clearance.
 fn worse<'s>(one: (&'s Scene, CollisionCheck), other: (&'s Scene, CollisionCheck)) -> (&'s Scene, CollisionCheck) {
     let rank = |(_, check): &(&Scene, CollisionCheck)| match check {
         CollisionCheck::Collision { .. } => (0, 0.0),
@@ -168,7 +168,6 @@ fn tool_errors(loaded: &LoadedScene, recording: &Recording, held: &[HeldMotion])
     Ok(errors)
 }
 
-/// Judges the recording as the world's task.
 fn judge_task(
     loaded: &LoadedScene,
     (task, scene): (&Task, &Scene),
@@ -189,7 +188,7 @@ fn judge_task(
     if misplaced.is_empty() || loaded.has_steps() {
         return Ok(findings.with_faults(Judgement::Task, misplaced));
     }
-    // The file states two motions. The one of all joints is judged as from any other file.
+    // The file states the motion of the tool twice. Judge the motion of all joints like that of any other file.
     let Some(held) = held else { return Ok(findings.with_faults(Judgement::Task, misplaced)) };
     let judged = judge_motion(loaded, (&joints.arm, held), &Claims::default(), overrides, false, Vec::new())?;
     let mut findings = findings.with_faults(Judgement::Task, misplaced).with_faults(Judgement::Ends, judged.faults);

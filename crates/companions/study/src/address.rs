@@ -7,7 +7,7 @@ use strsim::levenshtein;
 use toml::Spanned;
 use toml::de::{DeArray, DeTable, DeValue};
 
-/// One step of an address. An address leads to a value in a file, such as `obstacle.shelf.at[0]`.
+/// A step of an address such as `obstacle.shelf.at[0]`, which leads to a value in a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) enum Step {
     /// The name of a key, element or attribute, or of a named table or element.
@@ -61,15 +61,15 @@ pub(super) fn steps(text: &str) -> Result<Vec<Step>, String> {
 pub(super) struct FoundNumber {
     /// Position of the number, in bytes.
     pub at: Range<usize>,
-    /// True if the number is written without a fraction, as counts must be.
+    /// True if the number is an integer in the file, as counts must be.
     pub is_whole: bool,
 }
 
-/// Keys of a robot or an obstacle that a world file may omit, with their default values.
+/// Keys that a world file may omit for a robot or an obstacle, with their default values.
 const DEFAULT_KEYS: [(&str, &str); 2] = [("at", "[0.0, 0.0]"), ("angle", "0.0")];
 
-/// Returns the text of a world with the number at an address written out, if it is a default of a robot or an obstacle.
-/// Otherwise returns the same text.
+/// Returns the text of a world in which the number at an address is written out. Returns the same text unless the
+/// number is an omitted default of a robot or an obstacle.
 pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
     let (table, key) = match steps {
         [Step::Name(robot), Step::Name(key), ..] if robot == "robot" => (&steps[..1], key),
@@ -77,7 +77,7 @@ pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
         _ => return text.to_owned(),
     };
     let Some((_, silent)) = DEFAULT_KEYS.iter().find(|(silent, _)| silent == key) else { return text.to_owned() };
-    // Tables can be written in several forms. The first insertion that puts the number at its address is right.
+    // TOML has several forms of tables. Take the first insertion after which the address leads to a number.
     let candidates = [
         insert_into_table(text, table, key, silent),
         append_table(text, table, key, silent),
@@ -87,7 +87,7 @@ pub(super) fn written_out(text: &str, steps: &[Step]) -> String {
     written.filter(|_| in_world(text, steps).is_err()).unwrap_or_else(|| text.to_owned())
 }
 
-/// Inserts the key at the beginning of its table. `None` if the table has no header and is not inline.
+/// Inserts a key at the beginning of its table. `None` if the table has no header and is not inline.
 fn insert_into_table(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     let document = DeTable::parse(text).ok()?;
     let (_, at) = descend(document.get_ref(), document.span(), table).ok()?;
@@ -102,7 +102,7 @@ fn insert_into_table(text: &str, table: &[Step], key: &str, silent: &str) -> Opt
     Some(format!("{before}{break_before}{written}{after}"))
 }
 
-/// Appends a table `[robot]` with the key, for a robot without keys, or with keys in subtables only.
+/// Appends a table `[robot]` with the key, for a robot that has no keys of its own.
 fn append_table(text: &str, table: &[Step], key: &str, silent: &str) -> Option<String> {
     (table.len() == 1).then(|| format!("{}\n\n[robot]\n{key} = {silent}\n", text.trim_end()))
 }
@@ -128,7 +128,7 @@ fn value_with_span<'a>(value: &'a Spanned<DeValue<'a>>) -> (DeRef<'a>, Range<usi
     (seen, value.span())
 }
 
-/// Returns the value to which the steps lead. In a list of tables, a name leads to the table whose `name` it is.
+/// Returns the value to which the steps lead. In a list of tables, a name selects the table with this `name`.
 fn descend<'a>(root: &'a DeTable<'a>, at: Range<usize>, steps: &[Step]) -> Result<(DeRef<'a>, Range<usize>), String> {
     let mut here = (DeRef::Table(root), at);
     for step in steps {
@@ -209,8 +209,7 @@ pub(super) fn is_angle(address: &str) -> bool {
     names.by_ref().take(2).any(|name| ANGLE_KEYS.contains(&name))
 }
 
-/// Returns the addresses of all numbers of a world file, without the prefix `world.`. Includes those of defaults that
-/// the file does not state.
+/// Returns the addresses of all numbers of a world file, without the prefix `world.`. Includes omitted defaults.
 pub(super) fn all_in_world(text: &str) -> Vec<String> {
     let mut found = vec!["robot.at[0]".to_owned(), "robot.at[1]".to_owned(), "robot.angle".to_owned()];
     if let Ok(document) = DeTable::parse(text) {
@@ -248,7 +247,6 @@ fn numbers_of(value: &DeValue, path: &str, found: &mut Vec<String>) {
     }
 }
 
-/// Quotes a name for an address.
 fn quoted(name: &str) -> String {
     if name.contains([' ', '.', '[']) { format!("\"{name}\"") } else { name.to_owned() }
 }
@@ -281,16 +279,15 @@ fn numbers_of_element(element: roxmltree::Node, path: &str, found: &mut Vec<Stri
     }
 }
 
-/// Number of known addresses that are compared with a wrong one to find a hint. Maps and drawings may have more.
+/// Largest number of known addresses that are searched for a hint. Maps and drawings may have more.
 const MAX_COMPARED_ADDRESSES: usize = 10_000;
 
-/// Returns the known address that is closest to a wrong one.
 pub(super) fn nearest(address: &str, known: Vec<String>) -> Option<String> {
     known.into_iter().take(MAX_COMPARED_ADDRESSES).min_by_key(|known| levenshtein(address, known))
 }
 
-/// Returns the number at an address in a URDF. The first steps are tags of elements; after `joint` and `link`, a name
-/// follows. The last steps are an attribute, and the index of the number in it.
+/// Returns the number at an address in a URDF. The address consists of tags of elements, an attribute, and the index of
+/// the number in it. A name follows the tags `joint` and `link`.
 ///
 /// # Errors
 /// The reason, if there is no number.

@@ -31,7 +31,7 @@ pub fn with_unit(value: f64, unit: Option<&str>) -> String {
     })
 }
 
-/// A quantity as an axis shows it: with a title that has the unit, and with values in that unit.
+/// A quantity on an axis: its title with the unit, and its values in that unit.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shown {
     /// Name and unit.
@@ -41,7 +41,7 @@ pub struct Shown {
 }
 
 impl Shown {
-    /// Chooses the unit for values between these: millimetres if all are below a metre, degrees instead of radians.
+    /// Chooses the unit for values in a range: millimetres if all are below a metre, and degrees instead of radians.
     pub fn new(name: &str, unit: Option<&str>, range: [f64; 2]) -> Self {
         let greatest = range[0].abs().max(range[1].abs());
         let (unit, factor) = match unit {
@@ -53,7 +53,7 @@ impl Shown {
         Self { title, origin: 0.0, factor }
     }
 
-    /// Chooses the unit of a measure for values between these.
+    /// Chooses the unit of a measure for values in a range.
     pub fn of(measure: Measure, range: [f64; 2]) -> Self {
         match measure {
             Measure::OverBound => Self { title: format!("{} (%)", label(measure)), origin: 1.0, factor: 100.0 },
@@ -76,7 +76,7 @@ pub fn label(measure: Measure) -> &'static str {
     }
 }
 
-/// Formats a value of a measure with its unit for readers. An excess is rounded up, a proven clearance down.
+/// Formats a value of a measure with its unit for readers. Excess lengths are rounded up, and proven clearances down.
 pub fn measured(measure: Measure, value: f64) -> String {
     match measure {
         Measure::OverBound => percent(value - 1.0),
@@ -128,8 +128,8 @@ fn headline(study: &Study, summary: &Summary) -> String {
     format!("Choose {}", choices.join(", "))
 }
 
-/// Returns the subject of parameters that are coordinates of one thing, such as `base` of `base x` and `base y`, and the
-/// names of the coordinates. `None` for other parameters.
+/// Returns the common subject of parameters that are coordinates, and the names of the coordinates. For `base x` and
+/// `base y`, these are `base` and `x`, `y`. `None` for other parameters.
 fn common_subject(parameters: &[Parameter]) -> Option<(&str, Vec<&str>)> {
     let split: Option<Vec<(&str, &str)>> = parameters.iter().map(|p| p.name.rsplit_once(' ')).collect();
     let split = split?;
@@ -138,7 +138,7 @@ fn common_subject(parameters: &[Parameter]) -> Option<(&str, Vec<&str>)> {
     is_place.then(|| (subject, split.into_iter().map(|(_, axis)| axis).collect()))
 }
 
-/// Describes the best value, and how much better it is than the median of the layouts that fit.
+/// Describes the best value, and its advantage over the median of the layouts that fit.
 fn advantage(study: &Study, objective: Objective, best: &Row, rows: &[Row]) -> String {
     let mut costs: Vec<f64> = rows.iter().map(|row| study.cost(row)).filter(|cost| cost.is_finite()).collect();
     costs.sort_by(f64::total_cmp);
@@ -155,7 +155,7 @@ fn advantage(study: &Study, objective: Objective, best: &Row, rows: &[Row]) -> S
     format!("{shown}: {percent} better than the median of the {} layouts that fit ({median})", costs.len())
 }
 
-/// Returns the numbers of layouts by their ending.
+/// Describes the numbers of layouts by their ending.
 fn counts(summary: &Summary) -> String {
     let sign = |ending: Ending| match ending {
         Ending::Found => ("o-found", "\u{2713}"),
@@ -179,7 +179,7 @@ pub fn command(study: &Study, layout: usize) -> String {
     let file = for_a_shell(&study.source.name());
     match layout < study.count() {
         true => format!("cplan study {file} --layout {layout} --output layout_{layout}.toml"),
-        // Layouts of the search have no numbers that the program can look up.
+        // Layouts of the search have no number that the program can look up.
         false => format!("cplan study {file} --output best.toml"),
     }
 }

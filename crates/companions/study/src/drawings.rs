@@ -12,7 +12,7 @@ use std::collections::BTreeMap;
 /// Largest number of layouts that are drawn. Drawing a layout takes about a millisecond and some hundred bytes.
 const MAX_DRAWN_LAYOUTS: usize = 2500;
 
-/// Rounding of coordinates, as a fraction of the arm's reach. On a drawing as wide as a phone it is a tenth of a pixel.
+/// Rounding of coordinates, as a fraction of the arm's reach. This is a tenth of a pixel on a phone.
 const ROUNDING: f64 = 2e-4;
 
 /// Role of the arm at the start. Obstacles have their numbers instead.
@@ -20,7 +20,7 @@ const START: i64 = -1;
 /// Role of the arm at the goal.
 const GOAL: i64 = -2;
 
-/// Drawings of layouts. Shapes that are the same in several layouts, up to their places, are stored once.
+/// Drawings of layouts. A shape that several layouts share, up to its place, is stored once.
 #[derive(Debug, Default)]
 pub struct Drawings {
     /// Rounding of all coordinates, in metres. Zero before the first drawing.
@@ -36,7 +36,7 @@ pub struct Drawings {
 }
 
 impl Drawings {
-    /// Draws these layouts, as far as their files can be read.
+    /// Draws these layouts. Skips those that cannot be read.
     pub fn new<'a>(study: &Study, rows: impl Iterator<Item = &'a Row>) -> Self {
         let mut drawings = Self::default();
         for row in rows {
@@ -48,7 +48,7 @@ impl Drawings {
     }
 
     fn add(&mut self, study: &Study, row: &Row) {
-        // An error inside one layout only leaves out its drawing.
+        // Skip the drawing of a layout in which an error occurs.
         let Ok(Ok(problem)) = caught(|| study.problem(&row.values)) else { return };
         let scene = problem.scene();
         if self.unit == 0.0 {
@@ -92,7 +92,7 @@ impl Drawings {
         [role, index as i64, x, y]
     }
 
-    /// Returns the drawings as the page's script reads them.
+    /// Returns the drawings in the format of the page's script.
     pub fn to_json(&self) -> Value {
         let colors: Vec<String> = (0..self.obstacles).map(|number| cplan_theme::obstacle(number).to_string()).collect();
         let flat = |placed: &Vec<[i64; 4]>| placed.iter().flatten().copied().collect::<Vec<i64>>();
@@ -101,7 +101,7 @@ impl Drawings {
     }
 }
 
-/// Returns the parts of the arm without a payload in a configuration.
+/// Returns the parts of the arm in a configuration, without a payload.
 fn outlines<'a>(arm: &'a Arm, scene: &'a Scene, q: Configuration) -> impl Iterator<Item = Convex> + use<'a> {
     let poses = arm.poses(q);
     (0..2).flat_map(move |k| scene.own_parts(k).iter().map(move |part| part.shape.at(&poses[k])))

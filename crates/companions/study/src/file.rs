@@ -21,7 +21,6 @@ pub type ReadOptions<'a> = &'a dyn Fn(&[String]) -> Result<(Options, Overrides),
 /// A function that reads a file that a study names. The second argument is the file's name, if the study states one.
 type OpenFile<'a> = &'a dyn Fn(NamedFile, Option<&str>) -> Result<Source, InputError>;
 
-/// A reader of a study file. It knows the file for its messages.
 struct Reader<'a> {
     source: &'a Source,
 }
@@ -138,7 +137,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Reads measures, conditions and the objective. Worlds with steps have no lower bounds.
+    /// Reads measures, conditions and the objective. Worlds with steps have no lower bounds on lengths.
     fn goals(&self, file: &StudyFile, has_steps: bool) -> Result<Goals, Diagnostic> {
         let named: Vec<Measure> = match &file.measure {
             None => Measure::ALL.to_vec(),
@@ -170,14 +169,12 @@ impl Reader<'_> {
         self.source.diagnostic_at(at, message).help(help)
     }
 
-    /// Returns the diagnostic of invalid options, on one line.
     fn options(&self, words: &Spanned<Vec<String>>, why: &str) -> Diagnostic {
         let reasons: Vec<&str> = why.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
         let help = "`options` contains planning options (`cplan help plan`); name output files on the command line of `cplan study`";
         self.wrong(words.span(), format!("options: {}", reasons.join("; ")), help)
     }
 
-    /// Reads a file that the study names.
     fn named(&self, which: NamedFile, name: Option<&Text>, open: OpenFile) -> Result<Source, InputError> {
         let named = name.map(|name| name.get_ref().as_str());
         open(which, named).map_err(|error| match (name, error.diagnostics()) {
@@ -189,7 +186,7 @@ impl Reader<'_> {
         })
     }
 
-    /// Parses a word of the study file with `read`.
+    /// Parses a text of the study file with `read`.
     fn word<T>(&self, text: &Text, read: fn(&str) -> Result<T, String>) -> Result<T, Diagnostic> {
         let help = "write conditions as in \"clearance >= 0.01\", and objectives as in \"least duration\"";
         read(text.get_ref()).map_err(|why| self.wrong(text.span(), why, help))
@@ -269,7 +266,7 @@ impl Reader<'_> {
         Ok(Parameter { name, unit, values })
     }
 
-    /// Checks that parameters have different names, and none has the name of another column.
+    /// Checks that the names of parameters differ from each other and from those of other columns.
     fn distinct(&self, tables: &[Spanned<ParameterTable>]) -> Result<(), Diagnostic> {
         let names = || tables.iter().map(|table| &table.get_ref().name);
         for (number, name) in names().enumerate() {
@@ -309,7 +306,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the templates of world and robot, with the places of the numbers that the parameters set.
+    /// Returns the templates of world and robot, with placeholders for the numbers that the parameters set.
     fn templates(
         &self,
         tables: &[Spanned<ParameterTable>],
@@ -349,7 +346,7 @@ impl Reader<'_> {
         Ok([template(world, Place::World)?, template(urdf, Place::Urdf)?])
     }
 
-    /// Returns the position in the study file of one of the addresses that a parameter sets.
+    /// Returns the position, in the study file, of the address with this number among those that a parameter sets.
     fn target(&self, tables: &[Spanned<ParameterTable>], parameter: usize, number: usize) -> Range<usize> {
         let sets = &tables[parameter].get_ref().sets;
         let entry =

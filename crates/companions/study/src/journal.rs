@@ -1,4 +1,4 @@
-//! The journal: it keeps rows on disk while a study runs, so that an interrupted study can be continued.
+//! The journal of a study: rows are saved while it runs, so that an interrupted study can continue.
 
 use super::Study;
 use super::row::Row;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 use thiserror::Error;
 
-/// Longest time for which appended rows may remain unwritten.
+/// Longest time before appended rows are written to disk.
 const MAX_WRITE_DELAY: Duration = Duration::from_millis(200);
 
 /// The reason why a journal cannot be used.
@@ -37,7 +37,7 @@ pub enum JournalError {
     },
 }
 
-/// The inputs on which the rows depend. A journal begins with them.
+/// The inputs on which the rows depend. They are the first line of a journal.
 #[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct JournalHeader {
     cplan: String,
@@ -46,7 +46,7 @@ struct JournalHeader {
     urdf: String,
 }
 
-/// The journal of a study, a file with one line per row, in order. It lets an interrupted study continue.
+/// The journal of a study: a file with one row per line, in order.
 #[derive(Debug)]
 pub struct Journal {
     path: PathBuf,
@@ -55,10 +55,10 @@ pub struct Journal {
 }
 
 impl Journal {
-    /// Opens the journal of a study, and reads its rows. They are those of the first layouts, without a gap. Drops an
-    /// incomplete last line, which remains if the program is killed while it writes.
+    /// Opens the journal of a study and reads its rows, which are those of the first layouts, without a gap. Drops an
+    /// incomplete last line, as it remains if the program is killed while writing.
     ///
-    /// With `fresh`, drops all rows, even those of another study. A file that is not a journal is never changed.
+    /// With `fresh`, drops all rows, even if they belong to another study. A file that is not a journal is never changed.
     ///
     /// # Errors
     /// A journal of another study, a file that is not a journal, a journal in use by another run, and errors of the
@@ -67,7 +67,7 @@ impl Journal {
         let system = |source| JournalError::System { path: path.to_owned(), source };
         let mut file =
             OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path).map_err(system)?;
-        // On systems that cannot lock files, other runs are not kept out.
+        // If the system cannot lock files, two runs may use the same journal.
         if let Err(TryLockError::WouldBlock) = file.try_lock() {
             return Err(JournalError::Busy { path: path.to_owned() });
         }
@@ -94,7 +94,7 @@ impl Journal {
             }
             length += read as u64;
         }
-        // A file without any complete line is a journal only if it begins like this one.
+        // A file without a complete line is a journal only if it is the beginning of this journal's first line.
         if length == 0
             && line.last() != Some(&b'\n')
             && !line.is_empty()

@@ -1,9 +1,9 @@
 //! Studies: one task in many layouts.
 //!
-//! A [`Study`] consists of a robot in a world, of parameters that set numbers in the files of both, and of measures. A
-//! layout is the same two files with other numbers. So any number in the files can be varied, and each layout can be
+//! A [`Study`] consists of a robot in a world, of parameters that set numbers in their files, and of measures. A layout
+//! is the same pair of files with other numbers. So parameters can set any number of the files, and each layout can be
 //! written to files and planned separately ([`Study::layout`]). A layout's row depends only on its number and the
-//! files: rows are the same for any number of threads, machines and interruptions.
+//! files, not on threads, machines or interruptions.
 //!
 //! ```text
 //! study.toml -> Study -> Row, Row, ... -> Table -> CSV; Parquet with the feature `parquet`
@@ -66,7 +66,7 @@ pub struct Study {
     pub conditions: Vec<Condition>,
     /// The objective that ranks layouts.
     pub objective: Option<Objective>,
-    /// Largest number of layouts that the search for a better one may try.
+    /// Largest number of layouts that the search for a better layout may try.
     pub searched: usize,
     /// Seed of the random numbers of draws and search.
     seed: u64,
@@ -80,7 +80,7 @@ pub struct Study {
     options: Options,
     /// The planning options as text.
     words: Vec<String>,
-    /// True if obstacles may overlap in a layout even if they do not overlap in the world file.
+    /// True if layouts may have overlapping obstacles that do not overlap in the world file.
     may_overlap: bool,
     overrides: Overrides,
 }
@@ -96,7 +96,7 @@ impl Study {
         self.source.files().into_iter().chain(self.base.files()).collect()
     }
 
-    /// Reads a study file, and the robot and the world that it names. `robot` adds the conversion of the robot's file.
+    /// Reads a study file, and the robot and the world that it names. `robot` states how to convert the robot's file.
     ///
     /// # Errors
     /// All defects of the files, with line, column and hint.
@@ -118,8 +118,8 @@ impl Study {
         })
     }
 
-    /// Returns the texts of study, robot and world, from which [`Study::from_sources`] creates the same study. In the
-    /// text of the world, defaults that parameters set are written out.
+    /// Returns the texts of study, robot and world. [`Study::from_sources`] creates the same study from them. In the
+    /// world's text, defaults that parameters set are written out.
     pub fn sources(&self) -> [&Source; 3] {
         [&self.source, self.urdf.source(), self.world.source()]
     }
@@ -134,8 +134,7 @@ impl Study {
         !self.urdf.is_fixed()
     }
 
-    /// Returns the number of layouts of the study itself, whether listed or drawn. Those of the search are not
-    /// included.
+    /// Returns the number of layouts that are listed or drawn. Layouts of the search are not included.
     pub fn count(&self) -> usize {
         self.design.count()
     }
@@ -190,7 +189,7 @@ impl Study {
     }
 
     fn row_of(&self, layout: usize, values: Vec<f64>) -> Row {
-        // An error inside one layout becomes its row. An interruption of the whole study also unwinds; it is passed on.
+        // An error in one layout becomes its row. An interruption of the whole study also unwinds, but is passed on.
         let judged = caught(|| self.measure_layout(&values)).unwrap_or_else(Err);
         let (ending, reason, measured) = match judged {
             Ok(judged) => judged,
@@ -209,7 +208,7 @@ impl Study {
             return Err(lack);
         }
         if let (Some(motion), true) = (problem.motion(), self.measures.iter().all(|measure| measure.is_of_the_path())) {
-            // Measures of the path alone need no motion along it.
+            // If only the path is measured, no motion is computed.
             let answer = solve(motion, &self.options, &mut |_| ());
             let (length, bound) = (answer.path().map(|path| path.length()), answer.bound());
             let measured = self.measures.iter().map(|measure| measure.of_path(length, bound)).collect();
@@ -218,7 +217,7 @@ impl Study {
         let plan = plan(&problem, &self.options, SEARCHES, &mut |_| ()).map_err(|error| error.to_string())?;
         let measured = self.measures.iter().map(|measure| measure.of(&plan)).collect();
         let ending: Ending = plan.status().into();
-        // The reason of a task begins with the ending, which tables state beside it.
+        // The reason of a task begins with the ending, which is a column of its own in tables.
         let reason = plan.reason().map(|reason| match reason.strip_prefix(&format!("{}: ", ending.name())) {
             Some(rest) => rest.to_owned(),
             None => reason,
@@ -226,8 +225,8 @@ impl Study {
         Ok((ending, reason, measured))
     }
 
-    /// Computes the rows of these layouts on `jobs` threads. Passes each row to `each`, in order, as soon as all rows
-    /// before it have been passed.
+    /// Computes the rows of these layouts on `jobs` threads. Passes the rows to `each` in order, each as soon as it and
+    /// all earlier rows are known.
     ///
     /// # Errors
     /// The error of `each`.
@@ -236,11 +235,10 @@ impl Study {
     }
 }
 
-/// The ending of planning, the reason if there is no motion, and the measured values.
+/// The ending, the reason if there is no motion, and the measured values.
 type LayoutResult = (Ending, Option<String>, Vec<Option<f64>>);
 
-/// Returns the first defect on one line. Omits its position in a file, because the files of a layout exist only in
-/// memory.
+/// Describes the first defect on one line. Omits its position, because the files of a layout exist only in memory.
 fn describe_error(error: &InputError) -> String {
     error.diagnostics().first().map_or_else(|| error.to_string(), |first| first.message.clone())
 }

@@ -73,7 +73,7 @@ impl Measure {
     pub(super) fn of_path(self, length: Option<f64>, bound: Option<Bound>) -> Option<f64> {
         match self {
             Self::Length => length,
-            // The ratio is in the metric that was requested, which may differ from that of lengths.
+            // This ratio is in the requested metric. The measured length may be in another one.
             Self::OverBound => bound.and_then(|bound| length_ratio(bound.upper, bound.lower)),
             Self::LowerBound => bound.map(|bound| bound.lower),
             Self::Clearance | Self::Duration => None,
@@ -112,8 +112,8 @@ impl Condition {
         Ok(Self { measure: Measure::named(measure.trim())?, at_least, bound })
     }
 
-    /// Returns true if a value satisfies the condition. A missing value does not, with one exception: a missing
-    /// clearance means that no obstacle is within reach, so it satisfies every lower bound.
+    /// Returns true if a value satisfies the condition. A missing clearance means that no obstacle is within reach, so
+    /// it satisfies every lower bound. Other missing values satisfy no condition.
     pub(super) fn holds(&self, value: Option<f64>) -> bool {
         let unbounded = (self.measure == Measure::Clearance).then_some(f64::INFINITY);
         value.or(unbounded).is_some_and(|value| if self.at_least { value >= self.bound } else { value <= self.bound })
@@ -153,7 +153,7 @@ impl Objective {
         }
     }
 
-    /// Converts a value to a cost, for which less is better. The same conversion turns a cost back into the value.
+    /// Converts a value to a cost, where less is better. Applied to a cost, it returns the value.
     pub(super) fn cost(&self, value: f64) -> f64 {
         if self.most { -value } else { value }
     }

@@ -3,16 +3,15 @@
 use cplan_geometry::{Bounds, BoxTree, Convex, separation};
 use cplan_model::Obstacle;
 
-/// Depth up to which overlapping obstacles count as only touching, in metres. It covers the rounding of numbers in
-/// files and of moved shapes.
+/// Depth up to which obstacles count as touching, in metres. It covers the rounding of numbers in files and of moved shapes.
 const TOUCHING_DEPTH: f64 = 1e-9;
 
-/// Describes two obstacles that overlap in the layout (`now`), but not in the files (`before`). `None` if there are
-/// none. Examines only pairs in which at least one obstacle differs from the files.
+/// Describes two obstacles that overlap in the layout (`now`), but not in the files (`before`). Only pairs with an
+/// obstacle that differs from the files are examined.
 pub(super) fn overlap(before: &[Obstacle], now: &[Obstacle]) -> Option<String> {
     let differs = |k: usize| before.get(k) != Some(&now[k]);
     let moved: Vec<usize> = (0..now.len()).filter(|&k| differs(k)).collect();
-    // Often a study moves only the robot, so that no obstacle has moved.
+    // Often a study moves only the robot. Then there are no boxes to compute.
     let around: Vec<Bounds> = if moved.is_empty() { Vec::new() } else { now.iter().map(bounds).collect() };
     for (done, &moved_one) in moved.iter().enumerate() {
         for other in (0..now.len()).filter(|k| !moved[..=done].contains(k)) {
@@ -26,13 +25,12 @@ pub(super) fn overlap(before: &[Obstacle], now: &[Obstacle]) -> Option<String> {
     None
 }
 
-/// Returns true if two obstacles have more than boundary points in common at some height, and neither rests on the
-/// other.
+/// Returns true if two obstacles have more than boundary points in common at some height, and neither lies on top of the other.
 fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
     if !(a.heights.object_definitely_meets(b.heights) && b.heights.object_definitely_meets(a.heights)) {
         return false;
     }
-    // A tree of boxes, because maps have many pieces.
+    // Maps have many pieces, so use a tree of boxes.
     let tree = BoxTree::new(b.pieces.iter().map(Convex::bounds).collect());
     let mut near = Vec::new();
     a.pieces.iter().any(|piece| {
@@ -42,7 +40,6 @@ fn are_in_each_other(a: &Obstacle, b: &Obstacle) -> bool {
     })
 }
 
-/// Returns the bounding box of all pieces of an obstacle.
 fn bounds(obstacle: &Obstacle) -> Bounds {
     let none = [[f64::INFINITY; 2].into(), [f64::NEG_INFINITY; 2].into()];
     let boxes = obstacle.pieces.iter().map(Convex::bounds);
@@ -64,8 +61,8 @@ mod tests {
         Obstacle::polygon(name, corners.map(|[x, y]| [at[0] + x, at[1] + y])).unwrap()
     }
 
-    /// Compares the result with the distance of the centres. Squares of side 1 overlap if it is less than 1 along both
-    /// axes. Discs overlap if it is less than the sum of the radii.
+    /// Compares the result with the distance of the centres. Squares of side 1 overlap if this distance is less than 1
+    /// along both axes. Discs overlap if it is less than the sum of the radii.
     #[test]
     fn overlaps_agree_with_centres() {
         let mut numbers = SplitMix64::nth(5, 0);
@@ -108,7 +105,7 @@ mod tests {
         assert_eq!(overlap(&files, &above), None);
         above[2].heights.lower = 0.9;
         assert_eq!(overlap(&files, &above).as_deref(), Some("\"b\" overlaps \"c\""));
-        // A wall has no area, but still overlaps what it passes through.
+        // A wall has no area, but overlaps shapes that it passes through.
         let wall = |y: f64| Obstacle::polyline("wall", [[-2.0, y], [2.0, y]]).unwrap();
         let files = [wall(3.0), a.clone()];
         assert_eq!(overlap(&files, &[wall(0.5), a.clone()]), None);

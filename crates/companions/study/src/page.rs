@@ -1,6 +1,6 @@
-//! A study as one page of HTML: the answer, heat maps, the Pareto fronts of two measures, the best and worst layouts, and
-//! the reasons why others fail. A script links maps, charts and tables: the layout that the reader points at is drawn,
-//! and is marked everywhere.
+//! A study as one page of HTML: the answer, heat maps, charts of two measures with their Pareto fronts, the best and
+//! the worst layouts, and the reasons why others fail. A script draws the layout that the reader points at, and marks
+//! it in all maps, charts and tables.
 
 use super::Study;
 use super::answer::{self, Shown, label, measured, with_unit};
@@ -19,10 +19,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 /// Largest number of parameters for which each pair has a map.
 const MAX_MAPPED_PARAMETERS: usize = 4;
-/// Number of cells of a map along the axis of a parameter that is drawn, or that has more than [`MAX_LISTED_CELLS`]
-/// values.
+/// Number of cells of a map along an axis whose parameter is drawn, or has more than [`MAX_LISTED_CELLS`] values.
 const CELLS_PER_AXIS: usize = 24;
-/// Largest number of listed values for which each value has its own cell.
+/// Largest number of listed values that each have their own cell.
 const MAX_LISTED_CELLS: usize = 48;
 /// Largest number of points in a chart.
 const MAX_CHART_POINTS: usize = 4000;
@@ -50,7 +49,7 @@ impl Study {
         html + &foot(METHOD_NOTE)
     }
 
-    /// Returns the data of the layouts that the page shows in more than one place, and the script that links them.
+    /// Returns the script that links maps, charts and tables, with its data: the layouts that the page shows in several places.
     fn script(&self, summary: &Summary, rows: &[Row], linked: &BTreeSet<usize>) -> String {
         let shown = || rows.iter().filter(|row| linked.contains(&row.layout));
         let fact = |name: &str, text: String| json!([name, text]);
@@ -74,7 +73,7 @@ impl Study {
             "layouts": layouts,
             "drawings": Drawings::new(self, shown()).to_json(),
         });
-        // Only a less-than sign could end the script.
+        // Only `<` could begin the tag that ends the script.
         let data = data.to_string().replace('<', "\\u003c");
         format!("<script id=\"study\" type=\"application/json\">{data}</script>\n<script>\n{SCRIPT}</script>\n")
     }
@@ -95,8 +94,7 @@ impl Study {
         table(&Table { columns: columns.collect(), rows }).replacen("<table", "<table class=\"words\"", 1)
     }
 
-    /// Draws a map for each pair of parameters. It shows where a motion exists, and the best value of the objective in
-    /// each cell.
+    /// Draws a map for each pair of parameters. A cell shows whether a motion exists, and the best value of the objective.
     fn maps(&self, summary: &Summary, rows: &[Row], linked: &mut BTreeSet<usize>) -> String {
         let mapped = self.parameters.len().min(MAX_MAPPED_PARAMETERS);
         let pairs = (0..mapped).flat_map(|a| (a + 1..mapped).map(move |b| [a, b]));
@@ -168,7 +166,7 @@ impl Study {
         let others = self.measures.iter().filter(|measure| **measure != objective.measure);
         let of = |row: &Row, measure: Measure| self.column(measure).and_then(|column| row.measured[column]);
         let mut charts = String::new();
-        // Dots of the charts so far. A chart with the same dots as an earlier one would show nothing new.
+        // Dots of the charts so far. A chart with the same dots as an earlier one is omitted.
         let mut drawn: Vec<Vec<[f64; 2]>> = Vec::new();
         for other in others {
             let pair = [objective.measure, *other];
@@ -223,7 +221,7 @@ const UNFIT_COLOR: &str = "var(--unknown)";
 /// Colour of a cell in which no layout has a motion, for various reasons.
 const NO_MOTION_COLOR: &str = "var(--undecided)";
 
-/// Meaning of the colours of a map, other than those of the objective.
+/// Legend of a map: colours other than those of the objective.
 const MAP_LEGEND: [(&str, &str); 3] = [
     (UNFIT_COLOR, "a motion that does not meet the conditions"),
     (INFEASIBLE_COLOR, "proven infeasible, in all layouts"),
@@ -255,7 +253,7 @@ const METHOD_NOTE: &str = "Every layout was planned separately. <em>Found</em>: 
                            valid. Reasons are shown without their numbers, so layouts that fail for the same reason \
                            count together.";
 
-/// Returns the section with pictures of layouts, of which the first is unfolded.
+/// Returns the section with pictures of layouts. The first picture is unfolded.
 fn pictures_section(pictures: &[Picture]) -> String {
     let picture = |(number, Picture { title, svg }): (usize, &Picture)| {
         let title = markup(title);
@@ -303,8 +301,7 @@ struct Cell {
     found: usize,
     fitting: usize,
     cost: Option<f64>,
-    /// The layout that stands for the cell: the best one that fits, or otherwise one with the best ending. Its rank, its
-    /// cost and its number.
+    /// Rank, cost and number of the layout that represents the cell: the best one that fits, or else one with the best ending.
     shown: Option<(usize, f64, usize)>,
 }
 

@@ -23,9 +23,9 @@ impl Parameter {
 /// The values of a parameter.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Values {
-    /// Listed values. Each is combined with all values of every other parameter.
+    /// Listed values, combined with all values of every other parameter.
     Listed(Vec<f64>),
-    /// Values in equal steps, combined in the same way as listed ones.
+    /// Values in equal steps, combined like listed ones.
     Stepped {
         /// The first and least value.
         from: f64,
@@ -40,7 +40,7 @@ pub enum Values {
         from: f64,
         /// The greatest value.
         to: f64,
-        /// True for a Latin hypercube: for `n` draws, one in each of `n` equal intervals. False for independent draws.
+        /// True for a Latin hypercube: of `n` draws, there is one in each of `n` equal intervals. False for independent draws.
         latin: bool,
     },
 }
@@ -71,7 +71,7 @@ impl Values {
         }
     }
 
-    /// Returns the least and greatest argument of [`Values::at`]. The search moves between these.
+    /// Returns the least and greatest argument of [`Values::at`], between which the search moves.
     pub(super) fn room(&self) -> [f64; 2] {
         match self {
             Self::Listed(values) => [0.0, values.len() as f64],
@@ -80,7 +80,7 @@ impl Values {
     }
 
     /// Returns the value at a place of the search range. For listed values, the integer part of the place is the index.
-    /// Otherwise the place is the value itself.
+    /// Otherwise the place is the value.
     pub(super) fn at(&self, place: f64) -> f64 {
         match self {
             Self::Listed(values) => values[(place.max(0.0) as usize).min(values.len() - 1)],
@@ -97,7 +97,7 @@ impl Values {
     }
 }
 
-/// All layouts of a study: each combination of listed values, with each of the draws.
+/// All layouts of a study: each combination of listed values, with each draw.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Design {
     /// The columns in the order of the parameters.
@@ -109,15 +109,15 @@ pub(super) struct Design {
 
 #[derive(Debug, Clone, PartialEq)]
 enum Column {
-    /// Listed values. Each one applies to `stays` consecutive layouts before the next follows.
+    /// Listed values. Each one holds for `stays` consecutive layouts.
     Listed { values: Vec<f64>, stays: usize },
     /// A value for each draw.
     Drawn(Vec<f64>),
 }
 
 impl Design {
-    /// Creates the design. From one layout to the next, the draw changes first. After all draws, the listed value of
-    /// the last parameter changes, and so on. Returns `None` if there are more layouts than can be counted.
+    /// Creates the design. The draw changes with every layout. After all draws, the listed value of the last parameter
+    /// changes, then that of the parameter before it, and so on. Returns `None` if the number of layouts overflows.
     pub fn new(parameters: &[Parameter], draws: usize, seed: u64) -> Option<Self> {
         let mut stays = draws;
         let mut columns = Vec::new();
@@ -129,8 +129,7 @@ impl Design {
                     Column::Listed { values, stays: std::mem::replace(&mut stays, next) }
                 }
                 Values::Drawn { from, to, latin } => {
-                    // Each parameter has its own sequence of random numbers, so that adding a parameter does not change
-                    // the draws of others.
+                    // Each parameter has its own sequence of random numbers: adding a parameter changes no other draws.
                     let mut numbers = SplitMix64::nth(seed, number as u64);
                     let shares = if *latin {
                         stratified(draws, &mut numbers)

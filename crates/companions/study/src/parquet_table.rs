@@ -1,4 +1,4 @@
-//! The rows of a study as a Parquet file. The feature `parquet` enables it.
+//! The rows of a study as a Parquet file (feature `parquet`).
 
 use super::Study;
 use super::row::Row;
@@ -87,7 +87,7 @@ impl Study {
     }
 }
 
-/// Splits optional values into those that are present, and a 1 or 0 for each that states whether it is present.
+/// Splits optional values into the present ones, and a flag for each value: 1 if it is present, otherwise 0.
 fn split_optional<T>(values: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
     let (mut there, mut levels) = (Vec::new(), Vec::new());
     for value in values {

@@ -12,7 +12,7 @@ pub struct Row {
     pub values: Vec<f64>,
     /// Ending of planning.
     pub ending: Ending,
-    /// The beginning of the reason why there is no motion, on one line. `None` if there is a motion.
+    /// Beginning of the reason why there is no motion, on one line. `None` if there is a motion.
     pub reason: Option<String>,
     /// Measured values, in the order of the study's measures. `None` for a missing value.
     pub measured: Vec<Option<f64>>,

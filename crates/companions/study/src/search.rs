@@ -1,4 +1,4 @@
-//! The search for a better layout: a particle swarm that begins with the best known layouts.
+//! The search for a better layout by a particle swarm that starts from the best known layouts.
 
 use super::Study;
 use super::measure::Objective;
@@ -9,24 +9,23 @@ use cplan_parallel::run_in_order;
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
-/// Number of layouts in a generation. If a search has fewer than ten generations of this size, its generations are
-/// smaller.
+/// Number of layouts per generation. A search with fewer than ten such generations has smaller ones.
 const GENERATION_SIZE: usize = 40;
 
 /// Cost of a layout that has no motion or violates a condition.
 const EXCLUDED_COST: f64 = f64::INFINITY;
 
 impl Study {
-    /// Returns the cost of a row for the search, where less is better. It is infinite for a layout that has no motion
-    /// or violates a condition.
+    /// Returns the cost of a row, where less is better. The cost is infinite for a layout that has no motion or
+    /// violates a condition.
     pub fn cost(&self, row: &Row) -> f64 {
         let value = |objective: Objective| Some(objective.cost(row.measured[self.column(objective.measure)?]?));
         self.objective.filter(|_| row.fits).and_then(value).unwrap_or(EXCLUDED_COST)
     }
 
-    /// Searches for a better layout on several threads. `known` are the rows of all layouts of the study. `done` are
-    /// the rows of an earlier search that was interrupted. Passes each new layout's row to `each`, in order. No layout
-    /// is planned twice, and `each` gets at most one row per layout. The rows are the same for any number of threads.
+    /// Searches for a better layout on several threads. `known` has the rows of all listed and drawn layouts, and
+    /// `done` those of an interrupted search. Passes the row of each new layout to `each`, in order and only once. No
+    /// layout is planned twice. The rows do not depend on the number of threads.
     ///
     /// # Errors
     /// The error of `each`.
@@ -48,7 +47,7 @@ impl Study {
         let mut numbers = SplitMix64::nth(self.seed, u64::MAX);
         let mut places = self.best_places(known, swarm);
         if places.len() < swarm {
-            // Random places fill the first generation.
+            // Fill the first generation with random places.
             let mut drawn = || rooms.iter().map(|[lower, upper]| lower + (upper - lower) * numbers.unit()).collect();
             let drawn: Vec<Vec<f64>> = (places.len()..swarm).map(|_| drawn()).collect();
             let costs = landscape.costs(&drawn)?;
@@ -58,7 +57,7 @@ impl Study {
         minimize(&rooms, places, generations, &mut numbers, |places| landscape.costs(places))
     }
 
-    /// Returns the places and the costs of the best rows, the best first. There are at most `most` of them.
+    /// Returns the places and costs of at most `most` best rows, the best first.
     fn best_places(&self, known: &[Row], most: usize) -> Vec<(Vec<f64>, f64)> {
         let mut order: Vec<(&Row, f64)> = known.iter().map(|row| (row, self.cost(row))).collect();
         order.sort_by(|(a, a_cost), (b, b_cost)| a_cost.total_cmp(b_cost).then(a.layout.cmp(&b.layout)));
@@ -70,22 +69,22 @@ impl Study {
     }
 }
 
-/// The cost of layouts as a function of the place in the search range. It passes new rows on.
+/// The cost of layouts as a function of the place in the search range.
 struct Landscape<'a, F> {
     study: &'a Study,
     /// The rows of an earlier search, in order.
     done: &'a [Row],
     jobs: usize,
-    /// The number of the first layout that the search tries.
+    /// Number of the first layout of the search.
     first: usize,
     each: F,
-    /// The cost of every layout that has a row, by the bits of its values.
+    /// Costs of all known layouts. The keys are the bits of the layouts' values.
     costs: HashMap<Vec<u64>, f64>,
     tried: usize,
 }
 
 impl<F> Landscape<'_, F> {
-    /// Returns the cost for each place, and passes the rows of new layouts to `each`.
+    /// Returns the costs of these places. Passes the rows of new layouts to `each`.
     fn costs<E>(&mut self, places: &[Vec<f64>]) -> Result<Vec<f64>, E>
     where
         F: FnMut(Row) -> Result<(), E>,
@@ -97,8 +96,7 @@ impl<F> Landscape<'_, F> {
         let layouts: Vec<Vec<f64>> = places.iter().map(values).collect();
         let mut new: Vec<&Vec<f64>> = Vec::new();
         for values in &layouts {
-            // Different places often have the same values: those of listed values, and those beyond the ends of a
-            // range.
+            // Different places often have the same values, because values are listed, or because places lie beyond a range.
             if let Entry::Vacant(entry) = costs.entry(key(values)) {
                 entry.insert(EXCLUDED_COST);
                 new.push(values);
@@ -118,7 +116,7 @@ impl<F> Landscape<'_, F> {
     }
 }
 
-/// Returns values as a key of a map. Positive and negative zero have the same key.
+/// Returns the key of a layout's values. Positive and negative zero have the same key.
 fn key(values: &[f64]) -> Vec<u64> {
     values.iter().map(|value| (value + 0.0).to_bits()).collect()
 }

@@ -1,4 +1,4 @@
-//! Colours of the costs in a map.
+//! Colours of the costs on a map.
 
 use super::answer::Shown;
 use super::measure::Objective;
@@ -6,20 +6,19 @@ use super::summary::format_value;
 use cplan_compare::page::{chart, number, text};
 use cplan_theme::Rgb;
 
-/// Left end and width of the scale of colours, in pixels. They are those of the map above it.
+/// Left end and width of the colour scale, in pixels, as for the map above it.
 const SCALE_EXTENT: [f64; 2] = [78.0, 368.0];
 /// Number of colours of the scale.
 const SCALE_SHADES: usize = 64;
 
-/// Number of parts of the scale, each with a tick at both ends.
+/// Number of parts of the scale. Each has a tick at both ends.
 const SCALE_PARTS: usize = 4;
 
-/// Costs of the cells of a map. Colours follow the ranks: by value, most cells of a typical study would have one colour,
-/// because a few layouts are far worse than the others.
+/// Costs of the cells of a map. Colours follow the ranks of the costs: in a typical study, a few layouts are far worse
+/// than the others, so that colours by value would be the same for most cells.
 pub struct Shades(Vec<f64>);
 
 impl Shades {
-    /// Creates the colours for the costs of all cells.
     pub fn new(mut costs: Vec<f64>) -> Self {
         costs.sort_by(f64::total_cmp);
         Self(costs)
@@ -30,12 +29,11 @@ impl Shades {
         self.0.len().saturating_sub(1)
     }
 
-    /// Returns true if some costs differ.
     fn differ(&self) -> bool {
         self.0.first() < self.0.last()
     }
 
-    /// Returns the colour of a cost: of the middle of the ranks that equal costs share.
+    /// Returns the colour of a cost. Equal costs have the colour of their middle rank.
     pub fn color(&self, cost: f64) -> Rgb {
         let [below, up_to] = [self.0.partition_point(|c| *c < cost), self.0.partition_point(|c| *c <= cost)];
         let rank = (below + up_to).saturating_sub(1) as f64 / 2.0;
@@ -43,8 +41,8 @@ impl Shades {
     }
 }
 
-/// Draws the scale of colours from the least to the greatest cost, with the values between which a quarter of the cells
-/// lie each. Returns an empty text if all costs are equal.
+/// Draws the colour scale from the best to the worst cost, with the quartiles as ticks. Returns an empty text if all
+/// costs are equal, or some are infinite.
 pub fn scale(objective: Objective, shades: &Shades) -> String {
     if !shades.differ() || shades.0.iter().any(|cost| !cost.is_finite()) {
         return String::new();
@@ -61,7 +59,7 @@ pub fn scale(objective: Objective, shades: &Shades) -> String {
         let color = cplan_theme::scale(1.0 - (k as f64 + 0.5) / SCALE_SHADES as f64);
         svg += &format!("<rect x=\"{x}\" y=\"2\" width=\"{width}\" height=\"12\" fill=\"{color}\"/>");
     }
-    // The best value is on the left, whether it is the least or the greatest.
+    // The best value is on the left, both for least and for greatest.
     for part in 0..=SCALE_PARTS {
         let at = left + width * part as f64 / SCALE_PARTS as f64;
         svg += &text("tick", [at, 29.0], &format_value(shown.value(value(part))));

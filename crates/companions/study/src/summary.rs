@@ -14,13 +14,13 @@ use std::collections::BTreeMap;
 /// Largest number of reasons that are listed.
 const MAX_REASONS: usize = 6;
 
-/// A value counts as being at the end of a range if its distance from the end is at most this fraction of the range.
+/// Distance from an end of the range up to which a value counts as being at that end, as a fraction of the range.
 const RANGE_END_SHARE: f64 = 0.05;
 
 /// Indentation of tables.
 const INDENT: &str = "  ";
 
-/// Largest number of layouts that are listed as the best, and also as the worst.
+/// Largest number of layouts that are listed as the best, and of those that are listed as the worst.
 const LISTED_LAYOUTS: usize = 5;
 
 /// The summary of all rows of a study.
@@ -62,8 +62,8 @@ impl<'a> Summary<'a> {
         self.ranked.last().map(|&i| &self.rows[i])
     }
 
-    /// Returns the reasons why layouts have no motion, the most frequent first: the ending, the first cause with
-    /// numbers replaced, and the number of layouts.
+    /// Returns the reasons why layouts have no motion, the most frequent first. Each has the ending, the first cause
+    /// with `#` for numbers, and the number of layouts.
     pub fn reasons(&self) -> Vec<(Ending, String, usize)> {
         let mut counts: BTreeMap<(Ending, String), usize> = BTreeMap::new();
         for row in self.rows {
@@ -76,9 +76,9 @@ impl<'a> Summary<'a> {
         reasons
     }
 
-    /// Returns the Pareto front of two measures, sorted by the first one. It has the layouts to which no other layout
-    /// is better in both measures. Of layouts that are equal in one measure, only the best in the other is included.
-    /// Less is better, except for the clearance.
+    /// Returns the Pareto front of two measures, sorted by the first one. No other layout is better in both measures
+    /// than a layout on the front. Of layouts that are equal in one measure, only the best in the other one is
+    /// included. Less is better, except for the clearance.
     pub fn pareto(&self, measures: [Measure; 2]) -> Vec<&'a Row> {
         let cost = |row: &Row, k: usize| {
             let value = row.measured[self.study.column(measures[k])?]?;
@@ -100,7 +100,7 @@ impl<'a> Summary<'a> {
         costs.into_iter().filter(is_front).map(|(_, row)| row).collect()
     }
 
-    /// Returns one line for each parameter for which the best layout lies at an end of the range. A better layout may
+    /// Returns a line for each parameter whose value in the best layout is at an end of its range. A better layout may
     /// lie beyond.
     pub fn edges(&self) -> Vec<String> {
         let edge = |(parameter, value, _): (&Parameter, f64, _)| {
@@ -116,8 +116,8 @@ impl<'a> Summary<'a> {
         self.range_ends().into_iter().map(edge).collect()
     }
 
-    /// Returns the parameters for which the best layout lies at an end of the range, its values, and in words whether
-    /// they are the end itself.
+    /// Returns the parameters whose value in the best layout is at an end of the range, with that value, and with words
+    /// that state whether it is exactly the end.
     pub(super) fn range_ends(&self) -> Vec<(&'a Parameter, f64, &'static str)> {
         let Some(best) = self.best() else { return Vec::new() };
         let end = |(parameter, &value): (&'a Parameter, &f64)| {
@@ -132,7 +132,7 @@ impl<'a> Summary<'a> {
         self.study.parameters.iter().zip(&best.values).filter_map(end).collect()
     }
 
-    /// Returns the summary for a terminal, 80 characters wide, or with full tables if `wide`. Ends in a newline.
+    /// Returns the summary for a terminal of 80 characters, or with full tables if `wide`. Ends in a newline.
     pub fn to_text(&self, wide: bool) -> String {
         let study = self.study;
         let [rows, parameters] = [counted(self.rows.len(), "layout"), counted(study.parameters.len(), "parameter")];
@@ -234,7 +234,7 @@ impl<'a> Summary<'a> {
         Table { columns, rows: self.best_rows().map(cells).collect() }
     }
 
-    /// Returns the indices of the measures, that of the objective first.
+    /// Returns the indices of the measures, beginning with that of the objective.
     fn measure_order(&self) -> Vec<usize> {
         let study = self.study;
         let mut measures: Vec<usize> = (0..study.measures.len()).collect();
@@ -267,7 +267,7 @@ fn percentage(part: usize, all: usize) -> f64 {
     100.0 * part as f64 / all.max(1) as f64
 }
 
-/// Formats a value with five significant digits. They are enough to distinguish layouts; the tables have all digits.
+/// Formats a value with five significant digits, which suffice to distinguish layouts. The tables have all digits.
 pub(super) fn format_value(value: f64) -> String {
     if value == 0.0 {
         return "0".into();
@@ -280,8 +280,8 @@ fn indented(text: &str) -> String {
     text.lines().map(|line| format!("{INDENT}{line}").trim_end().to_owned() + "\n").collect()
 }
 
-/// Replaces each number in a reason by `#`, so that layouts that fail for the same reason are counted together. Numbers
-/// in names remain.
+/// Replaces each number in a reason by `#`, so that layouts that fail for the same reason count together. Digits in
+/// names remain.
 fn without_numbers(reason: &str) -> String {
     let word = |word: &str| {
         let bare = word.trim_matches(|c: char| "()[],;:.%".contains(c));

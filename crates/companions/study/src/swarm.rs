@@ -3,16 +3,16 @@
 use cplan_model::space::SplitMix64;
 use std::f64::consts::LN_2;
 
-/// Fraction of its speed that a particle keeps from one generation to the next. This is Clerc's value.
+/// Fraction of its speed that a particle keeps from one generation to the next (Clerc's value).
 const SPEED_SHARE: f64 = 0.5 / LN_2;
 
-/// Greatest pull towards a best place, as a multiple of the distance to it. This is Clerc's value.
+/// Greatest pull towards a best place, as a multiple of the distance to it (Clerc's value).
 const MAX_PULL: f64 = 0.5 + LN_2;
 
 /// Greatest initial speed, as a fraction of the range of a coordinate.
 const MAX_FIRST_SPEED: f64 = 0.2;
 
-/// A particle of the swarm: its place, and the best place at which it has been.
+/// A particle of the swarm, with the best place that it has visited.
 struct Particle {
     place: Vec<f64>,
     speed: Vec<f64>,
@@ -26,8 +26,8 @@ impl Particle {
         Self { speed: rooms.iter().map(speed).collect(), best: place.clone(), place, least: cost }
     }
 
-    /// Moves the particle by a part of its speed, and by random pulls to its own best place and to the best place of
-    /// all. It stops at the ends of the ranges `rooms`.
+    /// Moves the particle. It keeps a part of its speed, and is pulled at random towards its own best place and the
+    /// best place of the whole swarm. It stops at the ends of the ranges `rooms`.
     fn move_on(&mut self, best_of_all: &[f64], rooms: &[[f64; 2]], numbers: &mut SplitMix64) {
         for (k, [lower, upper]) in rooms.iter().enumerate() {
             let place = self.place[k];
@@ -42,7 +42,7 @@ impl Particle {
         }
     }
 
-    /// Records the particle's place as its best one if its cost is less than any before.
+    /// Records the current place as the best one if its cost is less than all earlier ones.
     fn learn(&mut self, cost: f64) {
         if cost < self.least {
             self.least = cost;
@@ -51,8 +51,8 @@ impl Particle {
     }
 }
 
-/// Minimises the cost within the ranges of the coordinates. Begins with places whose costs are known; each of them
-/// becomes a particle. `costs` evaluates all places of a generation at once. Costs may be infinite.
+/// Minimises the cost within the ranges of the coordinates. Each place with a known cost becomes a particle. `costs`
+/// evaluates all places of a generation at once. Costs may be infinite.
 ///
 /// # Errors
 /// The error of `costs`.
@@ -104,7 +104,7 @@ mod tests {
         (all, least)
     }
 
-    /// Returns the squared distance to a place, which may lie outside the ranges.
+    /// Returns a function of the place: the squared distance to a target, which may lie outside the ranges.
     fn squared_distance(to: [f64; 3]) -> impl Fn(&[f64]) -> f64 {
         move |place| place.iter().zip(to).map(|(x, to)| (x - to).powi(2)).sum()
     }

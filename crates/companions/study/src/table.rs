@@ -1,10 +1,10 @@
-//! The rows of a study as a table: CSV.
+//! The rows of a study as a CSV table.
 
 use super::Study;
 use super::row::Row;
 use cplan_compare::quoted;
 
-/// Tables of rows, as CSV.
+/// Tables in CSV.
 impl Study {
     /// Returns the names of the columns: the number of the layout, the parameters, the ending, the reason, the
     /// measures, and whether the layout satisfies all conditions.
@@ -21,7 +21,7 @@ impl Study {
             .collect()
     }
 
-    /// Returns the table as CSV: one line per row, with all digits of each number.
+    /// Returns the table as CSV: one line per row, and numbers with all digits.
     pub fn csv(&self, rows: &[Row]) -> String {
         let mut text = self.columns().iter().map(|name| quoted(name)).collect::<Vec<_>>().join(",") + "\n";
         for row in rows {

@@ -13,7 +13,7 @@ pub(super) struct Template {
     holes: Vec<Placeholder>,
 }
 
-/// The place of a number, and the parameter from which it is computed.
+/// A placeholder for a number that is computed from a parameter.
 #[derive(Debug, Clone, PartialEq)]
 struct Placeholder {
     at: Range<usize>,
@@ -21,7 +21,7 @@ struct Placeholder {
     setting: Setting,
 }
 
-/// The parameter that sets a number, as `factor` times its value plus `offset`.
+/// The parameter that sets a number. The number is `factor * value + offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Setting {
     pub parameter: usize,
@@ -37,7 +37,7 @@ pub(super) enum Place {
 }
 
 impl Place {
-    /// Returns the address of a number in this text that is closest to a wrong address.
+    /// Returns the address in this text that is closest to a wrong address.
     pub fn nearest(self, text: &str, address: &str) -> Option<String> {
         let (name, known) = match self {
             Self::World => ("world.", all_in_world(text)),
@@ -98,7 +98,7 @@ impl Template {
         &self.source
     }
 
-    /// Returns the file with numbers computed from these values of the parameters.
+    /// Returns the file with the numbers that follow from these values of the parameters.
     pub fn filled(&self, values: &[f64]) -> Source {
         let text = self.source.text();
         let mut filled = String::with_capacity(text.len() + 16 * self.holes.len());
@@ -106,8 +106,7 @@ impl Template {
         for Placeholder { at, is_whole, setting } in &self.holes {
             filled.push_str(&text[from..at.start]);
             let number = setting.factor * values[setting.parameter] + setting.offset;
-            // Counts are written without a fraction. A value that should be an integer but is not is refused when the
-            // file is read.
+            // Counts are written without a fraction. A value that is not an integer is refused when the file is read.
             let _ = match *is_whole && number.fract() == 0.0 && number.abs() < 1e15 {
                 true => write!(filled, "{}", number as i64),
                 false => write!(filled, "{number:?}"),

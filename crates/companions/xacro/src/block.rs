@@ -31,7 +31,7 @@ impl Expander<'_> {
     }
 }
 
-/// Returns about how many bytes a node has in the output.
+/// Estimates the size of a node in the output, in bytes.
 fn size(node: &Node) -> usize {
     match node {
         Node::Text(text, _) => text.len(),

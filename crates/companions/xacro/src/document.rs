@@ -30,7 +30,7 @@ impl File {
 /// A part of a file.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Place {
-    /// Index of the file, in the order in which files were read.
+    /// Index of the file, in the order of reading.
     pub file: usize,
     /// Range of bytes in the file's text.
     pub range: Range<usize>,
@@ -88,7 +88,6 @@ pub(crate) struct Tree {
     pub namespaces: Vec<(String, String)>,
 }
 
-/// Returns true if a namespace is xacro's.
 fn is_xacro_namespace(uri: &str) -> bool {
     uri.contains("ros.org/wiki/xacro") || uri.contains("ros.org/xacro") || uri.ends_with("/xacro")
 }
@@ -120,7 +119,6 @@ fn is_directive(text: &str, node: &XmlNode) -> bool {
     name.starts_with("xacro:") || name.contains(':') && node.tag_name().namespace().is_some_and(is_xacro_namespace)
 }
 
-/// Returns the bytes of a start tag.
 fn start_tag(text: &str, node: &XmlNode) -> Range<usize> {
     let range = node.range();
     let behind = node.attributes().map(|a| a.range().end).max().unwrap_or(range.start);
@@ -128,7 +126,6 @@ fn start_tag(text: &str, node: &XmlNode) -> Range<usize> {
     range.start..end
 }
 
-/// Reads a file's text.
 pub(crate) fn read(file: &File, index: usize) -> Result<Tree, Error> {
     let text = &*file.text;
     let wrong = |range: Range<usize>, message: String, hint: &str| Error {
@@ -175,7 +172,7 @@ pub(crate) fn read(file: &File, index: usize) -> Result<Tree, Error> {
             }
         }
     }
-    // Elements nested deeper than an expansion allows are refused before they are walked.
+    // Refuse elements that are nested too deeply before walking them.
     if let Some(node) = document.descendants().find(|node| node.ancestors().take(MAX_DEPTH + 2).count() > MAX_DEPTH + 1)
     {
         let message = format!("elements are nested more than {MAX_DEPTH} deep");
@@ -215,7 +212,7 @@ fn offset(text: &str, at: roxmltree::TextPos) -> usize {
     line + inside.map(char::len_utf8).sum::<usize>()
 }
 
-/// Reads a text file, and removes a byte order mark.
+/// Reads a text file, without a byte order mark.
 pub(crate) fn text(path: &Path, read: fn(&Path) -> std::io::Result<Vec<u8>>) -> Result<String, String> {
     let bytes = read(path).map_err(|error| format!("cannot be read: {error}"))?;
     let text = String::from_utf8(bytes).map_err(|_| "is not UTF-8 text".to_owned())?;

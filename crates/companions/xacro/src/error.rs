@@ -9,7 +9,7 @@ use std::path::PathBuf;
 pub struct Error {
     /// Path of the file with the error.
     pub path: PathBuf,
-    /// The file and the place of the error, if it has a place.
+    /// The file and the place of the error. `None` if it has no place.
     pub place: Option<Box<(File, Place)>>,
     /// Description of the error.
     pub message: String,
@@ -35,7 +35,7 @@ impl std::error::Error for Error {}
 pub(crate) enum Fault {
     /// The text itself is wrong. Contains the message and a hint.
     Here(String, Option<String>),
-    /// The error is in another place: in a property whose value is computed only when the text uses it.
+    /// The error is in another place: in a property that is evaluated only when this text uses it.
     Elsewhere(Box<Error>),
 }
 

@@ -19,7 +19,7 @@ pub(crate) struct Expander<'s> {
     pub files: Vec<File>,
     pub scopes: Scopes,
     pub budget: Budget,
-    /// Values of arguments from the settings, by name.
+    /// Values of arguments that the settings state, by name.
     pub given: BTreeMap<String, String>,
     /// Values of the arguments that are declared.
     pub arguments: BTreeMap<String, String>,
@@ -31,7 +31,7 @@ pub(crate) struct Expander<'s> {
     pub open_files: Vec<PathBuf>,
     /// Macros that are being called, with the place of the call.
     pub calls: Vec<(String, Place)>,
-    /// Names and definitions of macros that are not called so far.
+    /// Names and definitions of macros without a call so far.
     pub uncalled: Vec<(String, Rc<Element>)>,
     /// Paths of the YAML files that were read.
     pub yaml: Vec<PathBuf>,
@@ -59,7 +59,6 @@ impl<'s> Expander<'s> {
         }
     }
 
-    /// Expands a file.
     pub fn run(mut self, path: PathBuf) -> Result<Expansion, Error> {
         let whole = |message: String, hint: &str| Error {
             path: path.clone(),
@@ -71,7 +70,7 @@ impl<'s> Expander<'s> {
         self.open_files.push(path.canonicalize().unwrap_or_else(|_| path.clone()));
         let mut children = Vec::new();
         self.nodes(&root.children, GLOBAL_SCOPE, &mut children)?;
-        // Attributes come after the content, because they may use names defined there.
+        // Evaluate the attributes after the content, because they may use names that it defines.
         let attributes = self.attributes(&root, GLOBAL_SCOPE)?;
         let unused =
             self.given.keys().find(|name| !self.arguments.contains_key(*name) && !self.asked_arguments.contains(*name));
@@ -89,7 +88,7 @@ impl<'s> Expander<'s> {
         Ok(Expansion { text, spans, files: self.files, yaml: self.yaml, notes: self.notes })
     }
 
-    /// Reads and parses a file. The inner error is the reason, in words, why the file cannot be read.
+    /// Reads and parses a file. The inner error states why the file cannot be read.
     pub fn open(&mut self, path: PathBuf) -> Result<Result<Rc<Element>, String>, Error> {
         let text = match document::text(&path, self.settings.read) {
             Ok(text) => text,
@@ -124,7 +123,6 @@ impl<'s> Expander<'s> {
         Error { path: file.path.clone(), place: Some(Box::new((file.clone(), place.clone()))), message, hint }
     }
 
-    /// Evaluates an attribute.
     pub fn value(&mut self, attribute: &Attribute, scope: usize) -> Result<Value, Error> {
         let value = self.text(&attribute.value, Self::context(scope, &attribute.place));
         value.map_err(|fault| self.error(&attribute.place, fault))
@@ -174,7 +172,7 @@ impl<'s> Expander<'s> {
         Ok(())
     }
 
-    /// Refuses elements that are directives only in old versions of xacro.
+    /// Refuses directives without the prefix, which only old versions of xacro accept.
     fn check_prefix(&self, element: &Element) -> Result<(), Error> {
         let is_old = match element.name.as_str() {
             "include" => element.attribute("filename").is_some(),

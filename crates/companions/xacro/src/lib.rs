@@ -33,9 +33,8 @@
 //!
 //! # Guarantees
 //!
-//! The same files and arguments give the same text. Every start tag and attribute of the text has a [`Place`] in the
-//! file that it comes from. No file makes the expansion run for long: nesting, the number of steps and the size of the
-//! output are bounded.
+//! The same files and arguments give the same text. Every start tag and attribute of the text has the [`Place`] from which it
+//! comes. No file makes the expansion take long: nesting, the number of steps and the size of the output are bounded.
 #![forbid(unsafe_code)]
 
 mod block;
@@ -64,7 +63,7 @@ use std::path::{Path, PathBuf};
 /// Settings of an expansion.
 #[derive(Debug, Clone)]
 pub struct Settings {
-    /// Names and values of arguments. If a name occurs twice, the last value counts.
+    /// Names and values of arguments. If a name occurs several times, its last value counts.
     pub arguments: Vec<(String, String)>,
     /// Function that reads a file: the robot, an included file, or a YAML file.
     pub read: fn(&Path) -> io::Result<Vec<u8>>,
@@ -76,7 +75,7 @@ impl Default for Settings {
     }
 }
 
-/// A plain URDF, with the places in files from which its parts come.
+/// A plain URDF, with the places in the files from which its parts come.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Expansion {
     /// The URDF.
@@ -85,16 +84,15 @@ pub struct Expansion {
     pub files: Vec<File>,
     /// Paths of the YAML files that were read, in order.
     pub yaml: Vec<PathBuf>,
-    /// The start tags and attributes of the text, in ascending order. An attribute follows the start tag that contains
-    /// it.
+    /// Start tags and attributes of the text, in ascending order. Attributes follow their start tag.
     pub spans: Vec<Span>,
-    /// Notes for the user about omitted parts.
+    /// Notes about omitted parts, for the user.
     pub notes: Vec<String>,
 }
 
 impl Expansion {
-    /// Returns the place from which a byte of the text comes: the place of the attribute that contains it, or else that
-    /// of the last start tag that begins at or before it.
+    /// Returns the place from which a byte of the text comes: that of the attribute around it, or else that of the last
+    /// start tag before it.
     pub fn place(&self, offset: usize) -> Option<&Place> {
         let begun = self.spans.partition_point(|span| span.range.start <= offset);
         let before = &self.spans[..begun];
@@ -108,8 +106,8 @@ impl Expansion {
 /// Expands a file, which may also be a plain URDF.
 ///
 /// # Errors
-/// A file that cannot be read or is not XML, that xacro itself would refuse, that uses something this crate does not
-/// support, or whose expansion exceeds the limits on its size.
+/// A file that cannot be read, is not XML, or is invalid for xacro, too. A file that uses unsupported features, or
+/// whose expansion exceeds the limits.
 pub fn expand(path: &Path, settings: &Settings) -> Result<Expansion, Error> {
     expander::Expander::new(settings).run(path.to_owned())
 }

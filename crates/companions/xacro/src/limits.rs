@@ -2,8 +2,8 @@
 
 use crate::error::Fault;
 
-/// Largest depth of nested elements, macro calls, includes and properties. Robots need about 20 levels. A macro that
-/// calls itself needs two levels per call.
+/// Largest depth of nested elements, macro calls, includes and properties. Descriptions of robots need about 20 levels.
+/// A macro that calls itself needs two levels per call.
 pub(crate) const MAX_DEPTH: usize = 320;
 
 /// Largest depth of nested parentheses and operators in one expression.
@@ -13,13 +13,13 @@ pub(crate) const MAX_EXPRESSION_DEPTH: usize = 40;
 /// need some 100 000 steps.
 pub(crate) const MAX_STEPS: usize = 3_000_000;
 
-/// Largest number of bytes of the expanded text and all computed values together.
+/// Largest size of the expanded text and all computed values together, in bytes.
 pub(crate) const MAX_TEXT_BYTES: usize = 64 << 20;
 
 /// Largest number of items in a list.
 pub(crate) const MAX_LIST_ITEMS: usize = 100_000;
 
-/// The resources that an expansion has used so far.
+/// The resources used so far.
 #[derive(Debug, Default)]
 pub(crate) struct Budget {
     steps: usize,

@@ -7,7 +7,6 @@ use crate::scope::{Block, Slot};
 use crate::value::Value;
 use std::rc::Rc;
 
-/// The definition of a macro.
 #[derive(Debug)]
 pub(crate) struct Macro {
     parameters: Vec<Parameter>,
@@ -21,12 +20,11 @@ struct Parameter {
     default: Option<Default>,
 }
 
-/// The default of a parameter.
 #[derive(Debug, PartialEq, Eq)]
 struct Default {
-    /// True if the default is the caller's property of the same name. If there is no such property, the text is used.
+    /// True if the default is the caller's property of the same name. If the caller has no such property, `text` is used.
     is_forwarded: bool,
-    /// Text of the default, evaluated in the caller's scope. `None` if only the caller's property can be the default.
+    /// Text of the default, evaluated in the caller's scope. `None` if the default can only be the caller's property.
     text: Option<String>,
 }
 
@@ -71,7 +69,7 @@ fn words(text: &str) -> Vec<&str> {
 impl Expander<'_> {
     pub(crate) fn macro_element(&mut self, element: &Rc<Element>, scope: usize) -> Result<(), Error> {
         let [name] = self.required(element, ["name"])?;
-        // Some files also have the prefix in the definition's name.
+        // In some files, the name in the definition also has the prefix.
         let name = name.value.strip_prefix("xacro:").unwrap_or(&name.value).to_owned();
         let params = element.attribute("params").map_or("", |params| params.value.as_str());
         let defined = Macro { parameters: parameters(params), body: Rc::clone(element) };
@@ -80,13 +78,13 @@ impl Expander<'_> {
         Ok(())
     }
 
-    /// Refuses files that define a robot as a macro and never call it.
+    /// Refuses a file that defines a robot as a macro but never calls it.
     ///
     /// # Errors
-    /// If the expanded content of the robot has no link, and a macro is not called.
+    /// If the expanded robot has no link, and a macro is never called.
     pub(crate) fn require_link(&self, content: &[Node]) -> Result<(), Error> {
         let has_link = content.iter().filter_map(Node::element).any(|element| element.name == "link");
-        // Included files usually define parts, which the robot's own file joins.
+        // Included files usually define parts that the main file joins.
         let is_own = |(_, body): &&(String, Rc<Element>)| body.place.file == 0;
         let own = self.uncalled.iter().rfind(is_own).or(self.uncalled.last());
         let Some((name, body)) = own.filter(|_| !has_link) else { return Ok(()) };
@@ -158,7 +156,6 @@ impl Expander<'_> {
         Ok(())
     }
 
-    /// Returns the default of a parameter that a call omits.
     fn default(
         &mut self,
         parameter: &Parameter,
@@ -178,7 +175,7 @@ impl Expander<'_> {
         value.map(Some).map_err(|fault| self.error(defined, fault))
     }
 
-    /// Assigns the elements in a call to the macro's blocks, in order. They are expanded in the caller's scope.
+    /// Assigns the elements in a call to the blocks of the macro, in order, after expanding them in the caller's scope.
     fn blocks(
         &mut self,
         called: &Macro,

@@ -6,26 +6,26 @@ use crate::value::Value;
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// The value of a name. It may not have been computed yet.
+/// The value of a name, possibly not yet evaluated.
 #[derive(Debug, Clone)]
 pub(crate) enum Slot {
     /// A text that is evaluated when the name is used, with its place.
     Unevaluated(Rc<str>, Place),
-    /// A text that is being evaluated. A use of the name at this time is an error.
+    /// A text that is being evaluated. Using the name now is an error.
     Evaluating,
     Value(Value),
 }
 
-/// Nodes with a name, which `xacro:insert_block` inserts.
+/// Named nodes that `xacro:insert_block` inserts.
 #[derive(Debug, Clone)]
 pub(crate) struct Block {
     pub nodes: Vec<Node>,
-    /// True if the nodes must be expanded where they are inserted, as for properties. The nodes of a macro's parameter
-    /// are expanded already.
+    /// True if the nodes must be expanded where they are inserted, as those of properties. Nodes of a macro's parameter
+    /// are already expanded.
     pub is_source: bool,
 }
 
-/// The names that belong to a file, a call of a macro, or a namespace.
+/// The names of a file, of a call of a macro, or of a namespace.
 #[derive(Debug, Default)]
 pub(crate) struct Scope {
     parent: Option<usize>,
@@ -36,7 +36,7 @@ pub(crate) struct Scope {
     namespaces: BTreeMap<String, usize>,
 }
 
-/// All scopes. The first is that of the robot's own file. The others refer to their parent by index.
+/// All scopes. The first one belongs to the robot's own file. Each other one has the index of its parent.
 #[derive(Debug)]
 pub(crate) struct Scopes(Vec<Scope>);
 
@@ -61,12 +61,12 @@ impl Scopes {
         scope
     }
 
-    /// Returns the parent scope. Returns `None` for the robot's own scope, which has no parent.
+    /// Returns the parent scope. `None` for the robot's own scope.
     pub fn parent(&self, scope: usize) -> Option<usize> {
         self.0[scope].parent
     }
 
-    /// Returns the scopes in which to look for a name, and the name without its namespaces.
+    /// Returns the scopes to search for a name, and the name without its namespaces.
     fn candidates<'n>(&self, scope: usize, name: &'n str) -> (Vec<usize>, &'n str) {
         let mut about: Vec<usize> = std::iter::successors(Some(scope), |scope| self.0[*scope].parent).collect();
         let mut rest = name;
@@ -85,7 +85,7 @@ impl Scopes {
         about.into_iter().find(|scope| self.0[*scope].slots.contains_key(name)).map(|scope| (scope, name))
     }
 
-    /// Returns the value of a name in exactly this scope, without its parents.
+    /// Returns the value of a name in exactly this scope, ignoring its parents.
     pub fn slot(&self, scope: usize, name: &str) -> Option<&Slot> {
         self.0[scope].slots.get(name)
     }

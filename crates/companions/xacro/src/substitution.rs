@@ -19,7 +19,6 @@ pub(crate) struct Context {
     pub file: usize,
 }
 
-/// A part of a text.
 enum Part<'t> {
     Text(&'t str),
     /// The expression in `${...}`.
@@ -58,7 +57,8 @@ fn parts(text: &str) -> Result<Vec<Part<'_>>, Fault> {
 }
 
 impl Expander<'_> {
-    /// Evaluates a text. A text that is a single expression has that expression's type; any other is a string.
+    /// Evaluates a text. If the text is a single expression, the value has the type of that expression. Otherwise it is
+    /// a string.
     pub fn text(&mut self, text: &str, context: Context) -> Result<Value, Fault> {
         if !text.contains('$') {
             self.budget.spend(text.len())?;
@@ -89,7 +89,6 @@ impl Expander<'_> {
         Ok(Value::text(whole))
     }
 
-    /// Evaluates `$(...)`.
     fn extension(&mut self, text: &str, context: Context) -> Result<Value, Fault> {
         let (command, rest) = text.trim().split_once(char::is_whitespace).unwrap_or((text.trim(), ""));
         let rest = rest.trim();
@@ -118,7 +117,6 @@ impl Expander<'_> {
         }
     }
 
-    /// Returns the value of an argument.
     fn argument(&mut self, name: &str) -> Result<Value, Fault> {
         self.asked_arguments.insert(name.to_owned());
         let value = self.arguments.get(name).or_else(|| self.given.get(name));
@@ -168,7 +166,7 @@ impl Expander<'_> {
     }
 }
 
-/// Adds the expression's text to the message of a fault.
+/// Adds the text of the expression to the message of a fault.
 fn with_expression(expression: &str, fault: Fault) -> Fault {
     match fault {
         Fault::Here(message, hint) => {
@@ -209,7 +207,7 @@ impl Names for ContextNames<'_, '_> {
 }
 
 impl Expander<'_> {
-    /// Returns the property from which a parameter's default is forwarded.
+    /// Returns the property of the caller that is a parameter's default.
     pub fn forwarded(&mut self, scope: usize, name: &str) -> Result<Option<Value>, Fault> {
         self.property(scope, name)
     }

@@ -1,4 +1,4 @@
-//! Values of expressions, as Python has them.
+//! Values of expressions, as in Python.
 
 use std::cmp::Ordering;
 use std::rc::Rc;
@@ -180,11 +180,11 @@ impl Value {
 
 /// Parses a number as Python's `float` does, without underscores.
 pub(crate) fn float(text: &str) -> Option<f64> {
-    // Rust takes the same words, in any case, but also "infinity" with signs, as Python does.
+    // Rust and Python accept the same words, in any case, also "infinity" with a sign.
     text.trim().parse().ok()
 }
 
-/// Formats a number as Python does: the shortest text that reads back the same, with an exponent beyond 16 digits.
+/// Formats a number as Python does: the shortest text with the same value, with an exponent beyond 16 digits.
 fn float_text(x: f64) -> String {
     let size = x.abs();
     if !x.is_finite() {

@@ -14,8 +14,7 @@ pub struct Span {
     pub place: Place,
 }
 
-/// Returns an element and its content as XML, with the spans of its parts. The root's start tag declares these
-/// namespaces.
+/// Returns an element and its content as XML, with the spans of its parts. The root's start tag declares `namespaces`.
 pub(crate) fn write(root: &Element, namespaces: &[(String, String)]) -> (String, Vec<Span>) {
     let mut writer = Writer { text: "<?xml version=\"1.0\"?>\n".to_owned(), spans: Vec::new() };
     writer.element(root, 0, namespaces);
@@ -73,7 +72,7 @@ impl Writer {
         self.text.extend(std::iter::repeat_n("  ", depth));
     }
 
-    /// Writes an attribute. Returns the position at which it begins.
+    /// Writes an attribute. Returns the position of its beginning.
     fn attribute(&mut self, name: &str, value: &str) -> usize {
         self.text.push(' ');
         let from = self.text.len();

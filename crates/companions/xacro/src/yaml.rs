@@ -1,4 +1,4 @@
-//! Reads YAML files, in which robots store their numbers.
+//! Reads YAML files, which often contain the dimensions of robots.
 
 use crate::document;
 use crate::error::Fault;

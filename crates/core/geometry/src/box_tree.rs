@@ -1,11 +1,11 @@
-//! A tree of boxes that finds those which meet a given box.
+//! A tree of boxes that finds the boxes which meet a given box.
 
 use super::Point;
 
 /// A box parallel to the axes, as its least and its greatest coordinates.
 pub type Bounds = [Point; 2];
 
-/// Largest number of boxes in a leaf. Testing this few boxes one by one is fastest.
+/// Largest number of boxes in a leaf. So few boxes are tested fastest one by one.
 const MAX_LEAF_BOXES: usize = 8;
 
 /// A tree of boxes. Each node splits its boxes in two at the median centre, along the longer side of their common
@@ -41,7 +41,7 @@ impl BoxTree {
         found[from..].sort_unstable();
     }
 
-    /// Searches the subtree of `node`, which holds the boxes `order`.
+    /// Searches the subtree of `node`, which has the boxes `order`.
     fn search(&self, bounds: &Bounds, order: &[u32], node: usize, found: &mut Vec<u32>) {
         if !meet(&self.nodes[node].0, bounds) {
             return;

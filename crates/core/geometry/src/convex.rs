@@ -1,10 +1,10 @@
-//! The shape that links and obstacles consist of: a convex polygon grown by a radius.
+//! The basic shape of links and obstacles: a convex polygon grown by a radius.
 
 use super::predicates::{Orientation, orientation};
 use super::{Bounds, Point, Pose, Vector, hull};
 use serde::{Deserialize, Serialize};
 
-/// Reasons why corners and a radius do not form a convex shape. Messages count corners from 1; fields count from 0.
+/// The reason why corners and a radius do not form a convex shape. Messages count corners from 1, fields from 0.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ConvexError {
     /// There is no corner.
@@ -34,7 +34,7 @@ pub enum ConvexError {
         /// Index of the corner in the list.
         corner: usize,
     },
-    /// The boundary is not one counter-clockwise turn that bends left at every corner.
+    /// The boundary is not a single counter-clockwise turn that bends left at every corner.
     #[error("the boundary does not turn left at corner {}, or goes round more than once; list the corners of a convex polygon counter-clockwise", corner + 1)]
     NotConvex {
         /// Index of the corner in the list.
@@ -44,9 +44,9 @@ pub enum ConvexError {
 
 /// A *rounded convex polygon*: all points within `radius` of the convex hull of `core`.
 ///
-/// One corner is a disc (or, with radius 0, a point), two are a capsule (or a thin wall), three and more a convex
-/// polygon with rounded corners. Links and obstacles are unions of these, so polygons, discs, thin walls and a
-/// clearance to keep are one case: growing by a distance only adds to the radius, exactly.
+/// One corner gives a disc (or, with radius 0, a point), two give a capsule (or a thin wall), and three or more give a
+/// convex polygon with rounded corners. Links and obstacles are unions of such shapes. So polygons, discs and thin
+/// walls need no separate cases. Growing by a clearance only adds to the radius, exactly.
 ///
 /// The core is counter-clockwise and has no repeated corners. In a scene, a shape that may be approached closer than
 /// the clearance has a negative radius; see `receding`.
@@ -57,7 +57,7 @@ pub struct Convex {
     radius: f64,
 }
 
-/// The form in which a shape is read.
+/// The form in which a shape is read from a file.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Corners {
@@ -68,8 +68,8 @@ struct Corners {
 impl TryFrom<Corners> for Convex {
     type Error = ConvexError;
 
-    /// Does the same as [`Convex::new`], with one exception: a corner may be bent slightly by the rounding of a
-    /// transformation. [`Convex::at`] makes such shapes.
+    /// Like [`Convex::new`], except that corners may be slightly bent by the rounding of a transformation, as in shapes
+    /// from [`Convex::at`].
     fn try_from(Corners { core, radius }: Corners) -> Result<Self, ConvexError> {
         match Self::new(core.clone(), radius) {
             Err(ConvexError::NotConvex { .. }) if is_hull_up_to_rounding(&core) => Ok(Self { core, radius }),
@@ -78,11 +78,11 @@ impl TryFrom<Corners> for Convex {
     }
 }
 
-/// Largest bend of a corner that counts as rounding, as a fraction of the greatest coordinate.
+/// Largest bend of a corner that is attributed to rounding, as a fraction of the greatest coordinate.
 const BEND_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
-/// Returns true if the corners go once around their convex hull. Corners that are not corners of the hull must lie on
-/// its sides, up to rounding.
+/// Returns true if the corners go once around their convex hull. Other corners than those of the hull must lie on its
+/// sides, up to rounding.
 fn is_hull_up_to_rounding(core: &[Point]) -> bool {
     let hull = hull(core);
     let bent = BEND_ROUNDING * core.iter().fold(0.0_f64, |most, p| most.max(p.amax()));
@@ -110,7 +110,7 @@ impl Convex {
     ///
     /// # Errors
     /// If the core is empty, not convex, clockwise, repeats a corner or is not finite, or if the radius is negative or
-    /// not finite. For corners in any order call [`super::hull`] first.
+    /// not finite. For corners in any order, call [`super::hull`] first.
     pub fn new(core: Vec<Point>, radius: f64) -> Result<Self, ConvexError> {
         if core.is_empty() {
             return Err(ConvexError::NoCorner);
@@ -130,8 +130,8 @@ impl Convex {
             let (from, to) = (core[i % n], core[(i + 1) % n]);
             from.y < to.y || from.y == to.y && from.x < to.x
         };
-        // A boundary of left turns could still wind around several times. With one winding, the sides stop rising
-        // exactly once.
+        // A boundary of left turns can still wind around several times. If it winds once, there is exactly one corner
+        // where the sides stop rising.
         let rounds = (0..n).filter(|&i| rises(i) && !rises(i + 1)).count();
         let is_flat = (0..n).all(|i| turn(i) == Orientation::Collinear);
         match (0..n).find(|&i| n > 2 && turn(i) == Orientation::Clockwise) {
@@ -167,13 +167,13 @@ impl Convex {
     }
 
     /// Returns the shape with mapped corners and another radius, for pictures. Unlike in [`Convex::new`], the radius
-    /// may be negative, as that of pieces in a scene.
+    /// may be negative, as for pieces in a scene.
     #[must_use]
     pub fn mapped(&self, corner: impl Fn(Point) -> Point, radius: f64) -> Self {
         Self { core: self.core.iter().copied().map(corner).collect(), radius }
     }
 
-    /// Does the same as [`Convex::segment`], for points that are known to be finite, so it cannot fail.
+    /// Like [`Convex::segment`], for points that are known to be finite. So it cannot fail.
     pub fn between(a: Point, b: Point) -> Self {
         Self::trusted(if a == b { vec![a] } else { vec![a, b] }, 0.0)
     }
@@ -208,8 +208,8 @@ impl Convex {
     /// Returns a shape with every signed distance from it increased by `distance`, exactly. To do so, it lowers the
     /// radius, which may become negative.
     ///
-    /// A shape with a negative radius is met only by a core that penetrates its own core by more than the radius'
-    /// magnitude. A smaller polygon could not express this, because its corners would differ.
+    /// Another core meets a shape with a negative radius only if it penetrates the shape's core by more than the
+    /// magnitude of the radius. A smaller polygon could not express this, because its corners would differ.
     #[must_use]
     pub fn with_distances_increased(&self, distance: f64) -> Self {
         debug_assert!(distance >= 0.0 && distance.is_finite());

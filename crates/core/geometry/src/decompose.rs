@@ -5,21 +5,21 @@ use super::polygon::without_straight_corners;
 use super::{Convex, Orientation, Point, SimplePolygon, orientation};
 use cplan_interrupt::checkpoint;
 
-/// Largest number of corners of a piece. The time of a query grows with the corners of the pieces that it examines. If
-/// pieces are small, it examines only those nearby.
+/// Largest number of corners of a piece. The time of a query grows with the corners of the examined pieces. If pieces
+/// are small, only nearby ones are examined.
 pub const MAX_CORNERS: usize = 64;
 
 /// Decomposes a polygon into strictly convex polygons (of radius 0) with disjoint interiors, each of at most
 /// [`MAX_CORNERS`] corners. Their union is `polygon`. `O(n log n)`.
 ///
-/// A sweep triangulates the polygon. Then every diagonal is removed that is not needed at a reflex corner (S. Hertel,
-/// K. Mehlhorn, *Fast Triangulation of Simple Polygons*, 1983). The number of pieces is at most four times the least
+/// A sweep triangulates the polygon. Then all diagonals that no reflex corner needs are removed (S. Hertel, K.
+/// Mehlhorn, *Fast Triangulation of Simple Polygons*, 1983). The number of pieces is at most four times the least
 /// possible. Pieces with too many corners are cut further by `cut_up`.
 ///
 /// All corners are corners of the polygon and the predicates are exact, so the union has no rounding. Straight corners
 /// of the polygon and of the pieces are removed.
 pub fn decompose(polygon: &SimplePolygon) -> Vec<Convex> {
-    // Straight corners must not become ends of diagonals.
+    // Diagonals must not end at straight corners.
     let corners = without_straight_corners(polygon.corners());
     let pieces = if polygon.is_convex() {
         vec![corners]
@@ -51,8 +51,8 @@ impl Convex {
 /// Cuts a strictly convex polygon, grown by `radius`, along diagonals into pieces of at most [`MAX_CORNERS`] corners,
 /// and appends them to `out`. `O(n)`.
 ///
-/// Each round cuts off as few caps of equal length as possible, each by one diagonal, and continues with the rest. So
-/// one piece holds most of the area, and the thin pieces are at the rim.
+/// Each round cuts off caps of equal length, as few as possible, and continues with the rest. So one piece has most of
+/// the area, and thin pieces are at the rim.
 fn cut_up(mut ring: Vec<Point>, radius: f64, out: &mut Vec<Convex>) {
     while ring.len() > MAX_CORNERS {
         checkpoint();
@@ -66,13 +66,13 @@ fn cut_up(mut ring: Vec<Point>, radius: f64, out: &mut Vec<Convex>) {
         }
         ring = (0..caps).map(|cap| ring[at(cap)]).collect();
     }
-    // Two caps leave nothing but the diagonal between them.
+    // Between two caps, only the diagonal remains.
     if ring.len() > 2 {
         out.push(Convex::trusted(ring, radius));
     }
 }
 
-/// Merges triangles into convex faces: removes each inner side if both of its ends stay convex.
+/// Merges triangles into convex faces. Removes an inner side if both of its ends stay convex.
 fn convex_faces(vertices: &[Point], HalfEdges { origin, twin }: HalfEdges) -> Vec<Vec<Point>> {
     let at = |half: usize| vertices[origin[half] as usize];
     // For each half-edge, the previous and the next one in its face.
@@ -85,7 +85,7 @@ fn convex_faces(vertices: &[Point], HalfEdges { origin, twin }: HalfEdges) -> Ve
             continue;
         }
         let other = other as usize;
-        // At the origin of a half-edge, its own face's boundary arrives and the boundary of the other face continues.
+        // At the origin of a half-edge, the boundary of its own face arrives, and the boundary of the other face continues.
         let joints = [(before[half], after[other]), (before[other], after[half])];
         let convex = |(arriving, leaving): (u32, u32)| {
             let corner = at(leaving as usize);

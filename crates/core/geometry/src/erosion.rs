@@ -4,8 +4,8 @@ use super::{Convex, Point, cross, inset};
 
 impl Convex {
     /// Returns the points that lie at least `distance` inside this shape. These are the centres of the discs of radius
-    /// `distance` that fit into it. Returns `None` if no disc fits. A rounded outline first loses radius, exactly; then
-    /// every side of the core moves inwards. Correct up to rounding; `O(n^2)`.
+    /// `distance` that fit into it. `None` if no disc fits. First the radius of a rounded outline is reduced, exactly.
+    /// Then every side of the core moves inwards. Correct up to rounding; `O(n^2)`.
     #[must_use]
     pub fn eroded(&self, distance: f64) -> Option<Self> {
         if distance <= self.radius() {
@@ -53,7 +53,7 @@ mod tests {
             let eroded = shape.eroded(by);
             prop_assert!(by > shape.depth() || eroded.is_some());
             let point = Vector::new(at.0, at.1);
-            // The depth of a point is how far the shape must move to leave the point outside.
+            // The depth of a point is the distance that the shape must move until the point is outside.
             let depth = -separation(&shape, &Convex::point(point)).distance;
             let inside = eroded.is_some_and(|e| separation(&e, &Convex::point(point)).distance <= 0.0);
             prop_assert!((depth - by).abs() < 1e-9 || inside == (depth >= by), "{depth} {by}");
@@ -75,7 +75,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(2000))]
 
-        /// Tests that a receding shape is farther away by `by`, also at its corners. Growing it again restores it.
+        /// Tests that a receding shape is farther away by `by`, also at its corners, and that growing restores it.
         #[test]
         fn receding_increases_every_distance(shape in shapes(), other in shapes(), by in 0.0..0.5f64) {
             let (near, far) = (separation(&other, &shape), separation(&other, &shape.with_distances_increased(by)));

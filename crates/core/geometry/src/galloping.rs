@@ -1,7 +1,6 @@
 //! Galloping search for the last number that satisfies a condition.
 
-/// Returns the greatest number from `first` to `last` for which `holds` is true. `holds` is assumed to be true for
-/// `first`, and is not called for it.
+/// Returns the greatest number from `first` to `last` for which `holds` is true. Assumes this for `first` without a call.
 ///
 /// Doubles the step, then bisects. If the answer is `first + n`, this calls `holds` about `2 log2(n)` times, and for no
 /// number beyond `first + 2 n + 1`. If `holds` is not monotone, returns some number for which it is true and for whose
@@ -12,7 +11,7 @@ pub fn farthest(first: usize, last: usize, holds: impl Fn(usize) -> bool) -> usi
         good += step;
         step *= 2;
     }
-    // At this number the condition fails, or the range ends.
+    // The condition fails for this number, or the range ends before it.
     let mut bad = (good + step).min(last + 1);
     while bad - good > 1 {
         let middle = good.midpoint(bad);
@@ -46,8 +45,7 @@ mod tests {
             prop_assert!(greatest.get() <= first + 2 * (found - first) + 1);
         }
 
-        /// Tests a condition that is true on several separate stretches. The search then returns the end of one of
-        /// them.
+        /// Tests a condition that is true on several stretches. The search then returns the end of one of them.
         #[test]
         fn the_search_ends_where_the_condition_does_not_hold(holding in proptest::collection::vec(any::<bool>(), 0..60)) {
             let last = holding.len();

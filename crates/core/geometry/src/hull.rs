@@ -5,7 +5,7 @@ use super::{Orientation, Point, orientation};
 /// Returns the convex hull, counter-clockwise and without collinear corners. It starts at the leftmost corner; if
 /// several are leftmost, at the lowest of these.
 ///
-/// Points that coincide give one corner, collinear points give two, and no points give none. Andrew's monotone chain
+/// Coincident points give one corner, collinear points two, and no points none. The method is Andrew's monotone chain
 /// with the exact predicate, so the result is exactly strictly convex. `O(n log n)`. The coordinates must be finite.
 pub fn hull(points: &[Point]) -> Vec<Point> {
     let mut sorted = points.to_vec();

@@ -1,4 +1,4 @@
-//! Convex polygons shrunk inwards.
+//! Convex polygons, moved inwards on all sides.
 
 use super::{Point, Vector, hull, perpendicular};
 

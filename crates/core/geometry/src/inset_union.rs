@@ -1,4 +1,4 @@
-//! Insets of unions of adjoining convex pieces: every corner of the union moves inwards.
+//! Insets of unions of adjoining convex pieces: all corners of the union move inwards.
 //!
 //! Two pieces adjoin if parts of their sides coincide exactly. Pieces must not overlap. A shared corner moves
 //! equally in all its pieces, so the insets adjoin as well. `O(n log n)` for `n` sides, plus time for the corners
@@ -10,16 +10,15 @@ use super::{
 };
 use std::collections::BTreeMap;
 
-/// Smallest bend that counts as a corner, radians. Rounding bends the corners that users place on straight sides.
+/// Smallest bend of a corner, radians. Rounding bends corners that users place on straight sides.
 const MIN_BEND: f64 = 1e-7;
 
 /// Moves each corner of the union of the pieces inwards by `distance`. Returns, for each piece, the convex shapes that
 /// remain of it.
 ///
-/// A corner moves along the bisector of its sides, so a side moves by `distance` times the sine of half the angle at
-/// its ends. A corner that would leave the union stays where it is. A part so thin that it would turn over is replaced
-/// by the hull of its corners. In both cases, all points deeper than `distance` remain. Rounded outlines first lose
-/// radius.
+/// A corner moves along the bisector of its sides, so a side moves by `distance` times the sine of half the angle at its ends. A
+/// corner that would leave the union does not move. A part that is so thin that it would turn over is replaced by the hull of
+/// its corners. In both cases, all points deeper than `distance` remain. Of rounded outlines, the radius is reduced first.
 pub fn inset_union(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
     let (all, together) = cut_and_move(pieces, distance);
     let left = |piece: &Convex| match piece.radius() {
@@ -33,14 +32,14 @@ pub fn inset_union(pieces: &[Convex], distance: f64) -> Vec<Vec<Convex>> {
     all.iter().map(|parts| parts.iter().flat_map(left).collect()).collect()
 }
 
-/// Returns true if [`inset_union`] can move every corner: each stays inside the union, and none belongs to two rings or
-/// twice to one ring.
+/// Returns true if [`inset_union`] can move every corner. Then each corner stays inside the union, and none belongs to
+/// two rings or twice to one ring.
 pub fn can_inset_union(pieces: &[Convex], distance: f64) -> bool {
     let (_, together) = cut_and_move(pieces, distance);
     !together.touches && !together.would_leave
 }
 
-/// Cuts the pieces from corner to corner, and computes where their corners move.
+/// Cuts the pieces from corner to corner, and computes the new positions of the corners.
 fn cut_and_move(pieces: &[Convex], distance: f64) -> (Vec<Vec<Convex>>, MovedCorners) {
     let all = corner_to_corner(pieces);
     let mut together = MovedCorners::new(all.iter().flatten().filter(is_sharp), distance);
@@ -61,7 +60,7 @@ fn is_sharp(piece: &&Convex) -> bool {
     piece.radius() == 0.0
 }
 
-/// Cuts each piece so that no corner of one piece lies between the ends of another piece's side. Adds no corners.
+/// Cuts each piece so that no corner of another piece lies between the ends of a side. Adds no corners.
 fn corner_to_corner(pieces: &[Convex]) -> Vec<Vec<Convex>> {
     let has_sides = |piece: &&Convex| is_sharp(piece) && piece.core().len() > 2;
     let mut corners: Vec<Point> = pieces.iter().filter(has_sides).flat_map(Convex::core).copied().collect();
@@ -83,7 +82,7 @@ fn cut(ring: Vec<Point>) -> Vec<Vec<Point>> {
         let turn = |a: usize, b: usize, c: usize| orientation(ring[a], ring[b], ring[c]);
         let is_straight = |&k: &usize| turn((k + count - 1) % count, k, (k + 1) % count) == Orientation::Collinear;
         let straight: Vec<usize> = (0..count).filter(is_straight).collect();
-        // Take the middle one of the straight corners, so that few cuts follow each other.
+        // Begin with the middle one of the straight corners, which needs fewer cuts.
         let across = straight.get(straight.len() / 2).and_then(|&at| {
             let is_off = |k: &usize| turn(at, (at + 1) % count, *k) != Orientation::Collinear;
             let off: Vec<usize> = (2..count - 1).map(|by| (at + by) % count).filter(is_off).collect();
@@ -131,10 +130,10 @@ fn key(p: Point) -> Key {
 
 /// New positions of the corners of pieces.
 struct MovedCorners {
-    /// New positions of corners that move. The key has a corner and its successor in the piece. Corners that pieces
-    /// surround completely do not move, and are not listed.
+    /// New positions of corners that move. The key consists of a corner and its successor in the piece. Corners that
+    /// are completely surrounded by pieces do not move, and are not listed.
     to: BTreeMap<[Key; 2], [Point; 2]>,
-    /// True if some corner would have left the union. Such a corner stays where it is.
+    /// True if some corner would have left the union, and so did not move.
     would_leave: bool,
     /// True if some corner of the union belongs to several rings, or twice to one ring.
     touches: bool,
@@ -167,7 +166,8 @@ impl MovedCorners {
                 sectors.insert([key(corner), key(next)], [corner, next, last]);
             }
         }
-        // Chains each side of the union, counter-clockwise about its first corner, to the next side.
+        // Starting from each side of the union, collect the sectors around its first corner, counter-clockwise, up to
+        // the next side.
         let mut corners = Vec::new();
         for &[at, next, _] in sectors.values() {
             if sectors.contains_key(&[key(next), key(at)]) {
@@ -184,7 +184,7 @@ impl MovedCorners {
             corners.iter().enumerate().map(|(k, corner)| ([key(corner.at), key(of(corner))], k)).collect()
         };
         let (by_next, by_last) = (number(|corner| corner.next), number(|corner| corner.last));
-        // Returns the next corner along the union's sides at which they bend.
+        // Finds the next corner along the union's sides where they bend.
         let ahead = |from: usize, forwards: bool| {
             let mut at = from;
             for _ in 0..corners.len() {
@@ -208,7 +208,7 @@ impl MovedCorners {
             let moved = match corner.inward {
                 None => corner.at,
                 Some((inward, _)) if !corner.is_straight() => corner.at + inward * distance,
-                // A straight corner moves as far inside as the line between the neighbouring bends at that place.
+                // A straight corner moves onto the line between the moved corners at the neighbouring bends.
                 Some((inward, _)) => ahead(k, false).zip(ahead(k, true)).map_or(corner.at, |(from, to)| {
                     let [behind, before] = [&from, &to].map(|end| (corner.at - end.0).norm());
                     let [start, end] = [from.1, behind + before - to.1];
@@ -239,7 +239,7 @@ impl MovedCorners {
         let is_along =
             |k: usize| (adjacent_corners(&moved, k)[0] - moved[k]).dot(&(adjacent_corners(ring, k)[0] - ring[k])) > 0.0;
         let left = SimplePolygon::new(moved.clone()).ok()?;
-        // A thin piece can turn over although its sides hardly change direction.
+        // A thin piece can turn over although the directions of its sides hardly change.
         (left.corners() == moved && (0..ring.len()).all(is_along)).then(|| left.convex_pieces())
     }
 }
@@ -282,7 +282,7 @@ mod tests {
         assert_eq!(radii, [0.3 - 0.1, 0.0]);
     }
 
-    /// Tests a bar with another bar on top. A side of the first continues beyond the second at both ends.
+    /// Tests a bar on top of another bar. A side of the lower bar extends beyond the upper bar at both ends.
     #[test]
     fn adjoining_pieces_stay_adjoining() {
         let left = inset_union(&[rectangle([0., 0.], [4., 1.]), rectangle([1., 1.], [2., 2.])], 0.1 * 2f64.sqrt());
@@ -310,7 +310,7 @@ mod tests {
         }
     }
 
-    /// Tests a hole so close to the outer ring that moved sides cross.
+    /// Tests a hole so close to the outer ring that the moved sides cross.
     #[test]
     fn thin_pieces_do_not_turn_over() {
         let outer = points(&[[1.34375, 0.0], [-0.58984375, 1.0224609375], [-0.818359375, -1.4169921875]]);
@@ -334,7 +334,7 @@ mod tests {
         );
     }
 
-    /// Generates corners around the origin, on a grid on which midpoints of sides are exact.
+    /// Generates corners around the origin, on a grid that also contains the midpoints of sides.
     fn star(far: [f64; 2]) -> impl Strategy<Value = Vec<Point>> {
         prop::collection::vec(far[0]..far[1], 3..9).prop_map(|far| {
             let angle = |k: usize| std::f64::consts::TAU * k as f64 / far.len() as f64;
@@ -350,7 +350,7 @@ mod tests {
         (0..ring.len()).flat_map(|k| std::iter::once(ring[k]).chain(halfway(k))).collect()
     }
 
-    /// Moves the corners of a ring inwards. Uses the angles of its sides.
+    /// Moves the corners of a ring inwards, using the angles of its sides.
     fn by_angles(ring: &[Point], distance: f64) -> Vec<Point> {
         let angle = |v: Vector| v.y.atan2(v.x);
         let corner = |k: usize| {
@@ -364,8 +364,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(600))]
 
-        /// Tests that, for a polygon with a hole, the result is the polygon whose rings are moved. However thin the
-        /// polygon, its deep points remain.
+        /// Tests that the inset of a polygon with a hole is the polygon with moved rings. However thin the polygon is,
+        /// its deep points remain.
         #[test]
         fn the_inset_equals_the_moved_rings(
             outer in star([1.0, 3.0]), hole in star([0.2, 0.7]), some in any::<[u8; 2]>(), by in 0.0..0.03f64,
@@ -412,7 +412,7 @@ mod tests {
         all.iter().flatten().all(|part| together.moved_piece(part.core()).is_some())
     }
 
-    /// Tests a comb with teeth on a straight side. The root of each tooth is a corner on the side of the piece below.
+    /// Tests a comb with teeth on a straight side. The root of each tooth is a corner on a side of the piece below.
     #[test]
     fn combs_have_parts_for_each_tooth() {
         let teeth = 4000;

@@ -1,9 +1,9 @@
 //! Plane geometry: exact predicates, convex shapes, Minkowski differences, sets of intervals, and the angles or
-//! lengths at which a moving convex shape meets a fixed one.
+//! displacements at which a moving convex shape meets a fixed one.
 //!
-//! Lengths are metres, angles radians. Polygons are counter-clockwise lists of corners without repetition of the
-//! first. Every *sign* (which side, do they meet) comes from adaptive exact arithmetic; every *measure* (distance,
-//! depth) is a plain `f64`. Touching counts as contact, everywhere.
+//! Lengths are metres, angles radians. Polygons are counter-clockwise lists of corners without repetition of the first.
+//! Every *sign* (of a side, of a contact) comes from adaptive exact arithmetic. Every *measure* (distance, depth) is a
+//! plain `f64`. Touching counts as contact everywhere.
 //!
 //! ```
 //! use cplan_geometry::{Convex, Point, penetration_depth, shapes_meet};
@@ -67,8 +67,8 @@ pub use turning::{Features, Hits, ROUNDING, normalized, product, turning, turnin
 
 /// A displacement in the plane, metres.
 pub type Vector = nalgebra::Vector2<f64>;
-/// A position in the plane, metres, given as its displacement from the origin. It is the same type as [`Vector`], so
-/// nothing needs to be converted. Signatures state which of the two is meant.
+/// A position in the plane, metres, given as its displacement from the origin. The type is that of [`Vector`], so no
+/// conversions are needed. Signatures state which of the two is meant.
 pub type Point = Vector;
 
 /// Returns `v` rotated by a quarter turn counter-clockwise.

@@ -10,10 +10,10 @@ use super::{Convex, Orientation, Point, Vector};
 /// translations that make `a` meet `b`.
 ///
 /// The result is counter-clockwise from its lowest corner (the leftmost of these). Its sides are those of `b` and of
-/// `-a`, ordered by direction, so one sweep over the angles finds them (T. Lozano-Perez, *Spatial Planning: A
-/// Configuration Space Approach*, 1983): `O(n + m)`, at most `n + m` corners. Sides of equal direction are joined; this
-/// is decided exactly. Each coordinate is one difference of input coordinates, rounded once. Segments count as polygons
-/// of two corners, points as polygons of one. The result is empty if either input is.
+/// `-a`, ordered by direction. One sweep over the angles finds them (T. Lozano-Perez, *Spatial Planning: A
+/// Configuration Space Approach*, 1983): `O(n + m)`, at most `n + m` corners. Sides of exactly equal direction are
+/// joined. Each coordinate is one difference of input coordinates, rounded once. Segments are polygons of two corners,
+/// and points are polygons of one. The result is empty if an input is.
 pub fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
     let (Some(mut plus), Some(mut minus)) = (Sweep::new(b, false), Sweep::new(a, true)) else { return Vec::new() };
     let mut corners = Vec::with_capacity(b.len() + a.len());
@@ -32,7 +32,7 @@ pub fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
             minus.pass();
         }
     }
-    // The last step leads back to the first corner; rounding can make neighbours coincide.
+    // The last step returns to the first corner. Rounding can make neighbours coincide.
     corners.dedup();
     while corners.len() > 1 && corners.first() == corners.last() {
         corners.pop();
@@ -43,8 +43,8 @@ pub fn minkowski_difference(b: &[Point], a: &[Point]) -> Vec<Point> {
 /// Returns the penetration depth of two shapes, metres: the length of the shortest translation that separates them.
 /// Returns the negative distance if they are disjoint.
 ///
-/// This is the depth of the origin in the Minkowski difference of the cores, plus both radii. `O(n + m)`. It equals the
-/// negated distance of [`super::separation`], by another method.
+/// This is the depth of the origin in the Minkowski difference of the cores, plus both radii. `O(n + m)`.
+/// [`super::separation`] computes the negative value by another method.
 pub fn penetration_depth(a: &Convex, b: &Convex) -> f64 {
     origin_depth(&minkowski_difference(b.core(), a.core())) + a.radius() + b.radius()
 }
@@ -79,7 +79,7 @@ impl Side {
     }
 }
 
-/// A walk around a polygon, or around its reflection in the origin, by the directions of the sides.
+/// A walk along the sides of a polygon, or of its reflection in the origin, by direction.
 struct Sweep<'a> {
     polygon: &'a [Point],
     /// Index of the corner at which the walk started.
@@ -90,8 +90,7 @@ struct Sweep<'a> {
 }
 
 impl<'a> Sweep<'a> {
-    /// Starts a walk at the lowest (leftmost) corner of the polygon or of its reflection. Returns `None` if there is no
-    /// corner.
+    /// Starts a walk at the lowest (leftmost) corner of the polygon or of its reflection. `None` if there is no corner.
     fn new(polygon: &'a [Point], reflected: bool) -> Option<Self> {
         let lower = |&i: &usize, &j: &usize| {
             let (p, q) = (polygon[i], polygon[j]);
@@ -104,7 +103,7 @@ impl<'a> Sweep<'a> {
         Some(sweep)
     }
 
-    /// Returns the current corner of the polygon, not reflected.
+    /// Returns the current corner of the polygon itself, even if the walk is reflected.
     fn corner(&self) -> Point {
         self.polygon[(self.first + self.passed) % self.polygon.len()]
     }

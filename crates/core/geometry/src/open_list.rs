@@ -4,7 +4,7 @@ use super::OrderedF64;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Entries ordered by key. Entries with equal keys are ordered by value, so the order is deterministic.
+/// Entries ordered by key, and by value if keys are equal, so that the order is deterministic.
 #[derive(Debug, Clone)]
 pub struct OpenList<T> {
     heap: BinaryHeap<Reverse<(OrderedF64, T)>>,

@@ -1,8 +1,8 @@
-//! Floating-point numbers that can be keys.
+//! Floating-point numbers as keys.
 
 use std::cmp::Ordering;
 
-/// A double in the total order of IEEE 754, for heaps and sorted keys. Floats have no total order by themselves.
+/// A double in the total order of IEEE 754, for heaps and sorted keys. Floats themselves have no total order.
 #[derive(Debug, Clone, Copy)]
 pub struct OrderedF64(pub f64);
 

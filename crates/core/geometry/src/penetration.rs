@@ -1,5 +1,5 @@
-//! The classical penetration tests for convex polygons, by signed distances of corners to sides: the depth of a point
-//! in a polygon (point penetration), and whether two polygons meet (polygon penetration).
+//! The classical penetration tests for convex polygons, by signed distances of corners to sides. Point penetration
+//! computes the depth of a point in a polygon, and polygon penetration tests whether two polygons meet.
 //!
 //! Every sign is exact, so degenerate cases (collinear sides, a side through a corner, touching, polygons without area)
 //! need no special treatment.
@@ -11,7 +11,7 @@ use super::{Convex, Point, Vector};
 /// Returns the signed distance of `p` to the line directed from `a` to `b`, metres: positive on the left. Returns NaN
 /// if `a == b`.
 ///
-/// The sign is exact (0 only on the line); the value is rounded.
+/// The sign is exact, and 0 only on the line. The value is rounded.
 pub fn signed_distance(p: Point, a: Point, b: Point) -> f64 {
     determinant(a, b, p) / (b - a).norm()
 }
@@ -31,14 +31,13 @@ pub enum Location {
 #[derive(Debug, Clone, PartialEq)]
 pub struct PointPenetration {
     /// Signed distance of the point to the line through each side, metres. It is positive on the polygon's side of the
-    /// line.
-    /// Side `i` starts at corner `i`. A segment has two sides, there and back; a point has none.
+    /// line. Side `i` starts at corner `i`. A segment has two sides, in both directions. A point has none.
     pub distances: Vec<f64>,
-    /// Least of the distances, metres. Inside, it is the distance to the nearest side. Outside, its absolute value is a
-    /// lower bound on the distance to the polygon. If the polygon is a point, it is the negative distance to that
-    /// point.
+    /// Least of the distances, metres. For a point inside, it is the distance to the nearest side. For a point outside,
+    /// its absolute value is a lower bound on the distance to the polygon. If the polygon is a point, it is minus the
+    /// distance to that point.
     pub depth: f64,
-    /// The side of least distance; the first if several are equal. `None` if the polygon is a point.
+    /// The side of least distance, or the first of several. `None` if the polygon is a point.
     pub side: Option<usize>,
     /// Location of the point; exact.
     pub location: Location,
@@ -51,7 +50,7 @@ pub fn point_penetration(point: Point, shape: &Convex) -> PointPenetration {
 }
 
 /// Computes the penetration of `point` in a convex counter-clockwise polygon. The polygon may be a segment, a point or
-/// empty, and corners may coincide: the distance to a side without length is NaN and is ignored.
+/// empty. Corners may coincide: the distance to a side without length is NaN, and is ignored.
 pub(super) fn core_penetration(point: Point, polygon: &[Point]) -> PointPenetration {
     let n = polygon.len();
     if polygon.iter().all(|c| *c == polygon[0]) {
@@ -62,8 +61,8 @@ pub(super) fn core_penetration(point: Point, polygon: &[Point]) -> PointPenetrat
     let distances: Vec<f64> = (0..n).map(|i| signed_distance(point, polygon[i], polygon[(i + 1) % n])).collect();
     let (side, depth) =
         distances.iter().copied().enumerate().fold((0, f64::INFINITY), |best, d| if d.1 < best.1 { d } else { best });
-    // A point on the line of a side, and right of no side, is on the boundary. The exception is a point on the lines
-    // of all sides: the polygon then has no area, and may end before the point.
+    // A point on the line of a side, and right of no side, is on the boundary. The exception is a point on the lines of
+    // all sides. Then the polygon has no area, and may not extend to the point.
     let on_boundary =
         || distances.iter().any(|&d| d > 0.0) || sides(polygon).any(|(a, b)| point_on_segment(point, a, b));
     let location = if depth > 0.0 {
@@ -88,19 +87,18 @@ pub struct CornerInside {
 /// Result of the polygon penetration test.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PolygonTest {
-    /// True if the polygons have a point in common, so that one of the lists below is not empty. Touching counts.
-    /// Exact.
+    /// True if the polygons have a point in common. Then one of the lists below is not empty. Touching counts. Exact.
     pub meet: bool,
     /// Corners of the first polygon in the second or on its boundary.
     pub a_inside: Vec<CornerInside>,
     /// Corners of the second polygon in the first or on its boundary.
     pub b_inside: Vec<CornerInside>,
-    /// Pairs of a side of the first and a side of the second polygon that cross properly, at a point interior to both.
+    /// Pairs of a side of the first polygon and a side of the second that cross properly, in one point interior to both.
     pub crossings: Vec<(usize, usize)>,
 }
 
-/// Runs the polygon penetration test on the cores of two shapes: finds the corners of each inside the other, and the
-/// sides that cross. The radii are ignored. `O(n m)`.
+/// Runs the polygon penetration test on the cores of two shapes. Finds the corners of each in the other, and the sides
+/// that cross. The radii are ignored. `O(n m)`.
 ///
 /// The cores may be segments or points. The test is complete: if two convex polygons meet and no corner of either lies
 /// in the other, then their boundaries cross at points that are not corners.
@@ -110,7 +108,7 @@ pub fn polygon_test(a: &Convex, b: &Convex) -> PolygonTest {
 }
 
 impl PolygonTest {
-    /// Completes a test by the sides of the polygons that cross.
+    /// Completes a test by the pairs of sides that cross.
     pub(super) fn of(a: &[Point], b: &[Point], [a_inside, b_inside]: [Vec<CornerInside>; 2]) -> Self {
         let mut crossings = Vec::new();
         for (i, (p, q)) in sides(a).enumerate() {
@@ -125,7 +123,7 @@ impl PolygonTest {
 fn corners_inside(corners: &[Point], polygon: &[Point]) -> Vec<CornerInside> {
     let inside = |(corner, &p): (usize, &Point)| {
         let penetration = core_penetration(p, polygon);
-        // On a segment both signed distances are 0, and at a point the distance is 0. Neither is negative.
+        // On a segment both signed distances are 0, and at a point the distance is 0. So neither is negative.
         (penetration.location != Location::Outside).then(|| CornerInside { corner, depth: penetration.depth.abs() })
     };
     corners.iter().enumerate().filter_map(inside).collect()

@@ -83,11 +83,11 @@ impl From<SimplePolygon> for Vec<Point> {
 impl SimplePolygon {
     /// Creates a polygon from its corners, given in either direction.
     ///
-    /// All conditions are decided exactly. `O(n log n)`, with another factor of `log n` to find the sides that meet.
+    /// All conditions are decided exactly. `O(n log n)`, or `O(n log^2 n)` if sides meet.
     ///
     /// # Errors
-    /// The first defect found, in the order of the variants of [`PolygonError`]. For sides that meet, the first side in
-    /// the list that meets an earlier one.
+    /// The first defect, in the order of the variants of [`PolygonError`]. If sides meet, it is the first side that
+    /// meets an earlier one.
     pub fn new(mut corners: Vec<Point>) -> Result<Self, PolygonError> {
         check_corners(&corners)?;
         check_neighbors(&corners)?;
@@ -111,7 +111,7 @@ impl SimplePolygon {
 
     /// Returns the area, square metres.
     pub fn area(&self) -> f64 {
-        // Relative to a corner, so that a small polygon far from the origin loses no digits.
+        // Relative to a corner, a small polygon far from the origin loses no digits.
         let origin = self.corners[0];
         self.corners[1..].windows(2).map(|w| cross(w[0] - origin, w[1] - origin)).sum::<f64>() / 2.0
     }
@@ -131,8 +131,8 @@ impl SimplePolygon {
             if point_on_segment(p, a, b) {
                 return true;
             }
-            // Test whether the side crosses the ray from `p` in the direction of x. Lower ends belong to sides, upper
-            // ends do not.
+            // Test whether the side crosses the ray from `p` in the direction of x. A side contains its lower end, but
+            // not its upper end.
             let rises = b.y > a.y;
             let side = if rises { Orientation::CounterClockwise } else { Orientation::Clockwise };
             inside ^= (a.y > p.y) != (b.y > p.y) && orientation(a, b, p) == side;
@@ -168,7 +168,6 @@ pub(super) fn check_ring(corners: &[Point]) -> Result<(), PolygonError> {
     }
 }
 
-/// Checks the number of corners and their coordinates.
 fn check_coordinates(corners: &[Point]) -> Result<(), PolygonError> {
     if corners.len() < 3 {
         return Err(PolygonError::TooFewCorners { count: corners.len() });
@@ -212,7 +211,7 @@ fn check_neighbors(corners: &[Point]) -> Result<(), PolygonError> {
     }
 }
 
-/// Checks that no two sides meet, except neighbours in their common corner. Spikes are excluded already.
+/// Checks that sides meet only their neighbours, and those only in the common corner. Spikes are already excluded.
 fn check_sides(corners: &[Point]) -> Result<(), PolygonError> {
     let Some((first, second)) = first_meeting(corners) else { return Ok(()) };
     let side = |i: usize| (corners[i], corners[(i + 1) % corners.len()]);
@@ -224,7 +223,8 @@ fn check_sides(corners: &[Point]) -> Result<(), PolygonError> {
     })
 }
 
-/// Returns true if a simple boundary is counter-clockwise, by its leftmost (lowest) corner, which cannot be straight.
+/// Returns true if a simple boundary is counter-clockwise. The turn at its leftmost (lowest) corner decides, because
+/// that corner cannot be straight.
 fn is_counter_clockwise(corners: &[Point]) -> bool {
     let lower = |i: usize, j: usize| {
         let (p, q) = (corners[i], corners[j]);
@@ -265,7 +265,7 @@ mod tests {
 
     #[test]
     fn touching_is_decided_exactly() {
-        // The fourth corner lies on the line y = x / 3 up to rounding, on one side of it or on the other.
+        // The fourth corner is on the line y = x / 3 up to rounding, on one side or on the other.
         let tip = 1.0 / 3.0;
         for (y, simple) in [(tip + f64::EPSILON, true), (tip - f64::EPSILON, false)] {
             let corners = points(&[(0., 0.), (3., 1.), (3., 3.), (1., y), (0., 3.)]);

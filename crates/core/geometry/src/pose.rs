@@ -7,8 +7,8 @@ use std::ops::Mul;
 
 /// A rigid motion of the plane: rotation, then translation. It is also the pose of a frame.
 ///
-/// It moves points and displacements differently, but both have the same type. So there is no product of a pose and
-/// a vector. [`Pose::point`] and [`Pose::direction`] state which is meant.
+/// It moves points and displacements differently, but both have the same type. So there is no product of a pose and a
+/// vector. Use [`Pose::point`] or [`Pose::direction`].
 ///
 /// ```
 /// use cplan_geometry::{Point, Pose, Vector};
@@ -31,7 +31,7 @@ impl Pose {
         Self { rotation: UnitComplex::new(angle), translation }
     }
 
-    /// Creates the motion that keeps everything in place.
+    /// Creates the identity, which moves nothing.
     pub fn identity() -> Self {
         Self::translation(Vector::zeros())
     }
@@ -91,7 +91,7 @@ impl Pose {
         Self { translation: by + self.translation, ..*self }
     }
 
-    /// Returns the motion preceded by a translation: the pose moved along the axes of its own frame.
+    /// Returns the motion preceded by a translation. This moves the pose along the axes of its own frame.
     #[inline]
     #[must_use]
     pub fn shifted_in_frame(&self, by: Vector) -> Self {

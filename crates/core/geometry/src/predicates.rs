@@ -1,13 +1,12 @@
 //! Exact predicates: signs that rounding cannot change.
 //!
-//! All predicates use the orientation of three points, computed with adaptive exact arithmetic (J. R. Shewchuk,
-//! *Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates*, 1997). It is exact as long as
-//! no product of two coordinate differences over- or underflows, that is, for coordinates of magnitude 1e-140 to
-//! 1e+140, or 0, in any mixture. Such coordinates are multiples of 2^-518, so all parts of a product are multiples of
-//! 2^-1036, which doubles can represent.
+//! All predicates use the orientation of three points, computed with adaptive exact arithmetic (J. R. Shewchuk, *Adaptive
+//! Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates*, 1997). It is exact if no product of two coordinate
+//! differences over- or underflows, that is, for coordinates of 0 and of magnitudes from 1e-140 to 1e+140. Such coordinates are
+//! multiples of 2^-518, so all parts of a product are multiples of 2^-1036, which doubles can represent.
 //!
-//! Signs of distances, as in [`super::point_penetration`], are exact from 1e-90 to 1e+90, because the quotient by a
-//! length must not underflow either.
+//! Signs of distances, as in [`super::point_penetration`], are exact for magnitudes from 1e-90 to 1e+90, because the
+//! division by a length must not underflow either.
 
 use super::Point;
 
@@ -56,7 +55,8 @@ pub fn in_circle([a, b, c]: [Point; 3], p: Point) -> bool {
 
 /// Returns the turn from the direction of the segment `s` to that of the segment `t`; exact.
 pub(super) fn turn_of_directions(s: [Point; 2], t: [Point; 2]) -> Orientation {
-    // Each product below has three roundings, and their difference has a fourth: at most 2 epsilon of their sum.
+    // Each product below has three rounding errors, and their difference has a fourth: together at most 2 epsilon of
+    // the sum of the products.
     let (u, v) = (s[1] - s[0], t[1] - t[0]);
     let (left, right) = (u.x * v.y, u.y * v.x);
     let difference = left - right;
@@ -79,8 +79,8 @@ pub fn point_on_segment(p: Point, a: Point, b: Point) -> bool {
 ///
 /// Touching and overlapping count, and a segment may be a point.
 pub fn segments_meet(a: Point, b: Point, c: Point, d: Point) -> bool {
-    // For collinear segments the boxes decide. Otherwise the segments meet if and only if no line has the other segment
-    // strictly on one side. In that case the boxes meet too, so testing them first only saves time.
+    // For collinear segments, the boxes decide. Otherwise, the segments meet if and only if no line has the other
+    // segment strictly on one side. Then the boxes meet, too, so testing them first only saves time.
     boxes_meet(a, b, c, d)
         && !strictly_on_one_side(orientation(a, b, c), orientation(a, b, d))
         && !strictly_on_one_side(orientation(c, d, a), orientation(c, d, b))

@@ -6,28 +6,27 @@ use super::{Convex, Point, Pose, Vector, perpendicular};
 /// Signed distance of two convex shapes, and its direction.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Separation {
-    /// The distance of the shapes if they are apart, metres. If they overlap, minus their *penetration depth*: the
-    /// length of the shortest translation that separates them.
+    /// The distance of the shapes if they are apart, metres. If they overlap, it is minus their *penetration depth*:
+    /// the length of the shortest translation that separates them.
     pub distance: f64,
     /// Unit direction from the first shape to the second, along which `distance` is measured.
     pub direction: Vector,
 }
 
-/// Computes the signed distance of two rounded convex polygons. `O(n m)`, which is faster than the linear methods for
-/// the few corners of typical links and obstacles.
+/// Computes the signed distance of two rounded convex polygons. `O(n m)`. For the few corners of typical links and
+/// obstacles, this is faster than linear methods.
 ///
-/// For disjoint cores it is the least distance between their sides, less both radii. For overlapping cores it is the
-/// depth of the origin in their Minkowski difference, whose sides have the normals of the sides of the two cores.
+/// For disjoint cores, it is the least distance between their sides, minus both radii. For overlapping cores, it follows from
+/// the depth of the origin in their Minkowski difference, whose sides have the normals of the cores' sides.
 ///
-/// This is a measure, not a predicate: rounding can turn the 0 of a touching pair into a few 1e-16.
-/// [`super::shapes_meet`] decides exactly.
+/// The distance is rounded: that of a touching pair may be a few 1e-16 instead of 0. [`super::shapes_meet`] decides exactly.
 pub fn separation(a: &Convex, b: &Convex) -> Separation {
     let core = core_separation(a.core(), b.core());
     Separation { distance: core.distance - a.radius() - b.radius(), direction: core.direction }
 }
 
-/// Computes the [`separation`] of a shape moved by a pose from another, and passes the moved corners to `and`. A shape
-/// with few corners is moved without an allocation.
+/// Computes the [`separation`] of a shape moved by a pose from another shape, and passes it to `and` with the moved
+/// corners. Needs no allocation for shapes with few corners.
 pub fn separation_at<R>(a: &Convex, pose: &Pose, b: &Convex, and: impl FnOnce(&[Point], Separation) -> R) -> R {
     const FEW_SIDES: usize = 8;
     let (mut few, many);
@@ -55,8 +54,8 @@ pub fn gap_along(a: &Convex, pose: &Pose, b: &Convex, direction: Vector) -> f64 
     of_b - of_a - direction.dot(&pose.translation) - a.radius() - b.radius()
 }
 
-/// Rounding error of a distance from a side, relative to the largest coordinate. A difference, two products and a sum
-/// at coordinates twice as large, and the error of the normal, add up to about 6 epsilon.
+/// Rounding error of a distance from a side, relative to the largest coordinate. It results from a difference, two products and
+/// a sum at coordinates twice as large, and from the error of the normal. Together, these are about 6 epsilon.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 fn core_separation(a: &[Point], b: &[Point]) -> Separation {
@@ -67,13 +66,13 @@ fn core_separation(a: &[Point], b: &[Point]) -> Separation {
     let error = ROUNDING * largest(a).max(largest(b));
     let Some(Face { distance, normal, is_beside }) = face else { return nearest_features(a, b, error) };
     let face = Separation { distance, direction: normal };
-    // No two points are closer than the gap along any direction, and the face and its nearest corner are exactly
-    // that close.
+    // The cores are at least as far apart as the gap along any direction. The face and its nearest corner are exactly
+    // that far apart.
     if distance < -error || is_beside && distance > 4.0 * error {
         return face;
     }
-    // Disjoint, or touching up to rounding. Collinear cores (as two walls in a row) have no separating side normal.
-    // Only their distance distinguishes them from touching cores, whose distance is at most `error`.
+    // The cores are disjoint, or touch up to rounding. Collinear cores (such as two walls in a row) have no separating
+    // side normal. Only their distance distinguishes them from touching cores, whose distance is at most `error`.
     let nearest = nearest_features(a, b, error);
     if nearest.distance > 4.0 * error {
         nearest
@@ -96,17 +95,17 @@ struct Face {
     distance: f64,
     /// Outward unit normal of the side.
     normal: Vector,
-    /// True if the nearest corner of the other core lies beside the side, not beyond its ends.
+    /// True if the nearest corner of the other core projects onto the side, not beyond its ends.
     is_beside: bool,
 }
 
-/// Returns the side of `a` that has the greatest signed distance to `b`, which is positive outside. Returns `None` if
-/// no side exceeds `most`.
+/// Returns the side of `a` with the greatest signed distance to `b`, which is positive outside. `None` if no side
+/// exceeds `most`.
 fn best_face(a: &[Point], b: &[Point], mut most: f64) -> Option<Face> {
     let mut best: Option<(f64, Vector, [&Point; 3])> = None;
     for (p, q) in sides(a) {
         let across = -perpendicular(q - p);
-        // Most sides face away from a separate shape, which this test detects quickly.
+        // This test quickly skips sides that face away from the other core.
         if most >= 0.0 && b.iter().any(|v| across.dot(&(v - p)) <= 0.0) {
             continue;
         }
@@ -116,7 +115,7 @@ fn best_face(a: &[Point], b: &[Point], mut most: f64) -> Option<Face> {
             let outside = normal.dot(&(v - p));
             if outside < nearest.0 {
                 nearest = (outside, v);
-                // A side that does not improve the best so far need not be evaluated further.
+                // A side that is no better than the best one so far need not be evaluated further.
                 if outside <= most {
                     break;
                 }
@@ -139,7 +138,7 @@ fn sides(core: &[Point]) -> impl Iterator<Item = (&Point, &Point)> {
     core.windows(2).map(|ends| (&ends[0], &ends[1])).chain(closing)
 }
 
-/// Returns the least distance between the boundaries of two cores that are disjoint, or overlap by at most `error`.
+/// Returns the least distance between the boundaries of two cores that are disjoint, or that overlap by at most `error`.
 fn nearest_features(a: &[Point], b: &[Point], error: f64) -> Separation {
     let mut best = Separation { distance: f64::INFINITY, direction: Vector::x() };
     nearest_to_sides(b, a, error, 1.0, &mut best);
@@ -156,9 +155,9 @@ const SIDE_MARGIN: f64 = 1e-12;
 /// Looks for a corner closer to a side than the best so far. `best` holds the squared distance, and the offset from the
 /// nearest point of the side to the corner, times `sign`.
 ///
-/// The line of a side is at least as close as the side, so most sides are skipped. If the core has an area, a side is
-/// also skipped if the corner lies inside it by more than `error`. Then the core's nearest point is on another side,
-/// and the corner lies outside that one.
+/// The line of a side is at least as close as the side, so its distance suffices to skip most sides. If the core has an
+/// area, a side is also skipped if the corner lies inside it by more than `error`. Then the nearest point of the core
+/// is on another side, outside of which the corner lies.
 fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, best: &mut Separation) {
     let mut look = |p: &Point, q: &Point, is_one_sided: bool| {
         let along = q - p;
@@ -180,7 +179,7 @@ fn nearest_to_sides(corners: &[Point], core: &[Point], error: f64, sign: f64, be
             } else if t >= length2 {
                 v - q
             } else {
-                // Along the normal instead of to a rounded foot on the side, to keep the direction of small offsets.
+                // Use the normal instead of a rounded foot on the side, so that small offsets keep their direction.
                 let normal = perpendicular(along);
                 normal * (normal.dot(&from) / length2)
             };

@@ -4,8 +4,8 @@ use super::meet::sides;
 use super::penetration::{CornerInside, PolygonTest, distance_to_segment};
 use super::{Convex, Point, SimplePolygon, minkowski_difference, penetration_depth};
 
-/// Runs the polygon penetration test on two simple polygons: finds the corners of each inside the other, and the sides
-/// that cross. `O(n m)`.
+/// Runs the polygon penetration test on two simple polygons. Finds the corners of each in the other, and the sides that
+/// cross. `O(n m)`.
 ///
 /// Signs are exact. The depth of a corner is its distance from the nearest side. The test is complete: if two polygons
 /// meet and no corner of either lies in the other, then their boundaries cross at points that are not corners.
@@ -24,9 +24,9 @@ fn corners_inside(corners: &SimplePolygon, polygon: &SimplePolygon) -> Vec<Corne
 pub struct SimpleDifference {
     /// Convex polygons whose union is the difference: one for each pair of a convex piece of `b` and one of `a`.
     pub parts: Vec<Vec<Point>>,
-    /// Greatest depth of the origin in one of the parts, metres; negative if it is in none, and then the distance of
-    /// the polygons with a minus sign. If there is a single part, it is the penetration depth: the length of the
-    /// shortest translation that separates the polygons. Otherwise it is a lower bound on that length.
+    /// Greatest depth of the origin in one of the parts, metres. If the origin is in no part, it is minus the distance
+    /// of the polygons. If there is a single part, it is the penetration depth: the length of the shortest translation
+    /// that separates the polygons. Otherwise it is a lower bound on that length.
     pub depth: f64,
 }
 

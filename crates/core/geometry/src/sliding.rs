@@ -4,11 +4,11 @@ use super::meet::sides;
 use super::turning::ROUNDING;
 use super::{Convex, Point, Vector, cross};
 
-/// Returns the closed interval of `s` for which `part`, moved by `s * direction`, is within `grow` of `piece`. Both
+/// Returns the closed interval of all `s` for which `part`, moved by `s * direction`, is within `grow` of `piece`. The
 /// shapes are convex, so there is at most one interval. `direction` is a unit vector. `O(n m)`.
 ///
-/// If `grow` is negative, the shapes must overlap by that depth, which may be up to the sum of the radii. Exact up
-/// to [`ROUNDING`]; touching counts.
+/// If `grow` is negative, the shapes must overlap by this depth, which must not exceed the sum of the radii. Exact up
+/// to [`ROUNDING`]. Touching counts.
 pub fn sliding(part: &Convex, direction: Vector, piece: &Convex, grow: f64) -> Option<[f64; 2]> {
     let part_track = along_and_across(part.core().iter(), Vector::zeros(), direction);
     let piece_track = along_and_across(piece.core().iter(), Vector::zeros(), direction);
@@ -29,11 +29,11 @@ pub fn along_and_across<'a>(
         .collect()
 }
 
-/// Does the same as [`sliding`] for cores given along and across the direction.
+/// Like [`sliding`], for cores in coordinates along and across the direction.
 ///
-/// The values of `s` are those at which the line of motion is within the Minkowski difference of piece and part, grown
-/// by `radius`. The outline of that difference consists of differences of a corner of one core and a side of the other.
-/// All such differences belong to it. So the interval extends from the least to the greatest crossing of any of them.
+/// The line of motion must be within the Minkowski difference of piece and part, grown by `radius`. The outline of this
+/// difference consists of differences between a corner of one core and a side of the other. All such differences belong to the
+/// Minkowski difference, so the interval extends from the least to the greatest of their crossings with the line.
 pub fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<[f64; 2]> {
     debug_assert!(radius >= 0.0, "shapes that overlap do not touch: {radius}");
     let mut interval: Option<[f64; 2]> = None;
@@ -43,7 +43,7 @@ pub fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<
     for a in part {
         for p in piece {
             let d = p - a;
-            // A corner that is on the line up to rounding counts as on it.
+            // A corner counts as on the line if it is on the line up to rounding.
             let square = radius * radius - d.y * d.y;
             if square >= 0.0 || d.y.abs() <= radius + ROUNDING / 2.0 {
                 let half = square.max(0.0).sqrt();
@@ -65,11 +65,10 @@ pub fn sliding_tracks(part: &[Vector], piece: &[Vector], radius: f64) -> Option<
     interval
 }
 
-/// Calls `include` with the places where the segment from `p` to `q`, moved by `radius` to either side, crosses the
-/// first axis.
+/// Calls `include` with the places where the segment from `p` to `q`, moved by `radius` to either side, crosses the first axis.
 fn cross_line(p: Vector, q: Vector, radius: f64, include: &mut impl FnMut(f64)) {
     let along = q - p;
-    // A segment along the axis crosses it at its ends, which are tested separately.
+    // A segment parallel to the axis has no crossing. Its ends are tested separately.
     if along.y == 0.0 {
         return;
     }

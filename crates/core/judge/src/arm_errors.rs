@@ -1,16 +1,16 @@
 //! Bounds on distances for an arm that differs from its model.
 //!
-//! A point of link 2 is at `R0 (A + R1 (B + R2 C))`. `R0` is the turn of the base, `R1` and `R2` are those of the joints.
-//! `A` leads to joint 1, `B` from there to joint 2, and `C` from joint 2 to the point. Errors of the model change the
-//! rotations and the vectors, as the motion does. Along a straight change of all of them, the term of a vector `w` has a
-//! second derivative of at most `W^2 |w| + 2 W |w'|`, where `W` is the change of its angle. Taylor's formula then bounds
-//! the distance, as in [`Posture::bound`].
+//! A point of link 2 is at `R0 (A + R1 (B + R2 C))`. `R0` is the rotation of the base, and `R1` and `R2` are those of
+//! the joints. `A` leads to joint 1, `B` from there to joint 2, and `C` from joint 2 to the point. Errors of the model
+//! and the motion change these rotations and vectors. If all of them change linearly, the term of a vector `w` has a
+//! second derivative of at most `W^2 |w| + 2 W |w'|`, where `W` is the change of its angle. Taylor's formula then
+//! bounds the distance, as in [`Posture::bound`].
 
 use super::deviation::{Deviation, Posture, ROUNDING, SpanPair};
 use cplan_geometry::{Point, Vector, perpendicular, separation_at};
 use cplan_model::{Arm, Grip, Pair, Scene};
 
-/// Greatest errors of an arm's model. All may occur at the same time, with any sign.
+/// Greatest errors of an arm's model. They may have any sign, and occur at the same time.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct ArmErrors {
     /// Displacement of the base in any direction, metres.
@@ -18,7 +18,7 @@ pub struct ArmErrors {
     /// Rotation of the base about the origin of the plane, radians.
     pub base_angle: f64,
     /// Errors of two distances, metres: from joint 1 to joint 2, and from joint 2 to the tip. Each point of a link
-    /// moves along the link by at most this.
+    /// moves along the link by at most this distance.
     pub lengths: [f64; 2],
     /// Error of the zero of each joint, radians or metres.
     pub zeros: [f64; 2],
@@ -30,7 +30,7 @@ struct Term {
     length: f64,
     /// Greatest change of its angle, radians.
     turn: f64,
-    /// Greatest change of the vector before it is turned, metres.
+    /// Greatest change of the unrotated vector, metres.
     change: f64,
 }
 
@@ -46,17 +46,17 @@ impl Term {
     }
 }
 
-/// Bounds on the changes of a link over a deviation and the errors of its arm.
+/// Bounds on the changes of a link through a deviation and errors of the arm.
 struct Changes {
-    /// The vector to joint 1, and from there to joint 2.
+    /// The vectors to joint 1, and from there to joint 2.
     chain: [Term; 2],
-    /// Displacement of the base, metres, and its turn, radians.
+    /// Displacement of the base, metres, and its rotation, radians.
     base: [f64; 2],
-    /// Turn of the link relative to the base, and relative to the link before it, radians.
+    /// Rotation of the link relative to the base, and relative to the previous link, radians.
     turns: [f64; 2],
-    /// Motion of the link's points along the link, metres.
+    /// Displacement of the link's points along the link, metres.
     stretch: f64,
-    /// Positions of joint 1 and of the link's joint, about which the first and the second turn lead back.
+    /// Positions of joint 1 and of the link's joint, which are the pivots of both rotations when they are undone.
     pivots: [Point; 2],
 }
 
@@ -101,12 +101,12 @@ impl Changes {
         self.base[0] + self.chain.into_iter().chain([self.point(reach)]).map(Term::motion).sum::<f64>()
     }
 
-    /// Returns a bound on the second derivative of the place of a point of the link.
+    /// Returns a bound on the second derivative of the position of a point of the link.
     fn curvature_in_plane(&self, distance: f64) -> f64 {
         self.chain.into_iter().chain([self.point(distance)]).map(Term::curvature).sum()
     }
 
-    /// Returns a bound on the second derivative of the place of a point of the plane, as seen from the link.
+    /// Returns a bound on the second derivative of the position of a point of the plane, as seen from the link.
     fn curvature_in_link(&self, link: usize, p: Point) -> f64 {
         let ([shift, angle], [turn, last], [first, second]) = (self.base, self.turns, self.pivots);
         let [to_first, to_second] = self.chain;
@@ -121,9 +121,9 @@ impl Changes {
 }
 
 impl Posture<'_> {
-    /// Returns true if a pair is proven to be apart during a span of a motion ([`Posture::bound_during`]), for each arm
-    /// within these errors. `known` is a distance, in metres, that the pair is known to keep without errors; 0 if none
-    /// is known. Links of the robot move with its base.
+    /// Returns true if a pair is proven to be apart during a span of a motion ([`Posture::bound_during`]), for all arms
+    /// within these errors. `known` is a distance, in metres, that the pair provably keeps without errors, or 0. Links
+    /// of the robot move with its base.
     pub fn is_apart_with_errors(&self, during: SpanPair, deviation: Deviation, errors: &ArmErrors, known: f64) -> bool {
         let SpanPair { pair, part, drift } = during;
         let Pair { link, .. } = pair;
@@ -152,7 +152,7 @@ impl Posture<'_> {
                 return true;
             }
             let room = room + local.radius() + piece.radius();
-            // Errors move the point at `x` toward the obstacle by at most this, to first order.
+            // Errors move the point at `x` towards the obstacle by at most this, to first order.
             let toward = |x: Point, rates: [f64; 2]| {
                 errors.base
                     + errors.base_angle * n.dot(&perpendicular(x)).abs()
@@ -182,17 +182,17 @@ impl Posture<'_> {
         })
     }
 
-    /// Returns a box of deviations that contains those of prismatic joints. Deviations of revolute joints are 0 in it,
-    /// because rotations do not change how far errors move a point.
+    /// Returns a box with the deviations of prismatic joints. Those of revolute joints are 0 in it, because rotations
+    /// do not change by how much errors move a point.
     fn slides(&self, deviation: Deviation) -> Deviation {
         let greatest = deviation.greatest_components();
         let joints = &self.scene.arm().joints;
         Deviation::Box([0, 1].map(|k| if joints[k].joint_type.is_revolute() { 0.0 } else { greatest[k] }))
     }
 
-    /// Returns, for each link, the direction in which an error of its length moves the parts of link `link`: from joint
-    /// 1 to joint 2, and from joint 2 to the tip. Zero for a link without a length, and for one farther along the
-    /// chain.
+    /// Returns, for each link, the direction in which an error of its length moves the parts of link `link`. The
+    /// direction is from joint 1 to joint 2, or from joint 2 to the tip. It is zero for a link without a length, and
+    /// for a link farther along the chain.
     fn lengthwise(&self, link: usize) -> [Vector; 2] {
         let arm: &Arm = self.scene.arm();
         let unit = |v: Vector| v.try_normalize(0.0).unwrap_or_default();
@@ -201,7 +201,7 @@ impl Posture<'_> {
     }
 }
 
-/// Returns a bound on the motion that the errors of angles add to a pair's part, if a wrist keeps it level, metres.
+/// Returns a bound on the additional motion of a pair's part, metres, that errors of angles cause if a wrist keeps it level.
 fn wrist_motion(scene: &Scene, pair: Pair, errors: &ArmErrors) -> f64 {
     let level = scene.attachment().filter(|_| scene.is_attached(pair)).map(|attachment| (attachment, attachment.grip));
     let Some((attachment, Grip::Level { point, .. })) = level else { return 0.0 };

@@ -18,8 +18,7 @@ impl Cell {
         Configuration::new((self.lower[0] + self.upper[0]) / 2.0, (self.lower[1] + self.upper[1]) / 2.0)
     }
 
-    /// Returns half of each side, rounded up so that a box of these half sides about the rounded centre covers the
-    /// cell.
+    /// Returns half of each side, rounded up. A box with these half sides about the rounded centre covers the cell.
     pub fn half(&self) -> [f64; 2] {
         [0, 1].map(|k| {
             let largest = self.upper[k].abs().max(self.lower[k].abs()).max(PI);
@@ -27,8 +26,8 @@ impl Cell {
         })
     }
 
-    /// Returns the part of a segment that meets the cell, with its ends clamped into the cell. If rounding leaves no
-    /// such part, returns the point of the segment nearest to the centre.
+    /// Returns the part of a segment in the cell, with its ends clamped to the cell. If rounding leaves no such part,
+    /// returns the point of the segment nearest to the centre.
     pub fn part(&self, piece: &Segment) -> Segment {
         if piece.is_point() {
             return *piece;

@@ -1,38 +1,36 @@
 //! Bounds on the distance between a link and an obstacle while the configuration deviates from a given one.
 //!
 //! Let `q` deviate from `m` by `d`, let `n` be the direction of least distance at `m`, and let `x(d)` be a corner of
-//! the link. Taylor's formula gives `n . x(d) <= n . x(0) + |n . J d| + K / 2`, with the Jacobian `J` and a bound
-//! `K` on the second derivative along the motion. The obstacle has a supporting line with the normal `n`. As long as
-//! this sum is below that line for every corner, the link stays on its side of the line. That bounds the distance
-//! from below. To first order, only motion *towards* the obstacle counts.
+//! the link. Taylor's formula gives `n . x(d) <= n . x(0) + |n . J d| + K / 2`, with the Jacobian `J` and a bound `K`
+//! on the second derivative along the motion. The obstacle has a supporting line with the normal `n`. As long as this
+//! sum is below that line for every corner, the link stays on its side of the line, which gives a lower bound on the
+//! distance. To first order, only motion *towards* the obstacle matters.
 //!
-//! The same holds in the link's frame, where the obstacle's corners move and the link rests. A third bound is that
-//! no point moves farther than some length (Schwarzer, Saha, Latombe 2005). The greatest of the three bounds counts.
-//! The third is the best one at large distances. The other two are far better when a link slides along an obstacle,
-//! as it does on shortest paths.
+//! A second bound uses the link's frame, in which the obstacle's corners move and the link rests. A third bound is that no point
+//! moves farther than some length (Schwarzer, Saha, Latombe 2005). The greatest of the three bounds counts. At large distances,
+//! this is the third one. If a link moves along an obstacle, as on shortest paths, the other two are far better.
 
 use super::drift::Drift;
 use cplan_geometry::{Convex, Point, Pose, Separation, Vector, perpendicular, reach, separation_at};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, JointType, Pair, Scene};
 
-/// Bound on the rounding of one evaluation, as a fraction of the lengths in it: a few dozen operations at 1.1e-16
-/// each. Bounds are lowered by it, so that they hold in floating point too.
+/// Bound on the rounding of one evaluation, as a fraction of its lengths: a few dozen operations with 1.1e-16 each.
+/// Bounds are lowered by it, so that they hold in floating point, too.
 pub(super) const ROUNDING: f64 = 1e-13;
 
-/// Allowance for rounding in proofs that shapes collide, as a fraction of the lengths. It is larger than the
-/// tolerance of the independent check ([`super::Disconnection::checked`], 1e-12), so that the check accepts these
-/// proofs.
+/// Allowance for rounding in proofs that shapes collide, as a fraction of the lengths. The independent check
+/// ([`super::Disconnection::checked`]) accepts these proofs, because its own allowance is smaller (1e-12).
 pub const COLLISION_ROUNDING: f64 = 2e-12;
 
-/// A set of deviations from a configuration. It is symmetric: with every deviation it contains the opposite one.
+/// A symmetric set of deviations from a configuration: for each deviation, it contains the opposite one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Deviation {
     /// The deviations `t d` of a straight motion, for `-1 <= t <= 1`. The value is `d`.
     Along(Configuration),
     /// All deviations `d` with `|d_1| <= h_1` and `|d_2| <= h_2`. The value is `h`.
     Box([f64; 2]),
-    /// All sums of a deviation of [`Deviation::Along`] and one of [`Deviation::Box`]. They cover, for example, a curve
+    /// All sums of a deviation of [`Deviation::Along`] and one of [`Deviation::Box`]. For example, they cover a curve
     /// that stays near its chord.
     Tube(Configuration, [f64; 2]),
 }
@@ -57,7 +55,7 @@ impl Deviation {
         }
     }
 
-    /// Returns all sums of one of these deviations and one that changes each joint by at most `by`.
+    /// Returns all sums of these deviations and deviations of each joint by at most `by`.
     #[must_use]
     pub fn widened(self, by: f64) -> Self {
         match self {
@@ -67,7 +65,7 @@ impl Deviation {
         }
     }
 
-    /// Returns the greatest value of `|d_1|` over the deviations, and that of `|d_2|`.
+    /// Returns the greatest values of `|d_1|` and of `|d_2|` over the deviations.
     pub(super) fn greatest_components(self) -> [f64; 2] {
         match self {
             Deviation::Along(d) => [d[0].abs(), d[1].abs()],
@@ -77,13 +75,13 @@ impl Deviation {
     }
 }
 
-/// An arm at one configuration, prepared for bounds on its distances nearby.
+/// An arm at one configuration, prepared for bounds on its distances at nearby configurations.
 #[derive(Debug, Clone)]
 pub struct Posture<'a> {
     pub(super) scene: &'a Scene,
     q: Configuration,
     pub(super) poses: [Pose; 3],
-    /// Positions of joint 2 in the plane: first at the configuration, then with joint 1 at zero instead.
+    /// Positions of joint 2 in the plane, with joint 1 as in the configuration, and with joint 1 at zero.
     elbows: [Point; 2],
 }
 
@@ -101,22 +99,22 @@ pub struct SeparationBound {
 pub struct SpanPair<'s> {
     /// The pair.
     pub pair: Pair,
-    /// A shape that contains the pair's part at all times of the span, in the link's frame. `None` if the part keeps its
-    /// shape.
+    /// A shape that contains the pair's part at all times of the span, in the link's frame. `None` if the part does not
+    /// change its shape.
     pub part: Option<&'s Convex>,
-    /// The motion of the obstacle. `None` if it is still.
+    /// The motion of the obstacle. `None` if it is static.
     pub drift: Option<&'s Drift>,
 }
 
 impl From<Pair> for SpanPair<'_> {
-    /// Converts a pair whose part keeps its shape, and whose obstacle is still.
+    /// Converts a pair with a constant part and a static obstacle.
     fn from(pair: Pair) -> Self {
         Self { pair, part: None, drift: None }
     }
 }
 
-/// The shapes of a pair, and the drift of its obstacle, if any. While the arm deviates by `t d`, the obstacle is at
-/// its position `t` half spans after the middle of the drift.
+/// The shapes of a pair, and the drift of its obstacle, if any. When the arm has deviated by `t d`, the time is `t`
+/// half spans after the middle of the drift.
 #[derive(Clone, Copy)]
 struct Shapes<'s> {
     link: usize,
@@ -127,8 +125,8 @@ struct Shapes<'s> {
     drift: Option<&'s Drift>,
 }
 
-/// A bound on the acceleration of a moving point `p`, that is on the second derivative of its position by the
-/// deviation's parameter: `(|p - center| + shift) factor^2 + constant`.
+/// A bound on the acceleration of a moving point `p`, that is, on the second derivative of its position with respect to
+/// the deviation's parameter. It is `(|p - center| + shift) factor^2 + constant`.
 #[derive(Debug, Clone, Copy)]
 pub struct Curvature {
     /// The point from which the distance of `p` is measured.
@@ -177,14 +175,14 @@ impl<'a> Posture<'a> {
         self.bound_up_to(pair, deviation, |_| f64::INFINITY)
     }
 
-    /// Does the same as [`Posture::bound`], but may stop early. `enough` receives the distance at the posture and
-    /// returns the bound that suffices.
+    /// Like [`Posture::bound`], but may stop early. `enough` receives the distance at the posture, and returns the
+    /// bound that suffices.
     pub fn bound_up_to(&self, pair: Pair, deviation: Deviation, enough: impl Fn(f64) -> f64) -> SeparationBound {
         self.least(self.shapes(pair), deviation, enough)
     }
 
-    /// Does the same as [`Posture::bound_up_to`] during a span of a motion. The posture is the arm's in the middle of the
-    /// span, and the deviation is the arm's motion in it.
+    /// Like [`Posture::bound_up_to`], during a span of a motion. The posture is that of the arm in the middle of the
+    /// span, and the deviation is the motion of the arm in the span.
     pub fn bound_during(
         &self,
         SpanPair { pair, part, drift }: SpanPair,
@@ -202,7 +200,7 @@ impl<'a> Posture<'a> {
         }
     }
 
-    /// Does the same as [`Posture::disc_bound`] during a span of a motion: returns a lower bound on the distance.
+    /// Like [`Posture::disc_bound`], during a span of a motion.
     pub fn disc_bound_during(&self, SpanPair { pair, part, drift }: SpanPair, deviation: Deviation) -> f64 {
         let (mut center, mut around) = disc(self.scene.piece(pair));
         if let Some(drift) = drift {
@@ -234,8 +232,8 @@ impl<'a> Posture<'a> {
         })
     }
 
-    /// Returns a lower bound on the distance of a pair over `deviation`, from discs around the two shapes. It costs
-    /// a small part of what [`Posture::bound`] costs. If the shapes are near each other, it is far lower.
+    /// Returns a lower bound on the distance of a pair over `deviation`, from discs around the two shapes. It is much
+    /// faster than [`Posture::bound`], but far lower if the shapes are close.
     pub fn disc_bound(&self, pair: Pair, deviation: Deviation) -> f64 {
         self.disc_bound_during(pair.into(), deviation)
     }
@@ -258,10 +256,9 @@ impl<'a> Posture<'a> {
     }
 
     /// Returns an upper bound on the signed distance of a pair over `deviation`. If it is negative, the pair collides
-    /// at every deviation.
-    /// The reason: suppose that the shapes were apart at some deviation. Then a line would separate them there. On the
-    /// way back to the posture, no point moves farther than the greatest motion. So at the posture the shapes would
-    /// overlap by at most that motion.
+    /// at every deviation. For suppose that the shapes are apart at some deviation. Then a line separates them there.
+    /// On the motion back to the posture, no point moves farther than the greatest motion. So at the posture, the
+    /// shapes overlap by at most that motion.
     pub fn greatest(&self, pair: Pair, deviation: Deviation) -> f64 {
         let (local, piece) = (self.scene.part(pair), self.scene.piece(pair));
         separation_at(local, &self.poses[pair.link], piece, |corners, here| {
@@ -270,15 +267,15 @@ impl<'a> Posture<'a> {
         })
     }
 
-    /// Returns a bound for all lengths that occur in the computation of a distance. The rounding error of the distance
-    /// is a fraction of this bound.
+    /// Returns a bound on all lengths in the computation of a distance. The rounding error of the distance is a
+    /// fraction of this bound.
     pub fn scale(&self, corners: &[Point], radius: f64, piece: &Convex) -> f64 {
         let base = self.scene.arm().base;
         base.norm() + reach(corners, base) + radius.max(0.0) + piece.reach_from(base)
     }
 
-    /// Returns a lower bound on the distance, computed along a direction that is fixed in the plane. The corners of the
-    /// link move, and so do those of a drifting obstacle.
+    /// Returns a lower bound on the distance along a direction that is fixed in the plane. The corners of the link
+    /// move, and so do those of a drifting obstacle.
     fn least_in_plane(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, local, piece, drift } = shapes;
         let curvature = self.curvature_in_plane(link, deviation);
@@ -292,7 +289,7 @@ impl<'a> Posture<'a> {
             }
             return least;
         };
-        // Both shapes move by the same fraction of the span, so motion that they have in common does not count.
+        // Both shapes move during the same fraction of the span, so common motion has no effect.
         let mut least = f64::INFINITY;
         for (x, a) in corners.iter().zip(local.core()) {
             let rates = self.rates(link, *x, n);
@@ -304,9 +301,8 @@ impl<'a> Posture<'a> {
         least
     }
 
-    /// Returns a lower bound on the distance, computed along a direction that is fixed in the link. Seen from the link,
-    /// the obstacle's corners move. The velocity of each corner is the opposite of the velocity that a point of the
-    /// link has at the same place.
+    /// Returns a lower bound on the distance along a direction that is fixed in the link. Seen from the link, the
+    /// obstacle's corners move. Each corner has the opposite velocity of the link's point at the same place.
     fn least_in_link(&self, shapes: Shapes, corners: &[Point], n: Vector, deviation: Deviation) -> f64 {
         let Shapes { link, piece, .. } = shapes;
         let line = corners.iter().map(|p| n.dot(p)).fold(f64::NEG_INFINITY, f64::max);
@@ -320,7 +316,7 @@ impl<'a> Posture<'a> {
         least
     }
 
-    /// Returns the velocity along `n`, per unit of each joint, of the point of link `link` that is now at `x`.
+    /// Returns the velocity along `n`, per unit of each joint, of the point of link `link` that is currently at `x`.
     pub(super) fn rates(&self, link: usize, x: Point, n: Vector) -> [f64; 2] {
         let arm = self.scene.arm();
         let first = match arm.joints[0].joint_type {
@@ -421,7 +417,7 @@ fn disc(shape: &Convex) -> (Point, f64) {
     (center, extent2.sqrt() + shape.radius())
 }
 
-/// Returns the greatest angle by which link 2 turns in the plane when both joints turn, radians.
+/// Returns the greatest angle by which link 2 turns in the plane if both joints are revolute, radians.
 fn turn_of_link_2(arm: &Arm, deviation: Deviation) -> f64 {
     deviation.linear(arm.joints.each_ref().map(|joint| joint.joint_type.turn()))
 }

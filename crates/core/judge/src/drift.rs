@@ -2,27 +2,26 @@
 
 use cplan_geometry::{Point, Pose, Vector, perpendicular};
 
-/// The motion of a loose obstacle while a parameter such as the time goes through a span. It is given relative to
-/// the pose in the middle of the span.
+/// The motion of a loose obstacle while a parameter, such as the time, goes through a span. It is relative to the pose
+/// in the middle of the span.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Drift {
     /// Pose of the obstacle's frame in the middle of the span.
     pub middle: Pose,
-    /// Velocity of the frame's origin, metres per unit of the parameter. Zero if the velocity changes within the span;
+    /// Velocity of the frame's origin, metres per unit of the parameter. Zero if the velocity changes within the span,
     /// see `any`.
     pub velocity: Vector,
-    /// Angular velocity, radians per unit of the parameter. Zero if it changes within the span; see `any`.
+    /// Angular velocity, radians per unit of the parameter. Zero if it changes within the span, see `any`.
     pub turn: f64,
     /// Half the length of the span, in units of the parameter.
     pub half: f64,
-    /// Bounds for a span in which the velocity changes: on the speed of the origin (metres per unit) and on the angular
-    /// speed (radians per unit). Zero if the velocity is constant.
+    /// Bounds on the speed of the origin (metres per unit) and on the angular speed (radians per unit), for a span in
+    /// which the velocity changes. Zero if it is constant.
     pub any: [f64; 2],
 }
 
 impl Drift {
-    /// Returns the displacement of a point during half of the span, to first order. The point is at `p` in the middle
-    /// of the span.
+    /// Returns the displacement, to first order, during half of the span. The point is at `p` in the middle of the span.
     pub fn of(&self, p: Point) -> Vector {
         (self.velocity + perpendicular(p - self.origin()) * self.turn) * self.half
     }

@@ -1,16 +1,16 @@
 //! The judge: continuous collision checks of planned motions, and of proofs that there is no path.
 //!
-//! The judge uses only the scene's exact outlines. It knows neither planners nor C-obstacles, so a fault of a
-//! planner or of the search for proofs cannot hide here.
+//! The judge uses only the scene's exact outlines, and neither planners nor C-obstacles. So it detects faults of
+//! planners and of the search for proofs.
 //!
-//! - [`certify`] judges a path by bisection: [`Deviation`] bounds how much closer two shapes can come along a
-//!   segment. Only `certify` makes a [`CertifiedPath`] from a path; `then`, `part` and `within` derive others.
+//! - [`certify`] judges a path by bisection. [`Deviation`] bounds how much closer two shapes can come along a segment.
+//!   Only `certify` makes a [`CertifiedPath`] from a path. `then`, `part` and `within` derive others from it.
 //! - [`CurveSearch`] does the same for any curve, given bounds on its parts. The crate `motion` judges rounded
 //!   corners with it.
 //! - [`Posture::is_apart_with_errors`] proves that two shapes are apart if the arm differs from its model.
-//! - [`permanent_contacts`] proves which shapes of the robot's own body meet in every configuration. Their contact
+//! - [`permanent_contacts`] finds shapes of the robot itself that provably meet in every configuration. Their contact
 //!   is ignored.
-//! - [`Disconnection::checked`] judges a proof that there is no path. It joins the gaps between the collision boxes by
+//! - [`Disconnection::checked`] judges a proof that there is no path. It joins gaps between the collision boxes by
 //!   petgraph's union-find.
 //!
 //! ```

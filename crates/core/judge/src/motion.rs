@@ -7,22 +7,22 @@ use cplan_model::space::{Configuration, LimitedValue, Path};
 use cplan_model::{Contact, Pair, Scene};
 
 /// A lower bound for a piece of the path is accepted if it is at least this fraction of the least distance seen.
-/// Otherwise the piece is halved. So the proven clearance is at least this fraction of the true one. A value nearer
-/// to 1 costs more evaluations: a few more for every halving of the gap.
+/// Otherwise the piece is halved. So the proven clearance is at least this fraction of the true one. With values closer
+/// to 1, there are more evaluations: a few more for every halving of the difference.
 const TIGHTNESS: f64 = 0.9;
 
-/// Number of distance evaluations before the search gives up, for a path with few waypoints. They take some seconds.
+/// Number of distance evaluations before the search gives up, for a path with few waypoints. They take several seconds.
 const MAX_EVALUATIONS: usize = 5_000_000;
 /// Number of distance evaluations per waypoint that are added to [`MAX_EVALUATIONS`]. Paths through mazes have hundreds
 /// of thousands of waypoints.
 const EVALUATIONS_PER_PIECE: usize = 500;
 
-/// Rounding error of a configuration on a segment, relative to the larger of the segment's ends: three operations.
-/// On circles joint values may be many turns from zero, where doubles lie far apart.
+/// Rounding error of a configuration on a segment, relative to the larger end of the segment: three operations. On
+/// circles, joint values may be many turns from zero, where doubles are coarse.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Parts of a curve with numbers below this share one [`Posture`] among all pairs of shapes. These parts are the whole
-/// curve and three levels of halves.
+/// Number of a part of a curve below which all pairs of shapes share one [`Posture`] of the part. These parts are the
+/// whole curve and three levels of halves.
 const SHARED_PARTS: usize = 16;
 
 /// Allowed distance of the end of one path from the start of the next, relative to the size of the joint values.
@@ -117,17 +117,16 @@ pub enum Rejection {
     },
     /// At this configuration on the path, two shapes touch, overlap, or are nearer than the required clearance.
     TooClose(Nearest),
-    /// The search gave up at this configuration: the distance is too near to the required clearance to decide which
-    /// is larger.
+    /// The search gave up at this configuration, because the distance is too close to the required clearance.
     Undecided(Nearest),
 }
 
 /// Checks the whole motion along `path`, which is straight in joint space between waypoints. It must be within the
 /// joint limits. Every pair that can meet must keep a distance of more than zero and at least the scene's clearance.
 ///
-/// For each pair and segment, the lower bound of [`Posture::bound`] about the middle decides; if it is too low, both
-/// halves are checked. The search ends if the motion's least distance exceeds the clearance. The number of pieces
-/// then grows like the square root of the inverse of the excess.
+/// For each pair and segment, the lower bound of [`Posture::bound`] about the middle decides. If it is too low, both
+/// halves are checked. If the least distance exceeds the clearance by `d`, the search ends, and the number of pieces
+/// grows like `1 / sqrt(d)`.
 ///
 /// # Errors
 /// [`Rejection`]: `OutOfLimits` and `TooClose` prove that the path fails, `Undecided` does not.
@@ -135,10 +134,10 @@ pub fn certify(scene: &Scene, path: Path) -> Result<CertifiedPath, Rejection> {
     certify_at(scene, path, scene.workspace().clearance)
 }
 
-/// Does the same as [`certify`] for a distance of at least `clearance` metres.
+/// Like [`certify`], for a distance of at least `clearance` metres.
 ///
 /// # Errors
-/// The errors of [`certify`].
+/// Same as for [`certify`].
 pub fn certify_at(scene: &Scene, path: Path, clearance: f64) -> Result<CertifiedPath, Rejection> {
     let topology = scene.arm().topology();
     for (waypoint, q) in path.waypoints().iter().enumerate() {
@@ -153,14 +152,14 @@ pub fn certify_at(scene: &Scene, path: Path, clearance: f64) -> Result<Certified
         let posture = Posture::new(scene, q);
         let here = Deviation::Box([0.0, 0.0]);
         vicinity.near(&posture, here, search.least_distance(), |pair| {
-            // Pairs farther apart than the nearest pair so far need no exact distance.
+            // Pairs that are farther apart than the nearest pair so far need no exact distance.
             if posture.disc_bound(pair, here) < search.least_distance() {
                 search.record(q, Contact { pair, separation: posture.separation(pair) })?;
             }
             Ok(())
         })?;
     }
-    // A path that does not move has no segment, but still a clearance.
+    // A path without motion has no segment, but still a clearance.
     let rest = path.waypoints().len() == 1;
     for (from, to) in path.segments().chain(rest.then(|| (path.start(), path.start()))) {
         search.segment(&vicinity, from, to)?;
@@ -168,8 +167,8 @@ pub fn certify_at(scene: &Scene, path: Path, clearance: f64) -> Result<Certified
     Ok(CertifiedPath { path, clearance: search.proven, nearest: search.nearest })
 }
 
-/// A check of many straight motions in one scene. It decides only whether each motion keeps the clearance, not by
-/// how much. That costs a small part of what [`certify`] costs.
+/// A check of many straight motions in one scene. It only decides whether a motion keeps the clearance, which is much
+/// faster than [`certify`].
 pub struct StraightMotions<'a> {
     scene: &'a Scene,
     vicinity: Vicinity<'a>,
@@ -194,28 +193,28 @@ impl<'a> StraightMotions<'a> {
     }
 }
 
-/// Returns the deviations from a point of a segment to all points within the fraction `half` of the segment on either
-/// side. They include the rounding error of that point.
+/// Returns the deviations from a point of a segment to all points at most the fraction `half` of the segment away. They
+/// include the rounding error of that point.
 fn part_of(from: Configuration, to: Configuration, half: f64) -> Deviation {
     let rounded = [0, 1].map(|k| ROUNDING * from[k].abs().max(to[k].abs()));
     Deviation::Tube((to - from) * half, rounded)
 }
 
-/// A check of a motion along any curves, piece by piece.
+/// A check of a motion along any curves, one after the other.
 #[derive(Debug, Clone)]
 pub struct CurveSearch<'a> {
     scene: &'a Scene,
     required: f64,
-    /// A bound is accepted if it is at least this fraction of the least distance seen; 0 if only `required` counts.
+    /// A bound is accepted if it is at least this fraction of the least distance seen. 0 if only `required` counts.
     tightness: f64,
     /// The least of the accepted bounds.
     proven: f64,
     /// The nearest approach found so far.
     nearest: Option<Nearest>,
-    /// Number of checks of pairs that remain before the search gives up.
+    /// Number of checks of pairs until the search gives up.
     budget: usize,
-    /// Parts of a curve that are still to be checked, the next one last: number, middle and half width of the
-    /// parameter. The whole curve has number 1; the halves of part `n` have `2 n` and `2 n + 1`.
+    /// Parts of a curve that must still be checked, the next one last: number, middle, and half width of the parameter.
+    /// The whole curve has number 1. The halves of part `n` have `2 n` and `2 n + 1`.
     open: Vec<(usize, f64, f64)>,
 }
 
@@ -224,14 +223,13 @@ impl<'a> CurveSearch<'a> {
         Self { scene, required, tightness: TIGHTNESS, proven: f64::INFINITY, nearest: None, budget, open: Vec::new() }
     }
 
-    /// Creates a search that decides only whether the motion keeps the distance `required`, not by how much. It makes
-    /// at most `budget` distance evaluations.
+    /// Creates a search that only decides whether the motion keeps the distance `required`. It makes at most `budget`
+    /// distance evaluations.
     pub fn deciding(scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { tightness: 0.0, ..Self::new(scene, required, budget) }
     }
 
-    /// Creates a search that continues from a certified path, and finds the clearance of the path together with the
-    /// curves.
+    /// Creates a search that continues from a certified path. It finds the common clearance of the path and the curves.
     pub fn continued_from(known: &CertifiedPath, scene: &'a Scene, required: f64, budget: usize) -> Self {
         Self { proven: known.clearance, nearest: known.nearest, ..Self::new(scene, required, budget) }
     }
@@ -258,7 +256,7 @@ impl<'a> CurveSearch<'a> {
         self.nearest.map_or(f64::INFINITY, |n| n.contact.separation.distance)
     }
 
-    /// Returns the least bound that is accepted, if `distance` counts among the distances seen so far.
+    /// Returns the least bound that is accepted if `distance` is one of the distances seen.
     fn target(&self, distance: f64) -> f64 {
         if self.tightness > 0.0 {
             (self.tightness * self.least_distance().min(distance)).max(self.required)
@@ -276,8 +274,8 @@ impl<'a> CurveSearch<'a> {
         self.curve(vicinity, |middle, half| (from + (to - from) * middle, part_of(from, to, half)))
     }
 
-    /// Checks a curve, whose parameter goes from 0 to 1. `part` receives the middle and the half width of a range of
-    /// the parameter. It returns the configuration in the middle, and deviations from it that cover the range.
+    /// Checks a curve with the parameter from 0 to 1. `part` receives the middle and the half width of a range of the
+    /// parameter, and returns the configuration in the middle with deviations that cover the range.
     ///
     /// # Errors
     /// [`Rejection`] if the curve does not keep the required distance, or is not proven to keep it.

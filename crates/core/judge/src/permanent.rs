@@ -5,12 +5,12 @@ use cplan_geometry::{Hits, ROUNDING};
 use cplan_model::{Contacts, Joint, Pair, Scene, on_axis};
 use std::collections::VecDeque;
 
-/// Distance within which two shapes count as meeting, metres. Links often begin where others end, so at some values of
-/// the joint the shapes only touch.
+/// Distance within which two shapes count as meeting, metres. Links often begin where others end, so the shapes only
+/// touch at some values of the joint.
 const TOUCHING: f64 = 2.0 * ROUNDING;
 
-/// Largest number of boxes of configurations in which one pair is tested. If they do not decide, the pair counts as not
-/// permanent. Large plates around the arm take some ten boxes.
+/// Largest number of boxes of configurations for the test of one pair. If they do not decide, the pair counts as not
+/// permanent. For large plates around the arm, about ten boxes suffice.
 const MAX_CELLS: usize = 4096;
 
 /// Returns the pairs with links of the robot that are proven to meet in every configuration within the joints' limits.
@@ -24,8 +24,8 @@ pub fn permanent_contacts(scene: &Scene) -> Vec<Pair> {
     inner.pairs().iter().enumerate().filter(is_permanent).map(|(_, pair)| *pair).collect()
 }
 
-/// Returns true if a pair is proven to meet in every configuration. If one joint alone changes its distance, the contact
-/// angles decide; otherwise boxes of configurations.
+/// Returns true if a pair is proven to meet in every configuration. If only one joint changes its distance, the contact
+/// angles decide. Otherwise, boxes of configurations do.
 fn meet_everywhere(contacts: &Contacts, index: usize, pair: Pair) -> bool {
     let joints = &contacts.scene().arm().joints;
     let mut intervals = Vec::new();
@@ -52,8 +52,8 @@ fn cover(joint: &Joint, hits: Hits, intervals: &[[f64; 2]]) -> bool {
     reached.is_some_and(|reached| reached >= upper)
 }
 
-/// Returns true if a pair of link 2 and a static link overlaps in every configuration. Each box of configurations must
-/// pass [`Posture::greatest`]; otherwise it is halved. The search ends at the first configuration that is free.
+/// Returns true if a pair of link 2 and a static link overlaps in every configuration. A box of configurations is
+/// halved unless it passes [`Posture::greatest`]. The search ends at the first configuration without overlap.
 fn overlap_in_boxes(scene: &Scene, pair: Pair) -> bool {
     let [(low1, high1), (low2, high2)] = scene.arm().joints.each_ref().map(|joint| joint.range.domain());
     let mut waiting = VecDeque::from([Cell { lower: [low1, low2], upper: [high1, high2] }]);

@@ -31,7 +31,7 @@ impl<'a> Vicinity<'a> {
     }
 
     /// Calls `f`, in the order of the pairs, with every pair whose shapes are within `distance` of each other at some
-    /// deviation from the posture. Calls it with some other pairs, too. Stops at the first error of `f`.
+    /// deviation from the posture, and possibly with other pairs. Stops at the first error of `f`.
     pub fn near<E>(
         &self,
         posture: &Posture,

@@ -5,7 +5,7 @@
 //! - [`planner`]: the trait `Planner` and four planners: visibility graph, trapezoids, wavefront, harmonic field.
 //!   The crates `roadmaps`, `fields` and `proofs` have the others.
 //!
-//! A planner cannot certify a path. Only the judge does, a crate that sees no planner.
+//! A planner cannot certify a path. Only the judge can, a crate that does not depend on planners.
 
 pub mod cspace;
 pub mod waves;

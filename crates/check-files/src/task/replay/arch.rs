@@ -13,7 +13,7 @@ use cplan_check::decimal::Decimal;
 use cplan_check::interval::{BITS, Interval, Point};
 use num_bigint::BigInt;
 
-/// The stroke and the turn at one end of a motion that overlap with it.
+/// The stroke and the turn that overlap with one end of a motion.
 #[derive(Default)]
 pub(super) struct EndCurves {
     /// The stroke that begins or ends during the motion.
@@ -23,9 +23,8 @@ pub(super) struct EndCurves {
 }
 
 impl Replay<'_> {
-    /// Reads the strokes and the turn of a step that overlap with motions: those that begin during its own motion, and
-    /// those that end during the next one. Checks that the world allows them, and that the tool stays lowered for the
-    /// step's dwell.
+    /// Reads the strokes and the turn of a step that overlap with its own motion, or with the next one. Checks that the
+    /// world allows them, and that the tool stays lowered for the step's dwell.
     pub(super) fn overlaps(
         &self,
         matched: &MatchedStep,
@@ -71,7 +70,7 @@ impl Replay<'_> {
         };
         let lowering = read(&done.lowering, "lowering", [&raised, &lowered])?;
         let raising = read(&done.raising, "raising", [&lowered, &raised])?;
-        // The arm rests from its arrival to its departure. The tool must be lowered for a part of this time.
+        // The arm rests from its arrival to its departure. For a part of this time, the tool must be lowered.
         let arrival = self.time(done.knots[1]);
         let departure = self.time(next.map_or(self.motion.knots.len() - 1, |next| next.done.knots[0]));
         let mut down = lowering.as_ref().map_or(&arrival, |lowering| lowering.end()).max(&arrival);
@@ -106,7 +105,8 @@ impl Replay<'_> {
         self.with_turn(matched, [lowering, raising], turn)
     }
 
-    /// Checks the raising before the first step, if the tool is lowered at the start. `from` is the configuration there.
+    /// Checks the stroke that raises the tool before the first step, if the tool is lowered at the start. `from` is the
+    /// configuration there.
     pub(super) fn raise_first(&mut self, done: &ExecutedStep, from: &Point) -> Result<(), CheckError> {
         let lowered = self.lowered[0].take();
         let (Some(height), knot) = (lowered, done.knots[0]) else {
@@ -135,7 +135,7 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Returns the lowering at the end of the motion to the goal.
+    /// Returns the stroke that lowers the tool at the end of the motion to the goal.
     fn lowering_at_goal(&self, done: &ExecutedStep, next: Option<&MatchedStep>) -> Result<StrokeCurve, CheckError> {
         let (Some(knots), Some(height), None, None) = (&done.lowering, &self.lowered[1], &done.raising, next) else {
             return CheckError::fails("this step has a stroke, but neither picks nor places an object");
@@ -166,9 +166,8 @@ impl Replay<'_> {
         }
     }
 
-    /// Checks the motion of a step at the heights and angles of the strokes and turns that overlap with its beginning and
-    /// its end. `pieces` are the motion from the departure to the arrival. The second link may touch the obstacle with
-    /// the index `also`.
+    /// Checks the motion of a step with the strokes and turns that overlap with its beginning and its end. `pieces` are
+    /// the motion from departure to arrival. The second link may touch the obstacle with the index `also`.
     pub(super) fn free_during_overlaps(
         &mut self,
         [before, own]: [&EndCurves; 2],
@@ -192,7 +191,7 @@ impl Replay<'_> {
         let first = raising.map_or(0, |raising| pieces.partition_point(|piece| piece.time[0] < *raising.end()));
         let last = lowering
             .map_or(pieces.len(), |lowering| pieces.partition_point(|piece| piece.time[1] <= *lowering.begin()));
-        // Before a turn after a pick, and after a turn before a place, the object has another orientation.
+        // The object has another orientation before a turn that follows a pick, and after a turn that precedes a place.
         if let Some(stroke) = raising {
             let angle = before.turn.as_ref().map(|(_, angle)| -angle);
             self.with_object_turned(angle.as_ref(), |replay| {
@@ -206,7 +205,7 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Checks pieces of motion at the heights of a stroke. Checks all its heights on these pieces first. If that fails,
+    /// Checks pieces of motion during a stroke, first with all heights that the stroke has in this time. If that fails,
     /// checks both halves. `halvings` is the number of times that a piece was halved.
     fn free_at_heights(
         &self,
@@ -221,7 +220,7 @@ impl Replay<'_> {
             return Ok(());
         }
         let heights = stroke.range(times);
-        // All curves begin in one tube, which is free of sides. So it does not matter which of them is tested.
+        // All curves begin in one tube that no side touches, so any of them can be tested.
         let from = first.curves[0][0].map(|value| Interval::exact(BigInt::from(value) << (BITS - FRACTION_BITS)));
         let checked = self.free(pieces, &from, also, ToolHeights::At(&heights));
         let Err(CheckError::Fails(why)) = checked else { return checked };

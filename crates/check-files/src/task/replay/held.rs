@@ -17,19 +17,17 @@ use cplan_check::scene::{PlacedObstacle, check_parts_clear};
 use num_bigint::BigInt;
 use std::iter;
 
-/// Number of decimals of the maximum distance of a moving object from its required position when it is picked: `10^-3`
-/// m.
+/// Number of decimals of the greatest distance of a moving object from its required position at the pick: `10^-3` m.
 const PICK_TOLERANCE_DECIMALS: u32 = 3;
 
-/// Maximum turn of the wrist, radians, in either direction. More than one full turn is implausible.
+/// Greatest turn of the wrist in either direction, radians. More than one full turn is implausible.
 const MAX_WRIST_TURN: i128 = 7;
 
-/// The carried object.
 pub(super) struct HeldObject {
     pub(super) object: usize,
     pub(super) on: Attachment,
-    /// The object in the frame to which it is attached. The next field, `pressed`, has the part of the object that must
-    /// keep away from supports; `None` if there are no supports.
+    /// The object in the frame to which it is attached. `pressed` is the part of the object that must keep away from
+    /// supports, or `None` if there are no supports.
     pub(super) hanging: Obstacle,
     pub(super) pressed: Option<Obstacle>,
     /// Shapes of `hanging`, and shapes of `pressed`.
@@ -40,7 +38,7 @@ pub(super) struct HeldObject {
 }
 
 impl Replay<'_> {
-    /// Returns the shapes of an attached object, and the shapes of the part of it that must keep away from supports.
+    /// Returns the shapes of an attached object, and those of the part that must keep away from supports.
     fn attached_shapes(
         &self,
         chain: &Chain,
@@ -52,7 +50,7 @@ impl Replay<'_> {
             carried_shapes::solids(own)
                 .map(|all| all.iter().map(|shape| Solid::new(chain, on.clone(), shape, kept)).collect())
         };
-        // Supports are grown by their own clearance. Objects that rest on them need not keep it.
+        // Supports are grown by their own clearance, which objects that rest on them need not keep.
         let grown = supports.iter().map(|support| &self.all[*support].grown[1].lower).min();
         let kept = guard() - grown.cloned().unwrap_or_default();
         Ok([solids(hanging, &self.kept)?, pressed.map_or(Ok(Vec::new()), |own| solids(own, &kept))?])
@@ -70,8 +68,7 @@ impl Replay<'_> {
         Ok(Solid::new(&self.chain, Attachment::Link(1), &disc, &self.kept))
     }
 
-    /// Checks that the world has no moving obstacles, for actions that are not checked in time. `what` names the
-    /// action.
+    /// Checks that the world has no moving obstacles. For actions that are not checked in time; `what` names the action.
     pub(super) fn require_static(&self, what: &str) -> Result<(), CheckError> {
         let moves = |present: &PlacedObstacle| present.obstacle.trajectory.is_some();
         match self.present.iter().flatten().any(moves) {
@@ -139,8 +136,8 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Turns the carried object about the tip by the step's angle, while the arm is at rest. A turn that overlaps with
-    /// a motion must also be free with the arm at rest.
+    /// Turns the carried object about the tip by the step's angle while the arm is at rest. A turn that overlaps with a
+    /// motion must also be free with the arm at rest.
     pub(super) fn turn(&mut self, done: &ExecutedStep, at: &Point) -> Result<(), CheckError> {
         let Some(by) = &done.turn else { return Ok(()) };
         self.require_static("a turn of the wrist")?;
@@ -166,7 +163,7 @@ impl Replay<'_> {
             (held.pressed.as_ref(), &held.carrying.supports),
         )?;
         let seen = |(number, present): (usize, &Option<PlacedObstacle>)| {
-            // The disc about the tip has already been checked.
+            // The disc about the tip was checked before.
             let meets = || self.meets(&held, number, ToolHeights::Raised).is_some_and(|of| of != ContactRule::Round);
             let met = present.as_ref().filter(|_| meets());
             met.map(|present| PlacedObstacle::new(&wrist, present.obstacle.clone())).transpose()

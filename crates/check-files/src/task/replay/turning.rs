@@ -16,8 +16,8 @@ use cplan_check::overlap::Shape;
 use cplan_check::scene::check_parts_clear;
 use num_bigint::BigInt;
 
-/// Greatest angle, radians, whose rotations are covered by a hull. For more, a disc covers the object. It is below half a
-/// turn, so that chords cover arcs.
+/// Greatest angle, radians, for which a hull covers the rotations of an object. For greater angles, a disc covers them.
+/// It is below half a turn, as the hull requires.
 const MAX_HULL_ANGLE: i32 = 1;
 
 /// Greatest angle, radians, by which a wrist turns during a motion.
@@ -26,7 +26,7 @@ const MAX_TURN: i32 = 7;
 /// Reason for refusing a turn that is not between the strokes of two steps.
 const TURNS_LOWERED: &str = "a turn of the wrist overlaps with a stroke of the tool or with another turn";
 
-/// A turn during a motion, and the angle by which the object is turned when the motion of the arm is checked.
+/// A turn during a motion, and the angle at which the object is when the whole motion is checked.
 struct Window<'a> {
     turn: &'a StrokeCurve,
     /// Angle of the object, relative to the beginning of the turn, at which the whole motion is checked.
@@ -34,8 +34,8 @@ struct Window<'a> {
 }
 
 impl Replay<'_> {
-    /// Reads the turn of a step that overlaps with a motion. Checks that the world allows it, and that it takes place
-    /// during the motion before a place or after a pick.
+    /// Reads the turn of a step that overlaps with a motion. Checks that the world allows it, and that the motion
+    /// precedes a place or follows a pick.
     pub(super) fn turn_on_the_way(
         &self,
         matched: &MatchedStep,
@@ -84,8 +84,8 @@ impl Replay<'_> {
         Ok(Some((turn, angle)))
     }
 
-    /// Returns the strokes that overlap with motions, lowering first, together with the turn. Checks that the tool is
-    /// raised during the turn.
+    /// Returns the strokes that overlap with motions, lowering first, and the turn. Checks that the tool is raised
+    /// during the turn.
     pub(super) fn with_turn(
         &self,
         matched: &MatchedStep,
@@ -121,8 +121,8 @@ impl Replay<'_> {
         checked
     }
 
-    /// Checks the carried object, at the angles of the turns that overlap with the beginning and the end of a motion.
-    /// `pieces` are the motion from the departure to the arrival.
+    /// Checks the carried object during turns that overlap with the beginning and the end of a motion. `pieces` are the
+    /// motion from departure to arrival.
     ///
     /// The motion was checked with the object at the angle that it has between the two turns. At one end of each turn,
     /// the object has that angle. During the turn, its border touches no obstacle, so neither the object nor an
@@ -153,7 +153,7 @@ impl Replay<'_> {
         Ok(())
     }
 
-    /// Checks pieces of motion at the angles of a turn. Checks all its angles on these pieces at once. If that fails,
+    /// Checks pieces of motion during a turn, first with all angles that the turn has in this time. If that fails,
     /// checks both halves. `halvings` is the number of times that a piece was halved.
     fn free_at_angles(&self, window: &Window, pieces: &[Piece], halvings: u32) -> Result<(), CheckError> {
         let ([first, ..], [.., last], Some(held)) = (pieces, pieces, &self.held) else { return Ok(()) };
@@ -175,8 +175,8 @@ impl Replay<'_> {
         [first, second].into_iter().try_for_each(|half| self.free_at_angles(window, half, halvings))
     }
 
-    /// Checks that the carried object is free on pieces of motion, at all angles between two, relative to its present
-    /// orientation.
+    /// Checks that the carried object is free on pieces of motion, at all angles between two angles relative to its
+    /// current orientation.
     fn free_covered(
         &self,
         held: &HeldObject,

@@ -12,7 +12,7 @@ const BINARY_SENTINEL: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 /// If the file ends within a group.
 pub(super) fn as_text(bytes: &[u8]) -> Result<Option<Vec<u8>>, Error> {
     let Some(mut rest) = bytes.strip_prefix(BINARY_SENTINEL) else { return Ok(None) };
-    // Since release 13, codes have two bytes. Then the file begins with two zeros, the first code.
+    // Since release 13, codes have two bytes. Such a file begins with two zero bytes, which are the first code.
     let is_wide = rest.starts_with(&[0, 0]);
     let mut text = Vec::with_capacity(2 * bytes.len());
     while !rest.is_empty() {
@@ -64,7 +64,6 @@ fn pair(rest: &mut &[u8], is_wide: bool) -> Option<(i32, Vec<u8>)> {
     Some((code, value.into_bytes()))
 }
 
-/// Takes bytes off the front.
 fn take_bytes<const SIZE: usize>(rest: &mut &[u8]) -> Option<[u8; SIZE]> {
     let (value, after) = rest.split_first_chunk()?;
     *rest = after;

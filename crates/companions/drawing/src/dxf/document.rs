@@ -22,14 +22,14 @@ pub(super) struct Block<'a> {
 pub(super) struct Document<'a> {
     /// The unit, if the file states one that cplan knows.
     pub unit: Option<Unit>,
-    /// The tag of the stated unit, if cplan does not know the unit.
+    /// The tag of the stated unit, if cplan does not know it.
     pub unread_unit: Option<Tag<'a>>,
-    /// Hidden layers, with names in capitals, because names do not distinguish upper and lower case.
+    /// Hidden layers, with names in capitals, because names are not case-sensitive.
     hidden: HashMap<String, HiddenReason>,
     /// Blocks by name in capitals.
     pub blocks: HashMap<String, Block<'a>>,
     pub entities: Vec<Entity<'a>>,
-    /// Dictionary entries: handles by the dictionary's handle and the entry's name.
+    /// Handles of dictionary entries, by the dictionary's handle and the entry's name.
     entries: HashMap<(&'a str, &'a str), &'a str>,
     /// Handles of the clips that are switched on.
     clips: HashSet<&'a str>,
@@ -48,7 +48,7 @@ enum HiddenReason {
 const UNPRINTED_LAYER: &str = "DEFPOINTS";
 
 impl<'a> Document<'a> {
-    /// Reads the relevant sections. All other sections have no meaning in the plane.
+    /// Reads the sections that matter in the plane.
     pub fn read(records: &[Record<'a>]) -> Result<Self, Error> {
         let mut document = Self::default();
         let mut rest = records.iter().copied().peekable();
@@ -103,7 +103,7 @@ impl<'a> Document<'a> {
         Ok(())
     }
 
-    /// Returns true if an insertion is clipped: its own dictionary leads to the clip.
+    /// Returns true if an insertion is clipped, that is, if its own dictionary refers to an active clip.
     pub fn clips(&self, insertion: Record<'a>) -> bool {
         let entry = |dictionary, name| self.entries.get(&(dictionary, name)).copied();
         let filters = insertion.text(360).and_then(|own| entry(own, "ACAD_FILTER"));
@@ -121,7 +121,7 @@ impl<'a> Document<'a> {
     }
 }
 
-/// Reads `$INSUNITS`. Returns the unit, or the value if it is not a known unit.
+/// Reads `$INSUNITS`. Returns the unit, or else the tag of a unit that cplan does not know.
 fn unit<'a>(header: &[Tag<'a>]) -> Result<(Option<Unit>, Option<Tag<'a>>), Error> {
     let at = header.iter().position(|tag| tag.code == 9 && tag.value == "$INSUNITS");
     let value = at.and_then(|at| header[at + 1..].iter().find(|tag| tag.code == 70));
@@ -161,7 +161,7 @@ fn blocks<'a>(records: &[Record<'a>]) -> Result<HashMap<String, Block<'a>>, Erro
     Ok(blocks)
 }
 
-/// Returns the entities, each with the following records that belong to it.
+/// Returns the entities, each with the records after it that belong to it.
 fn entities<'a>(records: &[Record<'a>]) -> Vec<Entity<'a>> {
     let mut entities: Vec<Entity> = Vec::new();
     for &record in records {

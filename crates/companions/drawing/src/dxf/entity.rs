@@ -31,7 +31,7 @@ impl<'a> Reader<'_, 'a> {
             self.sheet.leave_out(&format!("{} across the plane", record.kind), origin);
             return Ok(());
         }
-        // Lines, ellipses and splines are in coordinates of the drawing.
+        // Lines, ellipses and splines are in the coordinates of the drawing.
         let (world, own) = (place.map, place.map.compose(&oriented(entity)?));
         match record.kind {
             "LINE" => {
@@ -58,7 +58,7 @@ impl<'a> Reader<'_, 'a> {
                 self.arc(&ellipse, from, to, place, origin)
             }
             "SPLINE" => self.spline(&record, &world, place, origin),
-            // Swap the last two corners: the file has them in reading order, not in the order around the shape.
+            // The file has the last two corners in reading order, not in the order around the shape.
             "SOLID" | "TRACE" => {
                 let corners: [Point; 4] =
                     [record.point(10)?, record.point(11)?, record.point(13).or(record.point(12))?, record.point(12)?];
@@ -167,7 +167,6 @@ impl<'a> Reader<'_, 'a> {
         self.polyline(&corners, record.flag(1)?, map, place, origin)
     }
 
-    /// Adds an elliptical arc between two parameters, or the whole ellipse.
     fn arc(
         &mut self,
         ellipse: &Ellipse,
@@ -203,7 +202,7 @@ impl<'a> Reader<'_, 'a> {
         self.open(points, place, origin)
     }
 
-    /// Adds a spline that the file gives only by its fit points.
+    /// Adds a spline that is given only by its fit points.
     fn read_fit_spline(
         &mut self,
         record: &Record,
@@ -226,7 +225,6 @@ impl<'a> Reader<'_, 'a> {
     }
 }
 
-/// Reads a length, which must be above 0.
 fn size(record: &Record, code: i32) -> Result<f64, Error> {
     let size = record.needed(code)?;
     if size > 0.0 {

@@ -52,16 +52,16 @@ pub(crate) fn read(bytes: &[u8], settings: &Settings) -> Result<Drawing, Error> 
 #[derive(Debug, Clone)]
 struct BlockPlacement<'a> {
     map: Map,
-    /// Factor and offset that convert heights of the block to those of the drawing.
+    /// Factor and offset that convert heights in the block to heights in the drawing.
     up: [f64; 2],
-    /// Name of the outermost inserted block, unless the name was generated.
+    /// Name of the outermost inserted block. `None` if the name is generated.
     name: Option<&'a str>,
     /// Layer of the insertion. Within the block, it replaces layer 0.
     layer: Option<&'a str>,
     /// Number of the insertion. Entities of one insertion are joined only with each other.
     instance: usize,
-    /// The frozen layer of an insertion. It hides the whole insertion, while a layer that is off hides only its own
-    /// entities.
+    /// The frozen layer of an insertion. It hides the whole insertion, whereas a layer that is off hides only entities
+    /// on that layer.
     frozen: Option<&'a str>,
     /// Place and orientation of the outermost insertion.
     frame: Option<Frame>,
@@ -76,14 +76,14 @@ impl Default for BlockPlacement<'_> {
 struct Reader<'d, 'a> {
     document: &'d Document<'a>,
     sheet: Sheet,
-    /// Numbers of the groups of curves that may be joined, by insertion and layer.
+    /// Group number of curves that may be joined, by insertion and layer.
     groups: HashMap<(usize, String), usize>,
     instances: usize,
     entities: usize,
 }
 
 impl<'d, 'a> Reader<'d, 'a> {
-    /// Reads entities with a placement. `within` has the names of the blocks that contain the entities.
+    /// Reads entities with a placement. `within` lists the blocks that contain the entities.
     fn read_entities(
         &mut self,
         entities: &'d [Entity<'a>],
@@ -114,7 +114,6 @@ impl<'d, 'a> Reader<'d, 'a> {
         Ok(())
     }
 
-    /// Returns the origin of an entity: its name, layer and line.
     fn origin(&self, entity: &Entity<'a>, place: &BlockPlacement<'a>) -> Result<Origin, Error> {
         let record = entity.record;
         let layer = layer(entity, place);
@@ -134,7 +133,7 @@ impl<'d, 'a> Reader<'d, 'a> {
         })
     }
 
-    /// Returns the number of the group of curves that may be joined with entities of a layer.
+    /// Returns the group number of curves that may be joined with entities of a layer.
     fn group(&mut self, place: &BlockPlacement, origin: &Origin) -> usize {
         let next = self.groups.len();
         let layer = origin.layer.clone().unwrap_or_default();
@@ -211,13 +210,13 @@ impl<'d, 'a> Reader<'d, 'a> {
     }
 }
 
-/// Returns the layer of an entity. Within blocks, layer 0 means the layer of the insertion.
+/// Returns the layer of an entity. Layer 0 of a block means the layer of the insertion.
 fn layer<'a>(entity: &Entity<'a>, place: &BlockPlacement<'a>) -> &'a str {
     let own = entity.record.text(8).unwrap_or("0");
     if own == "0" { place.layer.unwrap_or(own) } else { own }
 }
 
-/// Returns 1 if the z axis of an entity points along that of the drawing, and -1 if it points against it.
+/// Returns 1 if the z axis of an entity points up, and -1 if it points down.
 fn upwards(entity: &Entity) -> f64 {
     let down = entity.record.number(230).ok().flatten().is_some_and(|z| z < 0.0);
     if down { -1.0 } else { 1.0 }

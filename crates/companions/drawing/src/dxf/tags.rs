@@ -1,5 +1,5 @@
-//! Splits the text of a DXF into tags, which are pairs of lines with a code and a value, and these into records, which
-//! begin with code 0.
+//! Splits the text of a DXF into tags, and the tags into records. A tag is a pair of lines with a code and a value. A
+//! record begins with a tag of code 0.
 
 use crate::{Error, Point};
 use std::borrow::Cow;
@@ -30,7 +30,7 @@ impl Tag<'_> {
     }
 }
 
-/// A record: a tag with code 0 and the tags after it, up to the next one with code 0.
+/// A tag with code 0, and the tags up to the next tag with code 0.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Record<'a> {
     pub kind: &'a str,
@@ -114,7 +114,7 @@ pub(super) fn tags(text: &str) -> Result<(Vec<Tag<'_>>, Option<usize>), Error> {
     let mut lines = text.lines().zip(1..);
     while let Some((code, line)) = lines.next() {
         if tags.last().is_some_and(is_end) {
-            // Mail programs and editors leave blanks and the Ctrl-Z of old systems at the end.
+            // Mail programs and editors may leave blanks and a Ctrl-Z at the end.
             if code.trim_matches(|c: char| c.is_whitespace() || c == '\u{1a}').is_empty() {
                 continue;
             }
@@ -147,7 +147,6 @@ pub(super) fn cut(line: usize) -> Error {
     Error::new(line, message, "copy or export the drawing again")
 }
 
-/// Groups the tags into records.
 pub(super) fn records<'a>(tags: &'a [Tag<'a>]) -> Vec<Record<'a>> {
     let begins: Vec<usize> = (0..tags.len()).filter(|&i| tags[i].code == 0).collect();
     let ends = begins.iter().skip(1).copied().chain([tags.len()]);

@@ -2,11 +2,9 @@
 
 use crate::Unit;
 
-/// The inch, metres.
 const INCH: f64 = 0.0254;
 
-/// Returns the unit for a value of DXF's `$INSUNITS`. Returns `None` for the value 0 ("unitless"), and for
-/// astronomical units.
+/// Returns the unit for a value of DXF's `$INSUNITS`. `None` for the value 0 ("unitless") and for astronomical units.
 pub(super) fn of_code(code: i64) -> Option<Unit> {
     let named = |name: &str| name.parse().ok();
     match code {

@@ -22,7 +22,7 @@ use svgtypes::{Align, AspectRatio, Length, LengthUnit, PointsParser, Transform, 
 
 /// Greatest depth of nested elements.
 const MAX_ELEMENT_DEPTH: usize = 128;
-/// Greatest number of elements, where each `use` counts with the elements that it draws.
+/// Greatest number of elements. Elements that a `use` draws count each time.
 const MAX_ELEMENTS: usize = 1 << 20;
 const SVG_NAMESPACE: &str = "http://www.w3.org/2000/svg";
 const XLINK_NAMESPACE: &str = "http://www.w3.org/1999/xlink";
@@ -36,7 +36,7 @@ pub(crate) fn read(text: &str, settings: &Settings) -> Result<Drawing, Error> {
     Ok(sheet_and_strokes(text, settings, None)?.0.finish())
 }
 
-/// Reads an SVG: its shapes, or the exact strokes of its outlines if `strokes` has a list for them.
+/// Reads an SVG: the shapes, or the exact outlines if `strokes` has a list for them.
 fn sheet_and_strokes(
     text: &str,
     settings: &Settings,
@@ -77,7 +77,7 @@ fn is_svg(node: Node) -> bool {
 struct InheritedProperties {
     map: Map,
     style: Style,
-    /// Name of the enclosing group, for elements without a name, or of the `use` element that shows them.
+    /// Name for elements without a name: that of the enclosing group, or of the `use` element that shows them.
     name: Option<String>,
     is_used: bool,
     layer: Option<String>,
@@ -91,7 +91,7 @@ struct Reader<'a, 'i> {
     ids: HashMap<&'a str, Node<'a, 'i>>,
     styles: StyleSheet<'a>,
     sheet: Sheet,
-    /// The strokes so far, if strokes are read and not shapes.
+    /// The strokes so far. `None` if shapes are read.
     strokes: Option<Vec<Stroke>>,
     elements: usize,
     groups: usize,
@@ -106,7 +106,7 @@ impl<'a, 'i> Reader<'a, 'i> {
     fn page(&mut self, root: Node<'a, 'i>, settings: &Settings) -> Result<InheritedProperties, Error> {
         let unit = settings.unit;
         let view: Option<ViewBox> = self.parsed(root, "viewBox")?;
-        // These are the parts of a page without a size.
+        // A page without a view box and a size counts as 100 units wide and high.
         let view_size = view.map_or([100.0, 100.0], |view| [view.w, view.h]);
         let lengths = ["width", "height"]
             .map(|name| root.attribute(name).filter(|value| !value.contains('%') && *value != "auto"));
@@ -265,7 +265,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 if is_layer || inside.layer.is_none() && kind == "g" {
                     inside.layer = own_name.clone();
                 }
-                // The name of a layer is not the name of its elements.
+                // The name of a layer is no name for its elements.
                 inside.name = if is_layer { None } else { inside.name };
                 self.children(node, &inside, depth)
             }
@@ -309,14 +309,13 @@ impl<'a, 'i> Reader<'a, 'i> {
         }
     }
 
-    /// Returns the outlines of a `path` element.
     fn outlines_of_path(&self, node: Node, inside: &InheritedProperties) -> Result<Vec<Outline>, Error> {
         outlines(node.attribute("d").unwrap_or_default(), &inside.map).map_err(|why| {
             Error::new(self.line(node), format!("path data: {why}"), "save the drawing again, as a plain SVG")
         })
     }
 
-    /// Returns the properties within an `svg` or a `symbol` element, whose size is given by `sized`.
+    /// Returns the properties within an `svg` or a `symbol` element. `sized` states its size.
     fn viewport(
         &self,
         node: Node<'a, 'i>,
@@ -402,7 +401,7 @@ impl<'a, 'i> Reader<'a, 'i> {
             return Ok(());
         };
         let mut ring: Vec<Point> = Vec::new();
-        // Corners in turn, each with its quarter of an ellipse.
+        // The corners in order, each with its quarter of an ellipse.
         let corners = [[x + rx, y + ry], [x + w - rx, y + ry], [x + w - rx, y + h - ry], [x + rx, y + h - ry]];
         for (center, quarter) in corners.into_iter().zip([2.0, 3.0, 0.0, 1.0]) {
             if rx <= 0.0 || ry <= 0.0 {
@@ -439,7 +438,7 @@ impl<'a, 'i> Reader<'a, 'i> {
         self.sheet.ellipse(&Ellipse { center, u: [rx, 0.0], v: [0.0, ry] }.mapped(&inside.map), origin)
     }
 
-    /// Adds the stretches of one element. Those that are closed or filled form one solid shape.
+    /// Adds the connected parts of an element. Those that are closed or filled form one solid shape.
     fn stretches(&mut self, stretches: Vec<Stretch>, style: Style, origin: &Origin) -> Result<(), Error> {
         let mut rings = Vec::new();
         for Stretch { points, is_closed } in stretches {
@@ -450,7 +449,7 @@ impl<'a, 'i> Reader<'a, 'i> {
                 self.sheet.note("open outlines with a fill: closed, as in SVG", origin);
                 rings.push(points);
             } else {
-                // Each element is a group of its own, because elements are not joined with each other.
+                // Elements are not joined with each other, so each has a group of its own.
                 self.groups += 1;
                 self.sheet.open(points, self.groups, origin)?;
             }

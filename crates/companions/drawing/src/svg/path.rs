@@ -6,7 +6,7 @@ use crate::map::Map;
 use std::f64::consts::TAU;
 use svgtypes::{PathParser, PathSegment};
 
-/// A connected part of a path, with its exact curves. Each begins where the one before it ends.
+/// A connected part of a path, with its exact curves. Each begins where the previous one ends.
 #[derive(Debug, Clone)]
 pub(super) struct Outline {
     pub start: Point,
@@ -14,7 +14,6 @@ pub(super) struct Outline {
     pub is_closed: bool,
 }
 
-/// A curve of an outline.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum OutlineCurve {
     /// A straight line to this point.
@@ -47,7 +46,6 @@ impl Outline {
 }
 
 impl OutlineCurve {
-    /// Returns the point where the curve ends.
     pub fn end(&self) -> Point {
         match *self {
             Self::Line(end) | Self::Cubic([_, _, end]) | Self::Arc { end, .. } => end,
@@ -55,7 +53,7 @@ impl OutlineCurve {
     }
 }
 
-/// A connected part of a path.
+/// The points of a connected part of a path.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Stretch {
     pub points: Vec<Point>,
@@ -67,10 +65,10 @@ struct Pen<'m> {
     map: &'m Map,
     at: Point,
     begin: Point,
-    /// The last control points, which smooth curves mirror: of a cubic and of a quadratic curve.
+    /// The last control points of a cubic and of a quadratic curve, which smooth curves mirror.
     control: [Option<Point>; 2],
     outlines: Vec<Outline>,
-    /// True if the pen is lifted, so the next segment starts a new outline.
+    /// True if the next segment starts a new outline.
     starts_outline: bool,
 }
 
@@ -131,7 +129,7 @@ impl Pen<'_> {
         }
     }
 
-    /// Returns the current outline, or starts a new one if the last has ended.
+    /// Returns the current outline. Starts a new one if the last has ended.
     fn begin_outline(&mut self) -> &mut Outline {
         if std::mem::take(&mut self.starts_outline) {
             self.begin = self.at;
@@ -161,7 +159,7 @@ impl Pen<'_> {
     }
 }
 
-/// Returns the ellipse of an arc with its start parameter and its range. Returns `None` if the arc is a straight line.
+/// Returns the ellipse of an arc, with the arc's first parameter and its range. `None` if the arc is a straight line.
 /// (SVG 2, implementation notes, B.2.4.)
 fn arc(a: Point, b: Point, radii: [f64; 2], turn: f64, large: bool, sweep: bool) -> Option<(Ellipse, f64, f64)> {
     let [mut rx, mut ry] = radii.map(f64::abs);

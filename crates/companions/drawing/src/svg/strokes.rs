@@ -8,11 +8,12 @@ use roxmltree::Node;
 use std::f64::consts::{FRAC_PI_2, TAU};
 use svgtypes::PointsParser;
 
-/// Greatest range of an ellipse's parameter that one cubic curve stands for: a 32nd of a turn. Such a cubic deviates
-/// from the ellipse by less than a billionth of its size.
+/// Greatest range of an ellipse's parameter that one cubic curve covers: a 32nd of a turn. Such a cubic deviates from
+/// the ellipse by less than a billionth of its size.
 const CUBIC_RANGE: f64 = TAU / 32.0;
 
-/// Greatest relative difference of an ellipse's half axes, and of their angle from a right angle, for a circle.
+/// Greatest relative difference between the half axes of an ellipse that counts as a circle. Also the greatest
+/// deviation of their angle from a right angle.
 const CIRCLE_TOLERANCE: f64 = 1e-12;
 
 /// Reads the outlines of all visible elements.
@@ -77,7 +78,7 @@ fn rect([[x, y], [w, h], [rx, ry]]: [Point; 3], inside: &InheritedProperties) ->
     let map = &inside.map;
     let is_round = rx > 0.0 && ry > 0.0;
     let [rx, ry] = if is_round { [rx, ry] } else { [0.0; 2] };
-    // Corners in turn, each with the quarter of an ellipse that rounds it.
+    // The corners in order, each with the quarter of an ellipse that rounds it.
     let corners = [[x + w - rx, y + ry], [x + w - rx, y + h - ry], [x + rx, y + h - ry], [x + rx, y + ry]];
     let start = map.point([x + rx, y]);
     let mut curves = Vec::new();
@@ -93,7 +94,7 @@ fn rect([[x, y], [w, h], [rx, ry]]: [Point; 3], inside: &InheritedProperties) ->
     Outline { start, curves, is_closed: true }
 }
 
-/// Returns the curves of an outline; a closed one ends exactly where it begins.
+/// Returns the curves of an outline. A closed one ends exactly where it begins.
 fn curves(outline: &Outline) -> Vec<StrokeCurve> {
     let mut curves = Vec::new();
     let mut at = outline.start;
@@ -111,7 +112,7 @@ fn curves(outline: &Outline) -> Vec<StrokeCurve> {
     curves
 }
 
-/// Appends an arc: exactly if it is one of a circle, and as cubic curves otherwise.
+/// Appends an arc: exactly if it belongs to a circle, otherwise as cubic curves.
 fn arc(ellipse: &Ellipse, from: f64, by: f64, end: Point, curves: &mut Vec<StrokeCurve>) {
     let Ellipse { center, u, v } = *ellipse;
     let [a, b] = [u, v].map(|[x, y]| x.hypot(y));

@@ -20,8 +20,8 @@ impl Default for Style {
 }
 
 impl Style {
-    /// Returns the style of an element whose parent has this style. Style sheets override the element's attributes, and
-    /// the element's own declarations override style sheets.
+    /// Returns the style of an element whose parent has this style. The element's own declarations take precedence over
+    /// style sheets, and these over its attributes.
     pub fn of(mut self, node: Node, sheet: &StyleSheet) -> Self {
         for attribute in node.attributes().filter(|attribute| attribute.namespace().is_none()) {
             self.set(attribute.name(), attribute.value());

@@ -1,5 +1,4 @@
-//! The HTTP server. It serves one page with its parts and its WebSocket, and refuses requests that come from other
-//! pages.
+//! The HTTP server. It serves the page, its parts and its WebSocket, and refuses requests from other pages.
 
 use super::request::{Request, RequestError};
 use super::{Permit, Server, socket};
@@ -8,19 +7,19 @@ use std::net::{IpAddr, Shutdown, SocketAddr, TcpStream};
 use std::time::{Duration, Instant};
 use tungstenite::handshake::derive_accept_key;
 
-/// Time limit of a connection, except for WebSockets, which have their own. After it, a browser simply opens another
-/// connection. Without the limit, clients that send requests but never read responses would block all others.
+/// Time limit of a connection that is not a WebSocket. Without it, clients that send requests but never read responses
+/// would block all others. After it, a browser simply opens another connection.
 const CONNECTION_TIME: Duration = Duration::from_secs(10);
 
-/// Time limit for a client to close a connection after the response. If the server closed it at once, bytes that it has
-/// not read could destroy the response.
+/// Time limit for a client to close a connection after the response. If the server closed it immediately, bytes from
+/// the client that are not read yet could destroy the response.
 const CLOSING_TIME: Duration = Duration::from_millis(500);
 
 /// Size of the pieces in which a response is sent, in bytes. The time limit is checked before each piece.
 const PIECE_BYTES: usize = 64 << 10;
 
-/// Headers of every response. The page is one file that is the same for every world. Data comes over the WebSocket and
-/// is never treated as HTML. So it is safe that scripts and styles are inline, and nothing is loaded from elsewhere.
+/// Headers of every response. Inline scripts and styles are safe, because the page is the same file for every world,
+/// its data comes through the WebSocket and is never treated as HTML, and nothing is loaded from elsewhere.
 const HEADERS: &str = "\
 content-security-policy: default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src blob: data:; \
 font-src data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'\r
@@ -31,15 +30,15 @@ cross-origin-opener-policy: same-origin\r
 cross-origin-resource-policy: same-origin\r
 ";
 
-/// The refusal of requests from other pages.
+/// Response to requests from other pages.
 const FOREIGN: Response = Response("403 Forbidden", "text/plain", "this server answers only its own page\n");
 
-/// A response: its status, and type and text of its body.
+/// A response: status, type and text.
 #[derive(Clone, Copy)]
 struct Response<'a>(&'static str, &'static str, &'a str);
 
 impl Response<'_> {
-    /// Sends the response, without its body for the method HEAD.
+    /// Sends the response. For the method HEAD, omits the text.
     fn send(self, stream: &mut TcpStream, is_head: bool, until: Instant) -> io::Result<()> {
         let Self(status, kind, body) = self;
         let length = body.len();
@@ -65,9 +64,9 @@ impl Response<'_> {
     }
 }
 
-/// Answers one request: with the page, with a refusal, or by opening the WebSocket. Errors of the client are ignored.
+/// Answers one request: with the page, with a refusal, or by opening the WebSocket. Errors of the client have no effect.
 pub fn answer(mut stream: TcpStream, server: &Server, permit: Permit) {
-    // Messages are small and go in both directions, so collecting data before sending it gains nothing.
+    // Messages are small and go in both directions, so buffering gains nothing.
     let _ = stream.set_nodelay(true);
     let until = Instant::now() + CONNECTION_TIME;
     let (response, is_head) = match Request::read(&mut stream, until) {
@@ -93,7 +92,7 @@ struct Upgrade {
     page: Permit,
 }
 
-/// Returns the response to a request, or the WebSocket that it opens as an error.
+/// Returns the response to a request. If the request opens the WebSocket, this is the error.
 fn respond<'a>(request: &Request, server: &'a Server) -> Result<Response<'a>, Upgrade> {
     let path = request.path.split('?').next().unwrap_or_default();
     let is_read = ["GET", "HEAD"].contains(&request.method.as_str());
@@ -113,7 +112,7 @@ fn refusal(server: &Server, request: &Request) -> Option<Response<'static>> {
         let why = "this server answers only at its address, not at other host names\n";
         return Some(Response("421 Misdirected Request", "text/plain", why));
     }
-    // Only WebSockets and requests of other pages have the header `Origin`.
+    // Only WebSockets and other pages send the header `Origin`.
     if let Some(origin) = request.header("origin")
         && origin.strip_prefix("http://") != named
     {
@@ -125,8 +124,8 @@ fn refusal(server: &Server, request: &Request) -> Option<Response<'static>> {
     has_body.then_some(Response("413 Payload Too Large", "text/plain", why))
 }
 
-/// Returns true if a `Host` header names this server by its address or as `localhost`. Another name may be one that a
-/// foreign DNS server resolves to this machine (DNS rebinding).
+/// Returns true if a `Host` header names this server by its address or as `localhost`. Another name may come from a
+/// foreign DNS server that resolves it to this machine (DNS rebinding).
 fn names_this_server(named: &str, here: SocketAddr) -> bool {
     let (name, port) = match named.rsplit_once(':') {
         Some((name, port)) if !port.ends_with(']') => (name, port.parse().ok()),
@@ -141,8 +140,8 @@ fn names_this_server(named: &str, here: SocketAddr) -> bool {
     known && port == Some(here.port())
 }
 
-/// Returns the WebSocket that a request opens as an error, or a refusal. Browsers always send their origin, so a client
-/// that does not is refused.
+/// Checks a request to open the WebSocket. Returns the upgrade as an error, or else a refusal. Browsers always send
+/// their origin, so a client without one is refused.
 fn open(request: &Request, server: &Server) -> Result<Response<'static>, Upgrade> {
     let is_upgrade = request.method == "GET"
         && request.lists("connection", "upgrade")

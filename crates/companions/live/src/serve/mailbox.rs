@@ -1,14 +1,14 @@
-//! The requests of a page that its worker has not handled yet. Of plans, only the latest counts.
+//! Requests of a page that wait for its worker. Only the latest plan counts.
 
 use crate::Request;
 use cplan_interrupt::Interrupt;
 use std::collections::VecDeque;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 
-/// Largest number of waiting requests. At most one of them is a plan, the latest.
+/// Largest number of waiting requests. At most one of them is a plan.
 const MAX_WAITING: usize = 8;
 
-/// A mailbox for requests. A connection adds requests to it, and a worker takes them.
+/// A mailbox for requests. A connection adds them, and a worker takes them.
 #[derive(Default)]
 pub struct Mailbox {
     inside: Mutex<MailboxState>,
@@ -25,12 +25,12 @@ struct MailboxState {
 
 impl Mailbox {
     fn lock_state(&self) -> MutexGuard<'_, MailboxState> {
-        // The state is consistent even after a panic while the lock is held.
+        // The state remains consistent after a panic of a thread that holds the lock.
         self.inside.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Adds a request. A newer plan replaces a waiting one. The request in progress is interrupted. Returns false if
-    /// the mailbox is full.
+    /// Adds a request, and interrupts the one in progress. A newer plan replaces a waiting one. Returns false if the
+    /// mailbox is full.
     pub fn post(&self, request: Request) -> bool {
         let mut inside = self.lock_state();
         if matches!(request, Request::Plan(_)) {
@@ -57,7 +57,7 @@ impl Mailbox {
             }
             if let Some(request) = inside.waiting.pop_front() {
                 let interrupt = Interrupt::new();
-                // A newer request is waiting, so this one is interrupted at once.
+                // If a newer request is waiting, interrupt this one immediately.
                 if !inside.waiting.is_empty() {
                     interrupt.set();
                 }

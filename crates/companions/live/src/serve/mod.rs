@@ -4,10 +4,10 @@
 //! browser <-- http: the page --> socket <-> mailbox (the latest counts) -> LiveSession
 //! ```
 //!
-//! - Each connection has one thread. Each page has two more: a worker (`socket`) takes the latest request, and another
-//!   thread sends the replies. A newer request interrupts the plan under way.
-//! - Refused are hosts that are no address or `localhost` (DNS rebinding), other pages' origins and requests with bodies
-//!   (`http`). Sizes, pages, connections and times are bounded; a panic in a plan becomes a message.
+//! - Each connection has one thread. Each page has two more: a worker (`socket`) that takes the latest request, and a
+//!   thread that sends the replies. A newer request interrupts the plan in progress.
+//! - The server refuses host names other than its address or `localhost` (DNS rebinding), origins of other pages, and requests
+//!   with bodies (`http`). Sizes, pages, connections and times are bounded. A panic in a plan becomes a message.
 
 mod http;
 mod mailbox;
@@ -20,22 +20,22 @@ use std::sync::Arc;
 use std::thread;
 use std::time::Duration;
 
-/// Largest number of open pages. Each has a thread that plans.
+/// Largest number of open pages. Each has a planning thread.
 const MAX_PAGES: usize = 8;
 
-/// Largest number of simultaneous connections that ask for the page. A browser opens some six.
+/// Largest number of simultaneous connections without WebSocket. A browser opens about six.
 const MAX_CONNECTIONS: usize = 32;
 
-/// Waiting time until a connection ends, or after an error of the system.
+/// Waiting time before another attempt to take a permit, or after an error of the system.
 const RETRY_TIME: Duration = Duration::from_millis(50);
 
-/// A limit on how many holders of a permit there are at a time.
+/// A limited number of permits.
 struct Permits {
     shared: Arc<()>,
     most: usize,
 }
 
-/// The right to be one of a limited number. It ends when dropped.
+/// One of a limited number of permits. It is returned when dropped.
 struct Permit(#[expect(dead_code, reason = "its count matters")] Arc<()>);
 
 impl Permits {
@@ -53,7 +53,6 @@ impl Permits {
 
 /// The state that all connections share.
 struct Server {
-    /// Address of the server.
     address: SocketAddr,
     pages: Permits,
     host: Arc<Host>,
@@ -70,15 +69,15 @@ pub fn run(listener: &TcpListener, host: Host) -> std::io::Result<()> {
     let server = Server { address, pages: Permits::new(MAX_PAGES), host: Arc::new(host), page: crate::page() };
     let (server, connections) = (Arc::new(server), Permits::new(MAX_CONNECTIONS));
     loop {
-        // Accepts no connection until there is a permit for it.
+        // Accept a connection only with a permit.
         let accepted = connections.take().map(|permit| (permit, listener.accept()));
         let Some((permit, Ok((stream, _)))) = accepted else {
-            // There are too many connections, the process has too many open files, or the client is gone already.
+            // No permit is free, the process has too many open files, or the client is already gone.
             thread::sleep(RETRY_TIME);
             continue;
         };
         let server = Arc::clone(&server);
-        // If the system has no thread left, the connection is closed.
+        // If the system has no thread left, the connection closes.
         let _ = thread::Builder::new().name("connection".into()).spawn(move || http::answer(stream, &server, permit));
     }
 }

@@ -7,7 +7,7 @@ use std::time::Instant;
 /// Largest size of the head of a request, in bytes.
 const MAX_HEAD_BYTES: usize = 16 << 10;
 
-/// Largest number of headers of a request. Browsers send some fifteen.
+/// Largest number of headers of a request. Browsers send about fifteen.
 const MAX_HEADERS: usize = 64;
 
 /// The head of a request.
@@ -63,7 +63,7 @@ impl Request {
             Err(_) => return Err(RequestError::Malformed),
         }
         let text = |part: Option<&str>| part.unwrap_or_default().to_owned();
-        // A value that is no text equals nothing that the server asks for.
+        // A value that is not text equals nothing that the server compares it with.
         let value = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
         let headers = request.headers.iter().map(|header| (header.name.to_owned(), value(header.value))).collect();
         Ok(Some(Self { method: text(request.method), path: text(request.path), headers }))

@@ -13,32 +13,32 @@ use std::time::Duration;
 use tungstenite::protocol::{Role, WebSocketConfig};
 use tungstenite::{Bytes, Message, Utf8Bytes, WebSocket};
 
-/// Largest size of a message from a page, in bytes. It suffices for a world of a megabyte.
+/// Largest size of a message from a page, in bytes. A world of a megabyte fits.
 const MAX_MESSAGE_BYTES: usize = 1 << 20;
 
-/// Largest number of messages that wait to be sent to the page. If there are more, the worker waits.
+/// Largest number of messages in the queue to the page. If it is full, the worker waits.
 const MAX_QUEUED_MESSAGES: usize = 4;
 
 /// Time limit for the page to receive a part of a message.
 const SEND_TIME: Duration = Duration::from_secs(20);
 
-/// Interval at which the server checks whether a page is still connected.
+/// Interval between pings, which check whether a page is still connected.
 const PING_INTERVAL: Duration = Duration::from_secs(20);
 
-/// Time without any message from a page after which the page counts as gone.
+/// Time without a message after which a page counts as gone.
 const MAX_SILENCE: Duration = Duration::from_secs(70);
 
-/// Size of a worker's stack, in bytes. It is that of the main thread.
+/// Size of a worker's stack, in bytes, as for the main thread.
 const WORKER_STACK_BYTES: usize = 8 << 20;
 
 /// A part of the stream to the page.
 enum Outgoing {
     Message(Message),
-    /// Bytes of a whole frame: an answer to a ping, or to the page's closing.
+    /// Bytes of a whole frame: the reply to a ping, or to the closing of the page.
     Frame(Vec<u8>),
 }
 
-/// The page's side of the connection. Its frames go through the queue, so that none is sent in the middle of another.
+/// The receiving side of the connection to the page. Its own frames go through the queue, so that none interrupts another.
 struct Incoming {
     stream: TcpStream,
     frame: Vec<u8>,
@@ -66,7 +66,7 @@ impl Write for Incoming {
     }
 }
 
-/// Serves one page until it is closed. `permit` is the page's permit, one for each open page.
+/// Serves one page until it is closed. Each open page holds a `permit`.
 pub fn serve(stream: TcpStream, host: &Arc<Host>, permit: Permit) {
     let limits = [stream.set_read_timeout(Some(MAX_SILENCE)), stream.set_write_timeout(Some(SEND_TIME))];
     let Ok(ours) = stream.try_clone() else { return };
@@ -80,18 +80,18 @@ pub fn serve(stream: TcpStream, host: &Arc<Host>, permit: Permit) {
         let (mailbox, host, queue) = (Arc::clone(&mailbox), Arc::clone(host), queue.clone());
         thread::Builder::new().name("planner".into()).stack_size(WORKER_STACK_BYTES).spawn(move || {
             work(&mailbox, host, &queue);
-            // The permit is released when the work has finished, which may be later than the end of the connection.
+            // Release the permit when the work has finished, which may be after the connection has ended.
             drop(permit);
         })
     };
     if sender.is_ok() && worker.is_ok() {
         receive_all(Incoming { stream, frame: Vec::new(), queue }, &mailbox);
     }
-    // The worker ends, and then the sender, which closes the connection.
+    // This ends the worker, and then the sender, which closes the connection.
     mailbox.close();
 }
 
-/// Passes the page's requests to the mailbox until the page is closed or silent for too long.
+/// Passes the page's requests to the mailbox, until the page is closed or silent for too long.
 fn receive_all(page: Incoming, mailbox: &Mailbox) {
     let queue = page.queue.clone();
     let limits =
@@ -116,7 +116,7 @@ fn receive_all(page: Incoming, mailbox: &Mailbox) {
     }
 }
 
-/// Sends messages to the page until it does not receive them or nobody sends more. Between them, sends pings.
+/// Sends messages to the page, with pings in between. Ends when the page receives nothing, or when there are no more senders.
 fn send_all(stream: TcpStream, outgoing: &Receiver<Outgoing>) {
     let mut socket = WebSocket::from_raw_socket(stream, Role::Server, None);
     loop {
@@ -130,11 +130,10 @@ fn send_all(stream: TcpStream, outgoing: &Receiver<Outgoing>) {
             break;
         }
     }
-    // The thread that receives then ends, too.
+    // This also ends the receiving thread.
     let _ = socket.get_mut().shutdown(Shutdown::Both);
 }
 
-/// Converts a message for the socket.
 fn to_socket_message(message: crate::Message) -> Message {
     match message {
         crate::Message::Text(text) => Message::Text(Utf8Bytes::from(text)),
@@ -148,7 +147,7 @@ fn error_message(id: u64, error: String) -> Message {
 
 /// Handles the page's requests in sequence, until the mailbox is closed.
 fn work(mailbox: &Mailbox, host: Arc<Host>, queue: &SyncSender<Outgoing>) {
-    // If the page is gone, the message is lost; the mailbox is then closed, too.
+    // If the page is gone, the message is lost. The mailbox is then closed, too.
     let send_message = |message: Message| drop(queue.send(Outgoing::Message(message)));
     let mut session = LiveSession::new(host);
     while let Some((request, interrupt)) = mailbox.next_request() {
@@ -163,8 +162,8 @@ fn work(mailbox: &Mailbox, host: Arc<Host>, queue: &SyncSender<Outgoing>) {
     }
 }
 
-/// Runs `work`. If it panics, returns an error message for the page. A session changes its state only after everything
-/// that can fail, so it continues with its previous state.
+/// Runs `work`. A panic becomes an error message for the page. A session changes its state only after everything that
+/// can fail, so it continues with its previous state.
 fn run_guarded(id: u64, work: impl FnOnce()) -> Option<Message> {
     let error = || "the planner failed on this world, which is a defect of cplan; the page still works".to_owned();
     catch_unwind(AssertUnwindSafe(work)).is_err().then(|| error_message(id, error()))

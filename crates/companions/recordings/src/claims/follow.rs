@@ -1,22 +1,21 @@
-//! The check whether a motion follows a path.
+//! Checks whether a motion follows a path.
 
 use cplan_handling::Recording;
 use cplan_model::space::{Configuration, Path};
 use cplan_motion::distance_to_leg;
 
 /// Largest deviation of a motion from its path, in each joint, radians or metres. It is a thousand times the rounding
-/// of either, and equals the tolerance of blends.
+/// errors, and equals the tolerance of blends.
 pub(super) const PATH_TOLERANCE: f64 = 1e-6;
 
-/// Number of samples per piece of the motion.
 const SAMPLES_PER_PIECE: u8 = 4;
 
-/// Checks, by samples of the whole motion, that a motion follows a path from beginning to end. Within `radius` of a
-/// corner, the greatest radius that the result states, it may deviate by half of that. If `radius` is `None`, corners must
-/// not be rounded.
+/// Samples the motion, and checks that it follows a path from beginning to end. `radius` is the greatest radius of
+/// rounded corners that the result states. Within `radius` of a corner, the motion may deviate by up to `radius / 2`.
+/// `None` means that corners are not rounded.
 ///
 /// # Errors
-/// Returns a description of the deviation.
+/// A description of the deviation.
 pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -> Result<(), String> {
     let q = path.waypoints();
     let longest = path.segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
@@ -28,16 +27,16 @@ pub(super) fn follows(path: &Path, recording: &Recording, radius: Option<f64>) -
     let inner = q.get(1..q.len().saturating_sub(1)).unwrap_or_default();
     let last = q.len().saturating_sub(2);
     let off = |at: Configuration, leg: usize| distance_to_leg(at, q[leg], q[(leg + 1).min(q.len() - 1)]);
-    // Where legs are close to each other, or turn back, the motion may be on one of several legs.
+    // Where legs lie close to each other, or turn back, the motion may be on any of them.
     let (mut legs, mut before) = (vec![0], q[0]);
     for (sample, piece) in recording.pieces().iter().enumerate() {
         for look in 0..=SAMPLES_PER_PIECE {
             let at = piece.at(f64::from(look) / f64::from(SAMPLES_PER_PIECE));
-            // Corners may be passed between two places, but only nearby.
+            // A corner may be passed between two samples, but only if it is near.
             let near = 2.0 * within + (at - before).norm();
             let (mut found, mut next): (Vec<usize>, usize) = (Vec::new(), 0);
             for &leg in &legs {
-                // Skip a leg that was reached already.
+                // Skip a leg that an earlier one already covers.
                 if leg >= next {
                     let passed = q[leg + 1..].iter().take_while(|corner| (*corner - at).norm() <= near).count();
                     next = (leg + passed).min(last) + 1;
@@ -89,7 +88,7 @@ mod tests {
         let path = [[0.0, 0.0], [1.0, 100.0], [1.6, 60.0], [5.0, 60.0]];
         assert!(is_followed(&path, &path, Some(4.0)));
         assert!(is_followed(&[path[0], [0.98, 98.0], [1.03, 98.0], path[2], path[3]], &path, Some(4.0)));
-        // It joins the second leg only at its end.
+        // This motion joins the second leg only at its end.
         assert!(!is_followed(&[path[0], [0.99, 99.0], [1.01, 99.3], path[2], path[3]], &path, Some(4.0)));
         for short in [&path[..2], &path[..3], &[path[0], [0.5, 50.0], path[2], path[3]]] {
             assert!(!is_followed(short, &path, Some(4.0)), "{short:?}");

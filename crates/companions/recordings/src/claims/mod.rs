@@ -1,6 +1,6 @@
-//! The check whether the claims of a result about its motion are true.
+//! Checks whether a result's claims about its motion are true.
 //!
-//! The samples of a result are the motion. Everything else is a claim about the motion, on which others may rely.
+//! The samples of a result are the motion. All other statements in the result are claims about that motion.
 
 mod follow;
 mod steps;
@@ -17,11 +17,11 @@ use follow::follows;
 use std::fmt::Display;
 use thiserror::Error;
 
-/// Relative difference allowed between a stated and a recomputed number, which may be a sum over all waypoints.
+/// Allowed relative difference between a stated and a recomputed number. The number may be a sum over all waypoints.
 const NUMBER_TOLERANCE: f64 = 1e-9;
 
-/// Difference allowed between a stated and a recomputed time, seconds. It is far greater than the rounding of clocks,
-/// and far less than the precision of grippers.
+/// Allowed difference between a stated and a recomputed time, in seconds. It is far greater than the rounding of
+/// clocks, and far smaller than the precision of grippers.
 const TIME_TOLERANCE: f64 = 1e-6;
 
 /// A statement in a result that is false.
@@ -38,7 +38,7 @@ pub struct FalseClaim {
 #[derive(Default)]
 struct Ledger {
     found: Vec<FalseClaim>,
-    /// Prefix of the members' names, such as that of a step.
+    /// Prefix of the members' names, such as `steps[2].`.
     within: String,
 }
 
@@ -47,28 +47,29 @@ impl Ledger {
         self.found.push(FalseClaim { claim: format!("{}{claim}", self.within), why });
     }
 
-    /// Checks a stated value that must equal an actual one.
+    /// Records a false claim if a stated value differs from the actual one.
     fn check_equal<T: PartialEq + Display>(&mut self, claim: &str, stated: &T, is: &T) {
         if stated != is {
             self.note(claim, format!("stated as {stated}, but it is {is}"));
         }
     }
 
-    /// Records a stated clearance that is larger than a distance. `what` says what comes so near, with its verb.
+    /// Records a stated clearance that exceeds an actual distance. `what` is subject and verb of the message, such as
+    /// "link 2 and shelf come".
     fn too_large(&mut self, claim: &str, stated: f64, distance: f64, what: &str) {
         let [stated, distance] = [length_unlike(stated, distance), length_unlike(distance, stated)];
         self.note(claim, format!("stated as {stated}, but {what} as near as {distance}"));
     }
 
-    /// Checks a stated number that may differ from the actual number `is` by at most `within`.
+    /// Records a false claim if a stated number differs from the actual number `is` by more than `within`.
     fn number(&mut self, claim: &str, stated: Option<f64>, is: f64, within: f64) {
         if let Some(stated) = stated.filter(|stated| (stated - is).abs() > within) {
             self.note(claim, format!("stated as {stated}, but it is {is}"));
         }
     }
 
-    /// Checks that a stated lower bound does not exceed a length or a time, and that the stated gap is their ratio
-    /// minus 1.
+    /// Checks that a stated lower bound is at most `length` (or time), and that the stated gap is `length / lower_bound
+    /// - 1`.
     fn gap(&mut self, at: &str, length: f64, lower_bound: Option<f64>, gap: Option<f64>) {
         let Some(bound) = lower_bound else { return };
         if bound.is_nan() || bound > length * (1.0 + NUMBER_TOLERANCE) {
@@ -137,13 +138,13 @@ impl Ledger {
                 let limit = scene.arm().describe_limit(limited);
                 self.note("path", format!("waypoint {waypoint} is beyond the limits of {limit}"));
             }
-            // Equal to the clearance within the resolution, or free.
+            // The clearance is met, or the distance equals it up to the resolution of the check.
             Err(Rejection::Undecided(_)) | Ok(_) => {}
         }
     }
 
-    /// Checks a stated clearance in a scene. Uses the check of the motion with the required clearance, and if necessary
-    /// one with the stated clearance.
+    /// Checks a stated clearance in a scene. `found` is the collision check with the required clearance. If it does not
+    /// decide the claim, the motion is checked again with the stated clearance.
     fn clearance(
         &mut self,
         stated: Option<Option<f64>>,
@@ -174,8 +175,7 @@ impl Ledger {
     }
 }
 
-/// Returns a place on the motion where the distance is below the stated one, with the pair of shapes. `None` if there
-/// is none.
+/// Returns a distance on the motion that is below the stated one, with its pair of shapes. `None` if there is none.
 fn nearer(
     scene: TimedScene,
     recording: &Recording,
@@ -183,7 +183,7 @@ fn nearer(
     seen: f64,
     pair: cplan_model::Pair,
 ) -> Option<(f64, cplan_model::Pair)> {
-    // Two methods of computing a distance may differ by this.
+    // Distances that are computed by two methods may differ by this much.
     let stated = stated - NUMBER_TOLERANCE * stated.abs() - NUMBER_TOLERANCE * f64::EPSILON.sqrt();
     if seen < stated {
         return Some((seen, pair));
@@ -194,7 +194,7 @@ fn nearer(
     }
 }
 
-/// Returns the false claims of a result, given the collision check `found` of its motion with the scene's clearance.
+/// Returns the false claims of a result. `found` is the collision check of its motion with the scene's clearance.
 ///
 /// The function checks:
 /// - that there is a motion (`status`, `certified`), and its `units` and `duration`;
@@ -227,7 +227,7 @@ pub fn false_claims<'a>(
 impl Ledger {
     /// Checks the claims about any motion.
     fn general(&mut self, arm: &Arm, recording: &Recording, claims: &Claims) {
-        // An exploration has a motion with any of these outcomes. Other results must have found a motion.
+        // The motion of an exploration may have any of these outcomes. Any other result must state that a motion was found.
         let of_exploration = ["reached", "explored", "unreachable", "unknown"];
         if let Some(status) = claims.status.as_ref().filter(|status| !of_exploration.contains(&status.as_str())) {
             self.check_equal("status", status, &"found".to_owned());

@@ -1,4 +1,4 @@
-//! The check of a result's claims about the steps of a task.
+//! Checks a result's claims about the steps of a task.
 
 use super::{FalseClaim, Ledger, TIME_TOLERANCE};
 use crate::replay::{GripperEvent, PLACE_TOLERANCE, ReplayedStep, angle_between};
@@ -52,8 +52,8 @@ pub fn false_step_claims(
     ledger.found
 }
 
-/// Returns the false claims of a result about the whole task: times and places of gripper events, the steps of the
-/// samples, and general claims. `happened` lists the actual events.
+/// Returns the false claims of a result about the whole task: the times and places of gripper events, the assignment of
+/// samples to steps, and general claims. `happened` lists the actual events.
 pub fn false_task_claims(
     task: &Task,
     recording: &Recording,
@@ -82,7 +82,7 @@ pub fn false_task_claims(
         ledger.number("length", claims.length, sum, super::NUMBER_TOLERANCE * (1.0 + sum));
     }
     if let Some(stated) = &claims.task.step_of_sample {
-        // The rest before the first motion belongs to the first step.
+        // The time before the first motion belongs to the first step.
         let first = |step: usize| match recorded.get(step) {
             _ if step == 0 => 0,
             Some(step) => *step.samples.start(),
@@ -101,8 +101,8 @@ pub fn false_task_claims(
 }
 
 impl Ledger {
-    /// Checks a stated clearance of a turn of the wrist. The replay proves a lower bound on it, with a known
-    /// resolution.
+    /// Checks a stated clearance of a turn of the wrist. It must not exceed the proven lower bound by more than the
+    /// resolution of the proof.
     fn turn(&mut self, task: &Task, replayed: &ReplayedStep, stated: Option<Option<f64>>, claim: &str) {
         let (Some(stated), Some(Ok(free))) = (stated, replayed.turn.map(|turn| turn.verdict)) else { return };
         let most = free.clearance + turn_resolution(&task.arm, task.workspace.fixed.clearance);

@@ -12,13 +12,13 @@ use serde::Serialize;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Judgement {
-    /// Proven free and within all limits that can be judged.
+    /// Proven free, and within all limits that can be judged.
     Free,
     /// Neither proven free nor proven to collide.
     Undecided,
     /// Free, but the file states some wrong values.
     Claims,
-    /// Not known to collide, but does not lead from the start to the goal.
+    /// Not known to collide, but begins or ends at the wrong place.
     Ends,
     /// Not known to collide, but violates a limit.
     Limits,
@@ -67,8 +67,7 @@ pub struct MotionFindings {
     pub margins: Option<Margins>,
     /// Violated limits, each listed once.
     pub limits_broken: Vec<LimitFinding>,
-    /// Assumed limits that the motion exceeds, each listed once. The input files do not state these limits, so they do
-    /// not affect the verdict.
+    /// Exceeded limits that the input files do not state, each listed once. They do not affect the verdict.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assumed_exceeded: Vec<LimitFinding>,
     /// Differences from the requested motion or task, and false statements in the file.
@@ -83,12 +82,12 @@ pub struct MotionFindings {
     /// Findings about the steps of a task.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub steps: Option<Vec<StepFinding>>,
-    /// Notes on how the file was read, and on which parts were judged.
+    /// Notes on the reading of the file, and on the parts that were judged.
     pub notes: Vec<String>,
 }
 
 impl MotionFindings {
-    /// The names of all fields, in their order in JSON.
+    /// Names of all fields, in the order of the JSON members.
     pub const FIELD_NAMES: [&str; 23] = [
         "verdict",
         "joints",
@@ -119,19 +118,18 @@ impl MotionFindings {
 /// Collisions and clearance along a motion.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct CollisionFinding {
-    /// Proven lower bound on the distance to every obstacle, in metres. `None` unless the motion is free and obstacles
-    /// are within reach.
+    /// Proven lower bound on the distance to every obstacle, in metres. Only for free motions with obstacles within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
     /// The place where a free motion comes nearest to an obstacle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest: Option<EncounterFinding>,
-    /// True if the motion is proven to touch an obstacle, and false if it is proven to touch none, although it comes nearer
-    /// than the required clearance. `None` if neither is proven, and for all other motions.
+    /// True if the motion is proven to touch an obstacle. False if it violates the clearance, but is proven to touch
+    /// nothing. `None` if neither is proven, and for motions that keep the clearance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub touches: Option<bool>,
-    /// The required clearance less the least signed distance that was seen, metres: the motion is too near by at least
-    /// this. `None` if it keeps the clearance.
+    /// Required clearance minus the least signed distance found on the motion, in metres. The true shortfall may be
+    /// greater. `None` if the motion keeps the clearance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub shortfall: Option<f64>,
     /// The first place at which a motion collides, or comes nearer than the required clearance.
@@ -140,7 +138,7 @@ pub struct CollisionFinding {
     /// Time before which a colliding motion is proven free, on the same clock as the time of `first_contact`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub free_until: Option<f64>,
-    /// The place with the least signed distance that was seen on such a motion.
+    /// Place with the least signed distance found on a motion that violates the clearance.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deepest: Option<EncounterFinding>,
     /// The place where it is not known whether the motion collides.
@@ -156,7 +154,7 @@ pub struct EncounterFinding {
     pub moment: MomentFinding,
     /// Name of the arm's link.
     pub link: String,
-    /// Name of the URDF link whose shape is in contact. It is part of the arm's link.
+    /// Name of the URDF link that has the shape in contact. The arm's link may consist of several URDF links.
     pub body: String,
     /// Name of the obstacle.
     pub obstacle: String,
@@ -173,8 +171,7 @@ pub struct MomentFinding {
     /// Time as in the file, in seconds.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub time: Option<f64>,
-    /// Place on a motion without times: the index of the waypoint, from 0, plus the fraction of the segment to the next
-    /// waypoint.
+    /// Place on a motion without times: index of the waypoint, from 0, plus the fraction of the segment that follows it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub waypoint: Option<f64>,
     /// Index of the last sample at or before this moment, from 0.
@@ -190,7 +187,8 @@ pub struct LimitFinding {
     pub joint: String,
     /// The quantity that is limited, such as `velocity`.
     pub limit: &'static str,
-    /// The value that the motion reaches, in rad or m: per second, per second squared or per second cubed.
+    /// The value that the motion reaches, with the unit of the limit: radians or metres, per second, per second squared
+    /// or per second cubed.
     pub value: f64,
     /// The allowed value, in the same unit.
     pub allowed: f64,
@@ -202,7 +200,7 @@ pub struct LimitFinding {
     pub excess: LimitViolation,
 }
 
-/// Limits that a motion exceeds, by their source.
+/// Violations of limits, grouped by the source of the limit.
 pub(crate) struct ExceededLimits {
     /// Violations of limits that the files state.
     pub given: Vec<LimitViolation>,
@@ -211,7 +209,7 @@ pub(crate) struct ExceededLimits {
 }
 
 impl ExceededLimits {
-    /// Splits violations of limits into those of stated limits and those of assumed ones.
+    /// Groups violations of limits by their source.
     pub fn new(joints: &[Joint; 2], broken: &[LimitViolation], assumed: &AssumedLimits) -> Self {
         let is_assumed = |excess: &LimitViolation| {
             let Some(Joint { name, .. }) = joints.get(excess.joint) else { return false };
@@ -247,7 +245,7 @@ impl MotionFindings {
         }
     }
 
-    /// Creates findings about a recording before any check: free, with clearance and limits not yet judged.
+    /// Creates the findings about a recording before any check: the verdict is *free*; clearance and limits are not judged.
     pub(crate) fn of_nothing(scene: &Scene, recording: &Recording) -> Self {
         let joints = &scene.arm().joints;
         Self {
@@ -269,7 +267,7 @@ impl MotionFindings {
         }
     }
 
-    /// Adds faults. If there are any, and the verdict is better than `verdict`, it becomes `verdict`.
+    /// Adds faults. If there are any, the verdict becomes at least as bad as `verdict`.
     pub(crate) fn with_faults(mut self, verdict: Judgement, faults: Vec<impl ToString>) -> Self {
         if !faults.is_empty() {
             self.verdict = self.verdict.max(verdict);
@@ -278,14 +276,13 @@ impl MotionFindings {
         self
     }
 
-    /// Adds the claims of the file that are not judged.
+    /// Adds the claims of the file that no check judges.
     pub(crate) fn leaving(mut self, claims: &Claims) -> Self {
         self.not_judged.clone_from(&claims.unjudged);
         self
     }
 }
 
-/// Returns the verdict on a motion.
 pub(crate) fn verdict(collision_check: &CollisionCheck, broken: &[LimitViolation]) -> Judgement {
     match collision_check {
         CollisionCheck::Collision { .. } => Judgement::Collision,
@@ -296,7 +293,7 @@ pub(crate) fn verdict(collision_check: &CollisionCheck, broken: &[LimitViolation
 }
 
 impl CollisionFinding {
-    /// Converts the result of the collision check of a motion. `timed` is true if the motion has times.
+    /// Converts the result of the collision check of a motion. `timed` states whether the motion has times.
     pub(crate) fn new(scene: &Scene, collision_check: &CollisionCheck, timed: bool) -> Self {
         let encounter = |e: &Encounter| encounter(scene, e, timed);
         match collision_check {
@@ -307,7 +304,7 @@ impl CollisionFinding {
             },
             CollisionCheck::Collision { first, free_until, deepest, touch } => Self {
                 touches: match touch {
-                    // Shapes that are grown for errors may meet although the real ones do not.
+                    // Shapes that are enlarged for errors may touch although the real ones do not.
                     Touch::Proven if scene.growth(deepest.contact.pair) > 0.0 => {
                         (scene.real_distance(&deepest.contact) <= 0.0).then_some(true)
                     }
@@ -326,7 +323,6 @@ impl CollisionFinding {
     }
 }
 
-/// Converts violations of limits.
 pub(crate) fn limits(joints: &[Joint; 2], broken: &[LimitViolation], timed: bool) -> Vec<LimitFinding> {
     broken.iter().map(|excess| limit(joints, excess, timed)).collect()
 }

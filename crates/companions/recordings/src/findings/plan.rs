@@ -6,7 +6,8 @@ use cplan_handling::Recording;
 use cplan_model::Arm;
 use serde::Serialize;
 
-/// The greatest distances of a recorded motion from the nearest place of a plan. Times are not compared.
+/// The greatest distances of a recorded motion from a plan. The distance of a place of the motion is that to the
+/// nearest place of the plan, at whatever time.
 #[derive(Debug, Clone, Serialize)]
 pub struct PlanFinding {
     /// The place farthest from the plan in joint space.
@@ -18,8 +19,8 @@ pub struct PlanFinding {
 /// A place of a motion, and its distance from a plan.
 #[derive(Debug, Clone, Serialize)]
 pub struct FarthestFinding {
-    /// Distance from the nearest place of the plan: Euclidean in joint space (radians and metres are added as numbers), or
-    /// in metres for the tip.
+    /// Distance from the nearest place of the plan. In joint space it is Euclidean: radians and metres are added as
+    /// numbers. For the tip it is in metres.
     pub distance: f64,
     /// The place.
     #[serde(flatten)]

@@ -37,7 +37,7 @@ pub struct StepFinding {
     pub turn: Option<TurnFinding>,
     /// Violated limits, each listed once.
     pub limits_broken: Vec<LimitFinding>,
-    /// Assumed limits that the step's motion exceeds. The files do not state them, so they do not affect the verdict.
+    /// Exceeded limits that the files do not state. They do not affect the verdict.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub assumed_exceeded: Vec<LimitFinding>,
     /// Differences from the requested step.
@@ -53,8 +53,8 @@ pub struct TurnFinding {
     pub to: f64,
     /// Duration of the turn, in seconds.
     pub seconds: f64,
-    /// Proven lower bound on the distance between object and obstacles, in metres. `None` unless the turn is free and
-    /// obstacles are within reach.
+    /// Proven lower bound on the distance between object and obstacles, in metres. Only for free turns with obstacles
+    /// within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
     /// The first contact of a turn that is not free.
@@ -125,9 +125,8 @@ impl TurnFinding {
     }
 }
 
-/// Judges all steps. Collisions and clearance of the whole task are those of one step: the first that collides,
-/// otherwise the first that is undecided, otherwise the one with the least clearance. Also returns the motion of the tool in
-/// each step.
+/// Judges all steps. The collision finding of the whole task is that of one step: the first that collides, or else the
+/// first that is undecided, or else the one with the least clearance. Also returns the motion of the tool in each step.
 pub(crate) fn judge_steps(
     task: &Task,
     scene: &Scene,
@@ -145,7 +144,7 @@ pub(crate) fn judge_steps(
         tools.push(step.tool);
         steps.push(StepFinding::new(task, &step, assumed));
     }
-    // If the recording departs from the task, the file's statements about the whole task do not apply to it.
+    // If the recording departs from the task, statements about the whole task describe something else.
     if replay.departure().is_none() {
         false_claims.extend(false_task_claims(task, recording, recorded, &happened, claims));
     }
@@ -170,7 +169,7 @@ pub(crate) fn judge_steps(
     (findings.with_faults(Judgement::Claims, false_claims), tools)
 }
 
-/// Returns collisions and clearance of the whole task, from those of its steps.
+/// Selects the collision finding of the whole task from those of its steps.
 fn collisions(steps: &[StepFinding]) -> CollisionFinding {
     let undecided = steps.iter().position(|step| step.collisions.undecided.is_some());
     let turn_hits = |step: &StepFinding| step.turn.as_ref().is_some_and(|turn| turn.contact.is_some());

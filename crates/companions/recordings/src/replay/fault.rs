@@ -38,23 +38,23 @@ pub enum Fault {
         off: f64,
         /// The tolerance, metres.
         tolerance: f64,
-        /// Index of the sample before the part of the motion with this bound, from the step's first sample.
+        /// Index of the sample that precedes the part with this bound, counted from the step's first sample.
         piece: usize,
     },
     /// The tip is faster than the line allows.
     #[error("the tip moves along the line at {speed:.6} m/s, faster than {most} m/s")]
     LineSpeed {
-        /// The greatest speed that was seen, metres per second.
+        /// The greatest speed that was found, metres per second.
         speed: f64,
         /// The greatest allowed speed.
         most: f64,
     },
-    /// The file does not state the wrist's motion along a line for which the tool has an angle.
+    /// The step does not state the motion of the wrist, although the tool must have an angle along the line.
     #[error(
         "the world requires an angle of the tool along the line, but the step does not state the motion of the wrist"
     )]
     NoWristMotion,
-    /// The tool is not proven to keep the angle that the line asks for.
+    /// The tool is not proven to keep the required angle along the line.
     #[error(
         "after sample {piece} of the step, the angle of the tool may be wrong by {off:.6} rad, more than {tolerance} rad"
     )]
@@ -63,7 +63,7 @@ pub enum Fault {
         off: f64,
         /// The tolerance, radians.
         tolerance: f64,
-        /// Index of the sample before the part of the motion with this bound, from the step's first sample.
+        /// Index of the sample that precedes the part with this bound, counted from the step's first sample.
         piece: usize,
     },
     /// The wrist exceeds a limit along a line.
@@ -71,11 +71,11 @@ pub enum Fault {
     WristAlongLine {
         /// The limit, in words.
         what: &'static str,
-        /// The value that exceeds the limit most, radians and seconds.
+        /// The value that exceeds the limit most, in radians and seconds.
         value: f64,
         /// The limit.
         allowed: f64,
-        /// Index of the sample before it, from the step's first sample.
+        /// Index of the sample that precedes this value, counted from the step's first sample.
         sample: usize,
     },
     /// A moving object is picked at a time outside its window.
@@ -96,15 +96,15 @@ pub enum Fault {
         /// The difference, radians.
         off: f64,
     },
-    /// The arm does not rest for long enough.
+    /// The arm rests for too short a time.
     #[error("the arm stands still for {stood:.6} s, not for {asked:.6} s")]
     Rest {
         /// The recorded rest, seconds.
         stood: f64,
-        /// The required rest: for the step's dwell, the turn of the wrist and the stroke of the tool.
+        /// Rest that is required for the dwell, the turn of the wrist and the stroke of the tool.
         asked: f64,
     },
-    /// The arm does not rest for long enough before the step, while the tool is raised.
+    /// The arm rests for too short a time before the step, while the tool is raised.
     #[error("the arm stands still for {stood:.6} s before the step, but raising the tool takes {asked:.6} s")]
     RestBefore {
         /// The recorded rest, seconds.
@@ -112,29 +112,29 @@ pub enum Fault {
         /// The required rest, seconds.
         asked: f64,
     },
-    /// The file states another value of the stroke's joint for the lowered tool than the world, or none.
+    /// For the lowered tool, the file and the world state different values of the stroke's joint.
     #[error("the tool is lowered to {} {when} the motion, not to {}", value(*is), value(*asked))]
     Lowered {
-        /// The stated value, metres; `None` without a stroke.
+        /// The value in the file, metres; `None` without a stroke.
         is: Option<f64>,
-        /// The value of the world; `None` without a stroke.
+        /// The value in the world; `None` without a stroke.
         asked: Option<f64>,
         /// `before` or `after`.
         when: &'static str,
     },
-    /// The tool is raised during the beginning of the motion, but it was not lowered.
+    /// The tool is raised at the beginning of the motion, but had not been lowered.
     #[error("the tool is raised during the motion, but was not lowered before")]
     NotLowered,
-    /// The wrist turns to a value of its joint, but the step states none.
+    /// The wrist turns to a value of its joint, but the step requires none.
     #[error("the wrist turns, but the step does not state the values of the wrist's joint")]
     WristElsewhere,
-    /// The wrist does not turn to its value.
+    /// The wrist does not turn to the required value of its joint.
     #[error("the wrist does not turn to {to} rad")]
     WristStays {
         /// The required value, radians.
         to: f64,
     },
-    /// The wrist turns between other values.
+    /// The wrist turns between wrong values of its joint.
     #[error("the wrist turns from {} to {} rad, not from {} to {} rad", is[0], is[1], asked[0], asked[1])]
     WristEnds {
         /// The recorded values.
@@ -158,12 +158,12 @@ pub enum Fault {
     /// The tool is lower during a motion than the world allows.
     #[error("the arm moves during {overlap:.6} s of a stroke, but the tool is high enough only for {most:.6} s")]
     TooLow {
-        /// The recorded overlap, seconds.
+        /// Time in which stroke and motion overlap in the record, seconds.
         overlap: f64,
-        /// The longest overlap at the heights that the world requires, seconds.
+        /// Longest overlap during which the tool stays as high as the world requires, seconds.
         most: f64,
     },
-    /// The tool is turned or lowered again before it is raised and turned completely.
+    /// The strokes and turns at both ends of a motion overlap with each other.
     #[error("strokes and turns overlap with the motion for {shared:.6} s, but the motion takes only {seconds:.6} s")]
     NotRaised {
         /// Sum of the overlaps at both ends, seconds.
@@ -171,19 +171,19 @@ pub enum Fault {
         /// Duration of the motion, seconds.
         seconds: f64,
     },
-    /// A stroke or a turn overlaps with the next motion, although the task ends.
+    /// A stroke or a turn overlaps with a next motion, but the task has no further motion.
     #[error("a stroke or a turn overlaps with the next motion, but the task ends")]
     MustRest,
-    /// The wrist turns before the tool is raised, or after it begins to go down.
+    /// The wrist turns while the tool is not completely raised.
     #[error("the wrist turns while the tool is not raised completely")]
     TurnsLowered,
     /// The arm moves during a turn of the wrist, but the world forbids that.
     #[error("the arm moves while the wrist turns, which the world forbids")]
     NoTurnOnTheWay,
-    /// The arm moves during a turn of the wrist that is not after a pick or before a place.
+    /// The arm moves during a turn of the wrist that follows no pick and precedes no place.
     #[error("the arm moves while the wrist turns, but the turn is neither after a pick nor before a place")]
     TurnElsewhere,
-    /// The wrist exceeds its limits, because it also compensates the rotation of link 2.
+    /// The wrist exceeds its limits, because it compensates the rotation of link 2 during the turn.
     #[error(
         "the wrist exceeds its limits while the arm moves, because it turns the object and compensates the rotation of link 2"
     )]
@@ -202,10 +202,10 @@ pub enum Fault {
         /// The least possible duration.
         least: f64,
     },
-    /// The world has no wrist that could turn.
+    /// The turn needs a wrist, but the world has none.
     #[error("the wrist turns, but the world has no wrist")]
     NoWrist,
-    /// No object is carried that a wrist could turn.
+    /// The turn needs a carried object, but the gripper is empty.
     #[error("the wrist turns, but holds no level object")]
     Nothing,
 }
@@ -224,7 +224,7 @@ pub enum OrderDeviation {
         index: usize,
         /// The recorded step's number.
         number: usize,
-        /// The repetition to which the record assigns the step.
+        /// Number of the repetition to which the record assigns the step.
         cycle: usize,
         /// Description of the expected step.
         expected: String,
@@ -252,7 +252,7 @@ pub enum OrderDeviation {
     Moves {
         /// Index of the recorded step that follows the motion, or the number of steps.
         index: usize,
-        /// The sample at which it moves, or after which its place has changed.
+        /// Sample at which the arm moves, or after which it is at another place.
         sample: usize,
     },
 }

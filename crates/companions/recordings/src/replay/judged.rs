@@ -1,12 +1,12 @@
-//! The result of a step, from the checks of its motion and of the arm at rest.
+//! Results of the checks of a step: of its motion, and of the arm at rest.
 
 use cplan_handling::{ObstacleTrajectory, Recording, Task, TimedScene};
 use cplan_model::Scene;
 use cplan_motion::recorded::{CollisionCheck, check_collision};
 use std::ops::RangeInclusive;
 
-/// A scene in which a part of the recording was judged, and the result. Its samples count from the beginning of the
-/// recording.
+/// The result of the collision check of a part of the recording, with its scene. Samples count from the beginning of
+/// the whole recording.
 pub(super) struct Judged {
     pub scene: Scene,
     pub trajectories: Vec<ObstacleTrajectory>,
@@ -29,7 +29,8 @@ impl Judged {
         Some(Self { scene, trajectories, check })
     }
 
-    /// Adds the result of a further check. The first result that is not free stays; of two free ones, the smaller clearance.
+    /// Combines two results. A result that is not free takes precedence, the earlier one first. If both are free, the
+    /// smaller clearance remains.
     pub fn add(&mut self, other: Self) {
         match (&mut self.check, &other.check) {
             (CollisionCheck::Free { clearance, .. }, CollisionCheck::Free { clearance: least, .. }) => {
@@ -40,7 +41,7 @@ impl Judged {
         }
     }
 
-    /// Adds the result of a further check of the same motion in another scene. Its samples count from `first`.
+    /// Adds the result of a check of the same motion in another scene. Its samples count from `first`.
     pub fn add_in(&mut self, (scene, mut check): (Scene, CollisionCheck), first: usize) {
         check.moments_mut().for_each(|moment| moment.sample += first);
         self.add(Self { scene, check, trajectories: self.trajectories.clone() });

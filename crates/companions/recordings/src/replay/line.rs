@@ -4,14 +4,14 @@ use super::Fault;
 use cplan_deviation::{Deviation, Kinematics, Line};
 use cplan_handling::{Derivative, FollowedLine, Piece, Recording, Task};
 
-/// Allowance for rounding in comparisons of speeds, as a share.
+/// Relative allowance for rounding in comparisons of speeds.
 const SPEED_ROUNDING: f64 = 1e-6;
 
 /// Number of intervals in each piece of a motion. The check evaluates the speed of the tip at their ends.
 const SPEED_PARTS: u32 = 4;
 
-/// Returns a fault if the tip exceeds the greatest speed of the line. Travels have no such limit, so a line with a travel
-/// has no fault.
+/// Returns a fault if the tip exceeds the greatest speed of the line. Travels have no such limit, so lines with travels
+/// are not checked.
 pub(super) fn speed_fault(task: &Task, motion: &Recording, followed: &FollowedLine) -> Option<Fault> {
     let pieces = followed.path.pieces();
     if pieces.iter().any(|piece| piece.is_travel) {
@@ -29,8 +29,7 @@ pub(super) fn speed_fault(task: &Task, motion: &Recording, followed: &FollowedLi
     (fastest > most * (1.0 + SPEED_ROUNDING)).then_some(Fault::LineSpeed { speed: fastest, most })
 }
 
-/// Returns a fault if a motion is not proven to stay within the tolerance of a line, in the order of the line. It begins
-/// and ends where the line does.
+/// Returns a fault if the motion is not proven to follow the line in its order, from end to end, within its tolerance.
 pub(super) fn fault(task: &Task, motion: &Recording, followed: &FollowedLine) -> Option<Fault> {
     let (kinematics, line) = (Kinematics::new(&task.arm), Line::new(&followed.path));
     let tolerance = followed.tolerance;

@@ -1,8 +1,8 @@
 //! Replays and judges a recorded task: checks that it is the task of the world, and that every motion and every turn is
 //! free.
 //!
-//! It shares only data types with the search for tasks. The places of objects, the load, its pose and the permitted
-//! contacts follow from the world's steps and from the recorded configurations.
+//! The replay shares only data types with the search for task plans. The places of objects, the load, its pose and the
+//! permitted contacts are derived from the world's steps and from the recorded configurations.
 
 mod fault;
 mod judged;
@@ -36,8 +36,8 @@ use std::ops::RangeInclusive;
 /// inverse kinematics, and below the repeatability of any arm.
 pub(super) const PLACE_TOLERANCE: f64 = 1e-6;
 
-/// Largest amount by which times may be too short, seconds. It is far above the rounding of clocks and above rests that
-/// are too short to be sampled. It is far below the precision of grippers.
+/// Largest amount by which a time may be too short, in seconds. It exceeds the rounding of clocks, and rests that are
+/// too short to be sampled. It is far below the precision of grippers.
 const TIME_TOLERANCE: f64 = 1e-6;
 
 /// A turn of the wrist that was checked.
@@ -58,12 +58,12 @@ pub struct GripperEvent {
     pub cycle: usize,
     /// The object that it takes or releases.
     pub object: usize,
-    /// Seconds from the beginning of the record to the event: the end of the motion, of the turn before a release, and
-    /// of the tool's downward stroke.
+    /// Time of the event, in seconds from the beginning of the record: when the motion, the turn before a release, and
+    /// the downward stroke of the tool have ended.
     pub time: f64,
     /// Position of the tip.
     pub tip: Point,
-    /// Pose of the object from then on, if it is released.
+    /// Pose of the object after its release. `None` if the event is a grasp.
     pub pose: Option<Pose>,
 }
 
@@ -74,8 +74,8 @@ pub struct ReplayedStep<'a> {
     pub step: &'a Step,
     /// The recorded step.
     pub recorded: &'a RecordedStep,
-    /// The scene during the motion, with the load. If the last step's motion is free but leaves the arm in contact,
-    /// this is the scene after that step.
+    /// The scene during the motion, with the load. If only the arm at rest after the last step collides, this is the
+    /// scene after that step.
     pub scene: Scene,
     /// The trajectories of the scene's moving obstacles, on a clock that begins with the motion.
     pub trajectories: Vec<ObstacleTrajectory>,
@@ -90,11 +90,13 @@ pub struct ReplayedStep<'a> {
     pub times: [f64; 3],
     /// The gripper event, if there is one.
     pub event: Option<GripperEvent>,
-    /// The check of the motion among the obstacles of the scene, at the heights that strokes give the tool; moments are those of the whole recording.
+    /// The collision check of the motion, with the tool at the height that strokes give it. Moments are those of the
+    /// whole recording.
     pub collision_check: CollisionCheck,
     /// Violations of joint limits. The joints' own limits apply, even if the step states a lower speed.
     pub broken: Vec<LimitViolation>,
-    /// The turn of the wrist after the motion. Also `None` if a turn was recorded without a payload, which is a fault.
+    /// The turn of the wrist after the motion. `None` if there is none, or if it was recorded without a payload, which
+    /// is a fault.
     pub turn: Option<ReplayedTurn>,
     /// Differences from the required step.
     pub faults: Vec<Fault>,
@@ -102,7 +104,7 @@ pub struct ReplayedStep<'a> {
     pub tool: StepTool,
 }
 
-/// An iterator that checks recorded steps, one after the other.
+/// An iterator that checks the recorded steps in their order.
 #[derive(Debug, Clone)]
 pub struct Replay<'a> {
     task: &'a Task,
@@ -112,32 +114,31 @@ pub struct Replay<'a> {
     departure: Option<OrderDeviation>,
     next: usize,
     state: State,
-    /// The raising of the tool and the turn of the wrist that overlap with the next motion.
+    /// The stroke that raises the tool, and the turn of the wrist, if they overlap with the next motion.
     before: (Option<PartialStroke>, Option<RecordedTurn>),
 }
 
 /// Matches the steps of a record with those of the task. Steps must come in the task's order, except that pairs of a
 /// free group may come in any order. The arm must be at rest between steps. Iteration then checks each step, up to the
 /// point where the record deviates from the task. It checks:
-/// - Each motion from rest to rest, by [`cplan_motion::recorded::check_collision`] with the workspace's clearance, and by
-///   [`limit_violations`].
-///   Objects are where previous steps have left them, and the load has the pose in which it was taken. Link 2 may touch
-///   the object that it takes, and the object that it released last. Payloads may rest on their supports. The state
-///   after the last step is checked as well.
-/// - Strokes that overlap with motions, at the heights of each moment. The tool must be raised completely in between, and
-///   be as high as the world requires while the arm moves.
-/// - Turns that overlap with motions, at the angles of each moment. The wrist turns only while the tool is raised, and
-///   keeps its limits while it also compensates the rotation of link 2.
-/// - Moving obstacles, which move on the clock of the record from its first sample on. Moving objects must be picked
-///   within their windows of time, and the resting arm must stay free between motions.
-/// - Motions along a line, which must be within its tolerance, and at most as fast as the line allows. If the line asks for
-///   an angle of the tool, the wrist must keep it between samples, too, and stay within its limits.
+/// - Each motion from rest to rest, by [`cplan_motion::recorded::check_collision`] with the workspace's clearance, and
+///   by [`limit_violations`]. Objects are where previous steps left them, and the load keeps the pose in which it was
+///   taken. Link 2 may touch the object that it takes, and the object that it released last. Payloads may rest on their
+///   supports. The state after the last step is checked as well.
+/// - Strokes that overlap with motions, with the tool at its height at each moment. The tool must be raised completely
+///   in between, and be as high as the world requires while the arm moves.
+/// - Turns that overlap with motions, with the wrist at its angle at each moment. The wrist must turn only while the
+///   tool is raised, and keep its limits although it also compensates the rotation of link 2.
+/// - Moving obstacles, whose clock starts at the first sample. Moving objects must be picked within their windows of
+///   time, and the resting arm must stay free between motions.
+/// - Motions along a line, which must be within its tolerance, and at most as fast as the line allows. If the line
+///   requires an angle of the tool, the wrist must keep it, also between samples, and stay within its limits.
 /// - The end of each step. The tip must be at the grasp, and the object or the arm at its target, within a micrometre.
 ///   A turn must start at the object's orientation, last at least as long as the wrist needs, and be free
 ///   ([`cplan_motion::recorded::TurnAtRest`]). The arm must rest for the dwell, the turn, and the stroke of the
 ///   tool. The stroke must be free at all its heights.
-/// - The values of the tool's joints at the start and at the end of a move. The arm rests while the tool is raised and
-///   lowered there, except in overlaps, and the wrist turns from one value to the other within its limits.
+/// - The values of the tool's joints at the start and at the end of a move. The arm must rest while the tool is raised
+///   and lowered there, except in overlaps, and the wrist must turn from one value to the other within its limits.
 ///
 /// Takes `O(n)` for `n` samples, plus the checks of motions.
 pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [RecordedStep]) -> Replay<'a> {
@@ -146,8 +147,8 @@ pub fn replay<'a>(task: &'a Task, recording: &'a Recording, recorded: &'a [Recor
 }
 
 impl Replay<'_> {
-    /// Returns three times in seconds from the beginning of the record: the beginning of a step's motion, its end, and
-    /// the beginning of the next step's motion.
+    /// Returns three times, in seconds from the beginning of the record: when the step's motion begins, when it ends,
+    /// and when the next step's motion begins.
     fn times(&self, index: usize, recorded: &RecordedStep) -> [f64; 3] {
         let times = self.recording.times();
         let since = |sample: usize| times.and_then(|times| Some(times.get(sample)? - times[0])).unwrap_or(0.0);
@@ -237,7 +238,7 @@ impl<'a> Iterator for Replay<'a> {
                 if self.state.stop(task, *picked, times[1]) && !(when.is_empty() || when.iter().any(is_in_time)) {
                     faults.push(Fault::When { time: times[1] });
                 }
-                // The following place step declares the supports.
+                // The place step that follows declares the supports.
                 let following = self.matched[index + 1..].iter().find_map(|next| match &next.step.action {
                     Action::Place { supports, .. } => Some(supports.as_slice()),
                     _ => None,
@@ -283,8 +284,8 @@ impl<'a> Iterator for Replay<'a> {
             let found = judge(sample..=sample, below, task.workspace.trajectories());
             found.into_iter().for_each(|found| judged.add(found));
         }
-        // The next step begins in the state after this one. Judge the rest in the state of this step if it is the last,
-        // or if objects are renewed next: until then, released objects are still present.
+        // The next step's checks begin in the state after this step. Judge the arm at rest here if this step is the
+        // last, or if objects are renewed next: until then, released objects are still present.
         let next = self.matched.get(self.next);
         let (is_last, is_renewed) = (next.is_none(), next.is_some_and(|next| !next.renewed.is_empty()));
         if (is_last || is_renewed) && judged.check.is_free() {

@@ -1,4 +1,4 @@
-//! The match of recorded steps with those of the task.
+//! Matches recorded steps with those of the task.
 
 use super::OrderDeviation;
 use cplan_handling::{Item, RecordedStep, Recording, Step, Task};
@@ -55,8 +55,8 @@ pub(super) fn match_steps<'a>(
 /// Returns the duration, in seconds, of the rest from one sample to another.
 ///
 /// # Errors
-/// The sample at which the arm moves, or after which its place has changed. There is no tolerance for rounding: at rest
-/// all positions are equal and velocities 0.
+/// The sample at which the arm moves, or after which its place has changed. No rounding is allowed: at rest, all
+/// positions are equal and all velocities 0.
 fn rest_duration(recording: &Recording, first: usize, last: usize) -> Result<f64, usize> {
     let (positions, zero) = (recording.positions(), Configuration::zeros());
     for sample in first..last {
@@ -68,13 +68,13 @@ fn rest_duration(recording: &Recording, first: usize, last: usize) -> Result<f64
     Ok(recording.times().map_or(0.0, |times| times[last] - times[first]))
 }
 
-/// The items of a task that remain.
+/// The remaining items of a task.
 struct Order<'a> {
     items: &'a [Item],
     item: usize,
-    /// For a free group that has begun, the remaining pairs.
+    /// Remaining pairs of the free group in progress.
     open: Vec<&'a [Step; 2]>,
-    /// The pair whose object is carried.
+    /// The pair whose object is being carried.
     half: Option<&'a [Step; 2]>,
     renewed: Vec<usize>,
 }

@@ -6,29 +6,29 @@ use cplan_handling::{RecordedOverlap, RecordedStep, RecordedTurn, Recording, Tas
 use cplan_model::Scene;
 use cplan_motion::recorded::{CollisionCheck, StrokeDuringMotion, TurnCover, TurnDuringMotion, seconds_to_rise};
 
-/// A stroke that overlaps with a motion, and by how many seconds.
+/// A stroke that overlaps with a motion.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct PartialStroke {
-    /// Depth to or from which the tool moves, metres.
+    /// Depth of the lowered tool, metres.
     pub depth: f64,
-    /// Time that the stroke and the motion share, seconds.
+    /// Duration of the overlap, seconds.
     pub overlap: f64,
 }
 
-/// The overlaps of a motion with the raising and the turn before it, and with the turn and the lowering at its end.
+/// The strokes and turns that overlap with a motion at its beginning and at its end.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Overlaps {
     pub raising: Option<PartialStroke>,
     pub lowering: Option<PartialStroke>,
-    /// The turn after the step before, which ends during the motion.
+    /// The turn of the previous step, which ends during this motion.
     pub turn_before: Option<RecordedTurn>,
-    /// The turn at the end of the motion, which begins during it.
+    /// The turn of this step, which begins during its motion.
     pub turn_at_end: Option<RecordedTurn>,
 }
 
 impl Overlaps {
-    /// Creates the overlaps of a step's motion. `raising` and `turn_before` are those before it, and `depth` is that of the
-    /// stroke at its end, in metres.
+    /// Creates the overlaps of a step's motion. `raising` and `turn_before` overlap with its beginning. `depth` is the
+    /// depth of the stroke at its end, in metres.
     pub fn new(
         (raising, turn_before): (Option<PartialStroke>, Option<RecordedTurn>),
         recorded: &RecordedStep,
@@ -77,7 +77,7 @@ impl Overlaps {
         faults
     }
 
-    /// Returns the turns during a motion, each with the payload's covers. `None` if the wrist cannot turn it.
+    /// Returns the turns during a motion, each with the payload's covers. `None` if the wrist may not turn while the arm moves.
     fn turns_during<'a>(
         &self,
         task: &Task,
@@ -96,9 +96,8 @@ impl Overlaps {
         Some(before.into_iter().chain(self.turn_at_end.map(|turn| during(turn, true))).collect())
     }
 
-    /// Checks the turns during a motion: the limits of the wrist, and collisions of the payload. Returns the first check
-    /// that does not find the motion free, with its scene, or else the least clearance. `None` if no turn overlaps.
-    /// `sought` is a clearance up to which the bound is improved.
+    /// Checks the turns during a motion: the limits of the wrist, and collisions of the payload. Returns the worst collision
+    /// check, with its scene. `None` if no turn overlaps. Bounds on the clearance are improved up to `sought`.
     pub fn check_turns(
         &self,
         task: &Task,
@@ -119,9 +118,9 @@ impl Overlaps {
         turns.iter().map(|turn| turn.check(motion, required, sought)).reduce(worse)
     }
 
-    /// Checks a motion while the tool is raised or lowered during it. Returns the first check that does not find the
-    /// motion free, with its scene, or else the least clearance. `None` if nothing overlaps, or if the overlaps keep the
-    /// `clearance` of the motion with the raised tool.
+    /// Checks a motion during which the tool is raised or lowered. Returns the worst collision check, with its scene.
+    /// `None` if nothing overlaps, or if the motion keeps `clearance` during the overlaps, too. `clearance` is that of
+    /// the motion with the raised tool.
     pub fn check(
         &self,
         task: &Task,
@@ -133,7 +132,7 @@ impl Overlaps {
         let tool = task.stroke.as_ref()?;
         let times = motion.times()?;
         let depths: Vec<f64> = self.strokes().map(|stroke| stroke.depth).collect();
-        // Before a turn after a pick, and after a turn before a place, the payload has another orientation.
+        // The payload has another orientation before a turn that follows a pick, and after a turn that precedes a place.
         let scenes = [self.turn_before.map(|turn| turn.from), self.turn_at_end.map(|turn| turn.to)]
             .map(|angle| state.arch_scene(task, (tool, &depths), picked, angle));
         let during = |stroke: PartialStroke, is_raising: bool| {
@@ -152,7 +151,7 @@ impl Overlaps {
         let checks = of(self.raising, true).into_iter().chain(of(self.lowering, false));
         let worse = |a: CollisionCheck, b: CollisionCheck| if b.is_worse_than(&a) { b } else { a };
         let mut check = checks.reduce(worse)?;
-        // The check has more samples than the recording.
+        // The moments of the check count its own samples, which are more than those of the recording.
         let number = |time: f64| times.partition_point(|sample| *sample <= time).saturating_sub(1);
         check.moments_mut().for_each(|moment| moment.sample = number(moment.time));
         let [scene, _] = scenes;
@@ -165,8 +164,8 @@ fn wrist_on_the_way(task: &Task) -> Option<Wrist> {
     task.wrist.filter(|wrist| wrist.turns_on_the_way && !task.has_moving_obstacles())
 }
 
-/// Returns the faults of a step's own turn and strokes: the wrist turns during a motion that is not the one before a place
-/// or after a pick, or while the tool is not raised.
+/// Returns the faults of a step's turn that overlaps with a motion: that motion neither follows a pick nor precedes a
+/// place, or the tool is not raised during the turn.
 pub(super) fn turn_faults(recorded: &RecordedStep, is_pick: bool, is_place: bool) -> Vec<Fault> {
     let Some(RecordedTurn { seconds, overlap: turn, .. }) = recorded.turn else { return Vec::new() };
     let RecordedOverlap { before_arrival, after_departure } = recorded.overlap;

@@ -1,4 +1,4 @@
-//! The places of all objects between the steps of a record.
+//! The state between the steps of a record: the places of all objects, and the load.
 
 use super::{Fault, PLACE_TOLERANCE, ReplayedTurn, TIME_TOLERANCE, angle_between};
 use cplan_geometry::{Point, Pose};
@@ -15,7 +15,7 @@ use cplan_motion::recorded::{TurnAtRest, WristTurn, turn_angle, turn_profile};
 pub(super) struct State {
     /// Placement of each object; `None` while it is carried.
     poses: Vec<Option<Placement>>,
-    /// Objects that are still moving and have no fixed pose.
+    /// Objects that are still moving, and so have no fixed pose.
     moving: Vec<usize>,
     held: Option<Payload>,
     /// The object that was released last. Link 2 may touch it during the next motion.
@@ -31,14 +31,13 @@ impl State {
         Self { poses, moving: task.initially_moving().collect(), held: None, released: None, lowered }
     }
 
-    /// Returns the depth from which the tool is raised before the next motion, and the scene while it is lowered there.
-    /// Afterwards it is raised.
+    /// Raises the tool before the next motion. Returns its previous depth, and the scene with the tool lowered.
     pub fn raise(&mut self, task: &Task) -> Option<(f64, Scene)> {
         let depth = self.lowered.take()?;
         Some((depth, task.empty_lowered_scene(depth, &self.poses, self.released)?))
     }
 
-    /// Lowers the tool at the end of a move, if the step asks for it. Returns the scene while it is lowered.
+    /// Lowers the tool at the end of a move, if the step requires it. Returns the scene with the tool lowered.
     pub fn lower(&mut self, task: &Task, step: &Step) -> Option<Scene> {
         self.lowered = step.tool.lowered_by();
         task.empty_lowered_scene(self.lowered?, &self.poses, None)
@@ -46,11 +45,11 @@ impl State {
 
     pub fn renew(&mut self, task: &Task, objects: &[usize]) {
         objects.iter().for_each(|&object| self.poses[object] = Some(task.objects[object].at.into()));
-        // A new object is not the one that was released, so it must not be touched.
+        // A renewed object is not the one that was released, so contact with it is not permitted.
         self.released = self.released.filter(|released| !objects.contains(released));
     }
 
-    /// Stops a moving object at its place at a time. Returns true if it was moving.
+    /// Stops a moving object where it is at this time. Returns true if it was moving.
     pub fn stop(&mut self, task: &Task, object: usize, time: f64) -> bool {
         let moved = self.moving.iter().position(|&other| other == object);
         if let Some((place, trajectory)) = moved.zip(task.objects[object].trajectory.as_ref()) {
@@ -84,8 +83,8 @@ impl State {
         task.trajectories_since(&self.moving, begin)
     }
 
-    /// Grasps the object that a step picks, with the arm at `q`. The object keeps its current pose relative to the
-    /// gripper. `then` lists its next supports. Returns the difference from the required grasp.
+    /// Grasps the object of a pick step, with the arm at `q`. The object keeps its current pose relative to the
+    /// gripper. `then` lists the objects that will support it next. Returns the difference from the required grasp.
     pub fn grasp(&mut self, task: &Task, q: Configuration, step: &Step, grasp: Point, then: &[usize]) -> Option<Fault> {
         let Action::Pick { object, supports, .. } = &step.action else { return None };
         let (object, arm) = (*object, &task.arm);
@@ -129,14 +128,14 @@ impl State {
         faults
     }
 
-    /// Returns the scene with the lowered tool and its load: see [`Task::lowered_scene`].
+    /// Returns the scene with the lowered tool and its load, see [`Task::lowered_scene`].
     pub fn lowered(&self, task: &Task, elevation: f64, is_placed: bool) -> Option<Scene> {
         let payload = self.held.as_ref()?;
         task.lowered_scene((payload.object, elevation), is_placed, &self.poses, Some(payload), self.released)
     }
 
-    /// Returns the scenes for strokes to these depths during a motion: see [`Task::arch_scene`]. `angle` is the
-    /// orientation of a level payload, if it differs from the present one.
+    /// Returns the scenes for strokes to these depths during a motion, see [`Task::arch_scene`]. `angle` is the
+    /// orientation of a level payload, if it differs from the current one.
     pub fn arch_scene(
         &self,
         task: &Task,
@@ -151,7 +150,7 @@ impl State {
         task.arch_scene(stroke, &self.poses, held.as_ref(), self.released.into_iter().chain(touched))
     }
 
-    /// Forgets the object that was released last, since the arm has moved.
+    /// Forgets the object that was released last. To be called when the arm has moved.
     pub fn moved(&mut self) {
         self.released = None;
     }
@@ -200,7 +199,7 @@ impl State {
     }
 }
 
-/// Returns the orientations between which a payload is turned while the arm rests, radians.
+/// Returns the orientations between which a payload turns while the arm rests, radians.
 fn angles_at_rest(task: &Task, turn: &RecordedTurn) -> [f64; 2] {
     let RecordedTurn { from, to, seconds, overlap } = *turn;
     let Some(wrist) = task.wrist.filter(|_| overlap != RecordedOverlap::default()) else { return [from, to] };

@@ -7,8 +7,8 @@ use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Joint, JointType};
 use cplan_motion::recorded::{Limit, LimitViolation, limit_violations};
 
-/// Returns the faults of the wrist along a line: it exceeds its limits, or the tool is not proven to keep the angle that
-/// the line asks for. `wrist` has the joint's values, velocities and accelerations at the samples of the motion.
+/// Returns the faults of the wrist along a line: it exceeds its limits, or the tool is not proven to keep the angle
+/// that the line requires. `wrist` has the joint's value, velocity and acceleration at each sample of the motion.
 pub(super) fn faults(
     task: &Task,
     motion: &Recording,
@@ -29,7 +29,7 @@ pub(super) fn faults(
     faults
 }
 
-/// Returns a recording of one value at the samples of a motion, as the first component, with the motion's interpolation.
+/// Returns a recording whose first component is this value at the samples of a motion. It has the motion's interpolation.
 fn recording(motion: &Recording, rows: &[[f64; 3]]) -> Result<Recording, RecordingError> {
     let column = |k: usize| rows.iter().map(|row| Configuration::new(row[k], 0.0)).collect::<Vec<_>>();
     let velocity = motion.velocities().map(|_| column(1));
@@ -67,7 +67,7 @@ fn angle_fault(
     (off > tolerance).then_some(Fault::ToolAngle { off, tolerance, piece })
 }
 
-/// Returns a fault for each limit that the wrist exceeds, or if it does not begin and end at rest.
+/// Returns a fault for each limit that the wrist exceeds, and a fault if the wrist does not begin and end at rest.
 fn limit_faults(limits: Wrist, joint: WristJoint, wrist: &Recording) -> impl Iterator<Item = Fault> {
     let own = Joint {
         joint_type: JointType::Revolute { sign: 1.0 },

@@ -1,9 +1,9 @@
 //! Recorded motions of the tool's joints, compared with those that the steps state.
 //!
-//! The replay judges the strokes and turns of the steps. If a file also has the values of the joints, they must be those
-//! that were judged. While the arm moves, each joint has one value at each time. While the arm rests, the tool may be at any
-//! height down to its lowest position there, and a payload may have any orientation of its turn, since all of them were
-//! judged.
+//! The replay judges the strokes and turns that the steps state. If a file also records the values of the tool's
+//! joints, these must agree. While the arm moves, the steps determine the value of each joint at each time. While the
+//! arm rests, the tool may be at any height down to its lowest position there, and a payload may have any orientation
+//! of its turn, since the replay judges all of them.
 
 use super::overlap::{Overlaps, PartialStroke};
 use cplan_handling::{
@@ -15,11 +15,11 @@ use cplan_motion::recorded::{turn_angle, turn_profile};
 use cplan_motion::single;
 use thiserror::Error;
 
-/// Largest difference between a recorded and a stated value, radians or metres. It exceeds the difference between readers
-/// that join samples by cubics and the certified blends.
+/// Largest difference between a recorded and a stated value, radians or metres. It exceeds the difference between a
+/// cubic interpolation of the samples and the certified blends.
 const VALUE_TOLERANCE: f64 = 1e-5;
 
-/// Number of places per piece of the motion that are compared.
+/// Number of compared places per piece of the motion.
 const PLACES_PER_PIECE: u8 = 4;
 
 /// The motion of the tool in a step, as it was judged.
@@ -40,7 +40,7 @@ pub struct StepTool {
     pub(super) turn: Option<RecordedTurn>,
 }
 
-/// A joint that is not where the steps of the file place it.
+/// A joint with another value than the steps of the file state.
 #[derive(Debug, Clone, PartialEq, Error)]
 #[error("all_joints: at {time:.6} s, joint \"{joint}\" is at {is}, but according to the steps {}", range(*stated))]
 pub struct MisplacedJoint {
@@ -58,8 +58,8 @@ fn range([least, greatest]: [f64; 2]) -> String {
     if least == greatest { format!("at {least}") } else { format!("from {least} to {greatest}") }
 }
 
-/// Returns the joints whose recorded values differ from those of the steps, each with the first such time. `recording` is the
-/// motion of the arm, and `tools` describes the recorded steps.
+/// Returns the joints whose recorded values differ from those that the steps state, each with the first such time.
+/// `recording` is the motion of the arm, and `tools` describes the recorded steps.
 pub fn misplaced_joints(
     task: &Task,
     robot: &RobotJoints,
@@ -109,14 +109,13 @@ pub fn misplaced_joints(
     found
 }
 
-/// Returns the places of a motion that are compared, each as a piece and a share of it.
+/// Returns the compared places of a motion, each as a piece and a fraction of it.
 fn places(pieces: usize) -> Vec<(usize, f64)> {
     let shares = (0..PLACES_PER_PIECE).map(|k| f64::from(k) / f64::from(PLACES_PER_PIECE));
     let places = (0..pieces).flat_map(|piece| shares.clone().map(move |share| (piece, share)));
     places.chain([(pieces - 1, 1.0)]).collect()
 }
 
-/// An object that the gripper holds.
 #[derive(Clone, Copy)]
 struct Carried {
     /// Index of the step that picked it.
@@ -125,13 +124,13 @@ struct Carried {
     reference: f64,
 }
 
-/// The values of joints that the steps state.
+/// The values of the tool's joints according to the steps.
 struct Guide<'a> {
     task: &'a Task,
     robot: &'a RobotJoints,
     steps: &'a [RecordedStep],
     tools: &'a [StepTool],
-    /// For each step, the motion of the wrist along a line.
+    /// Motion of the wrist along a line, for each step that has one.
     along: Vec<Option<Recording>>,
 }
 
@@ -152,7 +151,7 @@ impl<'a> Guide<'a> {
         Self { task, robot, steps, tools, along: steps.iter().map(along).collect() }
     }
 
-    /// Compares joints that are held, or that follow other joints.
+    /// Compares the joints other than stroke and wrist: those that keep a value, or that follow other joints.
     fn compare_others(
         &self,
         value: &dyn Fn(&str) -> Option<f64>,
@@ -175,12 +174,13 @@ impl<'a> Guide<'a> {
         }
     }
 
-    /// Returns the index of the step whose motion began last. `None` before the first motion.
+    /// Returns the index of the last step whose motion has begun. `None` before the first motion.
     fn step_at(&self, time: f64) -> Option<usize> {
         self.tools.partition_point(|tool| tool.times[0] <= time).checked_sub(1)
     }
 
-    /// Returns bounds on the stroke's joint at a time. `is_end` is true at the first and at the last place of the record.
+    /// Returns bounds on the value of the stroke's joint at a time. `is_end` states whether this is the first, and
+    /// whether it is the last place of the record.
     fn stroke_range(&self, stroke: &Stroke, time: f64, is_end: [bool; 2]) -> [f64; 2] {
         let rest = stroke.joint.rest;
         let lowered = |depth: Option<f64>| stroke.lowered(depth.unwrap_or(0.0));
@@ -212,8 +212,8 @@ impl<'a> Guide<'a> {
         [value; 2]
     }
 
-    /// Returns bounds on the wrist's joint at a time, with the arm at `q` and the joint at `is`. `None` if it is free, since
-    /// the parts that it turns count as discs.
+    /// Returns bounds on the value of the wrist's joint at a time, with the arm at `q` and a recorded value `is`.
+    /// `None` without a payload: then any value is right, because the parts that the wrist turns count as discs.
     fn wrist_range(
         &self,
         wrist: &ToolJoint,
@@ -249,7 +249,7 @@ impl<'a> Guide<'a> {
         Some([ends[0].min(ends[1]), ends[0].max(ends[1])])
     }
 
-    /// Returns bounds on the sum of all turns between the pick in a step and a time in a later one, radians.
+    /// Returns bounds on the sum of all turns between the pick in step `since` and a time in `step`, radians.
     fn turned(&self, since: usize, step: usize, time: f64) -> [f64; 2] {
         let by = |turn: Option<RecordedTurn>| turn.map_or(0.0, |turn| turn.to - turn.from);
         let before: f64 = self.tools[since..step].iter().map(|tool| by(tool.turn)).sum();

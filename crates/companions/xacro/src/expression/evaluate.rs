@@ -11,7 +11,7 @@ pub(super) struct Evaluator<'n> {
 }
 
 impl Evaluator<'_> {
-    /// Evaluates an expression that is nested one level deeper.
+    /// Evaluates an expression one level deeper.
     pub fn value(&mut self, expression: &Expression) -> Result<Value, Fault> {
         self.names.budget().enter()?;
         let value = self.inner(expression)?;
@@ -75,7 +75,7 @@ impl Evaluator<'_> {
         items.iter().map(|item| self.value(item)).collect()
     }
 
-    /// Evaluates a chain of operators of one precedence from left to right, without recursion.
+    /// Evaluates a chain of operators of the same precedence from left to right, without recursion.
     fn chain(&mut self, expression: &Expression) -> Result<Value, Fault> {
         let (mut others, mut first) = (Vec::new(), expression);
         while let Expression::Binary(sign, left, right) = first {
@@ -183,7 +183,7 @@ fn path(expression: &Expression) -> Option<String> {
     }
 }
 
-/// Sets the value of a key. Replaces an earlier value in its place.
+/// Sets the value of a key. An earlier value is replaced in its position.
 pub(crate) fn insert(dict: &mut Vec<(Value, Value)>, key: Value, value: Value) {
     match dict.iter_mut().find(|(known, _)| known.equals(&key)) {
         Some(known) => known.1 = value,

@@ -1,4 +1,4 @@
-//! The functions and constants that expressions can use: those of Python's `math`, and some of Python's own.
+//! The functions and constants of expressions: those of Python's `math`, and some of Python's own.
 
 use crate::error::Fault;
 use crate::limits::MAX_LIST_ITEMS;
@@ -74,7 +74,6 @@ pub(super) fn is_function(name: &str) -> bool {
         || BINARY_FUNCTIONS.iter().any(|(known, _)| *known == name)
 }
 
-/// Calls a function.
 pub(super) fn call(name: &str, arguments: &[Value]) -> Result<Value, Fault> {
     if !is_function(name) {
         let known: Vec<&str> = UNARY_FUNCTIONS
@@ -124,7 +123,7 @@ fn of_one(name: &str, x: Number) -> Option<Result<Value, Fault>> {
 
 /// Converts a float without a fraction to an integer.
 fn to_integer(name: &str, x: f64) -> Result<Value, Fault> {
-    /// Least power of two that is too large for a 64-bit integer.
+    /// Least power of two that exceeds 64-bit integers.
     const INTEGER_OVERFLOW: f64 = 9_223_372_036_854_775_808.0;
     match x.abs() < INTEGER_OVERFLOW {
         true => Ok(Value::Int(x as i64)),

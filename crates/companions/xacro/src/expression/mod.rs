@@ -15,7 +15,6 @@ use crate::error::Fault;
 use crate::limits::Budget;
 use crate::value::Value;
 
-/// An expression that has been parsed.
 #[derive(Debug)]
 pub(crate) enum Expression {
     Constant(Value),
@@ -29,7 +28,7 @@ pub(crate) enum Expression {
     Comparison(Box<Expression>, Vec<(&'static str, Expression)>),
     And(Box<Expression>, Box<Expression>),
     Or(Box<Expression>, Box<Expression>),
-    /// A choice `a if b else c`, in the order `b`, `a`, `c`.
+    /// A choice `a if b else c`, stored in the order `b`, `a`, `c`.
     Choice(Box<[Expression; 3]>),
     Index(Box<Expression>, Box<Expression>),
     /// A slice `a[b:c]`.
@@ -53,7 +52,7 @@ pub(crate) trait Names {
 /// Evaluates an expression.
 ///
 /// # Errors
-/// If the syntax is wrong or unknown, a name is not defined, types do not match, or a result is too large.
+/// If the syntax is wrong or not supported, a name is not defined, types do not match, or a result is too large.
 pub(crate) fn evaluate(text: &str, names: &mut dyn Names) -> Result<Value, Fault> {
     let tokens = tokens::tokens(text)?;
     let expression = parser::parse(&tokens)?;

@@ -87,7 +87,7 @@ impl<'t> Parser<'t> {
         }
     }
 
-    /// Parses an expression that is nested one level deeper. Begins with the weakest operator.
+    /// Parses an expression one level deeper, beginning with the weakest operator.
     fn choice(&mut self) -> Result<Expression, Fault> {
         self.depth += 1;
         if self.depth > MAX_EXPRESSION_DEPTH {
@@ -128,7 +128,7 @@ impl<'t> Parser<'t> {
             count += 1;
         }
         let mut value = self.comparison()?;
-        // Two `not` cancel each other, but turn the value into a truth value.
+        // Two `not` cancel each other, but the result is a truth value.
         for _ in 0..if count == 0 { 0 } else { 2 - count % 2 } {
             value = Expression::Unary("not", boxed(value));
         }
@@ -285,7 +285,7 @@ impl<'t> Parser<'t> {
         })
     }
 
-    /// Parses items up to a closing sign. The second value is true if there is a comma between or after the items.
+    /// Parses items up to a closing sign. The second result is true for a tuple: there is a comma, or no item.
     fn items(&mut self, close: &str) -> Result<(Vec<Expression>, bool), Fault> {
         let (mut items, mut has_comma) = (Vec::new(), false);
         while !self.takes_sign(close) {

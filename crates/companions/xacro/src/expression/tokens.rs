@@ -12,7 +12,7 @@ pub(super) enum Token {
     Sign(&'static str),
 }
 
-/// Signs of expressions. A longer sign comes before those with which it begins, so that it is recognised as a whole.
+/// Signs of expressions. A sign comes before its own beginnings, so that it is recognised as a whole.
 const SIGNS: [&str; 24] = [
     "**", "//", "==", "!=", "<=", ">=", "<", ">", "+", "-", "*", "/", "%", "(", ")", "[", "]", "{", "}", ",", ":", ".",
     "=", "!",

@@ -1,5 +1,4 @@
-//! The boundary of a region of polygons as a planar graph: distinct vertices, and directed sides that meet in vertices
-//! only.
+//! The boundary of a polygonal region as a planar graph: distinct vertices, and directed sides that meet in vertices only.
 //!
 //! `noding` cuts sides where they touch, or where rounding has made them cross slightly. `triangulation` triangulates
 //! the region. All sweeps keep the sides under the sweep line in the same balanced tree, `status`.
@@ -17,7 +16,7 @@ use super::{Orientation, Point, orientation};
 use std::cmp::Ordering;
 use std::ops::Range;
 
-/// Marks an empty entry in tables of indices.
+/// Represents an empty entry in tables of indices.
 pub const NO_ENTRY: u32 = u32::MAX;
 
 /// A side of the boundary, by vertex numbers. The inside (for planners: free space) lies to its left.
@@ -49,22 +48,21 @@ impl Side {
 
 /// Distinct vertices in lexicographic order, and directed sides that meet in vertices only.
 ///
-/// Where contours touch (in a shared corner, or a corner on a side), sides are cut. The sides that end at a point then
-/// determine where the inside is, independent of the direction in which contours were traced.
+/// Where contours touch (in a common corner, or in a corner on a side), sides are cut. The sides that end at a point
+/// then determine where the inside is, whatever the order of the contours' corners.
 ///
-/// Sides must not cross or overlap, which holds for the result of any polygon union. Sides that cross only by rounding
-/// are cut and joined at the corner next to the crossing. Two coincident sides, where obstacles touch along a side, are
-/// allowed.
+/// Sides must not cross or overlap, as in the result of a polygon union. Sides that cross only because of rounding are cut, and
+/// joined at the corner next to the crossing. Two coincident sides, where obstacles touch along a side, are allowed.
 #[derive(Debug, Clone)]
 pub struct Boundary {
     /// The vertices, distinct and in lexicographic order.
     pub vertices: Vec<Point>,
-    /// The sides, by left end; sides with the same left end from bottom to top.
+    /// The sides, sorted by left end, and from bottom to top if the left end is the same.
     pub sides: Vec<Side>,
     /// The sides that begin at vertex `v` are `first[v]..first[v + 1]`.
     first: Vec<u32>,
-    /// Numbers of the sides, sorted by right end; those with the same right end from bottom to top. Those that end
-    /// at vertex `v` are `by_right_end[last[v]..last[v + 1]]`.
+    /// Numbers of the sides, sorted by right end, and from bottom to top if the right end is the same. The sides that
+    /// end at vertex `v` are `by_right_end[last[v]..last[v + 1]]`.
     by_right_end: Vec<u32>,
     last: Vec<u32>,
     /// For each vertex, the side straight below it that does not end there, or `NO_ENTRY`.
@@ -131,7 +129,7 @@ impl Boundary {
             let group = &mut self.by_right_end[self.last[v] as usize..self.last[v + 1] as usize];
             if group.len() > 1 {
                 let left = |k: u32| self.vertices[self.sides[k as usize].left_end()];
-                // Seen from the right end, the lower side is the one counter-clockwise of the other.
+                // Seen from the right end, the lower side is counter-clockwise of the other.
                 group.sort_by(|&a, &b| below_at(self.vertices[v], left(b), left(a)).then(a.cmp(&b)));
             }
         }
@@ -176,7 +174,7 @@ impl Boundary {
     }
 
     /// Returns the ordinate of a side at the abscissa `x`. The side must not be vertical, and `x` must be within its
-    /// range. The ordinate is rounded *into* the inside: the point `(x, y)` lies exactly on the side or inside.
+    /// range. The ordinate is rounded *inwards*: the point `(x, y)` lies exactly on the side, or inside.
     pub fn ordinate(&self, side: usize, x: f64) -> f64 {
         let is_floor = self.sides[side].is_floor();
         let (from, to) = self.ends(side);
@@ -189,7 +187,7 @@ impl Boundary {
         }
         let (low, high) = (a.y.min(b.y), a.y.max(b.y));
         let mut y = (a.y + (b.y - a.y) * ((x - a.x) / (b.x - a.x))).clamp(low, high);
-        // Doubling the step from the size of the rounding error eventually reaches the far end, which is inside.
+        // The step doubles from the size of the rounding error, so it eventually reaches the far end, which is inside.
         let mut step = f64::EPSILON * low.abs().max(high.abs()).max(f64::MIN_POSITIVE);
         while orientation(from, to, Point::new(x, y)) == Orientation::Clockwise {
             y = if is_floor { (y + step).min(high) } else { (y - step).max(low) };
@@ -204,7 +202,7 @@ fn lexicographic(a: Point, b: Point) -> Ordering {
     a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y))
 }
 
-/// Replaces `-0.0` by `0.0`, because the two sort differently.
+/// Replaces `-0.0` by `0.0`, because they would be sorted differently.
 fn unsigned_zero(p: Point) -> Point {
     Point::new(p.x + 0.0, p.y + 0.0)
 }
@@ -218,7 +216,7 @@ fn below_at(apex: Point, a: Point, b: Point) -> Ordering {
     }
 }
 
-/// Returns, for each number from 0 to `count`, how many of the `keys` are less than it.
+/// Returns, for each number from 0 to `count`, how many `keys` are less than it.
 pub fn starts(count: usize, keys: impl Iterator<Item = usize>) -> Vec<u32> {
     let mut starts = vec![0; count + 1];
     for key in keys {

@@ -1,16 +1,16 @@
-//! Noding cuts sides where they touch or cross, so that they meet in vertices only.
+//! Noding: cuts sides where they touch or cross, so that they meet in vertices only.
 
 use super::{Boundary, NO_ENTRY, Side, Status};
 use crate::{Orientation, Point};
 use cplan_interrupt::checkpoint;
 use std::cmp::Ordering;
 
-/// Greatest distance by which sides may cross because of rounding, as a fraction of the greatest coordinate. It is a
-/// few units in the last place of the values from which the corners were computed.
+/// Greatest extent of a crossing that is attributed to rounding, as a fraction of the greatest coordinate. It is a few
+/// units in the last place of the values from which corners were computed.
 const CROSSING_TOLERANCE: f64 = 64.0 * f64::EPSILON;
 
-/// Largest number of passes. Crossings that remain after them are ignored. The first pass joins each corner to the side
-/// that rounding has moved it across. The pieces of these sides turn slightly, which rarely causes another crossing.
+/// Largest number of passes. Crossings that remain are ignored. If rounding has moved a corner across a side, the first
+/// pass joins them. The pieces of this side turn slightly, which rarely causes another crossing.
 const MAX_PASSES: usize = 16;
 
 /// Returns a boundary whose sides meet in vertices only, with the side below each vertex. Each pass takes `O(n log n)`,
@@ -35,7 +35,7 @@ pub(super) fn planar(mut boundary: Boundary) -> Boundary {
 fn cut(sides: &mut Vec<Side>, cuts: &[(usize, u32)]) {
     for of_side in cuts.chunk_by(|a, b| a.0 == b.0) {
         let whole = sides[of_side[0].0];
-        // Along a line, vertex numbers have the order of the points.
+        // Along a line, the vertex numbers are in the order of the points.
         let mut stops: Vec<u32> = of_side.iter().map(|cut| cut.1).collect();
         if !whole.is_floor() {
             stops.reverse();
@@ -46,8 +46,8 @@ fn cut(sides: &mut Vec<Side>, cuts: &[(usize, u32)]) {
     }
 }
 
-/// A vertical sweep line that passes over all vertices from left to right. If any sides cross, then at some time two
-/// that cross are neighbours on the line (Shamos, Hoey 1976).
+/// A vertical sweep line that passes all vertices from left to right. If any sides cross, two that cross are neighbours
+/// on the line at some time (Shamos, Hoey 1976).
 struct Sweep<'a> {
     boundary: &'a mut Boundary,
     status: Status,
@@ -81,7 +81,7 @@ impl<'a> Sweep<'a> {
             Some(lowest) => status.below(lowest),
             None => status.last_where(|side| boundary.place(side, at) == Orientation::CounterClockwise),
         };
-        // Only if sides cross, other sides lie between those that end here.
+        // Other sides can lie between those that end here only if sides cross.
         while let Some(side) = below.filter(|&side| ends_here(side)) {
             below = status.below(side);
         }
@@ -105,7 +105,7 @@ impl<'a> Sweep<'a> {
         self.check(last, above);
     }
 
-    /// Puts two coincident sides, where obstacles touch, in the right order: floors and ceilings must alternate.
+    /// Puts two coincident sides, where obstacles touch, in the right order, in which floors and ceilings alternate.
     fn order_coincident(&mut self, below: Option<usize>, side: usize) {
         let sides = &mut self.boundary.sides;
         let expects_floor = below.is_none_or(|below| !sides[below].is_floor());
@@ -117,7 +117,7 @@ impl<'a> Sweep<'a> {
         }
     }
 
-    /// Records where to cut two new neighbours that meet before the right end of either.
+    /// Records the place where two new neighbours must be cut, if they meet before the right end of either.
     fn check(&mut self, below: Option<usize>, above: Option<usize>) {
         let (Some(below), Some(above)) = (below, above) else { return };
         let ends = [below, above].map(|side| self.boundary.sides[side].right_end());
@@ -130,15 +130,15 @@ impl<'a> Sweep<'a> {
         if place == Orientation::Collinear {
             self.cuts.push((other, first as u32));
         } else if place != proper {
-            // If other sides cross, two sides that do not can become neighbours by mistake.
+            // If other sides cross, two sides that do not cross can become neighbours by mistake.
             let cut = nearest_end(self.boundary, below, above).filter(|cut| cut.1 <= self.crossing_tolerance);
             self.cuts.extend(cut.map(|cut| cut.0));
         }
     }
 }
 
-/// Returns, for two sides that cross, the end of one side that is nearest to the other side. The result has that other
-/// side, the vertex, and the distance. `None` if all ends are common to both sides.
+/// Returns, for two sides that cross, the end of one side that is nearest to the other one. The result is that other
+/// side, the vertex, and the distance. `None` if the sides have both ends in common.
 fn nearest_end(boundary: &Boundary, a: usize, b: usize) -> Option<((usize, u32), f64)> {
     let candidates = [(a, b), (b, a)].into_iter().flat_map(|(side, other)| {
         let Side { from, to } = boundary.sides[other];

@@ -1,4 +1,4 @@
-//! The test whether sides of a ring meet where they should not.
+//! Tests whether sides of a ring meet where they must not.
 
 use super::{Boundary, Orientation, Point, Status};
 use cplan_interrupt::checkpoint;
@@ -37,7 +37,8 @@ fn meets_itself(ring: &[Point], count: usize) -> bool {
     let boundary = Boundary::of_chain(ring, count);
     let mut status = Status::new(boundary.sides.len());
     let place = |side: usize, v: usize| boundary.place(side, boundary.vertices[v]);
-    // Two sides that are in order left of the first right end meet unless that end lies on its own side of the other.
+    // Two sides that are in order to the left of the first right end meet, unless that end lies on its own side of the
+    // other side.
     let meet = |below: Option<usize>, above: Option<usize>| {
         let (Some(below), Some(above)) = (below, above) else { return false };
         let ends = [below, above].map(|side| boundary.sides[side].right_end());

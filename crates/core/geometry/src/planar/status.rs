@@ -2,7 +2,7 @@
 
 use super::NO_ENTRY;
 
-/// A sequence of sides from bottom to top, each at most once.
+/// A sequence of sides from bottom to top, without repetitions.
 ///
 /// A *treap* (Aragon, Seidel 1989): a search tree by position and a heap by priorities. Priorities are hashes of the
 /// sides' numbers, so the same input gives the same tree. Insertion and search take expected logarithmic time, removal
@@ -44,8 +44,7 @@ impl Status {
         index(self.nodes[side].previous)
     }
 
-    /// Returns the highest side for which `holds`. The condition must be true for all sides below one for which it is
-    /// true.
+    /// Returns the highest side for which `holds` is true. If it is true for a side, it must be true for all sides below.
     pub fn last_where(&self, mut holds: impl FnMut(usize) -> bool) -> Option<usize> {
         let (mut at, mut best) = (self.root, NO_ENTRY);
         while at != NO_ENTRY {
@@ -70,7 +69,7 @@ impl Status {
         if let Some(next) = next {
             self.nodes[next].previous = number;
         }
-        // One of two neighbours is below the other in the tree, and has no child on that side.
+        // Of two neighbours, one is below the other in the tree, and has no child on that side.
         let (parent, child) = match (below, next) {
             (Some(below), _) if self.nodes[below].children[1] == NO_ENTRY => (below, 1),
             (_, Some(next)) => (next, 0),

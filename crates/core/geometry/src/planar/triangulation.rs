@@ -9,16 +9,16 @@ use cplan_interrupt::checkpoint;
 pub struct HalfEdges {
     /// The vertex at which each half-edge starts.
     pub origin: Vec<u32>,
-    /// The half-edge of the same edge in the triangle on its other side; `NO_ENTRY` on the boundary.
+    /// The other half of the same edge, in the triangle on its other side. `NO_ENTRY` on the boundary.
     pub twin: Vec<u32>,
 }
 
 /// Triangulates the inside of a boundary without new vertices. Every triangle is exactly counter-clockwise.
 ///
-/// This is the sweep of Hertel and Mehlhorn (1983). Left of the sweep line, the inside between two neighbouring
+/// This is the sweep of Hertel and Mehlhorn (1983). To the left of the sweep line, the inside between two neighbouring
 /// sides is triangulated up to a chain of vertices. The chain runs from the left end of the floor to that of the
-/// ceiling, and no triangle can be cut off it. Each vertex is joined to as much of the chain as it sees. This takes
-/// `O(n)` after the sweep that made the boundary.
+/// ceiling, and no further triangle can be cut off. Each new vertex is joined to all vertices of the chain that it
+/// sees. This takes `O(n)` after the sweep that built the boundary.
 pub fn triangulate(boundary: &Boundary) -> HalfEdges {
     let mut sweep = Sweep {
         vertices: &boundary.vertices,
@@ -44,7 +44,7 @@ struct Link {
     /// The neighbours in the chain.
     below: u32,
     above: u32,
-    /// The edge to the link above, as an index into [`Sweep::pending`]; `NO_ENTRY` if that edge is a side.
+    /// The edge to the link above, as an index into [`Sweep::pending`]. `NO_ENTRY` if that edge is a side.
     edge: u32,
 }
 
@@ -59,7 +59,7 @@ struct Region {
 struct Sweep<'a> {
     vertices: &'a [Point],
     links: Vec<Link>,
-    /// For each inner edge, its first half-edge; `NO_ENTRY` if none has been made.
+    /// For each inner edge, its first half-edge. `NO_ENTRY` if there is none yet.
     pending: Vec<u32>,
     result: HalfEdges,
 }
@@ -136,10 +136,9 @@ impl Sweep<'_> {
         self.cut_downwards(region);
     }
 
-    /// Splits a region at a vertex at which sides start inside the region. Returns the regions below and above these
-    /// sides.
+    /// Splits a region at a vertex where sides start inside it. Returns the regions below and above these sides.
     fn split(&mut self, region: Region, v: u32) -> (Option<Region>, Option<Region>) {
-        // The segment from the vertex to the chain's rightmost vertex crosses nothing.
+        // The segment from the vertex to the rightmost vertex of the chain crosses nothing.
         let middle = region.rightmost;
         let edge = self.edge(NO_ENTRY);
         let copy = self.link(Link { below: NO_ENTRY, ..self.links[middle as usize] });
@@ -205,14 +204,14 @@ impl Sweep<'_> {
         }
     }
 
-    /// Returns true if the inside lies in the angle at `b`. The vertices `a`, `b` and `c` follow each other on a chain
+    /// Returns true if the inside lies in the angle at `b`. The vertices `a`, `b` and `c` are consecutive on a chain,
     /// from bottom to top.
     fn is_open(&self, a: u32, b: u32, c: u32) -> bool {
         let [a, b, c] = [a, b, c].map(|v| self.vertices[v as usize]);
         orientation(a, b, c) == Orientation::Clockwise
     }
 
-    /// Makes a triangle from its corners and from the edges after the second and third corner. Returns the edge
+    /// Makes a triangle from its corners, and from the edges after the second and the third corner. Returns the edge
     /// after the first.
     fn triangle(&mut self, corners: [u32; 3], second: u32, third: u32) -> u32 {
         let half_edge = self.result.origin.len() as u32;

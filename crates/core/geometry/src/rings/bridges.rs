@@ -1,12 +1,12 @@
-//! Bridges: diagonals that join holes to their surroundings, so that every face of the region is a simple polygon.
+//! Bridges: diagonals that join holes to their surroundings, so that all faces of the region are simple polygons.
 //!
-//! Each hole gets a diagonal from its leftmost vertex to one further left, and from its rightmost vertex to one further
-//! right. A diagonal is not needed if an edge already leads there, or if the hole touches a corner of its surroundings
-//! there.
+//! Each hole gets a diagonal from its leftmost vertex to a vertex farther left, and one from its rightmost vertex to a
+//! vertex farther right. A diagonal is not necessary if an edge already leads in this direction, or if the hole touches
+//! a corner of its surroundings there.
 //!
-//! Then no single vertex separates the graph inside an outer loop. Suppose that a vertex cuts off a part. The leftmost
-//! vertex of the part has a neighbour further left, and the rightmost one a neighbour further right. Both neighbours
-//! would be the cutting vertex, so it would lie both left and right of the part.
+//! Then no single vertex can separate the graph inside an outer loop. For suppose that a vertex cuts off a part. The
+//! leftmost vertex of the part has a neighbour farther left, and its rightmost vertex has one farther right. Both
+//! neighbours would have to be the cutting vertex.
 
 use super::super::Point;
 use super::super::box_tree::BoxTree;
@@ -31,13 +31,13 @@ pub(super) struct Bridge {
 /// Connects every hole with its surroundings by diagonals.
 ///
 /// # Errors
-/// [`RingError::Misplaced`] if a hole's leftmost vertex sees no vertex to its left, or its rightmost none to its right:
-/// such a hole is not inside the outer ring.
+/// [`RingError::Misplaced`] if the leftmost vertex of a hole sees no vertex to its left, or the rightmost none to its
+/// right. Such a hole is not inside the outer ring.
 pub(super) fn join_holes(noded: NodedGraph) -> Result<BridgedGraph, RingError> {
     let NodedGraph { points, edges, around, loops } = &noded;
     let sight = Visibility::new(points, edges);
     let mut bridges: Vec<Bridge> = Vec::new();
-    // For each vertex, whether an edge leads to the left, and whether one leads to the right.
+    // For each vertex, true if an edge leads to the left, and true if an edge leads to the right.
     let mut has: Vec<[bool; 2]> = vec![[false; 2]; points.len()];
     let note = |has: &mut Vec<[bool; 2]>, [a, b]: [usize; 2]| {
         has[a.max(b)][0] = true;
@@ -47,7 +47,7 @@ pub(super) fn join_holes(noded: NodedGraph) -> Result<BridgedGraph, RingError> {
     for hole in loops.iter().filter(|l| !is_counter_clockwise(points, &l.vertices)) {
         let extremes = [hole.vertices.iter().min(), hole.vertices.iter().max()];
         for (side, &from) in extremes.into_iter().flatten().enumerate() {
-            // If all edges run to one side, the first of them determines whether the region is on the other side. It is
+            // If all edges lead to one side, the first of them states whether the region is on the other side. It is
             // not if the hole touches a corner of its surroundings there.
             let is_inside = around[from].first().is_some_and(|(_, goes_out)| !goes_out);
             if has[from][side] || !is_inside {
@@ -55,7 +55,7 @@ pub(super) fn join_holes(noded: NodedGraph) -> Result<BridgedGraph, RingError> {
             }
             let candidates = if side == 0 { 0..from } else { from + 1..points.len() };
             let Some(to) = sight.nearest(from, candidates, &bridges) else {
-                // A loop of the outer ring has a corner in which the ring crosses itself. The faces will show it.
+                // In a loop of the outer ring, the ring crosses itself at a corner. The faces will show this.
                 match hole.ring {
                     0 => continue,
                     hole => return Err(RingError::Misplaced { hole }),
@@ -100,7 +100,7 @@ impl<'a> Visibility<'a> {
         })
     }
 
-    /// Returns true if an edge obstructs a sight line: the two share more than a common end.
+    /// Returns true if an edge obstructs a sight line: they have more than a common end in common.
     fn blocks_sight(&self, [from, to]: [usize; 2], edge: [usize; 2]) -> bool {
         let [a, b] = [self.points[from], self.points[to]];
         let [c, d] = edge.map(|v| self.points[v]);

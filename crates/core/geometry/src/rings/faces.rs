@@ -20,8 +20,7 @@ struct End {
 /// Returns each face of the region as a simple polygon.
 ///
 /// # Errors
-/// If the inside around some vertex is ambiguous, because the rings cross there, or one lies on the wrong side of
-/// another.
+/// If the inside is ambiguous at a vertex, because rings cross there, or one lies on the wrong side of another.
 pub(super) fn faces(graph: &BridgedGraph) -> Result<Vec<SimplePolygon>, RingError> {
     let points = &graph.noded.points;
     let around = ends(graph);

@@ -1,4 +1,4 @@
-//! Polygons with holes, whose rings may touch themselves or each other in single points.
+//! Polygons with holes. The rings may touch themselves or each other in single points.
 
 mod bridges;
 mod faces;
@@ -14,8 +14,7 @@ use std::fmt;
 /// The closed region inside an outer ring and outside its holes.
 ///
 /// Rings may touch themselves and each other in single points (a corner on a corner or on a side). They must not cross
-/// or have a stretch in common. Holes lie inside the outer ring and outside each other. All conditions are decided
-/// exactly.
+/// or overlap. Holes lie inside the outer ring and outside each other. All conditions are decided exactly.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polygon {
     parts: Vec<SimplePolygon>,
@@ -87,8 +86,8 @@ impl Polygon {
     /// Creates the region inside `outer` and outside `holes`. Rings have either direction and do not repeat their first
     /// corner.
     ///
-    /// A simple ring without holes costs as much as [`SimplePolygon::new`]. Otherwise sides are compared if their boxes
-    /// meet, and two diagonals join each hole to its surroundings. Finding each of them takes `O(n log n)`.
+    /// A simple ring without holes takes as long as [`SimplePolygon::new`]. Otherwise, sides are compared if their
+    /// boxes meet, and two diagonals join each hole to its surroundings. Finding a diagonal takes `O(n log n)`.
     ///
     /// # Errors
     /// The first defect found.
@@ -110,7 +109,7 @@ impl Polygon {
             super::polygon::check_ring(corners).map_err(error)?;
         }
         let noded = NodedGraph::of(&rings)?;
-        // Holes must not be joined to a straight corner. If sides cross in one, the noding below reports it.
+        // Diagonals must not end at straight corners. If sides cross in one, the noding below reports it.
         let bared: Vec<Vec<Point>> = rings.iter().map(|ring| simplified_ring(ring)).collect();
         let noded = if bared == rings { noded } else { NodedGraph::of(&bared).unwrap_or(noded) };
         Ok(Self { parts: faces(&join_holes(noded)?)? })

@@ -9,13 +9,13 @@ use std::cmp::Ordering;
 
 /// The graph of several rings. The region lies to the left of every edge, if the rings are consistent.
 pub(super) struct NodedGraph {
-    /// Positions of the vertices, numbered from left to right, and upwards on vertical lines. Along any segment the
-    /// numbers increase or decrease.
+    /// Positions of the vertices, numbered from left to right, and upwards on vertical lines. So numbers are monotone
+    /// along any segment.
     pub points: Vec<Point>,
     /// Directed edges, as pairs of vertices.
     pub edges: Vec<[usize; 2]>,
-    /// For each vertex, its neighbours counter-clockwise from straight down. The flag is true if the edge is directed
-    /// to the neighbour.
+    /// The neighbours of each vertex, counter-clockwise from straight down. The flag is true if the edge is directed to
+    /// the neighbour.
     pub around: Vec<Vec<(usize, bool)>>,
     /// The rings, split where they touch themselves. No loop passes a vertex twice.
     pub loops: Vec<Loop>,
@@ -148,8 +148,8 @@ fn cuts(points: &[Point], sides: &[Piece]) -> Result<Vec<Vec<usize>>, RingError>
     Ok(cuts)
 }
 
-/// Returns true if a ring is counter-clockwise. It may touch itself, but must not cross or overlap itself. At its
-/// leftmost vertex all its edges run to the right, and the outside is below the lowest of them.
+/// Returns true if a ring is counter-clockwise. It may touch itself, but must not cross or overlap itself. All edges at
+/// its leftmost vertex lead to the right, and the outside is below the lowest of them.
 pub(super) fn is_counter_clockwise(points: &[Point], walk: &[usize]) -> bool {
     let n = walk.len();
     let Some(&least) = walk.iter().min() else { return true };
@@ -165,7 +165,6 @@ pub(super) fn is_counter_clockwise(points: &[Point], walk: &[usize]) -> bool {
     ends.reduce(lower).is_some_and(|(_, goes_out)| goes_out)
 }
 
-/// Splits a walk into loops.
 fn split_into_loops(walk: &[usize], vertices: usize) -> Vec<Vec<usize>> {
     const NO_INDEX: usize = usize::MAX;
     let mut place = vec![NO_INDEX; vertices];

@@ -1,17 +1,16 @@
 //! The arc of contact of a bar that turns about the joint and a convex polygon, in closed form with two arc tangents.
 //!
-//! A point at distance `r` from the joint touches the sides of a bar of half-width `w` when the angle between the bar's
-//! axis and the direction of the point is `asin(w / r)`, as long as `r` is at most the reach of the bar's front
-//! corners.
+//! A point at distance `r` from the joint touches the sides of a bar of half-width `w` if the angle between the bar's
+//! axis and the direction to the point is `asin(w / r)`, and if `r` is at most the reach of the bar's front corners.
 //!
 //! Let `K` be the part of the polygon within that reach. Suppose `K` is farther from the joint than the bar's rear
-//! corners and at least as close as its front side. Then the directions at which the bar meets it are *one* arc, from
-//! the least to the greatest such direction over the points of `K`. There is no gap between them, because `K` contains
-//! the segments from each of its points to the one nearest to the joint.
+//! corners and at least as close as its front side. Then the directions at which the bar meets `K` form *one* arc, from
+//! the least to the greatest such direction over the points of `K`. The arc has no gap, because `K` contains the
+//! segments from all its points to the one nearest to the joint.
 //!
 //! Both ends are attained at corners of `K`: corners of the polygon, and points where its sides cross the circle of the
-//! reach. All these directions lie within a right angle of the direction to the polygon, so signs of cross products
-//! order them. Comparisons matter only up to rounding: if two candidates tie, either is correct.
+//! reach. All these directions are within a right angle of the direction to the polygon, so signs of cross products
+//! order them. Rounding in comparisons does no harm: of two candidates that tie, either is correct.
 
 use super::features::{Features, quotient};
 use super::{Hits, wrap};
@@ -19,7 +18,7 @@ use crate::{Convex, Point, Vector, cross, perpendicular};
 use std::f64::consts::TAU;
 
 /// Lengths that differ by less count as equal, metres. This exceeds the rounding of coordinates up to about 100 m, and
-/// is far below [`super::ROUNDING`].
+/// is far smaller than [`super::ROUNDING`].
 const LENGTH_TOLERANCE: f64 = 1e-11;
 
 /// Least ratio of width to reach of a bar. The arcs are then much wider than the rounding errors of their ends.
@@ -64,8 +63,8 @@ impl Bar {
         })
     }
 
-    /// Does the same as [`super::turning_from`] for a bar, without radii and growth. Returns `None` if the joint is too
-    /// close to the piece, or if only the front corners of the bar reach the piece. `O(n)`.
+    /// Like [`super::turning_from`], for a bar, without radii and growth. `None` if the joint is too close to the
+    /// piece, or if only the front corners of the bar reach the piece. `O(n)`.
     pub fn arc(&self, pivot: Point, zero: Vector, piece: &Features, out: &mut Vec<[f64; 2]>) -> Option<Hits> {
         let side_gap = |normal: Vector, offset: f64| normal.dot(&pivot) - offset;
         let (gap, toward) = piece.sides.iter().map(|s| (side_gap(s.normal, s.offset), -s.normal)).fold(
@@ -136,8 +135,8 @@ struct Extremes {
 }
 
 impl Extremes {
-    /// Adds a point. The bar touches it when the point is at the distance `along` from the joint along the axis, and
-    /// `across` beside the axis.
+    /// Adds a point. The bar touches it when the point is at `along` in the direction of the axis, and at `across`
+    /// beside the axis.
     fn add(&mut self, at: Vector, along: f64, across: f64) {
         let first = Vector::new(along * at.x + across * at.y, along * at.y - across * at.x);
         let last = Vector::new(along * at.x - across * at.y, along * at.y + across * at.x);
@@ -176,8 +175,8 @@ mod tests {
         assert!(Bar::of(&Convex::trusted(vec![Point::zeros(), Point::new(1.0, 0.0)], 0.0)).is_none());
     }
 
-    /// Tests shapes that touch. Rounding moves the touching corner farther inside the bar's side than its distance
-    /// along the normal suggests.
+    /// Tests shapes that touch. Rounding moves the touching corner farther into the bar than its distance along the
+    /// normal suggests.
     #[test]
     fn touching_shapes_have_no_gap() {
         let part = bar(0.8, 0.14258016639302604, 0.01648044041409189, -1.856738282955592);
@@ -199,9 +198,9 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(20_000))]
 
-        /// Compares the arcs with those of the exhaustive method. That method sorts all critical angles, and computes
-        /// one distance between neighbours. An independent distance confirms that the shapes touch at the ends. Some
-        /// positions have corners exactly at the reach of the bar.
+        /// Compares the arcs with those of the exhaustive method, which sorts all critical angles and computes a
+        /// distance between each two neighbours. An independent computation of the distance confirms that the shapes
+        /// touch at the ends. In some cases, corners are exactly at the reach of the bar.
         #[test]
         fn arcs_are_those_of_all_critical_angles(
             (back, half_width, turn) in (-0.2..0.2f64, 0.01..0.15f64, -PI..PI),
@@ -233,7 +232,7 @@ mod tests {
                 separation(&part.shape().at(&pose), piece.shape()).distance
             };
             if hits == Hits::Never {
-                // The exhaustive method may report contacts within rounding that are not contacts.
+                // Within rounding, the exhaustive method may report false contacts.
                 prop_assert!(expected == Hits::Never || exhaustive.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));
             } else if expected == Hits::Never {
                 prop_assert!(arcs.iter().all(|a| distance((a[0] + a[1]) / 2.0) > -ROUNDING));

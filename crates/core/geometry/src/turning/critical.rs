@@ -1,4 +1,4 @@
-//! The exhaustive method for arcs of contact: every critical angle, and one distance between each two neighbours.
+//! The exhaustive method for arcs of contact: all critical angles, and one distance between each two neighbours.
 
 use super::features::quotient;
 use super::touching::Placement;
@@ -6,16 +6,15 @@ use super::{Hits, ROUNDING, normalized, wrap};
 use crate::{Pose, Vector, separation};
 use std::f64::consts::{PI, TAU};
 
-/// Critical angles closer than this count as one, radians. A turn by it moves no point of a 100 m arm by more than a
-/// tenth of [`ROUNDING`].
+/// Critical angles that differ by less than this are treated as one, radians. A turn by it moves no point of a 100 m
+/// arm by more than a tenth of [`ROUNDING`].
 const ANGLE_TOLERANCE: f64 = 1e-12;
 
-/// Excess of a cosine over 1 that still counts as grazing. So a contact that rounding would hide is examined.
+/// Excess of a cosine over 1 that still counts as grazing, so that contacts that rounding would hide are examined.
 const GRAZING_COSINE: f64 = 1e-7;
 
-/// Computes the arcs of [`super::turning_from`] correctly even in degenerate positions. It computes the distance at the
-/// critical angles and halfway between neighbours, with a margin of [`ROUNDING`] in favour of contact. `O(n m)` angles
-/// and distances.
+/// Computes the arcs of [`super::turning_from`] correctly even in degenerate positions. Computes the distance at the critical
+/// angles, and halfway between neighbours, with a margin of [`ROUNDING`] in favour of contact. `O(n m)` angles and distances.
 pub(super) fn critical_arcs(placement: &Placement<'_>, out: &mut Vec<[f64; 2]>) -> Hits {
     let &Placement { part, pivot, zero, piece, radius, .. } = placement;
     let mut angles = critical_angles(placement);

@@ -1,7 +1,7 @@
 //! Corners and sides of convex shapes, prepared for the contact equations.
 //!
-//! Vectors of the plane are multiplied as complex numbers here: turning by an angle is a product, and the angle of a
-//! contact comes from a single arc tangent.
+//! Here, vectors of the plane are multiplied as complex numbers. A rotation is then a product, and a single arc tangent
+//! gives the angle of a contact.
 
 use super::bar::Bar;
 use crate::{Convex, Point, Vector, cross, perpendicular};
@@ -36,7 +36,7 @@ impl Corner {
         &self.to_neighbors[..self.neighbors]
     }
 
-    /// Returns the same vectors, turned and scaled so that the corner is at `(1, 0)`. Zero for a corner at the origin.
+    /// Returns the same vectors, turned and scaled so that the corner is at `(1, 0)`. Zero if the corner is at the origin.
     pub fn polar(&self) -> &[Vector] {
         &self.polar[..self.neighbors]
     }
@@ -55,7 +55,7 @@ pub(super) struct Side {
     pub to: f64,
 }
 
-/// A rounded convex polygon prepared for the contact equations. A core of one corner has no sides; a core of two
+/// A rounded convex polygon prepared for the contact equations. A core of one corner has no sides. A core of two
 /// corners has two.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Features {
@@ -68,7 +68,7 @@ pub struct Features {
     /// Centre and radius of a disc around the core.
     pub(super) center: Vector,
     pub(super) extent: f64,
-    /// The core as a bar about the origin; `None` if it is not a bar.
+    /// The core as a bar about the origin. `None` if it is no bar.
     pub(super) bar: Option<Bar>,
 }
 

@@ -1,16 +1,16 @@
-//! The angles at which a turning convex shape meets a fixed one, in closed form without sampling.
+//! The angles at which a turning convex shape meets a fixed one, in closed form.
 //!
-//! A shape that turns about a pivot begins or ceases to meet a fixed one in one of three cases. A corner of the moving
-//! shape comes to lie on a side of the fixed one. A corner of the fixed shape comes to lie on a side of the moving one.
-//! Or, with rounded shapes, two corners come as close as the sum of the radii. Each case fixes the coordinates of the
-//! turned corner along and across the side by one square root.
+//! A shape that turns about a pivot can begin or cease to meet a fixed one in three cases: a corner of the moving shape
+//! is on a side of the fixed one; a corner of the fixed shape is on a side of the moving one; or, with rounded shapes,
+//! the distance of two corners is the sum of the radii. In each case, one square root gives the coordinates of the
+//! turned corner along and across the side.
 //!
-//! A contact is a *true* contact, an end of a forbidden arc, if the shapes do not overlap there. Since both are convex,
-//! the neighbours of the touching corners decide this. The sign of the root decides whether it is the start or the end.
+//! A contact is a *true* contact, that is, an end of a forbidden arc, if the shapes do not overlap there. As both are
+//! convex, the neighbours of the touching corners decide this. The sign of the root distinguishes starts from ends.
 //!
-//! Each such decision compares a length with zero. If one is too close for rounding ([`touching`]), the exhaustive
-//! method takes over ([`critical`]): all critical angles, sorted, with one distance between neighbours. A bar about the
-//! pivot, the usual link, has a faster method ([`bar`]).
+//! Each such decision compares a length with zero ([`touching`]). If a length is too close to zero, the exhaustive
+//! method ([`critical`]) replaces this one: it sorts all critical angles, and computes a distance between each two
+//! neighbours. A bar about the pivot, the usual link, has a faster method ([`bar`]).
 
 mod bar;
 mod critical;
@@ -27,8 +27,8 @@ use touching::Placement;
 /// the result the shapes are at least `grow - ROUNDING` apart. At any angle in the result they are within
 /// `grow + ROUNDING`.
 ///
-/// The formulas lose about 1e-13 m for coordinates up to about 100 m; the rest is margin. The error of an angle can
-/// be as large as the square root of this, where shapes graze each other.
+/// The error of the formulas is about 1e-13 m for coordinates up to about 100 m. The rest is margin. Where shapes graze
+/// each other, the error of an angle can be as large as the square root of this bound.
 pub const ROUNDING: f64 = 1e-9;
 
 /// States whether a part meets a piece for no, all, or some values of a joint.
@@ -44,13 +44,12 @@ pub enum Hits {
 }
 
 /// Appends to `out` the closed arcs of angles `phi` at which `part`, turned by `phi` about the origin and then moved to
-/// `pivot`, comes within `grow >= 0` of `piece`. Exact up to [`ROUNDING`]; touching counts. `O(n m)`.
+/// `pivot`, comes within `grow >= 0` of `piece`. Exact up to [`ROUNDING`]. Touching counts. `O(n m)`.
 pub fn turning(part: &Convex, pivot: Point, piece: &Convex, grow: f64, out: &mut Vec<[f64; 2]>) -> Hits {
     turning_from(&Features::new(part), pivot, Vector::x(), &Features::new(piece), grow, out)
 }
 
-/// Does the same as [`turning`] for prepared shapes, with angles counted from the direction of the unit vector
-/// `zero`.
+/// Like [`turning`], for prepared shapes, with angles measured from the direction of the unit vector `zero`.
 ///
 /// Allocates only for `out` and in degenerate positions.
 pub fn turning_from(
@@ -74,7 +73,7 @@ pub fn turning_from(
     }
     let placement = Placement { part, pivot, zero, piece, radius, reach: (near - radius, far + radius) };
     match placement.ends() {
-        // No contact begins or ends, so a test of one angle decides for all angles.
+        // If no contact begins or ends, a test at one angle decides for all angles.
         Ok(ends) if ends.is_empty() => {
             let pose = Pose::new(pivot, 0.0);
             let distance = separation(&part.shape.at(&pose), &piece.shape).distance - grow;

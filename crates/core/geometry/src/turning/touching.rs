@@ -4,27 +4,26 @@ use super::features::{Corner, Features, product, quotient};
 use crate::{Point, Vector};
 use std::f64::consts::{PI, TAU};
 
-/// Lengths that differ by less than this, metres, are not compared, because rounding could change the result. The same
-/// is true for ends of arcs that differ by less than this, radians. Coordinates up to about 100 m lose about 1e-11 m,
-/// except where a corner's circle grazes a line.
+/// Difference of lengths, metres, or of ends of arcs, radians, below which they are not compared, because rounding
+/// could change the result. The rounding error is about 1e-11 m for coordinates up to about 100 m, except where the
+/// circle of a corner grazes a line.
 const COMPARISON_TOLERANCE: f64 = 1e-9;
 
-/// A corner's circle grazes a line if its squared distance exceeds that of the line by less than this fraction. The
-/// square root has then lost too many digits for [`COMPARISON_TOLERANCE`]: half of them at 1e-16.
+/// The circle of a corner grazes a line if its squared radius exceeds the line's squared distance by less than this
+/// fraction. The square root then has too few digits for [`COMPARISON_TOLERANCE`]: at 1e-16, half of them are lost.
 const LINE_GRAZING_TOLERANCE: f64 = 1e-8;
 
-/// Directions between corners at a distance `r` lose digits as `r` becomes small. Their tolerance grows by this
-/// value, in square metres, divided by `r`.
+/// Tolerance of directions between corners, in square metres, to be divided by the distance of the corners. Such
+/// directions lose digits as the distance becomes small.
 const DIRECTION_TOLERANCE: f64 = 1e-13;
 
 /// Two circles graze each other if the gap between their radii equals the contact distance up to this fraction.
 const CIRCLE_GRAZING_TOLERANCE: f64 = 1e-6;
 
-/// Largest number of arcs of one pair of convex shapes. For the rare pairs with more arcs, an exhaustive method is used
-/// instead.
+/// Largest number of arcs of one pair of convex shapes. The exhaustive method is used for the rare pairs with more arcs.
 const MAX_ARCS: usize = 8;
 
-/// The error of a comparison whose values are too close for the result to be certain.
+/// The values of a comparison are too close for a certain result.
 pub(super) struct UndecidedComparison;
 
 /// Two shapes and their positions.
@@ -102,7 +101,7 @@ impl Placement<'_> {
         for corner in &self.piece.corners {
             let at = corner.at - self.pivot;
             let distance2 = at.norm_squared();
-            // A corner on the pivot is in contact at all angles or at none.
+            // A corner on the pivot is in contact at all angles, or at none.
             if distance2 > 0.0 {
                 self.corner_on_turning_sides(corner, at, distance2, &mut ends)?;
                 if self.radius > 0.0 {
@@ -122,7 +121,7 @@ impl Placement<'_> {
     /// Finds contacts of corners of the part with sides of the piece.
     fn corners_on_fixed_sides(&self, ends: &mut Ends) -> Result<(), UndecidedComparison> {
         for side in &self.piece.sides {
-            // The side moved outwards by the radius, seen from the pivot.
+            // Distance of the side, moved outwards by the radius, from the pivot.
             let along = side.offset - side.normal.dot(&self.pivot) + self.radius;
             let shift = side.normal.x * self.pivot.y - side.normal.y * self.pivot.x;
             let (from, to) = (side.from - shift, side.to - shift);
@@ -140,8 +139,8 @@ impl Placement<'_> {
         Ok(())
     }
 
-    /// Finds contacts of a corner of the piece, `at` from the pivot, with sides of the part. In the part's frame the
-    /// corner turns in the opposite direction.
+    /// Finds contacts of a corner of the piece with sides of the part. `at` is its position relative to the pivot. In
+    /// the part's frame, the corner turns in the opposite direction.
     fn corner_on_turning_sides(
         &self,
         corner: &Corner,
@@ -164,8 +163,8 @@ impl Placement<'_> {
         Ok(())
     }
 
-    /// Finds corners of the part at the contact distance from a corner of the piece, `at` and `distance` from the
-    /// pivot.
+    /// Finds corners of the part at the contact distance from a corner of the piece. `at` and `distance` are the
+    /// position of this corner relative to the pivot, and its distance from there.
     fn corners_apart(
         &self,
         fixed: &Corner,
@@ -179,15 +178,15 @@ impl Placement<'_> {
         for corner in self.corners_in_reach() {
             let (excess, sum) = (corner.distance - distance, corner.distance + distance);
             let gap = radius - excess.abs();
-            // The corner's circle is outside the one around the fixed corner, or inside it.
+            // The corner's circle is outside of the circle around the fixed corner, or inside.
             if gap < -CIRCLE_GRAZING_TOLERANCE * radius || sum - radius < -COMPARISON_TOLERANCE {
                 continue;
             }
             if gap < CIRCLE_GRAZING_TOLERANCE * radius || sum - radius < COMPARISON_TOLERANCE {
                 return Err(UndecidedComparison);
             }
-            // Along the direction from the pivot to the fixed corner, the turned corner is at `beyond` from that
-            // corner; across it, at `across`. Products of sums and differences keep the digits of a small radius.
+            // In the direction from the pivot to the fixed corner, the turned corner is `beyond` the fixed one. Across
+            // this direction, it is at `across`. Products of sums and differences keep the digits of a small radius.
             let beyond = (excess * sum - radius * radius) / (2.0 * distance);
             let across2 = (sum - radius) * (sum + radius) * gap * (radius + excess.abs());
             let root = across2.sqrt() / (2.0 * distance);
@@ -209,10 +208,9 @@ impl Placement<'_> {
     }
 }
 
-/// Returns the positions where a circle about the origin crosses a side, at most two. The side is at `along` on its
-/// normal, from `from` to `to` on its tangent. Each position comes with a value of `start`: the first one for the
-/// positive root, the second one for the negative root. Positions clearly off the side are omitted. Undecided if the
-/// circle grazes the side.
+/// Returns the positions where a circle about the origin crosses a side, at most two. The side is at `along` on its normal, and
+/// extends from `from` to `to` on its tangent. Each position has a value of `start`: the first value for the positive root, the
+/// second for the negative one. Positions that are clearly not on the side are omitted. Undecided if the circle grazes the side.
 fn crossings(
     distance2: f64,
     along: f64,
@@ -235,13 +233,13 @@ fn crossings(
     Ok([(root, start[0]), (-root, start[1])].into_iter().filter(move |&(across, _)| on_side(across)))
 }
 
-/// Returns the distance of a position on a side's line from the nearest end of the side: positive within the side,
-/// negative outside.
+/// Returns the distance of a position on a side's line from the nearest end of the side, positive on the side and
+/// negative beyond its ends.
 fn foot_margin(across: f64, from: f64, to: f64) -> f64 {
     (across - from).min(to - across)
 }
 
-/// Returns true if a length is positive. Undecided if it is at most `doubt` in magnitude.
+/// Returns true if a length is positive. Undecided if its magnitude is at most `doubt`.
 fn is_positive(margin: f64, doubt: f64) -> Result<bool, UndecidedComparison> {
     if margin.abs() <= doubt { Err(UndecidedComparison) } else { Ok(margin > 0.0) }
 }

@@ -5,8 +5,8 @@ use cplan_model::Pair;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// A collision box as result files contain it: all configurations from `lower` to `upper`, and the two shapes that are
-/// too near in all of them. All indices start from 0.
+/// A collision box in result files: all configurations from `lower` to `upper`, and two shapes that are too close in
+/// all of them. Indices start from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ProofBox {
@@ -50,10 +50,10 @@ pub enum ProofFormatError {
     Missing,
 }
 
-/// Reads the claim in a result file: the value of its key `proof`. [`Disconnection::checked`] decides if it is true.
+/// Reads the claim in a result file: the value of its key `proof`. [`Disconnection::checked`] decides whether it is true.
 ///
 /// # Errors
-/// [`ProofFormatError`] if the text is no result with a proof.
+/// [`ProofFormatError`] if the text is not a result with a proof.
 pub fn read_proof(json: &str) -> Result<Disconnection, ProofFormatError> {
     #[derive(Deserialize)]
     struct Claim {
@@ -70,7 +70,7 @@ mod tests {
 
     #[test]
     fn written_proofs_are_read_back_exactly() {
-        // Values whose shortest decimal form a careless reader gets wrong by one unit in the last place.
+        // Values whose shortest decimal form an inaccurate reader misreads by one unit in the last place.
         let values = [0.1 + 0.2, -2.9, 1.0 / 3.0, 5e-324, 123_456.789_012_345_67, -std::f64::consts::PI];
         for &lower in &values {
             let pair = Pair { link: 1, part: 0, obstacle: 3, piece: 2 };

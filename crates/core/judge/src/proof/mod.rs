@@ -1,9 +1,9 @@
 //! Proofs that there is no path: boxes of colliding configurations that separate the start from all goals.
 //!
-//! A [`Disconnection`] is a claim, which any caller can make. A [`CheckedProof`] is a claim that holds; only
-//! [`Disconnection::checked`] makes one. The check shares no code with the search for claims. It computes depths
-//! from the Minkowski difference and motions from chords. A sweep over the rest of the domain decides whether the
-//! boxes separate start and goals.
+//! A [`Disconnection`] is a claim, which any caller can make. A [`CheckedProof`] is a true claim, which only
+//! [`Disconnection::checked`] can make. The check shares no code with the search for claims. It computes depths from
+//! the Minkowski difference, and displacements from chords. A sweep over the domain outside the boxes decides whether
+//! these separate start and goals.
 
 mod json;
 mod separation;
@@ -20,11 +20,11 @@ use serde::{Serialize, Serializer};
 use std::sync::Arc;
 use thiserror::Error;
 
-/// Margin by which a depth must exceed a motion, as a fraction of the lengths in their comparison. It is far above the
-/// rounding of the two values.
+/// Margin by which a depth must exceed a displacement, as a fraction of the lengths in the comparison. It is far
+/// greater than the rounding of both values.
 const ROUNDING: f64 = 1e-12;
 
-/// A box of configurations in which one pair of shapes is too near everywhere.
+/// A box of configurations. In all of them, the same pair of shapes is too close.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CollisionBox {
     /// The box.
@@ -83,7 +83,7 @@ pub enum ProofError {
     /// The box is empty, or extends beyond the domain.
     #[error("collision box {0} is empty or extends beyond the configuration space")]
     NotInDomain(usize),
-    /// The shapes may separate within the box.
+    /// The shapes may be apart somewhere in the box.
     #[error(
         "collision box {index}: the shapes overlap by {depth:e} m in the middle of the box, but can move by {motion:e} m within the box"
     )]
@@ -92,7 +92,7 @@ pub enum ProofError {
         index: usize,
         /// Penetration depth in the middle, clearance included, metres.
         depth: f64,
-        /// Greatest distance that points of the part can move within the box, from its middle, metres.
+        /// Greatest displacement of the part's points from their positions in the middle of the box, metres.
         motion: f64,
     },
     /// The boxes do not separate the start from this piece of the goals.
@@ -117,9 +117,8 @@ impl Disconnection {
         self
     }
 
-    /// Checks the claim: in each box its pair must be nearer than `clearance` or touch, and together the boxes must
-    /// separate the start from all goals. `O(n log n)` for `n` boxes, times the number of boxes at one value of
-    /// joint 1.
+    /// Checks the claim. In each box, its pair must be nearer than `clearance` or touch. Together, the boxes must separate the
+    /// start from all goals. `O(n log n)` for `n` boxes, times the number of boxes at one value of joint 1.
     ///
     /// # Errors
     /// The first [`ProofError`] found.
@@ -134,7 +133,7 @@ impl Disconnection {
         for (index, stuck) in self.stuck.iter().enumerate() {
             is_in_space(scene, &topology, index, stuck)?;
         }
-        // It takes less time to find that boxes do not separate than that shapes do not overlap.
+        // Test the separation first, because that is faster than the test of overlaps.
         if let Some(goal) = not_separated(&topology, &self.stuck, start, goals) {
             return Err(ProofError::NotSeparated(goal));
         }
@@ -162,7 +161,7 @@ fn is_in_space(scene: &Scene, topology: &Topology, index: usize, stuck: &Collisi
 fn is_collision(scene: &Scene, index: usize, stuck: &CollisionBox, clearance: f64) -> Result<(), ProofError> {
     let cell = &stuck.cell;
     let middle = Configuration::from_fn(|k, _| (cell.lower[k] + cell.upper[k]) / 2.0);
-    // The middle is rounded, so take the greater distance to the two ends.
+    // The middle is rounded, so use the greater one of the distances to both ends.
     let half = [0, 1].map(|k| (cell.upper[k] - middle[k]).max(middle[k] - cell.lower[k]));
     let part = scene.part(stuck.pair).at(&scene.arm().pose(stuck.pair.link, middle));
     let piece = scene.piece(stuck.pair).grown(clearance);
@@ -172,8 +171,8 @@ fn is_collision(scene: &Scene, index: usize, stuck: &CollisionBox, clearance: f6
     if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofError::NotColliding { index, depth, motion }) }
 }
 
-/// Returns an upper bound on the motion of the part's corners, metres, while each joint moves by at most `half` from
-/// `q`. A turn by `t` about a point at distance `r` moves a corner by the chord `2 r sin(t / 2)`.
+/// Returns an upper bound on the displacement of the part's corners, metres, while each joint moves by at most `half`
+/// from `q`. A turn by `t` about a point at distance `r` moves a corner by the chord `2 r sin(t / 2)`.
 fn farthest(scene: &Scene, stuck: &CollisionBox, q: Configuration, half: [f64; 2]) -> f64 {
     let arm = scene.arm();
     let chord = |angle: f64| 2.0 * (angle.min(std::f64::consts::PI) / 2.0).sin();
@@ -187,8 +186,7 @@ fn farthest(scene: &Scene, stuck: &CollisionBox, q: Configuration, half: [f64; 2
         }
         (_, JointType::Revolute { .. }, JointType::Prismatic { direction }) => {
             let at = |slide: f64| (arm.offset + direction * (q[1] + slide) + a).norm();
-            // Joint 2 moves first, then joint 1 turns. Distance is convex, so its greatest value is at an end of
-            // joint 2's range.
+            // Move joint 2 first, and then turn joint 1. Distance is convex, so it is greatest at an end of joint 2's range.
             half[1] + at(half[1]).max(at(-half[1])) * chord(half[0])
         }
         (_, JointType::Prismatic { .. }, JointType::Revolute { .. }) => half[0] + a.norm() * chord(half[1]),

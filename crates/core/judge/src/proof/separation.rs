@@ -1,12 +1,12 @@
-//! Decides if collision boxes separate the start from all goals.
+//! Decides whether collision boxes separate the start from all goals.
 
 use super::{Cell, CollisionBox};
 use cplan_model::checkpoint;
 use cplan_model::space::{Configuration, GoalSet, Segment, Topology};
 use petgraph::unionfind::UnionFind;
 
-/// Returns the index of the first goal that has a part connected with the start outside the boxes. Goals are indexed as
-/// in [`GoalSet::wrapped`]. Returns `None` if the boxes separate all goals from the start.
+/// Returns the index of the first goal with a part that is connected with the start outside the boxes. Indices are
+/// those of [`GoalSet::wrapped`]. `None` if the boxes separate all goals from the start.
 pub(super) fn not_separated(
     topology: &Topology,
     boxes: &[CollisionBox],
@@ -23,11 +23,11 @@ pub(super) fn not_separated(
     goals.wrapped(topology).position(joined)
 }
 
-/// Number of parts into which the range of joint 1 is cut, in addition to the cuts at the ends of boxes. In each part,
-/// boxes cover the configurations whose sum of joint values is not allowed.
+/// Number of parts into which the range of joint 1 is cut, in addition to cuts at the ends of boxes. In each part,
+/// boxes cover the configurations with a forbidden sum of joint values.
 const SUM_PARTS: u32 = 4096;
 
-/// Returns boxes in which the sum of joint values is not allowed anywhere.
+/// Returns boxes in which all sums of joint values are forbidden.
 fn beyond_sum(topology: &Topology, cells: &[Cell]) -> Vec<Cell> {
     if topology.sum.is_none() {
         return Vec::new();
@@ -46,12 +46,12 @@ fn beyond_sum(topology: &Topology, cells: &[Cell]) -> Vec<Cell> {
     ends.windows(2).flat_map(of_part).collect()
 }
 
-/// The part of the domain outside closed boxes. It consists of strips of `q1` between the boxes' sides, and in each
-/// strip of gaps in `q2`, which are open intervals.
+/// The part of the domain outside the closed boxes. It consists of strips of `q1` between sides of the boxes. Each
+/// strip consists of gaps in `q2`, which are open intervals.
 struct Slabs {
     /// Values of `q1` at the ends of the strips, ascending.
     ends: Vec<f64>,
-    /// The gaps of all strips, strip by strip, each strip's in ascending order.
+    /// The gaps of all strips, strip by strip, ascending in each strip.
     gaps: Vec<[f64; 2]>,
     /// For each strip, the index of its first gap in `gaps`, followed by the number of gaps.
     first: Vec<usize>,
@@ -97,7 +97,7 @@ impl Slabs {
         self.first[index]..self.first[index + 1]
     }
 
-    /// Returns a gap that contains `q`, its ends included; `None` if `q` is inside a box.
+    /// Returns a gap that contains `q`, or has it at an end. `None` if `q` is inside a box.
     fn locate(&self, q: Configuration) -> Option<usize> {
         let beside = |i: &usize| self.ends[*i] <= q[0] && q[0] <= self.ends[*i + 1];
         let strips: Vec<usize> = (0..self.first.len() - 1).filter(beside).collect();
@@ -105,8 +105,7 @@ impl Slabs {
         strips.into_iter().find_map(within)
     }
 
-    /// Returns the gaps that contain a part of a segment; the sides of a gap belong to it. For a point it returns only
-    /// one gap.
+    /// Returns the gaps that contain a part of a segment, including the sides of the gaps. For a point, returns only one gap.
     fn gaps_meeting(&self, piece: &Segment) -> Vec<usize> {
         let [from, to] = piece.ends();
         if piece.is_point() {
@@ -156,8 +155,7 @@ mod tests {
     use cplan_model::space::JointRange;
     use std::f64::consts::PI;
 
-    /// Tests a box along a whole axis. It leaves two parts, which are connected across the seam if the other axis is a
-    /// circle.
+    /// Tests a box along a whole axis. The two remaining parts are connected across the seam if the other axis is a circle.
     #[test]
     fn a_seam_joins_what_a_band_leaves() {
         let turn = JointRange::Circle;

@@ -6,12 +6,12 @@ use cplan_model::Scene;
 /// The cells of a [`super::Grid`] with one bit each: set if the cell's *centre* is within the clearance of an
 /// obstacle.
 ///
-/// The bits prove the state of the centres, up to [`cplan_geometry::ROUNDING`], and nothing about configurations in
+/// The bits are proven for the centres, up to [`cplan_geometry::ROUNDING`]. They prove nothing about configurations in
 /// between ([`super::Proves::Sampled`]).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Bitmap {
     cells: [usize; 2],
-    /// Number of 64-bit words per row.
+    /// Number of words per row.
     words: usize,
     bits: Vec<u64>,
 }
@@ -48,9 +48,8 @@ impl Bitmap {
     }
 }
 
-/// Computes the bitmap of a scene. It has the same cells as [`super::grid_from_slices`], in an eighth of the memory.
-/// Each pair is examined only in the rows where link 2 can reach its piece.
-/// `O(reached slices * contacts + cells / 64)`.
+/// Computes the bitmap of a scene. The cells are those of [`super::grid_from_slices`], in an eighth of the memory. Each
+/// pair is examined only in the rows where link 2 can reach its piece. `O(reached slices * contacts + cells / 64)`.
 pub fn bitmap(scene: &Scene, cells: [usize; 2], clearance: f64) -> Bitmap {
     let words = cells[1].div_ceil(WORD_BITS);
     let mut bits = vec![0_u64; words * cells[0]];

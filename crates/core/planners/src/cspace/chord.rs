@@ -5,7 +5,7 @@ use cplan_model::space::Configuration;
 use cplan_model::{Arm, JointType};
 use std::f64::consts::TAU;
 
-/// A configuration of a pair of shapes, with the direction from part to piece along which they are separated.
+/// A configuration of a pair of shapes, with the direction of greatest gap from the part to the piece.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Contact {
     /// Unwrapped joint values.
@@ -15,21 +15,20 @@ pub(super) struct Contact {
 }
 
 impl Contact {
-    /// Returns the same contact with joint 2, which must be revolute, moved by whole turns.
+    /// Returns the same contact after whole turns of joint 2, which must be revolute.
     pub fn turned(&self, turns: f64) -> Self {
         Self { q: Configuration::new(self.q[0], self.q[1] + turns * TAU), ..*self }
     }
 }
 
-/// A part of link 2 and a piece of an obstacle, whose distance on straight motions has a lower bound.
+/// A part of link 2 and a piece of an obstacle. Their distance on straight motions has a lower bound.
 ///
-/// [`PairMotion::least_distance`] computes the bound as follows. The distance of two convex sets is the greatest gap
-/// over all directions, so any choice of a direction at each point of the motion gives a lower bound. Let `m` and
-/// `n` be the unit directions of the greatest gap at the two ends, and `c = m . n`. Between the ends take the
-/// normalised `(1-t) m + t n`. For a corner `a` of the part and a corner `b` of the piece, the offset `y = b - a` is
-/// a smooth function of `t`. It is at most `k t(1-t)/2` from the straight line between its values at the ends, where
-/// `k` bounds its second derivative. Let `G` be the smaller gap at the ends, and
-/// `D = 2 G - (gap at start along n) - (gap at end along m)`. Then, at `x = t(1-t)`,
+/// [`PairMotion::least_distance`] computes the bound as follows. The distance of two convex sets is the greatest gap over all
+/// directions, so the gap along any direction is a lower bound, and the direction may change along the motion. Let `m` and `n`
+/// be the unit directions of the greatest gap at the two ends, and `c = m . n`. Between the ends take the normalised `(1-t) m +
+/// t n`. For a corner `a` of the part and a corner `b` of the piece, the offset `y = b - a` is a smooth function of `t`. It is
+/// at most `k t(1-t)/2` from the straight line between its values at the ends, where `k` bounds its second derivative. Let `G`
+/// be the smaller gap at the ends, and `D = 2 G - (gap at start along n) - (gap at end along m)`. Then, at `x = t(1-t)`,
 ///
 /// ```text
 /// gap >= (G - x D) / sqrt(1 - 2x(1-c)) - x k/2  >=  (G - x D)(1 + x(1-c)) - x k/2.
@@ -61,8 +60,9 @@ impl<'a> PairMotion<'a> {
 
     /// Returns a bound on the change of the pair's distance per unit of `q1`, with `q2` fixed.
     ///
-    /// A revolute joint 1 turns the piece about the base, as seen from link 1. If joint 2 is revolute as well, link
-    /// 2 also stays within a fixed distance of the base, and the smaller of these two distances counts.
+    /// A revolute joint 1 turns part and piece relative to each other about the base. So the bound is a distance from
+    /// the base: that of the piece's farthest corner. If joint 2 is revolute as well, the farthest distance of link 2
+    /// is another bound, and the smaller of both counts.
     pub fn speed(&self) -> f64 {
         match (self.arm.joints[0].joint_type, self.arm.joints[1].joint_type) {
             (JointType::Prismatic { .. }, _) => 1.0,
@@ -113,8 +113,8 @@ impl<'a> PairMotion<'a> {
         piece - part - n.dot(&pose.translation)
     }
 
-    /// Returns bounds on second derivatives along the straight motion, which takes one unit of time. The first is
-    /// for corners of the part in the plane, the second for corners of the piece in the link's frame.
+    /// Returns two bounds on second derivatives along the straight motion, which takes one unit of time: for corners of
+    /// the part in the plane, and for corners of the piece in the link's frame.
     pub fn curvatures(&self, from: Configuration, to: Configuration) -> [f64; 2] {
         let d = to - from;
         let (offset, part, piece) = (self.arm.offset, self.part_reach, self.piece_reach);
@@ -139,11 +139,10 @@ impl<'a> PairMotion<'a> {
     }
 }
 
-/// Computes the bound that [`PairMotion`] explains. `least` is `G`. `across` has the gap at the start along the
-/// direction of the end, and the gap at the end along the direction of the start. `cosine` is `c`, and `curvature` is
-/// `k`.
+/// Computes the bound that [`PairMotion`] explains. `least` is `G`, `cosine` is `c`, and `curvature` is `k`. `across`
+/// has the gap at the start along the direction of the end, and the gap at the end along the direction of the start.
 fn bound(least: f64, across: [f64; 2], cosine: f64, curvature: f64) -> f64 {
-    // At each end its own direction gives the greatest gap, so only rounding can make this negative.
+    // At each end, its own direction has the greatest gap. So only rounding can make this negative.
     let defect = (2.0 * least - across[0] - across[1]).max(0.0);
     let middle = least - defect / 4.0;
     if middle <= 0.0 || cosine <= 0.0 {

@@ -1,31 +1,31 @@
-//! Simpler shapes around shapes with many corners. Their details are smaller than the margin of the configuration
-//! space.
+//! Replaces shapes with many corners by simpler ones that contain them. The simplification is smaller than the margin
+//! of the configuration space.
 
 use super::covering::covering;
 use cplan_geometry::{Convex, Point, SimplePolygon, Vector, cross, farthest, hull, perpendicular};
 use cplan_model::{Obstacle, Scene, Shape};
 use std::borrow::Cow;
 
-/// Shapes with at most this many corners stay unchanged, since simpler ones would hardly save time.
+/// Number of corners up to which shapes stay unchanged, because simpler ones would hardly save time.
 const MAX_UNCHANGED_CORNERS: usize = 16;
 
-/// Number of pieces of a simplified obstacle above which a covering by small cells is tried. The covering is used if it
+/// Number of pieces of a simplified obstacle above which it is also covered by small cells. The covering is used if it
 /// has fewer pieces.
 const MAX_PIECES: usize = 512;
 
 /// Number of attempts to simplify a polygon whose coarse outline crosses itself. Each attempt has a quarter of the
-/// tolerance of the one before.
+/// previous tolerance.
 const ATTEMPTS: usize = 3;
 
-/// Fraction of the tolerance for the corners of polygons made of cells.
+/// Fraction of the tolerance for the corners of polygons that consist of cells.
 const CELL_CORNER_SHARE: f64 = 0.25;
 
-/// Fraction of the coordinates by which outlines are moved outwards, to make up for rounding.
+/// Distance by which outlines are moved outwards, as a fraction of the coordinates. It covers rounding.
 const ROUNDING: f64 = 1e-13;
 
 /// Returns a scene whose shapes contain those of `scene` and extend at most `within` metres beyond them in total. A
-/// part or piece with few corners is unchanged. An obstacle with many pieces may lose pieces that the arm cannot
-/// come within `near` of. `O(n log n)`.
+/// part or piece with few corners is unchanged. In an obstacle with many pieces, those that the arm cannot approach
+/// within `near` may be missing. `O(n log n)`.
 ///
 /// A configuration that is free in the coarse scene is free in `scene`.
 pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
@@ -38,7 +38,7 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
     if within <= 0.0 || !parts.clone().any(|part| fine(&part.shape)) && !scene.workspace().obstacles.iter().any(many) {
         return Cow::Borrowed(scene);
     }
-    // Arm and obstacles share the tolerance if the arm has parts that become coarser.
+    // If parts of the arm are simplified, too, arm and obstacles share the tolerance.
     let each = if parts.clone().any(|part| fine(&part.shape)) { within / 2.0 } else { within };
     let reach = reach(scene).map(|reach| reach + near);
     let can_meet = |piece: &Convex| reach.is_none_or(|reach| distance_of_bounds(piece, scene.arm().base) <= reach);
@@ -67,8 +67,8 @@ pub(super) fn coarse(scene: &Scene, within: f64, near: f64) -> Cow<'_, Scene> {
     Cow::Owned(scene.reshaped(|part| part.shape = coarse_cover(&part.shape, each), pieces))
 }
 
-/// Returns the greatest distance of the arm from the base, metres; `None` unless both joints are revolute and there
-/// is no attachment.
+/// Returns the greatest distance of the arm from the base, metres. `None` unless both joints are revolute and nothing
+/// is attached to the arm.
 fn reach(scene: &Scene) -> Option<f64> {
     let turns = scene.arm().joints.iter().all(|joint| joint.joint_type.is_revolute());
     (turns && scene.attachment().is_none()).then(|| scene.arm().reach() * (1.0 + ROUNDING))
@@ -80,8 +80,8 @@ fn distance_of_bounds(shape: &Convex, from: Point) -> f64 {
     (0..2).map(|k| (lower[k] - from[k]).max(from[k] - upper[k]).max(0.0)).fold(0.0, f64::hypot)
 }
 
-/// Returns the [`covering`] of pieces by polygons with few corners each. `None` if a piece is rounded, or if the
-/// covering would take too long.
+/// Covers pieces by polygons with few corners each, see [`covering`]. `None` if a piece is rounded, or if this would
+/// take too long.
 fn coarse_covers(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
     let straight = pieces.iter().all(|piece| piece.radius() == 0.0);
     let covering = if straight { covering(pieces, within * (1.0 - CELL_CORNER_SHARE)) } else { None };
@@ -98,15 +98,14 @@ fn coarse_cover(shape: &Convex, within: f64) -> Convex {
     Convex::trusted(around_convex(core, within).unwrap_or_else(|| core.to_vec()), shape.radius())
 }
 
-/// Returns the polygon of some extended sides of a strictly convex polygon; `None` if fewer than three sides are
-/// left.
+/// Returns the polygon of some extended sides of a strictly convex polygon. `None` if fewer than three sides remain.
 fn around_convex(core: &[Point], within: f64) -> Option<Vec<Point>> {
     let n = core.len();
     let corner = |i: usize| core[i % n];
     let mut outline = Vec::new();
     let mut side = 0;
     while side < n {
-        // Continue while this side and a later one meet near the corners between them.
+        // Continue while this side and a later one meet close to the corners between them.
         let (mut next, mut meeting) = (side + 1, corner(side + 1));
         while next < n {
             let Some(at) = where_lines_meet([corner(side), corner(side + 1)], [corner(next + 1), corner(next + 2)])
@@ -127,8 +126,8 @@ fn around_convex(core: &[Point], within: f64) -> Option<Vec<Point>> {
     (outline.len() > 2).then_some(outline)
 }
 
-/// Returns the point where the extensions of two sides meet: the first beyond its end, the second before its start.
-/// Returns `None` if the two directions differ by more than a right angle.
+/// Returns the point where two sides meet if the first is extended beyond its end, and the second before its start.
+/// `None` if their directions differ by more than a right angle.
 fn where_lines_meet([a, b]: [Point; 2], [c, d]: [Point; 2]) -> Option<Point> {
     let (u, v) = (b - a, d - c);
     let turn = cross(u, v);
@@ -144,12 +143,12 @@ fn distance_from_line(p: Point, a: Point, b: Point) -> f64 {
     cross(along, p - a).abs() / along.norm()
 }
 
-/// Returns convex pieces around a simple polygon, none farther than `within` from it. `None` if the simplified
+/// Returns convex pieces that cover a simple polygon, and extend at most `within` beyond it. `None` if the simplified
 /// polygon crosses itself.
 ///
-/// The outline is cut into nearly straight runs. The pieces are a rectangle around each run, and the polygon of the
-/// runs' ends. They cover the polygon for this reason: the runs can be deformed into the outline within the
-/// rectangles. So around a point outside all rectangles both have the same winding number.
+/// The outline is cut into nearly straight runs. The pieces are those of the polygon of the runs' ends, and a rectangle
+/// around each run. They cover the polygon, because the polygon of the ends can be deformed into the outline within the
+/// rectangles. So both have the same winding number around any point outside all rectangles.
 fn around_polygon(corners: &[Point], within: f64) -> Option<Vec<Convex>> {
     let polygon = SimplePolygon::new(corners.to_vec()).ok()?;
     if polygon.is_convex() {
@@ -166,7 +165,7 @@ fn around_polygon(corners: &[Point], within: f64) -> Option<Vec<Convex>> {
     })
 }
 
-/// Returns convex pieces that cover a polyline, none farther than `within` from it.
+/// Returns convex pieces that cover a polyline, and extend at most `within` beyond it.
 fn around_polyline(points: &[Point], within: f64) -> Vec<Convex> {
     let piece =
         |run: &[Point]| if run.len() > 2 { rectangle(run) } else { Convex::between(run[0], run[run.len() - 1]) };

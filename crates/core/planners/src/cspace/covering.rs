@@ -1,4 +1,4 @@
-//! Covers many small pieces by few polygons, made of the cells of a lattice that the pieces meet.
+//! Covers many small pieces by few polygons. The polygons consist of the cells of a lattice that the pieces meet.
 
 use cplan_geometry::{Convex, Point, farthest, hull};
 use cplan_interrupt::checkpoint;
@@ -6,7 +6,8 @@ use cplan_interrupt::checkpoint;
 /// Relative enlargement of pieces. It exceeds the rounding of cells.
 const ROUNDING: f64 = 1e-13;
 
-/// Greatest number of rows of cells that all pieces cross together. More would take longer than a covering saves.
+/// Largest total number of rows that the pieces cross. With more, the computation of the covering would take longer
+/// than it saves.
 const MAX_CROSSINGS: f64 = 4e7;
 
 /// Adjacent cells of a row, from the first column to the last.
@@ -15,10 +16,10 @@ type Run = [i64; 2];
 /// Returns convex polygons whose union contains all `pieces` and extends at most `within` beyond them. No piece may
 /// be rounded. Returns `None` if the covering would take too long.
 ///
-/// The diagonal of a cell is half of `within`, so every point of a cell that a piece meets is that close to the
+/// The diagonal of a cell is half of `within`. So if a piece meets a cell, each point of the cell is that close to the
 /// piece. Runs of such cells in consecutive rows form a stack. Each stack is cut into convex polygons that extend at
-/// most the other half of `within` beyond its cells. There are at most as many polygons as runs, for any number of
-/// pieces. `O(n log n)` for `n` crossings of pieces with rows.
+/// most the other half of `within` beyond its cells. There are at most as many polygons as runs, however many pieces
+/// there are. `O(n log n)` for `n` crossings of pieces with rows.
 pub(super) fn covering(pieces: &[Convex], within: f64) -> Option<Vec<Convex>> {
     debug_assert!(pieces.iter().all(|piece| piece.radius() == 0.0), "pieces with corners");
     let lattice = Lattice::new(pieces, within / 2.0)?;
@@ -41,8 +42,8 @@ struct Lattice {
 }
 
 impl Lattice {
-    /// Creates a lattice of cells with this diagonal that covers all pieces. Returns `None` if the pieces cross too
-    /// many rows, or if the cells are too small for the coordinates.
+    /// Creates a lattice of cells with this diagonal that covers all pieces. `None` if the pieces cross too many rows,
+    /// or if rounding of the coordinates is too large for the cells.
     fn new(pieces: &[Convex], diagonal: f64) -> Option<Self> {
         let first = pieces.first()?.bounds();
         let [lower, upper] = pieces.iter().map(Convex::bounds).fold(first, |[l, u], b| [l.inf(&b[0]), u.sup(&b[1])]);
@@ -51,7 +52,7 @@ impl Lattice {
         let height = |[lower, upper]: [Point; 2]| (upper.y - lower.y) / side + 2.0;
         let crossings: f64 = pieces.iter().map(|piece| height(piece.bounds())).sum();
         let few = crossings <= MAX_CROSSINGS && (upper.x - lower.x) / side <= MAX_CROSSINGS;
-        // If cells were not much larger than rounding errors, they might not contain the pieces.
+        // Cells must be much larger than rounding errors to contain the pieces.
         (few && pad < side / 1024.0).then(|| {
             let pads = cplan_geometry::Vector::repeat(pad);
             let rows = height([lower, upper]) as usize + 1;
@@ -74,7 +75,7 @@ impl Lattice {
     /// Returns, for each row, the runs of cells that pieces meet. They are disjoint, not adjacent, and ascending.
     fn runs(&self, pieces: &[Convex]) -> Vec<Vec<Run>> {
         let mut rows = vec![Vec::new(); self.rows];
-        // A row with this many runs is merged, to limit the memory.
+        // To limit the memory, runs of a row are merged when there are this many.
         let mut full = vec![64; self.rows];
         for piece in pieces {
             checkpoint();
@@ -94,8 +95,8 @@ impl Lattice {
         rows
     }
 
-    /// Cuts a stack into convex polygons that extend at most `within` beyond its cells. Galloping search finds for
-    /// each polygon the greatest number of rows. `O(n log n)`.
+    /// Cuts a stack into convex polygons that extend at most `within` beyond its cells. Galloping search finds the
+    /// greatest number of rows for each polygon. `O(n log n)`.
     fn convex(&self, stack: &Stack, within: f64, out: &mut Vec<Convex>) {
         let allowed = within / self.side;
         let fits = |from: usize, to: usize| {
@@ -118,8 +119,8 @@ impl Lattice {
     }
 }
 
-/// Returns the least and the greatest abscissa of the part of a convex polygon, segment or point within a horizontal
-/// strip. Returns `None` if it does not meet the strip.
+/// Returns the least and the greatest abscissa of a convex polygon, segment or point within a horizontal strip. `None`
+/// if it does not meet the strip.
 fn extent(core: &[Point], bottom: f64, top: f64) -> Option<[f64; 2]> {
     let mut extent = [f64::INFINITY, f64::NEG_INFINITY];
     let mut add = |x: f64| extent = [extent[0].min(x), extent[1].max(x)];
@@ -157,11 +158,10 @@ struct Stack {
     runs: Vec<Run>,
 }
 
-/// Groups all runs into stacks.
 fn stacks(rows: Vec<Vec<Run>>) -> Vec<Stack> {
     let (mut done, mut open): (Vec<Stack>, Vec<Stack>) = (Vec::new(), Vec::new());
     for (row, runs) in rows.into_iter().enumerate() {
-        // For each stack and each run: how many of the other kind it meets, and the last one of these.
+        // For each stack, the number of runs that it meets, and the last of them. For each run, the same for stacks.
         let mut of_stack = vec![(0, 0); open.len()];
         let mut of_run = vec![(0, 0); runs.len()];
         let (mut i, mut j) = (0, 0);
@@ -191,12 +191,11 @@ fn stacks(rows: Vec<Vec<Run>>) -> Vec<Stack> {
     done
 }
 
-/// Returns how far the convex hull of a stack extends beyond the stack's left side, in cells. `columns` are the
+/// Returns the distance by which the convex hull of a stack extends beyond its left side, in cells. `columns` are the
 /// columns at which the rows start.
 ///
-/// Between two corners of the hull, the left side lies within a band along their chord. The band is as wide as the
-/// distance of the side's farthest corner from the chord. So points between chord and side are at most that far from
-/// the side.
+/// Between two corners of the hull, the left side lies within a band along their chord. The width of the band is the distance of
+/// the side's farthest corner from the chord. So a point between chord and side is at most that far from the side.
 fn bulge(columns: impl Iterator<Item = i64>) -> f64 {
     // The corners of the left side, from bottom to top.
     let side: Vec<[i64; 2]> = columns.enumerate().flat_map(|(row, x)| [0, 1].map(|at| [x, row as i64 + at])).collect();
@@ -255,8 +254,8 @@ mod tests {
         }
     }
 
-    /// Points, position and size of a piece. The flag is true if its corners may lie anywhere, false if they lie on a
-    /// lattice.
+    /// Points, position and size of a piece. The flag is true if its corners may lie anywhere, and false if they lie on
+    /// a lattice.
     type Given = (Vec<(f64, f64)>, (f64, f64, f64), bool);
 
     /// Generates pieces. Their corners lie anywhere, or on a lattice. On a lattice, sides often touch lattice lines, or
@@ -286,10 +285,10 @@ mod tests {
             assert_covers(&pieces, &polygons, within, &shares);
         }
 
-        /// Compares the bulge with distances from the hull of a side's corners, computed directly.
+        /// Compares the bulge with distances between a side's corners and the hull, computed directly.
         #[test]
         fn a_bulge_is_the_depth_of_the_deepest_pocket(columns in prop::collection::vec(-6..6i64, 1..12)) {
-            // The stack ends far to the right, so no other side of the hull is near.
+            // The stack extends far to the right, so only the left side of the hull is near.
             let corner = |(row, x): (usize, i64)| [0, 1].map(|at| Point::new(x as f64, (row + at) as f64));
             let side: Vec<Point> = columns.iter().copied().enumerate().flat_map(corner).collect();
             let right = [0.0, columns.len() as f64].map(|y| Point::new(100.0, y));

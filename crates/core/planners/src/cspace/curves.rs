@@ -1,4 +1,4 @@
-//! C-obstacles of link 2 if a joint is revolute: the exact slices of a pair, joined by chords with proof.
+//! C-obstacles of link 2 if a joint is revolute: the exact slices of a pair, joined by proven chords.
 
 use super::chord::{Contact, PairMotion};
 use super::events::events;
@@ -11,16 +11,15 @@ use std::f64::consts::{PI, TAU};
 /// Fraction of the tolerance that chords leave unused, so that strict inequalities survive rounding.
 const TOLERANCE_RESERVE: f64 = 1.0 / 16.0;
 
-/// Number of initial slices over a turn or over the range of `q1`. Only the shape of contours and the speed depend
-/// on it: [`events`] finds what coarse slices could miss.
+/// Number of initial slices over a turn, or over the range of a prismatic joint 1. It affects only the shape of
+/// contours and the speed, because [`events`] finds everything that coarse slices could miss.
 const FIRST_SLICES: usize = 24;
 
-/// Overlap of neighbouring contours in `q1`, as a fraction of the width of the narrowest strip. It is far above the
-/// rounding of the union and far below the tolerance.
+/// Overlap of neighbouring contours in `q1`, as a fraction of the width of the narrowest strip. It is far greater than
+/// the rounding of the union, and far smaller than the tolerance.
 const CONTOUR_OVERLAP: f64 = 1e-3;
 
-/// The slices of one pair of shapes with a part of link 2. The distances state how near to the obstacle chords between
-/// the slices may come.
+/// The slices of a shape of link 2 and a piece of an obstacle, with limits on the distances of chords between the slices.
 pub(super) struct Curves<'a> {
     slices: &'a Contacts<'a>,
     index: usize,
@@ -29,19 +28,19 @@ pub(super) struct Curves<'a> {
     floor: f64,
     /// Distance of the pair on the boundary of the slices, metres.
     level: f64,
-    /// Greatest distance that the middle of a chord may have, metres.
+    /// Greatest allowed distance of the middle of a chord, metres.
     ceiling: f64,
     min_width: f64,
 }
 
 impl<'a> Curves<'a> {
-    /// Prepares pair `index` of the scene, whose configurations within `level` the contours must cover; see
+    /// Prepares pair `index` of the scene. The contours must cover its configurations within `level`, see
     /// [`super::c_obstacles`].
     pub fn new(slices: &'a Contacts<'a>, index: usize, level: f64, tolerance: f64) -> Self {
         let scene = slices.scene();
         let pair = scene.pairs()[index];
         let motion = PairMotion::new(scene.arm(), scene.part(pair), scene.piece(pair));
-        // While joint 1 moves by twice this, no distance changes by more than the tolerance.
+        // While joint 1 moves by twice this width, no distance changes by more than the tolerance.
         let min_width = tolerance / (2.0 * motion.speed().max(f64::MIN_POSITIVE));
         let (floor, ceiling) = (level + TOLERANCE_RESERVE * tolerance, level + 2.0 * tolerance);
         Self { slices, index, motion, floor, level: level + tolerance, ceiling, min_width }
@@ -57,9 +56,9 @@ impl<'a> Curves<'a> {
         contours(&mut &*self, &self.breaks(), Flattening { turning, min_width: self.min_width, overlap })
     }
 
-    /// Returns the values of `q1` of the initial slices, in ascending order. Some are evenly spaced. Others are those
-    /// at which the pair begins or ceases to be at `level`, or at `floor`; contours keep a vertex at the latter. If
-    /// several values are nearer together than the overlap of contours, returns only one of them.
+    /// Returns the values of `q1` of the initial slices, in ascending order. Some are evenly spaced. At others, the
+    /// pair begins or ceases to be within `level` or `floor`. Contours keep a vertex at values for `floor`. Of values
+    /// nearer together than the overlap of contours, only one is returned.
     fn breaks(&self) -> Vec<Breakpoint> {
         let scene = self.slices.scene();
         let pair = scene.pairs()[self.index];
@@ -95,7 +94,7 @@ impl<'a> Curves<'a> {
     }
 }
 
-/// Returns where to cut the circle of joint 1: at a value without contact, if one of the initial slices has none.
+/// Returns the value at which the circle of joint 1 is cut. It has no contact if an initial slice without contact exists.
 fn seam(slices: &Contacts, index: usize, level: f64) -> f64 {
     let mut intervals = Vec::new();
     (0..FIRST_SLICES)

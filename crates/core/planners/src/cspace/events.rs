@@ -7,20 +7,19 @@ use cplan_model::{Arm, JointType};
 use std::f64::consts::TAU;
 
 /// Tolerance, metres, of two decisions: whether the foot of a perpendicular lies on a side, and whether a distance
-/// equals the level. The tolerance can only add values that are no events, and each costs a slice. A missed event would
-/// invalidate the guarantee.
+/// equals the level. A large tolerance only adds values that are no events, which cost a slice each. A missed event
+/// would invalidate the guarantee.
 const FOOT_SLACK: f64 = 1e-7;
 
-/// Returns values of `q1` at which an interval of `q2` can appear or vanish in which `part` (of link 2, in its
-/// frame) and `piece` are at most `level` apart. All such values are among them, for a revolute joint 1 up to whole
-/// turns.
+/// Returns values of `q1` at which an interval of `q2` can appear or vanish. In such an interval, `part` (of link 2, in its
+/// frame) and `piece` are at most `level` apart. The result includes all such values, for a revolute joint 1 up to whole turns.
 ///
-/// The reason: a connected part of `{ q : distance <= level }` has a point of least `q1`, unless it runs around the
-/// axis or out of its range. At that point, the distance as a function of `q2` has a minimum. While the cores are
-/// disjoint, the distance is the least distance of two of their points, so its minimum is that of the distance of
-/// two fixed points. The derivative of this distance is zero there. For a revolute joint 2, the contact normal
-/// passes through the joint; for a prismatic one, it is perpendicular to the joint's direction. Either condition is
-/// one equation in `q1` for each pair of features. `level` plus both radii must be positive. `O(n m)`.
+/// A connected part of `{ q : distance <= level }` has a point of least `q1`, unless it runs around the axis or out of
+/// its range. At that point, the distance as a function of `q2` has a minimum. While the cores are disjoint, the
+/// distance is the least distance of two of their points. So the minimum is also one of the distance of two fixed
+/// points, whose derivative is zero there. For a revolute joint 2, the contact normal then passes through the joint.
+/// For a prismatic one, it is perpendicular to the joint's direction. Either condition is one equation in `q1` for each
+/// pair of features. `level` plus both radii must be positive. `O(n m)`.
 pub(super) fn events(arm: &Arm, part: &Convex, piece: &Convex, level: f64) -> Vec<f64> {
     let radius = level + part.radius() + piece.radius();
     match arm.joints[1].joint_type {
@@ -31,9 +30,9 @@ pub(super) fn events(arm: &Arm, part: &Convex, piece: &Convex, level: f64) -> Ve
 
 /// Returns the events of a prismatic joint 2: the piece passes beside the part at a distance of exactly `radius`.
 fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: f64) -> Vec<f64> {
-    // With two prismatic joints, the distance across the slides does not change, and no slices are needed.
+    // If both joints are prismatic, the distance across the slides never changes, and no slices are needed.
     let JointType::Revolute { sign } = arm.joints[0].joint_type else { return Vec::new() };
-    // The extent of the part across the direction is fixed. The extent of the piece turns with joint 1.
+    // Across the direction, the part has a fixed extent. The extent of the piece turns with joint 1.
     let track = part.core().iter().map(|a| cross(direction, arm.offset + a));
     let (low, high) = extent(track);
     let mut found = Vec::new();
@@ -48,7 +47,7 @@ fn sliding(arm: &Arm, direction: Vector, part: &Convex, piece: &Convex, radius: 
             }
         }
     }
-    // Keep only values at which the corner is the outermost of the piece.
+    // Keep only values at which this corner is the outermost of the piece.
     found.retain(|&q1| {
         let turned = arm.pose(0, Configuration::new(q1, 0.0)).direction(direction);
         let (near, far) = extent(piece.core().iter().map(|b| cross(turned, b - arm.base)));
@@ -61,7 +60,7 @@ fn extent(values: impl Iterator<Item = f64>) -> (f64, f64) {
     values.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), v| (low.min(v), high.max(v)))
 }
 
-/// A point of the part's outline, a corner or on a side, whose normal passes through the joint.
+/// A point of the part's outline whose normal passes through the joint. It is a corner, or lies on a side.
 struct Radial {
     /// Distance from the joint, metres.
     distance: f64,
@@ -86,8 +85,7 @@ impl Turning<'_> {
     fn solve(mut self) -> Vec<f64> {
         for feature in radial_features(self.part.core()) {
             checkpoint();
-            // The piece then has the opposite normal, at a point that is `radius` farther from the joint or nearer
-            // to it.
+            // There, the piece has the opposite normal, at a point whose distance from the joint differs by `radius`.
             let distance =
                 if feature.outward { feature.distance + self.radius } else { feature.distance - self.radius };
             if distance >= 0.0 {
@@ -98,8 +96,8 @@ impl Turning<'_> {
         self.found
     }
 
-    /// Adds the values at which a side of the piece is at `distance` from the elbow, with the foot of the
-    /// perpendicular on the side.
+    /// Adds the values at which a side of the piece is at `distance` from the elbow, and the foot of the perpendicular
+    /// is on the side.
     fn sides_at(&mut self, distance: f64, feature: &Radial) {
         let facing = if feature.outward { -1.0 } else { 1.0 };
         for (p, q) in sides(self.piece.core()) {
@@ -114,8 +112,8 @@ impl Turning<'_> {
         }
     }
 
-    /// Adds the values at which a corner of the piece is at `distance` from the elbow, and the direction from one to
-    /// the other is among the corner's normals.
+    /// Adds the values at which a corner of the piece is at `distance` from the elbow, and the direction between them
+    /// is among the corner's normals.
     fn corners_at(&mut self, distance: f64, feature: &Radial) {
         let core = self.piece.core();
         let n = core.len();
@@ -186,8 +184,8 @@ impl Turning<'_> {
     }
 }
 
-/// Returns the two angles by which `v` must be turned so that its dot product with `w` is `dot`; NaN if there are
-/// none.
+/// Returns the two angles by which `v` must be turned so that its dot product with `w` is `dot`. NaN if there are no
+/// such angles.
 fn turns_to(v: Vector, w: Vector, dot: f64) -> [f64; 2] {
     let middle = w.y.atan2(w.x) - v.y.atan2(v.x);
     let half = (dot / (v.norm() * w.norm())).acos();
@@ -262,8 +260,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(48))]
 
-        /// Between two slices that are close together, with no event between them, no interval appears away from all
-        /// others.
+        /// Tests that between two close slices without an event in between, no interval appears away from all others.
         #[test]
         fn no_interval_appears_without_an_event(
             motions in [motion(), motion()],
@@ -292,7 +289,7 @@ mod tests {
                 let mut out = Vec::new();
                 match motions[1] {
                     JointType::Revolute { .. } => {
-                        // Use angles of the link instead of joint values, since the structure is the same.
+                        // Use angles of the link instead of joint values. The structure is the same.
                         if turning(&part, pivot, &piece, level, &mut out) == Hits::Always {
                             out.push([-4.0, 4.0]);
                         }

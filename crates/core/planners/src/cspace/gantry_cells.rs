@@ -1,14 +1,13 @@
-//! The cells of a gantry's grid that are wholly free, decided exactly.
+//! Decides exactly which cells of a gantry's grid are entirely free.
 //!
-//! The C-obstacle of a pair of shapes is convex: a Minkowski difference, grown by the radii and the clearance. So its
-//! part within a row of cells spans one interval of joint 2. The ends of this interval are those at the row's two
-//! sides, unless the highest or lowest point of the C-obstacle lies between them.
+//! The C-obstacle of a pair of shapes is convex: a Minkowski difference, grown by the radii and the clearance. So it
+//! covers one interval of joint 2 within a row of cells. Each end of this interval is found at one of the row's two
+//! sides, or at the highest or lowest point of the C-obstacle if that lies within the row.
 //!
-//! A cell is blocked if its *interior* meets a C-obstacle. C-obstacles often end where cells begin, and a cell that one
-//! of them only touches is usable: the straight move between the centres of two neighbouring free cells is free. The
-//! reason: an obstacle with area that meets the move also meets the interior of one of the two cells. An obstacle
-//! without width, such as a thin wall for a tool that is a point, may lie between two cells. It blocks all cells that
-//! it touches.
+//! A cell is blocked if its *interior* meets a C-obstacle. C-obstacles often end where cells begin. A cell that one of them only
+//! touches can be used, because the straight move between the centres of two neighbouring free cells is free: an obstacle with
+//! area that meets the move also meets the interior of one of the two cells. An obstacle without width, such as a thin wall for
+//! a tool that is a point, may lie between two cells. It blocks all cells that it touches.
 
 use super::slabs::Columns;
 use super::{Grid, Proves, translation};
@@ -55,7 +54,7 @@ pub(super) fn block(grid: &mut Grid, scene: &Scene, map: &Matrix2<f64>, clearanc
     }
 }
 
-/// Returns the part of an interval that cells must not touch. An interval without length is widened instead.
+/// Returns the interval that cells must not meet: a little less than the given one, or a little more if that has no length.
 fn touched_part([start, end]: [f64; 2]) -> [f64; 2] {
     let inwards = if end - start > 2.0 * TOUCH_DEPTH { TOUCH_DEPTH } else { -TOUCH_DEPTH };
     [start + inwards, end - inwards]

@@ -10,7 +10,7 @@ use cplan_model::space::{Configuration, Topology};
 pub struct Grid {
     /// Topology of the configuration space.
     pub topology: Topology,
-    /// What a free cell, or a blocked one, proves about its configurations.
+    /// Statement that a free or a blocked cell proves about its configurations.
     pub proves: Proves,
     /// Number of cells along each axis.
     pub cells: [usize; 2],
@@ -24,8 +24,8 @@ impl Grid {
         [0, 1].map(|k| self.topology.ranges[k].extent() / self.cells[k] as f64)
     }
 
-    /// Blocks the cells at whose centres the sum of joint values is not allowed. Lines between other centres are allowed,
-    /// because the allowed sums form a convex set.
+    /// Blocks the cells at whose centres the sum of joint values is not allowed. Lines between the other centres are
+    /// allowed, because the allowed sums form a convex set.
     pub(super) fn block_sums(&mut self) {
         let Some(sum) = self.topology.sum else { return };
         for index in 0..self.blocked.len() {
@@ -43,8 +43,8 @@ impl Grid {
         )
     }
 
-    /// Returns the index of the cell that contains `q`, or its copy in the domain. A configuration on a shared side
-    /// belongs to the cell that starts there.
+    /// Returns the index of the cell that contains `q`, or the copy of `q` in the domain. A configuration on a common
+    /// side belongs to the cell that starts there.
     pub fn locate(&self, q: Configuration) -> usize {
         let step = self.step();
         let at = |k: usize| {
@@ -65,7 +65,7 @@ impl Grid {
     }
 
     /// Returns the neighbour of `index` along axis `k`, in the positive direction if `up`, also across the seam of a
-    /// circle. Returns `None` beyond a limit.
+    /// circle. `None` beyond a limit.
     pub fn adjacent_cell(&self, index: usize, k: usize, up: bool) -> Option<usize> {
         self.adjacent_place(self.place(index), k, up)
     }

@@ -1,13 +1,13 @@
 //! The configuration space: C-obstacles as polygons (for roadmaps) or cells (for fields), which state what they
 //! prove.
 //!
-//! [`Slice::compute`] computes the forbidden values of `q2` at one `q1`, exactly,
-//! from contact angles. Grids are made of the slices of their rows. Polygons follow the contact curves from slice to
-//! slice, between the values of `q1` at which the slices' structure changes (`events`).
+//! [`Slice::compute`] computes the forbidden values of `q2` at one `q1` exactly, from contact angles. Grids consist of
+//! the slices of their rows. Polygons follow the contact curves from slice to slice, between the values of `q1` at
+//! which the slices' structure changes (`events`).
 //!
-//! Outlines with many corners are simplified within the margin (`coarse`). Outlines of many small pieces are covered
-//! by cells of that size (`covering`). Contours are first united with their neighbours, so that the time depends on
-//! the corners of the result (`union`).
+//! Outlines with many corners are simplified within the margin (`coarse`). Cells of the size of the margin cover
+//! outlines of many small pieces (`covering`). Contours are first united with their neighbours, so that the time
+//! depends on the number of corners of the result (`union`).
 //!
 //! On circles, polygons cover a window of some turns, in which obstacles and goals repeat. So planners need no
 //! special case.
@@ -71,21 +71,21 @@ pub use zones::{Zone, ZonedGrid};
 #[serde(tag = "kind", rename_all = "lowercase")]
 #[cfg_attr(feature = "schema", derive(JsonSchema))]
 pub enum Proves {
-    /// A free configuration is free and a blocked one is blocked, up to rounding.
+    /// Free configurations are truly free, and blocked ones truly blocked, up to rounding.
     Exact,
-    /// Obstacles are grown by at most `margin` metres in the workspace. A free configuration is free; blocked proves
-    /// nothing.
+    /// Obstacles are grown by at most `margin` metres in the workspace. Free configurations are truly free. Blocked
+    /// ones may be free.
     Outer {
         /// The greatest growth of an obstacle, metres.
         margin: f64,
     },
-    /// Obstacles are shrunk by at most `margin` metres in the workspace. A blocked configuration is blocked; free
-    /// proves nothing.
+    /// Obstacles are shrunk by at most `margin` metres in the workspace. Blocked configurations are truly blocked. Free
+    /// ones may be blocked.
     Inner {
-        /// The greatest loss of an obstacle, metres.
+        /// The greatest reduction of an obstacle, metres.
         margin: f64,
     },
-    /// Only some configurations were examined, so neither free nor blocked proves anything.
+    /// Only some configurations were examined, so nothing is proven.
     Sampled,
 }
 

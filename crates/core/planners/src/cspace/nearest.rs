@@ -9,14 +9,14 @@ use std::f64::consts::{PI, TAU};
 /// The free configuration that a search found, with its distance.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestFree {
-    /// The configuration, within the limits; on a circle, its copy nearest to the given configuration.
+    /// The configuration, within the limits. On a circle, it is the copy nearest to the given configuration.
     pub configuration: Configuration,
-    /// Euclidean distance in joint space, which adds squares of radians and metres.
+    /// Euclidean distance in joint space, with radians and metres as numbers.
     pub distance: f64,
-    /// Least distance of the arm to an obstacle at that configuration, metres: positive, and at least the workspace's
-    /// clearance. Infinite if no obstacle is within reach.
+    /// Least distance between arm and obstacles at that configuration, metres. It is positive, and at least the
+    /// workspace's clearance. Infinite if no obstacle is within reach.
     pub clearance: f64,
-    /// Distance between neighbouring slices of the search, in units of joint 1: see [`nearest_free`].
+    /// Distance between neighbouring slices of the search, in units of joint 1, see [`nearest_free`].
     pub spacing: f64,
 }
 
@@ -29,15 +29,15 @@ const MIN_SLICE_DISTANCE: f64 = 1e-10;
 /// Number of slices on either side of the best one in each step of the refinement.
 const SLICES_PER_SIDE: i32 = 8;
 
-/// Returns the free configuration nearest to `q` in joint space, by the Euclidean distance along the shorter
-/// direction on circles. Returns `None` if no slice has a free configuration. `O(slices * pairs)`.
+/// Returns the free configuration nearest to `q` in joint space. The distance is Euclidean, along the shorter direction
+/// on circles. Returns `None` if no slice has a free configuration. `O(slices * pairs)`.
 ///
 /// The slices are at values of joint 1 that are [`NearestFree::spacing`] apart, starting at `q`, and at the ends of
 /// the intervals that link 1 forbids. In each slice the nearest free value of joint 2 is exact. The slices around
 /// the best local minima are then refined to 1e-10 rad or m.
 ///
-/// The result is free by the scene's own distances. No free configuration on an examined slice is nearer. If any is
-/// nearer, it lies between two slices, less than a spacing from each.
+/// The scene's own distances confirm that the result is free. No free configuration on an examined slice is nearer. A
+/// nearer one can only lie between two slices.
 pub fn nearest_free(scene: &Scene, q: Configuration) -> Option<NearestFree> {
     Search::new(scene, q).run()
 }
@@ -49,8 +49,7 @@ struct Search<'a> {
     bands: Slice,
     slice: Slice,
     from: Configuration,
-    /// Distance by which obstacles are enlarged, metres. It ensures that the free part of a slice is free despite
-    /// rounding.
+    /// Growth of obstacles, metres. It ensures that the free part of a slice is truly free, despite rounding.
     grow: f64,
     best: Option<NearestFree>,
     spacing: f64,
@@ -73,7 +72,7 @@ impl<'a> Search<'a> {
             JointRange::Interval { lower, upper } => self.from[0].clamp(lower, upper),
             JointRange::Circle => self.from[0],
         };
-        // Beyond this distance from the start, every slice repeats an earlier one.
+        // Slices farther than this from the start repeat others.
         let farthest = match first.range {
             JointRange::Circle => PI,
             JointRange::Interval { .. } if first.joint_type.is_revolute() => TAU,
@@ -104,7 +103,7 @@ impl<'a> Search<'a> {
         self.best
     }
 
-    /// Examines slices around a slice, at ever smaller distances.
+    /// Examines slices on both sides of a slice, at decreasing distances.
     fn refine(&mut self, q1: f64) {
         let (mut middle, mut step) = (q1, self.spacing);
         while step > MIN_SLICE_DISTANCE {
@@ -116,9 +115,8 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns the distance from the given configuration to the nearest free one with this value of joint 1, and
-    /// records it if it is the best. Returns `None` if the value is not allowed, or if no configuration with it is
-    /// free.
+    /// Returns the distance from the given configuration to the nearest free one with this value of joint 1. Records
+    /// the latter if it is the best so far. `None` if the value is not allowed, or if no configuration with it is free.
     fn distance_at(&mut self, q1: f64) -> Option<f64> {
         let topology = self.scene.arm().topology();
         let [first, second] = topology.ranges;
@@ -138,7 +136,7 @@ impl<'a> Search<'a> {
         let away = |value: &f64| second.displacement(self.from[1], *value).abs();
         values.sort_by(|a, b| away(a).total_cmp(&away(b)));
         let q1 = first.lift(q1, self.from[0]);
-        // An interval that is cut off at a joint limit ends in a value that is not free, so try the values in order.
+        // The end of an interval at a joint limit is not free, so try the values in order.
         values.into_iter().find_map(|q2| {
             let to = Configuration::new(q1, second.lift(q2, self.from[1]));
             let clearance = self.scene.clearance(to);
@@ -154,8 +152,8 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Returns the values of joint 1 at the local minima. These are the samples whose distance is not greater than the
-/// distance of either neighbour. The least distance comes first.
+/// Returns the values of joint 1 at the local minima, the one with the least distance first. A sample is a local
+/// minimum if neither neighbour has a smaller distance.
 fn minima(mut samples: Vec<(f64, f64)>) -> Vec<f64> {
     samples.sort_by(|a, b| a.0.total_cmp(&b.0));
     let distance = |i: Option<usize>| i.and_then(|i| samples.get(i)).map_or(f64::INFINITY, |s| s.1);

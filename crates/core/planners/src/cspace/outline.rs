@@ -1,4 +1,4 @@
-//! Contours of a C-obstacle from its slices: curves that are known exactly at each `q1` are approximated by chords.
+//! Contours of a C-obstacle from its slices. Chords approximate curves that are known exactly at each `q1`.
 
 use cplan_geometry::Point;
 use cplan_interrupt::checkpoint;
@@ -7,13 +7,13 @@ use std::f64::consts::{PI, TAU};
 /// The range of a revolute `q2` that covers a whole turn.
 const REVOLUTE_RANGE: [f64; 2] = [-PI, PI];
 
-/// A C-obstacle given slice by slice, which decides which chords are acceptable.
+/// A C-obstacle that is known slice by slice, and decides which chords are acceptable.
 pub(super) trait SlicedObstacle {
     /// A point of the C-obstacle's boundary.
     type End: Copy;
 
-    /// Appends the blocked intervals of `q2` at `q1`: ascending, disjoint and closed. For a revolute joint 2 they
-    /// are arcs `[lower, upper]` of at most one turn; if everything is blocked, there is one arc of a whole turn.
+    /// Appends the blocked intervals of `q2` at `q1`: ascending, disjoint and closed. For a revolute joint 2, they are
+    /// arcs `[lower, upper]` of at most one turn. If everything is blocked, there is one arc of a whole turn.
     fn intervals(&mut self, q1: f64, out: &mut Vec<[f64; 2]>);
 
     /// Returns the boundary point `(q1, q2)`.
@@ -22,15 +22,14 @@ pub(super) trait SlicedObstacle {
     /// Returns the coordinates of a boundary point.
     fn point(&self, end: &Self::End) -> Point;
 
-    /// Returns the same boundary point, moved by whole turns of joint 2.
+    /// Returns the same boundary point after whole turns of joint 2.
     fn shifted(&self, end: &Self::End, turns: f64) -> Self::End;
 
     /// Returns true if straight lines may link the ends of an interval in one slice to those of an interval in
     /// another.
     fn links(&self, from: &[Self::End; 2], to: &[Self::End; 2]) -> bool;
 
-    /// Returns true if one straight line between two boundary points may replace the lines through the slices in
-    /// between.
+    /// Returns true if one straight line between two boundary points may replace the lines through the slices in between.
     fn shortens(&self, from: &Self::End, to: &Self::End) -> bool;
 }
 
@@ -39,8 +38,8 @@ pub(super) trait SlicedObstacle {
 pub(super) struct Flattening {
     /// True if joint 2 is revolute, so that arcs that differ by whole turns are the same.
     pub turning: bool,
-    /// Width in `q1` of the narrowest strips. A strip of this width may be covered by rectangles over the intervals
-    /// of the slices on both its sides.
+    /// Width in `q1` of the narrowest strips. Such a strip may be covered by rectangles over the intervals of the
+    /// slices at both its sides.
     pub min_width: f64,
     /// Length by which neighbouring contours overlap, so that their union has no gaps.
     pub overlap: f64,
@@ -51,7 +50,7 @@ pub(super) struct Flattening {
 pub(super) struct Breakpoint {
     /// The value of joint 1.
     pub q1: f64,
-    /// True if contours must have a vertex at this value, because the C-obstacle may end or split there.
+    /// True if contours need a vertex at this value, because the C-obstacle may end or split there.
     pub keep: bool,
 }
 
@@ -84,14 +83,14 @@ pub(super) fn contours<S: SlicedObstacle>(
 struct Slice<E> {
     at: Breakpoint,
     intervals: Vec<[E; 2]>,
-    /// True if the whole turn of `q2` is blocked; `intervals` is then empty.
+    /// True if the whole turn of `q2` is blocked. Then `intervals` is empty.
     full: bool,
 }
 
 /// A sequence of matched intervals, in unwrapped values.
 struct Chain<E> {
     slices: Vec<([E; 2], bool)>,
-    /// Number of whole turns to add to the intervals of the last slice so that they continue the chain.
+    /// Whole turns to add to the intervals of the last slice so that they continue the chain.
     turns: f64,
 }
 
@@ -137,8 +136,8 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
         }
     }
 
-    /// Returns, for each interval of `u`, its partner in `v` and the turns to add to the partner. Returns `None` if
-    /// the intervals cannot all be linked by chords.
+    /// Returns, for each interval of `u`, its partner in `v`, and the turns to add to the partner. `None` if chords
+    /// cannot link all the intervals.
     fn matching(&self, u: &Slice<S::End>, v: &Slice<S::End>) -> Option<Vec<(usize, f64)>> {
         let n = u.intervals.len();
         if u.full || v.full || n != v.intervals.len() {
@@ -186,7 +185,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
         self.open = next.into_iter().flatten().collect();
     }
 
-    /// Covers the narrow strip between two slices that do not match by rectangles.
+    /// Covers the narrow strip between two slices by rectangles if their intervals do not match.
     fn cover(&mut self, u: &Slice<S::End>, v: &Slice<S::End>) {
         self.close_chains();
         let spans = if u.full || v.full {
@@ -210,7 +209,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
 
     fn close_chains(&mut self) {
         for chain in std::mem::take(&mut self.open) {
-            // The rectangles on both sides of a single slice cover it.
+            // A chain of a single slice needs no contour: the rectangles on both sides cover it.
             if chain.slices.len() < 2 {
                 continue;
             }
@@ -219,7 +218,7 @@ impl<S: SlicedObstacle> Tracer<'_, S> {
                 || [0, 1].map(|side| chain.slices.iter().map(|(ends, _)| self.source.point(&ends[side])).collect());
             let sides = if is_nowhere_above(&sides) { sides } else { whole() };
             let contour = outline(&sides, self.flattening.overlap);
-            // Between two tips, one chord may serve as both sides. Then the chain has no area to cover.
+            // If one chord serves as both sides of a chain, the chain has no area.
             if contour.len() > 2 {
                 self.finish(contour);
             }
@@ -300,8 +299,8 @@ fn outline(sides: &[Vec<Point>; 2], pad: f64) -> Vec<Point> {
     contour
 }
 
-/// Returns the union of intervals. If `turning`, they are arcs on a circle; an arc of a whole turn or more keeps its
-/// length.
+/// Returns the union of intervals. With `turning`, they are arcs on a circle, and an arc of at least a whole turn keeps
+/// its length.
 fn united(mut spans: Vec<[f64; 2]>, turning: bool) -> Vec<[f64; 2]> {
     let mut out: Vec<[f64; 2]> = Vec::new();
     while let Some(mut span) = spans.pop() {

@@ -11,18 +11,18 @@ use cplan_model::{Contacts, Joint, Pair, Scene};
 use std::borrow::Cow;
 use std::f64::consts::{PI, TAU};
 
-/// Fraction of the margin that contours of [`regions`] are proven to keep from obstacles. Chords may use the rest,
-/// which allows fewer corners.
+/// Fraction of the margin that contours of [`regions`] provably keep from obstacles. Chords may use the rest, so that
+/// fewer corners suffice.
 const PROVEN_MARGIN_SHARE: f64 = 0.25;
 
 /// Greatest simplification of shapes with many corners, as a multiple of the margin that contours keep.
 const COARSENESS_PER_MARGIN: f64 = 2.0;
 
-/// Overlap of bands at the seam of a turn, relative to the distance by which obstacles are grown. It is far above
-/// the rounding of the union.
+/// Overlap of bands at the seam of a turn, relative to the growth of obstacles. It is far greater than the rounding of
+/// the union.
 const SEAM_OVERLAP: f64 = 1e-3;
 
-/// Distance from the ends of the range of joint sums, radians, within which free space ends.
+/// Distance of free space from the ends of the range of joint sums, radians.
 const SUM_INSET: f64 = 1e-9;
 
 /// A simple polygon with holes.
@@ -40,7 +40,7 @@ impl PolygonWithHoles {
         signed_area(&self.outer) + self.holes.iter().map(|hole| signed_area(hole)).sum::<f64>()
     }
 
-    /// Returns true if `p` is inside, by the parity of crossings. For points on a contour the result may be either.
+    /// Returns true if `p` is inside, by the parity of crossings. For points on a contour, the result is arbitrary.
     /// Linear in the number of corners.
     pub fn contains(&self, p: Point) -> bool {
         let contours = std::iter::once(&self.outer).chain(&self.holes);
@@ -64,8 +64,8 @@ fn crossings(contour: &[Point], p: Point) -> usize {
         .count()
 }
 
-/// The polygon that one pair of shapes contributes to a C-obstacle, in unwrapped joint values. One pair may contribute
-/// several. On a circle, its copies by whole turns are implied. Used for pictures, and as input of the union.
+/// A polygon that one pair of shapes contributes to a C-obstacle, in unwrapped joint values. On a circle, its copies by
+/// whole turns are implied. Used in pictures, and as input of the union.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CObstacle {
     /// Index of the obstacle, as in [`Pair::obstacle`].
@@ -76,9 +76,9 @@ pub struct CObstacle {
     pub contour: Vec<Point>,
 }
 
-/// Free space as polygons over a *window* of unwrapped joint values. On an interval the window has the joint's
-/// limits; on a circle it has some turns around the start, in which obstacles repeat. So a planner on a torus can
-/// plan in the plane, with all copies of the goal within the window as goals.
+/// Free space as polygons over a *window* of unwrapped joint values. On an interval, the window has the joint's limits.
+/// On a circle, it has some turns around the start, in which obstacles repeat. So planning on a torus becomes planning
+/// in the plane, with all copies of the goal in the window as goals.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Regions {
     /// Topology of the configuration space.
@@ -87,9 +87,9 @@ pub struct Regions {
     pub proves: Proves,
     /// Lower and upper end of the window along each axis.
     pub window: [(f64, f64); 2],
-    /// The contributions of all obstacles, each once and not clipped to the window.
+    /// The polygons of all obstacles, without copies, and not clipped to the window.
     pub obstacles: Vec<CObstacle>,
-    /// The window without all obstacles: one polygon per connected component.
+    /// The window without obstacles: one polygon per connected component.
     pub free: Vec<PolygonWithHoles>,
 }
 
@@ -106,12 +106,12 @@ impl Regions {
     }
 }
 
-/// Computes free space among obstacles that are grown by the scene's clearance and at most `margin` metres more. The
-/// window has the limits of intervals, and `periods` turns to either side of `center` on circles.
+/// Computes free space among obstacles that are grown by the scene's clearance, and by at most `margin` metres more. On
+/// intervals, the window has the limits. On circles, it has `periods` turns to either side of `center`.
 ///
 /// On the boundary of free space, and so within it, arm and obstacles are at least the clearance plus a quarter of
-/// `margin` apart; [`c_obstacles`] has the argument. Every configuration that keeps the clearance plus three times
-/// `margin` is free. The number of vertices grows like `1 / sqrt(margin)`.
+/// `margin` apart, as [`c_obstacles`] explains. Every configuration that keeps the clearance plus three times `margin`
+/// is free. The number of vertices grows like `1 / sqrt(margin)`.
 ///
 /// # Panics
 /// If `margin` is not positive.
@@ -121,26 +121,26 @@ pub fn regions(scene: &Scene, margin: f64, center: Configuration, periods: usize
     within_window(scene, Proves::Outer { margin }, window(scene, center, periods), obstacles)
 }
 
-/// Reasons why C-obstacles are not polygons.
+/// The reason why C-obstacles are not polygons.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum NotPolygons {
-    /// The arm is not a gantry: a joint turns, or both joints slide in the same direction.
+    /// The arm is not a gantry: a joint is revolute, or both joints slide in the same direction.
     Arm,
     /// The required clearance makes the corners of C-obstacles round.
     Clearance,
-    /// In this pair, the link's shape is round: a circle, or a shape with rounded corners.
+    /// The link's shape in this pair is round: a circle, or a shape with rounded corners.
     RoundLink(Pair),
-    /// In this pair, the obstacle's shape is round.
+    /// The obstacle's shape in this pair is round.
     RoundObstacle(Pair),
 }
 
-/// Returns the reason why the C-obstacles of a scene are not polygons; `None` if they are. They are if both joints are
-/// prismatic, and all shapes have straight sides.
+/// Returns the reason why the C-obstacles of a scene are not polygons. `None` if they are: both joints are prismatic,
+/// and all shapes have straight sides.
 pub fn not_polygons(scene: &Scene) -> Option<NotPolygons> {
     if translation::joint_map(scene.arm()).is_none() {
         return Some(NotPolygons::Arm);
     }
-    // Pairs of one link that only slides along one axis give bands, whose sides are straight for all shapes.
+    // A pair that slides only along one axis has a band as its C-obstacle. The sides of a band are straight for all shapes.
     scene.pairs().iter().filter(|pair| pair.link == 1).find_map(|&pair| {
         if scene.part(pair).radius() > 0.0 {
             return Some(NotPolygons::RoundLink(pair));
@@ -154,8 +154,8 @@ pub fn not_polygons(scene: &Scene) -> Option<NotPolygons> {
 
 /// Computes the exact C-obstacles of a gantry. Returns `None` if they are not polygons; [`not_polygons`] has the reason.
 ///
-/// Each is a Minkowski difference of two polygons, found by a sweep over their normals. Nothing is grown and no
-/// corner is added. Corners are differences of given corners, rounded once, in joint values.
+/// Each is the Minkowski difference of two polygons, found by a sweep over their normals. Each corner is a difference
+/// of two given corners, rounded once, in joint values.
 pub fn exact_c_obstacles(scene: &Scene) -> Option<Vec<CObstacle>> {
     not_polygons(scene).is_none().then(|| trace_contours(scene, scene.workspace().clearance, 0.0))
 }
@@ -163,7 +163,7 @@ pub fn exact_c_obstacles(scene: &Scene) -> Option<Vec<CObstacle>> {
 /// Computes the free space of a gantry among [`exact_c_obstacles`], within the limits of its joints. Returns `None`
 /// without exact C-obstacles.
 ///
-/// At configurations on the boundary of free space the arm touches an obstacle.
+/// On the boundary of free space, the arm touches an obstacle.
 pub fn exact_regions(scene: &Scene) -> Option<Regions> {
     let obstacles = exact_c_obstacles(scene)?;
     Some(within_window(scene, Proves::Exact, window(scene, Configuration::zeros(), 0), obstacles))
@@ -191,7 +191,7 @@ pub fn inner_regions(scene: &Scene, margin: f64) -> Option<Regions> {
     Some(within_window(scene, Proves::Inner { margin }, window(scene, Configuration::zeros(), 0), obstacles?))
 }
 
-/// Returns the limits of intervals, and `periods` turns to either side of `center` on circles.
+/// Returns the limits on intervals, and `periods` turns to either side of `center` on circles.
 fn window(scene: &Scene, center: Configuration, periods: usize) -> [(f64, f64); 2] {
     let topology = scene.arm().topology();
     let turns = TAU * periods as f64;
@@ -208,11 +208,11 @@ fn within_window(scene: &Scene, proves: Proves, window: [(f64, f64); 2], obstacl
     Regions { topology, proves, window, obstacles, free }
 }
 
-/// Returns the part of a window in which the sum of joint values is allowed, counter-clockwise. Empty if there is none.
+/// Returns the part of a window in which the sum of joint values is allowed, counter-clockwise. Empty if there is no such part.
 fn allowed(window: Window, sum: Option<JointSumRange>) -> Vec<Point> {
     let corners = corners(window).to_vec();
     let Some(JointSumRange { ratio, lower, upper }) = sum else { return corners };
-    // A point is allowed where both values are positive. The inset covers the rounding of the union.
+    // A point is allowed if both values are positive. The inset covers the rounding of the union.
     let above = |p: Point| ratio * p.x + p.y - (lower + SUM_INSET);
     let below = |p: Point| (upper - SUM_INSET) - (ratio * p.x + p.y);
     cut(&cut(&corners, above), below)
@@ -248,10 +248,9 @@ fn periods(scene: &Scene) -> [Option<f64>; 2] {
     scene.arm().joints.each_ref().map(|joint| joint.joint_type.is_revolute().then_some(TAU))
 }
 
-/// Returns the blocked regions of each obstacle of the workspace, then of each self obstacle that is listed
-/// ([`Scene::listed_self_obstacles`]).
-/// `contours` are the scene's [`c_obstacles`]. The regions are disjoint polygons per obstacle within the limits, on
-/// circles within `[-pi, pi]`, and are cut at the seams.
+/// Returns the blocked regions of each obstacle of the workspace, and then of each listed self obstacle
+/// ([`Scene::listed_self_obstacles`]). `contours` are the scene's [`c_obstacles`]. The regions of an obstacle are
+/// disjoint polygons within the limits. On circles they are within `[-pi, pi]`, and end at the seams.
 pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<PolygonWithHoles>> {
     let window = scene.arm().topology().ranges.map(JointRange::domain);
     let of = |number: usize| contours.iter().filter(move |c| c.obstacle == number).map(|c| c.contour.as_slice());
@@ -259,22 +258,20 @@ pub fn united(scene: &Scene, contours: &[CObstacle]) -> Vec<Vec<PolygonWithHoles
     obstacles.map(|number| blocked_space(window, periods(scene), of(number))).collect()
 }
 
-/// Returns contours that cover every configuration in which a pair of the scene is at most the clearance plus
-/// `margin` apart. They cover almost no configuration in which all pairs are more than `2 * tolerance` farther
-/// apart. `margin` and `tolerance` are in metres; `tolerance` must be positive.
+/// Returns contours that cover every configuration in which a pair of the scene is at most the clearance plus `margin`
+/// apart. They cover hardly any configuration in which all pairs are farther apart than that by more than `2 *
+/// tolerance`. `margin` and `tolerance` are in metres; `tolerance` must be positive.
 ///
-/// A pair may have several contours, and contours of one obstacle may overlap. Shapes with many corners are
-/// simplified unless the margin is 0, so contours around them may be another two margins away.
+/// A pair may have several contours, and contours of one obstacle may overlap. Unless the margin is 0, shapes with many
+/// corners are simplified, which may move their contours away by another two margins.
 ///
-/// Link 1 gives bands of `q1`, in closed form. Gantries give Minkowski differences, which are exact up to arcs: with
-/// margin, clearance and radii zero they are the exact C-obstacles. Otherwise chords approximate curves between
-/// exact slices.
+/// The C-obstacles of link 1 are bands of `q1`, in closed form. Those of gantries are Minkowski differences, which are
+/// exact except for arcs. In all other cases, chords approximate curves between exact slices.
 ///
-/// The coverage is proven, not sampled. Let `S` be the set to cover. Slices are exact, and chords keep their
-/// distance from `S` (proven in the module `chord`). So no point of `S` lies on the boundary of the union, and every
-/// connected part of `S` is as a whole either inside or outside. Each part has a point inside. Either the part
-/// reaches the end of the range of `q1`, where there is a slice, or it has a point of least `q1`, where there is a
-/// slice as well (module `events`).
+/// The coverage is proven. Let `S` be the set to cover. Slices are exact, and chords keep their distance from `S`
+/// (module `chord`). So no point of `S` lies on the boundary of the union, and each connected part of `S` is completely
+/// inside or completely outside. It is inside, because it has a point on a slice: either it reaches the end of the
+/// range of `q1`, or it has a point of least `q1` (module `events`).
 ///
 /// # Panics
 /// If `tolerance` is not positive.
@@ -304,7 +301,7 @@ fn trace_contours(scene: &Scene, level: f64, tolerance: f64) -> Vec<CObstacle> {
     obstacles
 }
 
-/// Returns the scene with simpler shapes, whose contours are traced.
+/// Returns the scene whose contours are traced, with simpler shapes.
 fn coarsened(scene: &Scene, margin: f64, tolerance: f64) -> Cow<'_, Scene> {
     coarse(scene, COARSENESS_PER_MARGIN * margin, scene.workspace().clearance + margin + 4.0 * tolerance)
 }
@@ -316,7 +313,7 @@ pub fn traced_pairs(scene: &Scene, margin: f64) -> usize {
 }
 
 /// Returns the bands of `q1` in which a pair of link 1 is within `level`, over all values of `q2`. They extend by `pad`
-/// beyond either end of `q2`, so that copies a whole turn apart overlap. For a pair of link 2 and link 1, returns bands
+/// beyond both ends of `q2`, so that copies a whole turn apart overlap. For a pair of link 2 and link 1, returns bands
 /// of `q2` over all values of `q1`.
 fn bands(slices: &Contacts, index: usize, level: f64, pad: f64) -> Vec<Vec<Point>> {
     let domain = |joint: &Joint| if joint.joint_type.is_revolute() { (-PI, PI) } else { joint.range.domain() };

@@ -1,5 +1,5 @@
-//! The grid by collision tests at every centre, by parry2d. It is slow. The tests use it as an oracle that shares no
-//! code with slices, and field planners can use it as a space. Only this file uses parry2d.
+//! The grid from slow collision tests by parry2d at all centres. Tests use it as an oracle that shares no code with
+//! slices, and field planners can use it as a space. Only this file uses parry2d.
 
 use super::{Grid, Proves};
 use cplan_geometry::Convex;
@@ -10,8 +10,8 @@ use parry2d_f64::math::{Pose, Rotation, Vector};
 use parry2d_f64::query::intersection_test;
 use parry2d_f64::shape::{Ball, Capsule, ConvexPolygon, RoundShape, Segment, Shape};
 
-/// Computes the grid whose cells are blocked if parry2d finds that some pair of shapes, with obstacles grown by
-/// `clearance`, meets at the cell's centre.
+/// Computes a grid by parry2d. A cell is blocked if some pair of shapes meets at its centre, with obstacles grown by
+/// `clearance`.
 ///
 /// Each pair is tested once per cell, after a test of the discs around the two shapes. The first contact decides the
 /// cell.
@@ -37,7 +37,7 @@ pub fn sampled_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     grid
 }
 
-/// A shape of parry2d, with its pose in the frame of its link or in the plane.
+/// A shape of parry2d, with its pose in the frame of its link, or in the plane.
 struct Solid {
     shape: Box<dyn Shape>,
     local: Pose,
@@ -62,7 +62,7 @@ impl Solid {
             _ => match ConvexPolygon::from_convex_polyline_unmodified(core.clone()) {
                 Some(inner_shape) if radius > 0.0 => Box::new(RoundShape { inner_shape, border_radius: radius }),
                 Some(polygon) => Box::new(polygon),
-                // parry2d refuses a polygon without area. The disc around the polygon is a conservative replacement.
+                // parry2d refuses polygons without area. The disc around the polygon is a conservative replacement.
                 None => {
                     local = Pose::from_translation(center);
                     Box::new(Ball::new(extent))

@@ -1,4 +1,4 @@
-//! Grids made of slices, without a collision test per cell.
+//! Grids from slices, without a collision test per cell.
 
 use super::coarse::coarse;
 use super::{Grid, Proves, Slice, gantry_cells, translation};
@@ -10,12 +10,11 @@ use std::borrow::Cow;
 use std::f64::consts::TAU;
 use std::ops::Range;
 
-/// Length by which intervals are widened before whole cells are judged, radians or metres. The rounding error of the
-/// division into cells is about 1e-13 of a cell.
+/// Widening of intervals before cells are judged, radians or metres. The rounding error of the division into cells is
+/// about 1e-13 of a cell.
 const ARC_WIDENING: f64 = 1e-9;
 
-/// Largest simplification of shapes with many corners, as a fraction of the margin that covers the joints' motion
-/// within a cell.
+/// Greatest simplification of shapes with many corners, as a fraction of the margin for the joints' motion within a cell.
 const MAX_COARSENING: f64 = 1.0 / 16.0;
 
 /// Computes the grid whose cells are blocked if the arm is within `clearance` of an obstacle at the cell's *centre*.
@@ -29,7 +28,7 @@ pub fn grid_from_slices(scene: &Scene, cells: [usize; 2], clearance: f64) -> Gri
 }
 
 /// Calls `block` with a row and some of its columns, for all cells whose centres are within `clearance` of an obstacle.
-/// A cell may come up several times.
+/// A cell may occur several times.
 pub(super) fn block_centers(
     scene: &Scene,
     cells: [usize; 2],
@@ -43,8 +42,8 @@ pub(super) fn block_centers(
     forbid_in_rows(&slices, &rows, is_banned, |_| clearance, 0.0, |row, range| block(row, columns.centers(range)));
 }
 
-/// Calls `forbid` with each row, and with each range of joint 2 that is forbidden at the row's centre. Pair `index` is
-/// grown by `grow(index)`, and each range is widened by `widening`. In a banned row all values are forbidden.
+/// Calls `forbid` with each row, and each range of joint 2 that is forbidden at the row's centre. Pair `index` is grown
+/// by `grow(index)`, and each range is widened by `widening`. In a banned row, all values are forbidden.
 ///
 /// Each pair is examined only in the rows where link 2 can reach its piece.
 fn forbid_in_rows(
@@ -68,7 +67,7 @@ fn forbid_in_rows(
         checkpoint();
         let hits = slices.reach_range(index, grow, &mut reached);
         on_axis(&joints[0], hits, &reached, |range| {
-            // Add a row at either end, for the rounding of the range.
+            // One more row at both ends covers the rounding of the range.
             let Range { start, end } = rows.centers(range);
             for (row, elbow) in elbows.iter().enumerate().take(end + 1).skip(start.saturating_sub(1)) {
                 let &Some((elbow, heading)) = elbow else { continue };
@@ -81,18 +80,18 @@ fn forbid_in_rows(
     }
 }
 
-/// Computes a grid whose free cells are *entirely* free: each of their configurations keeps at least `clearance`,
-/// and more than 0, from every obstacle.
+/// Computes a grid whose free cells are *entirely* free: each of their configurations keeps a positive distance of at
+/// least `clearance` from every obstacle.
 ///
-/// One slice stands for its slab `q1 +- h1 / 2`. Every obstacle is grown by the greatest motion of a touching point
-/// of link 2 while joint 1 crosses half of the slab. A cell is blocked if its closed range of `q2` meets a forbidden
-/// interval. Each configuration of a blocked cell is within `clearance + margin` of an obstacle, where `margin` is
-/// that of the grid's [`Proves::Outer`].
+/// A slice represents the slab `q1 +- h1 / 2`. Obstacles are grown by the greatest motion of a touching point of link 2
+/// while joint 1 crosses half of the slab. A cell is blocked if its closed range of `q2` meets a forbidden interval.
+/// Each configuration of a blocked cell is within `clearance + margin` of an obstacle, where `margin` is that of the
+/// grid's [`Proves::Outer`].
 ///
 /// Each obstacle is examined only in the rows where link 2 can reach it: `O(reached slices * contacts + cells)`.
 ///
-/// The cells of a gantry are exact: a cell is blocked only if a C-obstacle reaches into it. A C-obstacle that only
-/// touches the cell's side leaves the cell free, see `gantry_cells`.
+/// The cells of a gantry are exact: a cell is blocked only if a C-obstacle reaches into it, not if one only touches its
+/// side (see `gantry_cells`).
 pub fn outer_grid(scene: &Scene, cells: [usize; 2], clearance: f64) -> Grid {
     let mut grid = Grid { topology: scene.arm().topology(), proves: Proves::Sampled, cells, blocked: free(cells) };
     if let Some(map) = translation::joint_map(scene.arm()) {
@@ -131,7 +130,7 @@ fn free(cells: [usize; 2]) -> Vec<bool> {
     vec![false; cells[0] * cells[1]]
 }
 
-/// Returns the greatest distance, metres, that the motion of both joints within a cell adds to `clearance`.
+/// Returns the greatest additional distance, metres, that the motion of both joints within a cell causes.
 fn margin(slices: &Contacts<'_>, motions: &[f64], [h1, h2]: [f64; 2], clearance: f64) -> f64 {
     let first = (0..slices.second_link_pairs().start).map(|index| slices.motion(index, h1, clearance));
     let second = slices.second_link_pairs().zip(motions).map(|(index, motion)| 2.0 * motion + slices.lever(index) * h2);
@@ -175,8 +174,8 @@ impl Columns {
 
     /// Returns the whole numbers of cells from `first` to `last`, both included.
     fn within(&self, first: f64, last: f64) -> Range<usize> {
-        // Conversions truncate and saturate, which is cheaper than rounding up or down without SSE 4.1. Positions before
-        // the first cell become 0. Positions beyond the last one are cut off.
+        // Conversions truncate and saturate. Without SSE 4.1, this is cheaper than rounding up or down. Positions
+        // before the first cell become 0, and positions beyond the last one are clamped.
         let from = first as usize + usize::from(first > (first as usize) as f64);
         let to = if last >= 0.0 { (last as usize).saturating_add(1).min(self.count) } else { 0 };
         from.min(to)..to

@@ -1,4 +1,4 @@
-//! Slices of the configuration space: the values of joint 2 that are forbidden at one value of joint 1, exactly.
+//! Slices of the configuration space: the exact values of joint 2 that are forbidden at one value of joint 1.
 
 use cplan_geometry::{Hits, merge_in_place};
 use cplan_interrupt::checkpoint;
@@ -13,8 +13,7 @@ pub struct ForbiddenInterval {
     pub interval: [f64; 2],
 }
 
-/// The forbidden intervals of one slice, or for link 1 of joint 1. On a circle, an interval across the seam is split
-/// in two.
+/// The forbidden intervals of one slice, or of joint 1 for link 1. On a circle, an interval across the seam is split in two.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Slice {
     /// The intervals of each pair, in the order of the pairs.
@@ -26,9 +25,8 @@ pub struct Slice {
 }
 
 impl Slice {
-    /// Computes all values of joint 2, within the axis's domain, at which link 2 is within `grow` of an obstacle while
-    /// joint 1 is at `q1`. Link 1 is not considered. The result replaces the contents, whose memory is reused.
-    /// `O(m log m)` in the contacts.
+    /// Computes all values of joint 2, within the axis's domain, at which link 2 is within `grow` of an obstacle while joint 1
+    /// is at `q1`. Ignores link 1. The result replaces the contents, and reuses their memory. `O(m log m)` for `m` contacts.
     pub fn compute(&mut self, contacts: &Contacts, q1: f64, grow: f64) {
         checkpoint();
         self.clear();
@@ -61,7 +59,7 @@ impl Slice {
         slice
     }
 
-    /// Adds the intervals of one pair that `scratch` holds.
+    /// Adds the intervals of one pair from `scratch`.
     fn forbid(&mut self, joint: &Joint, pair: usize, hits: Hits) {
         let Self { forbidden, scratch, .. } = self;
         on_axis(joint, hits, scratch, |interval| forbidden.push(ForbiddenInterval { pair, interval }));

@@ -5,12 +5,12 @@ use cplan_geometry::{Features, Vector, merge_in_place, separation};
 use cplan_model::space::{Configuration, Segment};
 use cplan_model::{CarriedPart, Contacts, Scene, on_axis};
 
-/// Returns the parts of a segment in the domain on which all pairs are farther than `grow` apart, starting at the
-/// lesser end. If only one joint moves along the segment, the result is exact up to [`cplan_geometry::ROUNDING`]. A
-/// slanted segment is returned unchanged.
+/// Returns the parts of a segment in the domain on which all pairs are more than `grow` apart, beginning at the lesser
+/// end. The result is exact up to [`cplan_geometry::ROUNDING`] if only one joint moves along the segment. Otherwise the
+/// segment is returned unchanged.
 ///
-/// If joint 2 moves, the result is the free part of a slice. If joint 1 moves, link 2 is treated as a part of link
-/// 1, and the contact angles of joint 1 decide. `O(m log m)` in the contacts.
+/// If joint 2 moves, the result is the free part of a slice. If joint 1 moves, link 2 is treated as a part of link 1,
+/// and the contact angles of joint 1 decide. `O(m log m)` for `m` contacts.
 pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segment> {
     let [from, to] = segment.ends();
     let moved = match (from[0] == to[0], from[1] == to[1]) {
@@ -40,7 +40,7 @@ pub fn free_stretches(scene: &Scene, segment: &Segment, grow: f64) -> Vec<Segmen
     free
 }
 
-/// Returns the forbidden values of joint 2 at a value of joint 1; all values if link 1 is in contact.
+/// Returns the forbidden values of joint 2 at a value of joint 1. These are all values if link 1 is in contact.
 fn forbidden_second_values(scene: &Scene, q1: f64, grow: f64) -> Vec<[f64; 2]> {
     let slices = Contacts::new(scene);
     if Slice::bands(&slices, grow).forbids(q1) {

@@ -1,5 +1,4 @@
-//! C-obstacles of an arm that only translates link 2. They are Minkowski differences, exact except for rounded
-//! corners.
+//! C-obstacles of an arm that moves link 2 without turning it. They are Minkowski differences, exact except for rounded corners.
 
 use cplan_geometry::{Convex, Point, Vector, cross, inset, minkowski_difference, perpendicular};
 use cplan_model::space::Configuration;
@@ -7,8 +6,8 @@ use cplan_model::{Arm, JointType};
 use nalgebra::Matrix2;
 use std::f64::consts::TAU;
 
-/// Two slides count as parallel if the sine of the angle between them is below this. The map from the plane to joint
-/// values would multiply rounding errors by its inverse.
+/// Sine of the angle between two slides below which they count as parallel. The map from the plane to joint values
+/// would multiply rounding errors by the inverse of this sine.
 const PARALLEL_SINE: f64 = 1e-9;
 
 /// Returns the map from displacements in the plane to joint values. `None` unless both joints are prismatic and
@@ -23,9 +22,9 @@ pub(super) fn joint_map(arm: &Arm) -> Option<Matrix2<f64>> {
     if directions.determinant().abs() < PARALLEL_SINE { None } else { directions.try_inverse() }
 }
 
-/// Returns the joint values at which `part` of link 2 is within `level` of `piece`, as a convex polygon. Arcs are
-/// replaced by tangents, so the polygon also contains some joint values with distances up to `level + tolerance`.
-/// Straight sides are exact. `map` comes from [`joint_map`]. `O(n + m)` time and corners, plus the corners on arcs.
+/// Returns the joint values at which `part` of link 2 is within `level` of `piece`, as a convex polygon. Tangents
+/// replace arcs, so the polygon also contains some joint values with distances up to `level + tolerance`. Straight
+/// sides are exact. `map` comes from [`joint_map`]. `O(n + m)` time and corners, plus the corners on arcs.
 pub(super) fn contour(
     arm: &Arm,
     map: &Matrix2<f64>,
@@ -40,8 +39,8 @@ pub(super) fn contour(
 }
 
 /// Returns a convex polygon that contains all joint values at which `part` of link 2 is within `level - margin` of
-/// `piece`. Arcs are replaced by chords. All joint values in the polygon have distances below `level`. Returns
-/// `None` if no area is left. The arguments are those of [`contour`].
+/// `piece`. Chords replace arcs. All joint values in the polygon have distances below `level`. `None` if no area
+/// remains. The arguments are those of [`contour`].
 pub(super) fn inner_contour(
     arm: &Arm,
     map: &Matrix2<f64>,
@@ -50,15 +49,15 @@ pub(super) fn inner_contour(
     level: f64,
     margin: f64,
 ) -> Option<Vec<Point>> {
-    // Half of the margin keeps chords and rounding off the boundary. Chords may cut off the other half.
+    // One half of the margin keeps chords and rounding off the boundary. The other half is what chords may cut off.
     let radius = part.radius() + piece.radius() + level - margin / 2.0;
     let core = minkowski_difference(piece.core(), part.core());
     let polygon = if radius <= 0.0 { inset(&core, -radius)? } else { chord_polygon(&core, radius, margin / 2.0) };
     (polygon.len() > 2).then(|| in_joint_values(arm, map, &polygon))
 }
 
-/// Returns the configurations with the least and the greatest value of joint 1, then those of joint 2, at which `part`
-/// of link 2 is within a distance of `piece`. `radius` is the sum of this distance and both radii. `map` comes from
+/// Returns the configurations at which joint 1 has its least and its greatest value, and then those for joint 2, while
+/// `part` of link 2 is within a distance of `piece`. `radius` is this distance plus both radii. `map` comes from
 /// [`joint_map`]. `O(n + m)`.
 pub(super) fn extremes(
     arm: &Arm,
@@ -84,7 +83,7 @@ pub(super) fn extremes(
 fn chord_polygon(core: &[Point], radius: f64, sag: f64) -> Vec<Point> {
     let widest = 2.0 * (1.0 - sag / radius).max(0.0).acos();
     with_arcs(core, widest, |turn, chords| {
-        // The last corner of a disc is its first one.
+        // On a disc, the last corner equals the first one.
         let last = if core.len() > 1 && turn > 0.0 { chords + 1 } else { chords };
         (0..last).map(|k| (turn * (k as f64 / chords as f64), radius)).collect()
     })
@@ -112,9 +111,9 @@ fn tangent_polygon(core: &[Point], radius: f64, reach: f64) -> Vec<Point> {
     })
 }
 
-/// Returns the polygon that has an arc at each corner of a convex polygon. For an arc, `corners` gets the angle by which
-/// the outward normal turns, and the number of equal parts of it, each at most `widest`. It returns the arc's corners:
-/// the angle from the first normal, and the distance.
+/// Returns a convex polygon with an arc at each corner. `corners` receives the angle by which the outward normal turns
+/// at the corner, and the number of equal parts of this angle, each at most `widest`. It returns the corners of the
+/// arc: the angle from the first normal, and the distance.
 fn with_arcs(core: &[Point], widest: f64, corners: impl Fn(f64, usize) -> Vec<(f64, f64)>) -> Vec<Point> {
     let n = core.len();
     let mut polygon = Vec::new();
@@ -150,7 +149,7 @@ mod tests {
         ]
     }
 
-    /// Tests the distances from the core to the polygon's corners and to points between them.
+    /// Tests the distances of the polygon's corners, and of points between them, from the core.
     #[test]
     fn chord_polygons_lie_between_the_sag_and_the_radius() {
         for core in cores() {

@@ -8,15 +8,15 @@ use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::float::overlay::{FloatOverlay, OverlayOptions};
 
-/// Least area of a free part, as a product of radians and metres. Smaller parts are artefacts of rounding where
-/// contours almost touch, and too small for an arm.
+/// Least area of a free part, as a product of radians and metres. Smaller parts result from rounding where contours
+/// almost touch, and are too small for an arm.
 const SLIVER_AREA: f64 = 1e-10;
 
 /// Returns the free parts of `allowed`, a polygon within `window`: one polygon per connected component.
 ///
-/// Every contour must be counter-clockwise. It repeats by `periods` along each axis that has a period. Corners are
-/// rounded to a grid of about 1e-17 of the coordinates' range and snapped to each other ([`SNAP_PRECISION`]). The
-/// margin of contours is far above both.
+/// Contours must be counter-clockwise, and repeat along each axis that has a period. Corners are rounded to a grid of
+/// about 1e-17 of the coordinates' range, and snapped to each other ([`SNAP_PRECISION`]). The margin of contours is far
+/// greater than both changes.
 pub(super) fn free_space<'a>(
     window: Window,
     allowed: &[Point],
@@ -75,7 +75,7 @@ fn parts<'a>(
     overlay.overlay(rule, FillRule::NonZero).into_iter().filter_map(polygon).collect()
 }
 
-/// Number of contours above which neighbours are united first.
+/// Number of contours above which neighbouring contours are united first.
 const MAX_DIRECT_CONTOURS: usize = 128;
 
 /// Number of contours in each group of the first round.
@@ -84,13 +84,13 @@ const CONTOURS_PER_GROUP: usize = 8;
 /// Number of neighbouring groups whose outlines are united in each later round.
 const GROUPS_PER_ROUND: usize = 4;
 
-/// Greatest fraction of corners that a group's union may keep for the groups to be useful. Above it the contours hardly
-/// overlap, and only the last union is computed.
+/// Greatest fraction of its corners that a group may keep after its union. Above it, contours hardly overlap, and only
+/// the final union is computed.
 const MAX_CORNER_SHARE: f64 = 0.75;
 
-/// Distance within which corners are snapped to each other: initially 256 steps of the grid, which is about 3e-15 of
-/// the coordinates' range, and four times as far in each further round. With lower values, sides that almost
-/// coincide are split thousands of times.
+/// Distance within which corners are snapped to each other. Initially it is 256 steps of the grid, about 3e-15 of the
+/// coordinates' range, and four times as much in each further round. With smaller distances, sides that almost coincide
+/// are split thousands of times.
 const SNAP_PRECISION: Precision = Precision { start: 16, progression: 4 };
 
 type Overlay = FloatOverlay<[f64; 2], i64>;
@@ -102,10 +102,9 @@ fn overlay(subject: &[[f64; 2]], clip: &[Vec<[f64; 2]>]) -> Overlay {
     Overlay::from_subj_and_clip_custom(subject, clip, OverlayOptions::ogc(), solver)
 }
 
-/// Returns contours with the same union, of which fewer cross each other. Contours of small neighbouring pieces
-/// overlap almost completely, so the union of a group has few corners besides its outline. The same is true for
-/// groups of groups. So the number of crossings grows like the number of corners of the outlines, not like the
-/// square of the number of contours.
+/// Returns contours with the same union but fewer crossings. Contours of small neighbouring pieces overlap almost completely, so
+/// the union of a group has hardly more corners than its outline. The same is true for groups of groups. So the number of
+/// crossings grows like the number of corners of the outlines, and not like the square of the number of contours.
 fn united_by_neighbors(contours: Contours) -> Contours {
     let middle = |contour: &[[f64; 2]], k: usize| {
         let (low, high) =
@@ -117,10 +116,10 @@ fn united_by_neighbors(contours: Contours) -> Contours {
     united_part(&mut placed).0
 }
 
-/// A contour, preceded by the middle of its bounding box.
+/// The middle of a contour's bounding box, and the contour.
 type PlacedContour = ([f64; 2], Vec<[f64; 2]>);
 
-/// Returns the outlines of the union of `part`, and whether they have clearly fewer corners.
+/// Returns the outlines of the union of `part`, and true if they have clearly fewer corners.
 fn united_part(part: &mut [PlacedContour]) -> (Contours, bool) {
     checkpoint();
     if part.len() <= CONTOURS_PER_GROUP {
@@ -140,7 +139,7 @@ fn united_part(part: &mut [PlacedContour]) -> (Contours, bool) {
     if worth { united_if_worth(outlines) } else { (outlines, false) }
 }
 
-/// Returns the outlines of a union, and whether they have clearly fewer corners than the contours.
+/// Returns the outlines of a union, and true if they have clearly fewer corners than the contours.
 fn united_if_worth(contours: Contours) -> (Contours, bool) {
     let corners = |contours: &Contours| contours.iter().map(Vec::len).sum::<usize>() as f64;
     let before = corners(&contours);
@@ -216,10 +215,10 @@ mod tests {
     #[test]
     fn the_union_of_many_squares_leaves_the_rest_free() {
         let n = 40_usize;
-        // Steps of 7 visit places of the lattice in an order that jumps about.
+        // Steps of 7 visit the places of the lattice in an irregular order.
         for count in [MAX_DIRECT_CONTOURS - 1, MAX_DIRECT_CONTOURS + 1, 3 * MAX_DIRECT_CONTOURS, 1500] {
             let places: Vec<[usize; 2]> = (0..count).map(|i| 7 * i % (n * n)).map(|k| [k % n, k / n]).collect();
-            // A third of the squares are three wide, so they overlap others.
+            // Every third square is three wide, so it overlaps others.
             let width = |i: usize| if i.is_multiple_of(3) { 3 } else { 1 };
             let mut covered = vec![[false; 40]; n];
             let squares: Vec<Vec<Point>> = places

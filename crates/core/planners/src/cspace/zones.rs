@@ -1,4 +1,4 @@
-//! Grids whose cells know the preference that applies to them.
+//! Grids that know the preference of each cell.
 
 use super::Grid;
 use cplan_model::Scene;
@@ -8,13 +8,13 @@ use cplan_model::Scene;
 pub struct Zone {
     /// The user's name for the preference.
     pub name: String,
-    /// Strength of the drift, as a number per grid cell.
+    /// Strength of the drift per grid cell.
     pub epsilon: f64,
     /// Direction of the drift in joint space, of length 1. `None` if the preference gives none.
     pub direction: Option<[f64; 2]>,
 }
 
-/// A grid that knows, for each cell, the preference that applies at the cell's centre.
+/// A grid, with the preference that applies at the centre of each cell.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ZonedGrid {
     /// The grid of free and blocked cells.

@@ -6,17 +6,15 @@ use crate::cspace::Grid;
 use cplan_model::space::{Configuration, Segment};
 use cplan_text::listed;
 
-/// Number of rings of cells that are searched for a free one around a blocked cell. An outer grid blocks some cells
-/// whose configurations are free. Beyond this many rings, the straight segment to the grid is too unlikely to be
-/// free.
+/// Number of rings of cells around a blocked cell in which a free cell is searched. An outer grid blocks some cells
+/// with free configurations. Beyond these rings, the straight segment to the grid is unlikely to be free.
 const SEARCHED_RINGS: i64 = 3;
 
-/// The cells by which a configuration, or a segment of goals, is joined to the grid.
+/// The cells that join a configuration, or a segment of goals, to the grid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Attachment {
-    /// If the configuration's own cell is free: that cell alone. Otherwise: the free cells of the nearest ring around
-    /// it that has any, nearest first. For a segment: all free cells that contain a part of it. There is at least one
-    /// cell.
+    /// The configuration's own cell if that is free. Otherwise, the free cells of the nearest ring that has any,
+    /// nearest first. For a segment, all free cells that contain a part of it. There is at least one cell.
     pub cells: Vec<usize>,
     /// True if one of the cells contains the configuration. Always true for a segment.
     pub contained: bool,
@@ -54,8 +52,8 @@ impl JoinedQuery {
     }
 }
 
-/// Returns a goal in the form that the grid needs. A segment is cut at the domain's ends; a single configuration is
-/// unchanged.
+/// Returns a goal in the form that the grid needs. A segment is cut at the ends of the domain. A single configuration
+/// is unchanged.
 fn goal_pieces_on_grid(grid: &Grid, piece: &Segment) -> Vec<Segment> {
     if piece.is_point() { vec![*piece] } else { piece.within_domain(&grid.topology).collect() }
 }
@@ -102,7 +100,7 @@ fn cells_along(grid: &Grid, goals: &Segment) -> Vec<usize> {
         let mut sides = [[lower, f64::NEG_INFINITY], [lower + step[0], f64::INFINITY]];
         let [from, to] = goals.ends();
         if from[0] == to[0] {
-            // The segment lies in one row, so rounding of that row's sides must not cut it.
+            // The segment lies in one row. Rounding of the sides of this row must not cut it.
             (sides[0][0], sides[1][0]) = (f64::NEG_INFINITY, f64::INFINITY);
         }
         let part = goals.within(sides[0], sides[1]);

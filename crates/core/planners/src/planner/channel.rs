@@ -8,7 +8,7 @@ use cplan_model::space::{Configuration, Measure, Metric, Segment};
 use petgraph::graph::{NodeIndex, UnGraph};
 use petgraph::visit::EdgeRef;
 
-/// A sequence of cells that lead to a goal, with the portals between them. There is one portal fewer than cells.
+/// A sequence of cells to a goal, with the portals between consecutive cells.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Channel {
     pub start: Point,
@@ -29,12 +29,11 @@ pub(super) struct Adjacency {
     pub middles: Vec<Point>,
 }
 
-/// One end of a passage.
 #[derive(Debug, Clone, Copy)]
 enum PassageEnd {
     /// The start, or the centre of a cell.
     At(Point),
-    /// Alternative goals, of which the nearest is used.
+    /// Alternative goals. The nearest one counts.
     Any(Segment),
 }
 
@@ -82,10 +81,10 @@ impl Adjacency {
         Passage { portal, cost: (last - from).norm() + (to.nearest(last) - last).norm() }
     }
 
-    /// Returns a channel from the start to any goal, and the cells' centres that the search expanded, in order.
+    /// Returns a channel from the start to any goal, and the centres of the cells that the search expanded, in order.
     /// `start_cells` are the cells that contain the start.
     ///
-    /// A passage from one cell to the next costs the distance from centre to centre through the portal's middle. For
+    /// The cost of a passage between two cells is the distance between their centres through the portal's middle. In
     /// the first and the last cell, the start and the nearest goal replace the centre. The default search finds the
     /// cheapest channel, in `O(n log n)` for `n` cells.
     pub fn channel(
@@ -95,7 +94,7 @@ impl Adjacency {
         start_cells: &[usize],
         how: RoadmapSearch,
     ) -> (Option<Channel>, Vec<Configuration>) {
-        // The ends of the path are additional nodes, joined through the portals of the cells that contain them.
+        // The start and the goals are additional nodes, joined through the portals of the cells that contain them.
         let mut graph = self.cells.clone();
         let at_start = PassageEnd::At(terminals.start);
         let start = graph.add_node(at_start);

@@ -35,13 +35,13 @@ impl Cell {
         between.left_of(floor.0, floor.1)?.left_of(ceiling.0, ceiling.1)
     }
 
-    /// Returns the ordinates of floor and ceiling at the abscissa `x`, rounded to lie within the cell.
+    /// Returns the ordinates of floor and ceiling at the abscissa `x`, rounded into the cell.
     pub fn span(&self, boundary: &Boundary, x: f64) -> (f64, f64) {
         let [floor, ceiling] = [self.floor, self.ceiling].map(|side| boundary.ordinate(side, x));
         (floor, ceiling)
     }
 
-    /// Returns the corners, counter-clockwise: three of a triangle, otherwise four.
+    /// Returns the corners, counter-clockwise: three or four.
     pub fn corners(&self, boundary: &Boundary) -> Vec<Point> {
         let (left, right) = (self.span(boundary, self.left), self.span(boundary, self.right));
         let mut corners = vec![
@@ -70,7 +70,7 @@ impl Cell {
     }
 }
 
-/// A piece of a vertical line, of positive length, that two cells share.
+/// A piece of a vertical line, of positive length, that two cells have in common.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct CellPortal {
     /// The cells to the left and to the right of the portal.
@@ -78,7 +78,7 @@ pub(super) struct CellPortal {
     /// Lower and upper end. The ends lie exactly in closed free space.
     pub low: Point,
     pub high: Point,
-    /// For each end, true if it is a vertex, and false if it is a point on a side.
+    /// For each end, true if it is a vertex, and false if it is another point of a side.
     pub at_vertices: [bool; 2],
 }
 
@@ -92,9 +92,8 @@ pub(super) struct Decomposition {
 impl Decomposition {
     /// Sweeps a vertical line over free space from left to right, `O(n log n)` for `n` vertices.
     ///
-    /// All vertices with the same abscissa are one event. So vertical lines through several vertices, and vertical
-    /// sides, need no special case. Which cells a portal joins follows from the order of the vertices on the line
-    /// alone, which is exact.
+    /// All vertices with the same abscissa are one event. So vertical lines through several vertices, and vertical sides, need
+    /// no special case. The order of the vertices on the line, which is exact, determines the cells that a portal joins.
     pub fn new(boundary: &Boundary) -> Self {
         let sides = boundary.sides.len();
         let (status, cell_above) = (Status::new(sides), vec![NO_ENTRY; sides]);
@@ -124,8 +123,8 @@ impl Decomposition {
     }
 }
 
-/// A run of neighbouring vertices on the sweep line. It lies between two sides that continue across the line. All sides
-/// between these two begin or end at one of the vertices.
+/// A run of neighbouring vertices on the sweep line, between two sides that continue across the line. All sides between
+/// these two begin or end at one of the vertices.
 #[derive(Debug, Clone, Copy)]
 struct Cluster {
     vertices: (usize, usize),
@@ -133,9 +132,9 @@ struct Cluster {
     above: Option<usize>,
 }
 
-/// A gap of free space between two neighbouring sides that ends or begins at a cluster. Its two ends on the sweep line
-/// are given as ranks: 0 for the side below the cluster, `i` for the cluster's `i`th vertex, and one more than the
-/// number of vertices for the side above.
+/// A gap of free space between two neighbouring sides that ends or begins at a cluster. Ranks state its two ends on the
+/// sweep line: 0 for the side below the cluster, `i` for its `i`th vertex, and one more than the number of vertices for
+/// the side above.
 #[derive(Debug, Clone, Copy)]
 struct Gap {
     cell: usize,
@@ -147,7 +146,7 @@ struct Sweep<'a> {
     boundary: &'a Boundary,
     /// The sides that meet the sweep line, from bottom to top, without vertical ones.
     status: Status,
-    /// For each side in `status`, the unfinished cell above it; `NO_ENTRY` if the area above is an obstacle.
+    /// For each side in `status`, the unfinished cell above it, or `NO_ENTRY` if an obstacle is above it.
     cell_above: Vec<u32>,
     result: Decomposition,
 }
@@ -166,7 +165,7 @@ impl Sweep<'_> {
                 None => self.status.last_where(|side| boundary.place(side, at) == Orientation::CounterClockwise),
             };
             let above = self.status.above(highest.or(lowest).or(below));
-            // The vertex joins the last cluster if the next continuing side below both is the same, or if that side
+            // The vertex joins the last cluster if the same continuing side is next below both, or if the side below it
             // ends at a vertex of the cluster.
             let joins = |last: &Cluster| {
                 below == last.below
@@ -183,8 +182,8 @@ impl Sweep<'_> {
         }
     }
 
-    /// Moves the sweep line past a cluster. Finishes the cells to the left, and replaces the sides that end by those
-    /// that begin. Then starts the cells to the right, and joins the cells by portals.
+    /// Moves the sweep line past a cluster: finishes the cells to the left, replaces the sides that end by those that
+    /// begin, starts the cells to the right, and joins the cells by portals.
     fn replace(&mut self, cluster: Cluster) {
         let (first, last) = cluster.vertices;
         let x = self.boundary.vertices[first].x;
@@ -219,7 +218,7 @@ impl Sweep<'_> {
         self.join(cluster, &left, &right);
     }
 
-    /// Starts a cell between two sides and returns its number. Returns `NO_ENTRY` if the area is an obstacle.
+    /// Starts a cell between two sides, and returns its number. `NO_ENTRY` if the area is an obstacle.
     fn begin(&mut self, floor: usize, ceiling: usize, x: f64) -> u32 {
         let sides = &self.boundary.sides;
         if !sides[floor].is_floor() || sides[ceiling].is_floor() || is_slit(self.boundary, floor, ceiling) {
@@ -233,7 +232,7 @@ impl Sweep<'_> {
     /// line.
     fn gaps(&self, cluster: Cluster, end: impl Fn(usize) -> usize) -> Vec<Gap> {
         let (first, last) = cluster.vertices;
-        // Only if sides cross, a side without an end here lies between sides with one.
+        // A side without an end here lies between sides that end here only if sides cross.
         let rank = |side: usize| end(side).checked_sub(first).map_or(0, |k| (k + 1).min(last - first + 1));
         let mut gaps = Vec::new();
         let mut floor = cluster.below;
@@ -281,7 +280,7 @@ impl Sweep<'_> {
         let on_side = |side: usize| Point::new(x, self.boundary.ordinate(side, x));
         let vertex = |rank: usize| (1..=last - first).contains(&rank).then(|| vertices[first + rank - 1]);
         let ends = (vertex(low), vertex(high));
-        // Rounding may put a point of a side beyond a vertex that is very near to the side.
+        // Rounding may move a point of a side beyond a vertex that is very close to the side.
         let (low, high) = match ends {
             (Some(a), Some(b)) => (a, b),
             (Some(a), None) => (a, Point::new(x, on_side(ceiling).y.max(a.y))),

@@ -6,9 +6,9 @@ use std::sync::{Arc, LazyLock};
 /// The meaning of a field's values.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FieldQuantity {
-    /// Natural logarithm of a potential that paths ascend: 0 at the goal, lower farther away.
+    /// Natural logarithm of a potential that paths ascend. It is 0 at the goal, and decreases with the distance.
     Logarithm,
-    /// Estimate of the logarithm of a potential, only for pictures.
+    /// Estimate of the logarithm of a potential. Only for pictures.
     EstimatedLogarithm,
     /// A potential that paths descend.
     Height,
@@ -16,7 +16,7 @@ pub enum FieldQuantity {
 
 type Computation = Box<dyn FnOnce() -> Vec<f64> + Send>;
 
-/// One value per cell of a grid. They are computed when they are first read, because paths do not need them.
+/// One value per cell of a grid. The values are computed when they are first read, because paths do not need them.
 #[derive(Debug, Clone)]
 pub struct FieldValues(Arc<LazyLock<Vec<f64>, Computation>>);
 

@@ -5,19 +5,17 @@ use super::{PathKind, Query, shortcut};
 use crate::cspace::Grid;
 use cplan_model::space::{Configuration, Measure, Metric, Path};
 
-/// Row and column of a cell on the unbounded lattice. On a circle, they continue past the seam instead of starting
-/// again.
+/// Row and column of a cell on the unbounded lattice. On a circle, numbers continue past the seam.
 pub type Place = [i64; 2];
 
-/// Returns the row or column with number `at` on an axis whose numbers continue across a seam; `None` beyond a
-/// limit.
+/// Returns the row or column with number `at`, which may continue past a seam. `None` beyond a limit.
 pub fn place(grid: &Grid, axis: usize, at: i64) -> Option<usize> {
     let n = grid.cells[axis] as i64;
     let at = if grid.topology.ranges[axis].is_circle() { at.rem_euclid(n) } else { at };
     (0..n).contains(&at).then_some(at as usize)
 }
 
-/// Returns the cell at a place given by row and column numbers that continue across seams; `None` beyond a limit.
+/// Returns the cell at a place, which may lie past seams. `None` beyond a limit.
 pub fn cell(grid: &Grid, [i, j]: Place) -> Option<usize> {
     Some(place(grid, 0, i)? * grid.cells[1] + place(grid, 1, j)?)
 }
@@ -39,7 +37,7 @@ fn from_lattice(grid: &Grid, at: [f64; 2]) -> Configuration {
 }
 
 /// Returns the centres of neighbouring `cells`, unwrapped. The first is the copy nearest to `near`. Each further centre
-/// is one cell away from the centre before it, also across a seam.
+/// is one cell away from the previous one, also across a seam.
 pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     let columns = grid.cells[1];
     let near = to_lattice(grid, near);
@@ -55,7 +53,7 @@ pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     for &cell in &cells[1..] {
         let next = split(cell);
         for k in [0, 1] {
-            // The difference is at most one cell, or, across a seam, the number of cells less one.
+            // Neighbouring numbers differ by one, or across a seam by the number of cells minus one.
             at[k] += match next[k] as i64 - last[k] as i64 {
                 step @ -1..=1 => step as f64,
                 step => -step.signum() as f64,
@@ -67,9 +65,8 @@ pub fn unwrap(grid: &Grid, cells: &[usize], near: Configuration) -> Line {
     line
 }
 
-/// Returns the goal for a path that ends at `cell`, and the goal's cells. It chooses among the goals joined to this
-/// cell: the one nearest to `end`, the unwrapped centre of the cell. It returns the copy of that goal nearest to
-/// `end`. Of goals along a segment, only the part in the cell is considered.
+/// Returns the goal of a path that ends at `cell`, and the goal's cells. Of the goals joined to this cell, it is the one nearest
+/// to `end`, the unwrapped centre of the cell, in its nearest copy. Of goals along a segment, only the part in the cell counts.
 pub fn goal_at<'a>(
     grid: &Grid,
     joined: &'a JoinedQuery,
@@ -91,9 +88,9 @@ pub fn goal_at<'a>(
 /// Returns the path from the exact start through the centres of `cells` to the exact goal, pulled taut for
 /// [`PathKind::Taut`].
 ///
-/// Consecutive cells must be neighbours. The first must be joined to the start and the last to a goal; otherwise the
-/// result is `None`. A configuration may be joined to a cell that does not contain it. The grid proves nothing about
-/// the segment between the two.
+/// Consecutive cells must be neighbours. The result is `None` unless the first cell is joined to the start, and the
+/// last one to a goal. A configuration may be joined to a cell that does not contain it. The grid proves nothing about
+/// the segment between them.
 pub fn path(grid: &Grid, query: &Query, joined: &JoinedQuery, cells: &[usize], kind: PathKind) -> Option<Path> {
     let line = unwrap(grid, cells, query.start);
     let goal = goal_at(grid, joined, *cells.last()?, *line.last()?)?;
@@ -103,8 +100,8 @@ pub fn path(grid: &Grid, query: &Query, joined: &JoinedQuery, cells: &[usize], k
     }))
 }
 
-/// Returns the path from the exact start along a line to the exact goal. The line gets these ends and is then passed to
-/// `shape`, which keeps them.
+/// Returns the path from the exact start along a line to the exact goal. `shape` receives the line with these ends, and
+/// must keep them.
 pub fn exact_path(
     grid: &Grid,
     query: &Query,
@@ -118,7 +115,6 @@ pub fn exact_path(
     Path::new(std::iter::once(query.start).chain(inner).chain([goal.0]).collect())
 }
 
-/// Returns the line with the exact start and the exact goal as its ends.
 fn with_exact_ends(
     grid: &Grid,
     query: &Query,
@@ -126,7 +122,7 @@ fn with_exact_ends(
     mut line: Line,
     (goal, attachment): (Configuration, &Attachment),
 ) -> Line {
-    // If an end of the line equals the configuration up to rounding, the configuration replaces it.
+    // A configuration that equals an end of the line, up to rounding, replaces that end.
     let (from, to) = (to_lattice(grid, query.start), to_lattice(grid, goal));
     if line.len() == 1 && joined.start.contained && attachment.contained {
         return vec![from, to];

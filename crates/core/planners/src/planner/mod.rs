@@ -1,10 +1,9 @@
-//! Planners: functions from a space and a query to a run. They know nothing of arms or obstacles.
+//! Planners: functions from a space and a query to a run. They do not depend on arms or obstacles.
 //!
-//! The planners for polygons begin with `geometry::planar`, which converts polygons to vertices and sides. A path
-//! may touch obstacles, also along their sides. It does not squeeze between two that touch in a point, because
-//! triangles and cells are neighbours only through portals of positive length. [`PathKind`] selects the planner's
-//! own path or a taut one. The `FieldPlanner` of the crate `fields` follows any field on a `cspace::ZonedGrid`,
-//! whose cells know the world's preferences.
+//! The planners for polygons begin with `geometry::planar`, which converts polygons to vertices and sides. A path may touch
+//! obstacles, also along their sides. It does not pass between two that touch in a point, because triangles and cells are
+//! neighbours only through portals of positive length. [`PathKind`] selects the planner's own path or a taut one. The
+//! `FieldPlanner` of the crate `fields` follows any field on a `cspace::ZonedGrid`, whose cells know the world's preferences.
 //!
 //! ```
 //! use cplan_planners::cspace::regions;
@@ -58,7 +57,7 @@ use std::sync::Arc;
 pub struct Query {
     /// First configuration of the path.
     pub start: Configuration,
-    /// Alternative goals. On a circle their copies are goals as well.
+    /// Alternative goals. On a circle, their copies are goals, too.
     pub goals: GoalSet,
 }
 
@@ -67,13 +66,13 @@ pub struct Query {
 pub enum Proposal {
     /// A path in free space. It starts exactly at the start and ends exactly at a goal or a copy of one.
     Found(Path),
-    /// Free space has no path. [`crate::cspace::Proves`] states whether this proves that no path exists.
+    /// Free space has no path. [`crate::cspace::Proves`] states whether this proves that there is none.
     NoPath,
     /// The planner cannot answer. The text is the reason.
     GaveUp(String),
 }
 
-/// Size of the structure that a planner searched.
+/// Size of the structure in which a planner searched.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Size {
     /// The visited part of a roadmap, or all cells and portals of a decomposition.
@@ -83,7 +82,7 @@ pub enum Size {
         /// Number of edges, or of portals.
         edges: usize,
     },
-    /// A field on a grid, solved in windows: groups of cells.
+    /// A field on a grid, solved in groups of cells called windows.
     Windows {
         /// Number of free cells that were visited.
         cells: usize,
@@ -94,10 +93,10 @@ pub enum Size {
     Grid {
         /// Number of free cells that were visited.
         cells: usize,
-        /// Number of passes over these cells. For a wavefront, the number of levels.
+        /// Number of passes over these cells, or of levels for a wavefront.
         sweeps: usize,
     },
-    /// The values of joint 1 at which the free values of joint 2 were computed exactly.
+    /// Values of joint 1 at which the free values of joint 2 were computed exactly.
     Slices {
         /// Number of such values.
         slices: usize,
@@ -109,7 +108,7 @@ pub enum Size {
         /// Number of cells that were reached.
         labeled: usize,
     },
-    /// A search of a grid in rounds, each with a higher limit of moves.
+    /// A search of a grid in rounds, with a limit of moves that increases from round to round.
     Deepening {
         /// Number of rounds.
         rounds: usize,
@@ -170,7 +169,7 @@ impl std::fmt::Display for Size {
 pub struct ChannelPoints {
     /// Centroids of the channel's cells, in order (`C1`, `C2`, ...).
     pub centers: Vec<Configuration>,
-    /// Middles of the portals between the cells, one fewer (`Q1`, `Q2`, ...).
+    /// Middles of the portals between the cells (`Q1`, `Q2`, ...).
     pub middles: Vec<Configuration>,
 }
 
@@ -208,7 +207,7 @@ pub enum Trace {
     Roadmap {
         /// Both ends of each edge.
         edges: Vec<[Configuration; 2]>,
-        /// True if all edges between corners are included; false if only those that the search examined.
+        /// True if all edges between corners are included. False if only those that the search examined are.
         whole: bool,
     },
     /// The free intervals of the slices on the path, in order.
@@ -224,9 +223,9 @@ pub enum Trace {
         cells: Arc<[Vec<Configuration>]>,
         /// Indices of the cells in the channel, in order.
         channel: Vec<usize>,
-        /// Points of paths through the middle of the channel; empty if the planner has none.
+        /// Points of paths through the middle of the channel. Empty if the planner has none.
         points: ChannelPoints,
-        /// Configurations that the search expanded, in order; empty if pictures do not show them.
+        /// Configurations that the search expanded, in order. Empty if pictures do not show them.
         expanded: Vec<Configuration>,
     },
     /// A graph of straight motions.
@@ -247,19 +246,18 @@ pub enum Trace {
         /// Boxes that are proven neither free nor colliding.
         mixed: Vec<[Configuration; 2]>,
     },
-    /// One label per cell of a grid: the number of steps to the goal, or from the start for a forward search. The label
-    /// is `u32::MAX` for cells that were not reached.
+    /// One label per cell of a grid: the number of steps to the goal, or from the start for a forward search. Cells
+    /// that were not reached have the label `u32::MAX`.
     Wavefront {
         /// Number of cells along each axis.
         cells: [usize; 2],
         /// One value per cell.
         labels: Vec<u32>,
-        /// Cells in the order in which the search expanded them. Empty for the wave, which labels all cells of a
-        /// level at once.
+        /// Cells in the order in which the search expanded them. Empty for the wave, which labels whole levels at once.
         expanded: Vec<u32>,
         /// True if the search began at the start.
         forward: bool,
-        /// The estimates of the search. `None` if it uses none.
+        /// The estimates of the search. `None` for a search without estimates.
         estimates: Option<Estimates>,
     },
     /// A field on a grid that a path follows.
@@ -268,7 +266,7 @@ pub enum Trace {
         cells: [usize; 2],
         /// Meaning of the values.
         quantity: FieldQuantity,
-        /// One value per cell; infinite in cells without a potential.
+        /// One value per cell. Infinite in cells without a potential.
         values: FieldValues,
     },
 }
@@ -283,32 +281,31 @@ impl Trace {
 /// A remark of a planner about a run.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Note {
-    /// The relaxation of the field stopped at the limit of sweeps, before its tolerance. The planner follows no path
-    /// in it.
+    /// The relaxation of the field reached the limit of sweeps before its tolerance. The planner then follows no path.
     Unconverged {
         /// Number of passes over all cells.
         sweeps: usize,
         /// The measured change in the last pass.
         change: f64,
     },
-    /// The path left local minima of the potential by moves that do not follow the forces.
+    /// The path left local minima of the potential by moves against the forces.
     Escaped {
-        /// How the path left them, in words that follow "escaped from a local minimum".
+        /// The kind of these moves, in words that follow "escaped from a local minimum".
         how: &'static str,
         /// Number of local minima.
         minima: usize,
         /// Number of moves that left local minima.
         moves: usize,
     },
-    /// The relaxation met its tolerance, but the values around the path were so small that the path was not
-    /// reliable. So the relaxation continued to a relative tolerance.
+    /// The relaxation met its tolerance, but the values around the path were too small for a reliable path. So it
+    /// continued to a relative tolerance.
     Continued {
         /// Number of passes over all cells until the tolerance was met.
         first: usize,
         /// Number of passes after that.
         more: usize,
     },
-    /// The relaxation stopped before its tolerance, at the limit of single precision on a GPU.
+    /// The relaxation on a GPU reached the limits of single precision before its tolerance.
     Floor {
         /// Number of passes over all cells until only rounding changed values.
         sweeps: usize,

@@ -1,6 +1,6 @@
 //! Shortest paths through triangulated free space.
 //!
-//! This search does not use petgraph, which asks for all edges of a node at once. Here the open list also holds sets
+//! This search does not use petgraph, which requires all edges of a node at once. Here, the open list also holds sets
 //! of edges that are not known yet.
 
 use super::NO_ENTRY;
@@ -11,18 +11,17 @@ use cplan_interrupt::checkpoint;
 use cplan_model::space::{Measure, Segment};
 use std::cmp::Reverse;
 
-/// Rays and edges are not intersected if the sine of the angle between them is below this, because rounding would be
-/// multiplied by its inverse.
+/// Sine of the angle between a ray and an edge below which they are not intersected. The inverse of the sine would
+/// multiply rounding errors.
 const PARALLEL_SINE: f64 = 1e-6;
 
-/// A* over the reduced visibility graph, whose edges are found while they are needed.
+/// A* over the reduced visibility graph, whose edges are found only when they are needed.
 ///
-/// The open list holds reached nodes and *cones*. A cone is the view from a node through an edge of the
-/// triangulation. Its estimate is a lower bound on the length of paths through it. So the most promising edges of a
-/// node are found first, and most edges are never found. This is the search of Polyanya (Cui, Harabor, Grastien
-/// 2017) with two changes. Lines through vertices bound cones, rather than rounded points, so visibility is decided
-/// exactly. Turns are separate nodes. The search is correct for any norm, because pulling a path taut never makes it
-/// longer.
+/// The open list holds reached nodes and *cones*. A cone is the view from a node through an edge of the triangulation.
+/// Its estimate is a lower bound on the length of paths through it. So the most promising edges of a node are found
+/// first, and most edges are never found. This is the search of Polyanya (Cui, Harabor, Grastien 2017) with two
+/// changes. Cones are bounded by lines through vertices instead of rounded points, so visibility is exact. Turns are
+/// separate nodes. The search is correct for any norm, because a taut path is never longer.
 pub(super) struct Polyanya<'a> {
     mesh: &'a Mesh,
     measure: Measure,
@@ -40,7 +39,7 @@ pub(super) struct Polyanya<'a> {
     pub arcs: Vec<[Point; 2]>,
 }
 
-/// A point that a path reaches, with the node before it.
+/// A point on a path, with the previous node.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     at: Point,
@@ -60,8 +59,8 @@ enum Step {
     Arrive(u32),
 }
 
-/// An entry of the open list: whether it is an arrival, its sequence number, and the step. Among equal estimates an
-/// arrival comes first, then the latest entry.
+/// An entry of the open list: a flag for an arrival, its sequence number, and the step. Of equal estimates, an arrival
+/// comes first, and then the latest entry.
 type Open = (Reverse<bool>, Reverse<u32>, Step);
 
 impl<'a> Polyanya<'a> {
@@ -82,7 +81,7 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Returns the number of visited nodes: the start, the goals that were seen, and the corners.
+    /// Returns the number of visited nodes: the start, corners, and goals that were seen.
     pub fn nodes(&self) -> usize {
         let corners = self.reached.iter().filter(|cost| cost.is_finite()).count();
         corners + self.nodes.iter().filter(|node| node.corner == NO_ENTRY).count()
@@ -120,7 +119,7 @@ impl<'a> Polyanya<'a> {
         None
     }
 
-    /// Returns true if a shorter path to the node's corner has been found since.
+    /// Returns true if a shorter path to the node's corner was found later.
     fn is_stale(&self, Node { corner, cost, .. }: Node) -> bool {
         corner != NO_ENTRY && self.reached[corner as usize] < cost
     }
@@ -142,7 +141,7 @@ impl<'a> Polyanya<'a> {
         }
     }
 
-    /// Follows a cone from triangle to triangle as long as its estimate is the least on the open list.
+    /// Follows a cone from triangle to triangle while its estimate is the least on the open list.
     fn follow(&mut self, mut cone: Cone, root: u32) {
         let node = self.nodes[root as usize];
         if self.is_stale(node) {
@@ -261,8 +260,8 @@ impl<'a> Polyanya<'a> {
     }
 }
 
-/// Returns the point where a ray meets the segment from `a` to `b`. Returns `fallback` if the ray leads to that
-/// point, or is nearly parallel to the segment.
+/// Returns the point where a ray meets the segment from `a` to `b`. Returns `fallback` if the ray leads there, or if
+/// ray and segment are nearly parallel.
 fn meeting(Bound { from, to }: Bound, [a, b]: [Point; 2], fallback: Point) -> Point {
     let (line, edge) = (to - from, b - a);
     let sine = cross(line, edge);

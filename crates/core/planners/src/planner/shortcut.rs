@@ -4,23 +4,23 @@ use super::grid_path::{Line, place};
 use crate::cspace::Grid;
 use cplan_interrupt::checkpoint;
 
-/// Distance, in cells, within which a segment counts as passing through a cell. So a segment through a corner of
-/// cells passes both cells beside it. The value is far above the rounding of lattice coordinates (1e-11 for a
-/// hundred thousand cells), and far below the size of any detail of a path.
+/// Distance, in cells, within which a segment counts as passing through a cell. So a segment through a common corner of
+/// cells also passes the two cells beside it. The value is far greater than the rounding of lattice coordinates (1e-11
+/// for a hundred thousand cells), and far smaller than any detail of a path.
 pub(super) const TOUCH_DISTANCE: f64 = 1e-9;
 
 /// Greatest number of rounds in which a path is shortened.
 const MAX_ROUNDS: usize = 8;
-/// Rounds end when one shortens the path by less than this fraction of its length.
+/// Least gain of a round, as a fraction of the path's length. If a round gains less, it is the last.
 const MIN_GAIN: f64 = 1e-3;
 
-/// Returns a shorter polyline with the same ends and few corners. Each of its segments either passes only through
-/// free cells (touching counts), or is a segment of the given line. The result is never longer, in any norm. Takes
-/// about `n log n` cell checks for a line that is `n` cells long.
+/// Returns a shorter polyline with the same ends and few corners. Each segment either passes through free cells only,
+/// counting cells that it touches, or is a segment of the given line. The result is never longer, in any norm. A line
+/// of `n` cells takes about `n log n` checks of cells.
 pub fn shortcut(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut best = farthest(grid, line);
     for _ in 0..MAX_ROUNDS {
-        // Go backwards, and use points between the corners as well: that pulls the corners towards the obstacles.
+        // Go backwards, also through points between the corners, which pulls the corners towards the obstacles.
         let mut fine = refine(grid, &best);
         fine.reverse();
         let mut next = farthest(grid, &fine);
@@ -47,9 +47,9 @@ fn farthest(grid: &Grid, line: &[[f64; 2]]) -> Line {
     fewer_points(line, |from, to| is_clear(grid, line[from], line[to]))
 }
 
-/// Returns a line through some of the given points, its ends included. From each point it goes to one far along the line
-/// to which a segment `fits`. The search doubles the distance along the line while the segment fits, then bisects. The
-/// next point always counts as fitting.
+/// Returns a line through some of the given points, including its ends. From each point, it continues to a distant
+/// point to which a segment `fits`. The search doubles the distance along the line while the segment fits, and then
+/// bisects. The next point always counts as fitting.
 pub fn fewer_points(line: &[[f64; 2]], fits: impl Fn(usize, usize) -> bool) -> Line {
     let mut kept = vec![line[0]];
     let mut at = 0;
@@ -67,7 +67,7 @@ pub fn fewer_points(line: &[[f64; 2]], fits: impl Fn(usize, usize) -> bool) -> L
     kept
 }
 
-/// Returns the line with additional points on its clear segments, at most a cell apart.
+/// Returns the line with additional points on its clear segments. They are at most a cell apart.
 fn refine(grid: &Grid, line: &[[f64; 2]]) -> Line {
     let mut points = vec![line[0]];
     for w in line.windows(2) {
@@ -87,7 +87,7 @@ pub fn is_clear(grid: &Grid, a: [f64; 2], b: [f64; 2]) -> bool {
     let d = [b[0] - a[0], b[1] - a[1]];
     let rows = touched_lines(grid, 0, a[0], b[0]);
     rows.into_iter().all(|i| {
-        // The two ends of the segment's part in row i, with some tolerance.
+        // The ends of the segment's part in row i, with some tolerance.
         let at = |edge: f64| a[1] + ((edge - a[0]) / d[0]).clamp(0.0, 1.0) * d[1];
         let (from, to) = if d[0].abs() <= TOUCH_DISTANCE {
             (a[1], b[1])

@@ -8,7 +8,7 @@ use cplan_model::space::{Measure, Metric, Segment};
 use std::f64::consts::TAU;
 
 /// Number of evenly spaced points of a goal segment that roadmaps add as goals. The point nearest to the start is added
-/// as well. The number is odd, so the middle is among them.
+/// as well. The number is odd, so that the middle is among them.
 const PLACES_PER_SEGMENT: usize = 17;
 
 /// The start and the goals of the paths that answer a query.
@@ -16,7 +16,7 @@ const PLACES_PER_SEGMENT: usize = 17;
 pub struct Terminals {
     /// The start, within the window.
     pub start: Point,
-    /// The copies of goals in the window that lie at least partly in closed free space. There is at least one.
+    /// The copies of goals in the window that are at least partly in closed free space. There is at least one.
     pub goals: Vec<Segment>,
     /// The parts of the goals in each convex cell of free space, with the cell's number; sorted by number.
     pub parts: Vec<(u32, Segment)>,
@@ -57,8 +57,8 @@ impl Terminals {
         Ok(Self { start, goals, parts })
     }
 
-    /// Returns goals as points in a mesh's free space. A point stays one point; a segment becomes some of its points
-    /// and the one nearest to the start.
+    /// Returns goals as points in a mesh's free space. For a segment, these are some of its points, and the one nearest
+    /// to the start.
     pub fn places<'a>(&'a self, mesh: &'a Mesh) -> impl Iterator<Item = Point> + 'a {
         let places = self.goals.iter().flat_map(|goals| {
             let count = if goals.is_point() { 1 } else { PLACES_PER_SEGMENT };
@@ -85,15 +85,13 @@ fn format_point(p: Point) -> String {
     format!("({:.6}, {:.6})", p.x, p.y)
 }
 
-/// Returns the copies of a segment, by whole turns on circles, whose ranges of joint values overlap the window. On
-/// intervals there is only the segment itself.
+/// Returns the copies of a segment, by whole turns on circles, whose ranges of joint values overlap the window.
 fn window_copies(regions: &Regions, piece: &Segment) -> Vec<Segment> {
     let [from, to] = piece.ends();
     let turns = |k: usize| {
         let (least, greatest) = (from[k].min(to[k]), from[k].max(to[k]));
         let (lower, upper) = regions.window[k];
-        // The range is from the turn at which the copy's greater end enters the window to the one at which its
-        // lesser end leaves it.
+        // Copies from the turn at which the greater end enters the window to the turn at which the lesser end leaves it.
         let copies = regions.topology.ranges[k].copies_within(least, (lower - (greatest - least), upper));
         copies.map(move |copy| ((copy - least) / TAU).round())
     };

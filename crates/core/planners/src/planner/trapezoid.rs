@@ -1,6 +1,6 @@
 //! Paths by exact cell decomposition into trapezoids.
 //!
-//! `decomposition` makes the cells. `channel` finds a sequence of cells that leads to the goal.
+//! `decomposition` creates the cells, and `channel` finds a sequence of cells to the goal.
 //! [`cplan_model::space::funnel_path`] pulls the path through them taut.
 
 use super::channel::{Adjacency, Channel};
@@ -19,17 +19,15 @@ use std::sync::Arc;
 /// The *trapezoidal decomposition*. It finds a channel of cells from start to goal whenever there is one, and a path
 /// in the channel.
 ///
-/// Two cells are joined if they share a piece of a vertical line of positive length (a *portal*). A* or another
-/// search finds the channel. A passage from one cell to the next costs the distance from centre to centre through
-/// the portal's middle; for the first and the last cell, start and goal replace the centre (Latombe, *Robot Motion
-/// Planning*, 1991, section 5.1). The path is free but not the shortest, even when taut: another channel may contain
-/// a shorter one.
+/// Two cells are joined if they share a piece of a vertical line of positive length (a *portal*). A* or another search finds the
+/// channel. The cost of a passage between two cells is the distance between their centres through the portal's middle. In the
+/// first and the last cell, start and goal replace the centre (Latombe, *Robot Motion Planning*, 1991, section 5.1). The path is
+/// free, but even a taut one need not be the shortest, because another channel may contain a shorter path.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Trapezoid {
-    /// The kind of path. [`PathKind::Taut`] is pulled taut within the channel, so it may touch obstacles.
-    /// [`PathKind::Own`] passes through the middles of the portals and the centres of the cells: start, `Q1`, `C2`,
-    /// `Q2`, ..., goal (Latombe). [`PathKind::Middles`] omits the centres of cells that it crosses from one vertical
-    /// side to the other.
+    /// The kind of path. [`PathKind::Taut`] is taut within the channel, so it may touch obstacles. [`PathKind::Own`]
+    /// passes through the middles of the portals and the centres of the cells: start, `Q1`, `C2`, `Q2`, ..., goal
+    /// (Latombe). [`PathKind::Middles`] omits the centres of cells that it crosses from one vertical side to the other.
     pub path: PathKind,
     /// The search method over the graph of cells.
     pub search: RoadmapSearch,
@@ -89,7 +87,7 @@ impl Planner for Trapezoid {
                 }
             }
         };
-        // Pictures of cells do not show the expansions of the default search.
+        // Pictures do not show the expansions of the default search.
         let expanded = if self.search.is_default() { Vec::new() } else { expanded };
         let (kind, cells) = (CellKind::Trapezoids, Arc::clone(&map.corners));
         let size = Size::Graph { nodes: map.decomposition.cells.len(), edges: map.decomposition.portals.len() };
@@ -107,9 +105,9 @@ impl TrapezoidMap {
         }
     }
 
-    /// Returns the path through the middles of the portals and the centres of the cells between them. If `sparing`, the
-    /// path visits a centre only if it enters and leaves the cell through the same vertical side. Without the centre,
-    /// such a path would run along that side.
+    /// Returns the path through the middles of the portals and the centres of the cells between them. If `sparing`, it
+    /// visits a centre only if it enters and leaves the cell through the same vertical side. Without the centre, it
+    /// would run along that side.
     fn middle_path(&self, channel: &Channel, sparing: bool) -> Vec<Point> {
         let mut waypoints = vec![channel.start];
         for (k, &cell_portal) in channel.portals.iter().enumerate() {
@@ -134,9 +132,8 @@ impl TrapezoidMap {
         let portals: Vec<Portal> = (0..channel.portals.len()).map(portal).collect();
         let goal = nearest_end(channel.start, &channel.goals, &portals);
         let path = turns(channel.start, goal, &portals);
-        // If a portal ends in the middle of a side, its end is rounded into free space. A taut path along the side
-        // then turns there because of rounding. An exact funnel path turns only at vertices, so these turns are
-        // removed.
+        // An end of a portal in the middle of a side is rounded into free space, so a taut path along the side turns
+        // there. An exact funnel path turns only at vertices, so these turns are removed.
         let is_vertex = |turn: &Turn| {
             let CellPortal { low, at_vertices, .. } = cell_portal(turn.portal);
             at_vertices[usize::from(turn.at != low)]
@@ -163,8 +160,8 @@ impl TrapezoidMap {
     /// Returns true if the straight line from `a` to `b` stays in the channel through these portals. Exact; linear
     /// in the number of portals.
     ///
-    /// Only portal ends that are vertices need a check. The sides between vertices are straight, and `a`, `b` and
-    /// these vertices are on their free side.
+    /// Only portal ends that are vertices need a check: the sides between vertices are straight, and `a`, `b` and these
+    /// vertices are on their free side.
     fn is_straight(&self, channel: &Channel, portals: Range<usize>, a: Point, b: Point) -> bool {
         let mut x = a.x;
         portals.map(|k| self.decomposition.portals[channel.portals[k]]).all(

@@ -1,13 +1,12 @@
 //! Shortest paths by A* over the visibility graph.
 //!
-//! `mesh` triangulates free space and follows cones of sight from triangle to triangle. Lines through vertices bound
-//! the cones, so exact predicates decide visibility. `VisibilityMap::arcs` finds the whole reduced visibility graph
-//! with them.
+//! `mesh` triangulates free space, and follows cones of lines of sight from triangle to triangle. Lines through vertices bound
+//! the cones, so exact predicates decide visibility. `VisibilityMap::arcs` thus finds the whole reduced visibility graph.
 //!
 //! A query with the default search (`polyanya`) does not need the whole graph. Its open list holds cones as well as
 //! corners, each with a lower bound on the length of paths through it. So only edges that matter to the search are
-//! found. All other searches build the whole graph. Shortest paths in any norm turn at the same corners, and only
-//! lengths and bounds differ ([`cplan_model::space::Measure`]), so one search serves all metrics.
+//! found. All other searches build the whole graph. One search serves all metrics: shortest paths turn at the same
+//! corners in any norm, and only lengths and bounds differ ([`cplan_model::space::Measure`]).
 
 mod full;
 
@@ -27,16 +26,15 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum VisibilityGraph {
-    /// The edges between convex corners of C-obstacles that are tangent at both ends. They are enough for shortest
-    /// paths.
+    /// The edges between convex corners of C-obstacles that are tangent at both ends. They suffice for shortest paths.
     #[default]
     Reduced,
-    /// All edges of the definition: between any two corners of C-obstacles that see each other.
+    /// All edges of the definition, between any two corners of C-obstacles that see each other.
     Full,
 }
 
 impl VisibilityGraph {
-    /// Both sets, in the order of the command line's help.
+    /// Both graphs, in the order of the command line's help.
     pub const ALL: [Self; 2] = [Self::Reduced, Self::Full];
 
     /// Returns the name on the command line and in results.
@@ -50,27 +48,26 @@ impl VisibilityGraph {
 
 /// The *reduced visibility graph* and A* over it: finds the shortest path in closed free space.
 ///
-/// Nodes are the convex corners of C-obstacles, the start and all copies of the goals. Edges are segments in closed
-/// free space that are tangent to the obstacle at each end that is a corner. A shortest path turns only at convex
-/// corners and only around them, so it needs no other edges (Latombe, *Robot Motion Planning*, 1991, section 4.1). A
-/// path may touch obstacles, but does not squeeze between two that touch in a corner: it is always a limit of paths
-/// in the interior of free space.
+/// Nodes are the convex corners of C-obstacles, the start and all copies of the goals. Edges are segments in closed free space
+/// that are tangent to the obstacle at each end that is a corner. A shortest path turns only at convex corners and only around
+/// them, so it needs no other edges (Latombe, *Robot Motion Planning*, 1991, section 4.1). A path may touch obstacles, but does
+/// not pass between two that touch in a corner. It is always a limit of paths in the interior of free space.
 ///
-/// Free space is triangulated (constrained Delaunay, `O(n log n)` for `n` corners and near-linear memory). The view
-/// from a corner is found by following its lines of sight from triangle to triangle, in time proportional to the
-/// triangles crossed. The default search follows them only as far as it needs to. Signs are exact, lengths rounded.
+/// Free space is triangulated (constrained Delaunay, `O(n log n)` for `n` corners and near-linear memory). To find the view from
+/// a corner, the search follows its lines of sight from triangle to triangle, in time proportional to the number of triangles
+/// crossed. The default search follows them only as far as necessary. Signs are exact, and lengths are rounded.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct Visibility {
-    /// The quantity to minimise. Among paths of equal travel time, the one with the least Euclidean length counts.
+    /// The quantity to minimise. Of paths with equal travel time, the one with the least Euclidean length is chosen.
     pub metric: Metric,
-    /// The search method. The default search builds only the part of the graph that it needs; any other search
-    /// builds the whole graph.
+    /// The search method. The default search builds only the necessary part of the graph. Any other search builds the
+    /// whole graph.
     pub search: RoadmapSearch,
     /// The set of edges. [`VisibilityGraph::Full`] is always built completely.
     pub graph: VisibilityGraph,
 }
 
-/// Triangulated free space, in which edges of the visibility graph are found.
+/// Triangulated free space, in which the edges of the visibility graph are found.
 #[derive(Debug, Clone)]
 pub struct VisibilityMap {
     mesh: Mesh,
@@ -116,8 +113,8 @@ impl VisibilityMap {
         self.mesh.corners().len()
     }
 
-    /// Returns both ends of each edge between corners of the reduced graph. Linear in the triangles that lines of
-    /// sight cross.
+    /// Returns both ends of each edge between corners of the reduced graph. Linear in the number of triangles that
+    /// lines of sight cross.
     pub fn arcs(&self) -> Vec<[Configuration; 2]> {
         let corners = self.mesh.corners();
         self.pairs().into_iter().map(|pair| pair.map(|number| corners[number as usize].at)).collect()
@@ -131,7 +128,7 @@ impl VisibilityMap {
         for (number, corner) in (0..).zip(corners) {
             checkpoint();
             let is_tangent = |other: u32| corners[other as usize].tangency(corner.at) != Tangency::None;
-            // Each edge is found from its left end, since corners are numbered from left to right.
+            // Each edge is found from its left end, because corners are numbered from left to right.
             let arc = |half_edge: u32| {
                 let other = self.mesh.corner_at(half_edge).filter(|&other| other > number && is_tangent(other))?;
                 Some([number, other])
@@ -210,7 +207,7 @@ struct Ends<'a> {
     measure: Measure,
     terminals: &'a Terminals,
     query_graph: &'a mut QueryGraph,
-    /// Half-edges that begin at vertices seen from the start; filled only while `notes` is true.
+    /// Half-edges that begin at vertices that the start sees. Filled only while `notes` is true.
     seen: Vec<u32>,
     /// True to fill `seen`.
     notes: bool,
@@ -228,7 +225,6 @@ impl Ends<'_> {
         });
     }
 
-    /// Joins a node with the visible goals in a triangle.
     fn join_goals_in_triangle(&mut self, root: NodeIndex, triangle: u32, sees: impl Fn(&Segment) -> Option<Segment>) {
         for (_, part) in self.terminals.parts_in(triangle) {
             if let Some(seen) = sees(part) {

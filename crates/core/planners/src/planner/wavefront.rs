@@ -8,26 +8,25 @@ use crate::waves::{FreeCells, Neighborhood, StepLabels, UNREACHED};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The search method on a grid. The wave begins at the goals. The other methods begin at the goals as well, or at
-/// the start if requested. A cell's label counts the moves to the cells where the search began.
+/// The search method on a grid. All methods begin at the goals; those other than the wave can also begin at the start.
+/// The label of a cell counts the moves to the cells where the search began.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSearch {
-    /// Labels all cells connected with the goals, then descends. Finds a path with the fewest moves; all moves count
-    /// alike.
+    /// Labels all cells connected with the goals, and then descends. Finds a path with the fewest moves, where diagonal
+    /// moves count as one.
     #[default]
     Wave,
     /// Breadth-first search, until it meets the start. Finds a path with the fewest moves.
     BreadthFirst,
     /// Depth-first search. Finds any path.
     DepthFirst,
-    /// Expands the cell of least cost first, where a diagonal move costs the square root of 2 straight ones. Finds a
-    /// path of least cost.
+    /// Expands the cell of least cost first. A diagonal move costs the square root of 2 straight ones. Finds a path of
+    /// least cost.
     Dijkstra,
-    /// Expands the cell with the least sum of its cost and its distance from the target first. Finds a path of least
-    /// cost.
+    /// Expands the cell with the least sum of cost and distance from the target first. Finds a path of least cost.
     AStar,
-    /// Expands the cell nearest to the target first. Finds any path, soon.
+    /// Expands the cell nearest to the target first. Finds some path fast.
     Greedy,
     /// Depth-first within a limit of moves, which grows until the search meets its target. Finds a path with the
     /// fewest moves.
@@ -59,7 +58,7 @@ impl GridSearch {
         }
     }
 
-    /// Returns the order in which cells are expanded; `None` for the wave, which labels whole levels at once.
+    /// Returns the order in which cells are expanded. `None` for the wave, which labels whole levels at once.
     pub fn order(self, ties: Ties) -> Option<Order> {
         match self {
             Self::Wave => None,
@@ -83,17 +82,17 @@ impl fmt::Display for GridSearch {
 /// Moves lead to cells that share a side, or also to those that share a corner. With the default settings the result
 /// is a path of cells that is shortest in the `L1` metric (Latombe 1991, the navigation function in that metric).
 ///
-/// Linear in the number of cells. Dijkstra and A\* need an additional logarithmic factor, for the cells that they
-/// visit; iterative deepening needs an additional factor, the number of moves. Every search is complete on the grid:
-/// if no path is found, there is none between the cells. A diagonal move needs both cells beside it free, so eight
-/// neighbours connect no more cells than four.
+/// Linear in the number of cells. Dijkstra and A\* take an additional logarithmic factor for the cells that they visit,
+/// and iterative deepening takes an additional factor, the number of moves. Every search is complete on the grid: if it
+/// finds no path, none exists between the cells. A diagonal move is allowed only if both cells beside it are free, so
+/// eight neighbours connect no more cells than four.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wavefront {
     /// The search method for cells.
     pub search: GridSearch,
-    /// The rule by which A\* chooses among cells of equal estimate.
+    /// The rule by which A\* chooses among cells with equal estimates.
     pub ties: Ties,
-    /// True to search from the start to a goal; false to search from the goals to the start. The wave ignores it.
+    /// True to search from the start to a goal. False to search from the goals to the start. Ignored by the wave.
     pub forward: bool,
     /// The neighbours to which a move may lead.
     pub neighborhood: Neighborhood,
@@ -139,8 +138,8 @@ impl Planner for Wavefront {
 }
 
 impl Wavefront {
-    /// Returns the cells of a path, the record of the search, and the number of cells visited. The path begins at
-    /// the nearest cell of the start that is connected with a goal; it is `None` if there is no such cell.
+    /// Returns the cells of a path, the record of the search, and the number of visited cells. The path begins at the
+    /// nearest cell of the start that is connected with a goal. `None` without such a cell.
     fn cells(&self, map: &FreeCells, joined: &JoinedQuery) -> (Option<Vec<usize>>, Trace, Size) {
         let sources = joined.sources();
         let Some(order) = self.search.order(self.ties) else {
@@ -170,16 +169,16 @@ impl Wavefront {
         (cells, trace, size)
     }
 
-    /// Returns the cells of a path, found by a search that begins at the goals.
+    /// Returns the cells of a path by a search that begins at the goals.
     fn search_backward(&self, map: &FreeCells, joined: &JoinedQuery, order: Order) -> (Option<Vec<usize>>, Search) {
-        // A search that does not meet its target has labelled all cells that are connected with a goal. Other cells
-        // of the start may be among them.
+        // A search that does not meet its target has labelled all cells that are connected with a goal. These may
+        // include another cell of the start.
         let search = Search::new(map, self.neighborhood, order, &joined.sources(), joined.start.cells[0]);
         (joined.start.cells.iter().find_map(|&cell| search.path_back(cell)), search)
     }
 
-    /// Returns the cells of a path, found by a search that begins at the nearest cell of the start that is connected
-    /// with a goal. If no cell is connected, the search from the nearest one is returned.
+    /// Returns the cells of a path by a search that begins at the nearest cell of the start that is connected with a
+    /// goal. If there is none, returns the search from the nearest cell.
     fn search_forward(&self, map: &FreeCells, joined: &JoinedQuery, order: Order) -> (Option<Vec<usize>>, Search) {
         let goals = joined.sources();
         let from = |&cell: &usize| Search::to_any(map, self.neighborhood, order, &[cell], &goals);

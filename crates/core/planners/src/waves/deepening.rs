@@ -1,18 +1,16 @@
 //! Iterative deepening (Korf 1985): depth-first search within a limit, repeated with greater limits.
 //!
-//! The textbook search keeps no table. It expands a cell once for each path to the cell, which takes exponential
-//! time on a grid. Here each round expands a cell at most once, at its least number of moves, which previous rounds
-//! have found.
+//! The textbook search has no table, and expands a cell once for each path to it. On a grid, this takes exponential time. Here,
+//! each round expands a cell at most once, at its least number of moves, which is known from previous rounds.
 
 use super::search::{CELLS_BETWEEN_CHECKPOINTS, Cost, Search};
 use super::{FreeCells, Neighborhood, UNREACHED};
 use cplan_interrupt::checkpoint;
 use std::collections::BTreeSet;
 
-/// Searches from `sources`, which are labelled already, in rounds with increasing limits, until a round expands a
-/// target or labels no new cell. Each round expands the cells within its limit of moves, each once, so its time is
-/// linear in their number. All rounds together take time proportional to the number of cells times the number of moves
-/// to the target.
+/// Searches from `sources`, which are already labelled, in rounds with increasing limits of moves, until a round
+/// expands a target or labels no new cell. A round expands each cell within its limit once. All rounds together take
+/// time proportional to the number of cells times the number of moves to the target.
 pub(super) fn deepen(
     search: &mut Search,
     free: &FreeCells,
@@ -34,7 +32,7 @@ pub(super) fn deepen(
                 checkpoint();
             }
             let depth = search.costs[cell].moves();
-            // A cell at the limit is expanded for the first time. Nearer cells were expanded in the previous round.
+            // Cells at the limit are expanded for the first time. Nearer ones were expanded in the previous round.
             if depth == limit {
                 search.expanded.push(cell as u32);
             }

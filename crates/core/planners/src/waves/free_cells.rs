@@ -10,8 +10,8 @@ pub enum Neighborhood {
     /// Cells that share a side.
     #[default]
     Four,
-    /// Cells that share a side or a corner. A diagonal move needs both adjacent cells free. It passes through the
-    /// corner that all four cells share, and touching a blocked cell is contact.
+    /// Cells that share a side or a corner. A diagonal move passes through a corner that four cells share. The other
+    /// two of these must be free, because touching a blocked cell is contact.
     Eight,
 }
 
@@ -69,7 +69,7 @@ impl FreeCells {
         self.cells
     }
 
-    /// Returns, for each axis, true if its last row or column borders on the first.
+    /// Returns true for each axis whose last row or column is next to the first.
     pub fn circles(&self) -> [bool; 2] {
         self.circles
     }
@@ -108,7 +108,7 @@ impl FreeCells {
         moves(straight, false).chain(moves(diagonals, true))
     }
 
-    /// Returns the rows or columns before and after number `at`. Returns `None` for one that lies beyond a limit.
+    /// Returns the previous and the next row or column of number `at`. `None` beyond a limit.
     pub(super) fn adjacent_lines(&self, axis: usize, at: usize) -> [Option<usize>; 2] {
         let (last, is_circle) = (self.cells[axis] - 1, self.circles[axis]);
         let before = if at > 0 { Some(at - 1) } else { is_circle.then_some(last) };
@@ -116,7 +116,6 @@ impl FreeCells {
         [before, after]
     }
 
-    /// Returns the number of words per row.
     pub(super) fn words(&self) -> usize {
         self.words
     }
@@ -147,8 +146,8 @@ impl FreeCells {
         runs
     }
 
-    /// Returns the first column from `from` to before `to` that is free (or blocked, if `free` is false). Returns `to`
-    /// if there is none.
+    /// Returns the first free column from `from` to before `to`, or the first blocked one if `free` is false. `to` if
+    /// there is none.
     pub(super) fn next(&self, i: usize, from: usize, to: usize, free: bool) -> usize {
         if from >= to {
             return to;
@@ -166,8 +165,7 @@ impl FreeCells {
         to
     }
 
-    /// Returns the first column of the free run that ends before column `end`. Returns `end` if the cell before is
-    /// blocked.
+    /// Returns the first column of the free run that ends before column `end`. `end` if the previous cell is blocked.
     pub(super) fn run_start(&self, i: usize, end: usize) -> usize {
         let line = self.row(i);
         let mut start = end;

@@ -1,8 +1,7 @@
 //! Waves and other classical searches over the free cells of a grid.
 //!
-//! There are three waves. `run_wave` proceeds by rows, and is fast if free cells form long runs. `tile_wave`
-//! proceeds by tiles of 8 x 8 cells, one bit each, and is fast in mazes and noise. `queue_wave` proceeds cell by
-//! cell, if diagonal moves count.
+//! There are three waves. `run_wave` proceeds by rows, and is fast if free cells form long runs. `tile_wave` proceeds by tiles
+//! of 8 x 8 cells, one bit each, and is fast in mazes and noise. `queue_wave`, for diagonal moves, proceeds cell by cell.
 
 mod deepening;
 mod free_cells;

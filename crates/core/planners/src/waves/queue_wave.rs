@@ -6,9 +6,8 @@ use cplan_interrupt::checkpoint;
 /// Labels every cell that a wave from `sources` (free cells) reaches with the number of moves to it, and all others
 /// with [`UNREACHED`]. Moves lead to cells that share a side or a corner.
 ///
-/// Bits mark the cells that are not reached yet, and each label is written once. To visit a neighbour takes no
-/// branch: the neighbour is always written to the end of the next front, but the front becomes longer only if the
-/// cell was not reached before.
+/// Bits mark the cells that are not reached yet, and each label is written once. Visiting a neighbour needs no branch:
+/// it is always written to the end of the next front, but the front grows only if the cell was not reached before.
 pub(super) fn queue_wave_of_eight(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
     let [rows, columns] = free.cells();
     let mut labels = vec![UNREACHED; rows * columns];
@@ -48,7 +47,7 @@ fn advance(
 ) -> usize {
     let ([rows, columns], words) = (free.cells(), free.words());
     let mut reached = 0;
-    // Writes a cell if `allowed` is 1 and the cell is not reached yet; `allowed` is 0 or 1.
+    // Writes a cell if `allowed` is 1 and the cell is not reached yet. `allowed` is 0 or 1.
     let mut reach = |i: usize, j: usize, allowed: u64| {
         let word = &mut waiting[i * words + j / 64];
         let is_new = *word >> (j % 64) & allowed;

@@ -4,36 +4,34 @@ use super::{FreeCells, UNREACHED};
 use cplan_geometry::farthest;
 use std::ops::Range;
 
-/// Number of levels per bucket of waiting stretches. The last stretch of a bucket is taken first, while the row from
-/// which it came is still in the cache. With more levels per bucket, more labels are too great at first and must be
-/// written again.
+/// Number of levels per bucket of waiting stretches. The last stretch of a bucket is taken first, while its row of origin is
+/// still in the cache. With more levels per bucket, more labels are too great initially and must be written again.
 const LEVELS_PER_BUCKET: usize = 16;
 
-/// Cost of handling a stretch besides copying its cells, in cells (measured; about 100 ns).
+/// Cost of handling a stretch in addition to copying its cells, in cells (about 100 ns, measured).
 const STRETCH_COST: usize = 64;
 
-/// Greatest work, in cells, as a multiple of the number of cells. A wave that proceeds cell by cell would be finished
-/// by then, so the method gives up.
+/// Greatest work, in cells, per cell of the grid. A wave that proceeds cell by cell would be finished by then, so the
+/// method gives up.
 const MAX_WORK_PER_CELL: usize = 5;
 
 /// Labels every cell that a wave from `sources` (free cells) reaches over shared sides with the number of moves to
 /// it, and all others with [`UNREACHED`]. Returns `None` if the method turns out to be slow.
 ///
-/// In each row, labels of neighbouring free cells differ by at most one. A stretch of a row is passed on to the next
-/// row: its labels plus one are written there wherever that is less. The next row keeps the property, except at the
-/// ends of the stretch. From there the labels increase by one per cell until they meet smaller ones, or a wall. Both
-/// steps are loops without branches over plain arrays.
+/// In each row, labels of neighbouring free cells differ by at most one. Passing on a stretch of a row means that its
+/// labels plus one are written to the next row wherever that is less. In the next row, labels of neighbours then also
+/// differ by at most one, except at the ends of the stretch. From these ends, labels that increase by one per cell are
+/// written until they meet smaller ones, or a wall. Both steps are loops without branches over plain arrays.
 ///
-/// The changed stretch of a row is passed on to the next rows in turn, least labels first. A stretch may reach
-/// beyond its least label, so a shorter path corrects some labels later. When no stretch waits, no label exceeds a
-/// neighbour's by more than one. Such labels are the distances, whatever the order was.
+/// The changed stretch of a row is passed on in turn, least labels first. A stretch also has greater labels than its
+/// least one, so a shorter path corrects some of them later. When no stretch waits, no label exceeds a neighbour's by
+/// more than one. Then the labels are the distances, whatever the order was.
 pub(super) fn run_wave(free: &FreeCells, sources: &[usize]) -> Option<Vec<u32>> {
     let [rows, columns] = free.cells();
     let mut labels = vec![UNREACHED; rows * columns];
     let most = MAX_WORK_PER_CELL.saturating_mul(labels.len().max(STRETCH_COST));
     let mut wave = RunWave { free, labels: &mut labels, queue: Queue::new(columns), work: 0 };
-    // The sources are added one after the other, so rows keep the property that neighbouring labels differ by at
-    // most one.
+    // The sources are added one by one, so that labels of neighbours in a row always differ by at most one.
     for &source in sources {
         wave.labels[source] = 0;
         let (row, column) = (source / columns, source % columns);
@@ -99,7 +97,7 @@ impl RunWave<'_> {
     fn pass_on(&mut self, stretch: &Stretch, to: usize, rows: AffectedRows) {
         let (from, columns) = (stretch.row, self.free.cells()[1]);
         self.work += STRETCH_COST;
-        // The circle has only one row.
+        // A circle with only one row.
         if from == to {
             return;
         }
@@ -115,8 +113,7 @@ impl RunWave<'_> {
             let Some((improved, least)) = improve(source, target) else { continue };
             let (first, last) = (start + improved.start, start + improved.end);
             let mut changed = first..last;
-            // The changed run may reach behind blocked cells of the row that it came from, so it is passed back as
-            // well.
+            // The changed run may extend behind blocked cells of the row of origin, so it is passed back, too.
             if first == start {
                 let value = self.labels[to * columns + first] + 1;
                 changed.start = self.spread(to, first, Side::Before, value, rows.opposite());
@@ -129,9 +126,8 @@ impl RunWave<'_> {
         }
     }
 
-    /// Writes `value`, `value + 1`, ... to a row from `edge` to one side, while that lowers the labels. Queues the
-    /// changes for `rows`, and those beyond a seam for both rows. Returns the end of the change on this side of the
-    /// seam.
+    /// Writes `value`, `value + 1`, ... to a row from `edge` towards one side, while that lowers the labels. Queues the changes
+    /// for `rows`, and those beyond a seam for both neighbouring rows. Returns the end of the change before the seam.
     fn spread(&mut self, row: usize, edge: usize, side: Side, value: u32, rows: AffectedRows) -> usize {
         let columns = self.free.cells()[1];
         let limit = if side == Side::Before { 0 } else { columns };
@@ -142,8 +138,7 @@ impl RunWave<'_> {
         here
     }
 
-    /// Does the same as [`Self::spread`], but stops at a limit or at the seam. Returns the end of the change and the
-    /// next value.
+    /// Like [`Self::spread`], but stops at a limit or at the seam. Returns the end of the change, and the next value.
     fn rise(&mut self, row: usize, edge: usize, side: Side, value: u32, rows: AffectedRows) -> (usize, u32) {
         let columns = self.free.cells()[1];
         let run = match side {
@@ -173,8 +168,7 @@ impl RunWave<'_> {
     }
 }
 
-/// Returns the same columns of two different rows, which start at `at`: the first for reading, the second for
-/// writing.
+/// Returns the same columns of two different rows that start at `at`: the first for reading, the second for writing.
 fn two_rows<'a>(labels: &'a mut [u32], at: [usize; 2], columns: &Range<usize>) -> (&'a [u32], &'a mut [u32]) {
     let (low, high) = labels.split_at_mut(at[0].max(at[1]));
     let low_line = |at: usize| at + columns.start..at + columns.end;
@@ -199,8 +193,8 @@ fn improve(source: &[u32], target: &mut [u32]) -> Option<(Range<usize>, u32)> {
     Some((first..last + 1, least))
 }
 
-/// Returns how many of the first `length` numbers satisfy a condition. If a number does not satisfy it, all later
-/// ones must not satisfy it either.
+/// Returns how many of the first `length` numbers satisfy a condition. No number after one that does not satisfy it may
+/// satisfy it.
 fn prefix(length: usize, condition: impl Fn(usize) -> bool) -> usize {
     if length == 0 || condition(length - 1) {
         return length;
@@ -208,23 +202,23 @@ fn prefix(length: usize, condition: impl Fn(usize) -> bool) -> usize {
     farthest(0, length - 1, |count| condition(count - 1))
 }
 
-/// The waiting stretches, sorted by their least label into a ring of buckets.
+/// The waiting stretches, in a ring of buckets by their least label.
 struct Queue {
     buckets: Vec<Vec<Stretch>>,
-    /// Number of the current bucket. It increases without end; the position in the ring is its remainder.
+    /// Number of the current bucket. It increases without limit. The position in the ring is its remainder.
     current: usize,
     waiting: usize,
 }
 
 impl Queue {
-    /// Creates the queue for rows of `columns` cells. A stretch is at most as long as a row, and its labels increase
-    /// by at most one per cell. That bounds how far labels can be ahead of the current ones.
+    /// Creates the queue for rows of `columns` cells. A stretch is at most as long as a row, and its labels increase by
+    /// at most one per cell. This limits how far labels can be ahead of the current ones.
     fn new(columns: usize) -> Self {
         Self { buckets: vec![Vec::new(); columns / LEVELS_PER_BUCKET + 3], current: 0, waiting: 0 }
     }
 
-    /// Queues a stretch by its least label. A label below the current ones, or too far ahead, is queued out of
-    /// order, which only costs time.
+    /// Queues a stretch by its least label. Labels below the current ones, or too far ahead, are queued out of order,
+    /// which costs only time.
     fn push(&mut self, label: u32, stretch: Stretch) {
         let ring = self.buckets.len();
         let bucket = (label as usize / LEVELS_PER_BUCKET).clamp(self.current, self.current + ring - 1);

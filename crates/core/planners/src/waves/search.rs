@@ -12,7 +12,7 @@ use std::cmp::Reverse;
 use std::collections::{BTreeSet, VecDeque};
 use std::f64::consts::SQRT_2;
 
-/// The order in which cells are expanded. All searches are one algorithm with different lists of waiting cells.
+/// The order in which cells are expanded. All searches are the same algorithm with different lists of waiting cells.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Order {
     /// The cell that was found first. Finds a path with the fewest moves.
@@ -21,13 +21,13 @@ pub enum Order {
     DepthFirst,
     /// The cell of least cost. Finds a shortest path.
     Dijkstra,
-    /// The cell with the least sum of cost and estimated remaining cost. Finds a shortest path, usually sooner than
+    /// The cell with the least sum of cost and estimated remaining cost. Finds a shortest path, usually faster than
     /// Dijkstra's algorithm. The estimate is the cost without obstacles, so no cell is expanded twice.
     AStar(Ties),
-    /// The cell with the least estimated remaining cost; the latest if several are equal. Finds any path.
+    /// The cell with the least estimated remaining cost, and of equal ones the latest. Finds some path.
     Greedy,
-    /// Depth-first search within a limit of moves, repeated with a limit of one more move until it meets a target.
-    /// Finds a path with the fewest moves.
+    /// Depth-first search within a limit of moves. The limit grows by one until the search meets a target. Finds a path
+    /// with the fewest moves.
     IterativeDeepening,
 }
 
@@ -42,10 +42,10 @@ impl Order {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Ties {
-    /// The cell farther from the source; the latest if several are equal. The search continues straight ahead.
+    /// The cell farther from the source, and of equal ones the latest. The search continues straight ahead.
     #[default]
     Farthest,
-    /// The cell that was added first. Cells of equal estimate are expanded in rounds, one step at a time.
+    /// The cell that was added first. Cells with equal estimates are expanded in rounds, one step at a time.
     First,
 }
 
@@ -64,8 +64,8 @@ impl Ties {
     }
 }
 
-/// Cost of a path from cell to cell: 1 for a straight move and the square root of 2 for a diagonal one, whatever the
-/// size of cells in joint space. It is stored as two integers, so it is exact.
+/// Cost of a path from cell to cell: 1 for a straight move, and the square root of 2 for a diagonal one, whatever the
+/// sizes of cells in joint space. Two integers store it exactly.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct Cost {
     /// Number of straight moves.
@@ -75,8 +75,7 @@ pub struct Cost {
 }
 
 impl Cost {
-    /// Returns the cost as a number. Below about 10^7 moves, different costs give different numbers, in the right
-    /// order.
+    /// Returns the cost as a number. Below about 10^7 moves, different costs give different numbers in the right order.
     pub fn value(self) -> f64 {
         f64::from(self.straight) + SQRT_2 * f64::from(self.diagonal)
     }
@@ -112,8 +111,7 @@ impl Estimates {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Search {
     pub(super) costs: Vec<Cost>,
-    /// For each cell, the cell from which it was labelled. Sources have themselves, cells without a label
-    /// [`UNREACHED`].
+    /// For each cell, the cell from which it was labelled. Sources have themselves. Cells without a label have [`UNREACHED`].
     pub(super) parents: Vec<u32>,
     /// The cells that were expanded, each once, in the order of their first expansion.
     pub expanded: Vec<u32>,
@@ -123,7 +121,7 @@ pub struct Search {
     pub met: Option<usize>,
     /// Number of rounds: 1, except for iterative deepening.
     pub rounds: usize,
-    /// Number of expansions in all rounds together. A cell may count several times.
+    /// Number of expansions in all rounds together. Repeated expansions of a cell count.
     pub expansions: usize,
 }
 
@@ -134,15 +132,15 @@ impl Search {
     /// Searches from all free cells among `sources` at once, until `target` or all reachable cells have been
     /// expanded.
     ///
-    /// Breadth-first, depth-first and greedy search label a cell once, when they first reach it. The others lower
-    /// the cost of a cell until it is expanded. Linear in the number of labelled cells, for Dijkstra and A\* times
-    /// the logarithm of that number. In addition, tables are filled in time linear in the size of the grid.
+    /// Breadth-first, depth-first and greedy search label a cell only once, when they first reach it. The others lower
+    /// the cost of a cell until it is expanded. Takes time linear in the number of labelled cells, for Dijkstra and A\*
+    /// times the logarithm of that number. Filling the tables takes time linear in the size of the grid.
     pub fn new(free: &FreeCells, neighborhood: Neighborhood, order: Order, sources: &[usize], target: usize) -> Self {
         Self::to_any(free, neighborhood, order, sources, &[target])
     }
 
-    /// Does the same as [`Search::new`] until one of several targets is expanded. The estimate is that of the
-    /// nearest target, and takes time proportional to the number of targets.
+    /// Like [`Search::new`], until one of several targets is expanded. The estimate is that of the nearest target, and
+    /// takes time proportional to the number of targets.
     pub fn to_any(
         free: &FreeCells,
         neighborhood: Neighborhood,
@@ -163,7 +161,7 @@ impl Search {
             open.push(source, Cost::default(), estimate(source));
         }
         while let Some((cell, cost)) = open.pop() {
-            // The cell was reached at a lower cost later, so this entry is obsolete.
+            // The cell was reached at a lower cost since, so this entry is obsolete.
             if cost != search.costs[cell] {
                 continue;
             }
@@ -207,15 +205,13 @@ impl Search {
         (Self { costs, parents, expanded: Vec::new(), labeled, met: None, rounds: 1, expansions: 0 }, begins)
     }
 
-    /// Returns the cost of the path by which `cell` was reached; `None` if it was not reached. For cells that
-    /// Dijkstra or A\* has expanded it is the least cost. After a breadth-first search the path has the fewest
-    /// moves.
+    /// Returns the cost of the path by which `cell` was reached; `None` if it was not reached. For cells that Dijkstra
+    /// or A\* has expanded, it is the least cost. After a breadth-first search, the path has the fewest moves.
     pub fn cost(&self, cell: usize) -> Option<Cost> {
         (self.parents[cell] != UNREACHED).then(|| self.costs[cell])
     }
 
-    /// Returns, for each cell, the number of moves on the path by which it was reached. It is [`UNREACHED`] for cells
-    /// that were not reached.
+    /// Returns, for each cell, the number of moves on the path by which it was reached, or [`UNREACHED`].
     pub fn labels(&self) -> Vec<u32> {
         let label = |(cost, &parent): (&Cost, &u32)| if parent == UNREACHED { UNREACHED } else { cost.moves() };
         self.costs.iter().zip(&self.parents).map(label).collect()
@@ -251,7 +247,7 @@ fn straight_cost(free: &FreeCells, neighborhood: Neighborhood, from: usize, to: 
     }
 }
 
-/// The keys that break ties between waiting cells of equal estimate, followed by the cell and its cost.
+/// The keys that break ties between waiting cells with equal estimates, followed by the cell and its cost.
 type WaitingCell = (Reverse<OrderedF64>, Reverse<u64>, usize, [u32; 2]);
 
 /// The list of cells that wait for expansion.
@@ -260,8 +256,7 @@ enum OpenCells {
     Stack(Vec<(usize, Cost)>),
     /// The cell of least estimate first. The number counts the cells that were added.
     Least(OpenList<WaitingCell>, Ties, u64),
-    /// The cell of least remaining cost comes first. If several are equal, the latest comes first. The number counts
-    /// the cells that were added.
+    /// The cell of least remaining cost comes first, and of equal ones the latest. The number counts the cells that were added.
     Nearest(OpenList<WaitingCell>, u64),
 }
 

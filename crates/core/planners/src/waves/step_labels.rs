@@ -5,8 +5,7 @@ use super::run_wave::run_wave;
 use super::tile_wave::tile_wave;
 use super::{FreeCells, Neighborhood, UNREACHED};
 
-/// Mean length of runs of free cells, in cells, above which the wave proceeds by runs. In narrower mazes and in
-/// noise, tiles are faster.
+/// Mean length of runs of free cells above which the wave proceeds by runs. In narrower mazes and in noise, tiles are faster.
 const MIN_MEAN_RUN: usize = 40;
 
 /// The least number of moves from each cell to a source. Its level sets are the fronts of a wave; Latombe (1991)
@@ -22,8 +21,8 @@ impl StepLabels {
     /// counts as one step. With four neighbours labels are distances in the `L1` metric, with eight in the maximum
     /// metric.
     ///
-    /// Linear in the number of cells. With four neighbours it takes about 2 to 6 ns per cell if free cells form long
-    /// runs, mostly to allocate the memory. Otherwise it takes about as long as a plain queue.
+    /// Linear in the number of cells. With four neighbours and long runs of free cells, it takes about 2 to 6 ns per
+    /// cell, mostly to allocate the memory. Otherwise it takes about as long as a plain queue.
     pub fn new(free: &FreeCells, sources: &[usize], neighborhood: Neighborhood) -> Self {
         let sources: Vec<usize> = sources.iter().copied().filter(|&source| free.is_free(source)).collect();
         let labels = match neighborhood {
@@ -34,7 +33,7 @@ impl StepLabels {
         Self { neighborhood, labels }
     }
 
-    /// Returns the label of each cell of the grid; [`UNREACHED`] for cells that are blocked or not connected.
+    /// Returns the label of each cell of the grid, or [`UNREACHED`] for cells that are blocked or not connected.
     pub fn labels(&self) -> &[u32] {
         &self.labels
     }
@@ -56,9 +55,9 @@ impl StepLabels {
         labels.max().map_or(0, |&label| label as usize + 1)
     }
 
-    /// Returns the cells of a path with the fewest moves from `index` to a source. It always goes to the neighbour
-    /// with the least label, to the first one if several are equal, so straight moves come before diagonal ones.
-    /// Returns `None` if the wave did not reach `index`.
+    /// Returns the cells of a path with the fewest moves from `index` to a source. It always continues to the neighbour
+    /// with the least label, and of equal ones to the first, so straight moves precede diagonal ones. `None` if the
+    /// wave did not reach `index`.
     pub fn descend(&self, free: &FreeCells, index: usize) -> Option<Vec<usize>> {
         let mut label = self.labels[index];
         if label == UNREACHED {

@@ -1,4 +1,4 @@
-//! The wave over four neighbours, which proceeds by tiles of cells that fit in a word.
+//! The wave over four neighbours that proceeds by tiles of cells. Each tile fits in a word.
 
 use super::{FreeCells, UNREACHED};
 use std::collections::VecDeque;
@@ -15,8 +15,8 @@ const FIRST_COLUMN: u64 = 0x0101_0101_0101_0101;
 /// Labels every cell that a wave from `sources` (free cells) reaches over shared sides with the number of moves to
 /// it, and all others with [`UNREACHED`].
 ///
-/// Cells that wait to be reached are stored as one bit each, so one step within a tile takes a few shifts of words.
-/// Labels take much more memory, but each is written once and never read.
+/// Each cell that is not reached yet is one bit, so a step within a tile takes a few shifts of words. Labels take much
+/// more memory, but each is written once and never read.
 pub(super) fn tile_wave(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
     let [rows, columns] = free.cells();
     let mut labels = vec![UNREACHED; rows * columns];
@@ -43,8 +43,7 @@ pub(super) fn tile_wave(free: &FreeCells, sources: &[usize]) -> Vec<u32> {
 struct Tile {
     /// Free cells that the wave has not reached.
     waiting: u64,
-    /// Cells that the wave has reached but not left. One list has the cells of even levels, the other those of odd
-    /// levels.
+    /// Cells that the wave has reached but not left. One list has the cells of even levels, the other one those of odd levels.
     front: [u64; 2],
     /// Index of the tile's first cell in the grid.
     corner: u32,
@@ -56,10 +55,10 @@ struct TileWave {
     tiles: Vec<Tile>,
     /// Number of tiles per row.
     across: usize,
-    /// Tiles with cells in the front, and the level of these cells. Levels are in order, and there are never more
-    /// than two.
+    /// Tiles with cells in the front, and the level of these cells. Levels are in order, and there are at most two
+    /// different ones.
     queue: VecDeque<[u32; 2]>,
-    /// For each axis, true if its last row or column borders on the first.
+    /// True for each axis whose last row or column is next to the first.
     circles: [bool; 2],
     /// Position of the grid's last row and column within its tile.
     last: [usize; 2],
@@ -84,7 +83,7 @@ impl TileWave {
         Self { tiles, across, queue: VecDeque::new(), circles: free.circles(), last }
     }
 
-    /// Adds those of `cells` that wait to the tile's front.
+    /// Adds those of `cells` that are not reached yet to the tile's front.
     #[inline(always)]
     fn enter(&mut self, level: u32, tile: usize, cells: u64) {
         let at = &mut self.tiles[tile];

@@ -1,4 +1,4 @@
-//! Cones of lines of sight, which cross the triangulation from edge to edge.
+//! Cones of lines of sight that cross the triangulation from edge to edge.
 
 use super::corners::{Corner, Tangency};
 use super::{Mesh, next, previous};
@@ -27,7 +27,7 @@ impl Bound {
     }
 }
 
-/// All rays from a root between a ray to the `right` and one to the `left`. The angle between the two is positive
+/// All rays from a root between a ray to the `right` and a ray to the `left`. The angle between these two is positive
 /// and less than half a turn. The rays leave a triangle through the half-edge `edge`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Cone {
@@ -45,13 +45,12 @@ impl Cone {
         self.right.is_forward() || self.left.is_forward()
     }
 
-    /// Returns true if `p` lies on one of the rays, or on a ray extended backwards beyond the root.
+    /// Returns true if `p` lies on one of the rays, or on a ray's extension backwards beyond the root.
     fn is_on_ray(&self, p: Point) -> bool {
         self.right.side(p) != Orientation::Clockwise && self.left.side(p) != Orientation::CounterClockwise
     }
 
-    /// Returns the part of a segment that lies on the rays or on their extensions backwards; `None` if there is none.
-    /// Exact for a point.
+    /// Returns the part of a segment on the rays or their extensions backwards. `None` if there is none. Exact for a point.
     pub fn part(&self, segment: &Segment) -> Option<Segment> {
         if segment.is_point() {
             return self.is_on_ray(segment.ends()[0]).then_some(*segment);
@@ -63,9 +62,9 @@ impl Cone {
 /// The crossing of a cone and the triangle beyond its edge.
 #[derive(Debug, Clone, Copy)]
 pub struct Crossing {
-    /// The half-edge of the triangle by which the cone enters it.
+    /// The half-edge of the triangle through which the cone enters.
     pub entry: u32,
-    /// The half-edge that begins at the corner opposite the entry; `None` if the root does not see that corner.
+    /// The half-edge that begins at the corner opposite the entry. `None` if the root does not see that corner.
     pub seen: Option<u32>,
     /// The cone or cones that leave the triangle.
     pub beyond: ConeContinuation,
@@ -74,7 +73,7 @@ pub struct Crossing {
 /// The continuation of a cone beyond a triangle.
 #[derive(Debug, Clone, Copy)]
 pub enum ConeContinuation {
-    /// The whole cone leaves through this half-edge, to one side of the corner opposite the entry.
+    /// The whole cone leaves through this half-edge, on one side of the corner opposite the entry.
     Through(u32),
     /// The corner lies on a bound of the cone, and the cone continues on one side of it.
     One(Cone),
@@ -82,12 +81,12 @@ pub enum ConeContinuation {
     Two(Cone, Cone),
 }
 
-/// The view from a root through one edge of a triangle that has the root as a corner or contains it.
+/// The view from a root through one edge of a triangle that contains the root or has it as a corner.
 #[derive(Debug, Clone, Copy)]
 pub struct Successor {
     /// The cone through the edge.
     pub cone: Cone,
-    /// For the right and the left end of the edge, the half-edge that begins there; `None` if the end is not seen.
+    /// Half-edges that begin at the right and the left end of the edge. `None` for an end that is not seen.
     pub seen: [Option<u32>; 2],
 }
 
@@ -96,13 +95,13 @@ pub struct Successor {
 pub enum ViewDirections {
     /// All directions of free space.
     Around,
-    /// The directions from a ray to the right to one to the left, less than half a turn apart.
+    /// The directions between a ray to the right and one to the left, less than half a turn apart.
     Between(Bound, Bound),
 }
 
 impl Corner {
-    /// Returns the directions in which a shortest path that comes from `p` may continue after a turn at this corner.
-    /// They range from straight ahead to along the obstacle. Returns `None` if the line from `p` enters the obstacle.
+    /// Returns the directions in which a shortest path from `p` may continue after this corner, from straight ahead to
+    /// along the obstacle. `None` if the line from `p` enters the obstacle.
     pub fn directions_after_turn(&self, p: Point) -> Option<ViewDirections> {
         let ahead = Bound { from: p, to: self.at };
         match self.tangency(p) {
@@ -208,13 +207,12 @@ impl Mesh {
         }
     }
 
-    /// Returns the view from a corner through the triangles around it, from right to left. Each end of an edge is
-    /// reported once.
+    /// Returns the view from a corner through the triangles around it, from right to left. Each end of an edge occurs once.
     pub fn successors(&self, corner: &Corner, gaze: ViewDirections) -> impl Iterator<Item = Successor> + '_ {
         let root = corner.at;
         let mut spoke = Some(corner.first);
         let mut last_seen = None;
-        // If the two rays coincide, nothing new is visible between them.
+        // Between two rays that coincide, nothing new is visible.
         if let ViewDirections::Between(right, left) = gaze
             && !is_left_of(right, left, root)
         {
@@ -268,11 +266,11 @@ impl Mesh {
     }
 }
 
-/// Returns true if the ray `left` from `root` is strictly to the left of the ray `right`. The angle between them
-/// must be less than half a turn.
+/// Returns true if the ray `left` from `root` is strictly to the left of the ray `right`. The angle between them must
+/// be less than half a turn.
 fn is_left_of(right: Bound, left: Bound, root: Point) -> bool {
     if left.to == root {
-        // This ray's line goes through the root at its end, so look at its other point, and reverse the sign.
+        // The root is at the end of this ray's line, so test its other point, and reverse the sign.
         right.side(left.from) == Orientation::Clockwise
     } else {
         right.side(left.to) == Orientation::CounterClockwise

@@ -5,7 +5,7 @@ use crate::planner::NO_ENTRY;
 use cplan_geometry::planar::HalfEdges;
 use cplan_geometry::{Orientation, Point, orientation};
 
-/// A convex corner of an obstacle: a vertex, with a sector of free space of more than half a turn. A vertex where
+/// A convex corner of an obstacle: a vertex with a sector of free space of more than half a turn. A vertex where
 /// obstacles touch can have several sectors, and so several corners.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Corner {
@@ -19,7 +19,7 @@ pub struct Corner {
     pub first: u32,
 }
 
-/// The position of the obstacle at a corner relative to the line from another point to that corner.
+/// The side of a line on which the obstacle at a corner lies. The line leads from another point to that corner.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Tangency {
     /// The line enters the obstacle, so no shortest path turns here.
@@ -49,8 +49,7 @@ impl Corner {
 #[derive(Debug, Clone)]
 pub struct Corners {
     pub list: Vec<Corner>,
-    /// For each half-edge, the index of the corner at its origin; `NO_ENTRY` if the sector there is at most half a
-    /// turn.
+    /// For each half-edge, the index of the corner at its origin. `NO_ENTRY` if the sector there is at most half a turn.
     pub of_half_edge: Vec<u32>,
 }
 
@@ -60,7 +59,7 @@ impl Corners {
         let at = |h: u32| vertices[edges.origin[h as usize] as usize];
         let mut list = Vec::new();
         let mut of_half_edge = vec![NO_ENTRY; edges.origin.len()];
-        // Sort by vertices, so that neighbouring corners are close in memory.
+        // Sorted by vertices, neighbouring corners are close in memory.
         let mut sides: Vec<u32> =
             (0..edges.origin.len() as u32).filter(|&h| edges.twin[h as usize] == NO_ENTRY).collect();
         sides.sort_by_key(|&h| edges.origin[h as usize]);
@@ -92,8 +91,7 @@ fn is_convex(corner: &Corner) -> bool {
     match orientation(corner.at, corner.right, corner.left) {
         Orientation::CounterClockwise => false,
         Orientation::Clockwise => true,
-        // A sector has positive width. So sides in the same direction enclose a whole turn, at the end of a wall
-        // without width.
+        // A sector has positive width. So sides in the same direction enclose a whole turn, at the end of a wall without width.
         Orientation::Collinear => (corner.right - corner.at).dot(&(corner.left - corner.at)) > 0.0,
     }
 }

@@ -1,4 +1,4 @@
-//! Flipping edges until no triangle has the far corner of a neighbour in its circumcircle.
+//! Flips edges until no triangle has the far corner of a neighbour in its circumcircle.
 
 use super::{next, previous};
 use crate::planner::NO_ENTRY;
@@ -6,8 +6,8 @@ use cplan_geometry::planar::HalfEdges;
 use cplan_geometry::{Orientation, Point, in_circle, orientation};
 use cplan_interrupt::checkpoint;
 
-/// Greatest number of flips per half-edge. About two are usual; adversarial point sets could need a number that
-/// grows like the square of their size. After fewer flips the triangulation is correct, but slower to walk through.
+/// Greatest number of flips per half-edge. Usually there are about two. Adversarial point sets could need a number that
+/// grows like the square of their size. With fewer flips, the triangulation is correct, but searches in it are slower.
 const MAX_FLIPS_PER_EDGE: usize = 16;
 
 /// Turns a triangulation into the constrained Delaunay triangulation (Lawson 1977) by flipping edges. Its edges are
@@ -35,7 +35,7 @@ pub fn flip(vertices: &[Point], edges: &mut HalfEdges) {
             return;
         }
         left -= 1;
-        // The quadrilateral a d b c with the diagonal a b gets the diagonal d c.
+        // The quadrilateral a d b c has the diagonal a b, and gets the diagonal d c.
         let around = [next(h), previous(h), next(g), previous(g)];
         let [bc, ca, ad, db] = around.map(|h| edges.twin[h as usize]);
         for (slot, from, twin) in
@@ -51,8 +51,8 @@ pub fn flip(vertices: &[Point], edges: &mut HalfEdges) {
     }
 }
 
-/// Returns true if three corners are in counter-clockwise order. Flipping edges preserves this order, unless
-/// coordinates are so small that the sign of `in_circle` underflows.
+/// Returns true if three corners are in counter-clockwise order. Flips preserve this order, unless coordinates are so
+/// small that `in_circle` underflows.
 fn is_triangle(a: Point, b: Point, c: Point) -> bool {
     orientation(a, b, c) == Orientation::CounterClockwise
 }

@@ -23,12 +23,12 @@ struct Entry {
 }
 
 impl Columns {
-    /// Builds the index. It has `O(n)` entries for `n` triangles of even size, and `O(n sqrt n)` if every triangle
+    /// Builds the index. For `n` triangles it has `O(n)` entries if they have similar sizes, and `O(n sqrt n)` if each
     /// is as wide as free space.
     pub fn new(vertices: &[Point], edges: &HalfEdges) -> Self {
         let count = edges.origin.len() / 3;
         let strips = (count as f64).sqrt().ceil().max(1.0);
-        // Vertices are sorted by abscissa.
+        // The vertices are sorted by abscissa.
         let (left, right) = (vertices.first().map_or(0.0, |p| p.x), vertices.last().map_or(0.0, |p| p.x));
         let density = if right > left { strips / (right - left) } else { 0.0 };
         let mut columns = Self { left, density, first: vec![0; strips as usize + 1], triangles: Vec::new() };
@@ -51,11 +51,10 @@ impl Columns {
         columns
     }
 
-    /// Returns the strip that contains an abscissa. If the abscissa is outside of all strips, returns the outermost
-    /// strip on that side. The function is monotone in spite of rounding, so a point within a triangle's range of
-    /// abscissae is in one of the triangle's strips.
+    /// Returns the strip that contains an abscissa, or the nearest strip. The function is monotone in spite of
+    /// rounding. So a point within a triangle's range of abscissae is in one of the triangle's strips.
     fn strip(&self, x: f64) -> usize {
-        // A cast from a float saturates: it gives 0 to the left of all strips.
+        // Casts from floats saturate: the result is 0 to the left of all strips.
         (((x - self.left) * self.density) as usize).min(self.first.len() - 2)
     }
 

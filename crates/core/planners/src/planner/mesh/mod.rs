@@ -18,8 +18,7 @@ use location::Columns;
 
 /// The constrained Delaunay triangulation of free space, its convex corners, and an index of its triangles.
 ///
-/// Triangles are neighbours only if they share an edge in free space, so parts that touch only in a corner are
-/// separate.
+/// Triangles are neighbours only if they share an edge in free space. So parts that touch only in a corner are separate.
 #[derive(Debug, Clone)]
 pub struct Mesh {
     vertices: Vec<Point>,
@@ -49,8 +48,8 @@ impl Mesh {
         &self.corners.list
     }
 
-    /// Returns the triangles that contain `p`, borders included. There are none if `p` is outside free space. Exact;
-    /// `O(sqrt n)` for triangles of even size.
+    /// Returns the triangles that contain `p`, borders included. Empty if `p` is outside free space. Exact; `O(sqrt n)`
+    /// for triangles of similar sizes.
     pub fn triangles_at(&self, p: Point) -> impl Iterator<Item = u32> + '_ {
         self.columns.triangles_at(&self.vertices, &self.edges, p)
     }
@@ -130,9 +129,8 @@ mod tests {
     use cplan_model::space::{JointRange, Topology};
     use proptest::prelude::*;
 
-    /// Returns free space with a window of 7 x 7 squares around a board of 5 x 5 squares. An integer matrix of
-    /// determinant 1 transforms both. Each blocked square is a separate hole, so holes touch along sides and in
-    /// corners.
+    /// Returns free space in a window of 7 x 7 squares around a board of 5 x 5 squares. An integer matrix of determinant 1
+    /// transforms both. Each blocked square is a separate hole, so holes touch along sides and in corners.
     fn board(blocked: &[bool], [a, b, c, d]: [f64; 4]) -> Regions {
         let square = |x: f64, y: f64, size: f64| {
             [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)]
@@ -162,7 +160,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Checks the definition: triangles are counter-clockwise, joined in pairs, cover free space, and are
+        /// Checks the definition. Triangles are counter-clockwise, are joined in pairs, cover free space, and are
         /// Delaunay. The index finds those that contain a point.
         #[test]
         fn the_mesh_is_the_constrained_delaunay_triangulation(
@@ -200,8 +198,8 @@ mod tests {
             }
         }
 
-        /// Compares the result with the squares that a segment meets. If the segment passes through no vertex, the two
-        /// must agree. Otherwise a segment that is reported to be clear must meet no square.
+        /// Compares the result with the squares that a segment meets. If the segment passes through no vertex, both
+        /// must agree. If it does, a clear segment must still meet no square.
         #[test]
         fn straight_motions_are_clear_where_no_square_is_met(
             blocked in proptest::collection::vec(any::<bool>(), 25), matrix in matrices(),
@@ -213,8 +211,7 @@ mod tests {
             let [p, q] = [place(ends[0], 1.0 / 1024.0), place(ends[1], 1.0 / 4096.0)];
             let [a, b, c, d] = matrix;
             let mapped = |[x, y]: [f64; 2]| Point::new(a * x + b * y, c * x + d * y);
-            // True if the segment meets the square with this lower corner, by the line's sides and the ranges of
-            // both.
+            // True if the segment meets the square with this lower corner, by the sides of its line and the ranges of both.
             let meets = |x: f64, y: f64| {
                 let sides = [(x, y), (x + 1.0, y), (x + 1.0, y + 1.0), (x, y + 1.0)]
                     .map(|(x, y)| (q[0] - p[0]) * (y - p[1]) - (q[1] - p[1]) * (x - p[0]));

@@ -5,13 +5,13 @@ use cplan_geometry::{Orientation, Point, orientation};
 
 impl Mesh {
     /// Returns true if the segment from `a` to `b` lies in free space. Exact; linear in the number of triangles
-    /// crossed. A segment that passes through a vertex, or along an edge into another triangle, counts as not free.
-    /// This does not happen between random points.
+    /// crossed. A segment through a vertex, or along an edge into another triangle, counts as not free. Between random
+    /// points this does not happen.
     pub fn is_clear(&self, a: Point, b: Point) -> bool {
         self.triangles_at(a).any(|triangle| self.walk(triangle, a, b).is_some())
     }
 
-    /// Returns the half-edges through which the segment from `a` to `b` leaves triangles. It begins in `triangle`.
+    /// Returns the half-edges through which the segment from `a` to `b`, which begins in `triangle`, leaves triangles.
     /// `None` if the segment counts as not free, see [`Mesh::is_clear`].
     pub fn walk(&self, triangle: u32, a: Point, b: Point) -> Option<Vec<u32>> {
         let mut portals = Vec::new();

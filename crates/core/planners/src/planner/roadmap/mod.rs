@@ -1,7 +1,7 @@
 //! Roadmaps: graphs whose nodes are configurations and whose edges are straight motions between them.
 //!
-//! A planner makes a [`Roadmap`] of a space once. For a query it adds the start and the goals as nodes
-//! ([`QueryGraph`]), joins them with the nodes that they can reach, and searches the whole graph.
+//! A planner builds a [`Roadmap`] of a space once. For a query, it adds the start and the goals as nodes
+//! ([`QueryGraph`]), joins them with other nodes, and searches the graph.
 
 mod nearby;
 mod search;
@@ -22,11 +22,11 @@ use std::collections::{BTreeMap, BTreeSet};
 #[derive(Debug, Clone, Copy)]
 struct RoadmapEdge {
     length: f64,
-    /// Least distance from the boundary of free space; infinite if the planner does not use widths.
+    /// Least distance from the boundary of free space. Infinite if the planner does not use widths.
     width: f64,
 }
 
-/// Configurations and straight motions between them. A measure gives the lengths.
+/// Configurations, and straight motions between them. A measure determines the lengths.
 #[derive(Debug, Clone)]
 pub struct Roadmap {
     graph: UnGraph<Point, RoadmapEdge>,
@@ -79,15 +79,14 @@ pub struct QueryGraph {
     roadmap: Roadmap,
     /// The node of the start.
     pub start: NodeIndex,
-    /// The node of each goal, by the bits of the goal's two coordinates.
+    /// The nodes of the goals, by the bits of the goal's coordinates.
     goals: BTreeMap<[u64; 2], NodeIndex>,
     /// The nodes of the goals.
     ends: BTreeSet<NodeIndex>,
 }
 
 impl QueryGraph {
-    /// Returns the node of a goal at this point; adds one if there is none. Goals are nodes of their own, even at
-    /// the same point as another node.
+    /// Returns the node of a goal at this point, or adds one. A goal has its own node even if another node is at the same point.
     pub fn goal(&mut self, at: Point) -> NodeIndex {
         let roadmap = &mut self.roadmap;
         let goal = *self.goals.entry([at.x.to_bits(), at.y.to_bits()]).or_insert_with(|| roadmap.add(at));
@@ -111,9 +110,9 @@ impl QueryGraph {
         self.roadmap.join_of_width(a, b, width);
     }
 
-    /// Returns the graph with only the motions that are at least as wide as the narrowest motion of the widest route
-    /// from the start to a goal. Returns `None` if there is no route whose motions all have at least the width
-    /// `least`. `O(m log m)` for `m` motions.
+    /// Consider the widest route from the start to a goal. Returns the graph without motions that are narrower than the
+    /// narrowest motion of this route. `None` if that is narrower than `least`, or if there is no route. `O(m log m)`
+    /// for `m` motions.
     pub fn widest(&self, least: f64) -> Option<Self> {
         let graph = &self.roadmap.graph;
         let mut order: Vec<_> = graph.edge_references().filter(|edge| edge.weight().width >= least).collect();

@@ -17,7 +17,7 @@ pub struct Nearby {
     order: Vec<usize>,
 }
 
-/// Average number of points per bucket: few distances per bucket, and few empty buckets.
+/// Average number of points per bucket. With this value, queries compute few distances and visit few empty buckets.
 const POINTS_PER_BUCKET: f64 = 2.0;
 
 impl Nearby {
@@ -27,8 +27,7 @@ impl Nearby {
         let lower = points.iter().fold(infinite, |least, p| least.inf(p));
         let upper = points.iter().fold(-infinite, |most, p| most.sup(p));
         let extent = if points.is_empty() { [0.0; 2] } else { [upper.x - lower.x, upper.y - lower.y] };
-        // The side is chosen so that there are at most as many buckets as points, even if the points fill a slender
-        // box.
+        // The side is chosen so that there are at most as many buckets as points, also for points in a slender box.
         let share = POINTS_PER_BUCKET / points.len().max(1) as f64;
         let side = (extent[0] * extent[1] * share).sqrt().max(extent[0].max(extent[1]) * share);
         let side = if side > 0.0 { side } else { 1.0 };
@@ -52,7 +51,7 @@ impl Nearby {
 
     /// Returns the row and column of the bucket that contains a point, or of the nearest bucket.
     fn place(&self, p: Point) -> [usize; 2] {
-        // A cast from a float saturates: it gives 0 to the left of all buckets.
+        // Casts from floats saturate: the result is 0 to the left of all buckets.
         [0, 1].map(|k| (((p[k] - self.lower[k]) / self.side) as usize).min(self.shape[k] - 1))
     }
 
@@ -61,8 +60,8 @@ impl Nearby {
     pub fn nearest(&self, p: Point, count: usize) -> Vec<usize> {
         let mut found: Vec<(OrderedF64, usize)> = Vec::new();
         let home = self.place(p);
-        // Points outside the first `n` rings of buckets around the home bucket are at least `n` sides away, and
-        // farther if `p` is outside all buckets.
+        // Points outside the first `n` rings of buckets around the home bucket are at least `n` sides away, or more if
+        // `p` is outside all buckets.
         for ring in 0..self.shape[0].max(self.shape[1]) {
             for i in home[0].saturating_sub(ring)..=(home[0] + ring).min(self.shape[0] - 1) {
                 for j in home[1].saturating_sub(ring)..=(home[1] + ring).min(self.shape[1] - 1) {
@@ -91,8 +90,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares the result with a sort of all distances. The points are on a small lattice, where many distances
-        /// are equal, or in a slender box.
+        /// Compares the result with a sort of all distances. Points are on a small lattice, where many distances are
+        /// equal, or in a slender box.
         #[test]
         fn nearby_nodes_are_the_nearest_of_all(
             places in proptest::collection::vec([0i8..9, 0i8..9], 0..60), from in [-4i8..13, -4i8..13], count in 0usize..12,

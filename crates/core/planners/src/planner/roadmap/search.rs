@@ -1,4 +1,4 @@
-//! The graph search of all roadmaps. Search orders differ in the node that they expand next.
+//! The graph search of all roadmaps. Search orders determine which node is expanded next.
 //!
 //! The algorithms are petgraph's. Its A\* is Dijkstra's algorithm if the estimate is 0, and the greedy search if
 //! edges cost nothing. Its walkers search breadth-first and depth-first, without recursion. This module adds the
@@ -11,7 +11,7 @@ use petgraph::visit::{Bfs, Dfs, VisitMap};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The rule for the next node to expand.
+/// The rule that selects the next node to expand.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum SearchOrder {
@@ -21,11 +21,11 @@ pub enum SearchOrder {
     DepthFirst,
     /// The node of least cost. Finds a shortest path.
     Dijkstra,
-    /// The node with the least sum of its cost and the straight distance to a goal. Finds a shortest path, usually
-    /// sooner than Dijkstra's algorithm.
+    /// The node with the least sum of cost and straight distance to a goal. Finds a shortest path, usually faster than
+    /// Dijkstra's algorithm.
     #[default]
     AStar,
-    /// The node with the least straight distance to a goal. Finds a path of any length, soon.
+    /// The node with the least straight distance to a goal. Finds some path fast.
     Greedy,
 }
 
@@ -54,9 +54,9 @@ impl SearchOrder {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RoadmapSearch {
-    /// The rule for the next node to expand.
+    /// The rule that selects the next node to expand.
     pub order: SearchOrder,
-    /// True to search from the goals to the start; false to search from the start to a goal.
+    /// True to search from the goals to the start. False to search from the start to a goal.
     pub backward: bool,
 }
 
@@ -76,15 +76,13 @@ impl fmt::Display for RoadmapSearch {
 /// The result of a search.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SearchResult {
-    /// The route from the start to a goal, in this order for either direction of search. `None` if no goal is
-    /// connected with the start.
+    /// The route from the start to a goal, for both directions of search. `None` if no goal is connected with the start.
     pub path: Option<Vec<NodeIndex>>,
     /// The nodes in the order of their expansion. The node that ended the search is the last.
     pub expanded: Vec<NodeIndex>,
 }
 
-/// The input of a search. Estimates must never exceed the true cost, and must be consistent; straight distances are
-/// both.
+/// The input of a search. Estimates must never exceed the true cost, and must be consistent, as straight distances are.
 pub struct SearchProblem<G, C, A, B> {
     /// The node at which routes begin.
     pub start: NodeIndex,
@@ -100,7 +98,7 @@ pub struct SearchProblem<G, C, A, B> {
 
 /// Searches a graph from the start to any goal, or from the goals to the start. For `n` nodes and `m` edges,
 /// breadth-first and depth-first search take `O(n + m)`; the others take `O((n + m) log n)`. A forward search visits
-/// only the part that it expands, apart from tables of all nodes. A backward search first copies the graph.
+/// only the nodes that it expands, except for tables of all nodes. A backward search copies the graph first.
 pub fn search<N, E, G, C, A, B>(
     graph: &UnGraph<N, E>,
     how: RoadmapSearch,
@@ -116,7 +114,7 @@ where
     if !how.backward {
         return run(graph, *start, is_goal, how.order, cost, ahead);
     }
-    // The search begins at all goals at once, from a node that is joined to each of them at no cost.
+    // The search begins at all goals at once: an additional node is joined to each of them at no cost.
     let mut turned = graph.map(|_, _| (), |_, edge| cost(edge));
     let hub = turned.add_node(());
     let mut nearest = f64::INFINITY;
@@ -130,7 +128,7 @@ where
     if let Some(path) = &mut searched.path {
         path.retain(|&node| node != hub);
         path.reverse();
-        // If several goals follow each other on the route, the motion ends at the first one.
+        // If the route contains several goals, the motion ends at the first one.
         let end = path.iter().position(|&node| is_goal(node)).map_or(path.len(), |at| at + 1);
         path.truncate(end);
     }
@@ -153,7 +151,7 @@ fn run<N, E>(
     };
     let (mut expanded, mut seen) = (Vec::new(), vec![false; graph.node_count()]);
     let ends_at = |node: NodeIndex| {
-        // A node may come up again after a shorter path has reached it; it counts once.
+        // A node that a shorter path reaches again counts only once.
         if !std::mem::replace(&mut seen[node.index()], true) {
             expanded.push(node);
         }
@@ -163,7 +161,7 @@ fn run<N, E>(
         checkpoint();
         if priced { cost(edge.weight()) } else { 0.0 }
     };
-    // At an end nothing remains, whatever rounding gives.
+    // At an end the remaining cost is 0, despite rounding.
     let rest = |node: NodeIndex| if guided && !is_end(node) { estimate(node) } else { 0.0 };
     let path = astar(graph, from, ends_at, passing, rest).map(|(_, path)| path);
     SearchResult { path, expanded }
@@ -202,9 +200,9 @@ fn walk<N, E>(
         for neighbor in graph.neighbors(node).filter(|&neighbor| neighbor != from) {
             let parent = &mut parents[neighbor.index()];
             match &walker {
-                // The first predecessor has put the node on the queue.
+                // The first predecessor put the node into the queue.
                 Traversal::Breadth(_) => *parent = parent.or(Some(node)),
-                // The last predecessor has put the node on top of the stack.
+                // The last predecessor put the node on top of the stack.
                 Traversal::Depth(dfs) if !dfs.discovered.is_visited(&neighbor) => *parent = Some(node),
                 Traversal::Depth(_) => {}
             }
@@ -217,7 +215,7 @@ mod tests {
     use super::*;
     use proptest::prelude::*;
 
-    /// Places in the plane and straight edges between them; some places are goals.
+    /// Places in the plane and straight edges between them. Some places are goals.
     #[derive(Debug, Clone)]
     struct Case {
         places: Vec<[i16; 2]>,
@@ -261,8 +259,8 @@ mod tests {
             search(&graph, how, &question)
         }
 
-        /// Returns, for all pairs of places, the least sum of `of` over the edges of a route. Uses the algorithm of
-        /// Floyd and Warshall.
+        /// Returns, for each pair of places, the least sum of `of` over the edges of a route, by the algorithm of Floyd
+        /// and Warshall.
         fn least(&self, of: impl Fn(usize, usize) -> f64) -> Vec<Vec<f64>> {
             let n = self.places.len();
             let mut least = vec![vec![f64::INFINITY; n]; n];
@@ -285,8 +283,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(512))]
 
-        /// Tests that a route is found if and only if there is one. The route follows edges, and has the length and the
-        /// number of edges that its order promises, both backward and forward. No node is expanded twice.
+        /// Tests that a route is found if and only if there is one. In both directions, the route follows edges, and
+        /// has the length and the number of edges that its order promises. No node is expanded twice.
         #[test]
         fn each_order_finds_what_it_claims_in_both_directions(case in cases()) {
             let to_goal = |all: &[Vec<f64>]| case.goals.iter().map(|&goal| all[0][goal]).fold(f64::INFINITY, f64::min);
@@ -318,8 +316,8 @@ mod tests {
             }
         }
 
-        /// Tests that neither A\* nor Dijkstra's algorithm expands too much. No expanded node has a cost (plus the
-        /// estimate for A\*) above the cost of the goal.
+        /// Tests that A\* and Dijkstra's algorithm expand no node whose cost (for A\* plus the estimate) exceeds the
+        /// cost of the goal.
         #[test]
         fn nothing_beyond_the_goal_is_expanded(case in cases()) {
             let least = case.least(|a, b| case.distance(a, b));

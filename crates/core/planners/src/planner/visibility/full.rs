@@ -18,7 +18,7 @@ impl VisibilityMap {
     /// nodes are joined if the segment between them is a side of free space, or if it lies in free space and touches no
     /// corner between its ends (Latombe, *Robot Motion Planning*, 1991, section 4.1).
     ///
-    /// A corner at which two joint limits meet is no corner of a C-obstacle, so it is no node.
+    /// A corner where two joint limits meet is no corner of a C-obstacle, so it is no node.
     ///
     /// Exact; linear in the number of triangles that lines of sight cross.
     ///
@@ -46,7 +46,7 @@ impl VisibilityMap {
             let sight = CornerView { mesh, terminals, root };
             let (mut seen, mut goals) = (Vec::new(), Vec::new());
             sight.collect_visible(&mut seen, &mut goals);
-            // Each edge is found from both ends; add it once.
+            // Each edge is found from both ends. Add it once.
             let joined = seen.into_iter().filter_map(|vertex| nodes[vertex as usize]).filter(|other| other < node);
             joined.for_each(|other| query_graph.join(*node, other));
             for part in goals {
@@ -87,8 +87,8 @@ impl CornerView<'_> {
     }
 }
 
-/// Returns true if a point lies strictly between the bounds of a cone. A point on a bound has a corner in front of
-/// it, which the line of sight touches.
+/// Returns true if a point lies strictly between the bounds of a cone. Between the root and a point on a bound, the
+/// line of sight touches a corner.
 fn is_within(cone: &Cone, p: Point) -> bool {
     cone.right.side(p) == Orientation::CounterClockwise && cone.left.side(p) == Orientation::Clockwise
 }
