@@ -73,6 +73,7 @@ impl Frame {
         Self { rect: area, x: about(x, area.width), y: about(y, area.height) }
     }
 
+    /// Returns the place of the point `(x, y)` on the page.
     pub fn at(&self, x: f64, y: f64) -> [f64; 2] {
         let Rect { width, height, .. } = self.rect;
         [

@@ -113,6 +113,7 @@ pub enum Anchor {
     End,
 }
 
+/// A line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
     /// Place of the anchor on the page.

@@ -20,6 +20,7 @@ const DOT_RADIUS: f64 = 1.1;
 pub struct Section {
     /// Key under which the page finds the data.
     pub name: &'static str,
+    /// Data, as JSON.
     pub data: String,
     /// Script of pages with this section.
     pub script: &'static str,
