@@ -10,6 +10,7 @@ use cplan_motion::Trajectory;
 use cplan_text::{Columns, chosen_length, counted, first_lines, length_down, short};
 use std::time::Duration;
 
+/// Returns the values of both joints by name.
 pub fn configuration(arm: &Arm, q: Configuration) -> String {
     let [a, b] = &arm.joints;
     format!("{} {}, {} {}", a.name, a.format_value(q[0]), b.name, b.format_value(q[1]))
