@@ -1,11 +1,11 @@
 //! The proven distance between a line and a motion in polynomial pieces.
 //!
 //! Let a part of the motion lead the tip from `A` to `B`, and a part of the line lead from `P` to `Q`. The tip's path deviates
-//! from the chord `A B` by at most an eighth of its second derivative across the chord, and the part of the line deviates from `P
-//! Q` by at most an eighth of its second derivative. Suppose that the tip never moves backwards along `A B`. Then one point can
-//! pass along each part, from its beginning to its end, such that the distance between both points is at most the greater of `|A
-//! P|` and `|B Q|`, plus the two deviations. (This bounds the Fréchet distance, which respects the order of points.) If the tip
-//! may move backwards, an eighth of the second derivative along `A B` is added. A part whose bound is too large is halved.
+//! from the chord `A B` by at most an eighth of its second derivative across the chord, and the part of the line deviates from
+//! `P Q` by at most an eighth of its second derivative. Suppose that the tip never moves backwards along `A B`. Then one point
+//! can pass along each part, from its beginning to its end, such that the distance between both points is at most the greater of
+//! `|A P|` and `|B Q|`, plus the two deviations. (This bounds the Fréchet distance, which respects the order of points.) If the
+//! tip may move backwards, an eighth of the second derivative along `A B` is added. A part whose bound is too large is halved.
 //!
 //! The second derivative of the tip is `J q'' + H(q', q')`, with the Jacobian `J` and the Hessian `H` of the arm's kinematics.
 //! [`Kinematics`] bounds the change of both along a part, so the result is valid between samples as well.

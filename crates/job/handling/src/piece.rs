@@ -18,8 +18,8 @@ pub enum Derivative {
 
 /// A piece of a motion: one polynomial in time per joint, of degree 3, 4 or 5.
 ///
-/// The polynomials have Bernstein form: for the degree `n` and `u` from 0 to 1, `q(u) = sum binomial(n, i) u^i (1 - u)^(n - i)
-/// c_i`. The piece lies in the box around its control points `c_i`.
+/// The polynomials have Bernstein form: for the degree `n` and `u` from 0 to 1,
+/// `q(u) = sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The piece lies in the box around its control points `c_i`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
     /// Time at which the piece begins, seconds. In a motion without times, the number of its first waypoint.

@@ -174,8 +174,9 @@ fn spread(sources: &[(u32, f64)], to: &mut [f64]) {
 mod tests {
     use super::*;
 
-    /// Checks a straight corridor between walls with the value 1 at its near end. Its potential is the sum of `sin(k pi i / (w +
-    /// 1)) sinh(theta_k (n + 1 - j)) / sinh(theta_k (n + 1))` over `k`, of which only the first term matters far away.
+    /// Checks a straight corridor between walls with the value 1 at its near end. Its potential is the sum of
+    /// `sin(k pi i / (w + 1)) sinh(theta_k (n + 1 - j)) / sinh(theta_k (n + 1))` over `k`, of which only the first term matters
+    /// far away.
     #[test]
     fn a_long_wide_corridor_is_precise_to_its_far_end() {
         let (w, n) = (50, 1500);

@@ -1,7 +1,7 @@
 //! Conditions on the squared speeds at the ends of a span.
 
-/// The feasible squared speeds `z0` and `z1` at the ends of a span: both are at least 0, and `a z0 + b z1 <= 1` for each row `[a,
-/// b]`. The set is convex, and contains all small `z0` and `z1`.
+/// The feasible squared speeds `z0` and `z1` at the ends of a span: both are at least 0, and `a z0 + b z1 <= 1` for each row
+/// `[a, b]`. The set is convex, and contains all small `z0` and `z1`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bounds {
     /// Greatest `z0` that the rows without a `z1` allow.
@@ -48,9 +48,9 @@ impl Bounds {
 
     /// Returns the greatest `z0` for which a `z1` up to `most` exists.
     ///
-    /// The difference between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, at least 0 at `z0
-    /// = 0`. Newton's method from above finds its root in at most as many steps as there are pairs of rows. The result is lowered
-    /// by more than rounding errors, so that [`Bounds::greatest_end`] finds a feasible `z1`.
+    /// The difference between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, at least 0 at
+    /// `z0 = 0`. Newton's method from above finds its root in at most as many steps as there are pairs of rows. The result is
+    /// lowered by more than rounding errors, so that [`Bounds::greatest_end`] finds a feasible `z1`.
     pub fn greatest_start(&self, most: f64) -> f64 {
         let mut z0 = self.most;
         for _ in 0..=(self.above.len() + 1) * (self.below.len() + 1) {

@@ -351,9 +351,9 @@ impl Corner {
     /// Returns the longest interval between samples in a phase for which the cubics through positions and velocities are within
     /// the limits, and within [`BLEND_TOLERANCE`] of the blend.
     ///
-    /// For a motion with a constant fourth derivative `d`, the error of the cubic is at most `d h^4 / 384` in position, `d h^3 /
-    /// (72 sqrt 3)` in velocity and `d h^2 / 12` in acceleration. If `v` and `a` are the first two derivatives of the parameter
-    /// by time, `d = 3 q'' a^2 + 6 q^(3) v^2 a`.
+    /// For a motion with a constant fourth derivative `d`, the error of the cubic is at most `d h^4 / 384` in position,
+    /// `d h^3 / (72 sqrt 3)` in velocity and `d h^2 / 12` in acceleration. If `v` and `a` are the first two derivatives of the
+    /// parameter by time, `d = 3 q'' a^2 + 6 q^(3) v^2 a`.
     pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
         let bend = self.second_derivative(0.0).abs().sup(&self.second_derivative(1.0).abs());
         let third = self.third_derivative().abs() * phase.enter.max(phase.leave).powi(2);

@@ -13,8 +13,9 @@ const ROUNDING: f64 = 1e-9;
 /// a sum of joint values, the metric may include that sum.
 ///
 /// Let `f(t)` be the greatest fraction of its top speed that any joint, or the sum, can reach `t` seconds after rest, given its
-/// acceleration and jerk. At the time `t` of a motion of `T` seconds, all speeds are at most the fraction `min(1, f(t), f(T -
-/// t))` of top speed. So the length of the path is at most the integral of this fraction, which increases with `T`.
+/// acceleration and jerk. At the time `t` of a motion of `T` seconds, all speeds are at most the fraction
+/// `min(1, f(t), f(T - t))` of top speed. So the length of the path is at most the integral of this fraction, which increases
+/// with `T`.
 pub fn least_duration(length: f64, limits: &Limits) -> f64 {
     let limits = Limits { wrist: None, ..*limits };
     // The acceleration of the sum is at most that of both joints together.

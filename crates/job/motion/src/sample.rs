@@ -261,9 +261,9 @@ pub struct TimedMotion {
 /// blend. All samples are at whole nanoseconds. A multiple of the period that is closer than a tenth of a millisecond (or half
 /// the period) to another sample is omitted. A path that does not move gives one sample.
 ///
-/// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes `2 sqrt(L /
-/// a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`MIN_INTERVAL`] longer if a phase would be shorter than that,
-/// and each phase is lengthened to whole nanoseconds.
+/// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes
+/// `2 sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`MIN_INTERVAL`] longer if a phase would be shorter
+/// than that, and each phase is lengthened to whole nanoseconds.
 ///
 /// If the jerk of a joint is limited, the motion stops at every corner, blended or not ([`super::Drive::along`] passes corners
 /// without a stop). A straight piece on which such a joint moves takes the least time that speed, acceleration and jerk along it

@@ -39,8 +39,8 @@ pub struct TorqueLimit<'a> {
     pub share: f64,
 }
 
-/// The torques along a part of a curve whose parameter has the squared speed `z`: for each joint `inertial z' / 2 + bent z +
-/// holding`. Each factor is linear between its values at both ends, up to an error.
+/// The torques along a part of a curve whose parameter has the squared speed `z`: for each joint
+/// `inertial z' / 2 + bent z + holding`. Each factor is linear between its values at both ends, up to an error.
 struct TorquesOnPart {
     ends: [TorqueFactors; 2],
     off: Curvature,
@@ -91,8 +91,8 @@ impl<'a> TorqueLimit<'a> {
         }
     }
 
-    /// Returns the conditions on the squared speeds `z0` and `z1` at both ends of a part, as rows `[a, b]` with `a z0 + b z1 <=
-    /// 1`. The squared speed is linear in between. `used` is the share of the efforts that may be used.
+    /// Returns the conditions on the squared speeds `z0` and `z1` at both ends of a part, as rows `[a, b]` with
+    /// `a z0 + b z1 <= 1`. The squared speed is linear in between. `used` is the share of the efforts that may be used.
     ///
     /// With linear factors, a torque is a quadratic polynomial along the part. It is within its limit if its Bernstein
     /// coefficients are.

@@ -5,8 +5,8 @@ use cplan_interrupt::checkpoint;
 use cplan_planners::cspace::Grid;
 use std::f64::consts::TAU;
 
-/// The effect of all obstacle cells on every cell, as if they were charges: the sum of `1 / d`, and the sum of the forces `1 /
-/// d^2` away from obstacle cells. `d` is the distance of the cells' centres, in cells; for continuous joints, in the shorter
+/// The effect of all obstacle cells on every cell, as if they were charges: the sum of `1 / d`, and the sum of the forces
+/// `1 / d^2` away from obstacle cells. `d` is the distance of the cells' centres, in cells; for continuous joints, in the shorter
 /// direction. If cells are not square, the unit of length is the side of a square with the same area. With [`Limits::High`], a
 /// frame of one cell beyond the limits of intervals also counts as obstacle.
 ///

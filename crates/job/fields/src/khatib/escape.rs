@@ -73,8 +73,8 @@ impl ForceField<'_> {
         }
     }
 
-    /// Fills the basin around a cell until a cell satisfies `is_out`. Returns the cells from the first cell to that one. `O(n log
-    /// n)` for `n` filled cells.
+    /// Fills the basin around a cell until a cell satisfies `is_out`. Returns the cells from the first cell to that one.
+    /// `O(n log n)` for `n` filled cells.
     fn fill(&self, from: usize, is_out: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
         let mut parents = BTreeMap::from([(from, from)]);
         let mut edge = OpenList::default();

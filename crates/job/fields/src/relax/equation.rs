@@ -100,12 +100,12 @@ pub enum Equation {
         /// Discretisation of the drift.
         difference: Difference,
     },
-    /// Altered preferences ("BVP 2" of Deicu 2012): `p = h + epsilon / 4 d`, where `h` is the mean of the four neighbours and `d
-    /// = |p_E - p_W| / 2 + |p_N - p_S| / 2`. This equation is not linear, because the drift is along the slope of the field
+    /// Altered preferences ("BVP 2" of Deicu 2012): `p = h + epsilon / 4 d`, where `h` is the mean of the four neighbours and
+    /// `d = |p_E - p_W| / 2 + |p_N - p_S| / 2`. This equation is not linear, because the drift is along the slope of the field
     /// itself. It also has two stages.
     ///
-    /// This formula is for high obstacles. For low ones, `epsilon` has the opposite sign: with `u = 1 - p`, the mean becomes `1 -
-    /// h` and `d` stays the same, so `u = h - epsilon / 4 d` in terms of the new mean.
+    /// This formula is for high obstacles. For low ones, `epsilon` has the opposite sign: with `u = 1 - p`, the mean becomes
+    /// `1 - h` and `d` stays the same, so `u = h - epsilon / 4 d` in terms of the new mean.
     AlteredPreference {
         /// One value per cell.
         epsilon: Vec<f64>,

@@ -11,8 +11,8 @@ const PARALLEL_SINE: f64 = 1e-9;
 /// The points that are equally near to a site and another one, given by their heights on the rays of the site. The height is the
 /// distance along the ray.
 ///
-/// A quadratic polynomial in the rays' parameter `t` has values that increase with the height `h`: `h` itself for a side, `-(1 +
-/// t^2) / h` for a corner. The sign of the difference of two such polynomials shows which of two other sites is nearer.
+/// A quadratic polynomial in the rays' parameter `t` has values that increase with the height `h`: `h` itself for a side,
+/// `-(1 + t^2) / h` for a corner. The sign of the difference of two such polynomials shows which of two other sites is nearer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bisector {
     /// Coefficients of `1, t, t^2`.

@@ -36,8 +36,8 @@ const CORNER_ROUNDING: f64 = 1e-9;
 /// Greatest excess of an oblique cylinder's outline over its exact projection, as a fraction of the radius.
 const MAX_OUTLINE_EXCESS: f64 = 0.005;
 
-/// Number of sides of the polygon that circumscribes the end of an oblique cylinder. It must satisfy `1 / cos(pi / n) - 1 <=
-/// MAX_OUTLINE_EXCESS`.
+/// Number of sides of the polygon that circumscribes the end of an oblique cylinder. It must satisfy
+/// `1 / cos(pi / n) - 1 <= MAX_OUTLINE_EXCESS`.
 const ELLIPSE_SIDES: usize = 32;
 
 /// Number of steps along half of the ellipse at the end of an oblique cylinder. The corners of the inscribed polygon are the

@@ -19,8 +19,8 @@ impl Samples {
     }
 
     /// Returns the polylines on which the linearly interpolated values equal `level` (marching squares: Lorensen and Cline 1987,
-    /// in two dimensions). A closed line ends at its first point. No line crosses a square with a missing value at a corner. `O(n
-    /// log n)` for `n` squares.
+    /// in two dimensions). A closed line ends at its first point. No line crosses a square with a missing value at a corner.
+    /// `O(n log n)` for `n` squares.
     pub fn isolines(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let mut next: BTreeMap<Side, Vec<Side>> = BTreeMap::new();
         for i in 0..self.x.len().saturating_sub(1) {

@@ -73,8 +73,8 @@ pub fn grouped<'a>(
     }
     groups
 }
-/// Returns two titles: the payload, such as `Carrying part`, and steps with repetitions, such as `steps 1–2, 5` or `step 3
-/// (×100)`. If the task has several `rounds`, the second can be `step 4, round 2`.
+/// Returns two titles: the payload, such as `Carrying part`, and steps with repetitions, such as `steps 1–2, 5` or
+/// `step 3 (×100)`. If the task has several `rounds`, the second can be `step 4, round 2`.
 pub fn titles(group: &[PayloadState], rounds: usize, order: &Order) -> [String; 2] {
     let mut payloads: Vec<&str> = Vec::new();
     // The number of executions of each step.

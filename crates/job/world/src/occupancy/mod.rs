@@ -44,8 +44,8 @@ pub struct OccupancyMap {
 impl OccupancyMap {
     /// Reads a description and the picture that it names, relative to itself: PGM (P2, P5; 8 or 16 bits) or PNG.
     ///
-    /// Let `p = 1 - shade` (`p = shade` with `negate`), where black is 0 and white is 1. A cell is occupied if `p >
-    /// occupied_thresh`, free if `p < free_thresh`, and unknown otherwise. The modes `trinary` and `scale` give the same
+    /// Let `p = 1 - shade` (`p = shade` with `negate`), where black is 0 and white is 1. A cell is occupied if
+    /// `p > occupied_thresh`, free if `p < free_thresh`, and unknown otherwise. The modes `trinary` and `scale` give the same
     /// obstacles.
     ///
     /// The shade 205 of 255 (50 with `negate`) is an exception: ROS's map savers use it for unknown cells, so it means unknown
