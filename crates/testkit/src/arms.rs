@@ -28,12 +28,12 @@ pub fn joint(name: &str, joint_type: JointType, range: JointRange) -> Joint {
     Joint { name: name.into(), joint_type, range, velocity: 1.0, acceleration: 4.0, jerk: None }
 }
 
-/// Returns an arm with its base at the origin. The second joint is at `offset` from the first one.
+/// Returns an arm with its base at the origin, and its second joint at `offset` from the first one.
 pub fn arm(joints: [Joint; 2], links: [Link; 2], offset: Vector, tip: Point) -> Arm {
     Arm { name: "test arm".into(), offset, tip, ..Arm::new(joints, links, [0.0; 2]) }
 }
 
-/// Returns an arm with two bars, 1.0 and 0.8 m long and 0.1 m wide. Its joints have the ranges `axes`.
+/// Returns an arm with two bars, 1.0 and 0.8 m long and 0.1 m wide, and the joint ranges `axes`.
 pub fn rr(axes: [JointRange; 2]) -> Arm {
     let turn = JointType::Revolute { sign: 1.0 };
     arm(
@@ -44,8 +44,8 @@ pub fn rr(axes: [JointRange; 2]) -> Arm {
     )
 }
 
-/// Returns an arm with two slides in these directions, given by their angles, with a range. The second one carries the
-/// shapes of a tool.
+/// Returns an arm with two prismatic joints in directions at these angles, with a common range. The second one carries the shapes
+/// of a tool.
 pub fn slides(angles: [f64; 2], [lower, upper]: [f64; 2], tool: Vec<Convex>) -> Arm {
     let slide = |name, angle: f64| {
         // Right angles have exact directions.
@@ -61,7 +61,7 @@ pub fn gantry(range: [f64; 2], tool: Vec<Convex>) -> Arm {
     slides([0.0, FRAC_PI_2], range, tool)
 }
 
-/// Returns one arm of every kind. Some axes are reversed or oblique, and outlines are beside the joints.
+/// Returns one arm of every kind. Some axes are reversed or oblique, and some outlines are beside the joints.
 pub fn all_kinds() -> Vec<Arm> {
     let turn = |sign| JointType::Revolute { sign };
     let slide = |x: f64, y: f64| JointType::Prismatic { direction: Vector::new(x, y).normalize() };

@@ -2,7 +2,7 @@
 
 use crate::solid::V;
 
-/// A grid of cells. Along a circle, the last cell adjoins the first. The cell `[i, j]` has the number `i * count[1] + j`.
+/// A grid of cells. On a circle, the last cell adjoins the first. The cell `[i, j]` has the number `i * count[1] + j`.
 #[derive(Debug, Clone, Copy)]
 pub struct Cells {
     /// Number of cells along each axis.
@@ -12,7 +12,7 @@ pub struct Cells {
 }
 
 impl Cells {
-    /// Returns the cell that adjoins a cell along an axis, in the direction of lower or greater values.
+    /// Returns the adjoining cell along an axis, in the direction of greater values if `is_next`, otherwise of lower ones.
     fn beside(&self, cell: usize, axis: usize, is_next: bool) -> Option<usize> {
         let (mut at, n) = ([cell / self.count[1], cell % self.count[1]], self.count[axis]);
         let is_last = at[axis] == if is_next { n - 1 } else { 0 };
@@ -20,8 +20,8 @@ impl Cells {
         (!is_last || self.circles[axis]).then_some(at[0] * self.count[1] + at[1])
     }
 
-    /// Marks the cells that can be reached from some cells, including these. `passes` decides for a cell and one that
-    /// adjoins it.
+    /// Marks the given cells and all that can be reached from them. `passes` decides about a step from a cell to an adjoining
+    /// one.
     pub fn flood(
         &self,
         from: impl IntoIterator<Item = usize>,
@@ -43,7 +43,7 @@ impl Cells {
         seen
     }
 
-    /// Returns the cell that contains a configuration, if all cells of an axis are equally large.
+    /// Returns the cell that contains a configuration, if all cells have equal sizes.
     pub fn locate(&self, domain: [V; 2], q: V) -> usize {
         let [i, j] = [0, 1].map(|k| {
             let share = (q[k] - domain[k][0]) / (domain[k][1] - domain[k][0]);
@@ -53,7 +53,7 @@ impl Cells {
         i * self.count[1] + j
     }
 
-    /// Returns the middle of a cell, if all cells of an axis are equally large.
+    /// Returns the middle of a cell, if all cells have equal sizes.
     pub fn middle(&self, domain: [V; 2], cell: usize) -> V {
         let at = [cell / self.count[1], cell % self.count[1]];
         [0, 1].map(|k| domain[k][0] + (domain[k][1] - domain[k][0]) * (at[k] as f64 + 0.5) / self.count[k] as f64)

@@ -1,4 +1,4 @@
-//! Checks of motions along lines that share no code with the crate `follow`: kinematics, distances, and the order of a line's points.
+//! Checks of motions along lines, without code of the crate `follow`: kinematics, distances, and the order of a line's points.
 
 use cplan::motion::Trajectory;
 use cplan_toolpath::Toolpath;
@@ -6,7 +6,7 @@ use cplan_toolpath::Toolpath;
 /// A point in the plane, or the values of both joints.
 pub type Point = [f64; 2];
 
-/// The arm of the tests: two bars with round ends on joints at the ends, which turn counter-clockwise.
+/// The arm of the tests: two bars with round ends, whose joints at these ends turn counter-clockwise.
 #[derive(Debug, Clone, Copy)]
 pub struct Bars {
     /// Lengths of the bars, in metres.
@@ -29,7 +29,7 @@ impl Bars {
         self.places(q)[2]
     }
 
-    /// Returns the distance between the bars and a convex polygon, or a disc if there is one corner; 0 if they overlap.
+    /// Returns the distance between the bars and a convex polygon, or a disc if it has one corner; 0 if they overlap.
     pub fn distance(&self, q: Point, corners: &[Point], radius: f64) -> f64 {
         let [base, elbow, tip] = self.places(q);
         let bars = [[base, elbow], [elbow, tip]];
@@ -37,7 +37,7 @@ impl Bars {
         (apart - self.width / 2.0 - radius).max(0.0)
     }
 
-    /// Returns both elbow solutions for a point within reach; both are the same where the arm is straight or folded.
+    /// Returns both IK solutions for a point within reach. They coincide where the arm is straight or folded.
     pub fn solutions(&self, [x, y]: Point) -> Option<[Point; 2]> {
         let [first, second] = self.lengths;
         let cosine = (x * x + y * y - first * first - second * second) / (2.0 * first * second);
@@ -85,7 +85,7 @@ fn to_segment(p: Point, a: Point, b: Point) -> f64 {
     (p[0] - a[0] - share * along[0]).hypot(p[1] - a[1] - share * along[1])
 }
 
-/// A state of the played motion.
+/// A state of the executed motion.
 #[derive(Debug, Clone, Copy)]
 pub struct State {
     /// Time since the beginning of the motion, in seconds.
@@ -98,8 +98,8 @@ pub struct State {
     pub acceleration: Point,
 }
 
-/// Returns states of the motion that a controller plays, which joins positions and velocities by cubics: so many that the
-/// tip moves by less than `step` between them.
+/// Returns states of the motion that a controller executes by joining positions and velocities with cubics. Between two states,
+/// the tip moves by less than `step`.
 pub fn played(bars: &Bars, trajectory: &Trajectory, step: f64) -> Vec<State> {
     let mut states = Vec::new();
     for i in 1..trajectory.time.len() {
@@ -141,16 +141,16 @@ pub fn points(line: &Toolpath, step: f64) -> Vec<Point> {
     points
 }
 
-/// Returns true if both sequences can be passed from the first to the last points together, never farther apart than
-/// `most` (the discrete Fréchet distance).
+/// Returns true if two points can move along both sequences, from the first to the last members, never farther apart than `most`
+/// (the discrete Fréchet distance).
 pub fn pass_together(first: &[Point], second: &[Point], most: f64) -> bool {
     pass_together_if([first.len(), second.len()], |i, j| {
         (first[i][0] - second[j][0]).hypot(first[i][1] - second[j][1]) <= most
     })
 }
 
-/// Returns true if two sequences of these lengths can be passed from the first to the last members together, so that
-/// `near` is true for both indices at all times.
+/// Does the same as [`pass_together`] for two sequences of these lengths. `near` is true for two indices whose members may be
+/// passed at the same time.
 pub fn pass_together_if([first, second]: [usize; 2], near: impl Fn(usize, usize) -> bool) -> bool {
     let mut reached: Vec<usize> = (0..second).take_while(|&j| near(0, j)).collect();
     for i in 1..first {

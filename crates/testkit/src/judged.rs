@@ -1,4 +1,4 @@
-//! The library's results and findings, as the program prints them in JSON.
+//! Results and findings of the library, as the program prints them in JSON.
 
 use cplan::cli::read_words;
 use cplan::engine::findings::verify;
@@ -19,13 +19,13 @@ pub struct Question<'a> {
 }
 
 impl Question<'_> {
-    /// Returns the settings under which a motion may begin and end anywhere.
+    /// Returns settings with which a motion may begin and end anywhere.
     pub fn with_free_ends() -> Self {
         Self { anywhere: true, ..Self::default() }
     }
 }
 
-/// Returns the findings about a recording. Their `verdict` decides the program's exit code.
+/// Returns the findings about a recording. Their `verdict` determines the program's exit code.
 pub fn judge(robot: &Path, world: &Path, recording: &Path, question: &Question) -> Result<Value, InputError> {
     let Question { overrides, anywhere, topic } = question;
     let mut loaded = load_scene(robot, world)?.with_margins(overrides.clearance, overrides.calibration)?;
@@ -40,7 +40,7 @@ pub fn judge(robot: &Path, world: &Path, recording: &Path, question: &Question) 
     Ok(serde_json::to_value(&findings).unwrap())
 }
 
-/// Returns the result that `cplan plan` prints with these words of its command line.
+/// Returns the result that `cplan plan` prints for these words on its command line.
 pub fn plan_result(robot: &Path, world: &Path, words: &str) -> Value {
     let words: Vec<String> = words.split_whitespace().map(str::to_owned).collect();
     let (options, overrides) = read_words(&words).unwrap_or_else(|error| panic!("{words:?}: {error}"));

@@ -1,7 +1,7 @@
-//! Code that tests, benchmarks and examples share: arms, scenes and problems made in code, random worlds, oracles, and the
-//! published results that the examples reproduce.
+//! Code that tests, benchmarks and examples share: arms, scenes and problems made in code, random worlds, oracles, and published
+//! results that the examples reproduce.
 //!
-//! The oracles share no code with the library except the types of its input.
+//! The oracles share no code with the library, except the types of its input.
 
 #[cfg(feature = "cplan")]
 pub mod arms;

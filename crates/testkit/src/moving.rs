@@ -24,8 +24,8 @@ pub struct Moving {
 }
 
 impl Moving {
-    /// Returns a world for a kind of arm and a seed. Returns `None` if this seed gives no free start. `movers` is the
-    /// number of moving obstacles; with `None` it is random.
+    /// Returns the world of a kind of arm and a seed. `None` if it has no free start. `movers` is the number of moving obstacles;
+    /// with `None`, it is random.
     pub fn drawn(kind: &str, seed: u64, movers: Option<u64>) -> Option<Self> {
         let standing = world(kind, seed)?;
         let mut dice = Dice::new(seed.wrapping_mul(0x9e37_79b9).wrapping_add(u64::from(kind.as_bytes()[1])));
@@ -34,7 +34,7 @@ impl Moving {
         let mut workspace = TimedWorkspace::from(workspace);
         workspace.fixed.obstacles.truncate(5);
         let reach = arm.reach();
-        // Obstacles are most likely to block the motion halfway.
+        // Halfway along the motion, obstacles are most likely to block it.
         let halfway = arm.tip_at((start + goals.pieces()[0].ends()[0]) / 2.0);
         let count = movers.unwrap_or_else(|| 2 + dice.below(4));
         workspace.movers = (0..count).map(|_| mover(&mut dice, arm.base, reach, halfway)).collect();
@@ -78,7 +78,7 @@ impl Moving {
         Oracle::new(&Scene::new(self.arm.clone(), workspace).expect("a scene"))
     }
 
-    /// Returns the same world with obstacles that move faster between their stops, by the factor `times`.
+    /// Returns the same world with obstacles that move between their stops faster by the factor `times`.
     pub fn sped_up(mut self, times: f64) -> Self {
         for mover in &mut self.workspace.movers {
             let first = mover.trajectory.stops()[0].time;
@@ -89,8 +89,8 @@ impl Moving {
         self
     }
 
-    /// Returns, for each moving obstacle and each interval between its stops, the beginning, the end, and the greatest
-    /// speed of a point of it, in m/s.
+    /// Returns, for each moving obstacle and each interval between its stops, the beginning, the end, and the greatest speed of
+    /// its points, in m/s.
     pub fn speeds(&self) -> Vec<[f64; 3]> {
         let of = |mover: &MovingObstacle| {
             let pieces = mover.obstacle.pieces.iter();
@@ -175,14 +175,14 @@ pub fn obstacle_at(mover: &MovingObstacle, time: f64) -> Obstacle {
     Obstacle { pieces: pieces.collect(), ..mover.obstacle.clone() }
 }
 
-/// Returns position, velocity and acceleration some seconds after a sample, by the polynomial of the fourth degree that
-/// the JSON states.
+/// Returns position, velocity and acceleration at a time after a sample, in seconds, by the polynomial of degree four that the
+/// JSON defines.
 pub fn state_between(trajectory: &Trajectory, sample: usize, t: f64) -> [Configuration; 3] {
     let row = |rows: &[[f64; 2]], k: usize| Configuration::from(rows[k]);
     let (p, v, a) =
         (row(&trajectory.position, sample), row(&trajectory.velocity, sample), row(&trajectory.acceleration, sample));
     let h = trajectory.time[sample + 1] - trajectory.time[sample];
-    // At the end of the interval, the terms of the third and fourth degree supply these differences.
+    // The terms of degree three and four supply these differences at the end of the interval.
     let e = row(&trajectory.position, sample + 1) - p - v * h - a * (h * h / 2.0);
     let f = row(&trajectory.velocity, sample + 1) - v - a * h;
     let (c, d) = ((e * 4.0 - f * h) / h.powi(3), (f * h - e * 3.0) / h.powi(4));
@@ -193,7 +193,7 @@ pub fn state_between(trajectory: &Trajectory, sample: usize, t: f64) -> [Configu
     ]
 }
 
-/// Returns the time and the configuration at a fraction `share` of the interval after a sample.
+/// Returns time and configuration at a fraction `share` of the interval after a sample.
 pub fn position(trajectory: &Trajectory, sample: usize, share: f64) -> (f64, Configuration) {
     let t = share * (trajectory.time[sample + 1] - trajectory.time[sample]);
     (trajectory.time[sample] + t, state_between(trajectory, sample, t)[0])

@@ -1,5 +1,5 @@
-//! The arm among its obstacles by brute force. It shares no code with the library except the types of its input:
-//! kinematics and distances are its own.
+//! The arm among its obstacles by brute force, with its own kinematics and distances. It shares no code with the library, except
+//! the types of its input.
 
 use crate::solid::{Solid, V, add, dot, norm, rotate, sub};
 use cplan::model::{Carrier, JointType, Scene};
@@ -7,12 +7,11 @@ use cplan::space::{Configuration, Path};
 
 /// A part of a link and the obstacles that it can hit.
 struct MovingObstacle {
-    /// Index of the link: 0 or 1. The index 2 stands for link 2 with joint 1 at zero, which can hit obstacles fixed to
-    /// link 1.
+    /// Index of the link, 0 or 1. The index 2 stands for link 2 with joint 1 at zero, which can hit obstacles on link 1.
     link: usize,
     solid: Solid,
     obstacles: Vec<u16>,
-    /// Bounds on the speed of the part's points, per unit of each joint's rate.
+    /// Bounds on the speed of the part's points, per unit of each joint's speed.
     speed: V,
 }
 
@@ -31,7 +30,7 @@ pub struct Oracle {
     pub axes: [(f64, f64, bool); 2],
 }
 
-/// Bounds that hold in a whole box of configurations, for one meeting.
+/// Bounds for one meeting over a box of configurations.
 pub struct Bounds {
     /// Lower bound on the room.
     pub least: f64,
@@ -42,7 +41,7 @@ pub struct Bounds {
 /// The arm at a configuration.
 pub struct Posture {
     frames: [(V, V); 3],
-    /// The mover that was placed last.
+    /// The last placed moving part.
     placed: Option<(u16, Solid)>,
 }
 
@@ -141,8 +140,8 @@ impl Oracle {
         })
     }
 
-    /// Returns the least and the greatest room of a meeting while each joint deviates by up to `half`. The room is the
-    /// distance minus the clearance to keep.
+    /// Returns the least and the greatest room of a meeting while each joint deviates by up to `half`. The room is the excess of
+    /// the distance over the required clearance.
     pub fn bounds(&self, posture: &mut Posture, (m, o): Meeting, half: V) -> Bounds {
         let mover = &self.movers[usize::from(m)];
         let solid = self.placed(posture, m);
@@ -150,7 +149,7 @@ impl Oracle {
         let second = half[1] * mover.speed[1];
         let first = match (self.motions[0], mover.link) {
             (JointType::Revolute { .. }, 1) => {
-                // Only the second joint changes the distance from the base.
+                // Only the second joint changes this distance from the base.
                 let out = solid.corners().iter().map(|&p| norm(sub(p, self.base))).fold(0.0, f64::max);
                 (out + second).min(mover.speed[0])
             }
@@ -174,12 +173,12 @@ impl Oracle {
         &posture.placed.as_ref().expect("just placed").1
     }
 
-    /// Returns the distance to the nearest obstacle minus the clearance to keep.
+    /// Returns the distance to the nearest obstacle minus the required clearance.
     pub fn room(&self, q: Configuration) -> f64 {
         self.room_up_to(q, f64::INFINITY)
     }
 
-    /// Returns the distance to the nearest obstacle minus the clearance to keep, or `most` if that is less.
+    /// Returns the distance to the nearest obstacle minus the required clearance, but at most `most`.
     fn room_up_to(&self, q: Configuration, most: f64) -> f64 {
         let mut posture = self.posture([q[0], q[1]]);
         let mut least = most;
@@ -200,8 +199,8 @@ impl Oracle {
         self.movers.iter().map(|m| dot(m.speed, [d[0].abs(), d[1].abs()])).fold(0.0, f64::max)
     }
 
-    /// Finds a configuration on the path with less room than `proven`. The search takes steps of `step`. A step is
-    /// longer only if the distance proves that it skips nothing.
+    /// Finds a configuration on the path with less room than `proven`, in steps of `step`. A step is longer only if the distance
+    /// proves that nothing is skipped.
     pub fn violation(&self, path: &Path, proven: f64, step: f64) -> Option<(Configuration, f64)> {
         let mut worst = None;
         for (a, b) in path.segments().chain([(path.goal(), path.goal())]) {

@@ -9,7 +9,7 @@ fn vector(p: &Point) -> Vector {
     Vector::new(p.x, p.y)
 }
 
-/// Returns the core as a shape of parry; `None` if parry refuses a sliver.
+/// Returns the core as a shape of parry. `None` if parry refuses a sliver.
 fn core(shape: &Convex) -> Option<(Pose, SharedShape)> {
     Some(match shape.core() {
         [p] => (Pose::from_translation(vector(p)), SharedShape::ball(0.0)),
@@ -18,7 +18,7 @@ fn core(shape: &Convex) -> Option<(Pose, SharedShape)> {
     })
 }
 
-/// Returns the distance of the cores of two shapes, 0 if they meet; `None` if parry cannot represent them.
+/// Returns the distance between the cores of two shapes, 0 if they meet. `None` if parry cannot represent them.
 pub fn core_distance(a: &Convex, b: &Convex) -> Option<f64> {
     let ((p, a), (q, b)) = (core(a)?, core(b)?);
     query::distance(&p, a.as_ref(), &q, b.as_ref()).ok().map(|found| found.distance)

@@ -1,4 +1,4 @@
-//! The pictures of the documentation. `tests/program/pictures.rs` also draws them.
+//! The pictures of the documentation, which `tests/program/pictures.rs` draws as well.
 
 use crate::root;
 use cplan::PlanOutput as _;
@@ -42,8 +42,7 @@ pub const PICTURES: [(&str, Subject); 18] = [
     ("board_and_gate", Subject::Task("gantry", "board_and_gate")),
 ];
 
-/// The animated picture at the top of the README: the name of its file, and that of the still picture of the same
-/// scene.
+/// The animated picture at the top of the README: the names of its file, and of the still picture of the same scene.
 pub const MOVING: (&str, &str) = ("thinking", "shortest");
 
 impl Subject {
@@ -65,7 +64,7 @@ impl Subject {
     }
 }
 
-/// Returns options for the planner with attraction and repulsion, with one attempt on 80 x 80 cells.
+/// Returns options for a planner by attraction and repulsion, with one attempt on 80 x 80 cells.
 fn by_forces(charge: f64) -> Options {
     let laws = Khatib { attraction: Attraction::Constant(1.0), repulsion: Repulsion::Sum(charge), saturated: false };
     let (limits, path) = (Limits::High, PathKind::Own);

@@ -1,4 +1,4 @@
-//! Problems of motions: those of benchmarks, and the shipped ones; and the check of a claim that there is no motion.
+//! Problems of motions: those of benchmarks and shipped ones. Also checks claims that there is no motion.
 
 use crate::arms::rr;
 use crate::scenes::{q, scene};
@@ -43,7 +43,7 @@ pub fn recheck(
     Disconnection::new(stuck.to_vec()).checked(scene, start, goals, clearance).map(drop)
 }
 
-/// The benchmark problems whose answers are published: a 2R arm on the torus among four polygons.
+/// The benchmark problems with published answers: a 2R arm on the torus among four polygons.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Benchmark {
     /// A passage that is 0.070 rad wide; the optimum is 6.4229.
@@ -52,7 +52,7 @@ pub enum Benchmark {
     B,
     /// Start and goal are proven to be disconnected.
     Inf,
-    /// There is no path: two walls, which block link 1, are 0.0066 rad wide.
+    /// There is no path: two walls, 0.0066 rad wide, block link 1.
     T,
 }
 
@@ -83,7 +83,7 @@ pub fn problem(which: Benchmark) -> MotionProblem {
     motion_problem(scene, start, goal)
 }
 
-/// Returns the name and problem of each shipped workspace that states that there is a path.
+/// Returns name and problem of each shipped workspace that is stated to have a path.
 pub fn shipped_feasible() -> Vec<(String, MotionProblem)> {
     let feasible = shipped::worlds("").into_iter().filter(|world| world.expect == "found");
     let problems: Vec<_> = feasible.map(|world| (world.name.clone(), world.motion())).collect();

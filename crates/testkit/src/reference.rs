@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-/// Returns a file or a folder of the published data. Tests that need such data are ignored by default. To run them:
+/// Returns a file or folder of the published data. Tests that need such data are ignored by default. To run them:
 /// `CPLAN_REFERENCE=folder cargo test -- --ignored`.
 pub fn published(part: &str) -> PathBuf {
     let folder = std::env::var_os("CPLAN_REFERENCE");

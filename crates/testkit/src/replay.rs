@@ -1,5 +1,5 @@
-//! Replays a planned task. It shares no code with the library except the types of its input and output. Positions of
-//! objects, the payload and the allowed contacts follow from the task alone.
+//! Replays a planned task. It shares no code with the library, except the types of its input and output. Positions of objects,
+//! the payload and the allowed contacts follow from the task alone.
 
 mod frames;
 mod overlaps;
@@ -22,7 +22,7 @@ const LOOKS: usize = 300;
 /// Greatest depth to which an object may press into its support, as a fraction of the arm's reach.
 const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
-/// Heights that overlap by at most this count as resting, as the book states, in metres.
+/// Overlap of heights, in metres, up to which an object counts as resting, as the book states.
 const RESTING_TOLERANCE: f64 = 1e-6;
 
 /// Number of a moving obstacle, which may never be touched.
@@ -31,8 +31,7 @@ const MOVER: usize = usize::MAX;
 /// An object that the gripper holds.
 struct Held {
     object: usize,
-    /// Pose of the object: in link 2's frame for a rigid payload; relative to the tip, in the plane's directions, for a
-    /// level one.
+    /// Pose of the object: for a rigid payload in link 2's frame; for a level one relative to the tip, in the plane's directions.
     frame: Frame,
     level: bool,
     supports: Vec<usize>,
@@ -51,7 +50,7 @@ pub struct World<'a> {
     released: Option<usize>,
     /// Height of the tool above its raised position, metres; negative while it is lowered.
     tool: f64,
-    /// The tool may touch the objects that it handles only while the arm rests, unless it does so when raised, too.
+    /// True while the arm moves. The tool may then touch the objects that it handles only if it also does so when raised.
     arm_moves: bool,
 }
 
@@ -66,7 +65,7 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
     let mut clock = 0.0;
     // Depth from which the tool rises when the next motion may begin, and that time.
     let mut risen_from = 0.0;
-    // The turn after the step before.
+    // The turn after the previous step.
     let mut turned_before = None;
     for (index, leg) in answer.legs.iter().enumerate() {
         for &object in &renewed[index] {
@@ -93,7 +92,7 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
         if clearance < task.workspace.fixed.clearance {
             return Err(say("keeps less than the clearance"));
         }
-        // The stated clearance is that from things at rest.
+        // The stated clearance is that from static obstacles.
         let is_stated = clearance.is_finite() && !world.anything_moves();
         let keep = if is_stated { clearance } else { task.workspace.fixed.clearance };
         let looks = match t.time.len() {
@@ -145,8 +144,8 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
         {
             return Err(say("releases another object"));
         }
-        // While the arm rests, other things may come, and an object lies where it was released. An arm that cannot
-        // continue leaves the world to them.
+        // While the arm rests, other obstacles may come, and an object lies where it was released. An arm that cannot continue is
+        // not considered after its last step.
         let goes_on = all || index + 1 < answer.legs.len();
         let looks = if goes_on && world.anything_moves() { 11 } else { 0 };
         for k in 0..looks {
@@ -163,7 +162,7 @@ pub fn replay(task: &Task, answer: &TaskAnswer, all: bool) -> Result<(), String>
 fn next_supports(task: &Task, answer: &TaskAnswer, index: usize) -> Vec<usize> {
     let picked = &answer.legs[index].step;
     let follows = |step: &&Step| (step.cycle, step.number) > (picked.cycle, picked.number);
-    // Pairs stay together, and a target has the number after its pick, except for moves between them.
+    // A pick and its place stay together, except for moves in between, and the place has the number after that of the pick.
     task.steps()
         .filter(follows)
         .find_map(|step| match &step.action {
@@ -173,7 +172,7 @@ fn next_supports(task: &Task, answer: &TaskAnswer, index: usize) -> Vec<usize> {
         .unwrap_or_default()
 }
 
-/// Returns for each leg the objects that are supplied before it.
+/// Returns, for each leg, the objects that are supplied before it.
 ///
 /// # Errors
 /// If the steps have an order that the task does not allow.
@@ -247,7 +246,7 @@ impl<'a> World<'a> {
         !self.task.workspace.movers.is_empty() || self.moving.contains(&true)
     }
 
-    /// Returns the frame of an object that nobody holds.
+    /// Returns the frame of an object that is not held.
     fn lying(&self, object: usize) -> Option<Frame> {
         match self.moving[object] {
             true => Some(pose_on_trajectory(&self.task.objects[object], self.time)),
@@ -293,14 +292,13 @@ impl<'a> World<'a> {
         bodies
     }
 
-    /// Returns how much deeper a body may press into its support. The result is negative if it presses too deep. The
-    /// clearance does not matter.
+    /// Returns how much deeper a body may press into its support, whatever the clearance. Negative if it presses too deep.
     fn allowance_left(&self, body: &Solid, support: &Solid) -> f64 {
         body.distance(support) + PENETRATION_ALLOWANCE * self.task.arm.reach()
     }
 
-    /// Calls `f` for each moving body and each obstacle, with their distance at `q`. If the body rests on the obstacle,
-    /// `f` also gets [`Self::allowance_left`].
+    /// Calls `f` for each moving body and each obstacle, with their distance at `q`. If the body rests on the obstacle, `f` also
+    /// receives [`Self::allowance_left`].
     fn distances(&self, q: V, target: Option<usize>, mut f: impl FnMut(&str, usize, f64, Option<f64>)) {
         let fixed = self.task.workspace.fixed.obstacles.len();
         let (frames, _) = frames(&self.task.arm, q);
@@ -359,9 +357,8 @@ impl<'a> World<'a> {
         wrong
     }
 
-    /// Returns the least and the greatest possible value of the room at `q`, which is the distance from obstacles
-    /// beyond the required one. A body that does not press into its support at all is free. Otherwise its corners
-    /// decide how much deeper it may press.
+    /// Returns the least and the greatest possible room at `q`: the excess of the distance from obstacles over the required one.
+    /// A body that does not press into its support is free; otherwise its corners decide how much deeper it may press.
     pub fn room(&self, q: V) -> [f64; 2] {
         let (mut surely, mut perhaps) = (f64::INFINITY, f64::INFINITY);
         self.distances(q, None, |_, _, distance, pressed| {
@@ -372,7 +369,7 @@ impl<'a> World<'a> {
         [surely, perhaps]
     }
 
-    /// Returns a bound on the speed of any point per unit of each joint's rate.
+    /// Returns a bound on the speed of any point, per unit of each joint's speed.
     pub fn speeds(&self) -> V {
         let arm = &self.task.arm;
         let own = arm

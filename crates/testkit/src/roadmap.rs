@@ -1,4 +1,4 @@
-//! Scenes for planners with roadmaps, and checks of their answers that share no code with them.
+//! Scenes for planners with roadmaps, and checks of their answers that share no code with the planners.
 
 use cplan::cspace::{PolygonWithHoles, Proves, Regions};
 use cplan::geometry::{Point, segments_cross};
@@ -21,21 +21,20 @@ pub fn rectangle(x: (f64, f64), y: (f64, f64)) -> Vec<Point> {
     points(&[(x.0, y.0), (x.1, y.0), (x.1, y.1), (x.0, y.1)])
 }
 
-/// Returns a rectangular window with holes, which are given counter-clockwise, lie within the window and do not touch
-/// each other.
+/// Returns a rectangular window with holes, which are counter-clockwise, within the window and disjoint.
 pub fn window_with_holes(x: (f64, f64), y: (f64, f64), holes: Vec<Vec<Point>>) -> Regions {
     let reversed = holes.into_iter().map(|hole| hole.into_iter().rev().collect()).collect();
     regions([x, y], vec![PolygonWithHoles { outer: rectangle(x, y), holes: reversed }])
 }
 
-/// Returns `side * side` disjoint convex polygons of `corners` corners each, within `[0, side]^2`.
+/// Returns `side * side` disjoint convex polygons with `corners` corners each, within `[0, side]^2`.
 pub fn convex_crowd(random: &mut Dice, side: usize, corners: usize) -> Vec<Vec<Point>> {
     let mut crowd = Vec::new();
     for i in 0..side {
         for j in 0..side {
             let radius = random.within(0.15, 0.35);
             let [x, y] = [i, j].map(|k| k as f64 + 0.5 + random.within(-0.1, 0.1));
-            // One corner in each equal part of the circle, so that every polygon contains its centre.
+            // One corner in each of equal parts of the circle, so that every polygon contains its centre.
             let part = std::f64::consts::TAU / corners as f64;
             let angles = (0..corners).map(|k| part * (k as f64 + random.within(0.05, 0.95)));
             crowd.push(angles.map(|a| Point::new(x + radius * a.cos(), y + radius * a.sin())).collect());
@@ -44,8 +43,8 @@ pub fn convex_crowd(random: &mut Dice, side: usize, corners: usize) -> Vec<Vec<P
     crowd
 }
 
-/// Returns `count` disjoint star-shaped polygons of ten corners each, most of them not convex. They have random sizes
-/// and random places in a window of as many unit squares, and fill about 23 % of it.
+/// Returns `count` disjoint star-shaped polygons with ten corners each, most of which are not convex. Their sizes and places are
+/// random, in a window of as many unit squares, of which they fill about 23 %.
 pub fn star_crowd(random: &mut Dice, count: usize) -> Regions {
     let columns = (count as f64).sqrt().ceil() as usize;
     let rows = count.div_ceil(columns);
@@ -69,7 +68,7 @@ pub fn crowd_regions(side: usize, crowd: &[Vec<Point>]) -> Regions {
     window_with_holes(window, window, crowd.to_vec())
 }
 
-/// Free unit squares of a board. As regions, they have many collinear sides, equal abscissae and corners that touch.
+/// The free unit squares of a board. As regions, they have many collinear sides, equal abscissae and touching corners.
 pub struct Board {
     /// Number of squares along a side.
     pub size: usize,
@@ -109,14 +108,13 @@ impl Board {
         component
     }
 
-    /// Returns the free squares as polygons, mapped by the integer matrix `map` (of positive determinant). Where two
-    /// squares of one component touch only in a corner, `link` decides whether a contour continues along the other
-    /// square.
+    /// Returns the free squares as polygons, mapped by the integer matrix `map` (of positive determinant). Where two squares of
+    /// one component touch only in a corner, `link` decides whether a contour continues along the other square.
     pub fn regions(&self, map: [[i32; 2]; 2], mut link: impl FnMut() -> bool) -> Regions {
         let n = self.size as i32;
         let component = self.components();
         let of = |x: i32, y: i32| if self.is_free(x, y) { component[(x * n + y) as usize] } else { None };
-        // Unit steps that have the free square on their left.
+        // Unit steps with the free square on their left.
         let left_square = |(x, y): (i32, i32), (dx, dy): (i32, i32)| (x + (dx - dy - 1) / 2, y + (dx + dy - 1) / 2);
         let right_square = |(x, y): (i32, i32), (dx, dy): (i32, i32)| (x + (dx + dy - 1) / 2, y + (dy - dx - 1) / 2);
         let is_side = |p: (i32, i32), d: (i32, i32)| {
@@ -198,8 +196,8 @@ pub fn area(contours: impl IntoIterator<Item = Vec<Point>>) -> f64 {
     contours.into_iter().map(|c| twice(&c) / 2.0).sum()
 }
 
-/// Returns all arcs of the reduced visibility graph of obstacles in general position, each with its left end first.
-/// Uses plain arithmetic.
+/// Returns all arcs of the reduced visibility graph of obstacles in general position, each with its left end first, by plain
+/// arithmetic.
 pub fn bitangents(regions: &Regions) -> Vec<[Configuration; 2]> {
     let turn = |a: Point, b: Point, c: Point| (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
     let sides = sides(regions);
@@ -227,8 +225,7 @@ pub fn bitangents(regions: &Regions) -> Vec<[Configuration; 2]> {
     arcs
 }
 
-/// Returns true if `p` is in free space or within 1e-9 of it. Computes with winding angles and distances in plain
-/// floats.
+/// Returns true if `p` is in free space or within 1e-9 of it, by winding angles and distances in plain floats.
 pub fn is_nearly_free(sides: &[(Point, Point)], p: Point) -> bool {
     let winding: f64 = sides
         .iter()
@@ -246,8 +243,8 @@ fn distance(p: Point, a: Point, b: Point) -> f64 {
     (p - (a + (b - a) * t)).norm()
 }
 
-/// Panics unless the path stays in closed free space: no piece of it crosses a side properly, and no point of a dense
-/// sampling lies in an obstacle.
+/// Panics unless the path stays in closed free space: no piece of it crosses a side properly, and no point of a dense sampling is
+/// in an obstacle.
 pub fn assert_free(regions: &Regions, path: &Path) {
     let sides = sides(regions);
     let samples = 50;
@@ -262,9 +259,8 @@ pub fn assert_free(regions: &Regions, path: &Path) {
     }
 }
 
-/// Returns the length of the shortest path among open convex obstacles (counter-clockwise) within a window. It uses
-/// brute force: all pairs of all corners are clipped against all obstacles; then Dijkstra's algorithm runs on the full
-/// matrix.
+/// Returns the length of the shortest path among open convex obstacles (counter-clockwise) within a window, by brute force: all
+/// pairs of all corners are clipped against all obstacles; then Dijkstra's algorithm runs on the full matrix.
 pub fn brute_force_length(obstacles: &[Vec<Point>], window: (f64, f64), start: Point, goal: Point) -> Option<f64> {
     brute_force(obstacles, window, start, goal, Metric::Euclidean)
 }
@@ -298,7 +294,7 @@ pub fn brute_force(
     length[1].is_finite().then_some(length[1])
 }
 
-/// Returns true if a segment enters a convex polygon deeper than rounding (Cyrus and Beck's clipping).
+/// Returns true if a segment enters a convex polygon by more than rounding errors (Cyrus and Beck's clipping).
 fn enters(polygon: &[Point], p: Point, q: Point) -> bool {
     let (mut from, mut to) = (0.0_f64, 1.0_f64);
     for k in 0..polygon.len() {

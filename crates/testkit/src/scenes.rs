@@ -28,13 +28,13 @@ pub fn placed(arm: Arm, workspace: Workspace) -> Scene {
     Scene::new(arm, workspace).expect("a scene")
 }
 
-/// Returns the scene of an arm among these obstacles, with no clearance to keep.
+/// Returns the scene of an arm among these obstacles, without a required clearance.
 pub fn scene(arm: Arm, pieces: Vec<Convex>) -> Scene {
     let obstacles = pieces.into_iter().enumerate().map(|(i, p)| obstacle(&format!("o{i}"), p)).collect();
     placed(arm, Workspace { name: "test".into(), obstacles, clearance: 0.0, preferences: Vec::new() })
 }
 
-/// Returns a polygon, a triangle, a disc and a thin wall, within reach of all arms of [`all_kinds`](crate::arms::all_kinds).
+/// Returns a polygon, a triangle, a disc and a thin wall within reach of all arms of [`all_kinds`](crate::arms::all_kinds).
 pub fn clutter() -> Vec<Convex> {
     vec![
         rectangle(0.7, 0.9, 0.4, 0.8),
@@ -60,7 +60,7 @@ pub fn spiral(count: u8) -> Vec<Convex> {
     (0..count).map(polygon).collect()
 }
 
-/// Returns the benchmark for building configuration spaces, W20: two bars on the torus among 20 polygons on a spiral.
+/// Returns W20, the benchmark for building configuration spaces: two bars on the torus among 20 polygons on a spiral.
 pub fn w20() -> Scene {
     scene(rr([JointRange::Circle, JointRange::Circle]), spiral(20))
 }
@@ -73,7 +73,7 @@ pub fn anywhere(dice: &mut Dice, arm: &Arm) -> Configuration {
     })
 }
 
-/// Draws discs and walls around the origin, whose distances from it are from `nearest` to `farthest`.
+/// Draws discs and walls at distances from `nearest` to `farthest` from the origin.
 pub fn discs_and_walls(dice: &mut Dice, count: u64, [nearest, farthest]: [f64; 2]) -> Vec<Convex> {
     let mut piece = || {
         let (r, angle) = (dice.within(nearest, farthest), dice.within(-PI, PI));

@@ -1,4 +1,4 @@
-//! Shapes that must be valid.
+//! Shapes made from arguments that must be valid.
 
 use cplan_geometry::{Convex, Point};
 

@@ -1,4 +1,4 @@
-//! The worlds in `workspaces`, with the statements in their first comments.
+//! The worlds in `workspaces`, with what their first comments state.
 
 use crate::root;
 use cplan::input::{self, Overrides};
@@ -21,7 +21,7 @@ pub struct Shipped {
 }
 
 impl Shipped {
-    /// Returns the value of a line `# key: value`; an empty text if there is none.
+    /// Returns the value of a line `# key: value`; empty if there is none.
     pub fn stated(&self, key: &str) -> &str {
         self.text.lines().find_map(|line| line.strip_prefix(&format!("# {key}:"))).unwrap_or_default().trim()
     }
@@ -43,7 +43,7 @@ pub fn robot(name: &str) -> PathBuf {
     root().join(format!("robots/{name}.urdf"))
 }
 
-/// Returns a shipped world for the robot that it states, such as `shelf` or `tasks/feeder`.
+/// Returns a shipped world, such as `shelf` or `tasks/feeder`, for the robot that it states.
 pub fn world(name: &str) -> Shipped {
     let world = root().join(format!("workspaces/{name}.toml"));
     let text = std::fs::read_to_string(&world).unwrap_or_else(|error| panic!("{name}: {error}"));
@@ -53,7 +53,7 @@ pub fn world(name: &str) -> Shipped {
     Shipped { robot: robot(shipped.stated("robot")), expect, ..shipped }
 }
 
-/// Returns all worlds in a folder of `workspaces` that state a robot, in the order of their names.
+/// Returns all worlds in a folder of `workspaces` that state a robot, ordered by name.
 pub fn worlds(folder: &str) -> Vec<Shipped> {
     let files = std::fs::read_dir(root().join("workspaces").join(folder)).unwrap().map(|entry| entry.unwrap().path());
     let names = files.filter(|file| file.extension().is_some_and(|extension| extension == "toml"));

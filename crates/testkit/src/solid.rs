@@ -1,4 +1,4 @@
-//! Convex bodies and their distance, for the oracles: separating axes if they overlap, corners to sides if not.
+//! Convex bodies and their distances, for the oracles: separating axes if they overlap, otherwise corners and sides.
 
 use cplan::geometry::Convex;
 
@@ -8,8 +8,8 @@ pub type V = [f64; 2];
 /// Largest number of corners of a body.
 const MOST: usize = 8;
 
-/// Distances nearer to zero than this are computed from corners and sides. If bodies lie on one line, no normal shows
-/// their distance.
+/// Distances nearer to zero than this are computed from corners and sides, because no normal shows the distance of bodies on one
+/// line.
 const TOUCHING: f64 = 1e-12;
 
 /// Returns `a - b`.
@@ -42,13 +42,13 @@ pub fn rotate(a: V, by: V) -> V {
 pub struct Solid {
     count: usize,
     corners: [V; MOST],
-    /// Outward unit normals of the sides, each of the side from the corner of the same index; two for a segment, none
+    /// Outward unit normals of the sides. Each belongs to the side after the corner with the same index; two for a segment, none
     /// for a point.
     normals: [V; MOST],
     middle: V,
     /// Greatest distance of a corner from the middle.
     size: f64,
-    /// Distance from the core within which points belong to the body.
+    /// Radius by which the body extends beyond its core.
     pub radius: f64,
     /// Greatest distance of a corner from the origin of its frame.
     pub reach: f64,
@@ -73,7 +73,7 @@ impl Solid {
         Self { count, corners, normals, middle, size, radius: shape.radius(), reach }
     }
 
-    /// Returns the body turned about the origin, then moved.
+    /// Returns the body, first turned about the origin, then moved.
     pub fn placed(&self, turn: V, place: V) -> Self {
         let mut at = *self;
         for i in 0..self.count {
@@ -105,8 +105,8 @@ impl Solid {
         cores - self.radius - other.radius
     }
 
-    /// Returns the greatest distance of the other body from the line of a side of this one. Returns minus infinity if
-    /// this body has no sides.
+    /// Returns the greatest distance of the other body from the line of a side of this one. Minus infinity if this body has no
+    /// sides.
     fn widest_gap(&self, other: &Self) -> f64 {
         let mut widest = f64::NEG_INFINITY;
         let sides = if self.count > 1 { self.count } else { 0 };
@@ -120,7 +120,7 @@ impl Solid {
         widest
     }
 
-    /// Returns the least squared distance of a corner of this body from a side of the other.
+    /// Returns the square of the least distance between a corner of this body and a side of the other.
     fn corners_to_sides(&self, other: &Self) -> f64 {
         let mut least = f64::INFINITY;
         for i in 0..other.count {

@@ -1,4 +1,4 @@
-//! Random worlds, the same for the same seed: all kinds of arms among touching, thin and pointed obstacles.
+//! Random worlds, determined by a seed: all kinds of arms among touching, thin and pointed obstacles.
 
 use crate::oracle::Oracle;
 use crate::problems::motion_problem;
@@ -16,12 +16,12 @@ use std::f64::consts::{PI, TAU};
 /// The four kinds of arms.
 pub const KINDS: [&str; 4] = ["RR", "RP", "PR", "PP"];
 
-/// Returns the world of a seed for an arm of a kind. Returns `None` if the draw has no two free configurations.
+/// Returns the world of a seed for a kind of arm. `None` if it lacks two free configurations.
 pub fn world(kind: &str, seed: u64) -> Option<MotionProblem> {
     drawn(kind, seed, |_, _| Vec::new())
 }
 
-/// Returns the same world with self-obstacles of the robot.
+/// Returns the same world, with the robot's own links as further obstacles.
 pub fn drawn(kind: &str, seed: u64, body: impl Fn(&mut Dice, &Arm) -> Vec<SelfObstacle>) -> Option<MotionProblem> {
     let mut dice = Dice::new(seed.wrapping_mul(0x2545_F491_4F6C_DD1D) ^ u64::from(kind.as_bytes()[0]) << 8);
     let mut arm = arm(&mut dice, kind);
@@ -199,7 +199,7 @@ fn free(dice: &mut Dice, scene: &Scene) -> Option<Configuration> {
     }
     let mut q = found?;
     if let Some(mut far) = blocked.filter(|_| dice.chance(0.3)) {
-        // Bisect towards the obstacle, to a room of 1e-2 down to 1e-6.
+        // Bisects towards the obstacle, to a room that is drawn from 1e-6 to 1e-2.
         let near = 10_f64.powf(dice.within(-6.0, -2.0));
         for _ in 0..60 {
             let middle = (q + far) / 2.0;

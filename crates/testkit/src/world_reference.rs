@@ -1,5 +1,4 @@
-//! Renders a JSON schema as a page of tables. `tests/input/world_schema.rs` checks that the committed page is up to
-//! date.
+//! Renders a JSON schema as a page of tables. `tests/input/world_schema.rs` checks that the committed page is up to date.
 
 use serde_json::{Map, Value};
 
@@ -103,7 +102,7 @@ fn kind(value: &Value, number: Number) -> String {
     }
 }
 
-/// Returns the name of the table to which a value refers. Returns `None` if it refers to none.
+/// Returns the name of the table to which a value refers. `None` if it refers to none.
 fn refers_to(value: &Value) -> Option<&str> {
     let reference = [&value["$ref"], &value["allOf"][0]["$ref"]].into_iter().find_map(Value::as_str);
     reference.and_then(|path| path.strip_prefix("#/definitions/"))

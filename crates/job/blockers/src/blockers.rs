@@ -1,4 +1,4 @@
-//! Irreducible sets of elements: sets that block all motions, and of which no element can be left out.
+//! Irreducible sets of elements: they block all motions, but would not without any one of their elements.
 
 use super::element::Element;
 use super::question::MotionQuestion;
@@ -7,27 +7,26 @@ use cplan_judge::{CertifiedPath, CheckedProof, CollisionBox, Disconnection};
 use cplan_model::{Outcome, Scene, Status};
 use cplan_text::joined;
 
-/// Largest number of blocking sets. Each set is computed in a world without the obstacles of the sets before it.
+/// Largest number of blocking sets. Each set is computed in a world without the obstacles of the previous ones.
 const MAX_SETS: usize = 8;
 
-/// An element that blocks the motion and is needed in its set.
+/// An element of a blocking set that the set needs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Blocker {
     /// The element.
     pub element: Element,
-    /// A certified motion past the other elements of the set. `None` if it is not known whether there is one.
+    /// A certified motion past the other elements of the set. `None` if no such motion is known.
     pub without: Option<CertifiedPath>,
 }
 
-/// A set of elements that block all motions even if the world contains nothing else. If any one of them is removed from
-/// the set, there is a motion, or it is not known whether there is one.
+/// A set of elements that block all motions even if the world contains nothing else. Without any one of them, there is a motion,
+/// or it is not known whether there is one.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlockingSet {
-    /// The elements: first limits, then the clearance, then obstacles in the order of the file. Empty if no change can
-    /// open a path, as for a tip goal out of reach.
+    /// The elements: first limits, then the clearance, then obstacles in the order of the file. Empty if no change can open a
+    /// path, as for a tip goal out of reach.
     pub blockers: Vec<Blocker>,
-    /// Proof that these elements alone block all motions. `None` if the start or every goal is blocked by them, which
-    /// needs no proof.
+    /// Proof that these elements alone block all motions. `None` if they block the start or every goal, which needs no proof.
     pub proof: Option<CheckedProof>,
 }
 
@@ -64,21 +63,20 @@ impl BlockingSet {
 
 /// Returns an irreducible blocking set for an infeasible question, starting from its proof.
 ///
-/// This is a deletion filter. Elements that the proof does not name are removed at once. Then each of the others is
-/// removed if there is still no motion without it. An element that stays is needed: a motion is certified without it.
-/// That remains true when other elements are removed later, since fewer obstacles, wider limits and less clearance can
-/// only free more configurations.
+/// This is a deletion filter. Elements that the proof does not name are removed at once. Then each of the others is removed
+/// unless a motion becomes possible. A remaining element is needed, because a motion without it is certified. This stays true
+/// when other elements are removed later: fewer obstacles, wider limits and less clearance can only free more configurations.
 ///
-/// Decisions are made by slabs and boxes, without computing an optimum. `boxes` limits the number of boxes per
-/// decision. The first number applies to each element. The second applies to the few elements that stay and for which
-/// the first gave no result. Makes `O(n)` decisions for the `n` elements that the proof names.
+/// Slabs and boxes decide, without computing an optimum. `boxes` limits the number of boxes per decision: the first number
+/// applies to each element, the second one to the few remaining elements for which the first gave no result. Makes `O(n)`
+/// decisions for the `n` elements that the proof names.
 pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxes: [usize; 2]) -> BlockingSet {
     let mut filter = Filter { question, boxes: boxes[0], all: question.elements(), set: Vec::new(), proof: None };
     filter.set.clone_from(&filter.all);
     filter.refine(proof);
     let (limits, others): (Vec<_>, Vec<_>) =
         filter.set.clone().into_iter().partition(|element| matches!(element, Element::Limit { .. }));
-    // Usually either no limit is needed, or limits of both joints are needed.
+    // Usually, either no limit is needed, or limits of both joints are.
     let mut waiting = vec![];
     if limits.len() < 2 || filter.try_without(&limits).is_err() {
         waiting = limits;
@@ -93,7 +91,7 @@ pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxe
             kept.push(Blocker { element, without });
         }
     }
-    // A decision that was not reached among many elements may be reached among few.
+    // A question that stayed undecided among many elements may be decided among few.
     filter.boxes = boxes[1];
     let count = kept.len();
     for k in (0..count).rev() {
@@ -108,8 +106,8 @@ pub fn blocking_set(question: &MotionQuestion, proof: Option<CheckedProof>, boxe
     BlockingSet { blockers: kept, proof: filter.proof }
 }
 
-/// Returns blocking sets that have no obstacle in common. After each set is found, its obstacles are removed from the
-/// world. This continues until the remaining world has a motion.
+/// Returns blocking sets that have no obstacle in common. After each set, its obstacles are removed from the world, until the
+/// remaining world has a motion.
 pub fn blocking_sets(question: &MotionQuestion, proof: Option<CheckedProof>, boxes: [usize; 2]) -> Vec<BlockingSet> {
     let mut sets = vec![blocking_set(question, proof, boxes)];
     let mut gone: Vec<Element> = Vec::new();
@@ -128,7 +126,7 @@ pub fn blocking_sets(question: &MotionQuestion, proof: Option<CheckedProof>, box
     sets
 }
 
-/// A set of elements that blocks all motions, and that shrinks as needless elements are removed from it.
+/// A blocking set from which unnecessary elements are removed.
 struct Filter<'a> {
     question: &'a MotionQuestion,
     boxes: usize,
@@ -146,7 +144,7 @@ impl Filter<'_> {
         self.question.without(&gone)
     }
 
-    /// Removes some elements from the set if the others still block all motions. Otherwise returns the motion that was
+    /// Removes some elements from the set if the others still block all motions. Otherwise, the error is the motion that was
     /// found, if any.
     fn try_without(&mut self, some: &[Element]) -> Result<(), Option<CertifiedPath>> {
         let set: Vec<Element> = self.set.iter().filter(|element| !some.contains(element)).copied().collect();
@@ -177,14 +175,14 @@ impl Filter<'_> {
                 set.retain(|element| element.obstacle() != Some(obstacle));
             }
         }
-        // Without an obstacle, the tip goal may be reached by more configurations, which the proof does not cover.
+        // Without an obstacle, more configurations may reach the tip goal, which the proof does not cover.
         if let Some(slim) = proof_of_boxes(&self.question_with(&set), slim.collision_boxes().to_vec()) {
             (self.set, self.proof) = (set, Some(slim));
         }
     }
 }
 
-/// Returns the proof that consists of these boxes. `None` if it is not shown to be valid before the time is up.
+/// Returns the proof that consists of these boxes. `None` unless it is shown to be valid before the time is up.
 fn proof_of_boxes(question: &MotionQuestion, stuck: Vec<CollisionBox>) -> Option<CheckedProof> {
     let scene = question.scene();
     let clearance = scene.workspace().clearance;

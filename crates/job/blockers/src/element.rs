@@ -31,23 +31,23 @@ pub enum Element {
         /// Index of its first layer, as in [`cplan_model::Pair::obstacle`].
         number: usize,
     },
-    /// One end of a joint's range. Removing limits does not make whole turns of a revolute joint equal: a goal that is
-    /// a whole turn away remains a different goal.
+    /// One end of a joint's range. Even without limits, whole turns of a revolute joint stay different: a goal that is a whole
+    /// turn away remains another goal.
     Limit {
         /// Index of the joint, 0 or 1.
         joint: usize,
         /// The end of the range.
         side: Side,
     },
-    /// The range of the elbow's motor, where it limits the sum of both joint values.
+    /// The range of the elbow's motor, if it limits the sum of both joint values.
     Motor,
     /// The required clearance.
     Clearance,
 }
 
 impl Element {
-    /// Returns all elements of a scene: finite limits, the range of a motor, a clearance above 0, and those obstacles and links that the arm
-    /// can hit. Obstacles and links are in the order of the files.
+    /// Returns all elements of a scene: finite limits, the range of a motor, a clearance above 0, and the obstacles and links
+    /// that the arm can hit, in the order of the files.
     pub fn all(scene: &Scene) -> Vec<Self> {
         let limits = (0..2).filter(|&joint| !scene.arm().joints[joint].range.is_circle());
         let mut all: Vec<Self> =

@@ -1,8 +1,8 @@
-//! The elements of a world that block all motions: obstacles, links, limits of joints and the required clearance, in
-//! irreducible sets.
+//! The elements of a world that block all motions: obstacles, links, limits of joints and the required clearance, in irreducible
+//! sets.
 //!
-//! [`MotionQuestion`] is a query whose start or goal may be blocked. It can also be asked in a world with fewer
-//! [`Element`]s. [`blocking_set`] removes elements as long as there is still no motion.
+//! [`MotionQuestion`] is a query whose start or goal may be blocked, and which can be asked again in a world with fewer
+//! [`Element`]s. [`blocking_set`] removes elements as long as there is no motion.
 
 mod blockers;
 mod element;

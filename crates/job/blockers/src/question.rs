@@ -12,13 +12,13 @@ use serde::Serialize;
 use std::f64::consts::TAU;
 use std::time::Duration;
 
-/// Least clearance in a world without some of its elements, in metres. It applies if the world requires less, or if the
-/// clearance itself is removed. A path through a narrower gap would exist only by chance. Without any clearance, boxes
-/// could neither prove nor refute a path that passes an obstacle as thin as a line. For arms that reach less than a
-/// metre, the least clearance is this fraction of their reach.
+/// Least clearance in a world without some of its elements, in metres, if the world requires less or the clearance itself is
+/// removed. A path through a narrower gap would exist only by chance. Without any clearance, boxes could neither prove nor refute
+/// a path past an obstacle as thin as a line. For arms that reach less than a metre, the least clearance is this fraction of
+/// their reach.
 pub const MIN_CLEARANCE: f64 = 1e-6;
 
-/// Default time limit of an explanation. It begins when it is known whether there is a motion. Most explanations take
+/// Default time limit of an explanation, from the moment at which it is known whether there is a motion. Most explanations take
 /// tenths of a second.
 pub const TIME_LIMIT: Duration = Duration::from_secs(5);
 
@@ -37,8 +37,8 @@ pub enum End {
 pub enum Target {
     /// Any of these configurations.
     Goals(GoalSet),
-    /// Any configuration that puts the tip at this place, with the elbow on the stated side. In a world with fewer
-    /// elements, more configurations may do so.
+    /// Any configuration that puts the tip at this place, with the elbow on the stated side. In a world with fewer elements,
+    /// there may be more of them.
     Tip(Point, Option<Elbow>),
 }
 
@@ -60,8 +60,8 @@ impl Target {
     }
 }
 
-/// A query for a motion. Unlike those of a [`MotionProblem`], its start and goals may be blocked, outside the limits or
-/// out of reach.
+/// A query for a motion. In contrast to a [`MotionProblem`], its start and goals may be blocked, outside the limits or out of
+/// reach.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MotionQuestion {
     scene: Scene,
@@ -69,11 +69,10 @@ pub struct MotionQuestion {
     target: Target,
     /// Standstills at the start and at goals.
     standstills: [Vec<Standstill>; 2],
-    /// Distance that each joint may go beyond a removed limit, in radians or metres. It is the same whichever other
-    /// elements are removed.
+    /// Distance by which each joint may exceed a removed limit, in radians or metres. It does not depend on other removed
+    /// elements.
     beyond: [f64; 2],
-    /// Least clearance in a world without some elements: [`MIN_CLEARANCE`], or 0 if start and goals are nearer to
-    /// obstacles than this.
+    /// Least clearance in a world without some elements: [`MIN_CLEARANCE`], or 0 if start and goals are nearer to obstacles.
     least_clearance: f64,
     /// Time limit for all decisions together. `None` for no limit.
     time_limit: Option<Duration>,
@@ -105,15 +104,14 @@ impl MotionQuestion {
         asked.with_least_clearance()
     }
 
-    /// Returns the question of a step of a task that fails. Its motion leads from the arm's configuration to the IK
-    /// solutions that were tried. At both ends, the arm must also be free while the tool is lowered.
+    /// Returns the question of a failed step of a task, whose motion leads from the arm's configuration to the IK solutions that
+    /// were tried. At both ends, the arm must also be free while the tool is lowered.
     pub fn of_failed_step(failed: &FailedStep) -> Self {
         let goals: GoalSet = failed.ik_solutions.iter().map(|refused| Segment::point(refused.ik_solution)).collect();
         Self::new((*failed.scene).clone(), failed.from, goals).with_standstills(failed.standstills.clone())
     }
 
-    /// Returns the question with standstills at the start and at goals. A goal with several standstills is free if one
-    /// of them is.
+    /// Adds standstills at the start and at goals. If a goal has several standstills, one of them must be free.
     #[must_use]
     pub fn with_standstills(self, standstills: [Vec<Standstill>; 2]) -> Self {
         Self { standstills, ..self }.with_least_clearance()
@@ -132,14 +130,14 @@ impl MotionQuestion {
         Self::new(scene, start, target)
     }
 
-    /// Returns the question with a time limit for its explanation. The clock starts when it is known whether there is a
-    /// motion. A decision that is not reached in time stays unknown, so the explanation may depend on the machine.
+    /// Sets a time limit for the explanation, from the moment at which it is known whether there is a motion. A decision that is
+    /// not reached in time stays unknown, so the explanation may depend on the machine.
     #[must_use]
     pub fn with_time_limit(self, limit: Duration) -> Self {
         Self { time_limit: Some(limit), ..self }
     }
 
-    /// Returns the time limit of an explanation. `None` means that it may take any time.
+    /// Returns the time limit of an explanation. `None` for no limit.
     pub fn time_limit(&self) -> Option<Duration> {
         self.time_limit
     }
@@ -178,15 +176,15 @@ impl MotionQuestion {
         &self.target
     }
 
-    /// Returns true if the start is within the limits and free, also while the arm stands still there.
+    /// Returns true if the start is within the limits and free, also for standstills there.
     pub fn is_start_free(&self) -> bool {
         let is_free =
             self.scene.arm().topology().contains(self.start) && self.scene.obstructions(self.start).is_empty();
         is_free && self.blocked_standstill(End::Start, self.start).is_none()
     }
 
-    /// Returns the scene in which the arm is not free while it stands still at an end of the motion, although the motion
-    /// itself may end there. `None` if it is free.
+    /// Returns the scene in which a standstill at an end of the motion is blocked, although the motion itself may end there.
+    /// `None` if the standstill is free.
     pub fn blocked_standstill(&self, end: End, q: Configuration) -> Option<&StandstillScene> {
         let standing = self.standstills[end as usize].iter().filter(|standing| standing.at == q);
         let blocked: Vec<_> = standing.map(|standing| Some(&standing.scenes[standing.blocked_scene()?])).collect();
@@ -194,7 +192,7 @@ impl MotionQuestion {
         blocked.into_iter().collect::<Option<Vec<_>>>()?.first().copied()
     }
 
-    /// Returns all elements that may block the motion or the arm while it stands still, in the order of [`Element::all`].
+    /// Returns all elements that may block the motion or a standstill, in the order of [`Element::all`].
     pub fn elements(&self) -> Vec<Element> {
         let mut all = Element::all(&self.scene);
         let standing = self.standstills.iter().flatten().flat_map(|standing| &standing.scenes);
@@ -207,7 +205,7 @@ impl MotionQuestion {
         all
     }
 
-    /// Returns all configurations of the target that are within the limits, whether they are blocked or not.
+    /// Returns all configurations of the target within the limits, blocked or not.
     pub fn ends(&self) -> Vec<Segment> {
         let topology = self.scene.arm().topology();
         match &self.target {
@@ -232,7 +230,7 @@ impl MotionQuestion {
         self.ends().into_iter().filter(open).collect()
     }
 
-    /// Returns the motion problem. `None` unless the start and some goal are free.
+    /// Returns the motion problem. `None` unless the start and at least one goal are free.
     pub fn problem(&self) -> Option<MotionProblem> {
         let goals = self.goals();
         (self.is_start_free() && !goals.is_empty())
@@ -250,16 +248,15 @@ impl MotionQuestion {
         }
     }
 
-    /// Returns how far a joint may go beyond a removed limit, in radians or metres. This is at least a whole turn for a
-    /// revolute joint, and past all obstacles for a prismatic one. It also suffices for start and goals.
+    /// Returns the distance by which a joint may exceed a removed limit, in radians or metres. It is at least a whole turn for a
+    /// revolute joint, suffices for a prismatic joint to pass all obstacles, and includes start and goals.
     pub fn margin_beyond_limit(&self, joint: usize) -> f64 {
         self.beyond[joint]
     }
 
-    /// Returns the question without some of its elements. A removed limit is replaced by a wider one, see
+    /// Returns the question without some of its elements. A wider limit replaces a removed one, see
     /// [`MotionQuestion::margin_beyond_limit`]. The clearance is at least [`MIN_CLEARANCE`], unless start or goals are nearer to
-    /// obstacles. The other elements keep their indices, so a proof that names no removed element is valid for both
-    /// questions.
+    /// obstacles. The other elements keep their indices, so a proof that names no removed element is valid for both questions.
     #[must_use]
     pub fn without(&self, elements: &[Element]) -> Self {
         self.without_at_clearance(elements).rebuilt(|_, workspace| {
@@ -267,9 +264,8 @@ impl MotionQuestion {
         })
     }
 
-    /// Does the same as [`MotionQuestion::without`], but with the world's own clearance, however small. Use it for
-    /// statements about lengths. A larger clearance makes paths longer, so a lower bound for a question with a larger
-    /// clearance would not be valid for this one.
+    /// Does the same as [`MotionQuestion::without`], but with the world's own clearance, however small. For statements about
+    /// lengths: a larger clearance makes paths longer, so a lower bound would not be valid for this question.
     #[must_use]
     pub fn without_at_clearance(&self, elements: &[Element]) -> Self {
         self.rebuilt(|arm, workspace| {
@@ -311,7 +307,7 @@ impl MotionQuestion {
         self.rebuilt(|_, workspace| workspace.limit_clearances(clearance))
     }
 
-    /// Returns the question after `edit` has changed the arm and the workspace in all scenes.
+    /// Applies `edit` to the arm and the workspace of all scenes.
     pub fn rebuilt(&self, edit: impl Fn(&mut Arm, &mut Workspace)) -> Self {
         let standing =
             |standing: &StandstillScene| StandstillScene { scene: standing.scene.changed(&edit), ..*standing };
@@ -322,7 +318,7 @@ impl MotionQuestion {
     }
 }
 
-/// Computes how far the joints may go beyond removed limits.
+/// Computes the distances by which joints may exceed removed limits.
 fn margins_beyond_limits(scene: &Scene, start: Configuration, target: &Target) -> [f64; 2] {
     let arm = scene.arm();
     let (asked, tip) = match target {
@@ -340,12 +336,12 @@ fn margins_beyond_limits(scene: &Scene, start: Configuration, target: &Target) -
     })
 }
 
-/// Angle between the directions of two prismatic joints, in radians, below which they count as moving along one line.
+/// Prismatic joints whose directions differ by less than this angle, in radians, count as moving along one line.
 const PARALLEL_ANGLE: f64 = 1e-3;
 
-/// Returns the sine of the angle between two prismatic joints. The smaller it is, the farther each joint must go to
-/// move the arm past an obstacle beside the other joint's line. Returns 1 for other arms. Also returns 1 for joints
-/// along one line, which cannot move the arm sideways.
+/// Returns the sine of the angle between two prismatic joints. The smaller it is, the farther each joint must move to bring the
+/// arm past an obstacle beside the other joint's line. Returns 1 for other arms, and for joints along one line, which cannot move
+/// the arm sideways.
 fn crossing(arm: &Arm) -> f64 {
     let across = match arm.joints.each_ref().map(|joint| joint.joint_type) {
         [JointType::Prismatic { direction: a }, JointType::Prismatic { direction: b }] => a.perp(&b).abs(),
@@ -354,7 +350,7 @@ fn crossing(arm: &Arm) -> f64 {
     if across < PARALLEL_ANGLE { 1.0 } else { across }
 }
 
-/// Returns a distance after which a prismatic joint has passed all obstacles, from any start.
+/// Returns a distance within which a prismatic joint passes all obstacles, from any start.
 pub fn farthest(scene: &Scene) -> f64 {
     let base = scene.arm().base;
     let pieces = scene.workspace().obstacles.iter().flat_map(|obstacle| &obstacle.pieces);

@@ -1,9 +1,8 @@
-//! A study as a benchmark log in OMPL's format, which its `ompl_benchmark_statistics.py` turns into a database for
-//! Planner Arena.
+//! A study as a benchmark log in OMPL's format, from which its `ompl_benchmark_statistics.py` makes a database for Planner Arena.
 //!
-//! Mark Moll, Ioan Sucan, Lydia Kavraki, *Benchmarking motion planning algorithms* (2015). OMPL's documentation has the
-//! grammar ("How to benchmark planners"). A log holds one experiment. Here the experiment is the study, and its runs
-//! are the problems; its setup lists their names.
+//! Mark Moll, Ioan Sucan, Lydia Kavraki, *Benchmarking motion planning algorithms* (2015). OMPL's documentation has the grammar
+//! ("How to benchmark planners"). A log has one experiment: here it is the study, with the names of the problems as its setup.
+//! Its runs are the problems.
 
 use super::row::Row;
 use super::study::Study;
@@ -27,8 +26,8 @@ const OMPL_STATUS_WORDS: [&str; 10] = [
 /// Computes the value of a column from the number of a run (from 1), its problem and its row.
 type Value = fn(usize, &Comparison, &Row) -> Option<String>;
 
-/// The properties of each run. First come the properties that OMPL's planners also have, with OMPL's names and units
-/// (seconds, megabytes of a million bytes). Then come properties that only cplan has.
+/// The properties of each run: first those that OMPL's planners also have, with OMPL's names and units (seconds, megabytes of a
+/// million bytes), then those that only cplan has.
 const RUN_PROPERTIES: [(&str, Value); 18] = [
     ("time REAL", |_, _, row| real(row.total)),
     ("memory REAL", |_, _, row| real(row.memory.map(|bytes| bytes as f64 / 1e6))),
@@ -67,9 +66,8 @@ fn status(outcome: Status) -> usize {
 }
 
 impl Study {
-    /// Writes the log of a benchmark in OMPL's format. `started` is date and time in words, `seconds` the total
-    /// duration. The log states limits of 0 for time and memory, because planners had none, and does not name the
-    /// machine.
+    /// Writes the log of a benchmark in OMPL's format. `started` is date and time in words, `seconds` the total duration. The
+    /// limits of time and memory are 0, because planners had none. The machine is not named.
     pub fn to_arena_log(&self, started: &str, seconds: f64) -> String {
         let mut log = format!("cplan version {}\n", env!("CARGO_PKG_VERSION"));
         log += &format!("Experiment {}\n0 experiment properties\nRunning on localhost\n", word(&self.title));
@@ -108,14 +106,14 @@ impl Study {
     }
 }
 
-/// Returns the text on one line, changed so that readers of the format cannot confuse it with a mark of the format.
+/// Returns the text on one line, changed so that readers cannot mistake it for a mark of the format.
 fn line(text: &str) -> String {
     let clean: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let clean = clean.trim();
     if clean.starts_with(['<', '|', '.']) { format!("'{clean}'") } else { clean.to_owned() }
 }
 
-/// Converts the text to a single word, for the name of an experiment.
+/// Converts the text to a single word, as the name of an experiment.
 fn word(text: &str) -> String {
     let word = text.split(|c: char| c.is_whitespace() || c.is_control()).filter(|part| !part.is_empty());
     let word = word.collect::<Vec<_>>().join("_");
@@ -142,8 +140,7 @@ mod tests {
         runs: Vec<Vec<Option<f64>>>,
     }
 
-    /// A reader for the grammar in OMPL's documentation. It refuses everything that `ompl_benchmark_statistics.py`
-    /// refuses.
+    /// Reads the grammar of OMPL's documentation, and refuses all that `ompl_benchmark_statistics.py` refuses.
     struct Reader<'a>(std::str::Lines<'a>);
 
     impl<'a> Reader<'a> {
@@ -151,7 +148,7 @@ mod tests {
             self.0.next().expect("the log ends too early")
         }
 
-        /// Reads a line that ends in `end`, and returns the text before that.
+        /// Reads a line that ends in `end`, and returns the text before it.
         fn line_up_to(&mut self, end: &str) -> &'a str {
             let line = self.line();
             line.strip_suffix(end).unwrap_or_else(|| panic!("{line:?} does not end in {end:?}"))

@@ -10,7 +10,7 @@ pub enum Better {
 }
 
 impl Better {
-    /// Returns the index of the best value, which is the first one of equal ones. `None` if there is no value.
+    /// Returns the index of the best value, the first of equals. `None` without values.
     pub fn first_best(self, values: impl IntoIterator<Item = Option<f64>>) -> Option<usize> {
         let known = values.into_iter().enumerate().filter_map(|(index, value)| Some((index, value?)));
         let known = known.filter(|(_, value)| !value.is_nan());
@@ -18,8 +18,8 @@ impl Better {
         known.reduce(|best, next| if is_better(next.1, best.1) { next } else { best }).map(|(index, _)| index)
     }
 
-    /// Returns the indices of the values that look like the best one. It is empty if fewer than two values are known, or
-    /// if all of them look alike, because then none stands out. `shown` has the texts of the values.
+    /// Returns the indices of the values that look like the best one. Empty if fewer than two values are known, or if all look
+    /// alike, because then none stands out. `shown` has the texts of the values.
     pub fn that_stand_out(self, values: &[Option<f64>], shown: &[Option<String>]) -> Vec<usize> {
         let known: Vec<usize> =
             (0..values.len().min(shown.len())).filter(|&i| values[i].is_some() && shown[i].is_some()).collect();

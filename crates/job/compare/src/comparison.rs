@@ -31,21 +31,18 @@ impl Comparison {
         self.rows.iter().filter_map(|r| r.length).filter(|l| l.is_finite()).min_by(f64::total_cmp)
     }
 
-    /// Returns the ratio of this row's length to the least length, which is 1 for the shortest path. If the least
-    /// length is zero (the goal is the start), returns 1 for paths of length zero, and `None` for longer ones. Returns
-    /// `None` if there is no path.
+    /// Returns the ratio of this row's length to the least length: 1 for the shortest path. If the least length is zero (the goal
+    /// is the start), 1 for paths of length zero and `None` for longer ones. `None` without a path.
     pub fn ratio(&self, row: &Row) -> Option<f64> {
         quotient(row.length?, self.best()?)
     }
 
-    /// Returns the ratio of this row's length to the proven lower bound. The path is longer than the optimum by at most
-    /// this factor.
+    /// Returns the ratio of this row's length to the proven lower bound, which bounds the ratio to the optimum.
     pub fn over_optimum(&self, row: &Row) -> Option<f64> {
         quotient(row.length?, self.bound?)
     }
 
-    /// Returns true if one planner found a certified path and another one proved that no path exists. One of the two is
-    /// then wrong.
+    /// Returns true if one planner found a certified path and another one proved that there is none. One of them is then wrong.
     pub fn is_contradictory(&self) -> bool {
         let has = |outcome| self.rows.iter().any(|row| row.outcome == outcome);
         has(Status::Found) && has(Status::Infeasible)
@@ -80,9 +77,9 @@ impl Comparison {
         })
     }
 
-    /// Returns a table for a terminal, with an emphasis on the best value of each column, and below it the planners'
-    /// remarks. If the width is limited, the table has only the leading columns. Control characters in names are
-    /// escaped, and the text ends in a newline.
+    /// Returns a table for a terminal, with an emphasis on the best value of each column, and the planners' remarks below it.
+    /// Unless `is_wide`, the table has only the leading columns. Control characters in names are escaped, and the text ends in a
+    /// newline.
     pub fn to_text(&self, is_wide: bool, emphasis: Emphasis) -> String {
         let remarks = self.rows.iter().flat_map(Row::remarks);
         if is_wide {
@@ -171,7 +168,7 @@ impl Comparison {
         columns.extend(right.map(|name| Column::new(name, Align::Right)));
         columns.push(Column::new("size", Align::Left));
         columns.extend(costs.map(|name| Column::new(name, Align::Right)));
-        // If any planner has paths of both kinds, each kind gets columns.
+        // If any planner has paths of both kinds, both kinds have columns.
         let has_both = self.rows.iter().any(|row| row.other_path.is_some());
         let kinds = if has_both { &PathKind::ALL[..] } else { &[] };
         for kind in kinds {
@@ -212,13 +209,13 @@ impl Comparison {
         Table { columns: columns.collect(), rows }
     }
 
-    /// Returns the rows with the best value of a column of the table, given the column's texts. A planner that found
-    /// neither a path nor a proof cannot be the best.
+    /// Returns the rows with the best value of a column of the table, given the column's texts. A planner without a path or a
+    /// proof cannot be the best.
     fn best_rows(&self, column: usize, shown: &[Option<String>]) -> Vec<usize> {
         let better = match column {
             0 | 1 | SIZE_COLUMN => return Vec::new(),
             CLEARANCE_COLUMN => Better::More,
-            // The last columns are length and clearance of each kind of path in turn.
+            // The last columns alternate between length and clearance, for each kind of path.
             k if k > MEMORY_COLUMN && (k - MEMORY_COLUMN).is_multiple_of(2) => Better::More,
             _ => Better::Less,
         };
@@ -234,8 +231,8 @@ const CLEARANCE_COLUMN: usize = 5;
 const SIZE_COLUMN: usize = 7;
 const MEMORY_COLUMN: usize = 12;
 
-/// Indices of the table's columns in 80 characters: planner, outcome, length, length over the optimum, clearance,
-/// motion, time, memory.
+/// Indices of the table's columns within 80 characters: planner, outcome, length, length over the optimum, clearance, motion,
+/// time, memory.
 const LEADING_COLUMNS: [usize; 8] = [0, 1, 2, 4, 5, 6, 11, 12];
 
 /// Returns length and clearance of each kind of path.
@@ -249,7 +246,7 @@ fn paths(row: &Row) -> Value {
 pub(super) const CSV_HEADER: &str = "planner,outcome,length,ratio,clearance_m,duration_s,nodes,edges,cells,sweeps,expanded,\
                                      build_s,query_s,certify_s,note,lower_bound,over_optimum,prove_s,total_s,memory_bytes,reason";
 
-/// Returns `a / b`, or 1 if the numbers are equal. `None` if the quotient is not finite.
+/// Returns `a / b`, or 1 if both are equal. `None` if the quotient is not finite.
 fn quotient(a: f64, b: f64) -> Option<f64> {
     if a == b { Some(1.0) } else { Some(a / b).filter(|r| r.is_finite()) }
 }

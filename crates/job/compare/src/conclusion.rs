@@ -7,12 +7,12 @@ use super::study::Study;
 use cplan_model::Status;
 use cplan_text::{counted, length_down, percent};
 
-/// Greatest difference of two values that count as equal, as a fraction of the values.
+/// Values count as equal if they differ by at most this fraction of them.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 impl Study {
-    /// Returns the conclusion in one sentence: about the paths if there is one problem, and otherwise about the number of
-    /// problems in which each planner is the best. Names of planners are between backticks.
+    /// Returns the conclusion in one sentence: about the paths if there is one problem, otherwise about the number of problems in
+    /// which each planner is best. Names of planners are between backticks.
     pub fn conclusion(&self) -> String {
         match &self.comparisons[..] {
             [] => "No problem was run.".to_owned(),
@@ -40,7 +40,7 @@ impl Study {
         format!("Of {} with a certified path, {}.", counted(found, "problem"), claims.join(", "))
     }
 
-    /// Returns the number of problems in which a planner is the best for a purpose, or as good as the best.
+    /// Returns the number of problems in which a planner is the best for a purpose, or equal to the best.
     pub fn wins(&self, planner: usize, purpose: Purpose) -> usize {
         let is_best = |comparison: &&Comparison| {
             let value = |row: usize| comparison.rows.get(row).and_then(|row| purpose.value(row));
@@ -52,8 +52,8 @@ impl Study {
         self.comparisons.iter().filter(is_best).count()
     }
 
-    /// Returns the planner that is the best for a purpose in most problems, and their number. `None` if no planner found a
-    /// path.
+    /// Returns the planner that is the best for a purpose in most problems, and the number of these problems. `None` if no
+    /// planner found a path.
     pub fn most_recommended(&self, purpose: Purpose) -> Option<(usize, usize)> {
         let wins: Vec<usize> = (0..self.planners().len()).map(|planner| self.wins(planner, purpose)).collect();
         let best = Better::More.first_best(wins.iter().map(|&wins| (wins > 0).then_some(wins as f64)))?;
@@ -98,7 +98,7 @@ impl Comparison {
                 clearance(safest)
             );
         }
-        // The same number as in the table, if there is a bound.
+        // If there is a bound, the same number as in the table.
         let longer = over(safest)
             .map(|over| format!(", with a path at most {over} longer than the optimum"))
             .or_else(|| Some(format!(", with a path {} longer than the shortest", percent(self.ratio(safest)? - 1.0))));

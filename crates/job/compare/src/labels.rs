@@ -1,8 +1,7 @@
-//! Short names of planners, for charts and legends that have no room for all options.
+//! Short names of planners, for charts and legends without room for all options.
 
-/// Shortens the names of rows, which are planners with their options, and keeps them distinct. Omits an option that
-/// occurs in all rows of a planner, if the rows have other options. A name stays as it is if the short forms of two
-/// rows would be equal.
+/// Shortens the names of rows (planners with their options), but keeps them distinct. Omits an option that occurs in all rows of
+/// a planner, if these rows also have other options. A name stays unchanged if the short forms of two rows would be equal.
 pub fn labels(names: &[&str]) -> Vec<String> {
     let parts: Vec<(&str, Vec<String>)> = names.iter().map(|name| options(name)).collect();
     let short = |(planner, options): &(&str, Vec<String>)| {
@@ -54,7 +53,7 @@ mod tests {
 
     #[test]
     fn no_two_rows_get_one_name() {
-        // Without the options that both other rows have, the second row would have the name of the first.
+        // Without the options that both other rows have, the second row would have the first row's name.
         let names = ["prm", "prm --seed 1", "prm --seed 1 --nearest 4"];
         assert_eq!(labels(&names), ["prm", "prm --seed 1", "prm --nearest 4"]);
         assert_eq!(labels(&["prm --seed 1", "prm --seed 1"]), ["prm --seed 1"; 2]);

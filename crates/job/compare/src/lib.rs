@@ -1,5 +1,5 @@
-//! Comparisons of planners on one problem or on many, and of relaxations ([`Convergence`]): as text for people, as
-//! tables for spreadsheets, and as JSON for programs.
+//! Comparisons of planners on one problem or on many, and of relaxations ([`Convergence`]): as text for people, as tables for
+//! spreadsheets, and as JSON for programs.
 //!
 //! ```text
 //! Row (a planner on a problem) -> Comparison (planners on a problem) -> Study (planners on problems)
@@ -8,9 +8,9 @@
 //!                                                          a page with charts; a log for Planner Arena
 //! ```
 //!
-//! The crate works on figures only, and all outputs are pure functions of them. `Spread` is a distribution, `Measure` a
-//! quantity to compare. `words` states only conclusions that a sign test over the problems supports. `page` writes HTML
-//! with its own SVG charts; pictures from `draw` are passed in as text.
+//! The crate works only on figures, and all outputs are pure functions of them. `Spread` is a distribution, `Measure` a quantity
+//! to compare. `words` states only conclusions that a sign test over the problems supports. `page` writes HTML with its own SVG
+//! charts; callers pass in other pictures as text.
 
 mod arena;
 mod best;

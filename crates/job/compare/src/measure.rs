@@ -38,7 +38,8 @@ impl Measure {
         Measure::Memory,
     ];
 
-    /// Returns key in JSON, heading with unit, factor from SI units and bytes to that unit, and number of decimals.
+    /// Returns the key in JSON, the heading with unit, the factor from SI units and bytes to that unit, and the number of
+    /// decimals.
     fn facts(self) -> (&'static str, &'static str, f64, usize) {
         match self {
             Measure::OverOptimum => ("over_optimum", "length over the proven optimum", 1.0, 4),
@@ -67,7 +68,7 @@ impl Measure {
         self.facts().2
     }
 
-    /// Returns which value of the measure is the better one.
+    /// Returns the direction in which the measure is better.
     pub fn better(self) -> Better {
         if self == Measure::Clearance { Better::More } else { Better::Less }
     }

@@ -22,8 +22,8 @@ impl Purpose {
     /// All purposes, in the order of the page.
     pub const ALL: [Purpose; 4] = [Purpose::Shortest, Purpose::Safest, Purpose::Quickest, Purpose::FastestMotion];
 
-    /// Returns the value by which rows compete for this purpose, in SI units. `None` if no path was found, or if the
-    /// value is unknown. The clearance is infinite if no obstacle is within reach.
+    /// Returns the value by which rows compete for this purpose, in SI units. `None` without a path, or if the value is unknown.
+    /// The clearance is infinite if no obstacle is within reach.
     pub fn value(self, row: &Row) -> Option<f64> {
         if row.outcome != Status::Found {
             return None;
@@ -43,8 +43,7 @@ impl Purpose {
 }
 
 impl Comparison {
-    /// Returns the index of the row that is the best for a purpose, or the first one of equal ones. `None` if no planner
-    /// found a path.
+    /// Returns the index of the best row for a purpose, the first of equals. `None` if no planner found a path.
     pub fn recommended(&self, purpose: Purpose) -> Option<usize> {
         purpose.better().first_best(self.rows.iter().map(|row| purpose.value(row)))
     }

@@ -4,7 +4,7 @@ use cplan_model::Status;
 use cplan_planners::planner::{Note, PathKind, Size};
 use cplan_solver::Family;
 
-/// Length and clearance of a planner's second path, which is of the other kind than the row's own.
+/// Length and clearance of a planner's path of the other kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OtherPath {
     /// Length, in the unit of [`Row::length`].
@@ -13,7 +13,7 @@ pub struct OtherPath {
     pub clearance: Option<f64>,
 }
 
-/// The result of one planner. A value is `None` if the planner did not get as far as that.
+/// The result of one planner. A value is `None` if the planner did not get that far.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {
     /// Name of the planner with its options, as on the command line.
@@ -45,8 +45,7 @@ pub struct Row {
     pub certify: Option<f64>,
     /// Computing time spent looking for a proof that there is no path, seconds.
     pub prove: Option<f64>,
-    /// Computing time from the problem to the outcome, in seconds. It includes the times above and everything between
-    /// them.
+    /// Computing time from the problem to the outcome, in seconds: the times above and all between them.
     pub total: Option<f64>,
     /// Greatest number of bytes allocated at the same time before the outcome was known.
     pub memory: Option<u64>,
@@ -91,8 +90,7 @@ impl Row {
         }
     }
 
-    /// Returns the numbers of nodes, edges, cells, sweeps and expanded cells, each `None` if the planner has no such
-    /// number.
+    /// Returns the numbers of nodes, edges, cells, sweeps and expanded cells; `None` for a number that the planner does not have.
     pub fn counts(&self) -> [Option<usize>; 5] {
         let figures = self.size.map_or_else(Vec::new, Size::figures);
         let of = |name: &str| figures.iter().find(|figure| figure.0 == name).map(|figure| figure.1);

@@ -1,11 +1,11 @@
 //! The sign test: whether one side wins more often than is likely by chance.
 
-/// Returns the two-sided p-value of the sign test. It is the probability that as many throws of a fair coin fall at
-/// least as unevenly as `wins` to `losses`. Returns 1 without throws. `O(n)` for `n` throws.
+/// Returns the two-sided p-value of the sign test: the probability that as many throws of a fair coin are at least as uneven as
+/// `wins` to `losses`. 1 without throws. `O(n)` for `n` throws.
 pub fn sign_test(wins: usize, losses: usize) -> f64 {
     let n = wins + losses;
     let fewer = wins.min(losses);
-    // Binomial coefficients times 2^-n, by their logarithms: beyond a thousand throws, 2^-n is too small for a double.
+    // Binomial coefficients times 2^-n, as logarithms, because 2^-n underflows beyond a thousand throws.
     let mut log_term = -(n as f64) * std::f64::consts::LN_2;
     let mut tail = 0.0;
     for k in 0..=fewer {

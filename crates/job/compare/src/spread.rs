@@ -26,7 +26,7 @@ impl Spread {
         sorted.sort_by(f64::total_cmp);
         let (min, max) = (*sorted.first()?, *sorted.last()?);
         let n = sorted.len();
-        // Rounding of the sum must not move the mean beyond the values.
+        // Rounding of the sum must not put the mean outside the values.
         let mean = (sorted.iter().map(|v| v / n as f64).sum::<f64>()).clamp(min, max);
         let [lower_quartile, median, upper_quartile] = [0.25, 0.5, 0.75].map(|share| quantile(&sorted, share));
         Some(Self { n, min, lower_quartile, median, upper_quartile, max, mean })
@@ -38,13 +38,13 @@ impl Spread {
     }
 }
 
-/// Returns the quantile `share` (0 to 1) of the values, with linear interpolation. This is the default definition of R
-/// (type 7) and NumPy. The values are ascending, and there is at least one.
+/// Returns the quantile `share` (0 to 1) of the values, with linear interpolation, as R (type 7) and NumPy do by default. The
+/// values are ascending, and there is at least one.
 fn quantile(sorted: &[f64], share: f64) -> f64 {
     let at = share * (sorted.len() - 1) as f64;
     let below = at.floor() as usize;
     let above = (below + 1).min(sorted.len() - 1);
-    // A weighted sum: the difference of the two values could overflow.
+    // In a weighted sum, the difference of the values cannot overflow.
     let part = at - below as f64;
     (sorted[below] * (1.0 - part) + sorted[above] * part).clamp(sorted[below], sorted[above])
 }
@@ -91,7 +91,7 @@ mod tests {
         #[test]
         fn quartiles_lie_on_the_broken_line(values in prop::collection::vec(-1e6..1e6_f64, 1..60)) {
             let spread = Spread::of(values.iter().copied()).unwrap();
-            // Sorts by insertion, to share no code with the implementation.
+            // Insertion sort, which shares no code with the implementation.
             let mut sorted: Vec<f64> = Vec::new();
             for value in &values {
                 let at = sorted.iter().position(|s| s > value).unwrap_or(sorted.len());

@@ -24,7 +24,7 @@ pub struct Study {
     pub sampling: Option<Sampling>,
     /// One comparison per problem, each with the same planners in the same order.
     pub comparisons: Vec<Comparison>,
-    /// Worlds that were left out, each with the reason on the same line.
+    /// Worlds that were left out, each as one line with the reason.
     pub left_out: Vec<String>,
     /// Problems that could not be run.
     pub refused: Vec<Refusal>,
@@ -52,18 +52,18 @@ impl Study {
         self.comparisons.iter().filter_map(move |c| c.rows.get(planner).map(|row| (c, row)))
     }
 
-    /// Returns the number of a planner's runs by status, in the order of [`Status::ALL`].
+    /// Returns the numbers of a planner's runs by status, in the order of [`Status::ALL`].
     pub fn tally(&self, planner: usize) -> [usize; 3] {
         Status::ALL.map(|outcome| self.runs(planner).filter(|(_, row)| row.outcome == outcome).count())
     }
 
-    /// Returns the distribution of a planner's values, or `None` if it has no values.
+    /// Returns the distribution of a planner's values. `None` without values.
     pub fn spread(&self, planner: usize, measure: Measure) -> Option<Spread> {
         Spread::of(self.runs(planner).filter_map(|(comparison, row)| measure.of(comparison, row)))
     }
 
-    /// Counts problems by the outcome that all planners together found, in the order of [`Status::ALL`]: a path, a
-    /// proof that there is none, or neither. A contradictory problem counts as one with a path.
+    /// Returns the numbers of problems by the outcome of all planners together, in the order of [`Status::ALL`]: a path, a proof
+    /// that there is none, or neither. A contradictory problem counts as one with a path.
     pub fn outcome_counts(&self) -> [usize; 3] {
         let mut counts = [0; 3];
         for comparison in &self.comparisons {

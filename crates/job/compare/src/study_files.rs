@@ -10,16 +10,16 @@ use cplan_model::Status;
 use cplan_text::{plain, plain_line, wrapped};
 use serde_json::{Value, json};
 
-/// Number of problems up to which tables list the problems one by one. CSV, JSON and the page list all of them.
+/// Largest number of problems that tables list one by one. CSV, JSON and the page always list all of them.
 const MAX_LISTED_PROBLEMS: usize = 60;
 
 /// Largest number of remarks of planners below the tables.
 const MAX_REMARKS: usize = 12;
 
 impl Study {
-    /// Returns tables for a terminal: outcomes, the distribution of each measure, and the summary in words. Lists the
-    /// problems one by one if they differ in more than start and goal. The text ends in a newline.
-    /// Control characters in names are escaped, and the best value of each column has an emphasis.
+    /// Returns tables for a terminal: outcomes, the distribution of each measure, and the summary in words. Lists the problems
+    /// one by one if they differ in more than start and goal. The text ends in a newline. Control characters in names are
+    /// escaped, and the best value of each column is emphasised.
     pub fn to_text(&self, is_wide: bool, emphasis: Emphasis) -> String {
         let width = if is_wide { usize::MAX } else { MAX_TABLE_WIDTH };
         let mut text = format!("{}\n", plain_line(&self.title));
@@ -44,8 +44,8 @@ impl Study {
         if notes.is_empty() { text } else { format!("{text}\n{notes}") }
     }
 
-    /// Returns one line per run in CSV, in SI units with full precision. A line has the problem, start and goal if they
-    /// were drawn, and the columns of [`Comparison::to_csv`].
+    /// Returns CSV with one line per run, in SI units with full precision: the problem, start and goal if they were drawn, and
+    /// the columns of [`Comparison::to_csv`].
     pub fn to_csv(&self) -> String {
         let mut text = format!("problem,start_1,start_2,goal_1,goal_2,{CSV_HEADER}\n");
         for comparison in &self.comparisons {
@@ -59,7 +59,7 @@ impl Study {
         }
         let columns = CSV_HEADER.matches(',').count();
         for Refusal { problem, reason, .. } in &self.refused {
-            // The columns of start, goal and planner are empty; the last column has the reason.
+            // The columns of start, goal and planner are empty, and the last column has the reason.
             let empty = ",".repeat(columns - 1);
             text += &format!("{},,,,,,refused{empty}{}\n", quoted(problem), quoted(reason));
         }
@@ -162,8 +162,7 @@ impl Study {
         Table { columns, rows: self.comparisons.iter().map(row).collect() }
     }
 
-    /// Iterates over the notes of planners and the omissions, then the contradictions, which come last because nobody
-    /// may overlook them.
+    /// Iterates over the notes of planners, the omissions, and finally the contradictions, so that nobody overlooks them.
     pub(super) fn footnotes(&self) -> impl Iterator<Item = String> + '_ {
         let of = |c: &'_ Comparison| -> Vec<String> {
             c.rows.iter().flat_map(Row::remarks).map(|remark| format!("{}: {remark}", c.problem)).collect()

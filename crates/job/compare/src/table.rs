@@ -67,9 +67,9 @@ impl Table {
         self.to_text_within(usize::MAX, PLAIN)
     }
 
-    /// Returns the table as aligned text of at most this width, with an emphasis on the best values, which takes no
-    /// room. If the table is too wide, its headings have two lines. If that does not suffice, the table is split, and
-    /// each part begins with the first column.
+    /// Returns the table as aligned text of at most this width, with an emphasis, which takes no room, on the best values. If the
+    /// table is too wide, its headings have two lines. If that does not suffice, the table is split, and each part begins with
+    /// the first column.
     pub fn to_text_within(&self, width: usize, emphasis: Emphasis) -> String {
         let table = self.with_cells(|cell| plain_line(cell).into_owned());
         let whole = |emphasis| table.text_under(&[table.header()], emphasis);
@@ -102,7 +102,7 @@ impl Table {
         parts.into_iter().map(part).collect::<Vec<_>>().join("\n")
     }
 
-    /// Returns a table with only the columns of these indices.
+    /// Returns a table with only these columns.
     pub(super) fn of_columns(&self, columns: &[usize]) -> Self {
         let row = |row: &Vec<Option<String>>| columns.iter().map(|&k| row[k].clone()).collect();
         Self {
@@ -127,17 +127,17 @@ impl Table {
         text
     }
 
-    /// Returns the table with each cell replaced by the result of `change`.
+    /// Replaces each cell by the result of `change`.
     fn with_cells(&self, change: impl Fn(&str) -> String) -> Self {
         let row = |row: &Vec<Option<String>>| row.iter().map(|cell| cell.as_deref().map(&change)).collect();
         Self { columns: self.columns.clone(), rows: self.rows.iter().map(row).collect() }
     }
 
-    /// Returns a table in GitHub's Markdown, whose columns are aligned in the source as well. The best values are bold.
+    /// Returns a table in GitHub's Markdown, with columns that are aligned in the source, too. The best values are bold.
     pub fn to_markdown(&self) -> String {
         let escaped = self.with_cells(|cell| plain_line(&cell.replace('|', "\\|").replace('<', "&lt;")).into_owned());
         let escaped = escaped.with_bold_best_cells();
-        // A rule needs three characters.
+        // A rule has at least three characters.
         let widths: Vec<usize> = escaped.widths(&[escaped.header()]).into_iter().map(|w| w.max(3)).collect();
         let line = |cells: Vec<String>| format!("| {} |\n", cells.join(" | "));
         let mut text = line(escaped.padded(&escaped.header(), &widths));
@@ -186,7 +186,7 @@ fn shown_cells(row: &[Option<String>]) -> Vec<&str> {
     row.iter().map(|cell| cell.as_deref().unwrap_or("-")).collect()
 }
 
-/// Formats a number with fixed decimals, or returns `None` if it is not finite.
+/// Formats a number with fixed decimals. `None` if it is not finite.
 pub(super) fn fixed(value: Option<f64>, decimals: usize) -> Option<String> {
     value.filter(|v| v.is_finite()).map(|v| format!("{v:.decimals$}"))
 }

@@ -1,4 +1,4 @@
-//! Conclusions of a study in words, stated only if the figures support them.
+//! Conclusions of a study in words. Each needs the support of the figures.
 
 use super::Family;
 use super::best::Better;
@@ -11,18 +11,17 @@ use cplan_planners::planner::PathKind;
 use cplan_text::{counted, percent};
 use cplan_view::output::names::capitalized;
 
-/// Greatest p-value of the sign test with which a side is called better.
+/// A side is called better if the p-value of the sign test is at most this.
 const SIGNIFICANCE_LEVEL: f64 = 0.05;
 
-/// Greatest difference of two values that count as equal, as a fraction of the values.
+/// Values count as equal if they differ by at most this fraction of them.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
-/// Least number of problems for a conclusion. With five problems even five wins have a p-value of 1/16, which is not
-/// significant.
+/// Least number of problems for a conclusion. With five, even five wins have a p-value of 1/16, which is not significant.
 const MIN_PROBLEMS: usize = 6;
 
-/// The measures by which planners are compared. An entry has the measure, two phrases (for the better of two sides, and
-/// for the best of several), the measure in words, and a flag that is true if a greater value is better.
+/// The measures by which planners are compared. Each has two phrases (for the better of two sides, and for the best of several),
+/// the measure in words, and a flag that is true if a greater value is better.
 const COMPARED_MEASURES: [(Measure, [&str; 2], &str); 5] = [
     (Measure::OverOptimum, ["found the shorter paths", "found the shortest paths"], "length over the proven optimum"),
     (Measure::Clearance, ["kept the greater clearance", "kept the greatest clearance"], "clearance in millimetres"),
@@ -31,18 +30,18 @@ const COMPARED_MEASURES: [(Measure, [&str; 2], &str); 5] = [
     (Measure::Memory, ["needed less memory", "needed the least memory"], "memory in MiB"),
 ];
 
-/// One or several planners that are compared as a group.
+/// One planner, or several that are compared as a group.
 struct Side {
     name: String,
     planners: Vec<usize>,
 }
 
-/// Returns the conclusions, one paragraph each: how many problems have an outcome, how close the proven optimum is, and
-/// for each pair of families the lengths, clearances, times and sizes.
+/// Returns the conclusions, one paragraph each: the number of problems with an outcome, the distance to the proven bound, and for
+/// each pair of families the lengths, clearances, times and sizes.
 ///
-/// Each planner represents its family by its usual path. The effect of pulling paths taut is reported separately. With
-/// a single family, planners are compared instead. A side is called better only if the sign test supports it at 5 %.
-/// The test counts the problems in which all sides have values.
+/// Each planner represents its family with its usual path. The effect of pulling paths taut is reported separately. If there is
+/// only one family, single planners are compared. A side is called better only if the sign test supports this at 5 %. The test
+/// counts the problems in which all sides have values.
 pub fn words(study: &Study) -> Vec<String> {
     let mut words = vec![outcomes(study)];
     words.extend(optimum(study));
@@ -115,7 +114,7 @@ fn sides(study: &Study) -> Vec<Side> {
     sides
 }
 
-/// Compares sides by one measure. `None` if there is no problem for which all sides have values.
+/// Compares sides by one measure. `None` if there is no problem in which all sides have values.
 fn describe_aspect(
     study: &Study,
     sides: &[Side],
@@ -124,8 +123,7 @@ fn describe_aspect(
     let more = measure.better() == Better::More;
     let best =
         |values: &mut dyn Iterator<Item = f64>| if more { values.reduce(f64::max) } else { values.reduce(f64::min) };
-    // The best value of each side, for each problem in which every side has one. A run that found neither path nor
-    // proof has no value.
+    // The best value of each side, for each problem in which all sides have one. A run without a path or a proof has no value.
     let values: Vec<Vec<f64>> = study
         .comparisons
         .iter()

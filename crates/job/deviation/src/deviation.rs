@@ -1,16 +1,14 @@
 //! The proven distance between a line and a motion in polynomial pieces.
 //!
-//! Let a part of the motion lead the tip from `A` to `B`, and let a part of the line lead from `P` to `Q`. The tip's
-//! path deviates from the chord `A B` by at most an eighth of its second derivative across the chord. In the same way,
-//! the part of the line deviates from its chord `P Q` by at most an eighth of its second derivative. Suppose that the
-//! tip never moves backwards along `A B`. Then both parts can be passed together, from the first to the last point.
-//! Their distance never exceeds the greater one of `|A P|` and `|B Q|`, plus the two deviations. (That is a bound on
-//! the Fréchet distance, which counts the order of the points.) If the tip may move backwards, an eighth of the second
-//! derivative along `A B` is added. A part whose bound is too large is halved.
+//! Let a part of the motion lead the tip from `A` to `B`, and a part of the line lead from `P` to `Q`. The tip's path deviates
+//! from the chord `A B` by at most an eighth of its second derivative across the chord, and the part of the line deviates from
+//! `P Q` by at most an eighth of its second derivative. Suppose that the tip never moves backwards along `A B`. Then one point
+//! can pass along each part, from its beginning to its end, such that the distance between both points is at most the greater of
+//! `|A P|` and `|B Q|`, plus the two deviations. (This bounds the Fréchet distance, which respects the order of points.) If the
+//! tip may move backwards, an eighth of the second derivative along `A B` is added. A part whose bound is too large is halved.
 //!
-//! The second derivative of the tip is `J q'' + H(q', q')`, with the Jacobian `J` and the Hessian `H` of the arm's
-//! kinematics. Both change along a part by at most the bounds of [`Kinematics`]. So no sample counts by itself, and the
-//! result holds between samples.
+//! The second derivative of the tip is `J q'' + H(q', q')`, with the Jacobian `J` and the Hessian `H` of the arm's kinematics.
+//! [`Kinematics`] bounds the change of both along a part, so the result is valid between samples as well.
 
 use crate::free_space::{FreeSpace, Part};
 use crate::kinematics::Kinematics;
@@ -20,41 +18,40 @@ use cplan_handling::{Derivative, Piece};
 use cplan_model::space::Configuration;
 use cplan_toolpath::Curve;
 
-/// Allowance for rounding, as a share of the lengths that occur.
+/// Allowance for rounding, as a share of the lengths in the computation.
 const ROUNDING: f64 = 1e-13;
 
-/// Share of the tolerance by which parts of the motion and of the line may deviate from their chords in the free-space
-/// diagram.
+/// In the free-space diagram, parts of the motion and of the line may deviate from their chords by this share of the tolerance.
 const FINEST_SHARE: f64 = 1.0 / 32.0;
 
 /// Greatest number of parts of a curve of the line in the diagram.
 const MAX_PARTS: f64 = 4096.0;
 
-/// Precision of the moment of a place in the diagram: a distance along the motion, as a share of the tolerance.
+/// Precision of the moment that belongs to a place in the diagram: a distance along the motion, as a share of the tolerance.
 const MOMENT_SHARE: f64 = 1e-3;
 
-/// Greatest number of steps of this search.
+/// Greatest number of steps in the search for this moment.
 const MOMENT_STEPS: u32 = 40;
 
 /// Number of times that a piece of the motion is halved for the diagram.
 const MAX_PART_HALVINGS: u32 = 8;
 
-/// Number of times that a part of the motion is halved before its bound counts.
+/// Number of times that a part of the motion is halved before its bound is accepted.
 const MAX_HALVINGS: u32 = 10;
 
-/// Number of Newton steps in the search for the place nearest to a corner. Any place gives a valid bound; the nearest one
+/// Number of Newton steps in the search for the place nearest to a corner. Any place gives a valid bound, and the nearest one
 /// gives the best.
 const CORNER_STEPS: u32 = 3;
 
-/// Distance from a corner at which the next piece is considered, as a multiple of the tolerance. The tip cuts a corner of
-/// a few degrees this far before it.
+/// The next piece is considered within this distance of a corner, as a multiple of the tolerance. The tip cuts a corner of a few
+/// degrees this far before it.
 const LOOKAHEAD_TOLERANCES: f64 = 100.0;
 
-/// Least distance by which the next piece must be nearer than the present one, as a share of the tolerance. Where the line
-/// returns on itself, both are equally near up to the deviation of the tip.
+/// The next piece must be nearer than the present one by at least this share of the tolerance. Where the line returns on itself,
+/// both are equally near up to the deviation of the tip.
 const SWITCH_SHARE: f64 = 0.1;
 
-/// A line, an arm, and the tolerance that bounds should prove.
+/// A line, an arm, and the tolerance within which bounds should be proven.
 #[derive(Clone, Copy)]
 pub struct Deviation<'a> {
     /// The arm.
@@ -63,7 +60,7 @@ pub struct Deviation<'a> {
     pub line: &'a Line<'a>,
     /// The bound that the caller needs, metres. Greater bounds are refined.
     pub tolerance: f64,
-    /// The places where motions begin and end.
+    /// The places on the line where motions begin and end.
     pub ends: [Foot; 2],
 }
 
@@ -76,11 +73,10 @@ pub struct Foot {
     pub u: f64,
 }
 
-/// The places of a motion and of a line that belong together.
+/// A motion and a line, paired place by place.
 pub struct Pairing {
-    /// Moments of the motion at the ends of its pieces and at the corners of the line, each with the place on the line
-    /// that counts then. A moment is a piece of the motion plus the share of its duration. Neither moments nor places
-    /// ever decrease.
+    /// Moments of the motion, each with its place on the line: at the ends of the motion's pieces, and at the corners of the
+    /// line. A moment is a piece of the motion plus the share of its duration. Neither moments nor places ever decrease.
     pub pairs: Vec<(f64, Foot)>,
     /// For each piece of the motion, an upper bound on its distance from the line, metres.
     pub bounds: Vec<f64>,
@@ -95,8 +91,8 @@ impl<'a> Deviation<'a> {
 }
 
 impl Deviation<'_> {
-    /// Pairs a motion with the line. It takes `O(n)` for `n` pieces if each place of the line is near only those moments
-    /// that belong to it, and more where a bound exceeds the tolerance.
+    /// Pairs a motion with the line. `O(n)` for `n` pieces if each place of the line is near only those moments that belong to
+    /// it; more if a bound exceeds the tolerance.
     pub fn pairing(&self, pieces: &[Piece]) -> Pairing {
         let advanced = self.with_bounds(pieces, self.advanced(pieces));
         if advanced.bounds.iter().all(|bound| *bound <= self.tolerance) {
@@ -124,7 +120,7 @@ impl Deviation<'_> {
         let [mut low, mut high] = [(shares[0], -share), (shares[1], 1.0 - share)];
         let mut u = shares[0];
         for step in 0..MOMENT_STEPS {
-            // Straight interpolation and halving take turns, so that the search ends soon in any case.
+            // Interpolation and halving alternate, so that the search always ends soon.
             let part = if step % 2 == 0 { -low.1 / (high.1 - low.1) } else { 0.5 };
             u = low.0 + part * (high.0 - low.0);
             let ahead = (self.tip(piece, u) - a).dot(&along) / square - share;
@@ -136,14 +132,14 @@ impl Deviation<'_> {
         u
     }
 
-    /// Returns an upper bound on the distance between the line and each piece of a motion, metres: those of
+    /// Returns an upper bound, metres, on the distance between the line and each piece of a motion: the bounds of
     /// [`Self::pairing`].
     pub fn of_pieces(&self, pieces: &[Piece]) -> Vec<f64> {
         self.pairing(pieces).bounds
     }
 
-    /// Pairs each moment with the place of the line that comes next and is near. Near a hairpin that is narrower than
-    /// the tolerance, or near a piece much shorter than the tolerance, these may be the wrong places.
+    /// Pairs each moment with the next near place on the line. These may be the wrong places near a hairpin narrower than the
+    /// tolerance, or near a piece much shorter than the tolerance.
     fn advanced(&self, pieces: &[Piece]) -> Vec<(f64, Foot)> {
         let [mut foot, last] = self.ends;
         let mut pairs = vec![(0.0, foot)];
@@ -206,7 +202,7 @@ impl Deviation<'_> {
         FreeSpace { motion, line, tolerance: self.tolerance }
     }
 
-    /// Appends the parts of a piece of a motion that deviate little from their chords.
+    /// Appends the parts of a piece of the motion that are close enough to their chords.
     fn divide(&self, piece: &Piece, number: usize, shares: [f64; 2], finest: f64, parts: &mut Vec<Part>) {
         let mut open = vec![(shares, 0)];
         while let Some((shares, halvings)) = open.pop() {
@@ -221,7 +217,7 @@ impl Deviation<'_> {
         }
     }
 
-    /// Returns an upper bound on the distance between the line and an arm that rests, metres.
+    /// Returns an upper bound on the distance between the line and the tip of a resting arm, metres.
     pub fn at_rest(&self, q: Configuration) -> f64 {
         self.of_pieces(&[Piece::line(0.0, 1.0, q, q)]).into_iter().fold(0.0, f64::max)
     }
@@ -238,13 +234,13 @@ impl Deviation<'_> {
         gap(self.line, piece, u, tip)
     }
 
-    /// Returns the place of the line for the next position of the tip, which is `step` metres away.
+    /// Returns the place on the line for the next position of the tip, which is `step` metres away.
     fn advance(&self, from: Foot, tip: Point, step: f64) -> Foot {
         advance(self.line, self.tolerance, [from, self.ends[1]], tip, step)
     }
 
-    /// Returns a share of a piece, from `least` on, at which the tip is near a corner. The tip is given there and at the
-    /// end of the piece.
+    /// Returns a share of a piece, at least `least`, at which the tip is near a corner. `a` and `b` are the tip's positions at
+    /// `least` and at the end of the piece.
     fn nearest(&self, piece: &Piece, least: f64, [a, b]: [Point; 2], corner: Point) -> f64 {
         let (chord, duration) = (b - a, piece.to - piece.from);
         let share = if chord.norm() > 0.0 { (corner - a).dot(&chord) / chord.norm_squared() } else { 0.0 };
@@ -260,7 +256,7 @@ impl Deviation<'_> {
         u
     }
 
-    /// Returns the bound for the part of a piece between two shares, and the part of a curve between two parameters.
+    /// Returns the bound for a part of a piece and a part of a curve, given by shares and parameters.
     fn of_part(
         &self,
         piece: &Piece,
@@ -273,7 +269,7 @@ impl Deviation<'_> {
         let sag = sag(self.curve(curve), w);
         let scale = self.kinematics.arm.base.norm() + tips[0].norm() + self.kinematics.arm.reach();
         let bound = ends + sag + self.off_chord(piece, u, tips) + ROUNDING * scale;
-        // Halving lowers everything except the distance of the ends.
+        // Halving reduces everything except the distances of the ends.
         let is_useful = bound > self.tolerance && ends < self.tolerance;
         if !is_useful || halvings >= MAX_HALVINGS {
             return bound;
@@ -293,16 +289,16 @@ impl Deviation<'_> {
         let middle = (from + to) / 2.0;
         let q = piece.at(middle);
         let duration = piece.to - piece.from;
-        // Derivatives by the part's own share, from 0 to 1.
+        // Derivatives by the share of the part, from 0 to 1.
         let rate = |of: Derivative, u: f64, order: i32| piece.derivative(of, u) * (duration * length).powi(order);
         let bend = rate(Derivative::Acceleration, middle, 2);
         let bend_change = (rate(Derivative::Acceleration, to, 2) - rate(Derivative::Acceleration, from, 2)).abs() / 2.0;
         let slope = rate(Derivative::Velocity, middle, 1);
-        // The slope changes by at most this within half of the part.
+        // Within half of the part, the slope changes by at most this.
         let slope_change = (bend.abs() + bend_change) / 2.0;
         let beside = (slope.abs() + slope_change) / 2.0;
         let kinematics = self.kinematics;
-        // H(q', q') at the slope in the middle, and the terms with its change.
+        // H(q', q') for the slope in the middle, and the terms with its change.
         let curved = kinematics.bend(q, beside, slope, slope)
             + 2.0 * kinematics.bend_within(q, beside, slope, slope_change)
             + kinematics.bend_within(q, beside, slope_change, slope_change);
@@ -315,7 +311,7 @@ impl Deviation<'_> {
         };
         let across: Vector = perpendicular(along);
         let [lengthwise, sideways] = [along, across].map(|n| n.dot(&pushed).abs() + changes);
-        // At the ends of the part, the slope along the chord is less by at most half of its derivative.
+        // At the ends of the part, the slope along the chord may be less by half of its derivative.
         let is_forward = along.dot(&kinematics.velocity(q, slope)) >= lengthwise / 2.0;
         sideways / 8.0 + if is_forward { 0.0 } else { lengthwise / 8.0 }
     }
@@ -325,16 +321,16 @@ fn gap(line: &Line, piece: usize, u: f64, tip: Point) -> f64 {
     (Point::from(line.curve(piece).at(u)) - tip).norm()
 }
 
-/// Returns the place of a line that is near the next position of the tip, which is `step` metres away. It is between
-/// the places `from` and `last`, so it never moves backwards. The tip deviates from the line by at most `tolerance`,
-/// metres. It takes `O(1)` if no piece is passed.
+/// Returns the place on a line that is near the next position of the tip, which is `step` metres away and deviates from the line
+/// by at most `tolerance`, metres. The place is between `from` and `last`, so it never moves backwards. `O(1)` unless whole
+/// pieces are passed.
 pub fn advance(line: &Line, tolerance: f64, [from, last]: [Foot; 2], tip: Point, step: f64) -> Foot {
     let near = |piece: usize, least: f64| line.curve(piece).nearest([tip.x, tip.y], least);
     let mut foot = Foot { u: near(from.piece, from.u), ..from };
     let ahead = 2.0 * step + LOOKAHEAD_TOLERANCES * tolerance;
     while foot.piece < last.piece {
         let curve = line.curve(foot.piece);
-        // The chord is shorter than the rest of the curve, and quickly computed.
+        // The chord is no longer than the rest of the curve, and quick to compute.
         if (Point::from(curve.at(foot.u)) - Point::from(curve.end())).norm() > ahead {
             break;
         }

@@ -1,10 +1,10 @@
-//! Pairs a motion with a line wherever that is possible within a tolerance.
+//! Pairs a motion with a line, whenever that is possible within a tolerance.
 //!
-//! The free-space diagram (Alt and Godau, 1995) has a row for each part of the motion and a column for each part of the
-//! line. A pair of places is free if they are within the tolerance. The motion follows the line exactly if a path in
-//! the free space leads from the beginning of both to their ends and never goes back. Parts are so short that they
-//! count as straight. Their deviation from chords reduces the tolerance in their cells. In a cell the free space is
-//! convex. So the places that can be reached on a side of a cell form one interval.
+//! The free-space diagram (Alt and Godau, 1995) has a row for each part of the motion and a column for each part of the line. A
+//! pair of places is free if their distance is within the tolerance. The motion follows the line if and only if a path in the
+//! free space leads from the beginning of both to their ends and never goes back. Parts are so short that they count as straight;
+//! the tolerance in their cells is reduced by their deviation from chords. In a cell, the free space is convex, so the places
+//! that can be reached on a side of a cell form one interval.
 
 use crate::deviation::Foot;
 use cplan_geometry::Point;
@@ -46,10 +46,10 @@ pub(crate) struct FreeSpace {
 }
 
 impl FreeSpace {
-    /// Returns places of the motion, each with a place on the line, from the beginning to the end of both. They include the
-    /// ends of all parts. A place of the motion is a part and a share of its chord. If such places do not exist, returns the index of
-    /// the part of the motion after which no place of the line is near enough. It takes `O(n k)` for `n` parts of the
-    /// motion with `k` parts of the line near each of them.
+    /// Returns places of the motion, each with a place on the line, from the beginning to the end of both, including the ends of
+    /// all parts. A place of the motion is a part and a share of its chord. If there are none, the error is the index of the part
+    /// of the motion after which no place of the line is near enough. `O(n k)` for `n` parts of the motion, with `k` parts of the
+    /// line near each.
     pub fn pairs(&self) -> Result<Vec<(usize, f64, Foot)>, usize> {
         let (begins, reached) = self.reached()?;
         let mut pairs = Vec::with_capacity(self.motion.len() + self.line.len() + 1);
@@ -64,8 +64,8 @@ impl FreeSpace {
         Ok(pairs)
     }
 
-    /// Returns the places of the line that can be reached at the beginning of each part of the motion, as a list and where
-    /// each part begins in it.
+    /// Returns the places of the line that can be reached at the beginning of each part of the motion: a list, and the index at
+    /// which each part begins in it.
     fn reached(&self) -> Result<(Vec<usize>, Vec<Reached>), usize> {
         let mut begins = vec![0];
         let mut reached = vec![Reached { part: 0, on: Interval { low: 0.0, high: 0.0 } }];
@@ -81,7 +81,7 @@ impl FreeSpace {
         if ends { Ok((begins, reached)) } else { Err(self.motion.len() - 1) }
     }
 
-    /// Appends the places that can be reached at the end of a part of the motion, from those at its beginning.
+    /// Appends the places of the line that can be reached at the end of a part of the motion, from those at its beginning.
     fn step(&self, row: usize, before: std::ops::Range<usize>, reached: &mut Vec<Reached>) {
         let own = &self.motion[row];
         let mut next = before.start;
@@ -112,8 +112,8 @@ impl FreeSpace {
         }
     }
 
-    /// Returns the place at the beginning of a part of the motion that is nearest to the tip, among those from which a
-    /// place at its end can be reached. Appends the ends of the line's parts between both, in reverse order.
+    /// Returns the place at the beginning of a part of the motion that is nearest to the tip, among those from which a place at
+    /// its end can be reached. Appends the ends of the line's parts in between, in reverse order.
     fn step_back(
         &self,
         row: usize,
@@ -157,8 +157,8 @@ impl FreeSpace {
         Some((first, share))
     }
 
-    /// Returns the greatest distance between the chords of two parts that the tolerance allows, metres. Moments are placed
-    /// on chords, so the deviation of the motion counts twice.
+    /// Returns the greatest allowed distance between the chords of two parts, metres. Moments are placed on chords, so the
+    /// deviation of the motion is subtracted twice.
     fn radius(&self, row: usize, part: usize) -> f64 {
         self.tolerance - 2.0 * self.motion[row].off - self.line[part].off
     }

@@ -5,10 +5,10 @@ use cplan_model::space::Configuration;
 use cplan_model::{Arm, JointType, inverse};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Joint values are widened by this, radians or metres, for rounding in proofs.
+/// Joint values are widened by this, radians or metres, to allow for rounding in proofs.
 const ROUNDING: f64 = 1e-11;
 
-/// All configurations that put the tip near a point, for one IK solution: a box about its middle.
+/// All configurations of one IK solution that put the tip near a point, as a box.
 #[derive(Debug, Clone, Copy)]
 pub struct SolutionBox {
     /// The middle of the box.
@@ -17,7 +17,7 @@ pub struct SolutionBox {
     pub half: [f64; 2],
 }
 
-/// An arm with the lengths on which its kinematics depend.
+/// An arm, and the lengths that determine its kinematics.
 pub struct Kinematics<'a> {
     /// The arm.
     pub arm: &'a Arm,
@@ -40,13 +40,13 @@ impl<'a> Kinematics<'a> {
         self.arm.joints.each_ref().map(|joint| joint.joint_type)
     }
 
-    /// Returns the radius of the tip's circle about joint 1 when joint 2 slides, at most `beside` metres from `q2`.
+    /// Returns the radius of the tip's circle about joint 1 if joint 2 slides, at most `beside` metres from `q2`.
     fn radius(&self, direction: Vector, q2: f64, beside: f64) -> f64 {
         (self.arm.offset + direction * q2 + self.arm.tip).norm() + beside
     }
 
-    /// Applies the second derivative of the tip's position to the displacements `a` and `b`, and returns a bound on the
-    /// length of the result, metres. It holds while the joint values deviate from `q` by at most `beside`.
+    /// Applies the second derivative of the tip's position to the displacements `a` and `b`, and returns a bound on the length of
+    /// the result, metres. It is valid while the joint values are within `beside` of `q`.
     pub fn bend(&self, q: Configuration, beside: Configuration, a: Configuration, b: Configuration) -> f64 {
         use JointType::{Prismatic, Revolute};
         let [a1, a2, b1, b2] = [a[0].abs(), a[1].abs(), b[0].abs(), b[1].abs()];
@@ -63,7 +63,7 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// Returns a bound like [`Self::bend`] for displacements with known magnitudes in each joint and unknown signs.
+    /// Does the same as [`Self::bend`] for displacements with known magnitudes in each joint, but unknown signs.
     pub fn bend_within(&self, q: Configuration, beside: Configuration, a: Configuration, b: Configuration) -> f64 {
         use JointType::Revolute;
         let [a, b] = [a.abs(), b.abs()];
@@ -75,8 +75,8 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// Returns a bound on the displacement of the tip, to first order, if each joint moves by at most `d`. It holds
-    /// while the joint values are at most `beside` from `q`.
+    /// Returns a bound on the displacement of the tip, to first order, if each joint moves by at most `d`. It is valid while the
+    /// joint values are within `beside` of `q`.
     pub fn motion_within(&self, q: Configuration, beside: Configuration, d: Configuration) -> f64 {
         use JointType::{Prismatic, Revolute};
         let d = d.abs();
@@ -94,7 +94,7 @@ impl<'a> Kinematics<'a> {
         first * d[0] + second * d[1]
     }
 
-    /// Returns the least and the greatest distance of the tip from joint 1, if joint 1 turns. Limits do not count.
+    /// Returns the least and the greatest distance of the tip from joint 1, if joint 1 turns, without regard to limits.
     fn annulus(&self) -> Option<[f64; 2]> {
         match self.kinds() {
             [JointType::Revolute { .. }, JointType::Revolute { .. }] => {
@@ -108,8 +108,8 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// Returns a lower bound on the distance of a point from all places that the tip can reach, metres; 0 for a point
-    /// that it reaches. Limits of joints do not count.
+    /// Returns a lower bound on the distance of a point from all places that the tip can reach, metres; 0 for a point within
+    /// reach. Ignores joint limits.
     pub fn distance_out_of_reach(&self, point: Point) -> f64 {
         let away = point - self.arm.base;
         if let Some([least, most]) = self.annulus() {
@@ -123,8 +123,8 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// Returns a lower bound on the distance of the curve part from all singular places, metres. The part is within `off`
-    /// of the straight line between two points. At a singular place both IK solutions are the same.
+    /// Returns a lower bound on the distance of a part of a curve from all singular places, where both IK solutions coincide,
+    /// metres. The part is within `off` of the straight line between two points.
     pub fn distance_from_singular(&self, [a, b]: [Point; 2], off: f64) -> f64 {
         let base = self.arm.base;
         if let Some([least, most]) = self.annulus() {
@@ -144,8 +144,8 @@ impl<'a> Kinematics<'a> {
         }
     }
 
-    /// Returns the point nearest to `point` that the tip can reach, without regard to limits. Returns `None` if it is
-    /// farther than `slack`, metres.
+    /// Returns the point within the tip's reach that is nearest to `point`, without regard to limits. `None` if it is farther
+    /// than `slack`, metres.
     pub fn reachable(&self, point: Point, slack: f64) -> Option<Point> {
         let off = self.distance_out_of_reach(point);
         if off == 0.0 {
@@ -166,15 +166,15 @@ impl<'a> Kinematics<'a> {
         Some(point - aside * (side.signum() * (side.abs() - self.lengths[1])))
     }
 
-    /// Returns both IK solutions for a point that the tip can reach, in a fixed order, up to whole turns. At a singular
-    /// place they are equal. Returns `None` if a joint is free there.
+    /// Returns both IK solutions for a point within the tip's reach, in a fixed order, without whole turns. At a singular place,
+    /// they are equal. `None` if a joint is free there.
     pub fn solutions(&self, point: Point) -> Option<[Configuration; 2]> {
         let found = inverse(self.arm, point, Configuration::zeros());
         let first = *found.branches.first().filter(|_| found.free.is_none())?;
         Some([first, found.branches.get(1).copied().unwrap_or(first)])
     }
 
-    /// Returns the configuration with whole turns of revolute joints that brings it nearest to another one.
+    /// Adds whole turns of revolute joints to a configuration so that it is as near as possible to another one.
     pub fn near(&self, q: Configuration, near: Configuration) -> Configuration {
         Configuration::from_fn(|k, _| match self.arm.joints[k].joint_type.is_revolute() {
             true => q[k] + ((near[k] - q[k]) / TAU).round() * TAU,
@@ -187,8 +187,8 @@ impl<'a> Kinematics<'a> {
         !self.arm.is_gantry()
     }
 
-    /// Returns a box that contains, up to whole turns, all configurations of one IK solution that put the tip within
-    /// `near` of a point. Returns `None` if no such box is known.
+    /// Returns a box that contains, up to whole turns, all configurations of one IK solution that put the tip within `near` of a
+    /// point. `None` if no such box is known.
     pub fn solution_box(&self, point: Point, solution: usize, near: f64) -> Option<SolutionBox> {
         use JointType::{Prismatic, Revolute};
         let side = if solution == 0 { 1.0 } else { -1.0 };

@@ -1,8 +1,8 @@
 //! Proven bounds on the distance between the path of the tip and a line that it follows.
 //!
-//! [`Deviation`] bounds the distance for a motion in polynomial pieces, in the order of the line and between samples. The
-//! planner of motions along lines and the judge of recorded motions both use it. [`ToolDeviation`] does the same for the
-//! angle of a tool that a wrist turns along the line.
+//! [`Deviation`] bounds the distance for a motion in polynomial pieces, also between samples, and respects the order of the
+//! line's points. The planner of motions along lines and the judge of recorded motions both use it. [`ToolDeviation`] does the
+//! same for the angle of a tool that a wrist turns along the line.
 #![forbid(unsafe_code)]
 
 mod deviation;

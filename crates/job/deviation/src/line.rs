@@ -21,7 +21,7 @@ pub struct Place {
 }
 
 impl fmt::Display for Place {
-    /// Writes the distance along the line, and the line of the file.
+    /// Writes the distance along the line, and the number of the file's line.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} of the line (line {} of the file)", length(self.distance), self.source.line)
     }
@@ -35,12 +35,12 @@ pub struct Line<'a> {
 }
 
 impl<'a> Line<'a> {
-    /// Measures the pieces of a line. It takes `O(n)` for `n` pieces.
+    /// Measures the pieces of a line. `O(n)` for `n` pieces.
     pub fn new(path: &'a Toolpath) -> Self {
         Self::of(path.pieces())
     }
 
-    /// Does the same as [`Line::new`] for pieces in order, at least one.
+    /// Does the same as [`Line::new`] for a sequence of at least one piece.
     pub fn of(pieces: &'a [Piece]) -> Self {
         let mut at = 0.0;
         let begin = |piece: &Piece| {

@@ -1,13 +1,12 @@
 //! The proven difference between the angle of a tool and the one that is required along a line.
 //!
-//! A part of the motion belongs to a part of the line, in the order of both ([`Deviation::pairing`]). The angle of the
-//! tool is a polynomial in time, so its control points bound it on the part. The line's headings on its part are
-//! bounded, too ([`cplan_toolpath::Curve::headings`]). So in whichever way both parts are passed together, the
-//! difference is at most the greatest one between the two ranges. A part whose bound is too large is halved. No sample
-//! counts by itself.
+//! [`Deviation::pairing`] pairs parts of the motion with parts of the line, in the order of both. The angle of the tool is a
+//! polynomial in time, so its control points bound it on a part. The line's headings on its part are bounded, too
+//! ([`cplan_toolpath::Curve::headings`]). So wherever tip and line are in their parts, the difference is at most the greatest one
+//! between both ranges. A part whose bound is too large is halved. The result is valid between samples as well.
 //!
-//! At a sharp corner, the arm rests while the tool turns. Before and after the line, it may do so, too. So the motion
-//! is divided at these rests. A fixed angle holds during rests and travels, too, except before and after the line.
+//! At a sharp corner, the arm rests while the tool turns; before and after the line, it may also do so. The motion is divided at
+//! these rests. A required angle that is fixed also applies during rests and travels, except before and after the line.
 
 use crate::deviation::{Deviation, Foot};
 use cplan_geometry::Point;
@@ -15,10 +14,10 @@ use cplan_handling::{Derivative, Piece, ToolAngle, WristGuide};
 use cplan_toolpath::{Headings, wrapped};
 use std::ops::Range;
 
-/// Number of times that a part of the motion is halved before its bound counts.
+/// Number of times that a part of the motion is halved before its bound is accepted.
 const MAX_HALVINGS: u32 = 12;
 
-/// Greatest speed, radians or metres per second, at which the arm counts as at rest at a sample.
+/// Greatest speed, radians or metres per second, at which the arm counts as resting at a sample.
 const REST_SPEED: f64 = 1e-9;
 
 /// Allowance for rounding of angles, radians.
@@ -42,9 +41,9 @@ struct Part {
 }
 
 impl ToolDeviation<'_> {
-    /// Returns an upper bound on the difference between the angle of the tool and the required one, for each piece of a
-    /// motion, radians. `angles` has the angle of the tool as first components, in pieces of the same times. It takes `O(n)`
-    /// for `n` pieces, and more where a bound exceeds the tolerance.
+    /// Returns an upper bound, radians, on the difference between the angle of the tool and the required one for each piece of a
+    /// motion. `angles` has the angle of the tool as first components, in pieces with the same times. `O(n)` for `n` pieces; more
+    /// if a bound exceeds the tolerance.
     pub fn of_pieces(&self, pieces: &[Piece], angles: &[Piece]) -> Vec<f64> {
         let offset = match self.guide.angle {
             ToolAngle::Fixed(angle) => {
@@ -65,8 +64,8 @@ impl ToolDeviation<'_> {
         greatest
     }
 
-    /// Raises the bounds on the pieces of the motion in a range, which lead from one place on the line to another without a
-    /// sharp corner between them.
+    /// Raises the bounds on a range of pieces of the motion, which lead from one place on the line to another without a sharp
+    /// corner in between.
     fn on_stretch(
         &self,
         (pieces, angles): (&[Piece], &[Piece]),
@@ -89,8 +88,8 @@ impl ToolDeviation<'_> {
         }
     }
 
-    /// Divides a motion at the sharp corners of the line, where the arm rests. Returns the pieces of the motion between
-    /// them, and where these begin and end on the line. A corner without a rest does not divide the motion.
+    /// Divides a motion at the sharp corners of the line where the arm rests. Returns the pieces of the motion between them, and
+    /// the places where these begin and end on the line. A corner without a rest does not divide the motion.
     fn stretches(&self, pieces: &[Piece]) -> Vec<(Range<usize>, [Foot; 2])> {
         let [first, last] = self.deviation.ends;
         let Range { start, end } = moving(pieces);
@@ -157,14 +156,14 @@ fn is_still(piece: &Piece) -> bool {
     piece.control().iter().all(|q| *q == piece.control()[0])
 }
 
-/// Returns the pieces of a motion without rests at its beginning and end, during which the tool may turn.
+/// Returns the pieces of a motion without rests at its ends, during which the tool may turn.
 fn moving(pieces: &[Piece]) -> Range<usize> {
     let start = pieces.iter().take_while(|piece| is_still(piece)).count();
     let end = pieces.iter().rposition(|piece| !is_still(piece)).map_or(start, |last| last + 1);
     start..end
 }
 
-/// Returns bounds on the first component of a piece between two shares, as their middle and half of their difference.
+/// Returns bounds on the first component of a piece between two shares, as their middle and half their difference.
 fn bounds(piece: &Piece, shares: [f64; 2]) -> [f64; 2] {
     let [low, high] = if piece.to > piece.from {
         piece.bounds_of_sum(Derivative::Position, [1.0, 0.0], shares)
@@ -174,8 +173,8 @@ fn bounds(piece: &Piece, shares: [f64; 2]) -> [f64; 2] {
     [(low + high) / 2.0, (high - low) / 2.0 + ROUNDING]
 }
 
-/// Returns true if the line's heading jumps at a corner by more than the tolerance of the tool's angle, or if it is unknown
-/// on one side, as next to a travel. The arm rests there while the tool turns.
+/// Returns true if the line's heading jumps at a corner by more than the tolerance of the tool's angle, or is unknown on one
+/// side, as next to a travel. The arm rests there while the tool turns.
 pub fn is_sharp(before: Option<f64>, after: Option<f64>, tolerance: f64) -> bool {
     !before.zip(after).is_some_and(|(before, after)| wrapped(after - before).abs() <= tolerance)
 }

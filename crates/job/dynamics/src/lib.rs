@@ -1,21 +1,21 @@
 //! Masses of an arm, and the torques that move it.
 //!
-//! Let a body of mass `m` have its centre of mass at `p`, orientation `theta`, and inertia `I` about its centre and the
-//! plane's normal. Its contribution to the torque of joint `k` is
+//! Let a body of mass `m` have its centre of mass at `p`, orientation `theta`, and inertia `I` about its centre and the plane's
+//! normal. Its contribution to the torque of joint `k` is
 //!
 //! ```text
 //! tau_k = m dp/dq_k . (p'' - g) + I dtheta/dq_k theta''
 //! ```
 //!
-//! and the torque is the sum over all bodies (d'Alembert; Siciliano, Sciavicco, Villani, Oriolo, *Robotics*, 2009,
-//! section 7.1). Revolute joints have torques in N m, prismatic joints have forces in N. Friction, gears and the
-//! inertia of the rotors are not included.
+//! and the torque is the sum over all bodies (d'Alembert; Siciliano, Sciavicco, Villani, Oriolo, *Robotics*, 2009, section 7.1).
+//! "Torque" means a torque in N m for a revolute joint, and a force in N for a prismatic one. Friction, gears and the inertia of
+//! rotors are not included.
 
 use cplan_geometry::{Convex, Point, Vector, perpendicular};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, Body, Dynamics, JointType, Scene};
 
-/// Greatest magnitudes of derivatives over a part of a curve: of each joint's value by the parameter of the curve.
+/// Greatest magnitudes, on a part of a curve, of the derivatives of each joint's value by the parameter of the curve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Rates {
     /// Greatest magnitude of the first derivative, for each joint.
@@ -26,19 +26,19 @@ pub struct Rates {
     pub third: [f64; 2],
 }
 
-/// Upper bounds on how much torques bend along a curve. Each joint's torque is a sum of three parts, and these are
-/// bounds on the second derivatives of the parts by the parameter of the curve.
+/// Upper bounds on the curvature of torques along a curve. Each joint's torque is a sum of three parts. The fields are bounds on
+/// the second derivatives of these parts by the parameter of the curve.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Curvature {
     /// Bound for the first part: the torque that accelerates the joints along the curve's first derivative.
     pub inertial: [f64; 2],
-    /// Bound for the second part: the torque that the curve's second derivative and the square of its first require.
+    /// Bound for the second part: the torque that the curve's second derivative, and the square of its first one, require.
     pub bent: [f64; 2],
     /// Bound for the third part: the torque that holds the arm at rest.
     pub holding: [f64; 2],
 }
 
-/// Returns the body that two bodies form if they are joined rigidly. All three have the same frame.
+/// Returns the body that two rigidly joined bodies form. All three have the same frame.
 pub fn joined(a: &Body, b: &Body) -> Body {
     let mass = a.mass + b.mass;
     if mass == 0.0 {
@@ -49,11 +49,11 @@ pub fn joined(a: &Body, b: &Body) -> Body {
     Body { mass, center, inertia: about(a) + about(b) }
 }
 
-/// Returns a body whose mass, in kg, is spread evenly over pieces that do not overlap. A rounded piece counts as its
-/// core, without the radius, unless it is a disc.
+/// Returns a body with this mass, in kg, evenly distributed over pieces that do not overlap. A rounded piece counts as its core,
+/// without the radius, unless it is a disc.
 pub fn spread(mass: f64, pieces: &[Convex]) -> Body {
     let sheets = pieces.iter().map(sheet).fold(Body::NONE, |sum, piece| joined(&sum, &piece));
-    // For pieces of density 1, the mass is the area.
+    // Pieces have density 1, so their mass is their area.
     let density = if sheets.mass > 0.0 { mass / sheets.mass } else { 0.0 };
     Body { mass, inertia: density * sheets.inertia, ..sheets }
 }
@@ -66,8 +66,8 @@ fn sheet(piece: &Convex) -> Body {
         let mass = std::f64::consts::PI * square;
         return Body { mass, center, inertia: mass * square / 2.0 };
     }
-    // A fan of triangles. The inertia of a triangle about its centre is its mass times the sum of its squared sides,
-    // divided by 36.
+    // A fan of triangles. The inertia of a triangle about its centre is its mass times the sum of its squared sides, divided by
+    // 36.
     let triangles = core.windows(2).skip(1).map(|side| {
         let corners = [core[0], side[0], side[1]];
         let [a, b, c] = [corners[1] - corners[0], corners[2] - corners[0], corners[2] - corners[1]];
@@ -78,21 +78,21 @@ fn sheet(piece: &Convex) -> Body {
     triangles.fold(Body::NONE, |sum, triangle| joined(&sum, &triangle))
 }
 
-/// Sets the dynamics of an arm so that its motions respect the joints' efforts. The efforts also replace limits of
-/// acceleration that are not specified. Changes nothing if masses or efforts are unknown.
+/// Sets the dynamics of an arm so that its motions respect the joints' efforts, which also replace unspecified acceleration
+/// limits. Changes nothing if masses or efforts are unknown.
 pub fn keep_efforts(arm: &mut Arm) {
     let Some(mut dynamics) = arm.dynamics else { return };
     dynamics.limits = true;
     let greatest = Torques { arm, dynamics }.greatest_accelerations();
     for (k, joint) in arm.joints.iter_mut().enumerate().filter(|(k, _)| dynamics.assumed[*k]) {
-        // Upper bound on the acceleration reached with this jerk between one top speed and the opposite one.
+        // Upper bound on the acceleration that this jerk allows between one top speed and the opposite one.
         let by_jerk = joint.jerk.map_or(f64::MAX, |jerk| (2.0 * jerk * joint.velocity).sqrt());
         joint.acceleration = greatest[k].min(by_jerk);
     }
     arm.dynamics = Some(dynamics);
 }
 
-/// Computes the torques of an arm's motions from the arm and the masses that its joints move.
+/// Computes the torques of an arm's motions, from the arm and the masses that its joints move.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Torques<'a> {
     /// The arm.
@@ -125,8 +125,8 @@ impl LimitedTorque {
 }
 
 impl<'a> Torques<'a> {
-    /// Iterates over the limited torques: those of both joints, and of the first motor if its torque is limited. That motor
-    /// also bears the torque of the elbow's motor on the base, which the belt transmits.
+    /// Iterates over the limited torques: those of both joints, and that of the first motor if it is limited. This motor also
+    /// bears the torque of an elbow's motor on the base, which the belt transmits.
     pub fn limited_torques(&self) -> impl Iterator<Item = LimitedTorque> + use<> {
         let joint = |k: usize, weights| LimitedTorque { weights, effort: self.dynamics.effort[k], joint: Some(k) };
         let motor = self.arm.motors.and_then(|motors| {
@@ -135,7 +135,7 @@ impl<'a> Torques<'a> {
         [joint(0, [1.0, 0.0]), joint(1, [0.0, 1.0])].into_iter().chain(motor)
     }
 
-    /// Returns the torques of a scene's arm. Returns `None` if motions need not respect its efforts.
+    /// Returns the torques of a scene's arm. `None` if motions need not respect its efforts.
     pub fn limited(scene: &'a Scene) -> Option<Self> {
         let arm = scene.arm();
         let dynamics = arm.dynamics.filter(|dynamics| dynamics.limits)?;
@@ -154,8 +154,8 @@ impl<'a> Torques<'a> {
         TorquesAt { torques: self, columns }
     }
 
-    /// Returns an upper bound on the rate of change of torques along a part of a motion. The part stays within `reach`
-    /// seconds of `middle` and has these derivatives.
+    /// Returns an upper bound on the rate of change of torques along a part of a motion, which is within `reach` seconds of
+    /// `middle` and has these derivatives.
     pub fn change(&self, middle: Configuration, reach: f64, rates: &Rates) -> [f64; 2] {
         let mut change = [0.0; 2];
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
@@ -170,8 +170,8 @@ impl<'a> Torques<'a> {
         change
     }
 
-    /// Returns upper bounds on the curvature of torques along a part of a curve without third derivatives. The part
-    /// stays within `reach` of `middle`, measured in the parameter.
+    /// Returns upper bounds on the curvature of torques along a part of a curve without third derivatives, which is within
+    /// `reach` of `middle`, measured in the parameter.
     pub fn curvature(&self, middle: Configuration, reach: f64, rates: &Rates) -> Curvature {
         let mut curvature = Curvature::default();
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
@@ -201,8 +201,8 @@ impl<'a> Torques<'a> {
         greatest
     }
 
-    /// Returns upper bounds on the accelerations of motions within speeds and efforts, in all configurations. They are
-    /// infinite for a joint that moves no mass.
+    /// Returns upper bounds on the accelerations, in all configurations, of motions within speeds and efforts. Infinite for a
+    /// joint that moves no mass.
     pub fn greatest_accelerations(&self) -> [f64; 2] {
         let mut pull = self.dynamics.effort;
         for (link, body) in self.dynamics.bodies.iter().enumerate() {
@@ -249,7 +249,7 @@ impl TorquesAt<'_> {
         })
     }
 
-    /// Computes the torques of speeds alone: centrifugal and Coriolis forces.
+    /// Computes the torques due to speeds alone: centrifugal and Coriolis forces.
     pub fn centrifugal(&self, velocity: Configuration) -> Configuration {
         self.sum(|link, columns| (bending(self.torques.arm, link, velocity, columns), 0.0))
     }
@@ -276,7 +276,7 @@ impl TorquesAt<'_> {
 fn bending(arm: &Arm, link: usize, v: Configuration, columns: [Vector; 2]) -> Vector {
     use JointType::{Prismatic, Revolute};
     let [first, second] = arm.joints.each_ref().map(|joint| joint.joint_type);
-    // The lever from a joint's axis to the centre is a quarter turn back from the column.
+    // The lever from a joint's axis to the centre is the column, turned back by a quarter turn.
     let lever = |sign: f64, column: Vector| -perpendicular(column) * sign;
     match (first, second) {
         (Revolute { sign }, _) if link == 0 => -lever(sign, columns[0]) * (v[0] * v[0]),
@@ -308,22 +308,22 @@ fn is_turned(arm: &Arm, link: usize) -> [f64; 2] {
     turns(arm, link).map(|turn| f64::from(u8::from(turn.is_some())))
 }
 
-/// Upper bounds on magnitudes along a part of a curve, for a point of a link.
+/// Upper bounds on magnitudes for a point of a link, along a part of a curve.
 struct Bounds {
-    /// For each joint, bounds for the derivative of the point's position by the joint's value, and for the first two
-    /// derivatives of that along the curve.
+    /// For each joint, bounds for the derivative of the point's position by the joint's value, and for the first two derivatives
+    /// of this along the curve.
     column: [[f64; 3]; 2],
     /// Bounds on the first four derivatives of the point along the curve. The fourth is valid if the curve has no third
     /// derivative.
     motion: [f64; 4],
 }
 
-/// Returns bounds that hold in all configurations, at constant speeds up to the joints' top speeds.
+/// Returns bounds that are valid in all configurations, at constant speeds up to the joints' top speeds.
 fn everywhere(arm: &Arm, link: usize, point: Point) -> Bounds {
     let velocity = arm.joints.each_ref().map(|joint| joint.velocity);
     let domains = arm.joints.each_ref().map(|joint| joint.range.domain());
     let middle = Configuration::from(domains.map(|(lower, upper)| f64::midpoint(lower, upper)));
-    // Time after which every joint could have moved from the middle to an end of its range at top speed.
+    // Time in which each joint could move from the middle to an end of its range at top speed.
     let time = (0..2).map(|k| (domains[k].1 - domains[k].0) / 2.0 / velocity[k]).fold(0.0, f64::max);
     bounds(arm, link, point, middle, time, &Rates { first: velocity, second: [0.0; 2], third: [0.0; 2] })
 }

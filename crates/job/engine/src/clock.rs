@@ -4,8 +4,7 @@ use cplan_interrupt::Instant;
 use cplan_solver::Stages;
 use std::time::Duration;
 
-/// The stages of a computation, in the order in which they ended. The time of a stage is that since the end of the
-/// stage before.
+/// The stages of a computation, in the order in which they ended. The time of a stage begins at the end of the previous one.
 #[derive(Debug, Clone)]
 pub struct Clock {
     last: Instant,
@@ -18,7 +17,7 @@ impl Clock {
         Self { last: Instant::now(), stages }
     }
 
-    /// Ends a stage. Its time is that since the end of the stage before.
+    /// Ends a stage, which began at the end of the previous one.
     pub fn stage(&mut self, name: &'static str) {
         self.stages.push((name, self.last.elapsed()));
         self.last = Instant::now();

@@ -5,13 +5,11 @@ use cplan_model::space::Metric;
 use cplan_motion::{DurationOptimality, Limits, TimedMotion, TimingError, least_duration};
 use cplan_solver::{BoundedPath, Criterion, Options, bound, solve};
 
-/// Gap to which a lower bound on the path's length is refined, as a fraction. A lower bound on the time is derived from
-/// it.
+/// Gap, as a fraction, to which a lower bound on the path's length is refined. A lower bound on the time follows from it.
 const LENGTH_BOUND_GAP: f64 = 1e-3;
 
-/// Returns the fastest motion that was found, and a lower bound on the duration of every motion. Tries the planner's
-/// path. If the planner minimises a length, also tries the shortest path by Euclidean length and the shortest by time
-/// at top speed.
+/// Returns the fastest motion found, and a lower bound on the duration of every motion. Tries the planner's path and, if the
+/// planner minimises a length, also the shortest path by Euclidean length and the one by time at top speed.
 pub(super) fn fastest(
     problem: &MotionProblem,
     path: &BoundedPath,
@@ -44,7 +42,7 @@ pub(super) fn fastest(
         let of_joints_alone = least_duration(length(of_joints), &Limits::from(&arm.joints));
         match arm.time_metric() {
             metric if metric == of_joints => of_joints_alone,
-            // Motors that accelerate quickly can lower this bound, so the greater one counts.
+            // Motors with high accelerations can lower this bound, so the greater of both bounds counts.
             metric => of_joints_alone.max(least_duration(length(metric), &Limits::from(arm))),
         }
     };

@@ -31,7 +31,7 @@ pub struct ConfigurationFindings {
     pub plane: BasisFinding,
     /// All pairs in contact, or nearer than the required clearance.
     pub contacts: Vec<PairFinding>,
-    /// The nearest free configuration, if this one is not free.
+    /// The nearest free configuration, unless this one is free.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nearest_free: Option<NearestFinding>,
 }
@@ -55,7 +55,7 @@ pub struct NearestFinding {
     /// Least distance to an obstacle, metres. `None` if no obstacle is within reach.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// Spacing of the values of joint 1 that were tried, before refinement. For each of them, joint 2 is exact.
+    /// Spacing of the tried values of joint 1, before refinement. For each of them, joint 2 is exact.
     pub resolution: f64,
 }
 
@@ -81,11 +81,11 @@ pub struct PairFinding {
     pub obstacle: String,
     /// True if link and obstacle have a point in common.
     pub touching: bool,
-    /// Penetration depth, metres. A negative value is a distance.
+    /// Penetration depth, metres. A distance is negative.
     pub depth: f64,
-    /// The distance that the two must keep, metres: a clearance, and what stated errors need.
+    /// The distance that the two must keep, metres: the clearance, and what the stated errors require.
     pub required: f64,
-    /// Description of that distance.
+    /// Description of this distance.
     #[serde(skip)]
     pub least: String,
     /// Corners of the link that lie in the obstacle. Empty for rounded shapes.
@@ -151,7 +151,7 @@ fn finding(scene: &Scene, q: Configuration, contact: Contact) -> Option<PairFind
     let (part, piece) = (drawn.part(indices).at(&at), drawn.piece(indices));
     let touching = shapes_meet(&part, piece);
     let (a, b) = (part.core(), piece.core());
-    // Only polygons have corners and sides. For rounded shapes, the depth says enough.
+    // Only polygons have corners and sides. For rounded shapes, the depth suffices.
     let sharp = part.radius() == 0.0 && piece.radius() == 0.0;
     let test = sharp.then(|| polygon_test(&part, piece));
     let inside = |corners: &[Point], found: &[CornerInside]| {

@@ -1,15 +1,14 @@
-//! Plans: one call, [`plan()`], leads from files or a model to the result that is printed and written.
+//! Plans: one call of [`plan()`] leads from files or a model to the result that is printed and written.
 //!
 //! - [`Problem`]: the requested motion or task, read from files or made in code.
-//! - [`Plan`]: the answer. `motion` drives along the path that the solver found, `fastest` compares several,
-//!   [`Refutation`] is a proof.
-//! - `result`: the figures of a plan, its JSON, and the formats of files. `stored`: problems and plans in serialised
-//!   form.
+//! - [`Plan`]: the answer. `motion` times the path that the solver found, `fastest` compares several paths, and [`Refutation`] is
+//!   a proof.
+//! - `result`: the figures of a plan, its JSON, and its file formats. `stored`: serialised problems and plans.
 //! - `certificate`: evidence that a checker can judge without this program, such as [`Plan::certificate`].
 //! - [`findings`]: verdicts on given configurations.
 //!
-//! The search for one motion is in the crate `solver`. Companions bring others ([`Searches`]): `movers` for moving
-//! obstacles, `tasks` for sequences.
+//! The search for one motion is in the crate `solver`. Companion crates provide others ([`Searches`]): `movers` for moving
+//! obstacles, `tasks` for sequences of steps.
 
 mod certificate;
 mod clock;

@@ -1,5 +1,4 @@
-//! The margins of a plan: how far bodies may be displaced, and how wrong the arm's model may be, while its motion stays
-//! free.
+//! The margins of a plan: displacements of bodies, and errors of the arm's model, for which its motion stays free.
 
 use super::plan::{Detail, Plan};
 use cplan_geometry::Convex;
@@ -12,9 +11,9 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 impl Plan {
-    /// Returns the margins of the motion; none without a motion. They are computed at the first call.
+    /// Returns the margins of the motion, computed at the first call; none without a motion.
     ///
-    /// They hold for the trajectory, and for the path with stops at its corners.
+    /// They apply to the trajectory, and to the path with stops at its corners.
     pub fn margins(&self) -> &Margins {
         self.margins.get_or_init(|| match self.detail() {
             Detail::Motion { problem, answer } => answer.outcome.found().map_or_else(Margins::default, |motion| {
@@ -64,18 +63,18 @@ fn of_task(task: &Task, answer: &TaskAnswer) -> Margins {
     search.margins()
 }
 
-/// A stretch of a task during which the tool is lowered or turned, in a scene with all heights and angles that it has.
+/// A stretch of a task during which the tool is lowered or turned. Its scene has all heights and angles that the tool takes.
 struct ToolStretch {
     scene: Scene,
     pieces: Vec<Piece>,
     /// Time from the beginning of the task to the beginning of the pieces, seconds.
     begin: f64,
-    /// Distance that is proven at the heights and angles of each moment, metres.
+    /// Distance that is proven for the heights and angles of each moment, metres.
     known: f64,
 }
 
-/// Returns the stretches of a step during which the tool is lowered or turned. `legs` are the step before, the step, and the
-/// next one.
+/// Returns the stretches of a step during which the tool is lowered or turned. `legs` are those of the previous step, of this
+/// step, and of the next one.
 fn tool_stretches(task: &Task, legs: [Option<&Leg>; 3]) -> Vec<ToolStretch> {
     let [before, Some(leg), next] = legs else { return Vec::new() };
     let depth = |value: f64| task.stroke.as_ref().map_or(0.0, |stroke| stroke.depth_at(value));
@@ -160,7 +159,7 @@ fn lowered(
     Scene::with_trusted(arm, workspace, additions)
 }
 
-/// Returns a scene with a disc about the tip around each part of a level payload, so that it covers all its angles.
+/// Returns a scene in which each part of a level payload is a disc about the tip that covers all its angles.
 fn turning(scene: &Scene) -> Scene {
     scene.with_attachment(|attachment| {
         if let Grip::Level { point, .. } = attachment.grip {
@@ -171,7 +170,7 @@ fn turning(scene: &Scene) -> Scene {
     })
 }
 
-/// Examines a motion that begins at a time, in seconds, and the straight path that it follows.
+/// Examines a motion that begins at `begin`, in seconds, and the straight path that it follows.
 fn examine(search: &mut MarginSearch, timed: TimedScene, motion: &TimedMotion, begin: f64) {
     let (path, trajectory) = (motion.curve.straight().path(), &motion.trajectory);
     let pieces = Some(trajectory.pieces()).filter(|pieces| !pieces.is_empty());
@@ -179,7 +178,7 @@ fn examine(search: &mut MarginSearch, timed: TimedScene, motion: &TimedMotion, b
     let of_rounding = motion.curve.radii().iter().copied().fold(0.0, f64::max);
     let beside = BLEND_TOLERANCE * motion.curve.curve().greatest_half().max(of_rounding);
     search.examine(&MotionStretch { scene: timed, pieces: &pieces, begin, beside, known: 0.0 });
-    // The times of the straight path are about those of the motion, so they do not count for moving obstacles.
+    // The times of the straight path are only approximately those of the motion, so moving obstacles are left out.
     let (scene, pieces) = (TimedScene::from(timed.scene), straight(path, trajectory));
     search.examine(&MotionStretch { scene, pieces: &pieces, begin, beside: 0.0, known: 0.0 });
 }
@@ -188,8 +187,8 @@ fn at_rest(q: Configuration) -> Piece {
     Piece::line(0.0, 0.0, q, q)
 }
 
-/// Returns the pieces of a path; at least one. Each waypoint has the time at which the trajectory is at the same share of
-/// its length.
+/// Returns the pieces of a path, at least one. The time of a waypoint is that at which the trajectory is at the same share of its
+/// length.
 fn straight(path: &Path, trajectory: &Trajectory) -> Vec<Piece> {
     let along = |steps: &mut dyn Iterator<Item = f64>| {
         let sum = |length: &mut f64, step: f64| {

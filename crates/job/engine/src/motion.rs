@@ -14,10 +14,9 @@ pub struct Motion {
     pub path: BoundedPath,
     /// The path with rounded corners, and its timing.
     pub timed: TimedMotion,
-    /// The duration in comparison with a proven lower bound on the duration of every motion. `None` if it was not
-    /// requested.
+    /// The duration, with a proven lower bound on the duration of every motion. `None` if no bound was requested.
     pub fastest: Option<DurationOptimality>,
-    /// How the motion passes moving obstacles. `None` if there are none.
+    /// How the motion passes moving obstacles. `None` if no obstacle moves.
     pub timing: Option<Timing>,
 }
 
@@ -28,7 +27,7 @@ impl AsRef<BoundedPath> for Motion {
 }
 
 impl Motion {
-    /// Times the motion along a path. If no timing avoids moving obstacles, returns the reason in words.
+    /// Times the motion along a path. If no timing avoids moving obstacles, returns the reason in words as the error.
     fn along(
         problem: &MotionProblem,
         (trajectories, movers): (&[ObstacleTrajectory], Option<&dyn MoverSearch>),
@@ -41,11 +40,11 @@ impl Motion {
         };
         let mut timing = None;
         if let Some(movers) = movers.filter(|_| !trajectories.is_empty()) {
-            // The fastest motion may follow another path than the shortest one, to another goal.
+            // The fastest motion may follow another path, to another goal, than the shortest one.
             let taken = timed.curve.straight().clone();
             match movers.plan(problem, trajectories, &taken, timed, options)? {
                 Ok((waiting, figures)) => {
-                    // The bound is the same as before, but the duration now includes waits.
+                    // The bound stays the same, but the duration includes waits now.
                     let duration = waiting.trajectory.duration();
                     fastest = fastest.map(|fastest| DurationOptimality::new(duration, fastest.lower_bound));
                     (timed, timing) = (waiting, Some(figures));
@@ -59,8 +58,8 @@ impl Motion {
     }
 }
 
-/// Times the motion along the path of an answer, by this search among obstacles on these trajectories. An answer without
-/// a path is returned unchanged.
+/// Times the motion along the path of an answer, by `search` if obstacles move on these trajectories. Returns an answer without a
+/// path unchanged.
 ///
 /// # Errors
 /// A motion that lasts too long, or has too many samples.

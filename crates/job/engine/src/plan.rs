@@ -18,7 +18,7 @@ use std::borrow::Cow;
 use std::sync::{Arc, OnceLock};
 use thiserror::Error;
 
-/// Reason why planning is refused. A plan with the status "unknown" is no error.
+/// The reason why planning is refused. (An unknown answer is no error.)
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum PlanError {
     /// The program has no search for problems of this kind.
@@ -33,7 +33,7 @@ pub enum PlanError {
     /// The trajectory cannot be made as requested.
     #[error(transparent)]
     Timing(#[from] TimingError),
-    /// Messages cannot name the joints as requested, or would have accelerations that mislead programs that read them.
+    /// ROS messages cannot name the joints as requested, or would contain accelerations that mislead their readers.
     #[error(transparent)]
     Joints(#[from] MessageError),
 }
@@ -41,19 +41,19 @@ pub enum PlanError {
 /// Proof that a problem has no solution.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refutation<'a> {
-    /// For a motion: boxes of colliding configurations separate the start from the goals.
+    /// For a motion: collision boxes that separate the start from the goals.
     Motion(&'a CheckedProof),
-    /// For a task: a step that cannot be done. It cannot be done with any other choice in the earlier steps either.
+    /// For a task: a step that cannot be performed, whatever the choices in earlier steps.
     Step(&'a FailedStep),
 }
 
-/// The result of planning a problem: the outcome, and everything that can be printed, written and drawn.
+/// The result of planning a problem: the outcome, and all that can be printed, written and drawn.
 ///
-/// [`plan`] makes it, and it is immutable. [`Plan::outcome`] returns the answer itself; `to_json`, `svg`, `html`,
-/// `bytes`, `save` and `summary` return the program's output.
+/// [`plan`] creates it, and it is immutable. [`Plan::outcome`] returns the answer itself; `to_json`, `svg`, `html`, `bytes`,
+/// `save` and `summary` give the program's output.
 ///
-/// Serde writes a plan as the problem, the options and the result. It is read as a
-/// [`StoredPlan`](super::stored::StoredPlan), whose result is never trusted.
+/// Serde writes a plan as problem, options and result. It reads it as a [`StoredPlan`](super::stored::StoredPlan), whose result
+/// is never trusted.
 #[derive(Debug, Clone)]
 pub struct Plan {
     problem: Problem,
@@ -62,7 +62,7 @@ pub struct Plan {
     detail: Box<Detail>,
     clock: Clock,
     pub(super) margins: OnceLock<Margins>,
-    /// The answer for the robot and the world as drawn, if the motion must be free for errors.
+    /// The status for the robot and the world without errors, if the motion must be free for errors.
     drawn: OnceLock<Option<Status>>,
 }
 
@@ -96,12 +96,11 @@ pub(super) struct Found<'a> {
     pub timing: Option<&'a Timing>,
 }
 
-/// Plans a problem. The result is a certified motion, a proof that no motion exists, or neither if the effort that the
-/// options allow does not suffice. It usually takes milliseconds. Reports long computations and surprising results to
-/// `progress`, as lines of text.
+/// Plans a problem. The result is a certified motion, a proof that there is none, or neither if the effort that the options allow
+/// does not suffice. Usually takes milliseconds. Reports long computations and surprising results as lines of text to `progress`.
 ///
 /// # Errors
-/// A problem for which there is no search, invalid options, a motion that lasts too long for its samples, and requested
+/// A problem for which the program has no search, invalid options, a motion that is too long to be sampled, and requested
 /// accelerations that jump.
 pub fn plan(
     problem: &Problem,
@@ -262,8 +261,8 @@ impl Plan {
         }
     }
 
-    /// Returns the status of the problem without the errors for which the motion must be free. If a motion was found,
-    /// it also solves that problem. Otherwise plans that problem at the first call. `None` if there are no errors.
+    /// Returns the status of the problem without the errors for which the motion must be free; `None` if there are no errors. A
+    /// motion that was found also solves that problem. Otherwise, the first call plans that problem.
     pub fn status_as_drawn(&self) -> Option<Status> {
         *self.drawn.get_or_init(|| {
             let errors = self.problem.errors()?;
@@ -332,15 +331,15 @@ impl Plan {
         self.motion().map(|(problem, answer)| Replay::new(problem, &self.options, answer))
     }
 
-    /// Returns the replay of how the planner found the motions of a task. To do so, plans them again. `None` for single
-    /// motions and with moving obstacles.
+    /// Returns the replay of how the planner found the motions of a task, which it plans again. `None` for single motions and
+    /// with moving obstacles.
     pub fn task_replay(&self) -> Option<TaskReplay> {
         let (task, answer) = self.task().filter(|(task, _)| !task.has_moving_obstacles())?;
         self.searches.tasks.map(|search| search.replay(task, &self.options, answer))
     }
 
-    /// Returns the times at which moving obstacles block places on the motion. If a step fails, the motion is that of
-    /// the steps before it. `None` if nothing moves beside the arm, or if there is no motion. Computed at each call.
+    /// Returns the times at which moving obstacles block places on the motion. If a step fails, the motion is that of the steps
+    /// before it. `None` without a motion, or if no obstacle moves. Computed at each call.
     pub fn place_time(&self) -> Option<PlaceTime> {
         let movers = self.searches.movers?;
         let blocked_times: &BlockedTimes = &|timed, configurations| movers.blocked_times(timed, configurations);

@@ -12,9 +12,9 @@ use std::sync::Arc;
 use std::time::Duration;
 use thiserror::Error;
 
-/// A robot, its world, and its task: a motion from a start to a goal, or a sequence of steps. A problem has been
-/// checked, and is cheap to clone. Serde stores the objects that it consists of, not the files. A deserialised problem
-/// is checked like one that was created in code, and its numbers keep all bits.
+/// A robot, its world, and its task: a motion from a start to a goal, or a sequence of steps. A problem has been checked, and is
+/// cheap to clone. Serde stores the objects of which it consists, not the files. Deserialised problems are checked like those
+/// created in code, and their numbers keep all bits.
 #[derive(Debug, Clone)]
 pub struct Problem {
     /// Scene, start and goals. A task has no goals, and its objects are at their initial places.
@@ -25,13 +25,13 @@ pub struct Problem {
     trajectories: Arc<[ObstacleTrajectory]>,
     robot: Arc<RobotReport>,
     notes: Arc<[String]>,
-    /// The errors for which the motion must be free. `None` without errors, and for a restored problem.
+    /// The errors for which the motion must be free. `None` without errors, and for a deserialised problem.
     errors: Option<AllowedErrors>,
     /// Time that reading the files took. `None` if the problem was created in code.
     read_in: Option<Duration>,
 }
 
-/// Reason why an arm, a workspace, a start and goals do not form a valid problem.
+/// The reason why an arm, a workspace, a start and goals do not form a valid problem.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum ProblemError {
     /// The arm or the workspace is invalid.
@@ -68,7 +68,7 @@ impl Problem {
     /// Returns the problem of a scene that has been read.
     ///
     /// # Errors
-    /// A start or goal that is missing, out of reach or not free, and a step that an arm of this kind cannot do.
+    /// A start or goal that is missing, out of reach or not free, and a step that this kind of arm cannot perform.
     pub fn of_scene(loaded: LoadedScene, overrides: &Overrides) -> Result<Self, InputError> {
         Ok(loaded.resolve(overrides, Rules::Plan)?.into())
     }
@@ -89,7 +89,7 @@ impl Problem {
         Ok(Self::of_motion(motion_among(workspace.scene(arm)?, &trajectories, start.into(), goals)?, trajectories))
     }
 
-    /// Returns the problem, with the time since `begun` as the time of reading.
+    /// Sets the time of reading to the time since `begun`.
     #[must_use]
     pub fn read_since(self, begun: Instant) -> Self {
         Self { read_in: Some(begun.elapsed()), ..self }
@@ -134,8 +134,7 @@ impl Problem {
         &self.robot
     }
 
-    /// Returns notes for the user on how the world was read: defaults that apply, and IK solutions of the goal that are
-    /// blocked.
+    /// Returns notes for the user on how the world was read: defaults, and blocked IK solutions of the goal.
     pub fn notes(&self) -> &[String] {
         &self.notes
     }
@@ -185,7 +184,7 @@ impl From<LoadedProblem> for Problem {
 }
 
 impl From<MotionProblem> for Problem {
-    /// Creates the problem of a robot that has no movable joints besides its two. Loose obstacles are ignored.
+    /// Creates the problem of a robot whose two joints are its only movable ones, without loose obstacles.
     fn from(motion: MotionProblem) -> Self {
         Self::of_motion(motion, Vec::new())
     }

@@ -1,4 +1,4 @@
-//! The searches that companions bring: for tasks, and among moving obstacles. Plans have the data of their answers, and
+//! The searches that companion crates provide: for tasks, and among moving obstacles. Plans contain the data of their answers;
 //! the program states which searches it has.
 
 use cplan_geometry::Interval;
@@ -11,7 +11,7 @@ use cplan_motion::{TimedMotion, Timing, TimingError};
 use cplan_solver::Options;
 use std::fmt::Debug;
 
-/// The searches beyond those for a single motion among obstacles that stand still.
+/// The searches other than that for a single motion among static obstacles.
 #[derive(Debug, Clone, Copy)]
 pub struct Searches {
     /// The search for tasks. Without it, tasks are refused.
@@ -21,7 +21,7 @@ pub struct Searches {
 }
 
 impl Searches {
-    /// No search: plans of single motions among obstacles that stand still.
+    /// No further searches: only single motions among static obstacles can be planned.
     pub const NONE: Self = Self { tasks: None, movers: None };
 }
 
@@ -30,17 +30,17 @@ pub trait TaskSearch: Debug + Sync {
     /// Plans a task. Passes lines of text about long computations.
     fn plan(&self, task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> TaskAnswer;
 
-    /// Returns how the motions of an answer were found, with the same options. For tasks without moving obstacles.
+    /// Returns how the motions of an answer, planned with the same options, were found. For tasks without moving obstacles.
     fn replay(&self, task: &Task, options: &Options, answer: &TaskAnswer) -> TaskReplay;
 }
 
-/// A motion among moving obstacles with its figures. `Err` has the reason for its absence, in words.
+/// A motion among moving obstacles with its figures, or the reason, in words, why there is none.
 pub type MotionAmongMovers = Result<(TimedMotion, Timing), String>;
 
 /// A search for motions among moving obstacles.
 pub trait MoverSearch: Debug + Sync {
-    /// Returns the earliest motion along a certified path, or along others. The loose obstacles of the problem's scene
-    /// follow the trajectories. `first` is the motion along the path without moving obstacles.
+    /// Returns the motion that arrives first, along a certified path or along other paths. The loose obstacles of the problem's
+    /// scene follow the trajectories. `first` is the motion along the path without moving obstacles.
     ///
     /// # Errors
     /// A path that cannot be timed.
@@ -53,8 +53,7 @@ pub trait MoverSearch: Debug + Sync {
         options: &Options,
     ) -> Result<MotionAmongMovers, TimingError>;
 
-    /// Returns the intervals of time, in seconds, in which moving obstacles block the arm. There is a list for each
-    /// configuration and each loose obstacle of the scene, in order and disjoint. The clearance of the world counts as
-    /// blocked.
+    /// Returns the intervals of time, in seconds, during which moving obstacles block the arm: for each configuration, a list for
+    /// each loose obstacle of the scene, ordered and disjoint. Less than the world's clearance counts as blocked.
     fn blocked_times(&self, timed: TimedScene, configurations: &[Configuration]) -> Vec<Vec<Vec<Interval>>>;
 }

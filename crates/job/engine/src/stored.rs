@@ -1,13 +1,11 @@
-//! Serialization of problems and plans by serde: in JSON and other self-describing formats that can represent missing
-//! values.
+//! Serialisation of problems and plans by serde, in JSON and other self-describing formats that can represent missing values.
 //!
-//! A problem is stored as its model (arm, obstacles and target), without its source files. Reading uses the
-//! constructors that check their arguments, so a stored problem is as valid as a loaded one. Numbers are restored bit
-//! for bit.
+//! A problem is stored as its model (arm, obstacles and target), without its source files. Reading uses the constructors that
+//! check their arguments, so a stored problem is as valid as a loaded one. Numbers are restored bit for bit.
 //!
-//! A plan is stored as a problem, options and the result. The stored result is never trusted: [`StoredPlan`] plans
-//! again, and compares the results. The same input gives the same output. So a difference shows that the file
-//! was changed, or written by another version of cplan.
+//! A plan is stored as problem, options and result. The stored result is never trusted: [`StoredPlan`] plans again, and compares
+//! the results. The same input gives the same output, so a difference shows that the file was changed, or written by another
+//! version of cplan.
 
 use super::plan::{Plan, PlanError, plan};
 use super::problem::{Problem, ProblemError, motion_among};
@@ -126,7 +124,7 @@ impl<'de> Deserialize<'de> for Problem {
     }
 }
 
-/// Returns true if ROS messages can have values for all of a robot's joints.
+/// Returns true if ROS messages can have values of all joints of a robot.
 fn are_joints(robot: &RobotJoints) -> bool {
     let is_driven = |driver: Driver| match driver {
         Driver::Planned(joint) => joint < 2,
@@ -167,7 +165,7 @@ pub struct StoredPlan {
     result: Value,
 }
 
-/// Reason why a stored plan is refused.
+/// The reason why a stored plan is refused.
 #[derive(Debug, Error)]
 pub enum StoredPlanError {
     /// The problem cannot be planned.
@@ -182,8 +180,8 @@ pub enum StoredPlanError {
 }
 
 impl StoredPlan {
-    /// Plans the problem again, and compares the results, except measured times. So the plan that is returned is as
-    /// certified as any.
+    /// Plans the problem again, and compares the results, except measured times. So the returned plan is as certified as any
+    /// other.
     ///
     /// # Errors
     /// A problem that cannot be planned, and a result that differs.

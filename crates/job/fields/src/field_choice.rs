@@ -1,4 +1,4 @@
-//! Settings of the field planner: the field, its equation, and how it is solved.
+//! Settings of the field planner: the field, its equation, and its solution.
 
 use crate::{Device, Difference, Direction, Equation, Escape, Initial, Khatib, Limits, Measure, Relaxation, Stencil};
 use cplan_planners::cspace::ZonedGrid;
@@ -6,8 +6,8 @@ use cplan_planners::planner::PathKind;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// An equation as the user chooses it, before there is a grid. On a grid it becomes an [`Equation`], in which the zones
-/// of the workspace are arrays with one entry per cell.
+/// An equation as the user chooses it, without a grid. On a grid, it becomes an [`Equation`], in which arrays with one entry per
+/// cell represent the zones of the workspace.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum EquationChoice {
@@ -29,14 +29,14 @@ pub enum EquationChoice {
         /// Discretisation of slopes.
         difference: Difference,
     },
-    /// Preferences. The drift follows the slope of the harmonic field.
+    /// Preferences. The drift is along the slope of the harmonic field.
     Preference {
         /// Strength of the drift outside all zones.
         elsewhere: f64,
         /// Discretisation of slopes.
         difference: Difference,
     },
-    /// Altered preferences. The drift follows the slope of the field itself.
+    /// Altered preferences. The drift is along the slope of the field itself.
     AlteredPreference {
         /// Strength of the drift outside all zones.
         elsewhere: f64,
@@ -53,19 +53,19 @@ pub enum FieldChoice {
         equation: EquationChoice,
         /// The relaxation that solves it.
         relaxation: Relaxation,
-        /// Measure of the changes in a sweep, which must fall below the tolerance. Only the relative measure notices
-        /// changes of small values. With another measure, values around the path may be too small when relaxation ends,
-        /// so that the path gets stuck. Then relaxation continues with the relative measure.
+        /// Measure of the changes in a sweep, which must fall below the tolerance. Only the relative measure notices changes of
+        /// small values. With another measure, values around the path may still be too small at the end, so that the path gets
+        /// stuck. Relaxation then continues with the relative measure.
         #[serde(default, skip_serializing_if = "Measure::is_relative")]
         measure: Measure,
-        /// Tolerance: relaxation ends when the measure falls below it.
+        /// Tolerance: relaxation ends when the measure is below it.
         tolerance: f64,
         /// Largest number of sweeps in each stage.
         max_sweeps: usize,
         /// The device that relaxes the field.
         #[serde(default, skip_serializing_if = "Device::is_cpu")]
         on: Device,
-        /// Rule for cells that are not square: whether the equation takes their shape into account.
+        /// Treatment of cells that are not square: whether the equation takes their shape into account.
         #[serde(default, skip_serializing_if = "Stencil::is_square")]
         stencil: Stencil,
         /// Value of free cells before the first sweep.
@@ -77,11 +77,11 @@ pub enum FieldChoice {
 }
 
 /// A planner that computes a field on the cells of a grid and follows it from the start to a goal. The fixed values are
-/// [`Levels::PROBABILITY`](crate::Levels::PROBABILITY), so small values have the same relative precision as large ones.
+/// [`Levels::PROBABILITY`](crate::Levels::PROBABILITY), with which small values have the same relative precision as large ones.
 ///
-/// The field may not lead to a goal: there may be a local minimum, values may differ by less than the precision of
-/// doubles (on a GPU, of single precision), or relaxation may diverge. Then the planner gives up and reports where and
-/// why. Only [`Proposal::NoPath`](cplan_planners::planner::Proposal::NoPath) means that no path leads through free cells.
+/// The field may not lead to a goal: there may be a local minimum, values may differ by less than the precision of doubles (on a
+/// GPU, of single precision), or relaxation may diverge. Then the planner gives up and reports where and why. Only
+/// [`Proposal::NoPath`](cplan_planners::planner::Proposal::NoPath) means that there is no path through free cells.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FieldPlanner {
@@ -89,8 +89,7 @@ pub struct FieldPlanner {
     pub field: FieldChoice,
     /// Boundary condition at the limits of intervals.
     pub limits: Limits,
-    /// Method for leaving local minima of attraction and repulsion. With `None`, the planner gives up in a local
-    /// minimum.
+    /// Escape from local minima of attraction and repulsion. With `None`, the planner gives up in a local minimum.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub escape: Option<Escape>,
     /// Kind of the path. [`PathKind::Own`] is the curve along the gradient or the force.
@@ -104,7 +103,7 @@ impl EquationChoice {
     /// Returns the reason, in words, if a zone lacks a direction that the equation needs.
     pub fn on(self, space: &ZonedGrid, stencil: Stencil) -> Result<Equation, String> {
         let cells = 0..space.grid.blocked.len();
-        // Convert a direction of joint space to units of cells if cells count as square. Otherwise keep it.
+        // If cells count as square, a direction in joint space must be converted to units of cells.
         let step = if stencil.is_square() { space.grid.step() } else { [1.0; 2] };
         let in_cells = |direction: Direction| {
             let [a, b] = direction.components();

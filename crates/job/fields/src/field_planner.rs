@@ -12,8 +12,8 @@ use cplan_planners::planner::attach::JoinedQuery;
 use cplan_planners::planner::grid_path::Place;
 use cplan_planners::planner::{FieldQuantity, Note, PathKind, Planner, Proposal, Query, Run, Size, Trace, grid_path};
 
-/// Default tolerance of relaxation: relative change of values in a sweep. At this tolerance, directions of ascent no
-/// longer change, except in cells where two directions are almost equal.
+/// Default tolerance of relaxation: the relative change of values in a sweep. At this tolerance, directions of ascent no longer
+/// change, except in cells with two almost equal directions.
 pub const RELATIVE_TOLERANCE: f64 = 1e-6;
 
 /// The result of following a field.
@@ -46,7 +46,7 @@ impl Planner for FieldPlanner {
         let domain = Domain::of_grid(grid, &goals, self.limits, Levels::PROBABILITY);
         let reached = |&cell: &usize| domain.kinds()[cell] != Cell::Obstacle;
         let cells = domain.kinds().iter().filter(|&&kind| kind != Cell::Obstacle).count();
-        // Begin in the nearest cell of the start that is connected with a goal.
+        // Of the cells that are connected with a goal, the one nearest to the start.
         let Some(start) = joined.start.cells.iter().copied().find(reached) else {
             return ended(Proposal::NoPath, cells);
         };
@@ -72,11 +72,10 @@ impl Planner for FieldPlanner {
     }
 }
 
-/// Returns the domain of a field for a query: the kind of each cell, with the levels of [`FieldPlanner`]. Takes
-/// `O(cells)`.
+/// Returns the domain of a field for a query: the kind of each cell, and the levels of [`FieldPlanner`]. `O(cells)`.
 ///
 /// # Errors
-/// Returns the reason, in words, if the start or a goal has no free cell near it.
+/// No free cell near the start or a goal, as a reason in words.
 pub fn field_domain(grid: &Grid, query: &Query, limits: Limits) -> Result<Domain, String> {
     let goals = JoinedQuery::new(grid, query)?.sources();
     Ok(Domain::of_grid(grid, &goals, limits, Levels::PROBABILITY))
@@ -87,7 +86,7 @@ struct FieldQuery<'a> {
     space: &'a ZonedGrid,
     query: &'a Query,
     joined: &'a JoinedQuery,
-    /// Index of the start's cell, or of the free cell near the start to which it is joined.
+    /// Index of the cell to which the start is joined: its own, or a free cell near it.
     start: usize,
     kind: PathKind,
 }
@@ -139,7 +138,7 @@ impl FieldQuery<'_> {
         let mut field = relax_on(on, domain, equation, relaxation, stopping).map_err(refused)?;
         let (mut path, mut note) = (climb(&field), None);
         if path.is_err() && field.converged() && !stopping.measure.is_relative() && on.is_cpu() {
-            // The measure hardly notices small values, such as those around a start far from the goal.
+            // The measure hardly notices small values, as around a start far from the goal.
             let first = field.sweeps();
             let finely = Stopping { measure: Measure::GreatestRelativeChange, below: RELATIVE_TOLERANCE, ..*stopping };
             field = relax_from(domain, equation, relaxation, &finely, field.values).map_err(refused)?;
@@ -147,13 +146,13 @@ impl FieldQuery<'_> {
         }
         let logarithm = |(value, kind): (&f64, &Cell)| match kind {
             Cell::Obstacle => f64::NEG_INFINITY,
-            // If the equation is not monotone, a value may fall below 0, the level of obstacles.
+            // If the equation is not monotone, a value may be below 0, the level of obstacles.
             _ => value.max(0.0).ln(),
         };
         let potential: Vec<f64> = field.values.iter().zip(domain.kinds()).map(logarithm).collect();
         let (sweeps, change) = (field.sweeps(), field.change());
         if !field.converged() {
-            // On a GPU, a stage that ends before the limit cannot improve in single precision.
+            // On a GPU, a stage that ends early cannot improve in single precision.
             note = Some(match field.stages.iter().all(|stage| stage.sweeps < stopping.max_sweeps) {
                 true => Note::Floor { sweeps, change },
                 false => Note::Unconverged { sweeps, change },
@@ -177,7 +176,7 @@ impl FieldQuery<'_> {
     }
 }
 
-/// Returns an addition to a message: the attempt to leave a local minimum failed.
+/// Returns the addition to a message that the escape from a local minimum failed.
 fn describe_failed_escape(escape: Option<Escape>) -> &'static str {
     match escape {
         None => "",

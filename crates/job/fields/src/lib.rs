@@ -5,11 +5,11 @@
 //!   - [`trace()`] measures convergence sweep by sweep.
 //!   - [`eliminated`] computes the solution by elimination, and [`by_multigrid`] in a few steps of multigrid.
 //! - [`Khatib`]: attraction and repulsion, which have local minima.
-//! - [`MovingField`]: a field among moving obstacles, which several robots share. It is updated at each moment.
+//! - [`MovingField`]: a field among moving obstacles, which several robots share, and which is updated at each moment.
 //! - [`FieldPlanner`]: the planner that follows any of these fields.
 //!
-//! The harmonic potential is in the crate `cplan-harmonic`, the curve along a gradient in
-//! [`cplan_harmonic::follow`], the solver of linear equations in [`cplan_multigrid`].
+//! Other crates have the harmonic potential (`cplan-harmonic`), the curve along a gradient ([`cplan_harmonic::follow`]), and the
+//! solver of linear equations ([`cplan_multigrid`]).
 
 mod field_choice;
 mod field_planner;

@@ -12,8 +12,8 @@ use std::f64::consts::FRAC_1_SQRT_2;
 /// Side lengths of cells, which are squares.
 const SQUARE_SIDES: [f64; 2] = [1.0; 2];
 
-/// A disc of cells: the cells whose centres are closer to the disc's centre than its radius. It does not extend across
-/// the seams of continuous joints.
+/// A disc of cells: those whose centres are closer to the disc's centre than its radius. It does not extend across the seams of
+/// continuous joints.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Disc {
     /// Centre as row and column, which may be fractions. Whole numbers are the centres of cells.
@@ -23,9 +23,8 @@ pub struct Disc {
 }
 
 impl Disc {
-    /// Returns the disc that the centre of another disc, of radius `own`, must avoid so that the two do not touch. It
-    /// is this disc, grown by `own` and by half of a cell's diagonal, because the other centre may be anywhere in a
-    /// free cell.
+    /// Returns the disc that the centre of another disc, of radius `own`, must avoid so that the discs do not touch. It is this
+    /// disc, grown by `own` and by half the diagonal of a cell, because the other centre may be anywhere in a free cell.
     #[must_use]
     pub fn grown_for(self, own: f64) -> Self {
         Self { radius: self.radius + own + FRAC_1_SQRT_2, ..self }
@@ -49,18 +48,18 @@ impl Disc {
 /// The obstacles, goals and robots at one moment.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Moment {
-    /// Moving obstacles, such as other robots. They block the cells of these discs. The caller must grow the discs by
-    /// the size of the robot that follows the field ([`Disc::grown_for`]).
+    /// Moving obstacles, such as other robots, which block the cells of these discs. The caller must grow the discs by the size
+    /// of the robot that follows the field ([`Disc::grown_for`]).
     pub obstacles: Vec<Disc>,
     /// Goal discs. Their cells are goals, except those that obstacles cover.
     pub goals: Vec<Disc>,
-    /// The robots that follow the field, each with a disc and a drift. A cell has the drift of the nearest robot if it
-    /// lies in that robot's disc, and no drift otherwise. With one robot and an infinite radius, the drift holds
-    /// everywhere. Without robots, the field is harmonic.
+    /// The robots that follow the field, each with a disc and a drift. A cell has the drift of the nearest robot if it is in that
+    /// robot's disc, otherwise no drift. With one robot of infinite radius, its drift holds everywhere. Without robots, the field
+    /// is harmonic.
     pub robots: Vec<Influence>,
 }
 
-/// Method for computing a field from the field of the previous moment.
+/// Method that computes a field from that of the previous moment.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Solver {
     /// Relaxation, sweep by sweep, as in the literature.
@@ -69,17 +68,16 @@ pub enum Solver {
     Multigrid,
 }
 
-/// A field among moving obstacles. The field of each moment is computed from the field of the moment before.
+/// A field among moving obstacles. The field of each moment is computed from that of the previous one.
 ///
-/// It is the locally oriented field that robots share: `lap p + <b, grad p> = 0`. The drift `b = epsilon v` of a cell
-/// is that of the nearest robot if the cell is in the robot's disc, and 0 otherwise. With one robot this is an oriented
-/// field, and without robots a harmonic one (Faria 2006; Oliveira da Silva 2011, section 3.4). Obstacles have the value
-/// 1, goals 0. Robots that follow the field are not obstacles in it, because they could not leave their own cells.
+/// It is the locally oriented field that robots share: `lap p + <b, grad p> = 0`. The drift `b = epsilon v` of a cell is that of
+/// the nearest robot if the cell is in the robot's disc, and 0 otherwise. With one robot this is an oriented field, and without
+/// robots a harmonic one (Faria 2006; Oliveira da Silva 2011, section 3.4). Obstacles have the value 1, goals 0. Robots that
+/// follow the field are not obstacles in it, or they could not leave their own cells.
 ///
-/// A moment costs one pass over the cells around each disc, a few nanoseconds per cell for the weights, and the cost of
-/// the [`Solver`]. If the equation is monotone and the stopping rule strict, the field leads from every free cell that
-/// is connected with a goal to a goal. With a loose rule, such as the `1e-6` of the literature, values far from a
-/// change may be out of date.
+/// A moment costs one pass over the cells around each disc, a few nanoseconds per cell for the weights, and the cost of the
+/// [`Solver`]. If the equation is monotone and the stopping rule strict, the field leads to a goal from every free cell that is
+/// connected with one. With a loose rule, such as the `1e-6` of the literature, values far from a change may be out of date.
 ///
 /// ```
 /// use cplan_fields::*;
@@ -113,11 +111,11 @@ pub struct MovingField {
 }
 
 impl MovingField {
-    /// Creates a field on rows and columns of cells. `walls` has one flag per cell, row by row, for permanent
-    /// obstacles. Before the first moment all cells have the value of goals, as in the literature.
+    /// Creates a field on rows and columns of cells. `walls` has a flag per cell, row by row, which is true for permanent
+    /// obstacles. Before the first moment, all cells have the value of goals, as in the literature.
     ///
     /// # Errors
-    /// If there is not one flag per cell, or there are `2^32` cells or more.
+    /// A wrong number of flags, and `2^32` cells or more.
     pub fn new(
         cells: [usize; 2],
         walls: Vec<bool>,
@@ -136,12 +134,12 @@ impl MovingField {
         Ok(Self { walls, difference, values: domain.start(), domain, memory: Memory::default() })
     }
 
-    /// Computes the field of the next moment. The solver's sweeps or steps end when the sum of squared changes is less
-    /// than `below`, or when there are `most` of them. The result has their number.
+    /// Computes the field of the next moment. The solver ends when the sum of squared changes is below `below`, or after `most`
+    /// sweeps or steps, whose number is in the result.
     ///
     /// # Errors
-    /// Those of [`relax_from`] and [`by_multigrid`](super::by_multigrid), and a moment that contains NaN. The field is
-    /// then unchanged.
+    /// Those of [`relax_from`] and [`by_multigrid`](super::by_multigrid), and a moment that contains NaN, which leaves the field
+    /// unchanged.
     pub fn next(
         &mut self,
         moment: &Moment,
@@ -191,7 +189,7 @@ impl MovingField {
         }
     }
 
-    /// Returns the domain at the last moment. Before the first moment it has only the permanent walls.
+    /// Returns the domain at the last moment. Before the first moment, it has only the permanent walls.
     pub fn domain(&self) -> &Domain {
         &self.domain
     }
@@ -205,15 +203,14 @@ impl MovingField {
         ValueGuide::new(&self.domain, &self.values, |place| self.domain.cell_at(place))
     }
 
-    /// Returns the unit direction in which the field leads from a point: see [`direction()`]. Returns `None` in
-    /// obstacles and goals. Also returns `None` where the field is level, as in regions from which no goal is
-    /// reachable.
+    /// Returns the unit direction in which the field leads from a point: see [`direction()`]. `None` in obstacles and goals, and
+    /// where the field is level, as in regions from which no goal is reachable.
     pub fn direction(&self, at: LatticePoint) -> Option<[f64; 2]> {
         direction(&self.guide(), SQUARE_SIDES, at)
     }
 
     /// Follows the field from a point for this many steps of length [`STEP_LENGTH`](cplan_harmonic::follow::STEP_LENGTH), and
-    /// returns the last point; see [`advance()`]. All points lie in free cells and goals.
+    /// returns the last point; see [`advance()`]. All points are in free cells or goals.
     pub fn advance(&self, from: LatticePoint, steps: usize) -> LatticePoint {
         advance(&self.guide(), SQUARE_SIDES, from, steps)
     }

@@ -1,16 +1,16 @@
-//! Polynomials by their Bernstein coefficients.
+//! Polynomials, given by their Bernstein coefficients.
 
 use std::ops::{Add, Mul, Sub};
 
-/// Number of times that an interval with a zero is halved. The zero is then as precise as doubles allow.
+/// Number of times that an interval with a zero is halved, which locates the zero as precisely as doubles allow.
 const MAX_HALVINGS: usize = 60;
 
-/// A polynomial of degree `n`, at most 5. Its value at `u`, from 0 to 1, is
-/// `sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The weights of the coefficients `c_i` are positive and add up to 1. So
-/// nothing cancels, and all values lie between the least and the greatest coefficient.
+/// A polynomial of degree `n`, at most 5. Its value at `u`, from 0 to 1, is `sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The
+/// weights of the coefficients `c_i` are positive and add up to 1, so nothing cancels, and all values are between the least and
+/// the greatest coefficient.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Polynomial<T> {
-    /// Coefficients in the first `count` entries; the others are not used.
+    /// The coefficients are the first `count` entries.
     coefficients: [T; 6],
     count: usize,
 }
@@ -19,7 +19,7 @@ impl<T> Polynomial<T>
 where
     T: Copy + Add<Output = T> + Sub<Output = T> + Mul<f64, Output = T>,
 {
-    /// Creates the polynomial with these coefficients: one to six.
+    /// Creates the polynomial with these coefficients, of which there are one to six.
     pub fn new<const N: usize>(given: [T; N]) -> Self {
         let mut coefficients = [given[N - 1]; 6];
         coefficients[..N].copy_from_slice(&given);
@@ -34,18 +34,18 @@ where
         self.count - 1
     }
 
-    /// Returns the value at `u`, by repeated interpolation (de Casteljau). It is exact at both ends.
+    /// Returns the value at `u`, by repeated interpolation (de Casteljau). Exact at both ends.
     pub fn at(&self, u: f64) -> T {
         self.polar(|_| u)
     }
 
-    /// Evaluates the polar form: the computation of [`Polynomial::at`], with a separate value of `u` for each step.
+    /// Evaluates the polar form: like [`Polynomial::at`], but with a separate value of `u` for each step.
     fn polar(&self, share: impl Fn(usize) -> f64) -> T {
         let mut rest = self.coefficients;
         for step in 0..self.degree() {
             let u = share(step);
             for i in 0..self.degree() - step {
-                // This form of mixing gives both ends exactly.
+                // Written like this, interpolation is exact at both ends.
                 rest[i] = rest[i] * (1.0 - u) + rest[i + 1] * u;
             }
         }
@@ -138,8 +138,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Tests that every change of sign among 2000 samples is near a zero, and that every zero is near a change of
-        /// sign, up to rounding.
+        /// Checks that every change of sign among 2000 samples is near a zero, and that every zero is near a change of sign, up
+        /// to rounding.
         #[test]
         fn zeros_are_where_the_sign_changes(count in 1..=6_usize, c in prop::array::uniform6(-3.0..3.0_f64)) {
             let polynomial = of(count, c);

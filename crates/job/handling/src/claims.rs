@@ -1,4 +1,4 @@
-//! Claims: statements of a file about its motion or task, in addition to the samples.
+//! Claims: what a file states about its motion or task, in addition to the samples.
 
 use cplan_model::Arm;
 use cplan_model::space::{Configuration, Metric};
@@ -15,8 +15,8 @@ pub struct RecordedTurn {
     pub to: f64,
     /// Duration, seconds. The wrist turns with its fastest profile, or with that profile stretched evenly in time.
     pub seconds: f64,
-    /// The parts of the turn during which the arm moves. A turn before a place overlaps with the step's own motion, from
-    /// the beginning of the turn on. A turn after a pick overlaps with the next motion, up to the end of the turn.
+    /// The parts of the turn during which the arm moves. The beginning of a turn before a place overlaps with the step's own
+    /// motion; the end of a turn after a pick overlaps with the next motion.
     pub overlap: RecordedOverlap,
 }
 
@@ -53,23 +53,22 @@ pub struct RecordedStep {
     pub samples: RangeInclusive<usize>,
     /// The turn of the wrist after the motion.
     pub turn: Option<RecordedTurn>,
-    /// The parts of the step's stroke during which the arm moves. Zero if the arm rests during the whole stroke.
+    /// The parts of the step's stroke during which the arm moves; zero if the arm rests during the whole stroke.
     pub overlap: RecordedOverlap,
-    /// Time from the departure of the arm to the end of the raising with which the step begins, if the tool is lowered
-    /// there, seconds. Zero if the arm rests during that raising.
+    /// Only if the tool is lowered when the step begins: time from the departure of the arm to the end of the stroke up, seconds.
+    /// Zero if the arm rests during that stroke.
     pub raising: f64,
-    /// Values of the stroke's joint while the tool is lowered before the motion and after it, metres. `None` if the file
-    /// states no such stroke.
+    /// Values of the stroke's joint while the tool is lowered, before and after the motion, metres. `None` if the file states no
+    /// such stroke.
     pub lowered: [Option<f64>; 2],
     /// The turn of the wrist to the value of its joint that the step states.
     pub wrist: Option<RecordedWrist>,
-    /// Along a line for which the tool has an angle: value, velocity and acceleration of the wrist's joint at the motion's
-    /// samples, radians and seconds. `None` if the file does not state them.
+    /// Value, velocity and acceleration of the wrist's joint at the motion's samples, radians and seconds, along a line that
+    /// states the tool's angle. `None` if the file does not state them.
     pub wrist_motion: Option<Vec<[f64; 3]>>,
 }
 
-/// The statements of a result about its motion, in addition to the samples. A statement that the file does not make is
-/// `None`.
+/// The claims of a result about its motion. A claim that the file does not make is `None`.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Claims {
     /// Outcome in one word: `found` if there is a motion.
@@ -82,8 +81,8 @@ pub struct Claims {
     pub path: Option<Vec<Configuration>>,
     /// Length of the path in joint space.
     pub length: Option<f64>,
-    /// Distance from obstacles that the motion keeps, metres. The outer `None` if it is not stated, the inner `None` if
-    /// no obstacle is within reach.
+    /// Distance from obstacles that the motion keeps, metres. The outer `None` means not stated, the inner `None` that no
+    /// obstacle is within reach.
     pub clearance: Option<Option<f64>>,
     /// The corners that the motion rounds off.
     pub blends: Option<BlendsClaim>,
@@ -122,7 +121,7 @@ pub struct OptimumClaim {
 }
 
 impl OptimumClaim {
-    /// Returns the metric for an arm. Returns `None` if the name of the metric is unknown, or if the arm lacks motors.
+    /// Returns the metric for an arm. `None` if its name is unknown, or if the arm lacks motors.
     pub fn metric(&self, arm: &Arm) -> Option<Metric> {
         match (self.metric.as_str(), self.weights) {
             ("euclidean", _) => Some(Metric::Euclidean),
@@ -141,7 +140,7 @@ pub struct TaskClaims {
     pub lower_bound: Option<f64>,
     /// Gap: `duration / lower_bound - 1`.
     pub gap: Option<f64>,
-    /// For each sample, the number of the step (from 0) that contains the interval beginning there.
+    /// For each sample, the number of the step, from 0, that contains the interval from this sample to the next.
     pub step_of_sample: Option<Vec<usize>>,
     /// Claims about each recorded step.
     pub steps: Vec<StepClaims>,
@@ -168,13 +167,13 @@ pub struct StepClaims {
     pub path: Option<Vec<Configuration>>,
     /// Length of the path in joint space.
     pub length: Option<f64>,
-    /// Distance from obstacles that the step's motion keeps, metres. The outer `None` if it is not stated, the inner
-    /// `None` if no obstacle is within reach.
+    /// Distance from obstacles that the step's motion keeps, metres. The outer `None` means not stated, the inner `None` that no
+    /// obstacle is within reach.
     pub clearance: Option<Option<f64>>,
     /// The corners that the motion rounds off.
     pub blends: Option<BlendsClaim>,
-    /// Distance from obstacles that the object keeps while the wrist turns, metres. The outer `None` if it is not
-    /// stated, the inner `None` if no obstacle is within reach.
+    /// Distance from obstacles that the object keeps while the wrist turns, metres. The outer `None` means not stated, the inner
+    /// `None` that no obstacle is within reach.
     pub turn_clearance: Option<Option<f64>>,
 }
 

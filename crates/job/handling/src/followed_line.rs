@@ -6,20 +6,20 @@ use cplan_toolpath::{Curve, Piece, Point, Toolpath};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// A line that the tip follows, and how accurately and fast.
+/// A line that the tip follows, with the required accuracy and speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct FollowedLine {
-    /// The line, at its place in the plane.
+    /// The line, placed in the plane.
     pub path: Arc<Toolpath>,
     /// Greatest distance between the tip's path and the line, metres.
     pub tolerance: f64,
-    /// Greatest speed of the tip, metres per second, instead of the speeds of the line's pieces.
+    /// Greatest speed of the tip, metres per second. It replaces the speeds of the line's pieces.
     pub speed: Option<f64>,
     /// The angle of the tool along the line; `None` if it does not matter.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub wrist: Option<WristGuide>,
-    /// Side of the elbow along the line; `None` if either side will do.
+    /// Side of the elbow along the line; `None` for either side.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elbow: Option<Elbow>,
 }
@@ -37,11 +37,11 @@ impl From<Toolpath> for FollowedLine {
     }
 }
 
-/// Number of chords of a curved piece. The sum of their lengths is a lower bound on the length of the piece.
+/// Number of chords of a curved piece, whose total length is a lower bound on the length of the piece.
 const CHORDS: u32 = 16;
 
 impl FollowedLine {
-    /// Returns true if the tolerance is finite and at least [`MIN_TOLERANCE`], the speed is finite and positive, and the
+    /// Returns true if the tolerance is finite and at least [`MIN_TOLERANCE`], the speed is finite and positive, and the required
     /// angle of the tool is valid.
     pub fn is_valid(&self) -> bool {
         let is_positive = |speed: f64| speed.is_finite() && speed > 0.0;
@@ -51,7 +51,7 @@ impl FollowedLine {
             && self.wrist.is_none_or(|wrist| wrist.is_valid())
     }
 
-    /// Returns a lower bound on the duration of a motion along the line, from the speeds of the tip alone, seconds.
+    /// Returns a lower bound, seconds, on the duration of a motion along the line, from the speeds of the tip alone.
     pub fn least_seconds(&self) -> f64 {
         let seconds = |piece: &Piece| {
             let speed = self.speed.or(piece.speed).filter(|_| !piece.is_travel)?;
@@ -60,8 +60,8 @@ impl FollowedLine {
         self.path.pieces().iter().filter_map(seconds).sum()
     }
 
-    /// Returns a lower bound on the length of paths that follow a curve within the tolerance, metres. The tip passes all
-    /// points of the curve in order, each up to the tolerance away.
+    /// Returns a lower bound on the length of paths that follow a curve within the tolerance, metres. The tip passes near all
+    /// points of the curve in order, at most the tolerance away from each.
     fn least_length(&self, curve: &Curve) -> f64 {
         let chord = |[from, to]: [Point; 2]| (to[0] - from[0]).hypot(to[1] - from[1]);
         let by_parts = |count: u32| {

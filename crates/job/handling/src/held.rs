@@ -1,10 +1,10 @@
-//! Joints that the planner holds still, and recorded motions of such joints.
+//! Joints that the planner keeps fixed, and recorded motions of such joints.
 
 use super::Recording;
 use cplan_geometry::Point;
 use serde::{Deserialize, Serialize};
 
-/// The effect of a joint that the planner holds still, if the joint moved.
+/// The effect that a motion of a fixed joint would have.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum HeldEffect {
@@ -13,7 +13,7 @@ pub enum HeldEffect {
         /// 1 if increasing values of the joint lift along the plane's normal, and -1 if they lower.
         sign: f64,
     },
-    /// The joint turns everything that it carries, which is all of link 2, about an axis along the plane's normal.
+    /// The joint turns everything that it carries, including all of link 2, about an axis along the plane's normal.
     Turns {
         /// Position of the axis, in the frame of link 2.
         axis: Point,
@@ -22,18 +22,18 @@ pub enum HeldEffect {
     },
     /// Another effect, which cplan cannot check.
     Unjudged {
-        /// The reason why: a clause whose subject is the joint.
+        /// The reason, as a clause whose subject is the joint.
         why: String,
     },
 }
 
-/// A joint that the planner holds still.
+/// A joint that the planner keeps fixed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HeldJoint {
     /// Name in the URDF.
     pub name: String,
-    /// Value at which it is held, radians or metres.
+    /// Its fixed value, radians or metres.
     pub value: f64,
     /// Effect of its motion.
     pub effect: HeldEffect,
@@ -41,12 +41,12 @@ pub struct HeldJoint {
     pub bodies: Vec<String>,
 }
 
-/// A motion of a joint that the planner holds still.
+/// A motion of a joint that the planner keeps fixed.
 #[derive(Debug, Clone, PartialEq)]
 pub struct HeldMotion {
     /// The joint that moves.
     pub joint: HeldJoint,
-    /// Values of the joint at the samples of the arm's motion, as the first coordinate of each sample.
+    /// Values of the joint at the samples of the arm's motion, as first coordinates.
     pub values: Recording,
     /// True if the joint also lifts the carried object.
     pub lifts_payload: bool,

@@ -18,15 +18,14 @@ pub enum Interpolation {
     Linear,
     /// Cubic polynomials with the positions and velocities of both ends (Hermite).
     Cubic,
-    /// Polynomials of degree 4 with position, velocity and acceleration at the beginning, and position and velocity at
-    /// the end. The acceleration at a sample is that of the interval that begins there. It may jump from one interval
-    /// to the next.
+    /// Polynomials of degree 4 with position, velocity and acceleration at the beginning, and position and velocity at the end.
+    /// The acceleration at a sample is that of the interval that begins there, and may jump from one interval to the next.
     Quartic,
     /// Polynomials of degree 5 with the positions, velocities and accelerations of both ends.
     Quintic,
 }
 
-/// Creates the description of an interpolation. The argument describes its straight pieces.
+/// Creates the description of an interpolation from that of its straight pieces.
 macro_rules! interpolation {
     ($straight:literal) => {
         concat!(

@@ -1,14 +1,14 @@
 //! Descriptions of tasks, and records of their execution.
 //!
-//! - [`Task`]: objects, and the steps in which an arm picks, carries and places them. A [`Payload`] is an object while
-//!   the arm carries it.
+//! - [`Task`]: objects, and the steps in which an arm picks, carries and places them. A [`Payload`] is an object while the arm
+//!   carries it.
 //! - Obstacles that move: a [`TimedWorkspace`] has [`MovingObstacle`]s, a [`TimedScene`] their trajectories.
-//! - The tool: a [`Stroke`] that lowers it, a [`Wrist`] that turns it, and all other joints of the robot
-//!   ([`RobotJoints`], [`HeldJoint`]).
-//! - Records of motions: a [`Recording`] holds samples, [`Piece`]s of polynomials join them, and [`Claims`] hold the
-//!   other statements of a file.
+//! - The tool: a [`Stroke`] that lowers it, a [`Wrist`] that turns it, and all other joints of the robot ([`RobotJoints`],
+//!   [`HeldJoint`]).
+//! - Records of motions: a [`Recording`] has samples, which polynomial [`Piece`]s join, and [`Claims`] are the other statements
+//!   of a file.
 //!
-//! A task builds scenes for the core. Planning, timing and judging belong to the crates above.
+//! A task creates the scenes on which the core works. Other crates, built on this one, plan, time and judge.
 
 mod bernstein;
 mod claims;

@@ -6,8 +6,8 @@ use cplan_model::{LooseObstacle, Obstacle, are_small};
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-/// Greatest time of a stop, seconds, equal to the duration of the longest motion that cplan times. A larger time must
-/// be a mistake.
+/// Greatest time of a stop, seconds. It equals the duration of the longest motion that cplan times; a larger time must be a
+/// mistake.
 pub const MAX_STOP_TIME: f64 = 1e6;
 
 /// A time, and the pose of a moving obstacle's frame at that time.
@@ -18,20 +18,20 @@ pub struct Stop {
     pub time: f64,
     /// Origin of the obstacle's own frame, in plane coordinates, metres.
     pub at: Point,
-    /// Angle of the frame in the plane, radians. From one stop to the next, the frame turns by the difference of their
-    /// angles, which may be more than a whole turn.
+    /// Angle of the frame in the plane, radians. Between two stops, the frame turns by the difference of their angles, which may
+    /// exceed a whole turn.
     pub angle: f64,
 }
 
-/// The motion of an obstacle: straight and uniform from stop to stop. The obstacle waits at the first stop until that
-/// stop's time. It stays at the last stop, or leaves it for ever at a constant velocity, like an object on a conveyor.
+/// The motion of an obstacle: straight and uniform from stop to stop. Before the time of the first stop, the obstacle waits
+/// there. After the last stop, it stays there, or moves on for ever at a constant velocity, like an object on a conveyor.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "ObstacleTrajectoryRecord", into = "ObstacleTrajectoryRecord")]
 pub struct ObstacleTrajectory {
     stops: Vec<Stop>,
     /// Velocity from the last stop on, metres per second.
     velocity: Vector,
-    /// Legs that follow from the stops and the velocity.
+    /// Legs, computed from the stops and the velocity.
     legs: Vec<TrajectoryLeg>,
 }
 
@@ -65,7 +65,7 @@ pub enum ObstacleTrajectoryError {
     /// There are no stops.
     #[error("a moving obstacle needs at least one stop")]
     Empty,
-    /// A time is not later than the previous one, or is negative, or exceeds [`MAX_STOP_TIME`].
+    /// A time is negative, not later than the previous one, or greater than [`MAX_STOP_TIME`].
     #[error("stop {} has the time {time} s; times must increase, from 0 or more to less than {MAX_STOP_TIME:e} s", stop + 1)]
     Time {
         /// Index of the stop, from 0.
@@ -116,10 +116,10 @@ impl TrajectoryLeg {
 }
 
 impl ObstacleTrajectory {
-    /// Creates a trajectory from stop to stop, which continues after the last one at `velocity`, metres per second.
+    /// Creates a trajectory from stop to stop. After the last one, it continues at `velocity`, metres per second.
     ///
     /// # Errors
-    /// [`ObstacleTrajectoryError`]: the first one found.
+    /// The first [`ObstacleTrajectoryError`].
     pub fn new(stops: Vec<Stop>, velocity: Vector) -> Result<Self, ObstacleTrajectoryError> {
         if stops.is_empty() {
             return Err(ObstacleTrajectoryError::Empty);
@@ -186,14 +186,14 @@ impl ObstacleTrajectory {
         self.legs.iter().any(|leg| leg.turn != 0.0)
     }
 
-    /// Returns the same trajectory on a clock that begins at `time`, which must not be negative.
+    /// Returns the trajectory on a clock that begins at `time`, which must not be negative.
     #[must_use]
     pub fn since(&self, time: f64) -> Self {
         let here = self.pose(time);
         let later = self.stops.iter().filter(|stop| stop.time > time);
         let mut stops: Vec<Stop> = later.map(|stop| Stop { time: stop.time - time, ..*stop }).collect();
         if time >= self.stops[0].time {
-            // Compute the angle from the leg: a pose does not contain whole turns.
+            // The angle comes from the leg, because a pose does not contain whole turns.
             let leg = self.leg(time);
             let angle = leg.start.angle + leg.turn * (time - leg.from);
             stops.insert(0, Stop { time: 0.0, at: here.translation, angle });
@@ -202,8 +202,8 @@ impl ObstacleTrajectory {
         Self { stops, velocity: self.velocity, legs }
     }
 
-    /// Returns the intervals of time, in order, in which the frame's origin passes a point: when it is at the point, or
-    /// nearest to it and within `within` metres.
+    /// Returns the intervals of time, in order, in which the frame's origin passes a point: it is at the point, or nearest to it
+    /// and within `within` metres.
     pub fn passes(&self, at: Point, within: f64) -> Vec<Interval> {
         let of = |leg: &TrajectoryLeg| {
             let (way, speed2) = (at - leg.start.at, leg.velocity.norm_squared());
@@ -263,7 +263,7 @@ impl MovingObstacle {
         self.obstacle.at(&self.trajectory.pose(time))
     }
 
-    /// Returns the obstacle in the form in which scenes contain it: without a place.
+    /// Returns the obstacle without a place, as scenes contain it.
     pub fn to_loose_obstacle(&self) -> LooseObstacle {
         let angle = (!self.trajectory.turns()).then(|| self.trajectory.stops()[0].angle);
         LooseObstacle { obstacle: self.obstacle.clone(), angle }
@@ -344,8 +344,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(300))]
 
-        /// Compares the true place of a point of a moving obstacle with the bound of its drift. The drift may go across
-        /// stops.
+        /// Compares the true place of a point of a moving obstacle with the bound of its drift, also across stops.
         #[test]
         fn points_stay_where_their_drift_lets_them(
             at in prop::array::uniform4(prop::array::uniform3(-2.0..2.0_f64)), times in prop::array::uniform4(0.1..1.0_f64),

@@ -13,29 +13,29 @@ pub struct Payload {
     pub object: usize,
     /// Connection with the arm.
     pub grip: Grip,
-    /// Indices in [`Task::obstacles`] of the obstacles on which the object rests. The object may touch them, but must
-    /// not press into them by more than [`Payload::penetration_allowance`].
+    /// Indices in [`Task::obstacles`] of the obstacles on which the object rests. The object may touch them, and press into them
+    /// by at most [`Payload::penetration_allowance`].
     pub supports: Vec<usize>,
 }
 
-/// Depth to which a payload may press into its supports, as a share of the arm's reach. The depth is greater than the
-/// rounding of coordinates in files, and less than the compliance of any gripper.
+/// Depth to which a payload may press into its supports, as a share of the arm's reach. It exceeds the rounding of coordinates in
+/// files, and is less than the compliance of any gripper.
 const PENETRATION_ALLOWANCE: f64 = 1e-4;
 
-/// Fraction of the penetration allowance by which corners are moved inwards. It is a little less than 1, so that a
-/// checker that moves corners by the whole allowance still accepts the motion.
+/// Corners are moved inwards by this fraction of the penetration allowance. It is slightly less than 1, so that a checker that
+/// moves corners by the whole allowance still accepts the motion.
 const ALLOWANCE_SHARE: f64 = 1.0 - 1e-3;
 
 impl Payload {
-    /// Returns the greatest *penetration depth* of a payload in its supports, metres. Each corner of the payload is
-    /// moved inwards by this distance, along the bisector of its sides, and the smaller shape must stay off the
-    /// supports. So a side may press in by at most this distance times the sine of half the angle at its ends.
+    /// Returns the greatest *penetration depth* of a payload in its supports, metres. Each corner of the payload is moved inwards
+    /// by this distance, along the bisector of its sides, and the resulting smaller shape must not touch the supports. So a side
+    /// may press in by at most this distance times the sine of half the angle at its ends.
     pub fn penetration_allowance(arm: &Arm) -> f64 {
         PENETRATION_ALLOWANCE * arm.reach()
     }
 
-    /// Returns the payload as an attachment of the arm, at these heights. The attachment has the object's pieces, and
-    /// smaller pieces that must keep away from supports.
+    /// Returns the payload as an attachment of the arm at these heights, with the object's pieces, and with smaller pieces that
+    /// must not touch supports.
     pub fn attachment(&self, task: &Task, arm: &Arm, heights: Heights) -> Attachment {
         let Object { name, pieces, .. } = &task.objects[self.object];
         let part = |number: usize, shape: Convex, on_supports: bool| AttachedPart {
@@ -53,8 +53,8 @@ impl Payload {
         Attachment { name: name.clone(), heights, grip: self.grip, parts, supports: self.supports.clone() }
     }
 
-    /// Returns the body that the payload adds to link 2, in the link's frame. If a wrist keeps the payload level, the
-    /// payload does not turn with the link, so its mass acts at the tip.
+    /// Returns the body that the payload adds to link 2, in the link's frame. A wrist that keeps the payload level prevents it
+    /// from turning with the link, so its mass then acts at the tip.
     fn body(&self, task: &Task, arm: &Arm) -> Body {
         let Object { mass, pieces, .. } = &task.objects[self.object];
         match self.grip {
@@ -74,15 +74,15 @@ pub struct ArchScene {
     pub raised: Scene,
     /// The scene with all heights of the stroke. Parts and obstacles have the same numbers in both.
     pub swept: Scene,
-    /// The pairs that meet only while the tool is not raised. The distance of all other pairs does not depend on its height.
+    /// The pairs that can meet only if the tool is not raised. The distances of all other pairs do not depend on its height.
     pub lowered_pairs: Vec<Pair>,
-    /// True if the payload follows the tool. Otherwise it has all its heights from lying to carried in both scenes.
+    /// True if the payload moves up and down with the tool. If false, it has all heights from lying to carried in both scenes.
     pub lifts_payload: bool,
 }
 
 impl Task {
-    /// Returns the scene with the objects at their poses. The objects `moving` become loose obstacles, after those of
-    /// the workspace, in the order of [`Task::trajectories`]. Link 2 may touch the objects `touched`.
+    /// Returns the scene with the objects at their poses. The objects `moving` become loose obstacles after those of the
+    /// workspace, in the order of [`Task::trajectories`]. Link 2 may touch the objects `touched`.
     pub fn scene(
         &self,
         poses: &[Option<Placement>],
@@ -96,8 +96,8 @@ impl Task {
         self.scene_of(self.arm.clone(), self.surroundings(poses, moving), payload, allowed_contacts)
     }
 
-    /// Returns the scene while the tool is lowered to pick or place an object at an elevation, in metres. Returns `None` if
-    /// the tool is not lowered. Without a stroke, only the final pose of a placed object is checked.
+    /// Returns the scene while the tool is lowered to pick or place an object at an elevation, in metres. `None` if the tool is
+    /// not lowered. Without a stroke, only the final pose of a placed object is checked.
     pub fn lowered_scene(
         &self,
         (object, elevation): (usize, f64),
@@ -120,8 +120,7 @@ impl Task {
         Some(self.scene_of(arm, self.obstacles(poses), payload, allowed_contacts))
     }
 
-    /// Returns the scene while the empty tool is between its raised position and a depth, in metres. `None` if the world
-    /// has no stroke.
+    /// Returns the scene while the empty tool is between its raised position and a depth, in metres. `None` without a stroke.
     pub fn empty_lowered_scene(
         &self,
         depth: f64,
@@ -133,9 +132,8 @@ impl Task {
         Some(self.scene_of(arm, self.obstacles(poses), None, allowed_contacts))
     }
 
-    /// Returns the scenes for strokes to these depths, in metres, during a motion of the arm. Link 2 may touch those of
-    /// the objects `touched` that it also meets with the raised tool. It must be free of the others whenever the arm
-    /// moves.
+    /// Returns the scenes for strokes to these depths, in metres, during a motion of the arm. Link 2 may touch those objects of
+    /// `touched` that it also meets with the raised tool. It must not touch the others while the arm moves.
     pub fn arch_scene(
         &self,
         (stroke, depths): (&Stroke, &[f64]),

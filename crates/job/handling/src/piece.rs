@@ -18,11 +18,11 @@ pub enum Derivative {
 
 /// A piece of a motion: one polynomial in time per joint, of degree 3, 4 or 5.
 ///
-/// The polynomials have Bernstein form: with `u` from 0 to 1 over the piece, and degree `n`,
+/// The polynomials have Bernstein form: for the degree `n` and `u` from 0 to 1,
 /// `q(u) = sum binomial(n, i) u^i (1 - u)^(n - i) c_i`. The piece lies in the box around its control points `c_i`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Piece {
-    /// Time at which the piece begins, seconds. For a motion without times: the number of its first waypoint.
+    /// Time at which the piece begins, seconds. In a motion without times, the number of its first waypoint.
     pub from: f64,
     /// Time at which the piece ends, in the same unit.
     pub to: f64,
@@ -82,7 +82,7 @@ impl Piece {
         if u == 1.0 { self.to } else { self.from + u * (self.to - self.from) }
     }
 
-    /// Returns the configuration at a share `u` of the piece. It is exact at both ends.
+    /// Returns the configuration at a share `u` of the piece. Exact at both ends.
     pub fn at(&self, u: f64) -> Configuration {
         self.curve.at(u)
     }
@@ -99,19 +99,19 @@ impl Piece {
         }
         let order = of as usize;
         let Some(scaled) = self.curve.differences(order) else { return Configuration::zeros() };
-        // Divide step by step: a power of a short duration could underflow.
+        // Divides step by step, because a power of a short duration could underflow.
         (0..order).fold(scaled.at(u), |value, k| value * ((self.degree() - k) as f64 / duration))
     }
 
-    /// Iterates over the shares of the piece at which a joint's value or derivative can be extreme: both ends, and all
-    /// zeros of the next derivative.
+    /// Iterates over the shares of the piece at which a joint's value or derivative can be extreme: both ends, and the zeros of
+    /// the next derivative.
     pub fn critical(&self, of: Derivative, joint: usize) -> impl Iterator<Item = f64> {
         let slope = self.curve.differences(of as usize + 1).map(|slope| slope.map(|d| d[joint]));
         [0.0, 1.0].into_iter().chain(slope.map_or(Vec::new(), |slope| slope.zeros()))
     }
 
-    /// Returns bounds on a weighted sum of both joints' derivatives by time, between two shares of the piece. They are
-    /// the bounds on the control points, so they are exact for linear derivatives. Zero for a piece without duration.
+    /// Returns bounds on a weighted sum of both joints' derivatives by time, between two shares of the piece. They are the bounds
+    /// of the control points, so they are exact for linear derivatives. Zero for a piece without duration.
     pub fn bounds_of_sum(&self, of: Derivative, weights: [f64; 2], [from, to]: [f64; 2]) -> [f64; 2] {
         let (order, duration) = (of as usize, self.to - self.from);
         let Some(scaled) = self.curve.differences(order).filter(|_| duration > 0.0) else { return [0.0; 2] };
@@ -164,7 +164,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Checks the states at the ends of pieces by differences of the motion, and the jerk by differences of the
+        /// Compares the states at the ends of pieces with differences of the motion, and the jerk with differences of the
         /// acceleration.
         #[test]
         fn a_piece_has_the_states_of_its_ends(
@@ -195,7 +195,7 @@ mod tests {
             }
         }
 
-        /// Compares the extremes with 2000 samples. Tests that the bounds hold and are tight.
+        /// Checks that 2000 samples are within the bounds, and that the bounds are tight.
         #[test]
         fn extremes_bound_the_samples(
             values in prop::array::uniform6(prop_oneof![Just(0.0), -3.0..3.0_f64]), duration in 0.01..5.0_f64,

@@ -5,11 +5,10 @@ use cplan_model::space::{Configuration, Path, Topology};
 use std::ops::RangeInclusive;
 use thiserror::Error;
 
-/// Limit on joint values, radians or metres. No arm has larger values, and doubles near the limit still resolve a
-/// nanometre.
+/// Limit on joint values, radians or metres. No arm needs larger values, and doubles near the limit still resolve a nanometre.
 const MAX_VALUE: f64 = 1e6;
 
-/// Limit on times, velocities and accelerations. Larger values are a mistake; seconds since 1970 are far smaller.
+/// Limit on times, velocities and accelerations. Even seconds since 1970 are far smaller, so larger values are a mistake.
 const MAX_RATE: f64 = 1e12;
 
 /// A motion of both joints, given by samples and their [`Interpolation`]. Values are in radians or metres, and are not
@@ -21,21 +20,21 @@ pub struct Recording {
     velocity: Option<Vec<Configuration>>,
     acceleration: Option<Vec<Configuration>>,
     interpolation: Interpolation,
-    /// Indices of the samples, ascending, after which the arm rests. From each of them, the motion is straight to the
-    /// next sample.
+    /// Indices of the samples, ascending, after which the arm rests. From each of them, the motion to the next sample is
+    /// straight.
     rests: Vec<usize>,
 }
 
-/// The motion of all joints of a robot, as a file states it beside the motion of the arm's two joints.
+/// The motion of all joints of a robot, which a file states in addition to that of the arm's two joints.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RecordedJoints {
     /// The motion of the arm's two joints.
     pub arm: Recording,
-    /// Names of the other joints, each with its values at the same samples. The values are first coordinates.
+    /// Names of the other joints, each with its values, as first coordinates, at the same samples.
     pub others: Vec<(String, Recording)>,
 }
 
-/// Reason why samples do not form a motion. Samples are numbered from 0.
+/// The reason why samples do not form a motion. Samples are numbered from 0.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 pub enum RecordingError {
     /// There are no samples.
@@ -93,7 +92,7 @@ impl Recording {
     /// Creates a motion from samples. The interpolation is cubic if velocities are known, and linear otherwise.
     ///
     /// # Errors
-    /// [`RecordingError`]: the first problem found.
+    /// The first problem, as a [`RecordingError`].
     pub fn new(
         position: Vec<Configuration>,
         time: Option<Vec<f64>>,
@@ -158,8 +157,8 @@ impl Recording {
         Ok(Self { acceleration: Some(acceleration), interpolation, ..self })
     }
 
-    /// Makes the motion straight from each of these samples to the next, for any interpolation. This is for samples at
-    /// which one motion ends and the arm rests until the next motion begins.
+    /// Makes the motion straight from each of these samples to the next, whatever the interpolation. For samples at which one
+    /// motion ends and the arm rests until the next one begins.
     #[must_use]
     pub fn resting_after(self, samples: &[usize]) -> Self {
         let mut rests = samples.to_vec();
@@ -197,7 +196,7 @@ impl Recording {
         self.time.as_ref().map(|t| t[t.len() - 1] - t[0])
     }
 
-    /// Returns the recording of the samples in a range, on the same clock. Returns `None` if the range has no samples.
+    /// Returns the recording of a range of samples, on the same clock. `None` if the range has no samples.
     #[must_use]
     pub fn part(&self, samples: RangeInclusive<usize>) -> Option<Self> {
         let last = (*samples.end()).min(self.position.len() - 1);
@@ -228,9 +227,9 @@ impl Recording {
         }
     }
 
-    /// Returns the same motion with samples at these times, which must increase and lie within the recording. Between
-    /// the new samples the motion is the same, up to rounding, if each sample of this recording is also among the
-    /// `times`, or if the motion is one polynomial there.
+    /// Returns the same motion with samples at these times, which must increase and be within the recording. Between two new
+    /// samples, the motion is unchanged, up to rounding, if it is one polynomial there, as when `times` include all times of this
+    /// recording.
     #[must_use]
     pub fn resampled(&self, times: &[f64]) -> Self {
         let pieces = self.pieces();
@@ -281,9 +280,8 @@ impl Recording {
         (0..q.len() - 1).map(piece).collect()
     }
 
-    /// Finds the intervals between samples in which a continuous joint moves by more than half a turn. Returns the
-    /// first sample of each interval, and the joint. A recording with wrapped values has such intervals where it
-    /// crosses the seam.
+    /// Finds the intervals between samples in which a continuous joint moves by more than half a turn. Returns the first sample
+    /// and the joint of each. In a recording with wrapped values, these are the intervals in which it crosses the seam.
     pub fn turns(&self, topology: &Topology) -> Vec<(usize, usize)> {
         let steps = self.position.windows(2).enumerate();
         let is_turn = |w: &[Configuration], k: usize| {
@@ -292,8 +290,7 @@ impl Recording {
         steps.flat_map(|(i, w)| (0..2).filter(move |&k| is_turn(w, k)).map(move |k| (i, k))).collect()
     }
 
-    /// Adds whole turns to the values of continuous joints, so that the joints take the shorter direction between
-    /// samples.
+    /// Adds whole turns to the values of continuous joints, so that they take the shorter direction between samples.
     #[must_use]
     pub fn unwrapped(mut self, topology: &Topology) -> Self {
         for k in 1..self.position.len() {

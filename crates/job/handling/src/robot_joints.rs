@@ -7,9 +7,9 @@ use serde::{Deserialize, Serialize};
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Driver {
-    /// The planner. The joint is the joint with this index, 0 or 1, of the two planned joints.
+    /// The planner. The joint is one of the two planned joints, with the index 0 or 1.
     Planned(usize),
-    /// No source. The joint stays at this value, radians or metres.
+    /// Nothing. The joint stays at this value, radians or metres.
     Held(f64),
     /// The stroke. The joint lowers the tool at picks and places.
     Stroke,
@@ -17,8 +17,8 @@ pub enum Driver {
     Wrist,
 }
 
-/// A movable joint. Its value is `factor * x + offset`, where `x` is the value that its driver determines. A mimic
-/// joint has the driver of the joint that it follows.
+/// A movable joint. Its value is `factor * x + offset`, where `x` is the value of its driver. A mimic joint has the driver of the
+/// joint that it follows.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RobotJoint {
@@ -26,9 +26,9 @@ pub struct RobotJoint {
     pub name: String,
     /// Source of the value `x`.
     pub driver: Driver,
-    /// Factor. For a mimic joint, the product over the chain of joints that it follows; otherwise 1.
+    /// Factor: for a mimic joint, the one that results from the chain of joints that it follows; otherwise 1.
     pub factor: f64,
-    /// Offset, radians or metres. For a mimic joint, the sum over the chain of joints that it follows; otherwise 0.
+    /// Offset, radians or metres: for a mimic joint, the one that results from the chain of joints that it follows; otherwise 0.
     pub offset: f64,
     /// True if the joint slides, so that its values are metres.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -77,7 +77,7 @@ impl RobotJoints {
         self.joints.iter().map(|joint| joint.name.as_str())
     }
 
-    /// Returns the values of the drivers while the stroke and the wrist are at rest.
+    /// Returns the values of the drivers with the stroke and the wrist at rest.
     pub fn at_rest(&self, planned: [f64; 2]) -> Drives {
         let rest = |joint: Option<&ToolJoint>| joint.map_or(0.0, |joint| joint.rest);
         Drives {
@@ -93,8 +93,7 @@ impl RobotJoints {
         self.joints.iter().map(value).collect()
     }
 
-    /// Returns the derivatives of all joints' values by time, given the derivatives of the drivers' values. Works for
-    /// derivatives of any order.
+    /// Returns the time derivatives of all joints' values, given those of the drivers' values, for derivatives of any order.
     pub fn rates(&self, drives: &Drives) -> Vec<f64> {
         let rate = |joint: &RobotJoint| match joint.driver {
             Driver::Held(_) => 0.0,

@@ -1,15 +1,15 @@
-//! A tool that is lowered at picks and places, and a wrist that turns it.
+//! A stroke that lowers the tool at picks and places, and a wrist that turns it.
 
 use super::Object;
 use cplan_model::space::JointRange;
 use cplan_model::{Arm, Heights, OutlineSource, check_range};
 use serde::{Deserialize, Serialize};
 
-/// Displacement of a joint of the tool, radians or metres, that is due to rounding. The joint does not move by so little.
+/// A smaller displacement of a tool's joint, radians or metres, is due to rounding, and the joint does not move.
 const ROUNDING: f64 = 1e-12;
 
-/// A joint of the tool. It moves the tool along the plane's normal, or turns it about the normal. Within the plane, it
-/// affects only the load.
+/// A joint of the tool. It moves the tool along the plane's normal, or turns it about the normal, so within the plane it affects
+/// only the load.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ToolJoint {
@@ -21,8 +21,8 @@ pub struct ToolJoint {
     pub sign: f64,
     /// Range of the joint's values, radians or metres.
     pub range: JointRange,
-    /// Direction of the tip frame's x axis in the plane, radians, with the planned joints at zero and this joint at its
-    /// default value. If that axis is parallel to the normal, the frame's y axis counts. Only a wrist has one.
+    /// Direction of the tip frame's x axis in the plane, radians, with the planned joints at zero and this joint at its default
+    /// value. If that axis is parallel to the normal, the direction of the y axis. Only a wrist has one.
     #[serde(default)]
     pub direction: f64,
 }
@@ -49,12 +49,12 @@ pub struct ToolLimits {
 }
 
 impl ToolLimits {
-    /// Returns the time of the fastest motion over a distance from rest to rest, in seconds.
+    /// Returns the least duration of a motion over a distance, from rest to rest, in seconds.
     pub fn least_seconds(&self, distance: f64) -> f64 {
         let Self { velocity, acceleration, jerk } = *self;
         let Some(jerk) = jerk else { return rest_to_rest(distance, velocity, acceleration) };
-        // In each half, the acceleration grows for a time and shrinks for as long. It is constant in between, and so is the
-        // speed between the halves. The limits are reached one after the other as the distance grows.
+        // In each half, the acceleration grows for a time and shrinks for as long; it is constant in between. The speed is
+        // constant between both halves. As the distance grows, the limits are reached one after the other.
         let grow = (velocity / jerk).sqrt().min(acceleration / jerk);
         let hold = (velocity / (jerk * grow) - grow).max(0.0);
         let speeding = 2.0 * grow + hold;
@@ -70,7 +70,7 @@ impl ToolLimits {
     }
 }
 
-/// Returns the time that a joint takes for a distance from rest to rest, in seconds. It accelerates constantly until it
+/// Returns the duration of a motion over a distance, from rest to rest, in seconds. The joint accelerates constantly until it
 /// reaches its top speed.
 pub fn rest_to_rest(distance: f64, velocity: f64, acceleration: f64) -> f64 {
     if distance * acceleration <= velocity * velocity {
@@ -103,21 +103,21 @@ impl ToolValues {
         Some(self.depth).filter(|depth| depth.abs() > ROUNDING)
     }
 
-    /// Returns the signed angle from the wrist's value at the start to this one, radians; 0 if they differ only by
-    /// rounding. `None` unless both are given.
+    /// Returns the signed angle from the wrist's value at the start to this one, radians; 0 if they differ only by rounding.
+    /// `None` unless both are given.
     pub fn wrist_turn(&self, start: &Self) -> Option<f64> {
         let angle = self.wrist? - start.wrist?;
         Some(if angle.abs() > ROUNDING { angle } else { 0.0 })
     }
 }
 
-/// Least heights of the tool at which its strokes may overlap with motions of the arm, metres.
+/// Heights of the tool, metres, from which its strokes may overlap with motions of the arm.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Arch {
-    /// Height above the lowest position. The tool reaches it before the arm moves.
+    /// Height above the lowest position to which the tool rises before the arm moves.
     pub rise: f64,
-    /// Height above the lowest position. Below it, the tool is lowered only while the arm is at rest.
+    /// Height above the lowest position. Below it, the tool goes down only while the arm is at rest.
     pub fall: f64,
 }
 
@@ -134,8 +134,8 @@ impl Arch {
 pub struct Stroke {
     /// The joint that lowers the tool. It is raised at rest.
     pub joint: ToolJoint,
-    /// Distance by which the tool is lowered against the plane's normal, metres. With `None`, it is lowered by the lift
-    /// of each object.
+    /// Distance by which the tool is lowered against the plane's normal, metres. `None` if it is lowered by the lift of each
+    /// object.
     pub travel: Option<f64>,
     /// Top speed, m/s, positive.
     pub velocity: f64,
@@ -146,13 +146,13 @@ pub struct Stroke {
     pub jerk: Option<f64>,
     /// Names of the URDF links that the joint moves.
     pub bodies: Vec<String>,
-    /// Least heights for an overlap with motions of the arm. With `None`, the arm is at rest during strokes.
+    /// Heights from which strokes may overlap with motions of the arm. `None` if the arm is at rest during strokes.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub arch: Option<Arch>,
 }
 
 impl Stroke {
-    /// Returns the limits of its joint.
+    /// Returns the limits of the stroke's joint.
     pub fn limits(&self) -> ToolLimits {
         ToolLimits { velocity: self.velocity, acceleration: self.acceleration, jerk: self.jerk }
     }
@@ -177,8 +177,8 @@ impl Stroke {
         (self.joint.rest - value) * self.joint.sign
     }
 
-    /// Returns the arm with taller shapes: each shape that the stroke moves gets all heights that it has during strokes
-    /// to these depths, in metres. This includes a bar on link 2, because the bar ends at the tip.
+    /// Returns the arm with taller shapes: each shape that the stroke moves has all heights that it takes during strokes to these
+    /// depths, in metres. This includes a bar on link 2, because the bar ends at the tip.
     pub fn swept(&self, arm: &Arm, depths: &[f64]) -> Arm {
         let lowest = depths.iter().copied().fold(0.0, f64::max);
         let highest = depths.iter().copied().fold(0.0, f64::min);

@@ -10,14 +10,14 @@ use cplan_model::{Arm, Elbow, Goal, Growth, Heights, Obstacle, Shape};
 use cplan_text::{length, short};
 use serde::{Deserialize, Serialize};
 
-/// The rule for an object's orientation while the arm carries it.
+/// The rule for an object's orientation while it is carried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Holding {
     /// The object turns with link 2.
     Rigid,
-    /// A wrist joint keeps the object's orientation. If a step requires another orientation, the wrist turns the object
-    /// after its pick or before its place.
+    /// A wrist joint keeps the object's orientation. If a step requires another orientation, the wrist turns the object after the
+    /// pick or before the place.
     Level,
 }
 
@@ -48,8 +48,8 @@ pub struct Object {
 }
 
 impl Object {
-    /// Returns true if the object may rest on supports: it is large enough that some part of it remains after all
-    /// corners are moved inwards by the allowed penetration.
+    /// Returns true if the object may rest on supports: a part of it must remain after all corners are moved inwards by the
+    /// allowed penetration.
     pub fn can_rest(&self, arm: &Arm) -> bool {
         let by = Payload::penetration_allowance(arm);
         self.pieces.iter().any(|piece| piece.eroded(by).is_some())
@@ -61,7 +61,7 @@ impl Object {
 pub struct Placement {
     /// Its pose in the plane.
     pub pose: Pose,
-    /// Height of the object there above its own heights ([`Object::heights`]), metres.
+    /// Height by which the object is raised there above its own heights ([`Object::heights`]), metres.
     pub elevation: f64,
 }
 
@@ -98,9 +98,9 @@ pub enum Action {
         /// them.
         supports: Vec<usize>,
     },
-    /// The arm moves to a goal, with the object that it carries, if any.
+    /// The arm moves to a goal, with or without an object.
     Move(Goal),
-    /// The tip follows a line, with the object that the arm carries, if any. The step before ends where the line begins.
+    /// The tip follows a line, with or without an object. The previous step ends where the line begins.
     Follow(FollowedLine),
 }
 
@@ -123,16 +123,16 @@ pub struct Step {
     /// Values of the tool's joints at the end of a move. The tool stays lowered until the next motion.
     #[serde(default, skip_serializing_if = "ToolValues::is_default")]
     pub tool: ToolValues,
-    /// Height of the object where it is picked or placed above its own heights, metres.
+    /// Height by which the object is raised above its own heights where it is picked or placed, metres.
     #[serde(default, skip_serializing_if = "is_zero")]
     pub elevation: f64,
-    /// Side of the elbow at a pick or a place. `None` if either side will do.
+    /// Side of the elbow at a pick or a place; `None` for either side.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub elbow: Option<Elbow>,
 }
 
 impl Step {
-    /// Returns the side of the elbow that the step requires at its end. `None` if either side will do.
+    /// Returns the side of the elbow that the step requires at its end; `None` for either side.
     pub fn required_elbow(&self) -> Option<Elbow> {
         match &self.action {
             Action::Pick { .. } | Action::Place { .. } => self.elbow,
@@ -142,7 +142,7 @@ impl Step {
     }
 }
 
-/// Returns true for no elevation, which is omitted.
+/// Returns true for zero, which is omitted in files.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
 fn is_zero(elevation: &f64) -> bool {
     *elevation == 0.0
@@ -152,11 +152,11 @@ fn is_zero(elevation: &f64) -> bool {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Item {
-    /// A single step, at this position in the order.
+    /// A single step, which is executed at this point.
     Step(Step),
-    /// Pairs of a pick and the place that follows it. The pairs may be executed in any order.
+    /// Pairs of a pick and its place. The pairs may be executed in any order.
     AnyOrder(Vec<[Step; 2]>),
-    /// New objects are supplied: the objects with these indices are at their initial poses again.
+    /// New objects replace those with these indices, at their initial poses.
     Renew(Vec<usize>),
 }
 
@@ -171,10 +171,10 @@ pub struct Wrist {
     /// Greatest jerk of its turns, radians per second cubed. `None` if it is not limited.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub jerk: Option<f64>,
-    /// True if the wrist may turn objects while the arm moves. Otherwise the arm is at rest during turns.
+    /// True if the wrist may turn objects while the arm moves. If false, the arm is at rest during turns.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub turns_on_the_way: bool,
-    /// The joint, for the angle of the tool along lines; `None` if the world does not name it.
+    /// The joint of the wrist. Lines that state an angle of the tool need it. `None` if the world does not name it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<WristJoint>,
 }
@@ -186,8 +186,8 @@ impl Wrist {
     }
 }
 
-/// A task of an arm. In a valid task, an object that is picked lies somewhere, each place step follows a pick, and all
-/// indices of objects and obstacles exist.
+/// A task of an arm. In a valid task, an object that is picked lies somewhere, each place follows a pick, and all indices of
+/// objects and obstacles exist.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Task {
@@ -211,19 +211,19 @@ pub struct Task {
 }
 
 impl Task {
-    /// Returns true if a line of the task asks for an angle of the tool.
+    /// Returns true if a line of the task states an angle of the tool.
     pub fn turns_tool_along_lines(&self) -> bool {
         let asks = |step: &Step| matches!(&step.action, Action::Follow(line) if line.wrist.is_some());
         self.items.iter().any(|item| matches!(item, Item::Step(step) if asks(step)))
     }
 
-    /// Returns the index of an object as an obstacle: objects follow the workspace's own obstacles.
+    /// Returns the index of an object as an obstacle: objects follow the obstacles of the workspace.
     pub fn obstacle_number(&self, object: usize) -> usize {
         self.workspace.fixed.obstacles.len() + object
     }
 
-    /// Returns the workspace with the objects at their poses, as static obstacles. A carried object has no pose. It
-    /// becomes an obstacle without pieces, so that indices stay the same.
+    /// Returns the workspace with the objects at their poses as static obstacles. A carried object, which has no pose, becomes an
+    /// obstacle without pieces, so that indices stay the same.
     pub fn obstacles(&self, poses: &[Option<Placement>]) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
         workspace
@@ -233,8 +233,7 @@ impl Task {
         workspace
     }
 
-    /// Returns the same workspace as [`Task::obstacles`], with the objects `moving` as moving obstacles, after those of
-    /// the world.
+    /// Does the same as [`Task::obstacles`], except that the objects `moving` are moving obstacles, after those of the world.
     pub fn surroundings(&self, poses: &[Option<Placement>], moving: &[usize]) -> TimedWorkspace {
         let mut workspace = self.obstacles(poses);
         workspace.movers.extend(moving.iter().filter_map(|&object| self.objects[object].moving()));
@@ -274,14 +273,14 @@ impl Task {
         !self.workspace.movers.is_empty() || self.initially_moving().next().is_some()
     }
 
-    /// Replaces the displayed shapes of obstacles and objects by the convex pieces that collision checks use. For tasks
-    /// that are read as data, in which the two may differ.
+    /// Replaces the displayed shapes of obstacles and objects by the convex pieces that collision checks use. For deserialised
+    /// tasks, in which the two may differ.
     pub fn restrict_shapes(&mut self) {
         self.workspace.restrict_shapes();
         self.objects.iter_mut().for_each(|object| object.shape.restrict_to(&object.pieces));
     }
 
-    /// Returns the first step that lowers the tool beyond the range of its joint for an object at another height.
+    /// Returns the first step whose elevation would take the tool beyond the range of its joint, and the joint's value there.
     pub fn step_beyond_stroke(&self) -> Option<(&Step, f64)> {
         let stroke = self.stroke.as_ref()?;
         let mut held = None;
@@ -298,7 +297,7 @@ impl Task {
         step.tool.wrist_turn(&self.start_tool)
     }
 
-    /// Iterates over all steps. The steps of a group that may be executed in any order come in the order of the file.
+    /// Iterates over all steps. Steps of a group in any order have the order of the file.
     pub fn steps(&self) -> impl Iterator<Item = &Step> {
         self.items.iter().flat_map(|item| match item {
             Item::Step(step) => vec![step],
@@ -309,7 +308,7 @@ impl Task {
 }
 
 impl Object {
-    /// Returns the object as an obstacle where it lies. If it lies nowhere, the obstacle has no pieces.
+    /// Returns the object as an obstacle where it lies, or as an obstacle without pieces if it lies nowhere.
     pub fn obstacle_at(&self, placement: Option<&Placement>) -> Obstacle {
         let (shape, pieces) = match placement {
             Some(Placement { pose, .. }) => {
@@ -321,12 +320,12 @@ impl Object {
         Obstacle { name: self.name.clone(), shape, pieces, heights, growth: Growth::default() }
     }
 
-    /// Returns the object's initial placement. Returns `None` if the object moves initially.
+    /// Returns the object's initial placement. `None` if it moves initially.
     pub fn initial_static_pose(&self) -> Option<Placement> {
         self.trajectory.is_none().then_some(self.at.into())
     }
 
-    /// Returns the object's heights where it lies, at an elevation in metres.
+    /// Returns the object's heights where it lies at an elevation, in metres.
     pub fn heights_at(&self, elevation: f64) -> Heights {
         self.heights.lifted([elevation; 2])
     }
@@ -340,7 +339,7 @@ impl Object {
         self.trajectory.clone().map(|trajectory| MovingObstacle { obstacle: obstacle(), trajectory })
     }
 
-    /// Returns the range of all heights that the object has while it is raised or lowered at these elevations, in metres.
+    /// Returns the range of all heights that the object takes while it is raised or lowered at these elevations, in metres.
     pub fn handled_heights(&self, elevations: impl IntoIterator<Item = f64>) -> Heights {
         let lying = elevations.into_iter().map(|elevation| self.heights_at(elevation));
         lying.fold(self.carried_heights(), Heights::and)

@@ -1,4 +1,4 @@
-//! Checks that an arm, objects and steps form a task.
+//! Checks that an arm, objects and steps form a valid task.
 
 use super::{Action, Holding, Item, MAX_STOP_TIME, Object, Step, Stroke, Task, TimedScene, ToolLimits, ToolValues};
 use cplan_geometry::Point;
@@ -11,10 +11,10 @@ use std::f64::consts::TAU;
 /// Limit on the duration of each part of a task, seconds. It is the same as for motions.
 const MAX_PART_DURATION: f64 = 1e6;
 
-/// Greatest distance between a line's beginning and the target of the move before it, metres: rounding.
+/// Greatest distance, metres, between a line's beginning and the target of the previous move. A smaller one is due to rounding.
 const LINE_START_TOLERANCE: f64 = 1e-9;
 
-/// Reason why an arm, objects and steps do not form a valid task.
+/// The reason why an arm, objects and steps do not form a valid task.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum TaskError {
     /// The arm, the obstacles or the initial poses of the objects are invalid.
@@ -53,7 +53,7 @@ pub enum TaskError {
     /// A group has no steps.
     #[error("a group of steps in any order is empty")]
     EmptyGroup,
-    /// An obstacle or object moves, and the task needs a feature that supports static obstacles only.
+    /// An obstacle or object moves, but the task needs a feature that supports only static obstacles.
     #[error("\"{mover}\" moves, but {why}")]
     Moves {
         /// Name of a moving obstacle or object.
@@ -67,12 +67,12 @@ pub enum TaskError {
 }
 
 impl Task {
-    /// Checks the task, and returns the initial scene. In it, the arm has no load, and obstacles and objects are at
-    /// their initial poses. Takes `O(n)` in parts, obstacles, objects and steps.
+    /// Checks the task, and returns the initial scene: the arm without a load, and obstacles and objects at their initial poses.
+    /// Linear in the number of parts, obstacles, objects and steps.
     ///
     /// # Errors
-    /// Returns the first problem, such as invalid numbers, a start that is not free, picks of missing objects, or
-    /// places without a load; see [`TaskError`].
+    /// The first problem, such as invalid numbers, a start that is not free, picks of missing objects, or places without a load;
+    /// see [`TaskError`].
     pub fn check(&self) -> Result<Scene, TaskError> {
         let at_first: Vec<_> = self.objects.iter().map(Object::initial_static_pose).collect();
         let moving: Vec<usize> = self.initially_moving().collect();
@@ -104,8 +104,8 @@ impl Task {
         Ok(MotionProblem::new(first, self.start, self.start).map(|_| scene)?)
     }
 
-    /// Returns a feature of the task that supports static obstacles only, with the name of a moving obstacle or object.
-    /// Returns `None` if the task has no such feature, or nothing moves.
+    /// Returns a feature of the task that supports only static obstacles, with the name of a moving obstacle or object. `None` if
+    /// the task has no such feature, or nothing moves.
     pub fn static_only_feature(&self) -> Option<(String, &'static str)> {
         let own = self.objects.iter().filter_map(|object| Some((&object.name, object.trajectory.as_ref()?)));
         let movers = self.workspace.movers.iter().map(|mover| (&mover.obstacle.name, &mover.trajectory));
@@ -169,11 +169,11 @@ impl Task {
     }
 }
 
-/// Returns true if a distance takes a finite, plausible time at these limits.
+/// Returns true if a motion over the distance takes a finite, plausible time within these limits.
 fn is_drive(limits: ToolLimits, distance: f64) -> bool {
     let ToolLimits { velocity, acceleration, jerk } = limits;
     let is_limit = |limit: f64| limit.is_finite() && limit > 0.0;
-    // Each limit by itself.
+    // The time that each limit alone would allow.
     let seconds = [
         distance / velocity,
         2.0 * (distance / acceleration).sqrt(),
@@ -210,7 +210,7 @@ struct Gripper<'a> {
     picked: BTreeSet<usize>,
     /// Orientation of each object, radians. The orientation of rigid payloads is ignored.
     turned: Vec<f64>,
-    /// Target of the tip if the last step was a move to it.
+    /// Target of the tip if the last step moved there.
     tip: Option<Point>,
 }
 
@@ -320,7 +320,7 @@ impl Gripper<'_> {
     }
 }
 
-/// Refuses a step that does not meet a condition.
+/// Refuses a step unless a condition is met.
 fn require(is_met: bool, step: &Step, why: &'static str) -> Result<(), TaskError> {
     if is_met { Ok(()) } else { Err(wrong(step, why)) }
 }

@@ -26,7 +26,7 @@ impl From<Workspace> for TimedWorkspace {
 }
 
 impl TimedWorkspace {
-    /// Returns the workspace with the pieces of all obstacles as large as their [growth](cplan_model::Growth) requires.
+    /// Returns the workspace with all obstacles grown as their [growth](cplan_model::Growth) requires.
     #[must_use]
     pub fn grown(mut self) -> Self {
         let clearance = self.fixed.clearance;
@@ -62,14 +62,13 @@ impl TimedWorkspace {
         self.movers.iter().map(|mover| mover.trajectory.clone()).collect()
     }
 
-    /// Returns all obstacles in the order of a scene's numbers: the static ones, then the moving ones in their own
-    /// frames.
+    /// Returns all obstacles in the order of their numbers in a scene: static ones, then moving ones in their own frames.
     pub fn all(&self) -> impl Iterator<Item = &Obstacle> {
         self.fixed.obstacles.iter().chain(self.movers.iter().map(|mover| &mover.obstacle))
     }
 
-    /// Replaces the displayed shapes by the convex pieces that collision checks use. For workspaces that are read as
-    /// data, in which the two may differ.
+    /// Replaces the displayed shapes by the convex pieces that collision checks use. For deserialised workspaces, in which the
+    /// two may differ.
     pub fn restrict_shapes(&mut self) {
         let moving = self.movers.iter_mut().map(|mover| &mut mover.obstacle);
         self.fixed.obstacles.iter_mut().chain(moving).for_each(Obstacle::derive_shape_from_pieces);
@@ -81,7 +80,7 @@ impl TimedWorkspace {
 pub struct TimedScene<'a> {
     /// The scene.
     pub scene: &'a Scene,
-    /// The trajectory of each loose obstacle. If there are none, loose obstacles are ignored.
+    /// The trajectory of each loose obstacle. If it is empty, loose obstacles are ignored.
     pub trajectories: &'a [ObstacleTrajectory],
 }
 
@@ -102,8 +101,8 @@ impl<'a> TimedScene<'a> {
         self.trajectories.get(self.scene.loose_index(pair)?)
     }
 
-    /// Returns the motion of a pair's obstacle between two places of the arm's motion, which begins at the same time as
-    /// the trajectories. `None` for a static obstacle.
+    /// Returns the motion of a pair's obstacle between two places of the arm's motion, which begins at the same time as the
+    /// trajectories. `None` for a static obstacle.
     pub fn drift(self, pair: Pair, pieces: &[Piece], places: [(usize, f64); 2]) -> Option<Drift> {
         let [from, to] = places.map(|(piece, share)| pieces[piece].time(share) - pieces[0].from);
         self.trajectory(pair).map(|trajectory| trajectory.drift(from, to))
@@ -119,8 +118,7 @@ impl<'a> TimedScene<'a> {
         self.trajectories.iter().map(move |trajectory| trajectory.pose(time))
     }
 
-    /// Returns the scene at a time. Each moving obstacle becomes static at its place at that time. These obstacles come
-    /// after all others.
+    /// Returns the scene at a time. Moving obstacles become static obstacles at their places of that time, after all others.
     pub fn frozen(self, time: f64) -> Scene {
         self.scene.with_loose_at(self.poses(time))
     }

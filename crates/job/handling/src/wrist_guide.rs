@@ -4,7 +4,7 @@ use cplan_model::Arm;
 use cplan_model::space::JointRange;
 use serde::{Deserialize, Serialize};
 
-/// Tolerance of the tool's angle for lines that state none, radians: about half a degree.
+/// Tolerance of the tool's angle on lines that state none, radians: about half a degree.
 pub const DEFAULT_WRIST_TOLERANCE: f64 = 0.01;
 
 /// Least tolerance of the tool's angle, radians. The accuracy of robots is far below it.
@@ -25,9 +25,9 @@ pub enum ToolAngle {
 
 /// A requirement on the angle of the tool along a line.
 ///
-/// At all times, the angle differs by at most the tolerance from the required one at the place of the line that the tip
-/// passes then. With [`ToolAngle::Tangent`], the angle is free while the arm rests at a corner of the line where its
-/// direction jumps by more than the tolerance, and during travels. Before and after the line, it is always free.
+/// At all times, the angle must be within the tolerance of the one that is required where the tip is on the line. With
+/// [`ToolAngle::Tangent`], the angle is free during travels, and while the arm rests at a corner where the line's direction jumps
+/// by more than the tolerance. Before and after the line, it is always free.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WristGuide {
@@ -45,7 +45,7 @@ impl WristGuide {
     }
 }
 
-/// The joint of a wrist, for the angle of the tool: that angle is `zero` plus the rotation of link 2 plus `sign` times the
+/// The joint of a wrist that turns the tool. The angle of the tool is `zero` plus the rotation of link 2 plus `sign` times the
 /// joint's value.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -61,12 +61,12 @@ pub struct WristJoint {
 }
 
 impl WristJoint {
-    /// Returns the factors of the two joints in the rotation of link 2: 1, -1, or 0 for a joint that slides.
+    /// Returns the factors of both joints in the rotation of link 2: 1, -1, or 0 for a prismatic joint.
     pub fn weights(arm: &Arm) -> [f64; 2] {
         arm.joints.each_ref().map(|joint| joint.joint_type.turn())
     }
 
-    /// Returns the rotation of link 2, radians, or its rate if `planned` has velocities.
+    /// Returns the rotation of link 2, radians; if `planned` has velocities, the rate of the rotation.
     pub fn link_2_angle(arm: &Arm, planned: [f64; 2]) -> f64 {
         let [first, second] = Self::weights(arm);
         first * planned[0] + second * planned[1]

@@ -3,13 +3,11 @@
 use super::{Lattice, Wave};
 use cplan_interrupt::checkpoint;
 
-/// The free cells that a wave from the goals reached. Each has a *position*, which is its number in the order of the
-/// wave: first the goals, then level by level. The algorithms of this crate use positions instead of indices of the
-/// grid.
-/// Relaxation in this order carries information away from the goal through a whole corridor in one sweep. Neighbours
-/// lie on consecutive levels (never on the same one, except on circles of odd size). So this is a consistent ordering,
-/// for which Young's theory of over-relaxation holds.
-/// Each cell needs two 32-bit numbers. The neighbours of a cell are found from its place in the grid.
+/// The free cells that a wave from the goals reached. Each has a *position*: its number in the order of the wave, which has first
+/// the goals, then level by level. The algorithms of this crate use positions instead of indices of the grid. In this order, one
+/// sweep of a relaxation carries information away from the goal through a whole corridor. Neighbours lie on consecutive levels
+/// (never on the same one, except on circles of odd size), so this is a consistent ordering, for which Young's theory of
+/// over-relaxation holds. Each cell needs two 32-bit numbers. The neighbours of a cell follow from its place in the grid.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Component {
     /// Number of goals, which are the first positions.
@@ -18,18 +16,18 @@ pub struct Component {
     pub levels: usize,
     /// Rows and columns of the grid.
     pub shape: [usize; 2],
-    /// Place of each position, in the grid with a frame of one cell around it.
+    /// Place of each position in the framed grid, which has one more cell on each side.
     places: Vec<u32>,
     /// Position at each place, or [`Component::wall`]. On a circle, a place in the frame has the position of the cell
     /// on the other side.
     positions: Vec<u32>,
 }
 
-/// Number of cells that are processed between two checkpoints. This takes less than a millisecond.
+/// Number of cells between two checkpoints. They take less than a millisecond.
 const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl Component {
-    /// Numbers the cells that a wave over this lattice reached. Takes linear time.
+    /// Numbers the cells that a wave over this lattice reached. Linear in the number of cells.
     pub fn new(lattice: &Lattice, wave: Wave) -> Self {
         let Wave { order: places, sources: goals, levels, labels: mut positions } = wave;
         positions.fill(places.len() as u32);
@@ -51,7 +49,7 @@ impl Component {
         self.places.is_empty()
     }
 
-    /// Returns the special position that stands for all cells that are not free.
+    /// Returns the position that stands for all cells that are not free.
     pub fn wall(&self) -> usize {
         self.places.len()
     }
@@ -79,7 +77,7 @@ impl Component {
 
     /// Returns the row and column of a position.
     pub fn place(&self, position: usize) -> [usize; 2] {
-        // Divisions of 32-bit numbers take a fraction of the time.
+        // 32-bit divisions are several times as fast.
         let (place, stride) = (self.places[position], self.shape[1] as u32 + 2);
         [(place / stride - 1) as usize, (place % stride - 1) as usize]
     }
@@ -90,7 +88,7 @@ impl Component {
         i * self.shape[1] + j
     }
 
-    /// Computes the room at each position, by two measures. Takes linear time.
+    /// Computes two measures of the room at each position. Linear in the number of cells.
     pub fn room(&self) -> Room {
         let mut clearance = vec![u32::MAX; self.len()];
         let beside_wall = |&i: &u32| self.neighbors(i as usize).contains(&self.wall());
@@ -134,7 +132,7 @@ pub struct Room {
     /// Number of steps to the nearest wall: 1 for a cell beside a wall. If there are no walls, it is the number of
     /// steps to a goal plus 1.
     pub clearance: Vec<u32>,
-    /// Greatest clearance that is reached by moving away from walls. It is about half the width of the room or corridor
-    /// that contains the cell.
+    /// Greatest clearance that is reached by moving away from walls: about half the width of the room or corridor that contains
+    /// the cell.
     pub widest: Vec<u32>,
 }

@@ -25,7 +25,7 @@ impl Extent {
 pub(super) struct Bounds {
     low: [usize; 2],
     high: [usize; 2],
-    /// True if some cells are neighbours across the seam of the circle.
+    /// For each axis, true if some cells are neighbours across the seam of the circle.
     joined: [bool; 2],
 }
 
@@ -48,8 +48,8 @@ impl Bounds {
         self.joined[axis] |= joined;
     }
 
-    /// Returns the box in a grid of this shape. If cells are neighbours across a seam, the box covers that whole
-    /// circle. Returns `None` if there are no cells.
+    /// Returns the box in a grid of this shape. If cells are neighbours across a seam, it covers that whole circle. `None`
+    /// without cells.
     pub fn extent(self, shape: [usize; 2]) -> Option<Extent> {
         if self.high == [0; 2] {
             return None;

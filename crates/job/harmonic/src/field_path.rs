@@ -1,8 +1,7 @@
 //! The path along a field.
 //!
-//! It follows the curve along the field, to within 0.05 cells (`simplify`). It ends at the goal itself rather than at the
-//! centre of the goal's cell, and is certified without further changes. If the certificate fails, the solver plans again
-//! on a finer grid.
+//! The path stays within 0.05 cells of the curve along the field (`simplify`). It ends at the goal itself, not at the centre of
+//! the goal's cell, and is certified without further changes. If the certificate fails, the solver plans again on a finer grid.
 
 use crate::follow::{Guide, follow};
 use crate::simplify::simplified;
@@ -13,20 +12,19 @@ use cplan_planners::planner::grid_path::{Line, Place, cell, exact_path, goal_at,
 use cplan_planners::planner::shortcut::{is_clear, shortcut};
 use cplan_planners::planner::{PathKind, Query};
 
-/// Greatest distance of a path from the curve along the field, in cells. Where the curve's radius is `r` cells,
-/// straight pieces are then about `sqrt(r / 2.5)` cells long. Their direction deviates from the curve's by at most
-/// `1 / sqrt(10 r)`.
+/// Greatest distance of a path from the curve along the field, in cells. If the curve's radius is `r` cells, straight pieces are
+/// about `sqrt(r / 2.5)` cells long, and their direction deviates from the curve's by at most `1 / sqrt(10 r)`.
 const MAX_CURVE_DISTANCE: f64 = 0.05;
 
-/// Length before the goal, in cells, over which the path leaves the curve. The curve leads to the centre of the
-/// goal's cell. The path changes gradually from the curve to one that ends at the goal itself, and arrives in the
-/// curve's direction.
+/// Length, in cells, of the stretch before the goal on which the path leaves the curve. The curve leads to the centre of the
+/// goal's cell. On this stretch, the path gradually changes to one that ends at the goal itself, and arrives in the curve's
+/// direction.
 const BLENDED_CELLS: f64 = 12.0;
 
-/// Returns the path from the exact start to the exact goal, between which it goes along a field ([`follow`]). For
-/// [`PathKind::Taut`] the path is pulled taut. Otherwise it stays within `MAX_CURVE_DISTANCE` of the curve, except in
-/// the last `BLENDED_CELLS`. The path stays in free cells, except at an end that is not in the cell to which it is
-/// joined: the segment between the two may leave the free cells. `home` is the cell joined to the start.
+/// Returns the path along a field ([`follow`]) from the exact start to the exact goal. For [`PathKind::Taut`], it is pulled taut.
+/// Otherwise it stays within `MAX_CURVE_DISTANCE` of the curve, except in the last `BLENDED_CELLS`. It stays in free cells,
+/// except for the segment between an end of the path and the cell to which the end is joined, if it is not in that cell. `home`
+/// is the cell joined to the start.
 ///
 /// # Errors
 /// If the field does not lead to a goal.
@@ -40,7 +38,7 @@ pub fn path_along_field<G: Guide>(
 ) -> Result<Path, G::DeadEnd> {
     let center = unwrap(grid, &[home], query.start)[0];
     let from = if joined.start.contained { within_cell(center, to_lattice(grid, query.start)) } else { center };
-    // Coordinates here are relative to the corners of cells, in `follow` to their centres.
+    // Coordinates are relative to the corners of cells here, but to their centres in `follow`.
     let streamline = follow(guide, grid.step(), from.map(|x| x - 0.5))?;
     let mut line: Line = streamline.points.into_iter().map(|point| point.map(|x| x + 0.5)).collect();
     let end = streamline.place.map(|x| x as f64 + 0.5);
@@ -60,15 +58,15 @@ pub fn path_along_field<G: Guide>(
     }))
 }
 
-/// Returns the point of the closed cell about `center` nearest to `at`, kept off the sides of the cell. The sides
-/// belong also to neighbouring cells, which may be blocked or beyond a limit.
+/// Returns the point nearest to `at` in the closed cell about `center`, but not on a side: sides also belong to neighbouring
+/// cells, which may be blocked or beyond a limit.
 fn within_cell(center: [f64; 2], at: [f64; 2]) -> [f64; 2] {
     const HALF_CELL: f64 = 0.5 - 1e-9;
     [0, 1].map(|k| at[k].clamp(center[k] - HALF_CELL, center[k] + HALF_CELL))
 }
 
-/// Returns the line with its end moved to `goal`. The points before the end move as well, less and less with their
-/// distance from it. If the moved line would leave the free cells, returns the line unchanged.
+/// Returns the line with its end moved to `goal`. The points before the end move by an amount that falls with their distance from
+/// it. If the moved line would leave the free cells, returns the line unchanged.
 fn with_end_at_goal(grid: &Grid, line: Line, goal: [f64; 2]) -> Line {
     let end = line[line.len() - 1];
     let by = [0, 1].map(|k| goal[k] - end[k]);

@@ -1,12 +1,11 @@
 //! Follows a field along its gradient, as a curve that is not bound to the centres of cells.
 //!
-//! [`follow`] works with any [`Guide`]: the harmonic potential, a relaxed field, or forces. A guide returns the direction
-//! at the centres of free cells: the gradient of the logarithm, by central differences.
-//! `follow` interpolates bilinearly and integrates with the fourth-order Runge-Kutta method, in steps of a fifth of a
-//! cell.
+//! [`follow`] works with any [`Guide`]: the harmonic potential, a relaxed field, or forces. A guide gives the direction at the
+//! centres of free cells; for a potential, it is the gradient of the logarithm, by central differences. `follow` interpolates it
+//! bilinearly, and integrates by the fourth-order Runge-Kutta method, in steps of a fifth of a cell.
 //!
-//! Within about four cells, the curve must reach a better cell. If it does not (at a saddle, or in a corridor one cell
-//! wide), the guide gives the next cells. So the curve reaches a goal whenever a path from cell to cell does.
+//! If the curve does not reach a better cell within about four cells (at a saddle, or in a corridor one cell wide), the guide
+//! gives the next cells. So the curve reaches a goal whenever a path from cell to cell does.
 
 use cplan_interrupt::checkpoint;
 use cplan_planners::planner::grid_path::Place;
@@ -14,8 +13,8 @@ use cplan_planners::planner::grid_path::Place;
 /// A point in units of cells. Centres of cells have integer coordinates.
 pub type LatticePoint = [f64; 2];
 
-/// Length of a step, in cells. The direction, interpolated between centres, changes little within a step, and the error
-/// of the integrator is far below that of the field.
+/// Length of a step, in cells. Within a step, the interpolated direction changes little, and the error of the integrator is far
+/// below that of the field.
 pub const STEP_LENGTH: f64 = 0.2;
 
 /// Number of steps within which the curve must reach a better cell: about four cells.
@@ -36,11 +35,10 @@ pub trait Guide {
     /// Returns true if a cell is a goal.
     fn is_goal(&self, place: Place) -> bool;
 
-    /// Returns true if a move from one cell to the other is progress. It must return true only a finite number of
-    /// times.
+    /// Returns true if a move from one cell to the other is progress. It may return true only finitely often.
     fn is_progress(&mut self, from: Place, to: Place) -> bool;
 
-    /// Returns the cells that lead from a cell to a better one. Each is free, and a neighbour of the cell before it.
+    /// Returns the cells that lead from a cell to a better one. Each is free, and a neighbour of the previous one.
     ///
     /// # Errors
     /// Returns the reason why no such cells exist.
@@ -57,14 +55,12 @@ pub struct Streamline {
     pub place: Place,
 }
 
-/// Follows a field from a point in a free cell to a goal's cell, along the guide's gradient. A cell has the side
-/// lengths `sides`. Takes a few microseconds per cell.
-/// The gradient is interpolated bilinearly between the centres of free cells, and integrated by the classical
-/// fourth-order Runge-Kutta method in steps of [`STEP_LENGTH`].
-/// Beside walls, only the centres of free cells count, which leads the curve away from the walls. A step that would
-/// still leave the free cells slides along their sides. Where the curve makes no progress (at a saddle, or in a narrow
-/// bend), it moves to a better cell by [`Guide::next_cells`]. So the curve stays in free cells, and it can always be
-/// continued if the guide's cells lead to a goal.
+/// Follows a field from a point in a free cell to a goal's cell, along the guide's gradient. `sides` are the side lengths of a
+/// cell. Takes a few microseconds per cell. The gradient is interpolated bilinearly between the centres of free cells, and
+/// integrated by the classical fourth-order Runge-Kutta method in steps of [`STEP_LENGTH`]. Beside walls, only the centres of
+/// free cells count, which leads the curve away from walls. A step that would still leave the free cells slides along their
+/// sides. Where the curve makes no progress (at a saddle, or in a narrow bend), it moves to a better cell by
+/// [`Guide::next_cells`]. So the curve stays in free cells, and reaches a goal if the guide's cells lead to one.
 ///
 /// # Errors
 /// [`Guide::DeadEnd`] if the guide has no further cells.
@@ -95,16 +91,16 @@ pub fn follow<G: Guide>(guide: &mut G, sides: [f64; 2], from: LatticePoint) -> R
     }
 }
 
-/// Returns the unit direction in which a field is followed from a point, in cells. It is interpolated bilinearly
-/// between the gradients at the surrounding free cells, whose side lengths are `sides`. Returns `None` if none of these
-/// cells has a gradient, or if the gradients cancel.
+/// Returns the unit direction in which a field is followed at a point. It is interpolated bilinearly between the gradients at the
+/// surrounding free cells. Coordinates are in cells, and `sides` are the side lengths of a cell. `None` if none of these cells
+/// has a gradient, or if the gradients cancel.
 pub fn direction<G: Guide>(guide: &G, sides: [f64; 2], at: LatticePoint) -> Option<[f64; 2]> {
     Square::new(sides).direction(guide, at)
 }
 
-/// Advances along a field by a number of steps of [`STEP_LENGTH`], and returns the last point. Unlike [`follow`], it
-/// does not check for progress, because it is for fields that change over time.
-/// The point stays in free cells. It stops early in a goal's cell, or if no step would stay in free cells.
+/// Advances along a field by a number of steps of [`STEP_LENGTH`], and returns the last point. In contrast to [`follow`], does
+/// not check for progress, because it is meant for fields that change over time. Stays in free cells; stops early in a goal's
+/// cell, or if no step would stay in free cells.
 pub fn advance<G: Guide>(guide: &G, sides: [f64; 2], from: LatticePoint, steps: usize) -> LatticePoint {
     let mut square = Square::new(sides);
     let mut at = from;
@@ -140,8 +136,8 @@ impl Square {
         Self { weights: [b / a, a / b], corner: None, slopes: [None; 4] }
     }
 
-    /// Returns the unit direction at a point. Returns `None` if none of the surrounding centres has a gradient, or if
-    /// the gradients cancel.
+    /// Returns the unit direction at a point. `None` if none of the surrounding centres has a gradient, or if the gradients
+    /// cancel.
     fn direction<G: Guide>(&mut self, guide: &G, at: LatticePoint) -> Option<[f64; 2]> {
         let corner = at.map(|x| x.floor() as i64);
         if self.corner != Some(corner) {
@@ -165,7 +161,7 @@ impl Square {
     fn step<G: Guide>(&mut self, guide: &G, at: LatticePoint) -> Option<LatticePoint> {
         let moved = |d: [f64; 2], by: f64| [0, 1].map(|k| at[k] + by * d[k]);
         let a = self.direction(guide, at)?;
-        // Beyond the free cells there may be no direction. Then keep the previous one.
+        // Beyond the free cells, there may be no direction. Then the previous one is kept.
         let b = self.direction(guide, moved(a, STEP_LENGTH / 2.0)).unwrap_or(a);
         let c = self.direction(guide, moved(b, STEP_LENGTH / 2.0)).unwrap_or(b);
         let d = self.direction(guide, moved(c, STEP_LENGTH)).unwrap_or(c);
@@ -179,7 +175,7 @@ impl Square {
             let is_round = !is_across || (beside([here[0], there[1]]) && beside([there[0], here[1]]));
             (beside(there) && is_round).then_some(to)
         };
-        // Beside a wall, one coordinate may still move.
+        // Beside a wall, one coordinate may still change.
         stays(next).or_else(|| {
             let mut slides = [[next[0], at[1]], [at[0], next[1]]];
             slides.sort_by(|p, q| distance(*q, at).total_cmp(&distance(*p, at)));

@@ -14,50 +14,44 @@ pub struct Field {
     pub windows: usize,
 }
 
-/// Weight of the value 0 in the mean, in addition to the weights 1 of the four neighbours. A random walk therefore ends
-/// at each step with a quarter of this probability, 3e-14.
-/// This makes every value less than the mean of its neighbours by more than all rounding errors, so at least one
-/// neighbour is strictly greater. It also holds where the harmonic function is level: without any walls, or where
-/// symmetry makes all four neighbours equal.
-/// Each step of a walk to the goal lowers the value by a fraction of 3e-14. For ten million steps, this is less than a
-/// millionth.
+/// Weight of the value 0 in the mean, in addition to the weights 1 of the four neighbours: at each step, a random walk ends with
+/// a quarter of this probability, 3e-14. So every value is less than the mean of its neighbours by more than all rounding errors,
+/// and at least one neighbour is strictly greater. This holds even where the harmonic function is level: without walls, or where
+/// symmetry makes all four neighbours equal. Each step of a walk lowers the value by a fraction of 3e-14, and ten million steps
+/// by less than a millionth.
 pub(super) const WALK_LOSS: f64 = f64::EPSILON * 512.0;
 
-/// Computes the harmonic potential on a component, in relative precision at any distance. Values may be as small as
-/// `1e-50000`.
-/// The potential is solved in windows in order of falling values: narrow windows by elimination without subtractions,
-/// wide rooms by multigrid. Each value agrees with the mean of its neighbours to a relative 1.5e-14 ([`residual`]),
-/// which is less than the loss per step. So every cell except the goals has a strictly greater neighbour
-/// ([`Potential::navigates`]).
-/// Takes about 300 ns per cell in mazes and corridors. Wide rooms cost a few solves by
-/// [`Multigrid`](cplan_multigrid::Multigrid).
+/// Computes the harmonic potential on a component with full relative precision at any distance. Values may be as small as
+/// `1e-50000`. The potential is solved in windows in order of falling values: narrow windows by elimination without subtractions,
+/// wide rooms by multigrid. Each value agrees with the mean of its neighbours to a relative 1.5e-14 ([`residual`]), which is less
+/// than the loss per step, so every cell except the goals has a strictly greater neighbour ([`Potential::navigates`]). Takes
+/// about 300 ns per cell in mazes and corridors. Wide rooms cost a few solves by [`Multigrid`](cplan_multigrid::Multigrid).
 pub fn harmonic(component: &Component) -> Field {
     let Peeling { potential, windows, .. } = Peeling::new(component, WALK_LOSS).run();
     Field { potential, windows }
 }
 
-/// Returns the positions from `from` to a goal by steepest ascent of [`harmonic`]. Solves only the part of the
-/// potential that the ascent needs, so it takes less time near the goal.
+/// Returns the positions from `from` to a goal by steepest ascent of [`harmonic`]. Solves only the part of the potential that the
+/// ascent needs, so it is faster near the goal.
 pub fn harmonic_path(component: &Component, from: usize) -> Option<Vec<usize>> {
     Peeling::new(component, WALK_LOSS).run_to(from).potential.ascend(component, from)
 }
 
-/// Estimates [`harmonic`] in a fraction of the time. The result is positive. It falls with the number of steps from the
-/// goal, and it falls faster in narrow places. It is for pictures that show from which cells the goal is reachable.
+/// Estimates [`harmonic`] in a fraction of the time. The result is positive, and falls with the number of steps from the goal,
+/// faster in narrow places. It serves pictures that show from which cells the goal is reachable.
 pub fn estimated_harmonic(component: &Component) -> Potential {
     let clearance = component.room().clearance;
     let mut log2 = vec![0.0; component.len()];
     for i in component.goals..component.len() {
-        // Use the neighbours that the wave reached earlier. There is at least one.
+        // Neighbours that the wave reached earlier. There is at least one.
         let before = component.neighbors(i).into_iter().filter(|&n| n < i);
         log2[i] = before.map(|n| log2[n]).fold(f64::NEG_INFINITY, f64::max) - decay(clearance[i]) / LN_2;
     }
     Potential::from_log2(&log2)
 }
 
-/// Returns by how much the potential falls per cell, as a natural logarithm, along the middle of a straight corridor.
-/// `clearance` is half the width of the corridor. The result is `theta` with `cosh theta = 2 - cos(pi / w)`, where `w`
-/// is the width.
+/// Returns the fall of the potential per cell, as a natural logarithm, along the middle of a straight corridor of width `w`:
+/// `theta` with `cosh theta = 2 - cos(pi / w)`. `clearance` is half of the width.
 pub(super) fn decay(clearance: u32) -> f64 {
     (2.0 - (PI / (2.0 * f64::from(clearance.max(1)))).cos()).acosh()
 }

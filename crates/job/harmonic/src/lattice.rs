@@ -9,7 +9,7 @@ const TWIN_LABEL: u32 = u32::MAX - 1;
 /// Label of a [`Site::Wall`].
 const WALL_LABEL: u32 = u32::MAX - 2;
 
-/// Kind of a place in the framed grid. It needs only one byte, because a map of all places is copied for every wave.
+/// Kind of a place in the framed grid, in one byte, because a map of all places is copied for every wave.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Site {
     Free,
@@ -31,7 +31,7 @@ pub struct Lattice {
     sites: Vec<Site>,
 }
 
-/// The number of steps to the nearest source, for every free cell that is connected with a source.
+/// The number of steps to the nearest source, for every free cell connected with a source.
 #[derive(Debug, Clone)]
 pub struct Wave {
     /// Framed cells in the order in which the wave reached them.
@@ -51,8 +51,8 @@ impl From<&Grid> for Lattice {
 }
 
 impl Lattice {
-    /// Builds the lattice of `cells` rows and columns, with `blocked` row by row. `circles` says which axes are
-    /// circles, so that the last row (or column) is a neighbour of the first. Linear.
+    /// Builds the lattice of `cells` rows and columns, with `blocked` row by row. `circles` states which axes are circles, on
+    /// which the last row (or column) is a neighbour of the first. Linear.
     ///
     /// # Panics
     /// If the length of `blocked` is not the product of `cells`, or the frame has `2^32 - 3` cells or more.
@@ -108,7 +108,7 @@ impl Lattice {
         [framed - self.stride, framed + self.stride, framed - 1, framed + 1]
     }
 
-    /// Returns the free cell that a place is or represents. Returns `None` for walls.
+    /// Returns the free cell that a place is, or represents. `None` for walls.
     pub(super) fn resolve(&self, framed: usize) -> Option<usize> {
         match self.sites[framed] {
             Site::Free => Some(framed),
@@ -137,9 +137,9 @@ impl Lattice {
         wrap(i, self.cells[0]) * self.stride + wrap(j, self.cells[1])
     }
 
-    /// Labels all free cells that are connected to `sources` (indices in the grid) with the number of steps to the
-    /// nearest source. Goes breadth-first over neighbours that share a side. This is the navigation function in the
-    /// `L1` metric. Linear; a few nanoseconds per cell.
+    /// Labels all free cells that are connected with `sources` (indices in the grid) with the number of steps to the nearest
+    /// source, breadth-first over neighbours with a common side. This is the navigation function in the `L1` metric. Linear; a
+    /// few nanoseconds per cell.
     pub fn wave(&self, sources: &[usize]) -> Wave {
         let label = |site: &Site| match site {
             Site::Free => UNREACHED,
@@ -164,7 +164,7 @@ impl Lattice {
             levels += 1;
             for at in begin..end {
                 for next in self.neighbors(order[at] as usize) {
-                    // This one comparison skips both walls and cells with a label.
+                    // This single comparison skips walls and labelled cells.
                     if labels[next] >= TWIN_LABEL {
                         let next = if labels[next] == TWIN_LABEL { self.other_side(next) } else { next };
                         if labels[next] == UNREACHED {
@@ -191,8 +191,8 @@ impl Wave {
         labels
     }
 
-    /// Returns the cells from `index` to a source, always to the neighbour with the smallest label (the first of
-    /// equals). This is a shortest path in the `L1` metric. Returns `None` if the wave did not reach `index`.
+    /// Returns the cells from `index` to a source, always to the neighbour with the smallest label (the first of equals). This is
+    /// a shortest path in the `L1` metric. `None` if the wave did not reach `index`.
     pub fn descend(&self, lattice: &Lattice, index: usize) -> Option<Vec<usize>> {
         let mut at = lattice.framed(index);
         let mut label = self.labels[at];

@@ -1,16 +1,14 @@
-//! The harmonic potential of goals on a grid, with full relative precision at any distance, and the curve along its
-//! gradient.
+//! The harmonic potential of goals on a grid, with full relative precision at any distance, and the curve along its gradient.
 //!
 //! # The problem
 //!
-//! A grid has free cells and walls, and its axes are intervals or circles. The potential of a cell is the probability
-//! that a random walk from it reaches a goal before it reaches a wall or crosses a limit. It is 1 at the goals, 0 at
-//! walls, and elsewhere the mean of the four neighbours.
+//! A grid has free cells and walls, and its axes are intervals or circles. The potential of a cell is the probability that a
+//! random walk from it reaches a goal before it reaches a wall or crosses a limit. It is 1 at the goals, 0 at walls, and
+//! elsewhere the mean of the four neighbours.
 //!
-//! The potential has no local maximum except the goals, so steepest ascent leads to a goal from everywhere (Connolly,
-//! Grupen 1993). But it falls by a factor of 3.7 per cell in a narrow corridor, soon far below the range of doubles.
-//! Usual solvers find 0 there, and no path. Here each value has its own exponent and the precision of a double, even at
-//! `1e-50000`.
+//! The potential has no local maximum except the goals, so steepest ascent leads to a goal from everywhere (Connolly, Grupen
+//! 1993). But it falls by a factor of 3.7 per cell in a narrow corridor, soon far below the range of doubles. Usual solvers find
+//! 0 there, and no path. Here each value has its own exponent and the precision of a double, even at `1e-50000`.
 //!
 //! ```
 //! use cplan_harmonic::follow::follow;
@@ -44,16 +42,15 @@
 //!
 //! # Cost and guarantees
 //!
-//! - Linear in the number of cells, independent of the values: about 300 ns per cell in mazes and corridors. Wide rooms
-//!   cost a few solves by [`Multigrid`](cplan_multigrid::Multigrid).
+//! - Linear in the number of cells, independent of the values: about 300 ns per cell in mazes and corridors. Wide rooms cost a
+//!   few solves by [`Multigrid`](cplan_multigrid::Multigrid).
 //! - Each value agrees with the one that its neighbours imply to 64 relative roundings ([`residual`]).
-//! - Every cell except the goals has a strictly greater neighbour, compared exactly ([`Potential::navigates`]). This
-//!   also holds where symmetry makes the harmonic function level, because each step of a walk ends with probability
-//!   `3e-14`. That exceeds all rounding, and lowers a value ten million steps away by less than a millionth.
-//! - [`follow`](follow::follow) stays in free cells and ends at a goal: if the gradient leads nowhere, it moves from cell
+//! - Every cell except the goals has a strictly greater neighbour, compared exactly ([`Potential::navigates`]). This holds even
+//!   where symmetry makes the harmonic function level, because at each step a walk ends with probability `3e-14`. That exceeds
+//!   all rounding errors, and lowers a value ten million steps away by less than a millionth.
+//! - [`follow`](follow::follow) stays in free cells and ends at a goal: where the gradient does not lead on, it moves from cell
 //!   to cell. It works with any field that implements [`Guide`](follow::Guide).
-//! - The same input gives the same bits. Long solves can be interrupted: they pass a
-//!   [`checkpoint`](cplan_interrupt::checkpoint).
+//! - The same input gives the same bits. Long solves can be interrupted: they pass a [`checkpoint`](cplan_interrupt::checkpoint).
 //!
 //! # Method
 //!
@@ -62,15 +59,15 @@
 //!         -> Potential -> its slope at the cells' centres (streamline), for `follow`
 //! ```
 //!
-//! The potential is solved in *windows* in order of falling values (`peeling`), each scaled to its own greatest value.
-//! Except in mazes, a single window has all cells.
+//! The potential is solved in *windows* in order of falling values (`peeling`), each scaled to its own greatest value. Except in
+//! mazes, a single window has all cells.
 //!
-//! For each cell of a window, the solver also computes the probability that a walk leaves the window where it was cut
-//! off. This bounds the missing part of the cell's value. Only values with a negligible missing part are accepted.
+//! For each cell of a window, the solver also computes the probability that a walk leaves the window where it was cut off. This
+//! bounds the part that is missing in the cell's value. Only values with a negligible missing part are accepted.
 //!
-//! Narrow windows are eliminated without subtractions (`network`). Wide ones are solved by multigrid and refined until
-//! each value agrees with its neighbours to 64 relative roundings (`wide`). Each cell that exceeds a quarter of this is
-//! corrected, so rounding cannot push a cell across the bound.
+//! Narrow windows are eliminated without subtractions (`network`). Wide ones are solved by multigrid and refined until each value
+//! agrees with its neighbours to 64 relative roundings (`wide`). All cells above a quarter of this are corrected, so that
+//! rounding cannot push a cell across the bound.
 #![forbid(unsafe_code)]
 
 mod component;

@@ -9,19 +9,18 @@ const NO_LINK: u32 = u32::MAX;
 /// Number of right-hand sides that are solved together.
 pub(super) const RIGHT_SIDES: usize = 2;
 
-/// The remaining nodes are solved as a dense matrix when their number is at most this multiple of the least number of
-/// links of a node.
+/// The remaining nodes are solved as a dense matrix once their number is at most this multiple of the least number of links of a
+/// node.
 const DENSE_RATIO: usize = 4;
 
-/// A system of equations `(ground + sum of weights) u = source + sum of weight * neighbour's u`, one for each node. Its
-/// solution is the potentials in a network of conductances. `ground` is the conductance to known potentials.
-/// The network is eliminated by Gauss's algorithm in the form of Grassmann, Taksar and Heyman (1985): a pivot is the
-/// sum of the weights that lead away from the node. The algorithm only adds, multiplies and divides non-negative
-/// numbers. So every unknown has a relative error of a few roundings per node on which it depends, however small it is
-/// (O'Cinneide 1993).
+/// A system of equations `(ground + sum of weights) u = source + sum of weight * neighbour's u`, one for each node. Its solution
+/// is the potentials in a network of conductances, where `ground` is the conductance to known potentials. The network is
+/// eliminated by Gauss's algorithm in the form of Grassmann, Taksar and Heyman (1985), in which a pivot is the sum of the weights
+/// that lead away from the node. It only adds, multiplies and divides non-negative numbers. So every unknown has a relative error
+/// of a few roundings per node on which it depends, however small it is (O'Cinneide 1993).
 #[derive(Debug, Clone, Default)]
 pub(super) struct Network {
-    /// First link of each node. The links of an eliminated node lead to nodes that remained when it was eliminated.
+    /// First link of each node. The links of an eliminated node lead to the nodes that remained when it was eliminated.
     first: Vec<u32>,
     degree: Vec<u32>,
     ground: Vec<f64>,
@@ -51,8 +50,8 @@ impl Network {
         }
     }
 
-    /// Joins a node to known potentials. `weight` is the sum of the conductances, and `source` the sum of the
-    /// potentials times their conductances, for each right-hand side.
+    /// Joins a node to known potentials. `weight` is the sum of the conductances. `source` is, for each right-hand side, the sum
+    /// of the products of potential and conductance.
     pub fn ground(&mut self, node: usize, weight: f64, source: [f64; RIGHT_SIDES]) {
         self.ground[node] += weight;
         for (sum, source) in self.source[node].iter_mut().zip(source) {
@@ -88,8 +87,8 @@ impl Network {
         self.degree[node] += 1;
     }
 
-    /// Returns the unknowns. Nodes are eliminated in order of least degree, which costs a constant time per node in
-    /// trees and corridors. [`super::peeling`] gives wide rooms to another solver.
+    /// Returns the unknowns. Nodes are eliminated in order of least degree, which in trees and corridors costs a constant time
+    /// per node. For wide rooms, [`super::peeling`] uses another solver.
     pub fn solve(mut self) -> Vec<[f64; RIGHT_SIDES]> {
         let order = self.eliminate();
         let mut solution = vec![[0.0; RIGHT_SIDES]; self.first.len()];
@@ -152,8 +151,7 @@ impl Network {
         }
     }
 
-    /// Eliminates nodes until the remaining ones are mostly linked with each other. Returns the eliminated nodes in
-    /// order.
+    /// Eliminates nodes until most of the remaining ones are linked with each other. Returns the eliminated nodes in order.
     fn eliminate(&mut self) -> Vec<u32> {
         let nodes = self.first.len();
         let mut order = Vec::with_capacity(nodes);
@@ -223,7 +221,7 @@ impl Network {
         order
     }
 
-    /// Removes the link from `node` to `gone`. Records in `slot` the places of the node's other links.
+    /// Removes the link from `node` to `gone`. Records the places of the node's other links in `slot`.
     fn unlink(&mut self, node: usize, gone: u32, slot: &mut [u32]) {
         let (mut before, mut at) = (NO_LINK, self.first[node]);
         while at != NO_LINK {

@@ -1,16 +1,15 @@
 //! Computes the harmonic potential in windows, in order of falling values.
 //!
-//! Initially only the goals are known. A *window* consists of the unknown cells next to known ones, down to an
-//! estimated depth. Its equations are solved in doubles, scaled to the greatest known value around it, as if the
-//! potential were 0 beyond it.
+//! Initially, only the goals are known. A *window* has the unknown cells next to known ones, down to an estimated depth. Its
+//! equations are solved in doubles, scaled to the greatest known value around it, as if the potential were 0 beyond it.
 //!
-//! For each cell, the solver also computes the probability that a walk leaves the window where it was cut off. The
-//! maximum principle bounds the potential there, and so the missing part of each value. Values whose missing part is
-//! below the precision of a double are accepted. Errors add up but are not magnified, because each value is a sum of
-//! known values with positive weights.
+//! For each cell, the solver also computes the probability that a walk leaves the window where it was cut off. The maximum
+//! principle bounds the potential there, and thus the missing part of each value. Values whose missing part is below the
+//! precision of a double are accepted. Errors add up but are not magnified, because each value is a sum of known values with
+//! positive weights.
 //!
-//! On average every cell is in about two windows, so the cost is linear in the number of cells, independent of the
-//! values. If no path is long, the first window covers everything and is usually the last.
+//! On average, every cell is in about two windows, so the cost is linear in the number of cells, whatever the values. If no path
+//! is long, the first window covers all cells and is usually the only one.
 
 use super::extent::Bounds;
 use super::laplace::decay;
@@ -25,32 +24,31 @@ use std::f64::consts::LN_2;
 /// Value of [`Peeling::number`] for a cell that is in no window.
 const NO_WINDOW: u32 = u32::MAX;
 
-/// Estimated depth of a window: by how many nepers (natural logarithm) the potential falls inside it.
+/// Estimated depth of a window: the fall of the potential inside it, in nepers (natural logarithm).
 const WINDOW_DEPTH: f64 = 64.0;
 
-/// Greatest part of an accepted value, as a fraction of it, that the cells beyond the window may contribute. The
-/// window's equations do not contain this part.
+/// A value is accepted if cells beyond the window, which are missing in the window's equations, contribute at most this fraction
+/// of it.
 const NEGLIGIBLE_SHARE: f64 = f64::EPSILON / 4.0;
 
-/// Least value that is accepted from a window, as a fraction of the greatest value next to the window. Smaller values
-/// wait for a later window, in which they are relatively large. The limit is far above the least double.
+/// Least accepted value of a window, as a fraction of the greatest value next to the window. Smaller values wait for a later
+/// window, in which they are relatively large. The limit is far above the least double.
 const MIN_VALUE_SHARE: f64 = 1e-200;
 
-/// Greatest room (`Room::widest`) of a window that counts as a maze. Mazes are solved by elimination.
+/// Greatest room (`Room::widest`) of a window that counts as a maze, which is solved by elimination.
 const MAX_MAZE_ROOM: u32 = 3;
 /// Greatest room of a window that counts as a corridor, which is solved by elimination if it has few cells. The cost of
 /// elimination grows with the square of the width.
 const MAX_CORRIDOR_ROOM: u32 = 12;
-/// Largest number of cells for which a window is always solved by elimination.
+/// A window with at most this number of cells is always solved by elimination.
 const SMALL_WINDOW_CELLS: usize = 2000;
-/// Largest additional number of cells of a corridor, as a multiple of its squared room. A corridor is twice as wide as
-/// its room, and its window is 41 times as long as the room.
+/// Largest number of further cells of a corridor, as a multiple of its squared room. A corridor is twice as wide as its room, and
+/// its window is 41 times as long as the room.
 const CORRIDOR_CELLS_PER_ROOM: usize = 128;
 
-/// Least value that is refined in a wide window, as a fraction of the greatest value next to the window.
+/// Least value of a wide window that is refined, as a fraction of the greatest value next to the window.
 const REFINEMENT_FLOOR: f64 = 1e-36;
-/// Least value that is accepted from a wide window after refinement, as a fraction of the greatest value next to the
-/// window.
+/// Least value of a wide window that is accepted after refinement, as a fraction of the greatest value next to the window.
 const PRECISE_SHARE: f64 = 1e-30;
 
 /// The part of the potential that is known so far.
@@ -58,14 +56,14 @@ pub(super) struct Peeling<'a> {
     component: &'a Component,
     /// Weight with which a walk ends at each step; each neighbour has the weight 1.
     loss: f64,
-    /// Estimated fall of the potential per cell, nepers. The index is the room around the cell.
+    /// Estimated fall of the potential per cell, in nepers, for each room around the cell.
     decay: Vec<f64>,
     /// Room of each position. Empty until the first window is gathered.
     room: Vec<u32>,
     pub potential: Potential,
     /// Number of unknown positions.
     unknown: usize,
-    /// Accepted positions that may have unknown neighbours, the greatest value first. Keys are negated binary
+    /// Accepted positions that may have unknown neighbours, those with the greatest values first. Keys are negated binary
     /// logarithms of the values.
     front: OpenList<u32>,
     /// Number of each position within the window, or [`NO_WINDOW`]. Empty until the first window is gathered.
@@ -82,7 +80,7 @@ struct Window {
     sources: Vec<u32>,
     /// Common exponent of the numbers in the window's equations.
     exponent: i32,
-    /// True if unknown cells next to the window are not part of it.
+    /// True if unknown cells next to the window do not belong to it.
     cut: bool,
     /// Greatest accepted value next to unknown cells beyond the window.
     beside: f64,
@@ -90,7 +88,7 @@ struct Window {
     greatest: f64,
 }
 
-/// Number of cells that are processed between two checkpoints. This takes less than a millisecond.
+/// Number of cells between two checkpoints. They take less than a millisecond.
 const CELLS_BETWEEN_CHECKPOINTS: usize = 4096;
 
 impl<'a> Peeling<'a> {
@@ -120,7 +118,7 @@ impl<'a> Peeling<'a> {
         self.run_until(None)
     }
 
-    /// Computes at least the values that steepest ascent from a position reads.
+    /// Computes at least those values that steepest ascent from a position reads.
     pub fn run_to(self, position: usize) -> Self {
         if self.is_known(position) { self } else { self.run_until(Some(position)) }
     }
@@ -175,8 +173,8 @@ impl<'a> Peeling<'a> {
         path.is_some_and(|path| path.iter().all(|&at| at < self.component.goals || !self.is_front(at)))
     }
 
-    /// Solves all unknown cells as one window that is not cut off. If `last` is given, values below the value at `last`
-    /// need not be precise. Works row by row in grid order, without a list of cells.
+    /// Solves all unknown cells as one window without a cut. If `last` is given, values below that at `last` need not be precise.
+    /// Works row by row in the order of the grid, without a list of cells.
     fn solve_whole(&mut self, last: Option<usize>) {
         let component = self.component;
         let cells = component.goals as u32..component.len() as u32;
@@ -236,7 +234,7 @@ impl<'a> Peeling<'a> {
         self.free_neighbors(position).any(|n| !self.is_known(n))
     }
 
-    /// Gathers the unknown cells around the greatest accepted values. Returns `None` if no cells remain.
+    /// Gathers the unknown cells around the greatest accepted values. `None` if no cells remain.
     fn gather(&mut self) -> Option<Window> {
         while self.front.peek().is_some_and(|(_, &position)| !self.is_front(position as usize)) {
             self.front.pop();
@@ -247,7 +245,7 @@ impl<'a> Peeling<'a> {
         let mut sources = Vec::new();
         let mut cells: Vec<u32> = Vec::new();
         let (mut beside, mut cut) = (0.0_f64, false);
-        // Cells to continue from, by depth in whole nepers.
+        // Cells from which to continue, by depth in whole nepers.
         let mut waiting: Vec<Vec<(f64, u32)>> = vec![Vec::new(); self.depth.ceil() as usize + 1];
         while let Some((below, &position)) = self.front.peek() {
             let depth = (below - top) * LN_2;
@@ -344,10 +342,9 @@ impl<'a> Peeling<'a> {
         Some(wide)
     }
 
-    /// Accepts the values that do not depend noticeably on cells beyond the window. Returns the number of accepted
-    /// values.
+    /// Accepts the values that do not depend noticeably on cells beyond the window, and returns their number.
     fn accept(&mut self, window: &Window, solution: impl Fn(usize) -> [f64; RIGHT_SIDES], least: f64) -> usize {
-        // Values beyond are at most the greatest of those next to them. Those are known values, or values of the
+        // Values beyond the window are at most the greatest of those next to them. These are known values, or values of the
         // window, which are at most their value here plus their share of the values beyond.
         let mut beyond = window.beside;
         let (mut value, mut share) = (0.0_f64, 0.0_f64);
@@ -381,12 +378,11 @@ impl<'a> Peeling<'a> {
         taken
     }
 
-    /// Queues a position if the next window may start there: if its value is known, and the value of a neighbour is
-    /// unknown.
+    /// Queues a position if the next window may start there: its value is known, and that of a neighbour is not.
     fn push_front(&mut self, position: u32) {
         if self.is_known(position as usize) && self.is_front(position as usize) {
             let log2 = self.potential.at(position as usize).log2();
-            // Subtract from 0 so that zero keeps its sign.
+            // Subtracting from 0 keeps the sign of zero.
             self.front.push(0.0 - log2, position);
         }
     }

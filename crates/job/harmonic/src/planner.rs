@@ -7,14 +7,14 @@ use cplan_planners::planner::attach::JoinedQuery;
 use cplan_planners::planner::grid_path::{Place, cell};
 use cplan_planners::planner::{FieldQuantity, FieldValues, PathKind, Planner, Proposal, Query, Run, Size, Trace};
 
-/// Solves Laplace's equation on the cells connected with the goal, and follows the solution's gradient upwards, as
-/// interpolated between the cells (Connolly, Grupen 1993; [`follow`]). The value is 1 at the goals and 0 on
-/// obstacles and beyond limits; on circles it is periodic.
+/// Solves Laplace's equation on the cells connected with the goal, and follows the solution's gradient upwards, as interpolated
+/// between the cells (Connolly, Grupen 1993; [`follow`]). The value is 1 at the goals and 0 on obstacles and beyond limits; on
+/// circles it is periodic.
 ///
 /// [`follow`]: crate::follow::follow()
 ///
-/// Complete on the grid: the only local maxima of the field are the goals, even in long corridors (see
-/// [`harmonic()`]). So if no path is found, no path exists between the cells.
+/// Complete on the grid: the only local maxima of the field are the goals, even in long corridors (see [`harmonic()`]). So if it
+/// finds no path, there is none between free cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Harmonic {
     /// The kind of path. [`PathKind::Own`] is the curve along the gradient.
@@ -52,7 +52,7 @@ impl Planner for Harmonic {
         checkpoint();
         let component = Component::new(map, wave);
         let cells = component.len();
-        // The cell of the start that is nearest to it among those that the wave reached.
+        // Of the cells that the wave reached, the one nearest to the start.
         let Some(start) = joined.start.cells.iter().find_map(|&cell| component.position_of(cell)) else {
             let values = FieldValues::computed_by(move || logarithms(&component, &estimated_harmonic(&component)));
             return ended(Proposal::NoPath, (FieldQuantity::EstimatedLogarithm, values), cells, 0);

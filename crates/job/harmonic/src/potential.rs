@@ -2,21 +2,20 @@
 
 use super::Component;
 
-/// Binary logarithm of the base of exponents. The base is so large that neighbours mostly have the same exponent, and
-/// can be averaged as plain doubles.
+/// Binary logarithm of the base of exponents. The base is so large that neighbours usually have the same exponent and can be
+/// averaged as plain doubles.
 const EXPONENT_STEP: i32 = 256;
 /// Factor `2^-EXPONENT_STEP`, which lowers the exponent by 1.
 const STEP_DOWN: f64 = f64::from_bits(((1023 - EXPONENT_STEP) as u64) << 52);
 /// Factor `2^EXPONENT_STEP`, which raises the exponent by 1.
 const STEP_UP: f64 = f64::from_bits(((1023 + EXPONENT_STEP) as u64) << 52);
-/// Least mantissa of a normalized number; the greatest is its reciprocal, `2^192`. This range is wider than the base,
-/// so values near a boundary do not alternate between two exponents. Products and sums of several cells stay within the
-/// range of doubles.
+/// Least mantissa of a normalised number. The greatest is its reciprocal, `2^192`. This range is wider than the base, so values
+/// near a boundary do not alternate between two exponents. Products and sums of several cells stay within the range of doubles.
 const MIN_MANTISSA: f64 = f64::from_bits((1023 - 192) << 52);
 const MAX_MANTISSA: f64 = f64::from_bits((1023 + 192) << 52);
 
-/// A positive number `mantissa * 2^(256 exponent)`. A harmonic potential falls to about a quarter per cell in a narrow
-/// corridor, so doubles would underflow after 540 cells. These numbers do not underflow within 10^9 cells.
+/// A positive number `mantissa * 2^(256 exponent)`. In a narrow corridor, a harmonic potential falls to about a quarter per cell,
+/// so doubles would underflow after 540 cells. These numbers do not underflow within 10^9 cells.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct ScaledNumber {
     pub mantissa: f64,
@@ -24,7 +23,7 @@ pub(super) struct ScaledNumber {
 }
 
 impl ScaledNumber {
-    /// Returns the same number with a mantissa in `2^-192 ..= 2^192`, by the least change of exponent.
+    /// Returns the same number with a mantissa in `2^-192 ..= 2^192`, with the least change of exponent.
     pub fn normalized(mut self) -> Self {
         while self.mantissa < MIN_MANTISSA {
             self.mantissa *= STEP_UP;
@@ -48,8 +47,8 @@ impl ScaledNumber {
         Self { mantissa: (log2 - exponent * f64::from(EXPONENT_STEP)).exp2(), exponent: exponent as i32 }
     }
 
-    /// Returns the mantissa for `exponent`. It is 0 or `2^704` if the number is too small or too great beside numbers
-    /// of that exponent.
+    /// Returns the mantissa for `exponent`: 0 or `2^704` if the number is too small or too large beside numbers with that
+    /// exponent.
     pub fn mantissa_at(self, exponent: i32) -> f64 {
         match exponent.saturating_sub(self.exponent) {
             ..=-2 => MAX_MANTISSA * STEP_UP * STEP_UP,
@@ -126,14 +125,14 @@ impl Potential {
             .fold(None, |best, n| if self.is_greater(n, best.unwrap_or(position)) { Some(n) } else { best })
     }
 
-    /// Returns true if every cell except the goals has a strictly greater neighbour. Steepest ascent then leads to a
-    /// goal from everywhere. Linear.
+    /// Returns true if every cell except the goals has a strictly greater neighbour, so that steepest ascent leads to a goal from
+    /// everywhere. Linear.
     pub fn navigates(&self, component: &Component) -> bool {
         (component.goals..component.len()).all(|i| component.neighbors(i).into_iter().any(|n| self.is_greater(n, i)))
     }
 
-    /// Returns the positions from `from` to a goal by steepest ascent. Returns `None` if it ends in a local maximum,
-    /// which [`Potential::navigates`] excludes.
+    /// Returns the positions from `from` to a goal by steepest ascent. `None` if it ends in a local maximum, which
+    /// [`Potential::navigates`] excludes.
     pub fn ascend(&self, component: &Component, from: usize) -> Option<Vec<usize>> {
         let mut positions = vec![from];
         let mut at = from;

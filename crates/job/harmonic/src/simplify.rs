@@ -4,9 +4,8 @@ use cplan_planners::cspace::Grid;
 use cplan_planners::planner::grid_path::Line;
 use cplan_planners::planner::shortcut::{fewer_points, is_clear};
 
-/// Returns a line through some of the points of a line, its ends included. Each omitted point is within `tolerance` (in
-/// cells) of the segment that replaces it. New segments pass only through free cells. Takes about `n log n` distances
-/// for `n` points.
+/// Returns a line through some of the points of a line, including its ends. Each omitted point is within `tolerance` (in cells)
+/// of the segment that replaces it. New segments pass only through free cells. Computes about `n log n` distances for `n` points.
 pub(crate) fn simplified(grid: &Grid, line: &[[f64; 2]], tolerance: f64) -> Line {
     fewer_points(line, |from, to| {
         let (a, b) = (line[from], line[to]);

@@ -12,8 +12,8 @@ pub struct PotentialGuide<'a, F> {
     at: F,
 }
 
-/// The reason why a curve ends: a cell that is not a goal has no greater neighbour. This does not occur if the
-/// potential [navigates](Potential::navigates).
+/// The reason why a curve ends: a cell that is no goal has no greater neighbour. Impossible if the potential
+/// [navigates](Potential::navigates).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct LocalMaximum {
     /// Position of the cell.
@@ -40,8 +40,7 @@ impl<F: Fn(Place) -> Option<usize>> Guide for PotentialGuide<'_, F> {
     fn slope(&self, place: Place) -> Option<[f64; 2]> {
         let position = (self.at)(place).filter(|&position| position >= self.component.goals)?;
         let here = self.potential.at(position);
-        // Convert to doubles with a common scale, so that quotients are correct for numbers outside the range of
-        // doubles.
+        // Doubles with a common scale, so that quotients are correct for numbers outside the range of doubles.
         let around = self.component.neighbors(position).map(|n| self.potential.at(n));
         let [down, up, left, right] = around
             .map(|value| if value.mantissa == 0.0 { 0.0 } else { value.mantissa_at(here.exponent) / here.mantissa });

@@ -1,22 +1,21 @@
 //! Solves wide windows by multigrid, and refines the solution until every value has its relative precision.
 //!
-//! A solve leaves an error that is small compared with the greatest value. The residual, in contrast, is known at each
-//! cell to a few roundings of the values *there*, because it is a sum of differences of neighbours. So the same solver
-//! computes another correction, with zero residuals at cells that are already settled. Each round lowers the greatest
-//! remaining residual, and with it the error, by several digits, down to a floor.
+//! A solve leaves an error that is small compared with the greatest value. The residual, in contrast, is accurate to a few
+//! roundings of the values *at the cell*, because it is a sum of differences of neighbours. So the same solver computes further
+//! corrections, with zero residuals at cells that are already settled. Each round lowers the greatest remaining residual, and
+//! with it the error, by several digits, down to a floor.
 
 use super::extent::Extent;
 use super::network::RIGHT_SIDES;
 use cplan_multigrid::{Ends, Multigrid, Workspace};
 
-/// Relative residual below which a value is precise. A walk loses a quarter of [`WALK_LOSS`](super::laplace::WALK_LOSS)
-/// per step. The limit is half of that, so the loss is greater than the residual, and it is many times greater than
-/// rounding.
+/// A value is precise if its relative residual is below this. A walk loses a quarter of [`WALK_LOSS`](super::laplace::WALK_LOSS)
+/// per step. This is half of that, so the loss exceeds the residual, and many times the rounding error.
 const PRECISE_RESIDUAL: f64 = 64.0 * f64::EPSILON;
 
-/// Relative residual below which a cell needs no correction. Rounding of a correction is about 2 units in the last
-/// place, far less than the difference to [`PRECISE_RESIDUAL`]. If the two limits were equal, each round would move
-/// some of the many cells just below the limit across it, and windows of 10^5 cells would never converge.
+/// A cell with a smaller relative residual needs no correction. The rounding error of a correction is about 2 units in the last
+/// place, far less than the difference from [`PRECISE_RESIDUAL`]. If both limits were equal, each round would move some of the
+/// many cells just below the limit across it, and windows of 10^5 cells would never converge.
 const SETTLED_RESIDUAL: f64 = PRECISE_RESIDUAL / 4.0;
 
 /// The equations `(4 + loss) u = source + sum of the neighbours' u` for the unknowns in a box of cells. Other cells of
@@ -28,19 +27,18 @@ pub(super) struct WideSystem {
     loss: f64,
     /// True at the places in the box that are unknowns.
     free: Vec<bool>,
-    /// The known values that enter the equations. An entry has an unknown beside known values, and a sum over these
-    /// neighbours. In the first list, it is the sum of the potential. In the second, each neighbour beyond the cut of
-    /// the window counts 1.
+    /// The known values that enter the equations. An entry has an unknown next to known values, and a sum over these neighbours:
+    /// in the first list, the sum of their potentials; in the second, the number of neighbours beyond the cut of the window.
     sources: [Vec<(u32, f64)>; RIGHT_SIDES],
 }
 
-/// The solutions for both right-hand sides at each place in the box. A solution that is 0 everywhere is an empty list.
+/// The solutions for both right-hand sides at each place in the box. An empty list stands for zeros everywhere.
 pub(super) struct Values([Vec<f64>; RIGHT_SIDES]);
 
-/// Error up to which a round solves, relative to the greatest correction. In single precision, a few steps reach it.
+/// A round solves up to this error, relative to the greatest correction. In single precision, this takes a few steps.
 const ROUND_ERROR: f64 = 1e-8;
 
-/// Largest number of rounds of refinement. Each round gains several digits, and at most 36 are needed.
+/// Largest number of rounds of refinement. Each gains several digits, and at most 36 are needed.
 const MAX_ROUNDS: usize = 24;
 
 /// Assumed error of the solution for the second right-hand side, which is not refined. It exceeds the error of a round.
@@ -74,9 +72,9 @@ impl WideSystem {
         }
     }
 
-    /// Solves for both right-hand sides. The first solution is precise down to `floor`, or down to its value at the
-    /// place `above` if that is given and greater. The second has an absolute error of at most [`SHARE_ERROR`]. Returns
-    /// `None` if the refinement does not converge.
+    /// Solves for both right-hand sides. The first solution is precise down to `floor`, or down to its value at the place `above`
+    /// if that is given and greater. The second has an absolute error of at most [`SHARE_ERROR`]. `None` if the refinement does
+    /// not converge.
     pub fn solve(&self, floor: f64, above: Option<usize>) -> Option<Values> {
         let inner = Multigrid::new(self.extent.cells, self.extent.ends, &self.free, 0.0);
         let mut workspace = inner.workspace();
@@ -91,8 +89,8 @@ impl WideSystem {
         [u.get(at).copied().unwrap_or(0.0), e.get(at).copied().unwrap_or(0.0) + SHARE_ERROR]
     }
 
-    /// Solves for one right-hand side, at all places in the box. The solution is precise down to `floor`. Returns
-    /// `None` if the refinement does not converge.
+    /// Solves for one right-hand side, at all places in the box. The solution is precise down to `floor`. `None` if the
+    /// refinement does not converge.
     fn side(
         &self,
         side: usize,
@@ -127,14 +125,14 @@ impl WideSystem {
         None
     }
 
-    /// Writes the residual of the solution `x`, with 0 at values that need no correction. Returns true if all values
-    /// are precise.
+    /// Computes the residual of the solution `x`, with 0 at values that need no correction. Returns true if all values are
+    /// precise.
     fn residual(&self, x: &[f64], floor: f64, residual: &mut [f64]) -> bool {
         let Extent { cells: [rows, columns], ends, .. } = self.extent;
         let joined = ends.map(|ends| ends == Ends::Joined);
         let nothing = vec![0.0; columns];
         let row = |i: Option<usize>| i.map_or(&nothing[..], |i| &x[i * columns..(i + 1) * columns]);
-        // The row with the previous and the next cell.
+        // The row, with one more cell at either end.
         let mut here = vec![0.0; columns + 2];
         let mut precise = true;
         for i in 0..rows {
@@ -160,8 +158,7 @@ impl WideSystem {
     }
 }
 
-/// Returns a list of zeros that is already written once. If memory is read before it is written, the system must map
-/// its pages twice.
+/// Returns a list of zeros that has been written once. If memory is read before it is written, the system maps its pages twice.
 fn written(len: usize) -> Vec<f64> {
     let mut zeros = Vec::with_capacity(len);
     zeros.resize(len, 0.0);
@@ -177,8 +174,9 @@ fn spread(sources: &[(u32, f64)], to: &mut [f64]) {
 mod tests {
     use super::*;
 
-    /// Tests a straight corridor between walls with the value 1 at its near end. Its potential is the sum of `sin(k pi
-    /// i / (w + 1)) sinh(theta_k (n + 1 - j)) / sinh(theta_k (n + 1))` over `k`; far away only the first term matters.
+    /// Checks a straight corridor between walls with the value 1 at its near end. Its potential is the sum of
+    /// `sin(k pi i / (w + 1)) sinh(theta_k (n + 1 - j)) / sinh(theta_k (n + 1))` over `k`, of which only the first term matters
+    /// far away.
     #[test]
     fn a_long_wide_corridor_is_precise_to_its_far_end() {
         let (w, n) = (50, 1500);

@@ -6,15 +6,14 @@ use super::sequence::Sequence;
 use cplan_model::Outcome;
 use cplan_motion::Timing;
 
-/// The motion that performs all steps of a task in sequence.
+/// The motion that performs all steps of a task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskMotion {
     /// The motions of all steps, joined into one.
     pub sequence: Sequence,
-    /// True if no other choice of IK solutions, turns and order is faster. This holds only for the motions that this
-    /// planner finds.
+    /// True if no other choice of IK solutions, turns and order is faster, among the motions that this planner finds.
     pub exact: bool,
-    /// How the arm passes moving obstacles, with times from the beginning of the task. `None` if there are none.
+    /// How the arm passes moving obstacles, with times from the beginning of the task. `None` if no obstacle moves.
     pub timing: Option<Timing>,
 }
 
@@ -28,13 +27,13 @@ impl TaskMotion {
 /// The outcome of a task, with figures about the search.
 #[derive(Debug, Clone)]
 pub struct TaskAnswer {
-    /// The motion that performs all steps, or the step that fails for all IK solutions and orders. The failure is
-    /// proven (infeasible), or the search merely found no solution (unknown).
+    /// The motion that performs all steps, or the step that fails with all IK solutions and orders. The failure is proven
+    /// (infeasible), or the search merely found no solution (unknown).
     pub outcome: Outcome<TaskMotion, FailedStep, FailedStep>,
-    /// The steps in the order of execution: all of them, or those before the step that fails.
+    /// The steps in the order of execution: all of them, or those before the failed step.
     pub legs: Vec<Leg>,
-    /// Proven lower bound, in seconds, on the duration of every motion that performs the whole task, stops at each
-    /// target, and lowers and raises the tool there.
+    /// Proven lower bound, in seconds, on the duration of every motion that performs the whole task: it stops at each target, and
+    /// lowers and raises the tool there.
     pub lower_bound: f64,
     /// Number of motions that were planned, including those that the answer does not use.
     pub motions: usize,
@@ -53,13 +52,13 @@ impl TaskAnswer {
 
     /// Returns the lower bound on the duration of the task, in seconds. It never exceeds the actual duration.
     pub fn least_seconds(&self) -> f64 {
-        // Without blocking obstacles, both are sums of the same times in different orders, so rounding may make the
-        // bound larger.
+        // Without obstacles in the way, both are sums of the same times in different orders, so rounding may make the bound
+        // larger.
         self.outcome.found().map_or(self.lower_bound, |motion| motion.seconds().min(self.lower_bound))
     }
 
-    /// Returns the largest fraction by which the task may take longer than the fastest solution: `duration /
-    /// lower_bound - 1`. `None` if not all steps are done, or if the bound is 0 and the duration is not.
+    /// Returns an upper bound on the relative excess over the fastest solution: `duration / lower_bound - 1`. `None` if not all
+    /// steps are performed, or if only the bound is 0.
     pub fn gap(&self) -> Option<f64> {
         let (seconds, least) = (self.outcome.found()?.seconds(), self.least_seconds());
         let gap = if seconds == least { 0.0 } else { seconds / least - 1.0 };

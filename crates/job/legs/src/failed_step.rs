@@ -6,44 +6,40 @@ use cplan_model::Scene;
 use cplan_model::space::Configuration;
 use std::sync::Arc;
 
-/// An IK solution at the target of a step that the arm cannot reach, or is not known to reach.
+/// An IK solution at the target of a failed step that the arm cannot reach, or is not known to reach.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RefusedIkSolution {
     /// The values of both joints.
     pub ik_solution: Configuration,
     /// The reason, in words.
     pub reason: String,
-    /// Proof that boxes of colliding configurations separate the solution from the arm's configuration. `None` if the
-    /// reason is another one.
+    /// Proof that collision boxes separate the solution from the arm's configuration. `None` if the reason is another one.
     pub proof: Option<CheckedProof>,
 }
 
-/// A step that cannot be done, or that is not known to be possible. The same then holds in every other order of the
-/// task.
+/// A step that cannot be performed, or is not known to be possible. The same holds in every other order of the task.
 #[derive(Debug, Clone, PartialEq)]
 pub struct FailedStep {
-    /// The first step that cannot be done, in the order in which the most steps can be done before that.
+    /// The step that fails, in the order that allows the most steps before the failure.
     pub step: Step,
-    /// Reasons in words, with the motions that were tried. Some of these motions begin with other IK solutions or other
-    /// grips than those at the end of the answer's steps.
+    /// Reasons in words, for all motions that were tried. Some of these begin with other IK solutions or other grips than those
+    /// at the end of the answer's steps.
     pub reasons: Vec<String>,
-    /// The world after the earlier steps, with the payload of the motion that fails.
+    /// The world after the earlier steps, with the payload of the failing motion.
     pub scene: Arc<Scene>,
     /// The objects that still move by themselves at that time.
     pub moving: Arc<[usize]>,
     /// Configuration of the arm after the earlier steps.
     pub from: Configuration,
-    /// The IK solutions to which motions from there were tried. Empty if no IK solution within the joint limits reaches
-    /// the target.
+    /// The IK solutions of the target that motions from there tried to reach. Empty if no IK solution is within the joint limits.
     pub ik_solutions: Vec<RefusedIkSolution>,
-    /// Standstills before and after the motions that were tried. Before them, the tool is raised. After them, the tool
-    /// is lowered, or objects have changed. A solution with several standstills can be used if one of them is free.
+    /// Standstills before and after the motions that were tried: before them, the tool is raised; after them, it is lowered, or
+    /// objects change. If a solution has several standstills, one free standstill suffices.
     pub standstills: [Vec<Standstill>; 2],
 }
 
-/// A configuration at an end of a motion, with the scenes in which the arm stands still there: while its tool is
-/// lowered, or after objects have changed their places. The obstacles of all scenes have the numbers that they have
-/// during the motion.
+/// A configuration at an end of a motion, with the scenes in which the arm stands still there: while its tool is lowered, or
+/// after objects have changed their places. In all scenes, obstacles have the same numbers as during the motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Standstill {
     /// The configuration.
@@ -55,9 +51,9 @@ pub struct Standstill {
 /// A scene in which the arm stands still.
 #[derive(Debug, Clone, PartialEq)]
 pub struct StandstillScene {
-    /// The time of the scene as a phrase for messages, such as `while the tool is lowered`.
+    /// A phrase for messages that says when the scene applies, such as `while the tool is lowered`.
     pub when: &'static str,
-    /// The arm with its tool at the heights of this time, among the obstacles of this time.
+    /// The arm, with its tool at the heights of that time, among the obstacles of that time.
     pub scene: Scene,
 }
 

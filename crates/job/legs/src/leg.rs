@@ -9,7 +9,7 @@ use cplan_motion::TimedMotion;
 use cplan_motion::recorded::WristTurn;
 use std::sync::Arc;
 
-/// An event at the end of a step's motion, while the tool is lowered.
+/// An event at the end of a step's motion, with the tool lowered.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Event {
     /// The gripper grasps an object.
@@ -35,15 +35,14 @@ impl Event {
     }
 }
 
-/// The arm's actions for one step: a motion from rest to rest, a turn of the wrist or an event if the step needs them,
-/// and a rest.
+/// The arm's actions for one step: a motion from rest to rest, if necessary a turn of the wrist or an event, and a rest.
 ///
 /// - Pick: motion, stroke down, grasp, dwell, stroke up, turn.
 /// - Place: motion, turn, stroke down, release, dwell, stroke up.
 /// - Move: stroke up if the tool is lowered, motion, stroke down if the step asks for it, dwell.
 ///
-/// A turn or a stroke down may begin before the motion ends, and the next motion may begin before a stroke up or a turn
-/// ends: see [`Overlap`].
+/// A turn or a stroke down may begin before the motion ends, and the next motion may begin before a stroke up or a turn ends. See
+/// [`Overlap`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Leg {
     /// The step.
@@ -58,19 +57,19 @@ pub struct Leg {
     pub timed: Arc<TimedMotion>,
     /// Turn of the wrist, and its duration in seconds.
     pub turn: Option<(WristTurn, f64)>,
-    /// Raising of the tool before the motion. `None` unless the tool is lowered where the task or the step before ends.
+    /// Stroke up before the motion. `None` unless the tool is lowered where the task begins or the previous step ends.
     pub raising: Option<ToolStroke>,
-    /// Lowering of the tool, and raising after an event. `None` if the tool stays raised.
+    /// Stroke down, and stroke up after an event. `None` if the tool stays raised.
     pub stroke: Option<ToolStroke>,
-    /// The turn of the wrist to the value of its joint that the step states.
+    /// Turn of the wrist to the joint value that the step states.
     pub wrist: Option<WristMotion>,
-    /// The parts of the motion during which the tool is raised or turned after the step before, or turned or lowered for
+    /// The overlaps of the motion with the stroke up or the turn after the previous step, and with the turn or the stroke down of
     /// this step.
     pub overlap: Overlap,
     /// Proven upper bound on the distance between the tip's path and the line, in metres, if the step follows one.
     pub deviation: Option<f64>,
-    /// Proven upper bound on the difference between the tool's angle and the angle that the line asks for, in radians.
-    /// `None` if the step follows no such line.
+    /// Proven upper bound on the difference between the tool's angle and the angle that the line requires, in radians. `None` if
+    /// the step follows no line with an angle.
     pub tool_deviation: Option<f64>,
     /// The event while the tool is lowered.
     pub event: Option<Event>,
@@ -89,29 +88,28 @@ impl Leg {
         self.begin + self.timed.trajectory.duration()
     }
 
-    /// Returns the time from the end of the motion to the end of the step, when the tool is raised and turned, in
-    /// seconds. The next motion may begin earlier: see [`Overlap::departure`].
+    /// Returns the time, in seconds, from the end of the motion to the end of the step, when the tool is raised and turned. The
+    /// next motion may begin earlier: see [`Overlap::departure`].
     pub fn rest(&self) -> f64 {
         let strokes = if self.event.is_some() { 2.0 } else { 1.0 };
         let waiting = self.wrist.map_or(0.0, |wrist| wrist.waiting);
         self.step.dwell + self.turning() + strokes * self.lowering() - self.overlap.arrival() + waiting
     }
 
-    /// Returns the time from the beginning of the task at which the wrist begins to turn, in seconds. `None` if it does
-    /// not turn.
+    /// Returns the time from the beginning of the task to the beginning of the wrist's turn, in seconds. `None` without a turn.
     pub fn turn_begins(&self) -> Option<f64> {
         let (_, seconds) = self.turn?;
         let is_before = matches!(self.event, Some(Event::Release { .. }));
         Some(if is_before { self.arrival() - self.overlap.arrival() } else { self.end() - seconds })
     }
 
-    /// Returns how long the wrist turns, in seconds.
+    /// Returns the duration of the wrist's turn, in seconds.
     pub fn turning(&self) -> f64 {
         self.turn.map_or(0.0, |(_, seconds)| seconds)
     }
 
-    /// Returns the strokes of the step in chronological order: for each, the time from the beginning of the task at which it
-    /// begins, in seconds, and the joint's values at both ends, in metres.
+    /// Returns the strokes of the step in chronological order. Each has its beginning, in seconds from the beginning of the task,
+    /// and the joint's values at both ends, in metres.
     pub fn strokes(&self) -> Vec<(f64, [f64; 2])> {
         let mut strokes = Vec::new();
         if let Some(ToolStroke { raised, lowered, seconds, .. }) = self.raising {
@@ -128,18 +126,18 @@ impl Leg {
         strokes
     }
 
-    /// Returns the time from the beginning of the raising to the beginning of the motion after it, in seconds. 0 if the
-    /// tool is raised, or if it is raised while the arm already moves.
+    /// Returns the time from the beginning of the stroke up to the beginning of the motion after it, in seconds; 0 if there is no
+    /// such stroke, or if it happens while the arm moves.
     pub fn raising_at_rest(&self) -> f64 {
         self.raising.map_or(0.0, |raising| raising.seconds - self.overlap.raising)
     }
 
-    /// Returns how long the tool takes to go down, in seconds. It takes as long to go up.
+    /// Returns the duration of the stroke down, in seconds. The stroke up takes as long.
     pub fn lowering(&self) -> f64 {
         self.stroke.map_or(0.0, |stroke| stroke.seconds)
     }
 
-    /// Returns the time from the end of the motion to the grasp or release, in seconds. `None` if there is neither.
+    /// Returns the time from the end of the motion to the grasp or release, in seconds. `None` without an event.
     pub fn event_after(&self) -> Option<f64> {
         match self.event? {
             Event::Grasp { .. } => Some(self.lowering() - self.overlap.arrival()),
@@ -147,7 +145,7 @@ impl Leg {
         }
     }
 
-    /// Returns the time from the beginning of the task to the grasp or release, in seconds. `None` if there is neither.
+    /// Returns the time from the beginning of the task to the grasp or release, in seconds. `None` without an event.
     pub fn event_time(&self) -> Option<f64> {
         self.event_after().map(|after| self.arrival() + after)
     }

@@ -1,5 +1,4 @@
-//! The motion of a task, step by step: the answer of every planner of tasks, which results, pictures
-//! and pages read.
+//! The motion of a task, step by step. Every planner of tasks returns it; results, pictures and pages read it.
 //!
 //! - [`Leg`]: the arm's actions for one step, with the motions of the tool's own joints ([`ToolStroke`], [`WristMotion`],
 //!   [`TimedTurn`]) and their [`Overlap`] with the motion of the arm.

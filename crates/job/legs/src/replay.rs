@@ -3,7 +3,7 @@
 use cplan_planners::planner::Trace;
 use cplan_solver::Replay;
 
-/// The replay of a task. A motion that the task repeats occurs only once.
+/// The replay of a task. A repeated motion occurs only once.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TaskReplay {
     /// The different motions.
@@ -17,6 +17,6 @@ pub struct TaskReplay {
 pub struct MotionReplay {
     /// The replay.
     pub replay: Replay,
-    /// The trace, parts of which the replay shows. `None` for a straight motion, which needs no search.
+    /// The trace of which the replay shows parts. `None` for a straight motion, which needs no search.
     pub trace: Option<Trace>,
 }

@@ -1,17 +1,16 @@
-//! Joins the motions of a task to one motion.
+//! Joins the motions of a task into one.
 
 use super::leg::Leg;
 use cplan_motion::Trajectory;
 use std::ops::RangeInclusive;
 
-/// The whole motion of a task, including the rests at the ends of steps and before the first one.
+/// The whole motion of a task, with the rests at the ends of steps and before the first one.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Sequence {
     /// All motions in sequence.
     pub trajectory: Trajectory,
-    /// For each step, the range of its samples in the trajectory, from the beginning to the end of its motion. The
-    /// range begins with the last sample of the step before, or with the next sample if the arm stands still in
-    /// between.
+    /// For each step, the range of its samples in the trajectory, from the beginning to the end of its motion. The range begins
+    /// with the last sample of the previous step, or with the next sample if the arm stands still in between.
     pub samples: Vec<RangeInclusive<usize>>,
 }
 
@@ -32,7 +31,7 @@ impl Sequence {
             rest = leg.rest();
         }
         sequence.trajectory.append_rest(rest);
-        // Only some motions have the values of a wrist; messages and steps have them.
+        // Only some motions have the values of a wrist. All of these values are in messages and steps.
         sequence.trajectory.wrist.clear();
         sequence
     }
@@ -45,8 +44,8 @@ impl Sequence {
         [time(*self.samples[step].start()), time(*self.samples[step].end()), end]
     }
 
-    /// Returns, for each sample, the index of the step to which the interval from this sample to the next one belongs.
-    /// While the arm stands still, this is the step that has just been done.
+    /// Returns, for each sample, the index of the step to which the interval until the next sample belongs. While the arm stands
+    /// still, it is the step that has just ended.
     pub fn steps(&self) -> Vec<usize> {
         let mut steps = Vec::with_capacity(self.trajectory.time.len());
         for step in 0..self.samples.len() {

@@ -1,4 +1,4 @@
-//! Orientations of payloads that the wrist turns, against time.
+//! Orientations, over time, of payloads that the wrist turns.
 
 use super::leg::{Event, Leg};
 use cplan_handling::Task;
@@ -9,14 +9,14 @@ use cplan_motion::recorded::{turn_angle, turn_profile};
 pub struct TimedTurn {
     /// The index of the object in the task.
     pub object: usize,
-    /// Times between which the object's orientation may differ from its orientation in the scenes of the motions, in
-    /// seconds: from the grasp to the end of the turn, or from the beginning of the turn to the release.
+    /// Times, in seconds, between which the object's orientation may differ from that in the scenes of the motions: from the
+    /// grasp to the end of the turn, or from the beginning of the turn to the release.
     pub span: [f64; 2],
     /// Time at which the turn begins, in seconds.
     pub begin: f64,
     /// The object's orientations at both ends, in radians, without wrapping.
     pub ends: [f64; 2],
-    /// Seconds since the beginning, angle so far and speed at the ends of phases of constant jerk.
+    /// Ends of phases of constant jerk: seconds since the beginning, angle so far and speed.
     pub phases: Vec<[f64; 3]>,
 }
 
@@ -38,7 +38,7 @@ impl TimedTurn {
         turn_angle(&self.phases, self.ends, time - self.begin)
     }
 
-    /// Returns the orientation that an object has at a time because of one of these turns. `None` outside their spans.
+    /// Returns the orientation of an object at a time during one of these turns. `None` outside their spans.
     pub fn angle_of(turns: &[Self], object: usize, time: f64) -> Option<f64> {
         let turn = turns.iter().find(|turn| turn.object == object && turn.span[0] <= time && time <= turn.span[1])?;
         Some(turn.angle(time))

@@ -3,22 +3,22 @@
 use cplan_handling::Wrist;
 use cplan_motion::single;
 
-/// A stroke of the tool. At a pick or a place, the tool is lowered, the gripper acts, and the tool is raised. At the end of
-/// a move it is only lowered, and at the beginning of a motion only raised.
+/// A stroke of the tool. At a pick or a place, the tool is lowered, the gripper acts, and the tool is raised. At the end of a
+/// move, it is only lowered; at the beginning of a motion, only raised.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ToolStroke {
     /// The joint's value while the tool is raised, in metres.
     pub raised: f64,
     /// The joint's value while the tool is lowered, in metres.
     pub lowered: f64,
-    /// Time for lowering the tool, in seconds, rounded to whole nanoseconds. Raising it takes as long.
+    /// Duration of the stroke down, in seconds, rounded to whole nanoseconds. The stroke up takes as long.
     pub seconds: f64,
     /// Proven lower bound on the distance to obstacles during the stroke, in metres. Infinite if no obstacle is within
     /// reach.
     pub clearance: f64,
 }
 
-/// The parts of a motion during which the tool is raised or turned after the last step, or turned or lowered for the next
+/// The overlaps of a motion with the stroke up or the turn after the last step, and with the turn or the stroke down of the next
 /// one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Overlap {
@@ -32,11 +32,10 @@ pub struct Overlap {
     /// Time from the beginning of the turn before a place to the arrival of the arm, in seconds. The tool is lowered
     /// after the turn.
     pub turn_before_arrival: f64,
-    /// Duration of the turn, in seconds, if it overlaps with the motion. It may be longer than at rest, because the wrist
-    /// also compensates the rotation of link 2.
+    /// Duration of the turn, in seconds, if it overlaps with the motion. It may be longer than at rest, because the wrist also
+    /// compensates the rotation of link 2.
     pub turn_seconds: Option<f64>,
-    /// Proven lower bound on the distance to obstacles during all of them, in metres. Infinite if no obstacle is within
-    /// reach.
+    /// Proven lower bound on the distance to obstacles during these overlaps, in metres. Infinite if no obstacle is within reach.
     pub clearance: f64,
 }
 
@@ -67,8 +66,8 @@ impl Overlap {
     }
 }
 
-/// A turn of the wrist from the start to the goal of a task with a single move. The shapes that the wrist turns count as
-/// the discs that they sweep, so it may turn at any time.
+/// A turn of the wrist during a task with a single move, from start to goal. The shapes that the wrist turns count as the discs
+/// that they sweep, so the wrist may turn at any time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WristMotion {
     /// Signed angle, radians.
@@ -77,14 +76,14 @@ pub struct WristMotion {
     pub begin: f64,
     /// Duration, in seconds. The wrist turns with its fastest motion, or with that motion stretched evenly in time.
     pub seconds: f64,
-    /// Time for which the arm and the tool wait at the end until the wrist is at rest, in seconds.
+    /// Time, in seconds, for which arm and tool wait at the end until the wrist is at rest.
     pub waiting: f64,
 }
 
 impl WristMotion {
-    /// Creates the turn for an arm that moves from `departure` to `arrival`, and a tool that is at rest from `end` on,
-    /// all in seconds. The wrist turns while the arm moves. If that time is too short, the turn begins before the
-    /// departure. If it would have to begin before time 0, it begins then and ends after the arrival.
+    /// Creates the turn for an arm that moves from `departure` to `arrival`, and a tool that is at rest from `end` on, all in
+    /// seconds. The wrist turns while the arm moves. If that time is too short, the turn begins before the departure, but not
+    /// before time 0; it then ends after the arrival if necessary.
     pub fn new(wrist: &Wrist, angle: f64, departure: f64, [arrival, end]: [f64; 2]) -> Self {
         let fastest = single(angle.abs(), &wrist.limits());
         let least = fastest.last().map_or(0.0, |[seconds, ..]| *seconds);

@@ -1,16 +1,16 @@
 //! The value of the wrist's joint during the motions of a task.
 //!
-//! A level payload keeps its orientation, so the joint compensates the rotation of link 2. With a rigid payload, the joint
-//! rests. Without a payload, it returns towards its rest position, as far as its limits allow. Along a line for which the
-//! tool has an angle, the motion itself has the joint's values.
+//! A level payload keeps its orientation, so the joint compensates the rotation of link 2. With a rigid payload, the joint rests.
+//! Without a payload, it returns towards its rest position, as far as its limits allow. Along a line that states the tool's
+//! angle, the motion itself has the joint's values.
 
 use cplan_handling::{Holding, Wrist, WristJoint};
 use cplan_model::Arm;
 use cplan_motion::Trajectory;
 
-/// Returns value and velocity of the wrist's joint at sample `k` of a motion at whose beginning it is at `from`, radians.
-/// `rest` is its default value, and `sign` the direction in which greater values turn the tool. Turns of the payload are
-/// not included.
+/// Returns value and velocity of the wrist's joint at sample `k` of a motion, at whose beginning the joint is at `from`, radians.
+/// `rest` is its default value, and `sign` the direction in which greater values turn the tool. Turns of the payload are not
+/// included.
 pub fn wrist_state(
     arm: &Arm,
     limits: Wrist,
@@ -29,7 +29,7 @@ pub fn wrist_state(
             let turned = angle(trajectory.position[k]) - angle(trajectory.position[0]);
             [from - sign * turned, -sign * angle(trajectory.velocity[k])]
         }
-        // The cubic below begins with a jump of the acceleration.
+        // The cubic below would begin with a jump of the acceleration.
         None if limits.jerk.is_some() => [from, 0.0],
         None => {
             let duration = trajectory.duration();
@@ -43,9 +43,8 @@ pub fn wrist_state(
     }
 }
 
-/// Returns the part of `distance` that the wrist can cover in `duration`, from rest to rest along a cubic. The top
-/// speed of a cubic is 1.5 times the mean speed. Its greatest acceleration is 6 times the distance over the squared
-/// time.
+/// Returns the part of `distance` that the wrist can cover in `duration`, from rest to rest along a cubic. A cubic's top speed is
+/// 1.5 times its mean speed, and its greatest acceleration is 6 times the distance divided by the squared time.
 fn reachable_part(distance: f64, duration: f64, limits: Wrist) -> f64 {
     let most = (limits.velocity * duration / 1.5).min(limits.acceleration * duration * duration / 6.0);
     distance.clamp(-most, most)

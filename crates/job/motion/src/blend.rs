@@ -1,18 +1,17 @@
-//! Blends: parabolas that round the corners of a path. Legs of a path: straight, or curved between given tangents.
+//! Blends: parabolas that round the corners of a path. Also curved legs, which have given tangents at their ends.
 
 use cplan_handling::Piece;
 use cplan_model::space::{Configuration, Path};
 
-/// Greatest deviation of a motion from a blend's parabola, in each joint, as a share of the blend's radius.
-/// Certificates cover this whole tube around the parabola. So they are also valid if a program joins the samples by
-/// cubics.
+/// Greatest deviation of a motion from a blend's parabola, in each joint, as a share of the blend's radius. Certificates cover
+/// this tube around the parabola, so they remain valid if a program joins the samples by cubics.
 pub const BLEND_TOLERANCE: f64 = 1e-6;
 
 /// Number of points of a blend in pictures.
 const POINTS_PER_BLEND: u8 = 12;
 
-/// A parabola that leaves one straight piece at `from` and joins the next at `to`, tangent to both pieces. It is the
-/// quadratic Bézier curve whose middle control point is the corner. Both ends are equally far from the corner.
+/// A parabola that leaves one straight piece at `from` and joins the next one at `to`, tangent to both. As a quadratic Bézier
+/// curve, it has the corner as its middle control point. Both ends are equally far from the corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Blend {
     /// The point where the blend leaves the first leg.
@@ -24,8 +23,7 @@ pub struct Blend {
 }
 
 impl Blend {
-    /// Makes the blend of the corner between the legs `before`-`corner` and `corner`-`after`. Its ends are at the
-    /// distance
+    /// Creates the blend of the corner between the legs `before`-`corner` and `corner`-`after`. Its ends are at the distance
     /// `radius` from the corner. The radius is positive and not longer than either leg.
     pub fn new([before, corner, after]: [Configuration; 3], radius: f64) -> Self {
         let toward = |end: Configuration| corner + (end - corner) * (radius / (end - corner).norm());
@@ -37,20 +35,19 @@ impl Blend {
         (self.corner - self.from).norm()
     }
 
-    /// Returns the point at a share `u` of the curve. It is exact at both ends.
+    /// Returns the point at the parameter `u`, from 0 to 1. Exact at both ends.
     pub fn at(&self, u: f64) -> Configuration {
         let mix = |a: Configuration, b: Configuration| a * (1.0 - u) + b * u;
         mix(mix(self.from, self.corner), mix(self.corner, self.to))
     }
 
-    /// Returns the same curve in cubic form.
+    /// Returns the same curve as a cubic.
     pub fn piece(&self) -> Piece {
         Piece::quadratic(0.0, 1.0, [self.from, self.corner, self.to])
     }
 }
 
-/// A part of a motion along a path with blends. If one straight piece directly follows another, the motion stops at the
-/// corner between them.
+/// A part of a motion along a path with blends. Between two consecutive straight pieces, the motion stops at the corner.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Stretch {
     /// A straight piece between two corners or their blends.
@@ -64,7 +61,7 @@ pub enum Stretch {
     Blend(Blend),
 }
 
-/// A curved part of a motion: the cubic between two configurations with given unit tangents there.
+/// A curved part of a motion: a cubic between two configurations, with given unit tangents there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CurvedLeg {
     /// The configurations at both ends.
@@ -77,7 +74,7 @@ pub struct CurvedLeg {
 }
 
 impl CurvedLeg {
-    /// Makes the curve. Its ends differ.
+    /// Creates the curve between two different configurations.
     pub fn new(ends: [Configuration; 2], tangents: [Configuration; 2]) -> Self {
         let (chord, mean) = (ends[1] - ends[0], (tangents[0] + tangents[1]) / 4.0);
         // The derivative in the middle is `3 chord / (2 length) - mean`.
@@ -86,14 +83,14 @@ impl CurvedLeg {
         Self { ends, tangents, length: 1.5 * square / (along + root) }
     }
 
-    /// Returns the curve as a piece. Its parameter takes the place of time.
+    /// Returns the curve as a piece of a motion, with its parameter as the time.
     pub fn piece(&self) -> Piece {
         let [from, to] = [0, 1].map(|end| [self.ends[end], self.tangents[end]]);
         Piece::hermite(0.0, self.length, from, to)
     }
 }
 
-/// A path some of whose corners are blended, and some of whose legs are curved.
+/// A path with blends at some of its corners, and with curves instead of some of its legs.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BlendedPath {
     path: Path,
@@ -131,7 +128,7 @@ impl BlendedPath {
         (radius > 0.0).then(|| self.blend_of(waypoint, radius))
     }
 
-    /// Returns the blend with a radius at an inner waypoint. Beside a curved leg, it begins or ends on the leg's tangent.
+    /// Returns the blend with this radius at an inner waypoint. Next to a curved leg, it begins or ends on the leg's tangent.
     pub(super) fn blend_of(&self, waypoint: usize, radius: f64) -> Blend {
         let q = self.path.waypoints();
         let mut blend = Blend::new([q[waypoint - 1], q[waypoint], q[waypoint + 1]], radius);
@@ -144,11 +141,11 @@ impl BlendedPath {
         blend
     }
 
-    /// Curves legs between unit tangents at both of their ends; `None` leaves a leg straight. The motion passes waypoints
-    /// marked as smooth without a stop or a blend. Both of their legs are curved, and have the same tangent there.
+    /// Replaces legs by curves with these unit tangents at both ends; a leg with `None` stays straight. The motion passes smooth
+    /// waypoints without a stop or a blend: both legs there are curved, with the same tangent.
     ///
     /// # Panics
-    /// If a mark is wrong, or not all legs or waypoints are listed.
+    /// If a waypoint is wrongly marked as smooth, or if a list does not have an entry for each leg or waypoint.
     #[must_use]
     pub fn curved(self, tangents: Vec<Option<[Configuration; 2]>>, is_smooth: Vec<bool>) -> Self {
         assert!(tangents.len() == self.tangents.len() && is_smooth.len() == self.is_smooth.len(), "one entry each");
@@ -159,7 +156,7 @@ impl BlendedPath {
         Self { tangents, is_smooth, ..self }
     }
 
-    /// Straightens a leg, and removes the blends at its ends, which begin on its tangents.
+    /// Straightens a leg. Removes the blends at its ends, which begin on its tangents.
     #[must_use]
     pub fn without_curve(self, leg: usize) -> Self {
         let last = self.radii.len() - 1;
@@ -167,7 +164,7 @@ impl BlendedPath {
         corners.fold(self.straightened(leg), |curve, waypoint| curve.with(waypoint, 0.0))
     }
 
-    /// Straightens a leg of a curve without blends.
+    /// Straightens a leg of a path without blends.
     #[must_use]
     pub fn straightened(mut self, leg: usize) -> Self {
         self.tangents[leg] = None;
@@ -175,7 +172,7 @@ impl BlendedPath {
         self
     }
 
-    /// Returns a leg between the blends at its ends. `None` if it is straight.
+    /// Returns the curved part of a leg between the blends at its ends. `None` if the leg is straight.
     pub fn curved_leg(&self, leg: usize) -> Option<CurvedLeg> {
         let (q, [first, last]) = (self.path.waypoints(), self.tangents[leg]?);
         let ends = [q[leg] + first * self.radii[leg], q[leg + 1] - last * self.radii[leg + 1]];
@@ -197,8 +194,8 @@ impl BlendedPath {
         self.has_curved_leg() || self.radii.iter().any(|radius| *radius > 0.0)
     }
 
-    /// Returns the greatest distance from each waypoint at which the motion is off the straight legs: the radius of a blend,
-    /// or a length that together with that at the leg's other end covers a curved leg. Ends of the path have none.
+    /// Returns the greatest distance from each waypoint at which the motion is off the straight legs. For a blend, it is the
+    /// radius. For a curved leg, the distances at both ends together cover the leg. Ends of the path have none.
     pub fn extents(&self) -> Vec<f64> {
         let (mut extents, last) = (self.radii.clone(), self.radii.len() - 1);
         for leg in 0..self.tangents.len() {
@@ -211,20 +208,20 @@ impl BlendedPath {
             let passed: Vec<usize> = ends.iter().copied().filter(is_passed).collect();
             let used = if passed.is_empty() { ends } else { passed };
             for &waypoint in &used {
-                // The other end of the leg is on the path, and no part of a leg is farther away.
+                // The leg's other end is on the path, and no part of the leg is farther away.
                 extents[waypoint] = extents[waypoint].max((length / used.len() as f64).min(chord));
             }
         }
         extents
     }
 
-    /// Returns half of the greatest length of a blend or a curved leg, in joint space.
+    /// Returns half the length of the longest blend or curved leg, in joint space.
     pub fn greatest_half(&self) -> f64 {
         let legs = (0..self.tangents.len()).filter_map(|leg| Some(self.curved_leg(leg)?.length / 2.0));
         self.radii.iter().copied().chain(legs).fold(0.0, f64::max)
     }
 
-    /// Sets the radius at an inner waypoint; 0 removes the blend.
+    /// Sets the radius at an inner waypoint. The radius 0 removes the blend.
     ///
     /// # Panics
     /// If the waypoint is an end of the path, or if the radii at both ends of a leg add up to at least its length.
@@ -240,7 +237,7 @@ impl BlendedPath {
         self
     }
 
-    /// Appends another path, which starts where this one ends, with a corner between the two.
+    /// Appends another path, which starts where this one ends. There is a corner between both.
     #[must_use]
     pub fn then(self, next: &BlendedPath) -> Self {
         let waypoints = self.path.waypoints().iter().chain(next.path.waypoints()).copied().collect();
@@ -319,8 +316,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Tests that a parabola is tangent to both legs: its ends lie on them, and its middle is halfway between the
-        /// corner and the middle of the ends. Its cubic form is the same curve.
+        /// Checks that a parabola is tangent to both legs: its ends lie on them, and its middle is halfway between the corner and
+        /// the middle of its ends. The cubic is the same curve.
         #[test]
         fn blends_are_parabolas(legs in prop::array::uniform4(-2.0..2.0_f64), radius in 0.01..0.2_f64, u in 0.0..1.0_f64) {
             let (corner, before, after) = (q(0.3, -0.2), q(legs[0], legs[1]), q(legs[2], legs[3]));

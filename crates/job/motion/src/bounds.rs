@@ -1,24 +1,24 @@
 //! Conditions on the squared speeds at the ends of a span.
 
-/// The feasible squared speeds `z0` and `z1` at the ends of a span: neither is negative, and `a z0 + b z1 <= 1` for
-/// each row `[a, b]`. This set is convex. It contains all small `z0` and `z1`.
+/// The feasible squared speeds `z0` and `z1` at the ends of a span: both are at least 0, and `a z0 + b z1 <= 1` for each row
+/// `[a, b]`. The set is convex, and contains all small `z0` and `z1`.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Bounds {
     /// Greatest `z0` that the rows without a `z1` allow.
     most: f64,
-    /// Upper bounds on `z1`, one for each row that gives one: intercept and slope of `z1` over `z0`.
+    /// Upper bounds on `z1` from the rows that give one, as functions of `z0`: intercept and slope.
     above: Vec<[f64; 2]>,
-    /// Lower bounds on `z1`, one for each row that gives one: intercept and slope of `z1` over `z0`.
+    /// Lower bounds on `z1` from the rows that give one, as functions of `z0`: intercept and slope.
     below: Vec<[f64; 2]>,
 }
 
-/// Relative rounding error that is assumed for coefficients and squared speeds. It is far greater than that of doubles,
-/// and far less than the share of the limits that stays unused.
+/// Assumed relative rounding error of coefficients and squared speeds. It is far above that of doubles, and far below the unused
+/// share of the limits.
 const ROUNDING: f64 = 1e-12;
 
 impl Default for Bounds {
     fn default() -> Self {
-        // Number of rows of a span without torques.
+        // Enough for the rows of a span without torques.
         let [above, below] = [0, 1].map(|_| Vec::with_capacity(8));
         Self { most: f64::MAX, above, below }
     }
@@ -28,7 +28,7 @@ impl Extend<[f64; 2]> for Bounds {
     fn extend<T: IntoIterator<Item = [f64; 2]>>(&mut self, rows: T) {
         for [a, b] in rows {
             let line = [1.0 / b, -a / b];
-            // If the second coefficient is only rounding, ignore it: dividing by it would give a meaningless result.
+            // A second coefficient that is only a rounding error is ignored, because dividing by it would be meaningless.
             if b.abs() <= ROUNDING * a.abs() {
                 self.most = if a > 0.0 { self.most.min(1.0 / a) } else { self.most };
             } else if b > 0.0 {
@@ -48,11 +48,9 @@ impl Bounds {
 
     /// Returns the greatest `z0` for which a `z1` up to `most` exists.
     ///
-    /// The difference between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, and not
-    /// negative at 0. Newton's method from above ends at the root of this function, after at most as many steps as
-    /// there are pairs of rows. The result is lowered by more than the rounding, so that [`Bounds::greatest_end`] finds a
-    /// feasible
-    /// `z1`.
+    /// The difference between the greatest and the least `z1` is a concave, piecewise linear function of `z0`, at least 0 at
+    /// `z0 = 0`. Newton's method from above finds its root in at most as many steps as there are pairs of rows. The result is
+    /// lowered by more than rounding errors, so that [`Bounds::greatest_end`] finds a feasible `z1`.
     pub fn greatest_start(&self, most: f64) -> f64 {
         let mut z0 = self.most;
         for _ in 0..=(self.above.len() + 1) * (self.below.len() + 1) {
@@ -68,13 +66,13 @@ impl Bounds {
         z0 * (1.0 - ROUNDING)
     }
 
-    /// Returns the greatest `z1` for a `z0`, and its slope.
+    /// Returns the greatest `z1` for a `z0`, and its slope over `z0`.
     fn upper(&self, z0: f64, most: f64) -> (f64, f64) {
         let lines = self.above.iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
         lines.fold((most, 0.0), |best, line| if line.0 < best.0 { line } else { best })
     }
 
-    /// Returns the least `z1` for a `z0`, and its slope.
+    /// Returns the least `z1` for a `z0`, and its slope over `z0`.
     fn lower(&self, z0: f64) -> (f64, f64) {
         let lines = self.below.iter().map(|[at_zero, slope]| (at_zero + slope * z0, *slope));
         lines.fold((0.0, 0.0), |best, line| if line.0 > best.0 { line } else { best })
@@ -89,7 +87,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares the bounds with the vertices of the polygon, found by brute force.
+        /// Compares the bounds with the vertices of the feasible polygon, found by brute force.
         #[test]
         fn bounds_of_a_corner_agree_with_the_feasible_polygon(
             rows in prop::collection::vec(prop::array::uniform2(prop_oneof![Just(0.0), -3.0..3.0_f64]), 1..9),

@@ -7,20 +7,18 @@ use cplan_judge::{CertifiedPath, CurveSearch, Nearest, Rejection, Vicinity};
 use cplan_model::Scene;
 use cplan_model::space::Path;
 
-/// Fraction of the excess clearance that must remain when corners are rounded. The excess is the difference between the
-/// clearance of the straight path and the required one. It is one half, so that a motion on blends is proven to keep at
-/// least half the distance of the straight path.
+/// Fraction of the straight path's excess over the required clearance that rounded corners must keep. With one half, a motion on
+/// blends provably keeps at least half the distance of the straight path.
 const KEPT_CLEARANCE_SHARE: f64 = 0.5;
 
-/// Greatest share of an inner leg that a blend at one of its ends may take. The part between the two blends stays
-/// straight.
+/// Greatest share of an inner leg that a blend at one end may take. A part between the two blends stays straight.
 const INNER_LEG_SHARE: f64 = 0.45;
 
-/// Greatest share of the first and the last leg that a blend may take. These legs have a blend at one end only.
+/// Greatest share of the first or the last leg that a blend may take. Such a leg has only one blend.
 const END_LEG_SHARE: f64 = 0.9;
 
-/// Number of times that a radius is halved before the corner stays a corner. The speed on a blend grows with the root
-/// of its radius, so the smallest blend saves a hundredth of the time that the largest would save.
+/// Number of times that a radius is halved before the corner stays. The speed on a blend grows with the root of its radius, so
+/// the smallest blend saves a hundredth of the time that the largest would save.
 const MAX_RADIUS_HALVINGS: u32 = 13;
 
 /// Number of further radii that are tried between the first certified radius and the refused one before it.
@@ -30,17 +28,16 @@ const RADIUS_REFINEMENTS: u32 = 2;
 /// checks, and trying a smaller blend costs little.
 const MAX_CHECKS_PER_BLEND: usize = 64;
 
-/// A path with rounded corners. The whole motion is proven to stay within the joint limits and at its clearance. The
-/// proof covers the straight legs up to their corners, the blends, and all motions within [`BLEND_TOLERANCE`] of the
-/// blends. If other curves than blends round the corners, it covers these curves. Only [`blend`] and [`Rounding`] round
-/// corners.
+/// A path with rounded corners. The whole motion provably stays within the joint limits and keeps its clearance. The proof covers
+/// the straight legs up to their corners, the blends, and all motions within [`BLEND_TOLERANCE`] of the blends. If other curves
+/// round the corners, it covers these curves. Only [`blend`] and [`Rounding`] create such paths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CertifiedCurve {
     curve: BlendedPath,
     /// The straight path, with the clearance of the whole motion.
     straight: CertifiedPath,
-    /// `None` if blends round all corners. Otherwise, the extents of the rounding (see [`CertifiedCurve::radii`]), and
-    /// a polyline for pictures.
+    /// `None` if blends round all corners. For other curves, the extents of the rounding (see [`CertifiedCurve::radii`]), and a
+    /// polyline for pictures.
     driven: Option<(Vec<f64>, Path)>,
 }
 
@@ -57,16 +54,15 @@ impl CertifiedCurve {
         &self.curve
     }
 
-    /// Returns the extent of the rounding at each waypoint, in joint units: the greatest distance from the waypoint at which
-    /// the motion is off the path, such as the radius of the blend. The motion's distance from the path is at most half of
-    /// it. It is 0 where the motion stops at the corner, unless both ends of a curved leg are stops.
+    /// Returns the extent of the rounding at each waypoint, in joint space: the greatest distance from the waypoint at which the
+    /// motion is off the path, such as the radius of a blend. The motion is never farther from the path than half of it. The
+    /// extent is 0 where the motion stops at the corner, unless the motion stops at both ends of a curved leg.
     pub fn radii(&self) -> Vec<f64> {
         self.driven.as_ref().map_or_else(|| self.curve.extents(), |(radii, _)| radii.clone())
     }
 
-    /// Returns a proven lower bound on the distance between arm and obstacles, metres, along the blends and along the
-    /// straight legs up to their corners. It is infinite if no shapes can meet, and never less than the required
-    /// clearance.
+    /// Returns a proven lower bound on the distance between arm and obstacles, metres, along the blends, and along the straight
+    /// legs up to their corners. It is at least the required clearance, and infinite if no shapes can meet.
     pub fn clearance(&self) -> f64 {
         self.straight.clearance()
     }
@@ -87,8 +83,7 @@ impl CertifiedCurve {
         self.driven.as_ref().map_or_else(|| self.curve.outline(), |(_, outline)| outline.clone())
     }
 
-    /// Returns this motion followed by another motion, which begins where this motion ends. The arm is at rest between
-    /// them.
+    /// Returns this motion followed by another, which begins where this one ends. The arm is at rest in between.
     #[must_use]
     pub fn then(self, next: &Self) -> Self {
         let driven = (self.driven.is_some() || next.driven.is_some()).then(|| {
@@ -101,8 +96,7 @@ impl CertifiedCurve {
         Self { curve: self.curve.then(&next.curve), straight: self.straight.then(&next.straight), driven }
     }
 
-    /// Returns the same motion with what was proven about moving obstacles. `clearance` and `nearest` replace the
-    /// motion's own clearance and nearest place if they are nearer.
+    /// Adds what was proven about moving obstacles: `clearance` and `nearest` replace the motion's own if they are nearer.
     #[must_use]
     pub fn among_movers(self, clearance: f64, nearest: Option<Nearest>) -> Self {
         let known = self.nearest();
@@ -111,14 +105,14 @@ impl CertifiedCurve {
         Self { straight: self.straight.within(clearance, nearest), ..self }
     }
 
-    /// Returns the same motion without the blend at an inner waypoint.
+    /// Removes the blend at an inner waypoint.
     #[must_use]
     pub fn without(self, waypoint: usize) -> Self {
         let curve = self.curve.clone().with(waypoint, 0.0);
         self.reduced_to(curve)
     }
 
-    /// Returns the same motion with straight legs instead of curved ones. It stops at their ends.
+    /// Replaces curved legs by straight ones, at whose ends the motion stops.
     pub(super) fn without_curves(self) -> Self {
         let curve = self.curve.clone();
         let legs = 0..curve.path().waypoints().len() - 1;
@@ -127,33 +121,32 @@ impl CertifiedCurve {
         self.reduced_to(curve)
     }
 
-    /// Returns the same motion along another curve, which has fewer blends and curved legs. This needs no proof, because the
-    /// straight legs are proven up to the corners.
+    /// Replaces the curve by one with fewer blends and curved legs. No proof is needed, because the straight legs are proven up
+    /// to the corners.
     pub(super) fn reduced_to(self, curve: BlendedPath) -> Self {
         Self { curve, ..self }
     }
 }
 
-/// Rounds the corners of a certified path by blends, each as large as can be certified. The radius of a blend is at
-/// most
-/// `greatest` (in joint space, radians and metres mixed; infinite for no limit), and at most 0.45 of each leg (0.9 of
-/// the first and the last leg). The motion keeps more than half of the path's clearance in excess of `clearance`. A
-/// radius that is not certified is halved. After some halvings the corner stays. A corner without a turn gets a
+/// Rounds the corners of a certified path by blends, each as large as can be certified. The radius of a blend is at most
+/// `greatest` (in joint space, mixing radians and metres; infinite for no limit), and at most 0.45 of each leg (0.9 of the first
+/// and the last leg). The motion keeps more than half of the excess of the path's clearance over `clearance`. A radius that
+/// cannot be certified is halved; after some halvings, the corner stays. A waypoint at which the path does not turn gets a
 /// straight blend.
 ///
-/// A blend lies in the triangle of its control points, so joint limits need no check. Each blend is judged by the same
-/// bisection as a straight piece, with a tube around the blend's chord.
+/// A blend lies in the triangle of its control points, so joint limits need no check. Each blend is judged by the same bisection
+/// as a straight piece, with a tube around the blend's chord.
 pub fn blend(scene: &Scene, path: &CertifiedPath, greatest: f64, clearance: f64) -> CertifiedCurve {
     let greatest = vec![greatest; path.path().waypoints().len()];
     blend_curved(scene, path, path.path().clone().into(), &greatest, clearance)
 }
 
-/// Does the same as [`blend`] for a path with curved legs, with a greatest radius for each waypoint. With 0 the motion
-/// stops at the corner. Curved legs that are not certified become straight. Smooth waypoints are not blended, unless one
-/// of their legs becomes straight.
+/// Does the same as [`blend`] for a path with curved legs, with a greatest radius for each waypoint; with 0, the motion stops
+/// there. Curved legs that cannot be certified become straight. A smooth waypoint has no blend, unless one of its legs becomes
+/// straight.
 ///
 /// # Panics
-/// If `curve` is not a curve along the path, or there are fewer radii than waypoints.
+/// If `curve` does not belong to the path, or if there are fewer radii than waypoints.
 pub fn blend_curved(
     scene: &Scene,
     path: &CertifiedPath,
@@ -200,7 +193,7 @@ fn blended(
         let share = |end: usize| if end == 0 || end == last { END_LEG_SHARE } else { INNER_LEG_SHARE };
         let room = |end: usize| share(end) * (q[end] - q[waypoint]).norm();
         let most = greatest[waypoint].min(room(waypoint - 1)).min(room(waypoint + 1));
-        // A leg with a length below the least double has no room.
+        // A leg with less than the least positive length has no room.
         if most <= 0.0 || blended.curve.is_smooth(waypoint) {
             continue;
         }
@@ -230,12 +223,12 @@ fn blended(
     if open.is_empty() { Ok(blended) } else { Err(open) }
 }
 
-/// Checks a tube around a piece of a motion. Its half width in each joint is `beside`.
+/// Checks a tube around a piece of a motion. `beside` is its half width in each joint.
 fn follow(search: &mut CurveSearch, vicinity: &Vicinity, piece: &Piece, beside: f64) -> Result<(), Rejection> {
     search.curve(vicinity, |middle: f64, half: f64| tube_about_part(piece, middle - half, middle + half, beside))
 }
 
-/// Returns the distance, metres, that a motion must keep from obstacles if it leaves the path at corners.
+/// Returns the distance, metres, that a motion that leaves the path at corners must keep from obstacles.
 fn required_distance(path: &CertifiedPath, clearance: f64) -> f64 {
     clearance + KEPT_CLEARANCE_SHARE * (path.clearance() - clearance)
 }
@@ -259,7 +252,7 @@ impl<'a> Rounding<'a> {
         Self { scene, vicinity: Vicinity::new(scene), path, required: required_distance(path, clearance) }
     }
 
-    /// Returns the indices of the pieces of a motion that are not shown to be free. Joint limits are not checked.
+    /// Returns the indices of the pieces of a motion that are not proven free. Does not check joint limits.
     pub fn uncertified_pieces(&self, pieces: &[Piece]) -> Vec<usize> {
         let budget = MAX_CHECKS_PER_PIECE * self.scene.pairs().len();
         let is_open = |piece: &Piece| {
@@ -269,8 +262,8 @@ impl<'a> Rounding<'a> {
         (0..pieces.len()).filter(|&i| is_open(&pieces[i])).collect()
     }
 
-    /// Certifies a motion that rounds the corners of the path with these extents (see [`CertifiedCurve::radii`]).
-    /// `None` if the motion is not shown to be free. Joint limits are not checked.
+    /// Certifies a motion that rounds the path's corners with these extents (see [`CertifiedCurve::radii`]). `None` if it is not
+    /// proven free. Does not check joint limits.
     pub fn certified(&self, radii: Vec<f64>, pieces: &[Piece]) -> Option<CertifiedCurve> {
         let budget = MAX_CHECKS_PER_PIECE * self.scene.pairs().len() * pieces.len();
         let mut search = CurveSearch::continued_from(self.path, self.scene, self.required, budget);
@@ -283,8 +276,7 @@ impl<'a> Rounding<'a> {
     }
 }
 
-/// Returns the result of `judge` for the largest radius that it accepts, among the radii that are tried. The first of
-/// these is `most`.
+/// Returns the result of `judge` for the largest accepted radius among those that are tried, of which the first is `most`.
 fn largest<T>(most: f64, judge: impl Fn(f64) -> Option<T>) -> Option<T> {
     let mut refused = f64::INFINITY;
     let mut radius = most;

@@ -1,22 +1,20 @@
 //! Speed around a blended corner and along a curved leg.
 //!
-//! The parameter `s` of a blend of radius `r` between the directions `d1` and `d2` runs from 0 to `2 r`, with `q'(s) =
-//! (1 - u) d1 + u d2`, `u = s / (2 r)`, and the constant `q'' = (d2 - d1) / (2 r)`. At both ends `|q'| = 1`, so on
-//! entry and exit `s` is the distance along the legs. The blend is cut into spans of equal length, and on each the
-//! second derivative of `s` by time is constant. So `z = (ds/dt)^2` is linear in `s`, and with the values `z0` and `z1`
-//! at a span's ends (a point in the phase plane each):
+//! The parameter `s` of a blend of radius `r` between the directions `d1` and `d2` runs from 0 to `2 r`. With `u = s / (2 r)`,
+//! `q'(s) = (1 - u) d1 + u d2`, and `q'' = (d2 - d1) / (2 r)` is constant. At both ends `|q'| = 1`, so `s` measures the distance
+//! along the legs there. The blend is cut into spans of equal length. On each span, the second derivative of `s` by time is
+//! constant, so `z = (ds/dt)^2` is linear in `s`, with the values `z0` and `z1` at the ends of the span. The limits then become:
 //!
-//! - A joint's acceleration `q'' z + q' z' / 2` is linear in `s`. It is within its limit if it is at both ends of the
-//!   span.
+//! - A joint's acceleration `q'' z + q' z' / 2` is linear in `s`. It is within its limit if it is at both ends of the span.
 //! - A joint's squared velocity `q'^2 z` is a cubic in `s`. It is within its limit if its Bernstein coefficients are.
-//! - The tip's speed is within its limit if `z` is below a bound for the whole span. It is if it is at both ends.
+//! - The tip's speed is within its limit if `z` is below a bound for the whole span, that is, at both ends.
 //!
 //! All these conditions are linear in `z0` and `z1`. On each span, `q(t)` is a polynomial of degree four.
 //!
-//! A curved leg is a cubic in `s`, with unit derivatives at both ends. There a joint's acceleration is quadratic in `s`,
-//! and its squared velocity has degree five, so there are more Bernstein coefficients. The bound on the tip's speed
-//! differs between the ends of a span, so that `z` follows it without steps (`TipSpeed::rates`). On each span, `q(t)` is a
-//! polynomial of degree six; samples are so dense that cubics through them are within the limits and near the curve.
+//! A curved leg is a cubic in `s`, with unit derivatives at both ends. There, a joint's acceleration is quadratic in `s`, and its
+//! squared velocity has degree five, with more Bernstein coefficients. The bound on the tip's speed differs between the ends of a
+//! span, so that `z` follows it without steps (`TipSpeed::rates`). On each span, `q(t)` is a polynomial of degree six. Samples
+//! are so dense that cubics through them are within the limits and near the curve.
 
 use super::bounds::Bounds;
 use super::clock::reserve;
@@ -29,8 +27,8 @@ use crate::BLEND_TOLERANCE;
 /// Number of spans into which a blend is cut initially.
 const INITIAL_SPANS: usize = 8;
 
-/// Number of spans of a curved leg initially. A span bends a few thousandths of a radian, so that constant second
-/// derivatives of the parameter are near those of the geometry.
+/// Initial number of spans of a curved leg. A span bends by a few thousandths of a radian, so that constant second derivatives of
+/// the parameter suit the geometry.
 const INITIAL_LEG_SPANS: usize = 4;
 
 /// Number of spans of a straight stretch that may begin or end at rest.
@@ -45,16 +43,16 @@ const PARTS_PER_SPAN: usize = 4;
 /// Largest number of spans when more spans are tried for a faster motion.
 const MAX_TRIED_SPANS: usize = 1024;
 
-/// Greatest change of a joint's acceleration over a span, as a share of its limit. If the change is greater, the span
-/// is cut further. If the limit is reached at one end of a span, half of the change is lost.
+/// Greatest change of a joint's acceleration over a span, as a share of its limit; spans with a greater change are cut. Where the
+/// limit is reached at one end of a span, half of the change is lost.
 const MAX_ACCELERATION_STEP: f64 = 0.1;
 
-/// Greatest change of the speed over a span, as a share of the speed. If the change is greater, the span is cut
-/// further. If acceleration turns into deceleration within a span, half of the change is lost.
+/// Greatest relative change of the speed over a span; spans with a greater change are cut. Where acceleration turns into
+/// deceleration within a span, half of the change is lost.
 const MAX_SPEED_STEP: f64 = 0.1;
 
-/// Fraction of the limits that stays unused on a blend. Many controllers use cubics through the positions and
-/// velocities of samples; because of this fraction, the cubics are also within the limits. [`reserve`] adds a little.
+/// Fraction of the limits that stays unused on a blend. With it, the cubics through positions and velocities of samples, which
+/// many controllers use, are also within the limits. [`reserve`] adds a little.
 const LIMIT_RESERVE: f64 = 1e-3;
 
 /// Greatest deviation of a wrist's joint from a blend's parabola, radians. It is far below the tolerance of a tool's angle.
@@ -72,8 +70,8 @@ enum Shape {
     Leg([Axes; 4]),
 }
 
-/// A blend or a curved leg, cut into spans for its timing. A straight stretch along which limits vary is treated in the
-/// same manner, as a blend whose two directions are equal.
+/// A blend or a curved leg, cut into spans for its timing. A straight stretch with varying limits is treated like a blend with
+/// two equal directions.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Corner {
     shape: Shape,
@@ -81,7 +79,8 @@ pub(super) struct Corner {
     radius: f64,
     /// Derivatives by the parameter at both ends.
     directions: [Axes; 2],
-    /// Four times the difference in the middle between the derivative and the mean of those at the ends; 0 on blends.
+    /// On curved legs, four times the difference in the middle between the derivative and the mean of those at both ends; 0 on
+    /// blends.
     swell: Axes,
     /// Number of spans of a blend, which are equally long.
     spans: usize,
@@ -89,21 +88,20 @@ pub(super) struct Corner {
     places: Vec<f64>,
     /// Upper bound on the speed of the parameter.
     fastest: f64,
-    /// Speed at which the blend is passed, as a share of the speed that the limits allow.
+    /// Speed at which the blend is passed, as a share of the greatest possible speed.
     share: f64,
     /// Share of the tip's speed limit that applies.
     tip_share: f64,
 }
 
-/// Returns the least duration, seconds, of a blend that is cut into this many spans. Each span must last at least the
-/// least interval between samples, although some spans are passed several times as fast as others.
+/// Returns the least duration, seconds, of a blend with this number of spans. Each span must last at least the least interval
+/// between samples, although the arm passes some spans several times as fast as others.
 fn shortest(spans: usize) -> f64 {
     8.0 * MIN_INTERVAL * spans as f64
 }
 
 impl Corner {
-    /// Prepares a blend. Returns `None` if it is so small that it would be passed in little more than the interval
-    /// between samples.
+    /// Prepares a blend. `None` if it is so small that passing it would take little more than the interval between samples.
     pub(super) fn new(points: [Axes; 3], limits: &Limits, share: f64) -> Option<Self> {
         let limits = &limits.scaled(share);
         let legs = [points[1] - points[0], points[2] - points[1]];
@@ -117,7 +115,7 @@ impl Corner {
         (corner.length() / fastest >= shortest(INITIAL_SPANS)).then_some(Self { fastest, ..corner })
     }
 
-    /// Prepares a straight stretch. Returns `None` if it is too small.
+    /// Prepares a straight stretch. `None` if it is too small.
     pub(super) fn straight(from: Axes, to: Axes, limits: &Limits) -> Option<Self> {
         let (points, offset) = ([from, (from + to) / 2.0, to], to - from);
         let length = offset[0].hypot(offset[1]);
@@ -129,8 +127,8 @@ impl Corner {
         (length / fastest >= shortest(INITIAL_LINE_SPANS)).then_some(corner)
     }
 
-    /// Prepares a curved leg between two values of all axes, with these derivatives by the parameter there. Returns `None`
-    /// if it is too small.
+    /// Prepares a curved leg between two values of all axes, with these derivatives by the parameter at its ends. `None` if it is
+    /// too small.
     pub(super) fn leg([from, to]: [Axes; 2], directions: [Axes; 2], length: f64, limits: &Limits) -> Option<Self> {
         let third = length / 3.0;
         let [second, last] = [from + directions[0] * third, to - directions[1] * third];
@@ -153,14 +151,14 @@ impl Corner {
         LIMIT_RESERVE + reserve(span.clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL))
     }
 
-    /// Returns the corner with twice as many spans, or the curved leg with those spans cut in two that are too coarse.
-    /// Returns `None` if the spans are fine enough for these squared speeds at their ends, or cannot be cut.
+    /// Doubles the number of spans, or, on a curved leg, halves the spans that are too coarse. Returns `None` if the spans are
+    /// fine enough for these squared speeds at their ends, or cannot be cut.
     pub(super) fn finer(&self, squared_speeds: &[f64], limits: &Limits) -> Option<Self> {
         let limits = &limits.with_tip_share(self.tip_share);
         let is_coarse = |i: usize| {
             let z = [squared_speeds[i], squared_speeds[i + 1]];
             let (step, bends) = ((z[1] - z[0]).abs(), [i, i + 1].map(|k| self.second_derivative(self.share(k))));
-            // With a constant second derivative of the parameter, q'' z + q' z' / 2 changes by the change of q'' z and
+            // If the second derivative of the parameter is constant, the change of q'' z + q' z' / 2 is the change of q'' z plus
             // half of q'' times the change of z.
             let changes = |axis: LimitedAxis| {
                 let [first, last] = bends.map(|bend| axis.component(bend));
@@ -191,7 +189,7 @@ impl Corner {
         (self.places.len() < places.len() && places.len() <= most).then(|| Self { places, ..self.clone() })
     }
 
-    /// Returns true if no joint accelerates almost as much as it may at the ends of a span.
+    /// Returns true if no joint reaches almost its greatest acceleration at the ends of a span.
     fn is_idle(&self, span: usize, z: [f64; 2], limits: &Limits) -> bool {
         let rising = (z[1] - z[0]) / (2.0 * self.step(span));
         (0..2).all(|end| {
@@ -203,14 +201,12 @@ impl Corner {
         })
     }
 
-    /// Returns the corner with several times as many spans, even if its spans are fine enough. Returns `None` if they
-    /// cannot be cut.
+    /// Cuts each span into several, even if spans are fine enough. `None` if they cannot be cut.
     pub(super) fn much_finer(&self, squared_speeds: &[f64]) -> Option<Self> {
         self.cut(PARTS_PER_SPAN, MAX_TRIED_SPANS, squared_speeds)
     }
 
-    /// Returns the corner with each span cut into `parts`. Returns `None` if there would be too many spans, or some
-    /// would be too short.
+    /// Cuts each span into `parts`. `None` if there would be too many spans, or if some would be too short.
     fn cut(&self, parts: usize, most: usize, squared_speeds: &[f64]) -> Option<Self> {
         let lasts: f64 = self.phases(squared_speeds).iter().map(|phase| phase.duration).sum();
         let finer = Self { spans: parts * self.spans, ..self.clone() };
@@ -302,7 +298,7 @@ impl Corner {
                 let ([p, q], [first, last]) =
                     (ends.map(|end| axis.component(end)), bends.map(|bend| axis.component(bend)));
                 let (acceleration, velocity) = (left * axis.acceleration, (left * axis.velocity).powi(2));
-                // q'' z + q' (z1 - z0) / (2 step) at the first end and at the second, in both directions.
+                // q'' z + q' (z1 - z0) / (2 step) at both ends, in both directions.
                 let [at_first, at_second] = [p, q].map(|slope| slope / (2.0 * step));
                 let mut limit = |row: [f64; 2]| {
                     let row = row.map(|c| c / acceleration);
@@ -352,12 +348,12 @@ impl Corner {
         squared_speeds.windows(2).enumerate().map(phase).collect()
     }
 
-    /// Returns the longest interval between samples in a phase for which cubics are good enough. The cubic through
-    /// positions and velocities must be within the limits, and within [`BLEND_TOLERANCE`] of the blend.
+    /// Returns the longest interval between samples in a phase for which the cubics through positions and velocities are within
+    /// the limits, and within [`BLEND_TOLERANCE`] of the blend.
     ///
     /// For a motion with a constant fourth derivative `d`, the error of the cubic is at most `d h^4 / 384` in position,
-    /// `d h^3 / (72 sqrt 3)` in velocity and `d h^2 / 12` in acceleration. If `v` and `a` are the first two derivatives of
-    /// the parameter by time, `d = 3 q'' a^2 + 6 q^(3) v^2 a`.
+    /// `d h^3 / (72 sqrt 3)` in velocity and `d h^2 / 12` in acceleration. If `v` and `a` are the first two derivatives of the
+    /// parameter by time, `d = 3 q'' a^2 + 6 q^(3) v^2 a`.
     pub(super) fn interval(&self, phase: &Phase, limits: &Limits) -> f64 {
         let bend = self.second_derivative(0.0).abs().sup(&self.second_derivative(1.0).abs());
         let third = self.third_derivative().abs() * phase.enter.max(phase.leave).powi(2);
@@ -385,7 +381,7 @@ impl Corner {
             Shape::Blend(points) => points,
             Shape::Leg(points) => points,
         };
-        // Rounding must not carry a sample beyond the control points, which may lie on a joint limit.
+        // A rounding error must not move a sample beyond the control points, which may lie on a joint limit.
         let (least, greatest) =
             points.iter().fold([points[0]; 2], |[least, greatest], p| [least.inf(p), greatest.sup(p)]).into();
         let position =

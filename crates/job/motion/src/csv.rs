@@ -4,15 +4,15 @@ use super::{JointMotion, Trajectory};
 use std::borrow::Cow;
 use std::fmt::Write;
 
-/// Returns the trajectory as CSV: a header `time,A,B,A_velocity,B_velocity` for joints `A` and `B`, then one line per
-/// sample. With `accelerations`, there are also columns `A_acceleration,B_acceleration`. If the trajectory has torques,
-/// there are also `A_torque,B_torque`. If `motors` is not empty, it has the angles of both motors' shafts for each sample,
-/// in columns `motor_1,motor_2`.
+/// Returns the trajectory as CSV: a header `time,A,B,A_velocity,B_velocity` for joints `A` and `B`, then one line per sample.
+/// With `accelerations`, there are also columns `A_acceleration,B_acceleration`. If the trajectory has torques, there are also
+/// `A_torque,B_torque`. `motors` has the angles of both motors' shafts for each sample; unless it is empty, they are in columns
+/// `motor_1,motor_2`.
 ///
-/// Fields are quoted by RFC 4180. Lines end in a single line feed, which every reader accepts and text tools prefer.
-/// Numbers have as many digits as needed to read back the same `f64`.
+/// Fields are quoted by RFC 4180. Lines end in a single line feed, which all readers accept and text tools prefer. Numbers have
+/// enough digits to read back the same `f64`.
 ///
-/// With `steps`, one number per sample, there is an additional column `step` with the step of each sample.
+/// `steps` has one number per sample; if it is given, there is a column `step`.
 pub fn csv(
     joints: &[String; 2],
     trajectory: &Trajectory,
@@ -27,9 +27,8 @@ pub fn csv(
     table(joints, time, &columns, motors, steps)
 }
 
-/// Returns a motion of all joints as CSV, in the format of [`csv`]: a value and a velocity of each joint, with their
-/// accelerations if the motion has them, and the step of each sample if it
-/// is given.
+/// Returns a motion of all joints as CSV, in the format of [`csv`]: value and velocity of each joint, its acceleration if the
+/// motion has accelerations, and the step of each sample if it is given.
 pub fn csv_of_joints(motion: &JointMotion, motors: &[[f64; 2]], steps: Option<&[usize]>) -> String {
     let mut columns = vec![("", &motion.position[..]), ("_velocity", &motion.velocity)];
     columns.extend(motion.acceleration.iter().map(|rows| ("_acceleration", &rows[..])));
@@ -50,7 +49,7 @@ fn table<R: AsRef<[f64]>>(
     text.push_str(if steps.is_some() { ",step\n" } else { "\n" });
     for (k, time) in time.iter().enumerate() {
         let values = columns.iter().flat_map(|(_, rows)| rows[k].as_ref()).chain(motors.get(k).into_iter().flatten());
-        // Debug formatting gives the shortest text that reads back the same number, with an exponent for long numbers.
+        // Debug formatting gives the shortest text that reads back the same number, with an exponent if the number would be long.
         write!(text, "{time:?}").expect("a string takes all");
         values.for_each(|value| write!(text, ",{value:?}").expect("a string takes all"));
         if let Some(step) = steps.and_then(|steps| steps.get(k)) {

@@ -1,4 +1,4 @@
-//! Makes a motion in time along a certified path, with rounded corners.
+//! Creates a motion in time along a certified path, with rounded corners.
 
 use super::limits::MAX_TORQUE_ROUNDS;
 use super::rounded::rounded;
@@ -16,11 +16,11 @@ use std::cell::Cell;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Objective {
-    /// The length of the path. The motion is the fastest along the shortest path.
+    /// The length of the path. The motion is the fastest one along the shortest path.
     #[default]
     Length,
-    /// The duration of the motion. It decides between candidate paths, and the corners of the path are moved if that
-    /// makes the motion faster.
+    /// The duration of the motion. It decides between candidate paths, and corners of the path are moved if this makes the motion
+    /// faster.
     Time,
 }
 
@@ -33,8 +33,8 @@ pub struct Drive {
     pub optimize: Objective,
     /// Time between two samples, seconds.
     pub period: f64,
-    /// Greatest distance from the nearest corner at which the motion is off the path, in joint space. With 0, it stops at
-    /// every corner. If infinite, only the clearance and the path limit the distance.
+    /// Greatest distance from the nearest corner, in joint space, at which the motion is off the path. With 0, the motion stops
+    /// at every corner. With infinity, only the clearance and the path limit it.
     #[serde(with = "cplan_text::number")]
     pub blend: f64,
     /// Greatest speed of the tip, metres per second; `None` to limit only the joints.
@@ -53,22 +53,22 @@ impl Default for Drive {
 }
 
 impl Drive {
-    /// Returns the same options with a stop at every corner. Such motions are computed in a fraction of the time.
+    /// Returns these options with a stop at every corner. Such motions are much faster to compute.
     #[must_use]
     pub fn stopping_at_corners(self) -> Self {
         Self { blend: 0.0, ..self }
     }
 
-    /// Returns the fastest motion along a path, by [`time`]. `speed` is the share of the joints' top speeds to use,
-    /// greater than 0 and at most 1. The motion keeps the scene's clearance.
+    /// Returns the fastest motion along a path, by [`time`]. `speed` is the share of the joints' top speeds to use, greater than
+    /// 0 and at most 1. The motion keeps the scene's clearance.
     ///
-    /// With limits on jerks, corners are moved off obstacles, because a smooth motion needs room there. The distance is
-    /// that which makes the motion fastest. If the duration is to be minimal ([`Drive::optimize`]), the shape of the
-    /// whole path is optimised.
+    /// With limits on jerks, corners are moved away from obstacles, because a smooth motion needs room there; of several
+    /// distances, the one with the fastest motion is used. To minimise the duration ([`Drive::optimize`]), the shape of the whole
+    /// path is changed.
     ///
     /// # Errors
-    /// If the motion would last too long or have too many samples, or if the efforts of the joints cannot hold the arm
-    /// somewhere on the path.
+    /// A motion that would last too long or have too many samples, and a place on the path where the joints' efforts cannot hold
+    /// the arm.
     pub fn along(&self, scene: &Scene, path: &CertifiedPath, speed: f64) -> Result<TimedMotion, TimingError> {
         let tip = self.tip_speed.map(|speed| TipSpeed::new(scene.arm(), speed));
         let torque = TorqueLimit::along_path(scene, path.path())?;
@@ -109,7 +109,7 @@ impl Drive {
                 found.push(refined);
             }
             if is_smooth {
-                // A slower motion may become the faster one after it is driven along its own curve in the least time.
+                // When it is driven along its own curve in the least time, a slower motion may become the faster one.
                 let retimed = |timed: &TimedMotion| {
                     let path = timed.curve.straight();
                     smoothed(scene, path, self.blend, limits, self.period, f64::INFINITY, true)
@@ -147,13 +147,13 @@ pub struct CurveDrive<'a> {
     pub share: f64,
     /// Time between two samples, seconds.
     pub period: f64,
-    /// A wrist that turns along the curve, with its full limits. The same share of them is used. `None` without one. A
-    /// motion with limited jerks ignores it.
+    /// A wrist that turns along the curve, with its full limits, of which the motion uses the same share. `None` without a wrist.
+    /// A motion with limited jerks ignores it.
     pub wrist: Option<WristLimit<'a>>,
 }
 
-/// Returns the fastest motion along a given curve, whose blends must not change. Compared with [`Drive::along`], no
-/// corner is moved. With limits on jerks, the motion stops at every corner; see [`super::along_joint_curve`].
+/// Returns the fastest motion along a given curve, whose corners and blends do not change. With limits on jerks, the motion stops
+/// at every corner; see [`super::along_joint_curve`].
 ///
 /// # Errors
 /// Same as for [`Drive::along`].
@@ -166,7 +166,7 @@ pub fn along_curve(
     let limits = Limits { wrist, ..Limits::from(scene.arm()) }.scaled(share);
     let wrist = limits.wrist.filter(|_| !limits.stops_at_corners());
     let mut limits = Limits { tip, torque, wrist, ..limits };
-    // Torques along curved legs are bounded at the ends of spans only.
+    // On curved legs, torques are bounded only at the ends of spans.
     for _ in 0..MAX_TORQUE_ROUNDS {
         let timed = time(curve.clone(), &limits, period)?;
         let limit = limits.torque.as_mut().filter(|_| curve.curve().has_curved_leg());

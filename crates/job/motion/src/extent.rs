@@ -3,20 +3,20 @@
 use cplan_handling::Piece;
 use cplan_model::space::{Configuration, Path};
 
-/// Distance from the path, radians or metres, up to which a motion is on the path. It exceeds the rounding of splines on
-/// straight pieces.
+/// A motion within this distance of its path, radians or metres, is on the path. It covers the rounding of splines on straight
+/// pieces.
 const ON_PATH: f64 = 1e-9;
 
-/// Number of intervals of a piece at whose ends its distance from the path is measured.
+/// Number of intervals of a piece. At their ends, its distance from the path is measured.
 const INTERVALS_PER_PIECE: u32 = 4;
 
-/// Share by which distances may be greater between the measured positions.
+/// Share by which distances between the measured positions may be greater.
 const DISTANCE_MARGIN: f64 = 0.01;
 
-/// Number of halvings with which the place is found at which a motion leaves its path.
+/// Number of halvings that locate the place where a motion leaves its path.
 const PLACE_HALVINGS: u32 = 24;
 
-/// Greatest number of legs between the legs of two consecutive positions.
+/// Greatest number of legs between those of two consecutive positions.
 const MAX_LEGS_AHEAD: usize = 8;
 
 /// A motion's position, compared with a path.
@@ -28,9 +28,9 @@ struct Position {
     off: f64,
 }
 
-/// Returns the extent of a motion at each waypoint of its path. The motion is off the path only within this distance of
-/// the waypoint. It is never farther from the path than half of this distance, and passes the waypoint within half of
-/// it. The extent is 0 at waypoints that the motion does not round, and positive at all others.
+/// Returns the extent of a motion at each waypoint of its path: the motion is off the path only within this distance of the
+/// waypoint. Its distance from the path, and from the waypoint when it passes it, is at most half of this. The extent is 0 at
+/// waypoints that the motion does not round, and positive at all others.
 pub(super) fn extents(path: &Path, pieces: &[Piece], is_rounded: impl Fn(usize) -> bool) -> Vec<f64> {
     let q = path.waypoints();
     let corners: Vec<usize> = (0..q.len()).filter(|&w| is_rounded(w)).collect();
@@ -40,7 +40,7 @@ pub(super) fn extents(path: &Path, pieces: &[Piece], is_rounded: impl Fn(usize) 
     let nearest_corner = |position: &Position| {
         corners.iter().copied().min_by(|a, b| distance(position, *a).total_cmp(&distance(position, *b)))
     };
-    // Up to half of the motion to the next measured position, the distance may be greater between both.
+    // Halfway to the next measured position, the distance may be greater than at both.
     let mut count = |position: Position, between: f64| {
         if let Some(w) = nearest_corner(&position) {
             let off = 2.0 * position.off * (1.0 + DISTANCE_MARGIN);
@@ -79,7 +79,7 @@ pub(super) fn extents(path: &Path, pieces: &[Piece], is_rounded: impl Fn(usize) 
     extents
 }
 
-/// Returns the share of a piece at which it leaves or joins the path. It lies between two shares; one is on the path.
+/// Returns the share of a piece at which it leaves or joins the path. It is between two shares, one of which is on the path.
 fn last_on_path(q: &[Configuration], piece: &Piece, [from, to]: [f64; 2], [was, is]: [Position; 2]) -> f64 {
     let (mut on, mut off) = if was.off > is.off { (to, from) } else { (from, to) };
     for _ in 0..PLACE_HALVINGS {
@@ -89,7 +89,7 @@ fn last_on_path(q: &[Configuration], piece: &Piece, [from, to]: [f64; 2], [was, 
     on
 }
 
-/// Compares a configuration with the legs from `leg` on.
+/// Finds the leg, from `leg` on, that is nearest to a configuration.
 fn located(q: &[Configuration], at: Configuration, leg: usize) -> Position {
     let legs = leg..(leg + MAX_LEGS_AHEAD).min(q.len() - 1);
     let off = legs.map(|leg| (distance_to_leg(at, q[leg], q[leg + 1]), leg)).min_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,4 +1,4 @@
-//! Describes in results the field that a planner followed.
+//! The field that a planner followed, as results describe it.
 
 use serde::Serialize;
 
@@ -26,7 +26,7 @@ pub struct FieldReport {
     /// Relaxation factor on the last grid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub factor: Option<f64>,
-    /// True if over-relaxation multiplies preferences by its factor, too; omitted if it adds them without the factor.
+    /// True if over-relaxation also multiplies preferences by its factor; omitted if it adds them without the factor.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relaxes_preferences: Option<bool>,
     /// `low` if free cells start at the value of goals; omitted if they start at the value of obstacles.
@@ -57,10 +57,10 @@ pub struct FieldReport {
     /// True if both forces pass through tanh.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub saturated: Option<bool>,
-    /// Method of leaving local minima, as on the command line; omitted if local minima end the search.
+    /// Escape from local minima, as on the command line; omitted if local minima end the search.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub escape: Option<String>,
-    /// Number of local minima that the path left; omitted without `escape`.
+    /// Number of local minima from which the path escaped; omitted without `escape`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub escaped: Option<usize>,
     /// Boundary condition at joint limits: `high` or `reflecting`.

@@ -1,4 +1,4 @@
-//! Formats of result files, by the extension of the file's name.
+//! Formats of result files, chosen by the extension of the file's name.
 
 use std::path::Path;
 use thiserror::Error;
@@ -17,7 +17,7 @@ pub enum Format {
     Mcap,
 }
 
-/// Reason why no format follows from a file name.
+/// The reason why a file name does not determine a format.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum FormatError {
     /// The extension is unknown.
@@ -26,7 +26,7 @@ pub enum FormatError {
         /// The name as given.
         file: String,
     },
-    /// This build of the program does not have the format MCAP.
+    /// The format is MCAP, which this build of the program lacks.
     #[error("{file}: this program was built without MCAP; use .yaml, .csv or .json")]
     WithoutMcap {
         /// The name as given.

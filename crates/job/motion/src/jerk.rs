@@ -1,47 +1,46 @@
 //! Speed along a straight stretch with a limit on the jerk.
 //!
-//! A symmetric motion from rest to rest has seven phases: the acceleration grows for a time `grow`, is constant for
-//! `hold`, shrinks for `grow`, the speed is constant for `cruise`, and then the same in reverse. Over a length `L` this
-//! needs
+//! A symmetric motion from rest to rest has seven phases: the acceleration grows for a time `grow`, is constant for `hold`, and
+//! shrinks for `grow`; the speed is constant for `cruise`; then the same happens in reverse. Over a length `L`, this needs
 //!
 //! - the top speed `v = L / (2 grow + hold + cruise)`,
 //! - the acceleration `a = v / (grow + hold)`,
 //! - the jerk `a / grow`.
 //!
-//! If one of the times increases, no quantity does. So times may always be lengthened without violating limits.
+//! If one of the times increases, none of these quantities does. So longer times never violate the limits.
 
 use super::clock::whole_nanoseconds;
 use super::profile::Phase;
 use rsruckig::prelude::{InputParameter, Ruckig, RuckigError, ThrowErrorHandler, Trajectory};
 
-/// Limit on speed and acceleration that is as good as no limit. With a jerk of 1 and a length of 1, from rest to rest,
-/// the greatest acceleration is 0.79 and the greatest speed 0.63. So larger limits have no effect.
+/// A limit on speed or acceleration that has no effect. With jerk and length 1, from rest to rest, the greatest acceleration is
+/// 0.79 and the greatest speed is 0.63.
 const NO_LIMIT: f64 = 1.0;
 
 /// The times of a symmetric motion from rest to rest, seconds.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Times {
-    /// Duration of a phase of growing or shrinking acceleration. There are four such phases.
+    /// Duration of each of the four phases of growing or shrinking acceleration.
     grow: f64,
-    /// Duration of a phase of constant acceleration. There are two such phases.
+    /// Duration of both phases of constant acceleration.
     hold: f64,
     /// Duration of the phase of constant speed.
     cruise: f64,
 }
 
-/// Returns the fastest motion over `length` from rest to rest with limited speed, acceleration and jerk: seven phases,
-/// or fewer if a limit is not reached. No phase is shorter than `shortest`, and all last whole nanoseconds.
+/// Returns the fastest motion over `length` from rest to rest with limited speed, acceleration and jerk: seven phases, or fewer
+/// if a limit is not reached. No phase is shorter than `shortest`, and all last whole nanoseconds.
 ///
-/// The minimum duration of phases may slow the motion down by up to `12 shortest`, and the rounding to nanoseconds by
-/// up to seven. All limits stay satisfied. `length`, `speed`, `acceleration`, `jerk` and `shortest` are positive;
-/// `speed` and `acceleration` may be infinite.
+/// The least duration of phases may lengthen the motion by up to `12 shortest`, and rounding by up to seven nanoseconds. All
+/// limits are satisfied. `length`, `speed`, `acceleration`, `jerk` and `shortest` are positive; `speed` and `acceleration` may be
+/// infinite.
 ///
-/// The times are those of Ruckig (Berscheid, Kröger, *Jerk-limited real-time trajectory generation with arbitrary
-/// target states*, 2021), with length and jerk as units because its tolerances are absolute. If Ruckig finds no
-/// solution, because the limits differ by about twelve orders of magnitude, the motion neither cruises nor holds its
-/// acceleration, and may be slower accordingly.
+/// The times are from Ruckig (Berscheid, Kröger, *Jerk-limited real-time trajectory generation with arbitrary target states*,
+/// 2021). Length and jerk are its units, because its tolerances are absolute. If the limits differ by about twelve orders of
+/// magnitude, Ruckig finds no solution; the motion then has neither constant speed nor constant acceleration, and may be slower
+/// than necessary.
 pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, jerk: f64, shortest: f64) -> Vec<Phase> {
-    // The minimum duration limits the jerk anyway: reaching the acceleration limit sooner gains nothing.
+    // The least duration limits the jerk anyway: there is no gain in reaching the acceleration limit sooner.
     let jerk = jerk.min(acceleration.min(speed / shortest).min(length / shortest / shortest) / shortest);
     let unit = (length / jerk).cbrt();
     let limits = [speed * unit / length, acceleration * unit * unit / length];
@@ -63,16 +62,16 @@ fn fastest([speed, acceleration]: [f64; 2]) -> Result<Times, RuckigError> {
     input.max_acceleration[0] = acceleration;
     input.max_jerk[0] = 1.0;
     let mut found = Trajectory::new(None);
-    // The cycle time matters for discrete durations only.
+    // The cycle time matters only for discrete durations.
     Ruckig::<1, ThrowErrorHandler>::new(None, 1.0).calculate(&input, &mut found)?;
     let profile = &found.get_profiles()[0][0];
     let [grow, hold] = [profile.t[0], profile.t[1]];
-    // Ruckig may count the end of one growth and the beginning of the next as one phase.
+    // Ruckig may report the end of one growth and the beginning of the next as one phase.
     Ok(Times { grow, hold, cruise: (found.get_duration() - 4.0 * grow - 2.0 * hold).max(0.0) })
 }
 
 impl Times {
-    /// Lengthens each phase that has a duration to at least `shortest` seconds.
+    /// Lengthens phases that are not empty to at least `shortest` seconds.
     fn with_floor(self, shortest: f64) -> Self {
         let Self { mut grow, mut hold, mut cruise } = self;
         if hold < shortest {
@@ -91,7 +90,7 @@ impl Times {
         [speed, acceleration, acceleration / self.grow]
     }
 
-    /// Lengthens all times so that rates that exceed their limits by rounding are within them.
+    /// Lengthens all times so that rates that exceed their limits by rounding errors are within them.
     fn lengthened_to_limits(self, length: f64, limits: [f64; 3]) -> Self {
         let [speed, acceleration, jerk] = [0, 1, 2].map(|i| self.rates(length)[i] / limits[i]);
         let longer = speed.max(acceleration.sqrt()).max(jerk.cbrt()).max(1.0);
@@ -108,7 +107,7 @@ impl Times {
     fn phases(&self, length: f64) -> Vec<Phase> {
         let &Self { grow, hold, cruise } = self;
         let [peak, _, jerk] = self.rates(length);
-        // With this rounding, the acceleration ends at exactly 0.
+        // So rounded, the acceleration ends at exactly 0.
         let acceleration = jerk * grow;
         let (mut from, mut enter) = (0.0, 0.0);
         let ramp = [(grow, 0.0, jerk), (hold, acceleration, 0.0), (grow, acceleration, -jerk)];
@@ -121,7 +120,7 @@ impl Times {
         });
         let level =
             Phase { duration: cruise, from, to: length - from, enter: peak, leave: peak, acceleration: 0.0, jerk: 0.0 };
-        // Reverse the motion: of the derivatives, only the second changes its sign.
+        // In reverse, only the second derivative changes its sign.
         let down = up.into_iter().rev().map(|phase| Phase {
             from: length - phase.to,
             to: length - phase.from,
@@ -149,7 +148,7 @@ mod tests {
     fn times_too_short_for_the_limits_are_lengthened() {
         let times = Times { grow: 1.0, hold: 2.0, cruise: 0.5 };
         assert_eq!(times.lengthened_to_limits(9.0, times.rates(9.0)), times);
-        // In the same shape: until the limit that is missed by most is reached.
+        // Scales all times until the limit with the greatest excess is reached.
         let [speed, acceleration, jerk] = times.rates(9.0);
         for (limits, longer) in [
             ([speed / 3.0, acceleration, jerk], 3.0),
@@ -180,8 +179,8 @@ mod tests {
         assert_eq!(phases.len(), 4);
     }
 
-    /// Asserts that the phases form a motion from rest to rest within the limits. Consecutive phases must agree except
-    /// in the jerk, and have the expected durations.
+    /// Asserts that the phases form a motion from rest to rest within the limits. Consecutive phases must agree except in the
+    /// jerk, and have the expected durations.
     fn joined(phases: &[Phase], length: f64, [speed, acceleration, jerk]: [f64; 3]) {
         let same = |a: f64, b: f64, size: f64| assert!((a - b).abs() <= 1e-12 * size, "{a} {b} {phases:?}");
         let (first, last) = (phases[0], phases[phases.len() - 1]);
@@ -211,7 +210,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Tests limits and lengths from the range of arms to far beyond it. `tests/motion` tests the durations.
+        /// Checks limits and lengths of arms and far beyond. `tests/motion` checks the durations.
         #[test]
         fn phases_join_and_keep_the_limits(
             length in -15.0..4.0f64, speed in -4.0..4.0f64, acceleration in -4.0..6.0f64, jerk in -4.0..12.0f64,

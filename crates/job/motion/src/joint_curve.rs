@@ -1,9 +1,8 @@
 //! Motions with limits on jerks along given smooth curves in joint space.
 //!
-//! Compared with `smooth`, the curve is known before the motion, so its distance from anything can be checked first. The
-//! motion along it is found directly in the least time (`retime`), and sampled as a uniform cubic B-spline in time. Such
-//! a spline moves a little inwards, by `h^2 / 6` times the acceleration for a step `h`. So the step is halved until the
-//! motion is near enough.
+//! In contrast to `smooth`, the curve is known before the motion, so its distance from obstacles can be checked first. `retime`
+//! finds the fastest motion along it, which is sampled as a uniform cubic B-spline in time. With the step `h`, this spline
+//! deviates inwards by `h^2 / 6` times the acceleration, so `h` is halved until the motion is near enough to the curve.
 
 use super::clock::NANOSECONDS_PER_SECOND;
 use super::extent::extents;
@@ -18,15 +17,15 @@ use cplan_judge::CertifiedPath;
 use cplan_model::Scene;
 use cplan_model::space::Configuration;
 
-/// Least number of intervals of the rate along a curve. On curves with fewer pieces, a piece has several intervals.
+/// Least number of intervals of the rate along a curve. If the curve has fewer pieces, each has several intervals.
 const MIN_INTERVALS: usize = 192;
 
-/// Factor by which a motion may be slowed down because it exceeds limits between the positions at which they are imposed.
-/// With a greater factor, the intervals are divided further.
+/// A motion that exceeds limits between the positions at which they are imposed is slowed down by up to this factor. If it needs
+/// more, intervals are divided further.
 const MAX_SLOWDOWN: f64 = 1.003;
 
-/// Least number of intervals in the time in which an acceleration grows to its limit, on average. With fewer intervals,
-/// they are divided further.
+/// Least average number of intervals in the time in which an acceleration grows to its limit. With fewer, intervals are divided
+/// further.
 const INTERVALS_PER_GROWTH: f64 = 12.0;
 
 /// Greatest number of parts into which intervals are divided further.
@@ -45,9 +44,9 @@ pub struct JointCurve {
 }
 
 impl JointCurve {
-    /// Creates the curve from the first to the last one of at least two points. Those between them are control points, so
-    /// the curve stays in the hull of all points. At both ends its first two derivatives are zero, so a motion can begin
-    /// and end there at rest.
+    /// Creates the curve from the first to the last of at least two points. The other points are control points, so the curve
+    /// stays in the hull of all points. At both ends, its first two derivatives are zero, so that motions can begin and end there
+    /// at rest.
     ///
     /// # Panics
     /// If there are fewer than two points.
@@ -56,20 +55,18 @@ impl JointCurve {
         Self { spline: Spline::of_curve(points) }
     }
 
-    /// Returns the pieces of the curve, one unit of its parameter each: for `n` points, there are `n + 1` pieces. Piece
-    /// `i` is near the points `i - 1` and `i`.
+    /// Returns the pieces of the curve, each of which is one unit of its parameter long. For `n` points, there are `n + 1`
+    /// pieces. Piece `i` is near the points `i - 1` and `i`.
     pub fn pieces(&self) -> Vec<Piece> {
         self.spline.pieces()
     }
 }
 
-/// Returns the fastest motion along a curve from rest to rest that is found. It is within the limits on jerks. `path` is a
-/// certified path near the curve. Joint limits are not checked: the motion stays in the hull of the curve's points.
-/// `too_far` receives the pieces of a motion, and returns the indices of those that are
-/// too far from the curve.
+/// Returns the fastest motion found along a curve, from rest to rest, within the limits on jerks. `path` is a certified path near
+/// the curve. Joint limits are not checked, because the motion stays in the hull of the curve's points. `too_far` returns the
+/// indices of those pieces of a motion that are too far from the curve.
 ///
-/// Returns `None` if no motion is found that is certified to be free and has no piece that is too far. It takes time
-/// linear in the number of points of the curve and of samples.
+/// Returns `None` if no motion is certified and near enough. Linear in the numbers of the curve's points and of samples.
 pub fn along_joint_curve(
     scene: &Scene,
     path: &CertifiedPath,
@@ -100,8 +97,8 @@ pub fn along_joint_curve(
     Some(TimedMotion { curve, trajectory })
 }
 
-/// Returns the fastest motion along a curve whose pieces are all near enough, within all limits except those on torques.
-/// `None` if no motion is near enough.
+/// Returns the fastest motion along a curve that is near enough to it, within all limits except those on torques. `None` if no
+/// motion is near enough.
 pub(super) fn motion(
     curve: &Spline,
     limits: &Limits,
@@ -131,8 +128,8 @@ pub(super) fn motion(
     best
 }
 
-/// Returns the motion along a curve at a rate, with the longest steps for which all pieces are near enough. Steps are
-/// at most `longest` seconds.
+/// Returns the motion along a curve at a rate. Its steps are the longest, up to `longest` seconds, for which all pieces are near
+/// enough to the curve.
 fn near_motion(curve: &Spline, rate: &Rate, longest: f64, too_far: &dyn Fn(&[Piece]) -> Vec<usize>) -> Option<Spline> {
     let mut count = (rate.duration() / longest).ceil();
     while count <= MAX_STEPS {

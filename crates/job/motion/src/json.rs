@@ -4,11 +4,11 @@ use serde::Serialize;
 use serde_json::ser::{CompactFormatter, Formatter};
 use std::io::{self, Write};
 
-/// Returns a JSON object as text, with one line per field and a final line feed. People can read it, and long lists of
-/// numbers stay compact. Numbers have as many digits as needed to read back the same `f64`.
+/// Returns a JSON object as text, with one line per field and a final line feed. This is legible and keeps long lists of numbers
+/// compact. Numbers have enough digits to read back the same `f64`.
 ///
 /// # Panics
-/// If a value has no form in JSON: maps whose keys are not strings.
+/// If a value cannot be written as JSON: a map whose keys are not strings.
 pub fn field_per_line(object: &impl Serialize) -> String {
     let mut text = Vec::new();
     let mut serializer = serde_json::Serializer::with_formatter(&mut text, FieldPerLine::default());
@@ -17,8 +17,7 @@ pub fn field_per_line(object: &impl Serialize) -> String {
     String::from_utf8(text).expect("JSON is UTF-8")
 }
 
-/// A formatter that puts each field of the outermost object on its own line. Within the line, there is one space after
-/// each comma and colon.
+/// A formatter that puts each field of the outermost object on its own line, with a space after each comma and colon.
 #[derive(Default)]
 struct FieldPerLine {
     depth: usize,

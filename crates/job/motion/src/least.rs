@@ -8,16 +8,17 @@ const TIME_HALVINGS: usize = 64;
 /// Relative rounding error of a duration that bisection finds.
 const ROUNDING: f64 = 1e-9;
 
-/// Returns a lower bound on the duration, in seconds, of every motion from rest to rest on a path. `length` is the time
-/// that the path takes at the joints' top speeds ([`cplan_model::space::Metric::Time`]), seconds; if the limits contain those
-/// of a sum of joint values, the metric may contain that sum.
+/// Returns a lower bound on the duration, in seconds, of every motion from rest to rest on a path. `length` is the time, in
+/// seconds, that the path takes at the joints' top speeds ([`cplan_model::space::Metric::Time`]). If the limits include those of
+/// a sum of joint values, the metric may include that sum.
 ///
-/// Let `f(t)` be the greatest fraction of its top speed that a joint or the sum can reach `t` seconds after rest, by its
-/// acceleration and jerk. At the time `t` of a motion of `T` seconds, none exceeds the fraction `min(1, f(t), f(T -
-/// t))`. So the length of the path is at most the integral of this, which increases with `T`.
+/// Let `f(t)` be the greatest fraction of its top speed that any joint, or the sum, can reach `t` seconds after rest, given its
+/// acceleration and jerk. At the time `t` of a motion of `T` seconds, all speeds are at most the fraction
+/// `min(1, f(t), f(T - t))` of top speed. So the length of the path is at most the integral of this fraction, which increases
+/// with `T`.
 pub fn least_duration(length: f64, limits: &Limits) -> f64 {
     let limits = Limits { wrist: None, ..*limits };
-    // The sum accelerates at most as the joints do together.
+    // The acceleration of the sum is at most that of both joints together.
     let together = |of: &dyn Fn(usize) -> f64| limits.sum.map_or(0.0, |sum| sum.ratio.abs() * of(0) + of(1));
     let rate = |own: &dyn Fn(&LimitedAxis) -> f64, of_joint: &dyn Fn(usize) -> f64| {
         let rate = |axis: LimitedAxis| match axis.joint() {
@@ -28,8 +29,8 @@ pub fn least_duration(length: f64, limits: &Limits) -> f64 {
     };
     let acceleration = rate(&|axis| axis.acceleration, &|k| limits.acceleration[k]);
     let jerk = rate(&|axis| axis.jerk.unwrap_or(f64::INFINITY), &|k| limits.jerk[k].unwrap_or(f64::INFINITY));
-    // The time at which the jerk has built up the greatest acceleration, or at which the speed is greatest if that is
-    // earlier; 0 without a limit on the jerk.
+    // Time in which the jerk builds up the greatest acceleration, or in which the greatest speed is reached if that is earlier; 0
+    // without a limit on the jerk.
     let grown = if jerk.is_finite() { (acceleration / jerk).min((2.0 / jerk).sqrt()) } else { 0.0 };
     let lost = if jerk.is_finite() { jerk * grown * grown / 2.0 } else { 0.0 };
     let top = if lost < 1.0 && acceleration.is_finite() { grown + (1.0 - lost) / acceleration } else { grown };

@@ -1,9 +1,10 @@
 //! From a certified path to a motion in time, and to files.
 //!
-//! [`time`] times a path with its blends within the joints' limits. [`csv`], [`ros_yaml`] and (a feature) `mcap` write
-//! motions. [`Format`] gives the format for a file name. [`write_whole`] writes a file completely, or not at all.
+//! [`time`] computes the fastest motion along a path with blends within the joints' limits. [`csv`], [`ros_yaml`] and (as a
+//! feature) `mcap` write motions. [`Format`] determines the format for a file name. [`write_whole`] writes a file completely or
+//! not at all.
 //!
-//! Each format makes guarantees to its readers, which join samples differently:
+//! The readers of the formats join samples in different ways:
 //!
 //! | format | readers | how they join samples |
 //! |---|---|---|
@@ -14,11 +15,11 @@
 //! | MCAP `/tf`, `/scene`, `/outlines` | RViz, Foxglove, Rerun | nothing: a frame stays where it is until it moves |
 //! | MCAP `/joint_states` | `robot_state_publisher`, Foxglove | each state for itself; displays hold it or draw lines to the next |
 //!
-//! On straight pieces, the cubics are exactly the certified motion. On blends, they are within [`BLEND_TOLERANCE`] of
-//! it, which the certificate covers. They are within the limits. While the arm is at rest, the samples are equal and
-//! have no velocity. Quintics equal that motion only where the acceleration does not jump. So accelerations are written
-//! only on request, and refused if they jump. States lie on the motion. Lines between states `h` seconds apart deviate
-//! from the motion by at most `a h^2 / 8`, where `a` is the greatest acceleration.
+//! Cubics are within all limits. On straight pieces, they are exactly the certified motion; on blends, they are within
+//! [`BLEND_TOLERANCE`] of it, which the certificate covers. While the arm is at rest, samples are equal and have no velocity.
+//! Quintics equal the motion only if the acceleration does not jump, so accelerations are written only on request, and refused if
+//! they jump. States are on the motion; lines between states `h` seconds apart deviate from it by at most `a h^2 / 8`, where `a`
+//! is the greatest acceleration.
 //!
 //! ```
 //! use cplan_judge::certify;
@@ -38,31 +39,30 @@
 //!
 //! # Timing
 //!
-//! [`time`] computes the squared speed along the curve by forward-backward integration, from one stop to the next
-//! (`schedule`). On straight pieces it has a closed form (`profile`). A blend is cut into spans, with bounds that are
-//! linear in the squared speeds at the ends of each span (`corner`). Every piece of the motion is a polynomial in time
-//! of degree four at most, which the samples define.
+//! [`time`] computes the squared speed along the curve by forward-backward integration, from one stop to the next (`schedule`).
+//! Straight pieces have a closed form (`profile`). A blend is cut into spans, with bounds that are linear in the squared speeds
+//! at the ends of a span (`corner`). Every piece of the motion is a polynomial in time of degree at most four, which the samples
+//! define.
 //!
-//! With a limit on jerks, `smooth` converts that motion to a cubic B-spline (`spline`): the mean over a window of time
-//! that is long enough for the jerk. If the result is not shown to be free at a corner, that corner is passed more
-//! slowly.
-//! `retime` then computes the fastest motion along the resulting curve. If the curve is given, as for lines that the tip
-//! follows, `joint_curve` finds the fastest motion along it directly.
+//! With limits on jerks, `smooth` converts this motion to a cubic B-spline (`spline`): its mean over a window of time that is
+//! long enough for the jerk. A corner at which the result is not proven free is passed more slowly. `retime` then computes the
+//! fastest motion along the resulting curve. If the curve is given, as for lines that the tip follows, `joint_curve` finds the
+//! fastest motion along it directly.
 //!
-//! The motion along a single straight piece from rest to rest comes from `jerk`. It takes Ruckig's times of the seven
-//! phases, and adapts them to the least interval between samples. It then computes the phases from these times and the
-//! length alone. So the motion ends at the right place and is within the limits, whatever the tolerance of the solver.
+//! The motion along a single straight piece from rest to rest comes from `jerk`. Ruckig determines the durations of the seven
+//! phases, which are adapted to the least interval between samples. The phases are then computed from these durations and the
+//! length alone, so the motion ends at the right place and is within the limits, whatever Ruckig's tolerance.
 //!
-//! All samples lie at whole nanoseconds (`clock`). `shape` looks for the path with the fastest motion, and `least` has
-//! a lower bound on the time.
+//! All samples are at whole nanoseconds (`clock`). `shape` searches for the path with the fastest motion, and `least` has lower
+//! bounds on the duration.
 //!
 //! # Files
 //!
-//! `message` is a motion of all joints in a ROS 2 message: `model::RobotJoints` lists the source of each value, and in
-//! a task the engine adds the tool's strokes and the wrist's turns. Writers create files whole or not at all.
+//! `message` has motions of all joints for ROS 2 messages: `model::RobotJoints` lists the source of each value, and in a task the
+//! engine adds the tool's strokes and the wrist's turns.
 //!
-//! A recording (`mcap`, a feature) is a list of motions, each with its start time: a CDR writer (`mcap/cdr`), the two
-//! messages with their definitions (`mcap/messages`), and the crate `mcap` for the container.
+//! A recording (`mcap`, a feature) is a list of motions, each with its start time: a CDR writer (`mcap/cdr`), the two messages
+//! with their definitions (`mcap/messages`), and the crate `mcap` for the container.
 
 mod blend;
 mod bounds;

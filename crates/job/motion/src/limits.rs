@@ -7,10 +7,11 @@ use cplan_model::space::Configuration;
 use cplan_model::{Arm, Joint, Motors};
 use nalgebra::Vector3;
 
-/// Number of times that torques are reduced if they exceed the efforts between the positions at which they are limited.
+/// Number of times that torque limits are reduced because torques exceed the efforts between the positions at which they are
+/// limited.
 pub(super) const MAX_TORQUE_ROUNDS: usize = 6;
 
-/// Limits of a motion, for the joints from base to tip. All are positive, in radians or metres and seconds.
+/// Limits of a motion, in radians or metres and seconds. All are positive. Joints are ordered from base to tip.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Limits<'a> {
     /// Greatest speed of each joint.
@@ -23,13 +24,13 @@ pub struct Limits<'a> {
     pub tip: Option<TipSpeed<'a>>,
     /// Greatest torques of the joints; `None` for no limits.
     pub torque: Option<TorqueLimit<'a>>,
-    /// Limits of a wrist that turns along the path; `None` without such a wrist. Motions with limited jerks ignore them.
+    /// Limits of a wrist that turns along the path; `None` without one. Motions with limited jerks ignore them.
     pub wrist: Option<WristLimit<'a>>,
     /// Limits of a sum of both joint values; `None` for no limits.
     pub sum: Option<SumLimit>,
 }
 
-/// Limits of the sum `ratio q1 + q2` of joint values, which a motor of the elbow on the base drives.
+/// Limits of the sum `ratio q1 + q2`, the angle of an elbow's motor on the base.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SumLimit {
     /// Factor of joint 1 in the sum.
@@ -45,10 +46,10 @@ pub struct SumLimit {
 /// Values of both joints and of the wrist's joint, or their rates; 0 for the wrist's joint if the arm has none.
 pub(super) type Axes = Vector3<f64>;
 
-/// An axis that a motion moves: joint 1, joint 2, or the wrist's joint, by its index, or the sum of both joints.
+/// An axis of a motion: joint 1, joint 2, the wrist's joint, or the sum of both joint values.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct LimitedAxis {
-    /// Index of the joint, or the factor of joint 1 in the sum.
+    /// Index of the joint, or for the sum the factor of joint 1 as the error.
     axis: Result<usize, f64>,
     pub velocity: f64,
     pub acceleration: f64,
@@ -64,7 +65,7 @@ impl LimitedAxis {
         }
     }
 
-    /// Returns the greatest magnitude of a component along the axis, given those of the joints' components.
+    /// Returns the greatest magnitude along the axis, given the magnitudes of the joints' components.
     pub fn greatest(&self, magnitudes: Axes) -> f64 {
         match self.axis {
             Ok(joint) => magnitudes[joint],
@@ -81,10 +82,10 @@ impl LimitedAxis {
 /// A wrist that turns while the arm moves along a path, and its limits.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WristLimit<'a> {
-    /// Value of the wrist's joint at each waypoint of the path, radians. Along a straight leg it is linear, along a curved
-    /// one cubic, and along a blend quadratic.
+    /// Value of the wrist's joint at each waypoint of the path, radians. It is linear along a straight leg, cubic along a curved
+    /// one, and quadratic along a blend.
     pub values: &'a [f64],
-    /// Derivative of that value by the parameter at both ends of each leg. Those of straight legs do not matter.
+    /// Derivatives of this value by the parameter at both ends of each leg. Those of straight legs are not used.
     pub slopes: &'a [[f64; 2]],
     /// Top speed, radians per second, positive.
     pub velocity: f64,
@@ -93,7 +94,7 @@ pub struct WristLimit<'a> {
 }
 
 impl From<&[Joint; 2]> for Limits<'_> {
-    /// Takes the joints' own limits, without limits on the tip and on torques.
+    /// Takes the joints' own limits, without limits on the tip or on torques.
     fn from(joints: &[Joint; 2]) -> Self {
         Self {
             velocity: joints.each_ref().map(|joint| joint.velocity),
@@ -105,7 +106,7 @@ impl From<&[Joint; 2]> for Limits<'_> {
 }
 
 impl From<&Arm> for Limits<'_> {
-    /// Takes the limits of the joints and of their motors, without limits on the tip and on torques.
+    /// Takes the limits of the joints and of their motors, without limits on the tip or on torques.
     fn from(arm: &Arm) -> Self {
         let is_limited =
             |motors: &Motors| motors.velocity.is_some() || motors.acceleration.is_some() || motors.jerk.is_some();
@@ -120,8 +121,8 @@ impl From<&Arm> for Limits<'_> {
 }
 
 impl Limits<'_> {
-    /// Returns limits for motions at a share of the full speed. If a motion within the full limits is slowed down to
-    /// this share, it is within the returned limits. Torques keep their full limits, because gravity does not change.
+    /// Returns limits for motions at a share of the full speed. A motion within the full limits that is slowed down to this share
+    /// is within them. Torques keep their full limits, because gravity does not change.
     #[must_use]
     pub fn scaled(self, share: f64) -> Self {
         Self {
@@ -178,8 +179,8 @@ impl Limits<'_> {
         [0, 1].map(|end| tangents[end].push(self.wrist.map_or(0.0, |wrist| wrist.slopes[leg][end])))
     }
 
-    /// Returns the value of the wrist's joint at a distance, radians or metres in joint space, from waypoint `from` towards
-    /// a neighbouring one, which is `length` away; 0 without a wrist.
+    /// Returns the value of the wrist's joint at a distance, in joint space, from waypoint `from` towards a neighbouring one,
+    /// which is `length` away; 0 without a wrist.
     pub(super) fn wrist_at(&self, from: usize, toward: usize, distance: f64, length: f64) -> f64 {
         self.wrist.map_or(0.0, |wrist| {
             let [a, b] = [wrist.values[from], wrist.values[toward]];
@@ -187,8 +188,8 @@ impl Limits<'_> {
         })
     }
 
-    /// Returns a trajectory whose torques are within the efforts. `drive` makes trajectories within limits whose efforts are
-    /// reduced as long as the torques between two samples exceed them.
+    /// Returns a trajectory whose torques are within the efforts. `drive` computes trajectories within limits. As long as torques
+    /// between two samples exceed the efforts, it is called again with reduced efforts.
     pub(super) fn within_torque(&self, drive: impl Fn(&Self) -> Option<Trajectory>) -> Option<Trajectory> {
         let mut used = *self;
         for _ in 0..MAX_TORQUE_ROUNDS {
@@ -216,8 +217,8 @@ impl Limits<'_> {
         Self { jerk: [None; 2], sum: self.sum.map(|sum| SumLimit { jerk: None, ..sum }), ..self }
     }
 
-    /// Iterates over the times in which a limited jerk builds up the full acceleration: one for each joint with such a
-    /// limit, and one for the sum if it has one.
+    /// Iterates over the times in which a limited jerk builds up the full acceleration: one for each joint with such a limit, and
+    /// one for the sum if it has one.
     pub(super) fn growths(&self) -> impl Iterator<Item = f64> + use<> {
         let of_joints = self.sum.map_or(0.0, |sum| sum.ratio.abs() * self.acceleration[0] + self.acceleration[1]);
         self.axes().filter_map(move |axis| {
@@ -232,8 +233,8 @@ impl Limits<'_> {
         self.growths().fold(0.0, f64::max)
     }
 
-    /// Returns the distance that a joint moves at top speed while its jerk builds up the full acceleration: the greater
-    /// one of both joints.
+    /// Returns the greatest distance, of both joints, that a joint moves at top speed while its jerk builds up the full
+    /// acceleration.
     pub(super) fn reversal(&self) -> f64 {
         let of_joint = |k: usize| self.jerk[k].map_or(0.0, |j| self.acceleration[k] / j * self.velocity[k]);
         let is_limited = self.sum.is_some_and(|sum| sum.jerk.is_some());
@@ -241,7 +242,7 @@ impl Limits<'_> {
         of_joint(0).max(of_joint(1)).max(of_sum)
     }
 
-    /// Returns the distance that a joint moves until it reaches its top speed: the greater one of both joints.
+    /// Returns the greatest distance, of both joints, that a joint moves until it reaches its top speed.
     pub(super) fn ramp(&self) -> f64 {
         let torque = self.torque.map_or([f64::INFINITY; 2], |torque| torque.accelerations());
         let acceleration = |k: usize| self.acceleration[k].min(torque[k]);
@@ -267,8 +268,8 @@ impl Limits<'_> {
         self.axes().map(|axis| limit(&axis) / axis.component(direction).abs()).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns true if a motion must stop at every corner. This is so if the jerk of any joint or of their sum is limited,
-    /// because the acceleration would jump at the start of a blend.
+    /// Returns true if a motion must stop at every corner, because a jerk of a joint or of the sum is limited: at the start of a
+    /// blend, the acceleration would jump.
     pub fn stops_at_corners(&self) -> bool {
         self.jerk.iter().any(Option::is_some) || self.sum.is_some_and(|sum| sum.jerk.is_some())
     }

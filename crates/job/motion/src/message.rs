@@ -15,11 +15,11 @@ pub struct JointMotion {
     pub position: Vec<Vec<f64>>,
     /// For each sample, the velocity of each joint, radians or metres per second.
     pub velocity: Vec<Vec<f64>>,
-    /// For each sample, the acceleration of each joint. `None` if readers must join the samples by cubics.
+    /// For each sample, the acceleration of each joint. `None` if readers must join samples by cubics.
     pub acceleration: Option<Vec<Vec<f64>>>,
 }
 
-/// The accelerations of a motion jump, so they would mislead readers that join samples by quintics.
+/// The accelerations of a motion jump. Readers that join samples by quintics would execute another motion.
 #[derive(Debug, Clone, Copy, PartialEq, Error)]
 #[error(
     "accelerations cannot be written: they jump at {time:.6} s, so a controller that joins points by quintics would leave the certified motion; limit the jerk of both joints (--jerk 200,200, or [robot] jerk in the world file), or leave out --accelerations"
@@ -29,16 +29,16 @@ pub struct AccelerationJump {
     pub time: f64,
 }
 
-/// Largest difference between the accelerations on both sides of a sample that does not count as a jump, relative to
-/// the greatest acceleration. It is far above rounding to nanoseconds, and far below a visible effect on a quintic.
+/// Two accelerations at a sample count as equal if they differ by at most this share of the greatest acceleration. It is far
+/// above the rounding to nanoseconds, and has no visible effect on a quintic.
 const ACCELERATION_TOLERANCE: f64 = 1e-6;
 
-/// Uncertainty of the acceleration of a piece, as a multiple of a unit in the last place of the greatest position
-/// divided by the piece's squared duration.
+/// Uncertainty of a piece's acceleration, as a multiple of a unit in the last place of the greatest position, divided by the
+/// piece's squared duration.
 const ULPS: f64 = 256.0;
 
 impl JointMotion {
-    /// Creates a motion of the planned joints, and of the wrist if it turns in the trajectory, with the others at rest.
+    /// Creates a motion of the planned joints, and of the wrist if it turns in the trajectory. Other joints are at rest.
     pub fn new(robot: &RobotJoints, trajectory: &Trajectory, accelerations: bool) -> Self {
         let turned = |k: usize, of: usize| trajectory.wrist.get(k).map(|row| row[of]);
         let position = |(k, &planned): (usize, &[f64; 2])| {
@@ -63,7 +63,7 @@ impl JointMotion {
 }
 
 impl JointMotion {
-    /// Removes the samples after all joints have come to rest.
+    /// Removes the samples after which all joints stay at rest.
     #[must_use]
     pub fn without_rest(mut self) -> Self {
         while let [.., before, last] = &self.position[..]
@@ -85,7 +85,7 @@ impl JointMotion {
 }
 
 impl Trajectory {
-    /// Checks that quintics through the samples equal the motion, so that its acceleration does not jump.
+    /// Checks that quintics through the samples equal the motion: its acceleration must not jump.
     ///
     /// # Errors
     /// The first jump.

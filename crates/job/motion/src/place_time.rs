@@ -1,5 +1,5 @@
-//! The plane of place on a motion and time, in which moving obstacles are forbidden regions. It shows
-//! between which obstacles a motion passes, and for which obstacle it waits.
+//! The plane with the place on a motion and time as coordinates, in which moving obstacles are forbidden regions. It shows
+//! between which obstacles a motion passes, and for which ones it waits.
 
 use super::sample::Trajectory;
 use super::waits::Wait;
@@ -7,14 +7,14 @@ use cplan_geometry::Interval;
 use cplan_handling::TimedScene;
 use cplan_model::space::Configuration;
 
-/// Number of places on the whole motion. With it, a row of a small chart is less than a pixel high.
+/// Number of places on the whole motion. A row of a small chart is then less than a pixel high.
 const PLACES: usize = 120;
 
-/// Shortest wait that is worth a word, in seconds. Shorter ones come from rounding.
+/// Shortest wait that results mention, in seconds. Shorter ones are due to rounding.
 const MIN_WAIT: f64 = 5e-3;
 
-/// Fractions of a wait by which the motion after it begins earlier, to find the obstacle that the motion would meet.
-/// The first fraction stands for a motion without the wait, the last one for a motion that departs a little too early.
+/// To find the obstacle that a motion would meet without a wait, the motion after the wait begins earlier by these fractions of
+/// the wait. The first one means no wait at all, the last one a slightly too early departure.
 const EARLIER: [f64; 6] = [1.0, 0.75, 0.5, 0.25, 0.1, 0.02];
 
 /// A part of a motion: the whole motion, or one step of a task.
@@ -30,9 +30,8 @@ pub struct MotionPart<'a> {
     pub awaited: Option<&'a str>,
 }
 
-/// Computes the intervals of time, in seconds, in which moving obstacles block the arm. There is a list for each
-/// configuration and each loose obstacle of the scene, in order and disjoint. The clearance of the world counts as
-/// blocked.
+/// Computes the intervals of time, in seconds, during which moving obstacles block the arm: for each configuration, a list for
+/// each loose obstacle of the scene, ordered and disjoint. Less than the world's clearance counts as blocked.
 pub type BlockedTimes<'a> = dyn Fn(TimedScene, &[Configuration]) -> Vec<Vec<Vec<Interval>>> + 'a;
 
 /// A place on a motion.
@@ -53,8 +52,8 @@ pub struct WaitReason {
     pub wait: Wait,
     /// Progress of the motion during the wait.
     pub progress: f64,
-    /// Name of the obstacle that the motion would meet without the wait, or of the object that it waits for. `None` if
-    /// neither is known.
+    /// Name of the obstacle that the motion would meet without the wait, or of the object for which it waits. `None` if neither
+    /// is known.
     pub obstacle: Option<String>,
 }
 
@@ -66,7 +65,7 @@ impl WaitReason {
     }
 }
 
-/// Places on a motion with the times at which moving obstacles block them, and the motion itself.
+/// Places on a motion, the times at which moving obstacles block them, and the motion itself.
 #[derive(Debug, Clone, PartialEq)]
 pub struct PlaceTime {
     /// Names of the moving obstacles.
@@ -75,13 +74,12 @@ pub struct PlaceTime {
     pub places: Vec<TimedPlace>,
     /// Time and progress of the motion's samples, in order.
     pub motion: Vec<[f64; 2]>,
-    /// Ends of parts: their time, and the name of the object for which the arm waits there.
+    /// Ends of parts: the time, and the name of the object for which the arm waits there.
     ends: Vec<(f64, Option<String>)>,
 }
 
 impl PlaceTime {
-    /// Computes the plane for the parts of a motion, in their order. `None` if nothing moves beside the arm, or the arm
-    /// stands still.
+    /// Computes the plane for the parts of a motion in their order. `None` if no obstacle moves, or if the arm does not.
     pub fn of(parts: &[MotionPart], blocked_times: &BlockedTimes) -> Option<Self> {
         let mut names: Vec<String> = Vec::new();
         for part in parts {
@@ -121,11 +119,11 @@ impl PlaceTime {
         low + (high - low) * ((time - from) / (to - from).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0)
     }
 
-    /// Returns the waits that are long enough for a word, with their reasons.
+    /// Returns the waits that are long enough to mention, with their reasons.
     pub fn reasons(&self, waits: &[Wait]) -> Vec<WaitReason> {
         let long: Vec<Wait> = waits.iter().copied().filter(|wait| wait.to - wait.from >= MIN_WAIT).collect();
         let reason = |wait: &Wait| {
-            // The motion behind the wait ends at the next wait, or with its part.
+            // The motion after the wait ends at the next wait, or with its part.
             let ends = self.ends.iter().map(|(end, _)| *end).chain(long.iter().map(|next| next.from));
             let until = ends.filter(|end| *end > wait.to).fold(f64::INFINITY, f64::min);
             WaitReason {
@@ -148,8 +146,8 @@ impl PlaceTime {
         })
     }
 
-    /// Returns the obstacle that the motion between two times meets first if it departs `earlier` by some seconds, or
-    /// while it then rests at its end.
+    /// Returns the obstacle that the motion between two times meets first if it departs `earlier` by some seconds, including
+    /// during a rest at its end.
     fn first_met(&self, [from, until]: Interval, earlier: f64) -> Option<usize> {
         let mut places = self.places.iter().filter(|place| (from..=until).contains(&place.time)).peekable();
         while let Some(place) = places.next() {
@@ -164,7 +162,7 @@ impl PlaceTime {
     }
 }
 
-/// Returns the progress at each sample of a part: the time for the motion so far at the joints' top speeds.
+/// Returns the progress at each sample of a part: the time that the motion so far would take at the joints' top speeds.
 fn distances(part: &MotionPart) -> Vec<f64> {
     let joints = &part.timed.scene.arm().joints;
     let mut gone = 0.0;
@@ -175,7 +173,7 @@ fn distances(part: &MotionPart) -> Vec<f64> {
     std::iter::once(0.0).chain(steps.collect::<Vec<_>>()).take(part.trajectory.position.len()).collect()
 }
 
-/// Returns places on a part, evenly by progress. `before` is the progress at its beginning, and `whole` that of all parts.
+/// Returns places on a part, evenly by progress. `before` is the progress at its beginning, `whole` that of all parts.
 fn places_of(
     part: &MotionPart,
     gone: &[f64],
@@ -197,7 +195,7 @@ fn places_of(
         let (progress, time) = ((before + at) / whole, part.begin + from + (to - from) * share);
         places.push(TimedPlace { progress, time, blocked: vec![Vec::new(); names.len()] });
     }
-    // A moving obstacle has its number in the scene; `names` may have further ones.
+    // A moving obstacle has a number in the scene; `names` may have more entries.
     let loose = part.timed.scene.loose_obstacles().iter();
     let shown: Vec<Option<usize>> =
         loose.map(|loose| names.iter().position(|name| *name == loose.obstacle.name)).collect();

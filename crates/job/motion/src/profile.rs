@@ -2,8 +2,7 @@
 
 use super::clock::whole_nanoseconds;
 
-/// A phase of constant jerk along a stretch. In most phases the jerk is 0. Distances count from the beginning of the
-/// stretch.
+/// A phase of constant jerk along a stretch. In most phases, the jerk is 0. Distances are from the beginning of the stretch.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Phase {
     /// Duration, seconds.
@@ -39,8 +38,8 @@ impl Phase {
 
     /// Returns the state `time` seconds after the phase began.
     ///
-    /// A deceleration is computed backwards from its end. Otherwise, rounding would make a short deceleration after a
-    /// long distance at top speed inaccurate.
+    /// A deceleration is computed backwards from its end. Otherwise, a short deceleration after a long distance at top speed
+    /// would be inaccurate.
     pub(super) fn at(&self, time: f64) -> State {
         let Self { duration, from, to, enter, leave, acceleration, jerk } = *self;
         let last = acceleration + jerk * duration;
@@ -58,14 +57,13 @@ impl Phase {
     }
 }
 
-/// Returns the fastest motion over `length` from rest to rest. It has a constant acceleration, a constant speed
-/// (possibly for no time), and a constant deceleration as long as the acceleration. No phase is shorter than
-/// `shortest`, and all last whole nanoseconds.
+/// Returns the fastest motion over `length` from rest to rest. It has phases of constant acceleration, of constant speed
+/// (possibly empty), and of constant deceleration, which lasts as long as the acceleration. No phase is shorter than `shortest`,
+/// and all last whole nanoseconds.
 ///
-/// The minimum duration may slow the motion down by up to `4 shortest`. Ramps are stretched by a lower acceleration,
-/// and a cruise that is too short is spread over the ramps. Each phase is stretched to the next nanosecond in the same
-/// way. All limits stay satisfied. `length`, `speed`, `acceleration` and `shortest` are positive; the limits may be
-/// infinite.
+/// The least duration of phases may lengthen the motion by up to `4 shortest`. Ramps are stretched by a lower acceleration, and a
+/// cruise that is too short is spread over the ramps. Phases are stretched to whole nanoseconds in the same way. All limits are
+/// satisfied. `length`, `speed`, `acceleration` and `shortest` are positive; the limits may be infinite.
 pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest: f64) -> Vec<Phase> {
     let ramp = whole_nanoseconds((speed / acceleration).max(shortest));
     let cruise = length / speed - ramp;
@@ -73,8 +71,8 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest:
         let cruise = whole_nanoseconds(cruise);
         (ramp, cruise, length / (ramp + cruise) / ramp)
     } else {
-        // Without a cruise the peak speed is length / ramp and the acceleration length / ramp^2: both limits are lower
-        // bounds of the ramp.
+        // Without a cruise, the peak speed is length / ramp, and the acceleration is length / ramp^2. Both limits are thus lower
+        // bounds on the ramp.
         let ramp = whole_nanoseconds((length / acceleration).sqrt().max(length / speed).max(shortest));
         (ramp, 0.0, length / ramp / ramp)
     };
@@ -94,13 +92,13 @@ pub(super) fn rest_to_rest(length: f64, speed: f64, acceleration: f64, shortest:
     if cruise > 0.0 { vec![up, level, down] } else { vec![up, down] }
 }
 
-/// Returns the fastest motion over `length` between two speeds, within the limits `speed` and `acceleration`. The two
-/// speeds must not both be 0, and the acceleration must allow the change from one to the other over this length.
-/// Between acceleration and deceleration the motion coasts for `coast` seconds, as far as the two speeds allow. Returns
-/// `None` if even a single phase would be shorter than `shortest`.
+/// Returns the fastest motion over `length` between two speeds, within the limits `speed` and `acceleration`. The two speeds must
+/// not both be 0, and the acceleration must allow the change from one to the other over this length. Between acceleration and
+/// deceleration, the motion coasts for `coast` seconds, or as long as the two speeds allow. Returns `None` if even a single phase
+/// would be shorter than `shortest`.
 ///
-/// A phase that would be too short is omitted, and the greater of the two speeds becomes the maximum. The lost speed is
-/// at most the gain in `shortest` seconds.
+/// If a phase would be too short, it is omitted, and the greater of the two speeds is not exceeded. This costs at most the speed
+/// that `shortest` seconds could gain.
 pub(super) fn passing(
     length: f64,
     [enter, leave]: [f64; 2],
@@ -117,7 +115,7 @@ pub(super) fn passing(
         let gentle = if level < shortest { ((up + down) / length).min(1.0) } else { 1.0 };
         let meet = (up / gentle).min(length);
         let rest = if level < shortest { meet } else { length - down };
-        // The phase is given by its speeds, because short distances after a long one are known only roughly.
+        // Speeds determine the phase, because short distances after a long one are inaccurate.
         let phase = |[from, to]: [f64; 2], [enter, leave]: [f64; 2], acceleration: f64| {
             let duration = ((leave - enter) / acceleration).max(0.0);
             Phase { duration, from, to, enter, leave, acceleration, jerk: 0.0 }
@@ -132,8 +130,7 @@ pub(super) fn passing(
         vec![Phase { acceleration: phase.acceleration.clamp(-acceleration, acceleration), ..phase }]
     };
     let meeting = (acceleration * length + (enter * enter + leave * leave) / 2.0).sqrt();
-    // The distance of the ramps and the coasting between them is that of the stretch: a quadratic equation for the
-    // speed.
+    // Ramps and coasting together have the length of the stretch: a quadratic equation for the speed.
     let half = acceleration * coast / 2.0;
     let coasting = if half > 0.0 { half.hypot(meeting) - half } else { meeting };
     let highest = speed.min(coasting.max(enter).max(leave));
@@ -180,14 +177,13 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares the motion with a closed form for the distance and with the limits on the ramps to and from the
-        /// peak.
+        /// Compares the motion with a closed form for the distance, and with the limits on the ramps to and from the peak.
         #[test]
         fn passing_speeds_are_as_fast_as_the_limits_allow(
             length in -4.0..3.0f64, acceleration in -1.0..3.0f64, at in (0.0..1.0f64, 0.0..1.0f64), top in 0.05..3.0f64,
         ) {
             let [length, acceleration] = [length, acceleration].map(|e| 10f64.powf(e));
-            // Speeds that the length allows, relative to the one reachable from rest.
+            // Speeds that the length allows, as shares of the one reachable from rest.
             let most = (2.0 * acceleration * length).sqrt();
             let enter = at.0 * most;
             let leave = (enter * enter + (2.0 * at.1 - 1.0) * most * most).max(0.0).sqrt();

@@ -1,4 +1,4 @@
-//! Records in results about paths and searches.
+//! Records about paths and searches in results.
 
 use crate::CertifiedCurve;
 use cplan_handling::{INTERPOLATION, SMOOTH_INTERPOLATION};
@@ -13,7 +13,7 @@ pub fn interpolation(arm: &Arm) -> &'static str {
 /// Length of a path, with a proven lower bound on the length of every free motion.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LengthOptimality {
-    /// Measure of lengths: `euclidean`, `weighted`, `time` (seconds at the joints' and motors' top speeds), or `motor`.
+    /// Measure of lengths: `euclidean`, `weighted`, `time` (seconds at the top speeds of joints and motors), or `motor`.
     pub metric: &'static str,
     /// Weights of the joints, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -31,7 +31,7 @@ pub struct LengthOptimality {
 pub struct DurationOptimality {
     /// Duration of the motion, seconds.
     pub duration: f64,
-    /// Proven lower bound on the duration of every motion to any of the goals that keeps the joints' limits.
+    /// Proven lower bound on the duration of every motion to any of the goals within the joints' limits.
     pub lower_bound: f64,
     /// `duration / lower_bound - 1`; `None` if the bound is 0.
     pub gap: Option<f64>,
@@ -49,8 +49,8 @@ impl DurationOptimality {
 pub struct BlendReport {
     /// Number of blends. The motion stops at the path's other corners.
     pub count: usize,
-    /// Greatest distance from a corner at which the motion is off the path, in joint space (mixing radians and metres).
-    /// On a blend, this is the distance of its ends from the corner.
+    /// Greatest distance from a corner, in joint space (mixing radians and metres), at which the motion is off the path. For a
+    /// blend, it is the distance of its ends from the corner.
     pub largest_radius: f64,
 }
 
@@ -67,7 +67,7 @@ impl BlendReport {
 pub struct SearchReport {
     /// Name of the search: `wave` or `deepening` (only for grids), `bfs`, `dfs`, `dijkstra`, `astar` or `greedy`.
     pub search: &'static str,
-    /// Rule by which A\* breaks ties between equally promising cells, if not the default.
+    /// Rule by which A\* breaks ties between equally promising cells, unless it is the default.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ties: Option<&'static str>,
     /// For grids, the number of neighbours: 4, or 8 with diagonal moves.

@@ -1,16 +1,14 @@
-//! Least-time parametrisation of a curve under limits that include jerks (third-order time-optimal path
-//! parametrisation).
+//! Least-time parametrisation of a curve under limits that include jerks (third-order time-optimal path parametrisation).
 //!
-//! A curve `q(s)` is passed at the rate `ds/dt = z(s)^(1/2)`. With derivatives by `s`, velocities are `q' z^(1/2)`,
-//! accelerations `q'' z + q' z' / 2`, and jerks `(q''' z + 3 q'' z' / 2 + q' z'' / 2) z^(1/2)`; the time is the
-//! integral of `z^(-1/2)`. `z` is a uniform quadratic B-spline, which must satisfy the limits at
-//! [`CONDITION_POSITIONS`] of each interval as [`Condition`]s.
+//! A curve `q(s)` is passed at the rate `ds/dt = z(s)^(1/2)`. With derivatives by `s`, velocities are `q' z^(1/2)`, accelerations
+//! `q'' z + q' z' / 2`, and jerks `(q''' z + 3 q'' z' / 2 + q' z'' / 2) z^(1/2)`; the time is the integral of `z^(-1/2)`. `z` is
+//! a uniform quadratic B-spline. At the [`CONDITION_POSITIONS`] of each interval, the limits are [`Condition`]s on `z`.
 //!
-//! A barrier method finds the coefficients of `z`: Newton steps minimise the time minus the logarithms of the slacks,
-//! which have a decreasing weight. Of the second derivatives, only the terms from first derivatives of the slacks are
-//! used. They are never negative, and dominate where a slack is small. (In the squared rate, only limits on jerks are
-//! not convex: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, *Time-optimal path tracking for robots: a convex
-//! optimization approach*, 2009.)
+//! A barrier method finds the coefficients of `z`: Newton steps minimise the time minus the weighted logarithms of the slacks,
+//! with a decreasing weight. The second derivatives contain only the terms from first derivatives of the slacks, which are never
+//! negative, and dominate where a slack is small. (As functions of the squared rate, only limits on jerks are not convex:
+//! Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, *Time-optimal path tracking for robots: a convex optimization
+//! approach*, 2009.)
 
 use cplan_interrupt::checkpoint;
 
@@ -20,8 +18,8 @@ pub(super) const CONDITION_POSITIONS: [f64; 3] = [0.0, 0.5, 1.0];
 /// Weights of these positions in an integral (Simpson's rule).
 const SIMPSON_WEIGHTS: [f64; 3] = [1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0];
 
-/// Initial weight of all barriers together, as a share of the duration. A barrier is a term that grows without limit as
-/// a condition becomes tight.
+/// Initial weight of all barriers together, as a share of the duration. A barrier is a term that grows without bound as a
+/// condition becomes tight.
 const FIRST_BARRIER_WEIGHT: f64 = 0.1;
 
 /// Final weight of all barriers together, as a share of the duration.
@@ -33,21 +31,20 @@ const BARRIER_REDUCTION: f64 = 6.0;
 /// Greatest number of Newton steps for one weight.
 const MAX_NEWTON_STEPS: usize = 40;
 
-/// Least predicted gain of a step, as a share of the duration. A smaller gain ends the round.
+/// A round ends when the predicted gain of a step is below this share of the duration.
 const MIN_ROUND_GAIN: f64 = 1e-5;
 
-/// Least fraction of the predicted decrease that a step must achieve. Otherwise the step is halved.
+/// A step is halved until it achieves this fraction of the predicted decrease.
 const MIN_STEP_GAIN: f64 = 0.05;
 const MAX_STEP_HALVINGS: u32 = 20;
 
-/// Share of the greatest constant squared rate with which a search without a known rate begins.
+/// A search without a known rate begins with this share of the greatest constant squared rate.
 const INITIAL_RATE_SHARE: f64 = 0.9;
 
-/// Ratio of two durations above which they count as the same, so that the weights of the barriers need no change.
+/// Durations with at least this ratio count as the same, so that the weights of the barriers need no change.
 const SHARE_OF_SAME_DURATION: f64 = 0.8;
 
-/// Range of a product of slacks. A product that leaves this range is replaced by its logarithm, so that doubles neither
-/// overflow nor underflow.
+/// A product of slacks outside this range is replaced by its logarithm, so that doubles neither overflow nor underflow.
 const PRODUCT_RANGE: std::ops::Range<f64> = 1e-150..1e150;
 
 /// Positions and weights of Gauss's quadrature with five points on the interval from 0 to 1.
@@ -59,11 +56,11 @@ const GAUSS_POINTS: [[f64; 2]; 5] = [
     [0.953_089_922_969_332, 0.118_463_442_528_094_5],
 ];
 
-/// Number of Newton steps that find the parameter at a given time.
+/// Number of Newton steps in the search for the parameter at a given time.
 const NEWTON_STEPS_TO_PLACE: usize = 4;
 
-/// A condition on the squared rate `z` at a position of the curve: `a z + b z' + c z'' < 1`, or the same with the sum
-/// times the root of `z`.
+/// A condition on the squared rate `z` at a position of the curve: `a z + b z' + c z'' < 1`, or the same with the sum multiplied
+/// by the root of `z`.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Condition {
     pub factors: [f64; 3],
@@ -116,12 +113,12 @@ fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
 
 /// A position of the curve, with its conditions.
 struct Place<'a> {
-    /// Index of the first of three coefficients that have an effect at this position. The next field has their weights.
+    /// Index of the first of the three coefficients that matter at this position. The next field has their weights.
     first: usize,
     basis: &'a [[f64; 3]; 3],
     /// `z` and its derivatives.
     values: [f64; 3],
-    /// Fraction of the time.
+    /// Contribution of this position to the duration, seconds.
     time: f64,
     conditions: &'a [Condition],
 }
@@ -143,8 +140,8 @@ impl<'c> Problem<'c> {
         self.places(coefficients).map(|place| place.time).sum()
     }
 
-    /// Returns better coefficients: the barriers' weight decreases from the first one to the last one. All weights are
-    /// those of all barriers together, seconds. A step that gains less than `least_gain` seconds ends a round. Returns
+    /// Returns better coefficients, while the weight of the barriers decreases from the first of `weights` to the last. Weights
+    /// are those of all barriers together, in seconds. A step that gains less than `least_gain` seconds ends a round. Returns
     /// `None` if the given coefficients violate a condition.
     fn descended(&self, mut coefficients: Vec<f64>, weights: [f64; 2], least_gain: f64) -> Option<Vec<f64>> {
         let count: usize = self.conditions.iter().map(Vec::len).sum();
@@ -189,7 +186,7 @@ impl<'c> Problem<'c> {
 
     /// Returns the duration plus barriers of a given weight; infinite if a condition is violated.
     fn merit(&self, coefficients: &[f64], height: f64) -> f64 {
-        // One logarithm of a product is faster than many.
+        // The logarithm of a product is faster than many logarithms.
         let (mut merit, mut product) = (0.0, 1.0_f64);
         for Place { values, time, conditions, .. } in self.places(coefficients) {
             if values[0].is_nan() || values[0] <= 0.0 {
@@ -243,8 +240,8 @@ impl<'c> Problem<'c> {
     }
 }
 
-/// Solves `A x = b` for a symmetric, positive definite `A`, given the entries of its rows from the diagonal on, by a
-/// root-free Cholesky decomposition. Returns `None` if `A` is not positive definite.
+/// Solves `A x = b` for a symmetric, positive definite `A` by a root-free Cholesky decomposition. `bands` has the entries of each
+/// row from the diagonal on. Returns `None` if `A` is not positive definite.
 fn solve_banded(mut bands: Vec<[f64; 3]>, mut x: Vec<f64>) -> Option<Vec<f64>> {
     let count = x.len();
     for i in 0..count {
@@ -273,9 +270,8 @@ fn solve_banded(mut bands: Vec<[f64; 3]>, mut x: Vec<f64>) -> Option<Vec<f64>> {
 }
 
 impl Rate {
-    /// Returns the rate with the shortest duration over intervals of this length of the parameter. It satisfies the
-    /// conditions at all positions. `begin` is a constant squared rate that satisfies them with some slack. Returns
-    /// `None` if it does not.
+    /// Returns the rate with the shortest duration over intervals of this length, which satisfies the conditions at all
+    /// positions. `begin` is a constant squared rate that satisfies them with some slack; otherwise returns `None`.
     pub fn fastest(conditions: &[Vec<Condition>], step: f64, begin: f64) -> Option<Self> {
         let problem = Problem::new(conditions, step);
         let coefficients = vec![begin; conditions.len() / CONDITION_POSITIONS.len() + 2];
@@ -284,8 +280,8 @@ impl Rate {
         Self::of_coefficients(step, problem.descended(coefficients, weights, MIN_ROUND_GAIN * time)?)
     }
 
-    /// Returns the rate with the shortest duration, as [`Rate::fastest`], without a known rate to begin with. It begins
-    /// with the greatest constant rate, which may be slower by orders of magnitude.
+    /// Does the same as [`Rate::fastest`] without a known rate to begin with. Begins with the greatest constant rate, which may
+    /// be slower by orders of magnitude.
     pub fn fastest_of_all(conditions: &[Vec<Condition>], step: f64) -> Option<Self> {
         let problem = Problem::new(conditions, step);
         let greatest = conditions.iter().flatten().map(Condition::greatest_constant).fold(f64::INFINITY, f64::min);
@@ -295,7 +291,7 @@ impl Rate {
         if !(time.is_finite() && time > 0.0) {
             return None;
         }
-        // The weights are shares of the duration, which is known only after all of them are chosen.
+        // The weights are shares of the duration, which is known only at the end.
         let mut first = FIRST_BARRIER_WEIGHT * time;
         loop {
             let weights = [first, LAST_BARRIER_WEIGHT * time];
@@ -356,13 +352,13 @@ impl Rate {
 mod tests {
     use super::*;
 
-    /// Tests conditions that have much slack: gravity leaves more slack in one direction than in the other. The product
-    /// of all slacks may exceed 1, and the range of doubles.
+    /// Gravity leaves more slack in one direction than in the other. The product of all slacks may exceed 1, and the range of
+    /// doubles.
     #[test]
     fn the_product_of_slacks_may_exceed_the_range_of_doubles() {
         let conditions = [[0.25, 0.0, 0.0], [-10.0, 0.0, 0.0]].map(|factors| Condition { factors, has_root: false });
         let all = vec![conditions.to_vec(); 1000 * CONDITION_POSITIONS.len()];
-        // The squared rate is below 4, so that a parameter of 10 takes 5 s at the least.
+        // The squared rate is below 4, so a parameter of 10 takes at least 5 s.
         let rate = Rate::fastest(&all, 0.01, 0.5).unwrap();
         assert!((5.0..5.05).contains(&rate.duration()), "{}", rate.duration());
         for time in [0.0, 1.3, 4.9] {

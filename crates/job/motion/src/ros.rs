@@ -6,8 +6,8 @@ use std::fmt::Write;
 
 /// Writes the trajectory as a `trajectory_msgs/msg/JointTrajectory` in the YAML of `ros2 topic pub`.
 ///
-/// The header's stamp is 0, which means "begin now", and its frame is empty. Times are whole nanoseconds. Numbers have
-/// as many digits as needed to read back the same `f64`. The [module](super) describes how controllers join the points.
+/// The header's stamp is 0, which means "begin now", and its frame is empty. Times are whole nanoseconds. Numbers have enough
+/// digits to read back the same `f64`. The [module](super) describes how controllers join the points.
 pub fn ros_yaml(motion: &JointMotion) -> String {
     let mut text = String::from("header:\n  stamp: {sec: 0, nanosec: 0}\n  frame_id: \"\"\njoint_names:\n");
     let mut line = |line: std::fmt::Arguments| {
@@ -41,8 +41,8 @@ fn list(values: &[f64]) -> String {
     format!("[{}]", numbers.join(", "))
 }
 
-/// Formats a number so that YAML 1.1 readers such as PyYAML accept it as a number: they require a point in the mantissa
-/// and a sign in the exponent, and read `1e-7` as text.
+/// Formats a number for YAML 1.1 readers such as PyYAML, which require a point in the mantissa and a sign in the exponent, and
+/// read `1e-7` as text.
 fn number(value: f64) -> String {
     let plain = format!("{value:?}");
     let Some((mantissa, exponent)) = plain.split_once('e') else { return plain };
@@ -51,8 +51,8 @@ fn number(value: f64) -> String {
     format!("{mantissa}{point}e{sign}{exponent}")
 }
 
-/// Formats a name as a double-quoted scalar (YAML 1.2.2, section 7.3.1), because `no`, `1` or `a: b` without quotes are
-/// not strings. Escapes characters that YAML does not allow, or that YAML 1.1 takes for line breaks.
+/// Formats a name as a double-quoted scalar (YAML 1.2.2, section 7.3.1), because without quotes `no`, `1` or `a: b` would not be
+/// strings. Escapes characters that YAML does not allow, and those that are line breaks in YAML 1.1.
 fn quoted(name: &str) -> String {
     let mut text = String::from("\"");
     for c in name.chars() {

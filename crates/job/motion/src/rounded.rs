@@ -1,9 +1,9 @@
 //! Motions with limits on jerks that leave their path only near its corners.
 //!
-//! Smoothing over time (`smooth`) leaves a path a fixed time before a corner, thus far from it. If this distance is
-//! limited, the path is first replaced by a smooth curve: a uniform cubic B-spline with a control point at each corner and
-//! others on the legs. Those next to a corner are so near that the curve leaves the leg within the limit. Spaces between
-//! control points grow away from corners. The motion along the curve is the fastest one that is found (`joint_curve`).
+//! A motion that is smoothed over time (`smooth`) leaves its path a fixed time before a corner, and thus far from it. If this
+//! distance is limited, a smooth curve first replaces the path: a uniform cubic B-spline with a control point at each corner and
+//! others on the legs. Those next to a corner are so near it that the curve leaves the leg within the limit; the spaces between
+//! control points grow away from corners. `joint_curve` then finds a fast motion along the curve.
 
 use super::extent::extents;
 use super::joint_curve::motion;
@@ -17,16 +17,16 @@ use cplan_judge::CertifiedPath;
 use cplan_model::Scene;
 use cplan_model::space::Path;
 
-/// Share of the allowed distance at which the curve leaves a leg. The motion leaves it up to two steps earlier.
+/// The curve leaves a leg at this share of the allowed distance. The motion leaves it up to two steps earlier.
 const USED_SHARE: f64 = 0.95;
 
-/// Factor by which the distance is reduced at a corner where the curve is not shown to be free.
+/// Factor by which the distance at a corner is reduced if the curve is not proven free there.
 const REDUCTION: f64 = 0.6;
 
-/// Share of the allowed distance below which the motion stops at the corner instead.
+/// Below this share of the allowed distance, the motion stops at the corner instead.
 const MIN_SHARE: f64 = 1.0 / 64.0;
 
-/// Ratio of a space between control points on a leg to the space before it, away from the corner.
+/// Ratio of consecutive spaces between control points on a leg, away from the corner.
 const SPACE_GROWTH: f64 = 1.5;
 
 /// Greatest space between control points, as a share of their leg.
@@ -38,8 +38,8 @@ const MIN_GAP_SHARE: f64 = 0.5;
 /// Number of motions that are tried, each with reduced distances at some corners.
 const MAX_TRIES: usize = 6;
 
-/// Returns a fast motion along a path that is off the path only within `greatest` of a corner, and shown to be free.
-/// `None` if no such motion is found that is shorter than `below` seconds and passes a corner without a stop.
+/// Returns a fast motion along a path that is proven free and off the path only within `greatest` of a corner. `None` if no such
+/// motion is found that is shorter than `below` seconds and passes at least one corner without a stop.
 pub(super) fn rounded(
     scene: &Scene,
     path: &CertifiedPath,
@@ -83,13 +83,13 @@ impl<'a> RoundedPath<'a> {
         Self { path, greatest, distances }
     }
 
-    /// Iterates over the indices of waypoints between which the motion does not stop.
+    /// Iterates over pairs of waypoints between which the motion does not stop.
     fn runs(&self) -> impl Iterator<Item = [usize; 2]> {
         let stops: Vec<usize> = (0..self.distances.len()).filter(|&w| self.distances[w] == 0.0).collect();
         (1..stops.len()).map(move |k| [stops[k - 1], stops[k]])
     }
 
-    /// Reduces the distances until the curve is shown to be free. `None` if the motion would stop at all corners.
+    /// Reduces the distances until the curve is proven free. `None` if the motion would stop at all corners.
     fn keep_free(&mut self, rounding: &Rounding) -> Option<()> {
         loop {
             if self.distances.iter().all(|distance| *distance == 0.0) {
@@ -140,7 +140,7 @@ impl<'a> RoundedPath<'a> {
         let straight = BlendedPath::from(self.path.clone());
         let (mut trajectory, mut begin) = (Trajectory::default(), 0);
         for run @ [first, last] in self.runs() {
-            // Torques change along a straight leg, too, and a safe constant limit is slow.
+            // Torques vary along a straight leg, and a constant limit that is safe everywhere would be slow.
             if last - first == 1 && limits.torque.is_none() {
                 begin = stopping_at(&straight, first, limits, begin, period, &mut trajectory);
                 continue;
@@ -159,11 +159,10 @@ impl<'a> RoundedPath<'a> {
     }
 }
 
-/// Returns the places of control points on a leg, in ascending order, without its ends. `distances` are those within which
-/// the path is rounded at both ends; 0 at a stop.
+/// Returns the positions of control points on a leg, ascending, without its ends. `distances` are those within which both ends
+/// are rounded; 0 at a stop.
 fn spaced(length: f64, distances: [f64; 2]) -> Vec<f64> {
-    // With a control point at the corner, and the next ones at `d` and `(1 + g) d`, the curve leaves the leg at the distance
-    // `(5 + g) d / 6`.
+    // If control points are at the corner, at `d` and at `(1 + g) d`, the curve leaves the leg at the distance `(5 + g) d / 6`.
     let nearest = distances.map(|distance| 6.0 / (5.0 + SPACE_GROWTH) * distance);
     let most = MAX_SPACE_SHARE * length;
     let [first, last] = nearest;
@@ -188,7 +187,8 @@ fn spaced(length: f64, distances: [f64; 2]) -> Vec<f64> {
     };
     let mut places = from_end(first, split);
     let mut back = from_end(last, length - split);
-    // Both rows meet at any distance. If they nearly meet, one of them loses its last place, unless a corner needs it.
+    // The rows from both ends meet somewhere. If their last places almost coincide, one of them is removed, unless a corner needs
+    // it.
     let gap = length - back.last().copied().unwrap_or(0.0) - places.last().copied().unwrap_or(0.0);
     let longer = if places.len() > back.len() { &mut places } else { &mut back };
     if let [.., before, after] = longer[..]
@@ -210,7 +210,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Samples curves through random corners. Each is off the path only within the distance of a corner.
+        /// Samples curves through random corners, which must be off the path only within the distance of a corner.
         #[test]
         fn curves_are_off_the_path_only_near_corners(
             turns in prop::collection::vec((0.02..1.5_f64, -2.9..2.9_f64), 3..9), greatest in 0.005..0.5_f64,

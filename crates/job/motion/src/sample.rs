@@ -14,18 +14,18 @@ use serde::ser::SerializeStruct;
 use serde::{Serialize, Serializer};
 use thiserror::Error;
 
-/// Approximate least time between two samples, seconds. It is a thousandth of the fastest servo cycle in use (1 ms), so
-/// no useful sample is lost. It is also a thousand times the nanosecond of ROS and, at [`MAX_DURATION`], ten thousand
-/// times the spacing of doubles, so times stay distinct after rounding.
+/// Approximate least time between two samples, seconds. It is a thousandth of the shortest servo cycle in use (1 ms), so no
+/// useful sample is lost. It is also a thousand of ROS's nanoseconds and, at [`MAX_DURATION`], ten thousand times the spacing of
+/// doubles, so times stay distinct after rounding.
 pub const MIN_INTERVAL: f64 = 1e-6;
 
-/// Least time, seconds, between a sample at a multiple of the period and another sample. It does not apply if the
-/// period is shorter than twice this. At this distance, rounding to doubles changes the acceleration of a cubic by less
-/// than a millionth of a radian per squared second.
+/// Least time, seconds, between a sample at a multiple of the period and any other sample, unless the period is shorter than
+/// twice this. At this distance, rounding to doubles changes the acceleration of a cubic by less than a millionth of a radian per
+/// squared second.
 pub(super) const MIN_PERIODIC_INTERVAL: f64 = 1e-4;
 
-/// Longest motion that is timed, seconds: eleven days. If a motion lasts longer, its limits are probably a mistake, and
-/// doubles no longer resolve [`MIN_INTERVAL`] well.
+/// Longest motion that is timed, seconds: eleven days. A longer motion probably has mistaken limits, and doubles would no longer
+/// resolve [`MIN_INTERVAL`] well.
 pub const MAX_DURATION: f64 = 1e6;
 
 /// Greatest number of samples of a trajectory. They need some 300 MB of memory.
@@ -33,23 +33,22 @@ pub const MAX_SAMPLES: usize = 5_000_000;
 
 /// A motion of both joints, sampled.
 ///
-/// In each interval from `time[k]` to `time[k + 1]`, the motion is a polynomial in time of degree four. On straight
-/// pieces the degree is two, or three if the jerk has a limit. The samples define the polynomial: it has position `k`,
-/// velocity
-/// `k` and acceleration `k` at its beginning, and position and velocity `k + 1` at its end; see
-/// [`super::INTERPOLATION`]. So the samples are the motion itself, up to rounding, and not an approximation of it.
+/// In each interval from `time[k]` to `time[k + 1]`, the motion is a polynomial in time of degree four. On straight pieces, the
+/// degree is two, or three if the jerk is limited. The samples define the polynomial: position, velocity and acceleration `k` at
+/// its beginning, and position and velocity `k + 1` at its end; see [`super::INTERPOLATION`]. So the samples are not an
+/// approximation, but the motion itself, up to rounding.
 ///
-/// The acceleration may jump at a sample, unless a joint's jerk has a limit. The stated acceleration is that of the
-/// interval that begins at the sample. The cubic through positions and velocities of two samples is also within the
-/// limits, and is the same motion on straight pieces.
+/// Unless a joint's jerk is limited, the acceleration may jump at a sample; the stated one is that of the interval that begins
+/// there. The cubic through positions and velocities of two samples is also within the limits, and is the same motion on straight
+/// pieces.
 ///
-/// Times begin at 0 and increase by at least [`MIN_INTERVAL`]. They are whole nanoseconds. Units are radians or metres,
-/// and seconds. Joints are in the order from base to tip.
+/// Times begin at 0 and increase by at least [`MIN_INTERVAL`]. They are whole nanoseconds. Units are radians or metres, and
+/// seconds. Joints are in the order from base to tip.
 #[derive(Debug, Clone, PartialEq, Default, Serialize)]
 pub struct Trajectory {
     /// Seconds from the start.
     pub time: Vec<f64>,
-    /// Joint values. The first are exactly the path's start, and the last its goal.
+    /// Joint values. The first ones are exactly the path's start, and the last ones its goal.
     pub position: Vec<[f64; 2]>,
     /// Joint velocities; the first and the last are 0.
     pub velocity: Vec<[f64; 2]>,
@@ -59,13 +58,13 @@ pub struct Trajectory {
     /// sample. Empty if they are not requested.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub torque: Vec<[f64; 2]>,
-    /// Value, velocity and acceleration of a wrist's joint, radians and seconds. Readers join them like those of the arm.
-    /// Empty if no wrist turns along the path.
+    /// Value, velocity and acceleration of a wrist's joint, radians and seconds, which readers join like those of the arm. Empty
+    /// if no wrist turns along the path.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "wrist_columns")]
     pub wrist: Vec<[f64; 3]>,
 }
 
-/// Writes the motion of a wrist in the form of the arm's motion: positions, velocities and accelerations.
+/// Writes the motion of a wrist like that of the arm: positions, velocities and accelerations.
 fn wrist_columns<S: Serializer>(rows: &[[f64; 3]], serializer: S) -> Result<S::Ok, S::Error> {
     let mut columns = serializer.serialize_struct("wrist", 3)?;
     for (name, k) in [("position", 0), ("velocity", 1), ("acceleration", 2)] {
@@ -135,12 +134,12 @@ impl Trajectory {
         trajectory
     }
 
-    /// Appends a motion that begins where this one ends, after a rest of `pause` seconds, rounded up to whole
-    /// nanoseconds. Without samples it becomes that motion. Pauses below [`MIN_INTERVAL`] count as none.
+    /// Appends a motion that begins where this one ends, after a rest of `pause` seconds, rounded up to whole nanoseconds.
+    /// Ignores pauses below [`MIN_INTERVAL`]. If there are no samples yet, the result is the appended motion.
     pub fn then(&mut self, pause: f64, next: &Trajectory) {
         let begin = self.time.last().map_or(0, |end| nanoseconds(after_pause(*end, pause)));
         if pause_length(pause) == 0.0 {
-            // Both motions share one sample; its acceleration is that of the interval that begins.
+            // Both motions share a sample, whose acceleration is that of the next interval.
             self.time.pop();
             self.position.pop();
             self.velocity.pop();
@@ -156,16 +155,15 @@ impl Trajectory {
         self.wrist.extend(&next.wrist);
     }
 
-    /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds. A rest shorter than [`MIN_INTERVAL`] is
-    /// omitted.
+    /// Appends a rest of `pause` seconds, rounded up to whole nanoseconds. Omits a rest shorter than [`MIN_INTERVAL`].
     pub fn append_rest(&mut self, pause: f64) {
         if pause_length(pause) > 0.0 {
             self.append_rest_to(nanoseconds(self.duration() + pause_length(pause)));
         }
     }
 
-    /// Appends a turn of the wrist to a joint value, from rest to rest, as fast as its limits allow, while the arm rests.
-    /// Both limits are positive. Does nothing if the wrist is there already, or if there is no wrist.
+    /// Appends a turn of the wrist to a joint value, from rest to rest, as fast as its limits (both positive) allow, while the
+    /// arm rests. Does nothing if the wrist is already there, or if there is no wrist.
     pub fn append_turn(&mut self, to: f64, velocity: f64, acceleration: f64) {
         let Some(&[from, ..]) = self.wrist.last() else { return };
         let begin = nanoseconds(self.duration());
@@ -186,8 +184,8 @@ impl Trajectory {
         }
     }
 
-    /// Appends a rest that ends at the first whole nanosecond at or after `time`, and lasts at least [`MIN_INTERVAL`].
-    /// Does nothing if the motion does not end before that time.
+    /// Appends a rest of at least [`MIN_INTERVAL`] that ends at the first possible whole nanosecond at or after `time`. Does
+    /// nothing if the motion already ends later.
     pub fn append_rest_until(&mut self, time: f64) {
         let (end, until) = (nanoseconds(self.duration()), nanoseconds(round_up(time)));
         if end < until {
@@ -198,7 +196,7 @@ impl Trajectory {
     fn append_rest_to(&mut self, end: u64) {
         if let Some(&position) = self.position.last() {
             self.push_rest(end, position.into());
-            // At rest, the last torques are those that hold the arm.
+            // At rest, torques stay those that hold the arm.
             self.torque.extend(self.torque.last().copied());
             self.wrist.extend(self.wrist.last().map(|[value, ..]| [*value, 0.0, 0.0]));
         }
@@ -232,12 +230,12 @@ impl Trajectory {
     }
 }
 
-/// Returns the time, in whole nanoseconds, at which a motion begins after a previous one and a pause.
+/// Returns the time, in whole nanoseconds, at which a motion begins after another one and a pause.
 pub fn after_pause(end: f64, pause: f64) -> f64 {
     clock::seconds(nanoseconds(end + pause_length(pause)))
 }
 
-/// Returns the length of a pause as it is used: rounded up to whole nanoseconds, or zero if it is too short.
+/// Returns the pause in use: rounded up to whole nanoseconds, or zero if it is too short.
 fn pause_length(pause: f64) -> f64 {
     if pause < MIN_INTERVAL { 0.0 } else { whole_nanoseconds(pause) }
 }
@@ -245,34 +243,32 @@ fn pause_length(pause: f64) -> f64 {
 /// A motion in time, and the curve that it follows.
 #[derive(Debug, Clone, PartialEq)]
 pub struct TimedMotion {
-    /// The path, with the blends in use. Blends that would not make the motion faster are removed.
+    /// The path with its blends, except those that would not make the motion faster.
     pub curve: CertifiedCurve,
     /// The motion as samples in time.
     pub trajectory: Trajectory,
 }
 
-/// Returns the fastest motion within the limits along the straight pieces and blends of a path. It begins and ends at
-/// rest, and stops at every corner without a blend. Takes linear time in the number of samples.
+/// Returns the fastest motion within the limits along the straight pieces and blends of a path. It begins and ends at rest, and
+/// stops at every corner without a blend. Takes linear time in the number of samples.
 ///
-/// The squared speed along the path is found by forward-backward integration: on straight pieces in closed form, and on
-/// a blend over up to 256 spans. On each span, the second derivative of the path's parameter is constant. Both joints
-/// are within their limits, of which a thousandth stays unused. If stopping at every corner between two stops is
-/// faster, the motion does that instead.
+/// Forward-backward integration computes the squared speed along the path: on straight pieces in closed form, and on a blend over
+/// up to 256 spans. On each span, the second derivative of the path's parameter is constant, and both joints are within their
+/// limits, of which a thousandth stays unused. If it is faster to stop at every corner between two stops, the motion does so.
 ///
-/// There is a sample at each multiple of `period`, and wherever that second derivative changes. On blends, samples are
-/// so dense that the cubics through positions and velocities are also within the limits, and within
-/// [`crate::BLEND_TOLERANCE`] of the blend. All samples are at whole nanoseconds. A multiple of the period that is
-/// closer than a tenth of a millisecond (or half the period) to another sample is omitted. A path that does not move
-/// gives one sample.
+/// There is a sample at each multiple of `period`, and wherever that second derivative changes. On blends, samples are so dense
+/// that the cubics through positions and velocities are also within the limits, and within [`crate::BLEND_TOLERANCE`] of the
+/// blend. All samples are at whole nanoseconds. A multiple of the period that is closer than a tenth of a millisecond (or half
+/// the period) to another sample is omitted. A path that does not move gives one sample.
 ///
-/// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes `2
-/// sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`MIN_INTERVAL`] longer if a phase would be
-/// shorter than that, and each phase is lengthened to whole nanoseconds.
+/// A straight piece of length `L` from rest to rest, with speed and acceleration limits `v` and `a` along it, takes
+/// `2 sqrt(L / a)` if `L a <= v^2`, else `L / v + v / a`. It takes up to `4` [`MIN_INTERVAL`] longer if a phase would be shorter
+/// than that, and each phase is lengthened to whole nanoseconds.
 ///
-/// If the jerk of any joint is limited, the motion stops at every corner, blended or not ([`super::Drive::along`]
-/// passes corners). Each straight piece on which such a joint moves takes the least time that speed, acceleration and
-/// jerk along it allow from rest to rest. One bound on the tip's speed applies to the whole piece. It takes up to `12`
-/// [`MIN_INTERVAL`] longer if a phase would be shorter than that.
+/// If the jerk of a joint is limited, the motion stops at every corner, blended or not ([`super::Drive::along`] passes corners
+/// without a stop). A straight piece on which such a joint moves takes the least time that speed, acceleration and jerk along it
+/// allow from rest to rest, with one bound on the tip's speed for the whole piece, or up to `12` [`MIN_INTERVAL`] longer if a
+/// phase would be too short.
 ///
 /// # Errors
 /// [`TimingError`]: an unusable period, a motion beyond [`MAX_DURATION`], or more than [`MAX_SAMPLES`] samples.
@@ -313,11 +309,11 @@ pub(super) fn time_curve(
     Ok((used, trajectory))
 }
 
-/// Appends the samples of a run from rest to rest, except the last one. The run starts at the nanosecond `begin`.
-/// Returns its end, in nanoseconds.
+/// Appends the samples of a run from rest to rest, except the last sample. The run starts at `begin`, in nanoseconds. Returns its
+/// end, in nanoseconds.
 ///
-/// Phases start and end between nanoseconds. The sample of each is at the nearest nanosecond, with the motion's state
-/// there and the acceleration of the interval that starts there.
+/// Phases start and end between nanoseconds. The sample of a phase is at the nearest nanosecond, with the motion's state at that
+/// time, and the acceleration of the interval that starts there.
 pub(super) fn sample(run: &[TimedTrack], begin: u64, limits: &Limits, period: f64, trajectory: &mut Trajectory) -> u64 {
     let near = nanoseconds((period / 2.0).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL));
     let mut since = 0.0;

@@ -1,4 +1,4 @@
-//! The timing of a motion: the fastest one along a path with blends.
+//! The timing of a motion along a path with blends.
 
 use super::bounds::Bounds;
 use super::clock::reserve;
@@ -15,21 +15,20 @@ use std::ops::Range;
 /// Greatest number of parts of a straight stretch.
 const MAX_LINE_PARTS: f64 = 1024.0;
 
-/// Least duration of a phase on a straight stretch that is passed without a stop, as a fraction of the least time for
-/// the stretch. A shorter phase would gain less speed than it costs: [`reserve`] leaves a share of the limits unused
-/// for it.
+/// Least duration of a phase on a straight stretch that is passed without a stop, as a fraction of the least time for the
+/// stretch. A shorter phase would cost more speed than it gains, because [`reserve`] leaves a share of the limits unused for it.
 const MIN_PHASE_SHARE: f64 = 1.0 / 32.0;
 
-/// Least share by which a finer division of blends must shorten the motion. If it gains less, no finer division is
-/// tried. A joint with a low acceleration limit may turn back within a blend. Near that place the other joint may
-/// accelerate more, but coarse spans do not show this.
+/// If a finer division of blends shortens the motion by less than this share, no finer one is tried. A finer division helps if a
+/// joint with a low acceleration limit turns back within a blend: near that place, the other joint may accelerate more, which
+/// coarse spans do not show.
 const MIN_GAIN: f64 = 0.005;
 
-/// Greatest number of blends of a run whose spans are divided further than the accuracy needs. With more blends, the
-/// division takes long and gains little, because most of them are short.
+/// Greatest number of blends in a run whose spans are divided more finely than necessary for accuracy. With more blends, this
+/// takes long and gains little, because most of them are short.
 const MAX_FINER_BLENDS: usize = 256;
 
-/// A stretch of a path as a function of the distance along it.
+/// A stretch of a path, as a function of the distance along it.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Track {
     Line(Line),
@@ -43,18 +42,18 @@ pub(super) struct Line {
     to: Axes,
     length: f64,
     direction: Axes,
-    /// The greatest speed along the line within the joints' limits.
+    /// Greatest speed along the line within the joints' limits.
     speed: f64,
     acceleration: f64,
-    /// The greatest jerk along the line; infinite without a limit.
+    /// Greatest jerk along the line; infinite without a limit.
     jerk: f64,
 }
 
 impl Line {
-    /// Creates a line. If torques are limited, the line's acceleration may exceed that limit: see [`Line::safe`].
+    /// Creates a line. If torques are limited, its acceleration may exceed what they allow: see [`Line::safe`].
     fn new([from, to]: [Axes; 2], limits: &Limits) -> Self {
         let offset = to - from;
-        // Unlike the root of the sum of squares, this does not vanish for very short offsets.
+        // In contrast to the root of the sum of squares, this does not vanish for very short offsets.
         let length = offset[0].hypot(offset[1]);
         let direction = offset / length;
         let (speed, jerk) = (limits.speed_along(direction), limits.jerk_along(direction));
@@ -64,26 +63,26 @@ impl Line {
         Self { speed, ..line }
     }
 
-    /// Returns the line as a part of a curve, for the limits on the tip.
+    /// Returns the line as a part of a curve, for the limit on the tip.
     fn part(&self) -> Part {
         let middle = self.from + (self.to - self.from) / 2.0;
         let (zero, half) = (Configuration::zeros(), self.length / 2.0);
         Part { middle: middle.xy(), slope: self.direction.xy(), bend: zero, third: zero, half }
     }
 
-    /// Returns the line with a speed and an acceleration that the torques allow everywhere on it.
+    /// Returns the line with a speed and an acceleration that torques allow everywhere on it.
     fn safe(self, limits: &Limits) -> Self {
         let [speed, acceleration] =
             limits.torque.map_or([f64::INFINITY; 2], |torque| torque.safe(self.from.xy(), self.to.xy()));
         Self { speed: self.speed.min(speed), acceleration: self.acceleration.min(acceleration), ..self }
     }
 
-    /// Splits a straight stretch into parts with separate top speeds; several if the tip's limit requires it.
+    /// Splits a straight stretch into parts with their own top speeds, as many as the tip's limit requires.
     fn parts([from, to]: [Axes; 2], limits: &Limits) -> Vec<Self> {
         let whole = Self::new([from, to], limits);
         let own = Self::new([from, to], &Limits { tip: None, ..*limits }).speed;
         let Some(tip) = limits.tip.filter(|_| whole.speed < own) else { return vec![whole] };
-        // Tolerance of the derivative of the tip's path where it matters, that is, where it is more than speed / own.
+        // Tolerance of the derivative of the tip's path where it exceeds speed / own; elsewhere, it does not matter.
         let off = TIP_SPEED_STEP * tip.speed / own;
         let count = (tip.slack(&whole.part()) / off).ceil().clamp(1.0, MAX_LINE_PARTS);
         let end = |i: f64| if i == count { to } else { from + (to - from) * (i / count) };
@@ -95,8 +94,8 @@ impl Line {
         (self.length / self.speed * MIN_PHASE_SHARE).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL)
     }
 
-    /// Adapts the line to a motion that passes it without a rest at both ends. The phases of such a motion may end
-    /// between two nanoseconds.
+    /// Adapts the line to a motion that passes it without rests at its ends. The phases of such a motion may end between two
+    /// nanoseconds.
     fn passed(self) -> Self {
         let left = 1.0 - reserve(self.shortest());
         Self { speed: left * self.speed, acceleration: left * self.acceleration, ..self }
@@ -105,7 +104,7 @@ impl Line {
     fn at(&self, state: State) -> [Axes; 3] {
         let State { distance, speed, acceleration } = state;
         let (part, Self { from, to, .. }) = (distance / self.length, self);
-        // Rounding must not carry a sample beyond the end, which may lie on a joint limit.
+        // A rounding error must not move a sample beyond the end, which may lie on a joint limit.
         let between = |value: f64, a: f64, b: f64| value.clamp(a.min(b), a.max(b));
         let position = (from + (to - from) * part).zip_zip_map(from, to, between);
         [position, self.direction * speed, self.direction * acceleration]
@@ -149,11 +148,11 @@ impl Track {
 /// A track and the phases in which it is passed.
 pub(super) type TimedTrack = (Track, Vec<Phase>);
 
-/// Returns the timed tracks along a path, and the blends and curved legs in use. Each list of tracks leads from rest to
-/// rest, in order. Useless blends are removed, and the motion stops at their corners.
+/// Returns the timed tracks along a path, and the path with the blends and curved legs in use. Each list of tracks leads from
+/// rest to rest, in order. Blends that do not make the motion faster are removed, so that it stops at their corners.
 ///
-/// With a limit on a jerk, all blends and curved legs are useless, because the acceleration jumps where they start. Each
-/// waypoint's blend is passed at a share of the speed that the limits allow. On straight pieces the arm coasts for at
+/// With a limit on a jerk, all blends and curved legs are removed, because the acceleration would jump where they start. `shares`
+/// has, for each waypoint's blend, the speed as a share of the greatest possible one. On straight pieces, the arm coasts for at
 /// least `coast` seconds between acceleration and deceleration.
 pub(super) fn schedule(
     curve: &BlendedPath,
@@ -164,8 +163,8 @@ pub(super) fn schedule(
     scheduled(curve, limits, shares, coast, Spans::Enough)
 }
 
-/// Returns an upper bound on the duration along a curve, seconds, from a coarse division into spans. It serves to
-/// compare similar curves at a fraction of the cost of [`schedule`].
+/// Returns an upper bound on the duration along a curve, seconds, from a coarse division into spans. With it, similar curves can
+/// be compared at a fraction of the cost of [`schedule`].
 pub(super) fn duration_bound(curve: &BlendedPath, limits: &Limits) -> f64 {
     let (_, runs) = scheduled(curve, limits, &vec![1.0; curve.radii().len()], 0.0, Spans::Few);
     runs.iter().map(|run| duration(run)).sum()
@@ -229,8 +228,7 @@ pub(super) fn duration(timed_tracks: &[TimedTrack]) -> f64 {
     timed_tracks.iter().flat_map(|(_, phases)| phases).map(|phase| phase.duration).sum()
 }
 
-/// Appends the samples of the leg after a waypoint, from rest to rest, except the last one. Returns its end, in
-/// nanoseconds.
+/// Appends the samples of the leg after a waypoint, from rest to rest, except the last sample. Returns its end, in nanoseconds.
 pub(super) fn stopping_at(
     curve: &BlendedPath,
     waypoint: usize,
@@ -243,7 +241,7 @@ pub(super) fn stopping_at(
     runs.iter().fold(begin, |begin, run| sample(run, begin, limits, period, trajectory))
 }
 
-/// Returns the configurations of a run at multiples of a time step, from its beginning to its end.
+/// Returns the configurations of a run at the multiples of a time step, from its beginning to its end.
 pub(super) fn places(run: &[TimedTrack], step: f64) -> Vec<Configuration> {
     let mut places = Vec::new();
     let mut since = 0.0;
@@ -260,7 +258,7 @@ pub(super) fn places(run: &[TimedTrack], step: f64) -> Vec<Configuration> {
     places
 }
 
-/// Returns the tracks from rest to rest on each leg from one waypoint to another.
+/// Returns the tracks from rest to rest for each leg between two waypoints.
 fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans: Spans) -> Vec<Vec<TimedTrack>> {
     let timed_tracks = |number: usize| {
         let tip_share = limits.tip_share(number);
@@ -274,7 +272,7 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans
             vec![(Track::Line(line), phases)]
         };
         if line.jerk.is_finite() {
-            // One top speed for all parts avoids jumps between them.
+            // A common top speed for all parts avoids jumps between them.
             let speed = Line::parts(ends, limits).iter().map(|part| part.speed).fold(f64::INFINITY, f64::min);
             let line = Line { speed, ..line }.safe(limits);
             let phases = jerk::rest_to_rest(line.length, line.speed, line.acceleration, line.jerk, MIN_INTERVAL);
@@ -287,15 +285,15 @@ fn stopping(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, spans
     waypoints.map(timed_tracks).collect()
 }
 
-/// A part of a run over which the squared speed is linear, or on a line as fast as possible.
+/// A part of a run: one with a linear squared speed, or a line that is passed as fast as possible.
 enum Span {
     Line(Line),
     Part(Bounds),
 }
 
 impl Span {
-    /// Returns the greatest squared speed at the beginning from which the end can be reached with a squared speed of at
-    /// most `most`.
+    /// Returns the greatest squared speed at the beginning from which a squared speed of at most `most` can be reached at the
+    /// end.
     fn greatest_squared_start(&self, most: f64) -> f64 {
         match self {
             Span::Line(line) => (most + 2.0 * line.acceleration * line.length).min(line.speed * line.speed),
@@ -303,8 +301,8 @@ impl Span {
         }
     }
 
-    /// Returns the greatest squared speed at the end, at most `most`, that can be reached from the squared speed `from`
-    /// at the beginning.
+    /// Returns the greatest squared speed of at most `most` at the end that can be reached from the squared speed `from` at the
+    /// beginning.
     fn greatest_squared_end(&self, from: f64, most: f64) -> f64 {
         match self {
             Span::Line(line) => (from + 2.0 * line.acceleration * line.length).min(line.speed * line.speed).min(most),
@@ -313,8 +311,8 @@ impl Span {
     }
 }
 
-/// Returns the phases from rest at the beginning of the first track to rest at the end of the last one. Returns `None`
-/// if a phase would be too short to be sampled.
+/// Returns the phases from rest at the beginning of the first track to rest at the end of the last one. `None` if a phase would
+/// be too short to be sampled.
 fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64, spans: Spans) -> Option<Vec<TimedTrack>> {
     let passed = |track| match track {
         Track::Line(line) => Track::Line(line.passed()),
@@ -353,7 +351,7 @@ fn driven(tracks: Vec<Track>, limits: &Limits, coast: f64, spans: Spans) -> Opti
     Some(best.0)
 }
 
-/// Returns the tracks with several times the spans on their blends, or `None` if no blend can be cut.
+/// Returns the tracks with several times as many spans on their blends. `None` if no blend can be cut.
 fn much_finer(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<Track>> {
     let mut cut = false;
     let finer = |(track, squared): (&Track, &Vec<f64>)| match track {
@@ -371,7 +369,7 @@ fn much_finer(tracks: &[Track], squared: &[Vec<f64>]) -> Option<Vec<Track>> {
     cut.then_some(tracks)
 }
 
-/// Returns the phases of tracks, given the squared speeds on them, or `None` if one would be too short to be sampled.
+/// Returns the phases of tracks with these squared speeds. `None` if one would be too short to be sampled.
 fn timed_tracks(tracks: &[Track], squared: &[Vec<f64>], coast: f64) -> Option<Vec<TimedTrack>> {
     let timed_track = |(track, squared): (&Track, &Vec<f64>)| {
         let phases = match track {
@@ -387,12 +385,12 @@ fn timed_tracks(tracks: &[Track], squared: &[Vec<f64>], coast: f64) -> Option<Ve
     tracks.iter().zip(squared).map(timed_track).collect()
 }
 
-/// Returns the squared speeds of a motion from rest to rest along tracks: at the ends of each track, and for corners at
-/// the ends of the spans.
+/// Returns the squared speeds of a motion from rest to rest along tracks: at the ends of lines, and at the ends of the spans of
+/// corners.
 ///
-/// Uses forward-backward integration in the phase plane. The backward pass finds the greatest squared speed from which
-/// the arm can still stop at the end. The forward pass finds the greatest one that can be reached within that. Lines
-/// are treated in closed form, blends span by span.
+/// Forward-backward integration in the phase plane: the backward pass finds the greatest squared speeds from which the arm can
+/// still stop at the end, and the forward pass the greatest ones within these that can be reached. Lines are treated in closed
+/// form, blends span by span.
 fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     let spans: Vec<Vec<Span>> = tracks
         .iter()
@@ -421,8 +419,8 @@ fn squared_speeds(tracks: &[Track], limits: &Limits) -> Vec<Vec<f64>> {
     speeds
 }
 
-/// Returns the tracks from one waypoint to another, with a blend at each between them that is not smooth. Returns `None`
-/// if one cannot be sampled.
+/// Returns the tracks between two waypoints, with a blend at each waypoint in between that is not smooth. `None` if one cannot be
+/// sampled.
 fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, shares: &[f64]) -> Option<Vec<Track>> {
     let mut tracks = Vec::new();
     for leg in waypoints.clone() {
@@ -441,13 +439,13 @@ fn tracks(curve: &BlendedPath, waypoints: Range<usize>, limits: &Limits, shares:
     Some(tracks)
 }
 
-/// Returns a curved leg between the blends at its ends. Returns `None` if it is straight, or too small to be sampled.
+/// Returns a curved leg between the blends at its ends. `None` if it is straight, or too small to be sampled.
 fn curved_track(curve: &BlendedPath, leg: usize, limits: &Limits) -> Option<Corner> {
     let CurvedLeg { tangents, length, .. } = curve.curved_leg(leg)?;
     Corner::leg(leg_ends(curve, leg, limits), limits.leg_directions(leg, tangents), length, limits)
 }
 
-/// Returns the values of all axes at both ends of a leg, where the blends end and begin.
+/// Returns the values of all axes at both ends of a leg, between the blends there.
 fn leg_ends(curve: &BlendedPath, leg: usize, limits: &Limits) -> [Axes; 2] {
     [leg, leg + 1].map(|waypoint| match curve.blend(waypoint) {
         Some(blend) => blend_points(curve, waypoint, blend, limits)[if waypoint == leg { 2 } else { 0 }],

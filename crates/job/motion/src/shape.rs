@@ -1,30 +1,30 @@
 //! Changes the shape of a path so that the motion along it is faster.
 //!
-//! The shortest path touches the obstacles that it goes around, so its corners can hardly be cut. Corners moved away
-//! slightly are passed several times as fast, on a path that is longer only by about the square of that distance.
+//! The shortest path touches the obstacles that it goes around, so its corners can hardly be rounded. If a corner moves away from
+//! the obstacle by a small distance, the arm passes it several times as fast, while the path becomes longer only by about the
+//! square of the distance.
 
 use super::sample::TimedMotion;
 use cplan_judge::{CertifiedPath, StraightMotions, certify};
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, Path};
 
-/// Distances by which all corners are first moved off the obstacles, as fractions of the greatest distance.
+/// Distances by which all corners are first moved away from obstacles, as fractions of the greatest distance.
 const LIFT_SHARES: [f64; 8] = [1.0 / 128.0, 1.0 / 64.0, 1.0 / 32.0, 1.0 / 16.0, 1.0 / 8.0, 1.0 / 4.0, 1.0 / 2.0, 1.0];
 
 /// First and last distance by which single corners are moved, as fractions of the greatest distance.
 const CORNER_STEPS: [f64; 2] = [1.0 / 8.0, 1.0 / 512.0];
 
-/// Number of paths with single corners moved that are tried.
+/// Largest number of paths with single moved corners that are tried.
 const MAX_TRIES: usize = 240;
 
 /// Number of times that the distance of a corner with blocked legs is halved before the corner stays in place.
 const MAX_LIFT_HALVINGS: u32 = 6;
 
-/// The settings of the shape search.
 pub(super) struct ShapeSearch<'a, F> {
     scene: &'a Scene,
     motions: StraightMotions<'a>,
-    /// Function that returns the fastest motion along a path, or `None` if it takes longer than the given seconds.
+    /// Returns the fastest motion along a path, or `None` if it takes longer than the given seconds.
     drive: F,
 }
 
@@ -33,8 +33,8 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
         Self { scene, motions: StraightMotions::new(scene, scene.workspace().clearance), drive }
     }
 
-    /// Looks for a motion faster than `best`. Tries a path, and paths whose corners are all moved off the obstacles by
-    /// up to `most`.
+    /// Searches for a motion faster than `best`: along a path, and along paths with all corners moved away from obstacles by up
+    /// to `most`.
     pub fn lifted(&self, path: &CertifiedPath, most: f64, best: &mut TimedMotion) {
         self.replace_if_faster(path, best);
         if path.path().waypoints().len() < 3 {
@@ -45,8 +45,8 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
         }
     }
 
-    /// Looks for a motion faster than `best`, by a pattern search that moves or removes single corners. The first
-    /// distance is a fraction of `most`.
+    /// Searches for a motion faster than `best` by a pattern search that moves or removes single corners. The first distance is a
+    /// fraction of `most`.
     pub fn refined(&self, most: f64, best: &mut TimedMotion) {
         let [mut step, last] = CORNER_STEPS.map(|share| share * most);
         let mut left = MAX_TRIES;
@@ -94,7 +94,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
         is_free.then(|| certify(self.scene, Path::new(moved)).ok()).flatten()
     }
 
-    /// Replaces `best` by the motion along a path if that is faster. Returns true if it is.
+    /// Replaces `best` by the motion along a path if that is faster. Returns true if it does.
     fn replace_if_faster(&self, path: &CertifiedPath, best: &mut TimedMotion) -> bool {
         let faster = (self.drive)(path, best.trajectory.duration());
         let is_faster = faster.is_some();
@@ -104,7 +104,7 @@ impl<'a, F: Fn(&CertifiedPath, f64) -> Option<TimedMotion>> ShapeSearch<'a, F> {
         is_faster
     }
 
-    /// Returns a path with its corners moved off the obstacles, each as far as its legs are free.
+    /// Returns a path with its corners moved away from obstacles, each as far as its legs remain free.
     fn moved_off_obstacles(&self, path: &CertifiedPath, by: f64) -> Option<CertifiedPath> {
         let q = path.path().waypoints();
         let mut lifts: Vec<f64> = (0..q.len()).map(|w| if w == 0 || w + 1 == q.len() { 0.0 } else { by }).collect();

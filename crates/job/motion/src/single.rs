@@ -5,9 +5,9 @@ use super::profile::rest_to_rest;
 use super::sample::MIN_INTERVAL;
 use cplan_handling::ToolLimits;
 
-/// Returns the fastest motion of one joint over a distance, from rest to rest. Each entry is an end of a phase: the
-/// time in seconds from the beginning (whole nanoseconds), the distance so far, and the speed. Cubics between the
-/// entries are exact: see [`phase_at`]. A distance of 0 gives only the beginning.
+/// Returns the fastest motion of one joint over a distance, from rest to rest. Each entry is an end of a phase: time in seconds
+/// from the beginning (whole nanoseconds), distance so far, and speed. Cubics between the entries are exact: see [`phase_at`]. A
+/// distance of 0 gives only the beginning.
 pub fn single(distance: f64, limits: &ToolLimits) -> Vec<[f64; 3]> {
     let mut samples = vec![[0.0; 3]];
     if distance > 0.0 {
@@ -25,8 +25,8 @@ pub fn single(distance: f64, limits: &ToolLimits) -> Vec<[f64; 3]> {
     samples
 }
 
-/// Returns the distance, the speed and the acceleration at a time between both ends of a phase. An end has a time, a
-/// distance and a speed. Their cubic is exact if the jerk is constant in the phase.
+/// Returns distance, speed and acceleration at a time between both ends of a phase. Each end has a time, a distance and a speed.
+/// The cubic between them is exact if the jerk is constant in the phase.
 pub fn phase_at([[begin, distance, speed], [end, reached, later]]: [[f64; 3]; 2], time: f64) -> [f64; 3] {
     let span = end - begin;
     if span <= 0.0 {

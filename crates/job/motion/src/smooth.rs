@@ -1,8 +1,8 @@
 //! Motions with limits on jerks, through the corners of a path.
 //!
-//! A path with blends is timed without limits on jerks, and the motion is smoothed (`spline`). At corners, the smoothed
-//! motion leaves the path towards the inside, where the obstacle is. If it is not shown to be free there, the corner is
-//! passed more slowly. Finally the motion is driven along its own curve in the least time (`retime`).
+//! A path with blends is timed without limits on jerks, and the motion is smoothed (`spline`). At corners, the smoothed motion
+//! deviates towards the inside, where the obstacle is. If it is not proven free there, the corner is passed more slowly. Finally,
+//! `retime` finds the fastest motion along the resulting curve.
 
 use super::clock::{nanoseconds, seconds};
 use super::extent::extents;
@@ -16,16 +16,17 @@ use cplan_judge::CertifiedPath;
 use cplan_model::Scene;
 use std::collections::BTreeSet;
 
-/// Factor by which the speed at a corner is reduced if the motion near it is not shown to be free.
+/// Factor by which the speed at a corner is reduced if the motion near it is not proven free.
 const SLOWDOWN_FACTOR: f64 = 0.7;
 
-/// Fraction of a corner's full speed below which the arm stops at the corner instead of passing it.
+/// Below this fraction of a corner's full speed, the arm stops at the corner instead.
 const MIN_SPEED_SHARE: f64 = 1.0 / 128.0;
 
-/// Number of rounds in which the speeds at corners are reduced. After that, the arm stops at all corners.
+/// Number of rounds in which speeds at corners are reduced. After that, the arm stops at all corners.
 const MAX_ROUNDS: usize = 24;
 
-/// Ratio of an acceleration limit to the limit tried before. The jerk needs less time to reverse a lower acceleration.
+/// Ratio of an acceleration limit to the limit tried before it. With a lower limit, the jerk needs less time to reverse the
+/// acceleration.
 const ACCELERATION_FACTOR: f64 = 0.8;
 
 /// Least acceleration limit that is tried, as a share of the full limit.
@@ -34,26 +35,25 @@ const MIN_ACCELERATION_SHARE: f64 = 1e-3;
 /// A path that is timed within limits.
 struct Smoothing<'a> {
     limits: Limits<'a>,
-    /// The limits on speeds and accelerations, without limits on jerks. Accelerations may be lower than the joints
-    /// allow.
+    /// The limits on speeds and accelerations, without those on jerks. Accelerations may be lower than the joints allow.
     base: Limits<'a>,
     /// Least time between acceleration and deceleration on a straight piece, seconds.
     coast: f64,
     period: f64,
-    /// True if motions are retimed: driven along their own curves in the least time.
+    /// True if motions are retimed, that is, driven along their own curves in the least time.
     retimes: bool,
 }
 
 /// A motion, with the times at which it passes the corners of its path.
 struct SmoothMotion {
     trajectory: Trajectory,
-    /// Waypoints, each with the times in nanoseconds at which the motion enters and leaves its blend.
+    /// Waypoints, each with the times, in nanoseconds, at which the motion enters and leaves its blend.
     passed: Vec<(usize, [u64; 2])>,
 }
 
-/// Returns the fastest motion around the corners of a path that is off the path only within `greatest` of a corner. It is
-/// shown to be free, and shorter than `below` seconds. Returns `None` if no such motion is found. If requested, the
-/// motion is finally driven along its own curve in the least time.
+/// Returns the fastest motion around the corners of a path that is proven free, shorter than `below` seconds, and off the path
+/// only within `greatest` of a corner. `None` if no such motion is found. If requested, the motion is finally driven along its
+/// own curve in the least time.
 pub(super) fn smoothed(
     scene: &Scene,
     path: &CertifiedPath,
@@ -63,7 +63,7 @@ pub(super) fn smoothed(
     below: f64,
     retimes: bool,
 ) -> Option<TimedMotion> {
-    // The extent of a rounding is never greater than the longest leg.
+    // No extent of a rounding exceeds the longest leg.
     let most = path.path().segments().map(|(a, b)| (b - a).norm()).fold(0.0, f64::max).min(greatest);
     let blended = blend(scene, path, greatest, scene.workspace().clearance);
     let mut curve = blended.curve().clone();
@@ -116,8 +116,8 @@ pub(super) fn smoothed(
 }
 
 impl<'a> Smoothing<'a> {
-    /// Chooses the accelerations that make motions along this curve fastest. Also chooses a pause between accelerations
-    /// of opposite signs, if that helps. Without the pause the jerk must reverse the acceleration at once.
+    /// Chooses the accelerations with which motions along this curve are fastest, and, if it helps, a pause between accelerations
+    /// of opposite signs. Without the pause, the jerk must reverse the acceleration at once.
     fn new(curve: &BlendedPath, limits: Limits<'a>, period: f64) -> Option<Self> {
         let with = |share: f64, coasts: bool| {
             let acceleration = limits.acceleration.map(|a| a * share);
@@ -141,15 +141,15 @@ impl<'a> Smoothing<'a> {
         best.map(|(_, smoothing)| smoothing)
     }
 
-    /// Returns the motion along a curve from rest to rest. It passes each corner at the given share of the corner's
-    /// speed. Does not check obstacles.
+    /// Returns the motion along a curve from rest to rest, which passes each corner at the given share of the corner's speed.
+    /// Does not check obstacles.
     fn along(&self, curve: &BlendedPath, shares: &[f64]) -> Option<SmoothMotion> {
         let (used, runs) = schedule(curve, &self.base, shares, self.coast);
         let mut smooth = SmoothMotion { trajectory: Trajectory::default(), passed: Vec::new() };
         let stops: Vec<usize> = (0..shares.len()).filter(|&w| used.radii()[w] == 0.0).collect();
         let mut begin = 0;
         for (ends, run) in stops.windows(2).zip(&runs) {
-            // Torques change along a straight leg, too, and a safe constant limit is slow.
+            // Torques vary along a straight leg, and a constant limit that is safe everywhere would be slow.
             begin = if ends[1] - ends[0] == 1 && self.limits.torque.is_none() {
                 stopping_at(&used, ends[0], &self.limits, begin, self.period, &mut smooth.trajectory)
             } else {
@@ -160,7 +160,7 @@ impl<'a> Smoothing<'a> {
         Some(smooth)
     }
 
-    /// Appends a run that passes the blends after a waypoint. Returns the time at which the run ends.
+    /// Appends a run that passes the blends after a waypoint. Returns the time of its end.
     fn run(&self, run: &[TimedTrack], after: usize, begin: u64, smooth: &mut SmoothMotion) -> u64 {
         let mut spline = Spline::smoothed(run, self.base.acceleration, &self.limits, self.period);
         let delay = spline.delay();

@@ -1,11 +1,11 @@
-//! Spans of a motion, and the deviation of a span from the configuration in its middle.
+//! Spans of a motion, and their deviation from the configuration in the middle.
 
 use cplan_handling::Piece;
 use cplan_judge::Deviation;
 use cplan_model::space::Configuration;
 
-/// Least length of a span, as a share of its piece. For a long piece it corresponds to a nanosecond. It is far greater
-/// than the rounding of a share.
+/// Least length of a span, as a share of its piece. For a long piece, it corresponds to a nanosecond. It is far above the
+/// rounding error of a share.
 const MIN_SPAN: f64 = 1.0 / (1u64 << 40) as f64;
 
 /// A place on the motion: the index of a piece, and the share of the piece before the place.
@@ -31,13 +31,12 @@ impl Span {
         if pieces == 1 { Span::Part(0, 0.0, 1.0) } else { Span::Pieces(0, pieces) }
     }
 
-    /// Returns a span that contains everything from one place to a later one, and possibly more.
+    /// Returns a span that contains at least the motion from one place to a later one.
     pub fn between(from: Place, to: Place) -> Self {
         if from.0 == to.0 { Span::Part(from.0, from.1, to.1) } else { Span::Pieces(from.0, to.0 + 1) }
     }
 
-    /// Returns the configuration in the middle of the span, and a set that contains the deviations from it in the whole
-    /// span.
+    /// Returns the configuration in the middle of the span, and a set that contains all deviations from it within the span.
     pub fn deviation(self, pieces: &[Piece]) -> (Configuration, Deviation) {
         match self {
             Span::Pieces(first, end) => box_about_pieces(&pieces[first..end]),
@@ -61,7 +60,7 @@ impl Span {
         }
     }
 
-    /// Returns both halves of the span, in order. `None` if it has the least length.
+    /// Returns both halves of the span in order. `None` if it has the least length.
     pub fn halves(self) -> Option<[Span; 2]> {
         let whole = |from: usize, to: usize| match to - from {
             1 => Span::Part(from, 0.0, 1.0),
@@ -81,11 +80,11 @@ impl Span {
     }
 }
 
-/// Rounding error of a configuration that is computed from control points, per degree of the piece and relative to the
-/// largest control point. It covers three operations per step, and the rounding of the control points.
+/// Rounding error of a configuration that is computed from control points, per degree of the piece, relative to the largest
+/// control point. It covers three operations per step, and the rounding of the control points.
 const ROUNDING: f64 = 6.0 * f64::EPSILON;
 
-/// Returns the rounding of a piece's configurations in one joint.
+/// Returns the rounding error of a piece's configurations in one joint.
 fn rounding(piece: &Piece, joint: usize) -> f64 {
     let largest = piece.control().iter().map(|p| p[joint].abs()).fold(0.0, f64::max);
     ROUNDING * piece.degree() as f64 * largest
@@ -104,8 +103,8 @@ fn box_about_pieces(pieces: &[Piece]) -> (Configuration, Deviation) {
     (middle, Deviation::Box(half))
 }
 
-/// Returns the tube of half width `beside` in each joint about a part of a piece, from the configuration halfway
-/// through it.
+/// Returns the tube around a part of a piece, from the configuration halfway through it. `beside` is its half width in each
+/// joint.
 pub(super) fn tube_about_part(piece: &Piece, from: f64, to: f64, beside: f64) -> (Configuration, Deviation) {
     let (first, middle, last) = (piece.at(from), piece.at((from + to) / 2.0), piece.at(to));
     let bend = piece.bend(from, to);

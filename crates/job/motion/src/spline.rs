@@ -1,17 +1,17 @@
 //! Motions with continuous acceleration: uniform cubic B-splines.
 //!
-//! Let `x_j` be the configurations of a motion at the multiples of a step `h`, and `y_j` the mean of `n` consecutive
-//! ones. The uniform cubic B-spline with the control points `y_j` is the smoothed motion. Its derivatives are weighted
-//! means of the derivatives of the motion, with non-negative weights that add up to 1. So it is within every limit on
-//! speed and acceleration that the motion respects, and stays in the convex hull of the motion within `(n + 3) h`.
+//! Let `x_j` be the configurations of a motion at the multiples of a step `h`, and `y_j` the mean of `n` consecutive ones. The
+//! smoothed motion is the uniform cubic B-spline with the control points `y_j`. Its derivatives are weighted means of the
+//! motion's derivatives, with non-negative weights that add up to 1. So it is within all limits on speed and acceleration that
+//! the motion satisfies, and at any time in the convex hull of `(n + 3) h` seconds of the motion.
 //!
-//! Its jerk is constant over each step, `(a_j - a_(j - n)) / (n h)` with the second differences `a` of `x` divided by
-//! `h^2`. So a window of `n h` seconds is long enough if the acceleration changes within it by at most the effect of
-//! the greatest jerk. (Box filters in series are a known method for such trajectories: Biagiotti, Melchiorri, *FIR
-//! filters for online trajectory planning with time- and frequency-domain specifications*, 2012.)
+//! Over each step, its jerk is constant: `(a_j - a_(j - n)) / (n h)`, where `a` are the second differences of `x`, divided by
+//! `h^2`. So a window of `n h` seconds is long enough if the greatest jerk could cause the change of acceleration within it. (Box
+//! filters in series are a known method for such trajectories: Biagiotti, Melchiorri, *FIR filters for online trajectory planning
+//! with time- and frequency-domain specifications*, 2012.)
 //!
-//! The motion takes `(n + 1) h` longer, starts and ends at rest with zero acceleration, and moves along straight lines
-//! on straight pieces.
+//! The motion takes `(n + 1) h` longer, starts and ends at rest with zero acceleration, and moves along straight lines on
+//! straight pieces.
 
 use super::clock::{nanoseconds, seconds};
 use super::limits::{LimitedAxis, Limits};
@@ -22,8 +22,8 @@ use super::torque::TorqueLimit;
 use cplan_handling::Piece;
 use cplan_model::space::Configuration;
 
-/// Number of time steps in a smoothing window. The motion takes one step longer than the window, so with more and
-/// shorter steps it is faster.
+/// Number of time steps in a smoothing window. The motion takes one step longer than the window, so more and shorter steps make
+/// it faster.
 const STEPS_PER_WINDOW: f64 = 32.0;
 
 /// Least duration of a step, as a share of the period of the samples.
@@ -38,18 +38,17 @@ const MIN_INTERVALS: usize = 800;
 /// Greatest number of intervals of a motion that is retimed. Longer motions gain less and less.
 const MAX_INTERVALS: usize = 20_000;
 
-/// Fraction of the original speed with which retiming begins. At this speed, all limits are satisfied with some slack.
+/// Retiming begins with this fraction of the original speed, at which all limits are satisfied with some slack.
 const INITIAL_SPEED_SHARE: f64 = 0.97;
 
-/// Number of steps of a retimed motion, unless other reasons require shorter or longer steps. The motion takes two
-/// steps longer.
+/// Number of steps of a retimed motion, unless other reasons require shorter or longer steps. The motion takes two steps longer.
 const RETIMED_STEPS: f64 = 800.0;
 
-/// Fraction of the limits on torques and on the tip's speed that a retimed motion uses. The rest allows for excesses
-/// between the positions at which the limits are imposed.
+/// Fraction of the limits on torques and on the tip's speed that a retimed motion uses. The rest covers excesses between the
+/// positions at which the limits are imposed.
 const USED_LIMIT_SHARE: f64 = 0.995;
 
-/// Greatest change of the jerk at a knot that needs no sample, as a fraction of the greatest jerk.
+/// A knot needs no sample if the jerk changes there by less than this fraction of the greatest jerk.
 const JERK_TOLERANCE: f64 = 1e-7;
 
 /// A motion from rest to rest, as a spline with knots at equal intervals of time.
@@ -64,8 +63,8 @@ pub(super) struct Spline {
 }
 
 impl Spline {
-    /// Creates a curve that passes a knot per second. It starts at the first point and ends at the last one, with zero
-    /// velocity and acceleration. The points between them are its control points.
+    /// Creates a curve that passes a knot per second, from the first point to the last one, with zero velocity and acceleration
+    /// at both ends. The other points are control points.
     pub fn of_curve(points: &[Configuration]) -> Self {
         Self::between(
             nanoseconds(1.0),
@@ -84,8 +83,8 @@ impl Spline {
         Self { step, window: 1, control: [start; 3].into_iter().chain(inner).chain([goal; 3]).collect() }
     }
 
-    /// Smooths a run from rest to rest as far as the limits on jerks require. `acceleration` has the limits on
-    /// acceleration that the run keeps.
+    /// Smooths a run from rest to rest as far as the limits on jerks require. `acceleration` has the acceleration limits of the
+    /// run.
     pub fn smoothed(run: &[TimedTrack], acceleration: [f64; 2], limits: &Limits, period: f64) -> Self {
         let longest = 2.0 * Limits { acceleration, ..*limits }.longest_growth();
         let fine = (longest / STEPS_PER_WINDOW).max(MIN_STEP_SHARE * period).max(MIN_INTERVAL);
@@ -95,7 +94,7 @@ impl Spline {
         let [start, goal] = [places[0], places[places.len() - 1]];
         let place = |j: usize| places[j.min(places.len() - 1)];
         let mean = |j: usize| {
-            // Offsets count from one configuration, so that a joint at rest stays at rest.
+            // Offsets from one configuration ensure that a joint at rest stays at rest.
             let here = place(j);
             let ahead = (0..window).map(|i| if i <= j { place(j - i) } else { start } - here);
             here + ahead.fold(Configuration::zeros(), |sum, offset| sum + offset) / window as f64
@@ -104,8 +103,8 @@ impl Spline {
         Self { step, window: window as u64, control }
     }
 
-    /// Returns the same curve, passed in the least time. Also returns a function that converts seconds of the slower
-    /// motion to nanoseconds of the new one. Returns `None` if the new motion is not known to be faster.
+    /// Returns the fastest motion along the same curve, and a function that converts seconds of the slower motion to nanoseconds
+    /// of the new one. `None` if the new motion is not known to be faster.
     pub fn retimed(&self, limits: &Limits, period: f64) -> Option<(Self, impl Fn(f64) -> u64 + use<>)> {
         let pieces = self.last() + 1;
         let parts = ((MIN_INTERVALS + pieces / 2) / pieces).max(1);
@@ -118,7 +117,7 @@ impl Spline {
         let shortest = (MIN_STEP_SHARE * period).max(MIN_INTERVAL);
         let step = nanoseconds((rate.duration() / RETIMED_STEPS).min(seconds(self.step)).max(shortest));
         let spline = self.passed(&rate, step);
-        // Between the places the limits may be exceeded slightly.
+        // Between the positions of the conditions, limits may be exceeded slightly.
         let (slower, spline) = spline.slowed(spline.excess(limits));
         (spline.duration() < self.duration()).then(|| {
             let delay = spline.delay();
@@ -158,8 +157,8 @@ impl Spline {
         (0..=self.last()).map(|k| Piece::hermite(time(k), time(k + 1), end(k), end(k + 1))).collect()
     }
 
-    /// Returns the factor by which the motion must be slowed down to be within the limits on velocities, accelerations
-    /// and jerks; 1 if it is within them.
+    /// Returns the factor by which the motion must be slowed down to satisfy the limits on velocities, accelerations and jerks; 1
+    /// if it satisfies them.
     pub fn excess(&self, limits: &Limits) -> f64 {
         let h = seconds(self.step);
         let mut excess = 1.0_f64;
@@ -183,18 +182,18 @@ impl Spline {
         self.step * (self.control.len() - 3) as u64
     }
 
-    /// Returns the nanoseconds by which the smoothed motion lags behind the original one, in the middle of the motion.
+    /// Returns the nanoseconds by which the smoothed motion lags behind the original one, at times in the middle of the motion.
     pub fn delay(&self) -> u64 {
         self.step * (self.window + 1) / 2
     }
 
-    /// Returns position, velocity, acceleration and jerk in a piece between knots, at the fraction `u` of the piece.
+    /// Returns position, velocity, acceleration and jerk at the fraction `u` of a piece between knots.
     fn derivatives_within(&self, piece: usize, u: f64) -> [Configuration; 4] {
         let h = seconds(self.step);
         let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.control[piece + i]);
         let (ab, bc, cd, w) = (b - a, c - b, d - c, 1.0 - u);
         let middle = 1.0 + 3.0 * u * (1.0 + u * w);
-        // Rounding must not move the position out of the hull of the control points, which may lie on a joint limit.
+        // A rounding error must not move the position out of the hull of the control points, which may lie on a joint limit.
         let (least, greatest) = (a.inf(&b).inf(&c).inf(&d), a.sup(&b).sup(&c).sup(&d));
         let position =
             (b + (bc * middle + (bc + cd) * (u * u * u) - ab * (w * w * w)) / 6.0).sup(&least).inf(&greatest);
@@ -223,7 +222,7 @@ impl Spline {
         self.derivatives_within(piece, steps - piece as f64)
     }
 
-    /// Returns the nanoseconds at which the jerk changes, the beginning first.
+    /// Returns the nanoseconds at which the jerk changes, including the beginning.
     fn knots(&self) -> Vec<u64> {
         let third = |piece: usize| {
             let [a, b, c, d] = [0, 1, 2, 3].map(|i| self.control[piece + i]);
@@ -243,8 +242,8 @@ impl Spline {
         knots
     }
 
-    /// Appends the spline's samples, except the last one, to a trajectory that ends where the spline begins. There is a
-    /// sample wherever the jerk changes, and at each multiple of the period that is not close to such a sample.
+    /// Appends the spline's samples, except the last one, to a trajectory that ends where the spline begins. There are samples
+    /// wherever the jerk changes, and at each multiple of the period that is not close to one of them.
     pub fn sample(&self, begin: u64, period: f64, trajectory: &mut Trajectory) {
         let near = nanoseconds((period / 2.0).clamp(MIN_INTERVAL, MIN_PERIODIC_INTERVAL));
         let mut knots = self.knots();
@@ -261,7 +260,7 @@ impl Spline {
     }
 }
 
-/// Returns the conditions that the limits impose at a point of a motion with these derivatives. They are for retiming.
+/// Returns the conditions that the limits impose on retiming, at a point of a motion with these derivatives.
 fn conditions_at([position, velocity, acceleration, jerk]: [Configuration; 4], limits: &Limits) -> Vec<Condition> {
     let mut asked = Vec::new();
     let mut ask = |factors: [f64; 3], has_root: bool| {
@@ -299,7 +298,7 @@ fn conditions_at([position, velocity, acceleration, jerk]: [Configuration; 4], l
     asked
 }
 
-/// Returns the least number of steps over which positions must be averaged so that the jerks are within their limits.
+/// Returns the least number of consecutive positions whose means have jerks within their limits.
 fn window(places: &[Configuration], step: f64, limits: &Limits) -> usize {
     let place = |j: isize| places[j.clamp(0, places.len() as isize - 1) as usize];
     let seconds: Vec<Configuration> =
@@ -343,7 +342,7 @@ mod tests {
         }
     }
 
-    /// Returns a path with a blend at each corner, timed without limits on jerks, and its smoothed motion.
+    /// Returns the motion along a path with a blend at each corner, timed without limits on jerks and then smoothed.
     fn smoothed(corners: &[[f64; 2]], radius: f64, limits: &Limits) -> (f64, Spline) {
         let path = Path::new(corners.iter().map(|&q| q.into()).collect());
         let count = path.waypoints().len();
@@ -354,8 +353,8 @@ mod tests {
         (duration(&runs[0]), Spline::smoothed(&runs[0], limits.acceleration, limits, 0.01))
     }
 
-    /// Tests a motion from rest to rest along one joint, with a window long enough for its reversal. It takes a window
-    /// and a step longer than without smoothing.
+    /// Smooths a motion from rest to rest along one joint, with a window long enough for its reversal. The result takes a window
+    /// and a step longer.
     #[test]
     fn smoothing_takes_a_window_and_a_step_longer() {
         let limits = limits(2.0, 8.0, [Some(200.0), None]);
@@ -368,7 +367,7 @@ mod tests {
         assert!(window <= 2.0 * 8.0 / 200.0 + 1e-9);
     }
 
-    /// Tests a long distance at top speed between full ramps. The least time is `L / v + v / a + a / j` in closed form,
+    /// Smooths a long distance at top speed between full ramps. The least time is `L / v + v / a + a / j` in closed form,
     /// although the initial motion is slower by a window.
     #[test]
     fn the_least_time_along_a_line() {
@@ -382,8 +381,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(64))]
 
-        /// Checks smoothed motions by differences of their own samples: limits, rest at both ends, and joints that must
-        /// not move.
+        /// Checks smoothed motions by differences of their own samples: limits, rest at both ends, and joints that must not move.
         #[test]
         fn motions_from_rest_to_rest_satisfy_the_limits(
             turns in prop::collection::vec((0.4..1.5_f64, -2.5..2.5_f64), 2..6), velocity in 0.3..3.0_f64, acceleration in 1.0..20.0_f64,
@@ -411,8 +409,7 @@ mod tests {
                 for knot in 1..=spline.duration() / spline.step {
                     let here = spline.at(knot * spline.step);
                     for k in 0..2 {
-                        // Positions, velocities and accelerations are integrals of each other, and all keep their
-                        // limits.
+                        // Positions, velocities and accelerations are integrals of each other, and within their limits.
                         let rate = (here[2][k] - before[2][k]) / h;
                         prop_assert!(limits.jerk[k].is_none_or(|most| rate.abs() <= most * (1.0 + 1e-6)), "jerk {}", rate);
                         prop_assert!(here[2][k].abs() <= acceleration * (1.0 + 1e-9), "acceleration {}", here[2][k]);
@@ -428,7 +425,7 @@ mod tests {
                     before = here;
                 }
             }
-            // The faster motion goes the same way, and is when it says where the slower one was.
+            // The faster motion takes the same route, and its conversion of times is correct.
             if let Some((fast, when)) = &fast {
                 prop_assert!(fast.duration() < slow.duration());
                 let [step, most] = [seconds(fast.step), velocity * 2.0];
@@ -439,7 +436,7 @@ mod tests {
                 }
             }
             let spline = fast.map_or(slow, |(spline, _)| spline);
-            // The samples are the spline: cubics through them meet it everywhere.
+            // The samples are the spline: cubics through them equal it everywhere.
             let mut trajectory = Trajectory::default();
             spline.sample(0, 0.01, &mut trajectory);
             trajectory.push(spline.duration(), [goal, Configuration::zeros(), Configuration::zeros()]);

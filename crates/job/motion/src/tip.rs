@@ -4,8 +4,8 @@ use cplan_handling::{Derivative, Piece};
 use cplan_model::space::Configuration;
 use cplan_model::{Arm, JointType};
 
-/// Greatest share of the tip's speed limit that is lost because one bound holds for a whole part of a curve. It
-/// determines how finely curves are cut.
+/// Greatest share of the tip's speed limit that is lost because one bound holds for a whole part of a curve. It determines how
+/// finely curves are cut.
 pub(super) const TIP_SPEED_STEP: f64 = 0.01;
 
 /// Greatest number of parts into which a piece is cut to bound the tip's speed.
@@ -18,8 +18,8 @@ pub struct TipSpeed<'a> {
     pub arm: &'a Arm,
     /// Greatest speed, metres per second, positive.
     pub speed: f64,
-    /// For each leg of the path, the share of the speed that it allows, greater than 0 and at most 1; empty if all legs
-    /// allow the whole speed. Only [`super::time`] uses them, and a blend has the lower speed of its two legs.
+    /// For each leg of the path, the share of the speed that it allows, above 0 and at most 1; empty if all legs allow the whole
+    /// speed. Only [`super::time`] uses them. On a blend, the lower share of its two legs applies.
     pub legs: &'a [f64],
 }
 
@@ -49,7 +49,7 @@ impl Part {
 }
 
 impl<'a> TipSpeed<'a> {
-    /// Returns the limit to one speed, metres per second, on the whole path.
+    /// Returns the limit with one speed, metres per second, for the whole path.
     pub fn new(arm: &'a Arm, speed: f64) -> Self {
         Self { arm, speed, legs: &[] }
     }
@@ -59,24 +59,24 @@ impl<'a> TipSpeed<'a> {
         self.legs.get(leg).copied().unwrap_or(1.0)
     }
 
-    /// Returns a bound, in metres per unit of the parameter, on the overestimate of the tip's derivative on a part.
+    /// Returns a bound on the overestimate of the tip's derivative on a part, in metres per unit of the parameter.
     pub(super) fn slack(&self, part: &Part) -> f64 {
         self.change(part) * part.half
     }
 
-    /// Returns a speed of the parameter at which the tip keeps its limit on the whole part. The tip's derivative by the
-    /// parameter is `J q'`, and changes at most at the rate [`TipSpeed::change`].
+    /// Returns a speed of the parameter at which the tip is within its limit on the whole part. The tip's derivative by the
+    /// parameter is `J q'`, which changes at most at the rate [`TipSpeed::change`].
     pub(super) fn speed_within_limit(&self, part: &Part) -> f64 {
         let [first, second] = self.arm.jacobian(1, self.arm.tip, part.middle);
         let rate = (first * part.slope[0] + second * part.slope[1]).norm();
         self.speed / (rate + self.slack(part))
     }
 
-    /// Returns numbers for both ends of a part: the tip keeps its limit on the whole part if the speeds of the parameter at
-    /// both ends are at most the limit divided by these numbers, and their square is linear in between.
+    /// Returns a number for each end of a part. If the speeds of the parameter at both ends are at most the limit divided by
+    /// these numbers, and the squared speed is linear in between, the tip is within its limit on the whole part.
     ///
-    /// Between the ends, the tip's derivative by the parameter is within `h^2 / 8` times its second derivative of its
-    /// chord. If its magnitude was linear, the square of the speed would exceed the limit by less than two squares of its
+    /// Between the ends, the tip's derivative by the parameter differs from its chord by at most `h^2 / 8` times its second
+    /// derivative. If its magnitude were linear, the squared speed would exceed the limit by less than two squares of its
     /// relative change.
     pub(super) fn rates(&self, part: &Part) -> [f64; 2] {
         let off = part.half * part.half / 2.0 * self.change_of_rate(part);
@@ -85,7 +85,7 @@ impl<'a> TipSpeed<'a> {
         [first, last].map(|rate| rate * (1.0 + change * change))
     }
 
-    /// Returns a bound, in metres per unit of the parameter, on the overestimate of [`TipSpeed::rates`].
+    /// Returns a bound on the overestimate of [`TipSpeed::rates`], in metres per unit of the parameter.
     pub(super) fn slack_of_rates(&self, part: &Part) -> f64 {
         let (known, bounds) = (self.rates_at_ends(part), self.rates(part));
         (bounds[0] - known[0]).max(bounds[1] - known[1])
@@ -100,8 +100,8 @@ impl<'a> TipSpeed<'a> {
         })
     }
 
-    /// Returns the factor by which the tip may exceed its limit on pieces of a motion. `None` if the limit is proven to
-    /// be satisfied.
+    /// Returns the factor by which the tip may exceed its limit on pieces of a motion. `None` if it is proven to be within the
+    /// limit.
     pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
         let excess = pieces.iter().map(|piece| self.excess_on(piece)).fold(1.0, f64::max);
         (excess > 1.0).then_some(excess)
@@ -117,7 +117,7 @@ impl<'a> TipSpeed<'a> {
                 third: Configuration::zeros(),
                 half: duration / f64::from(2 * count),
             };
-            // The acceleration is linear, so it is greatest at an end, in any direction.
+            // The acceleration is linear, so in any direction it is greatest at an end.
             let ends = [0.0, 1.0].map(|end| piece.derivative(Derivative::Acceleration, end));
             (0..count).flat_map(move |i| ends.map(|end| part((f64::from(i) + 0.5) / f64::from(count), end)))
         };
@@ -126,8 +126,8 @@ impl<'a> TipSpeed<'a> {
         parts(count).map(|part| 1.0 / self.speed_within_limit(&part)).fold(0.0, f64::max)
     }
 
-    /// Returns bounds on the magnitudes of the first three derivatives by the parameter on a part: for both joints, and for
-    /// the rotation of link 2.
+    /// Returns bounds on the magnitudes of the first three derivatives by the parameter on a part: for each joint, and for the
+    /// rotation of link 2.
     fn derivatives(&self, part: &Part) -> [[f64; 3]; 3] {
         let turns = self.arm.joints.each_ref().map(|joint| joint.joint_type.turn());
         let along = |of: &dyn Fn(Configuration) -> f64| {
@@ -159,7 +159,7 @@ impl<'a> TipSpeed<'a> {
         use JointType::{Prismatic, Revolute};
         let (arm, tip) = (self.arm, self.arm.tip);
         let [[w1, b1, j1], [w2, b2, j2], [w, b, j]] = self.derivatives(part);
-        // The third derivative of a unit vector that turns with these derivatives.
+        // The third derivative of a unit vector that rotates with these derivatives.
         let turned = |w: f64, b: f64, j: f64| w * w * w + 3.0 * w * b + j;
         match (arm.joints[0].joint_type, arm.joints[1].joint_type) {
             (Revolute { .. }, Revolute { .. }) => arm.offset.norm() * turned(w1, b1, j1) + tip.norm() * turned(w, b, j),

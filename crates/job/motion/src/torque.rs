@@ -8,41 +8,38 @@ use cplan_handling::Piece;
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, Path};
 
-/// Fraction of an effort by which the torque may be overestimated on a part of a curve. It determines how finely curves
-/// are cut.
+/// Fraction of an effort by which the torque may be overestimated on a part of a curve. It determines how finely curves are cut.
 const TORQUE_STEP: f64 = 0.01;
 
 /// Number of parts into which a straight stretch is cut to find one acceleration and one speed that are safe on all of
 /// it.
 const PARTS_PER_STRETCH: u32 = 64;
 
-/// Fraction of the effort for acceleration on such a part. The effort that gravity does not need counts as 1, and the
-/// rest of it is for speed.
+/// Fraction of the effort, beyond that against gravity, for the acceleration on such a part. The rest is for the speed.
 const ACCELERATION_SHARE: f64 = 0.5;
 
-/// Least effort that gravity leaves, as a share of the whole effort. If gravity leaves less, this share is assumed.
+/// Least share of an effort that is assumed to remain beside gravity.
 const MIN_REMAINING_EFFORT: f64 = 1e-12;
 
-/// Fraction of an effort by which a torque may be greater between two samples of a motion than at the samples.
+/// A torque between two samples of a motion may exceed those at the samples by this fraction of an effort.
 const SAMPLED_TORQUE_TOLERANCE: f64 = 2e-4;
 
-/// Fraction of an effort by which a torque may be greater between two samples than at the samples, during the search
-/// for a motion.
+/// The same fraction during the search for a motion.
 const SEARCHED_TORQUE_TOLERANCE: f64 = 2e-3;
 
 /// Greatest number of parts into which a leg is cut to check that the arm can be held everywhere on it.
 const MAX_LEG_PARTS: f64 = 1e5;
 
-/// A limit on the torques of an arm's joints, by their efforts.
+/// Limits on the torques of an arm's joints: their efforts.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TorqueLimit<'a> {
     /// Torques of the arm with its payload, and its efforts.
     pub torques: Torques<'a>,
-    /// Fraction of the effort that motions may use, where the effort that gravity does not need counts as 1.
+    /// Fraction of the efforts, beyond those against gravity, that motions may use.
     pub share: f64,
 }
 
-/// The torques along a part of a curve whose parameter has the squared speed `z`. For each joint the torque is
+/// The torques along a part of a curve whose parameter has the squared speed `z`: for each joint
 /// `inertial z' / 2 + bent z + holding`. Each factor is linear between its values at both ends, up to an error.
 struct TorquesOnPart {
     ends: [TorqueFactors; 2],
@@ -72,7 +69,7 @@ impl<'a> TorqueLimit<'a> {
             third: [0, 1].map(|k| part.third[k].abs()),
         };
         let curvature = self.torques.curvature(part.middle, part.half, &rates);
-        // Deviation from a chord over the whole part, which is `2 half` long.
+        // Deviation from a chord over the whole part, whose length is `2 half`.
         let off = |curvature: [f64; 2], share: f64| curvature.map(|c| c * part.half * part.half / (2.0 * share));
         let at = |by: f64| {
             let [q, slope, bend] = part.at(by);
@@ -94,11 +91,11 @@ impl<'a> TorqueLimit<'a> {
         }
     }
 
-    /// Returns the conditions on the squared speeds `z0` and `z1` at both ends of a part, as rows `[a, b]` with `a z0 +
-    /// b z1 <= 1`. Between the ends, the squared speed is linear. Uses the share `used` of the efforts.
+    /// Returns the conditions on the squared speeds `z0` and `z1` at both ends of a part, as rows `[a, b]` with
+    /// `a z0 + b z1 <= 1`. The squared speed is linear in between. `used` is the share of the efforts that may be used.
     ///
-    /// With linear factors a torque is a quadratic polynomial along the part. It keeps its limit if its Bernstein
-    /// coefficients do.
+    /// With linear factors, a torque is a quadratic polynomial along the part. It is within its limit if its Bernstein
+    /// coefficients are.
     pub(super) fn rows(&self, part: &Part, used: f64) -> Vec<[f64; 2]> {
         let TorquesOnPart { ends: [first, last], off } = self.on(part);
         let mut rows = Vec::new();
@@ -116,7 +113,7 @@ impl<'a> TorqueLimit<'a> {
                 ];
                 for (inertial, bent, holding) in coefficients {
                     let room = (used * effort - holding - off_holding).max(MIN_REMAINING_EFFORT * effort);
-                    // The inertial factor deviates to the side that is worse.
+                    // The inertial factor deviates in the less favourable direction.
                     for inertial in [inertial + off_inertial, inertial - off_inertial] {
                         // z' over the part's length, halved.
                         let rising = inertial / (4.0 * part.half);
@@ -129,7 +126,7 @@ impl<'a> TorqueLimit<'a> {
         rows
     }
 
-    /// Returns true if a part is so long that its torques are known only coarsely.
+    /// Returns true if a part is so long that its torques are known only roughly.
     pub(super) fn is_coarse(&self, part: &Part, [z0, z1]: [f64; 2]) -> bool {
         let off = self.on(part).off;
         let rising = (z1 - z0).abs() / (4.0 * part.half);
@@ -138,7 +135,7 @@ impl<'a> TorqueLimit<'a> {
         self.torques.limited_torques().any(|limited| limited.bound(unknown) > TORQUE_STEP * limited.effort)
     }
 
-    /// Returns a speed and an acceleration along a straight stretch that are safe together everywhere on it.
+    /// Returns a speed and an acceleration along a straight stretch that are both safe everywhere on it.
     pub(super) fn safe(&self, from: Configuration, to: Configuration) -> [f64; 2] {
         let (offset, count) = (to - from, f64::from(PARTS_PER_STRETCH));
         let length = offset[0].hypot(offset[1]);
@@ -165,8 +162,8 @@ impl<'a> TorqueLimit<'a> {
         safe
     }
 
-    /// Returns an acceleration for each joint: if the accelerations of both joints change by these at once, no torque
-    /// changes by more than its effort.
+    /// Returns an acceleration for each joint. If the accelerations of both joints change by these at once, no torque changes by
+    /// more than its effort.
     pub(super) fn accelerations(&self) -> [f64; 2] {
         let inertia = self.torques.greatest_inertia();
         let share =
@@ -174,8 +171,8 @@ impl<'a> TorqueLimit<'a> {
         [0, 1].map(|k| self.torques.limited_torques().map(|limited| share(k, limited)).fold(f64::INFINITY, f64::min))
     }
 
-    /// Returns the factor by which accelerating torques on pieces of a motion may exceed the efforts that gravity
-    /// leaves. `None` if they are proven not to exceed them.
+    /// Returns the factor by which accelerating torques on pieces of a motion may exceed the efforts that remain beside gravity.
+    /// `None` if they are proven not to exceed them.
     pub(super) fn excess(&self, pieces: &[Piece]) -> Option<f64> {
         let mut excess = 1.0_f64;
         for look in pieces.iter().flat_map(|piece| torque_samples(&self.torques, piece, SEARCHED_TORQUE_TOLERANCE)) {
@@ -191,7 +188,7 @@ impl<'a> TorqueLimit<'a> {
         (excess > 1.0).then_some(excess)
     }
 
-    /// Returns the error that a torque exceeds its effort. That of a motor is stated for its shaft.
+    /// Returns the error that a torque exceeds its effort. A motor's torque is stated at its shaft.
     fn too_heavy(&self, limited: &LimitedTorque, at: Configuration, torque: f64) -> TimingError {
         let (joints, motors) = (&self.torques.arm.joints, self.torques.arm.motors);
         let gear = motors.filter(|_| limited.joint.is_none()).map_or(1.0, |motors| motors.gear[0].abs());
@@ -231,7 +228,7 @@ impl<'a> TorqueLimit<'a> {
         (0..trajectory.time.len()).map(at).collect()
     }
 
-    /// Checks that the efforts of an arm hold it with its load at a configuration. Does nothing if motions need not
+    /// Checks that the efforts of an arm suffice to hold it, with its load, at a configuration. Does nothing if motions need not
     /// respect efforts.
     ///
     /// # Errors
@@ -240,11 +237,11 @@ impl<'a> TorqueLimit<'a> {
         Self::of(scene).map_or(Ok(()), |own| own.check_holding(q))
     }
 
-    /// Returns the limit of a scene, if the arm can be held against gravity along a whole path. `None` if motions need not
-    /// respect efforts.
+    /// Returns the torque limit of a scene, after checking that the arm can be held against gravity along a whole path. `None` if
+    /// motions need not respect efforts.
     ///
     /// # Errors
-    /// The place where it needs more than a joint's effort.
+    /// A place where the arm needs more than a joint's effort.
     pub(super) fn along_path(scene: &'a Scene, path: &Path) -> Result<Option<Self>, TimingError> {
         let own = Self::of(scene);
         own.iter().try_for_each(|own| own.check_holding_along(path))?;

@@ -5,7 +5,7 @@ use serde::Serialize;
 /// Figures about a motion among moving obstacles.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Timing {
-    /// Number of moving obstacles. In a task, objects that move until they are picked are included.
+    /// Number of moving obstacles. In a task, it includes objects that move until they are picked.
     pub obstacles: usize,
     /// Number of paths that were tried.
     pub ways: usize,

@@ -5,10 +5,10 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
-/// The reason why a file could not be written. No file was changed.
+/// The reason why a file could not be written. No file has changed.
 #[derive(Debug, Error)]
 pub enum WriteError {
-    /// There is a folder (or a device, a pipe, ...) with that name.
+    /// A folder, device, pipe or the like has that name.
     #[error("cannot write {}: it exists and is not a file", path.display())]
     NotAFile {
         /// The file as given.
@@ -33,12 +33,12 @@ pub enum WriteError {
     },
 }
 
-/// Writes `bytes` to `path` through a temporary file in the same folder, which is then renamed in one step. At any
-/// moment the file has either its old or its new content, even if the program is killed. (If the machine loses power in
-/// that moment, the file system decides.)
+/// Writes `bytes` to a temporary file in the folder of `path`, and renames it in one step. At any moment, the file has either its
+/// old or its new content, even if the program is killed. (After a loss of power at that moment, this depends on the file
+/// system.)
 ///
-/// An existing file keeps its permissions; a new one gets those of the user's umask. Through a symbolic link, the
-/// target file is replaced.
+/// An existing file keeps its permissions; a new one gets those of the user's umask. If `path` is a symbolic link, the file
+/// behind it is replaced.
 ///
 /// # Errors
 /// [`WriteError`]; nothing is left behind.
@@ -46,9 +46,9 @@ pub fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), WriteError> {
     TemporaryFile::new(path, bytes)?.move_into_place()
 }
 
-/// Writes several files like [`write_whole`]. All temporary files are written before the first rename, so lack of space
-/// or permissions is detected while all files are unchanged. If the system refuses a rename after that, earlier files
-/// are new and the others unchanged.
+/// Writes several files like [`write_whole`]. All temporary files are written before the first one is renamed, so lack of space
+/// or permissions is detected while all files are unchanged. If the system refuses to rename one of them, earlier files have
+/// their new content, and the others are unchanged.
 ///
 /// # Errors
 /// [`WriteError`] for the first file that fails; no temporary file is left behind.
@@ -62,7 +62,7 @@ struct TemporaryFile {
     /// The path of the file to write, as given.
     path: PathBuf,
     target: PathBuf,
-    /// The temporary file, closed. So the limit on open files does not limit the number of files.
+    /// The temporary file, closed, so that the limit on open files does not limit the number of files.
     temporary: tempfile::TempPath,
 }
 
@@ -85,20 +85,20 @@ impl TemporaryFile {
     }
 }
 
-/// Checks whether a file of that name could be written, as far as possible without writing it. This is for long
-/// computations whose result could otherwise not be saved.
+/// Checks, as far as possible without writing it, whether a file of that name could be written. Called before long computations,
+/// whose result might otherwise be lost.
 ///
 /// # Errors
 /// [`WriteError`].
 pub fn check_writable(path: &Path) -> Result<(), WriteError> {
     let Target { folder, .. } = target(path)?;
-    // The temporary file is removed at once, so its name is visible only for a moment.
+    // The temporary file is removed at once, so its name is visible only briefly.
     new_temporary(&folder).map(drop).map_err(|source| WriteError::Refused { path: path.to_owned(), source })
 }
 
 /// The place of a file to write.
 struct Target {
-    /// The file itself, behind a symbolic link.
+    /// The file itself, at the end of symbolic links.
     file: PathBuf,
     folder: PathBuf,
     /// Permissions of the existing file. `None` if there is no such file.
@@ -109,7 +109,7 @@ fn target(path: &Path) -> Result<Target, WriteError> {
     let refused = |source: io::Error| WriteError::Refused { path: path.to_owned(), source };
     let target = match (path.is_symlink(), fs::canonicalize(path)) {
         (false, _) => path.to_owned(),
-        // The file behind the link does not exist yet.
+        // The target of the link does not exist yet.
         (true, Err(error)) if error.kind() == io::ErrorKind::NotFound => {
             path.with_file_name(fs::read_link(path).map_err(refused)?)
         }
@@ -132,7 +132,7 @@ fn target(path: &Path) -> Result<Target, WriteError> {
     Ok(Target { file: target, folder, kept })
 }
 
-/// Creates a temporary file with the permissions of an ordinary new file. By default only the owner could read it.
+/// Creates a temporary file with the permissions of an ordinary new file, because by default only the owner could read it.
 #[cfg(unix)]
 fn new_temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     use std::os::unix::fs::PermissionsExt;

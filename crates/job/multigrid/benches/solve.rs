@@ -1,17 +1,15 @@
-//! Benchmarks of the solver beside plain relaxation, in one run: time from walls to a field with an error of at most
-//! 1e-6.
+//! Benchmarks of the solver and of plain relaxation, in one run: the time from walls to a field with an error of at most 1e-6.
 //!
-//! The yardstick is over-relaxation row by row in doubles, with the best constant factor for the scene (found by a
-//! search), stopped when its true error is 1e-6. The true error is measured against this solver at 1e-13, which the
-//! tests compare with other methods.
+//! The solver is compared with over-relaxation row by row in doubles, with the best constant factor for the scene (found by a
+//! search), which stops when its true error is 1e-6. The true error is measured against this solver at 1e-13, which the tests
+//! compare with other methods.
 //!
-//! A pass runs along stretches of free cells without branches, keeps the last value in a register and adds it last, so
-//! the dependency chain per cell is five operations. (Written as `(1 - w) u + w/4 others + w/4 west` the chain has two
-//! operations and a pass is three times faster; both times are printed.)
+//! A pass runs along stretches of free cells without branches. It keeps the last value in a register and adds it last, so the
+//! dependency chain per cell has five operations. (As `(1 - w) u + w/4 others + w/4 west`, the chain has two operations, and a
+//! pass is three times faster; both times are printed.)
 //!
-//! Run `cargo bench --bench solve`. At 2048 x 2048 the yardstick takes minutes and runs only with
-//! `CPLAN_BENCH_LARGE=1`. Its factor is then extrapolated from 512 x 512: `2 - factor` is inversely proportional to the
-//! size.
+//! Run `cargo bench --bench solve`. At 2048 x 2048, relaxation takes minutes and runs only with `CPLAN_BENCH_LARGE=1`. Its factor
+//! is then extrapolated from 512 x 512: `2 - factor` is inversely proportional to the size.
 
 use cplan_multigrid::{Ends, Multigrid};
 use criterion::Criterion;
@@ -101,8 +99,7 @@ impl Relaxation {
         Self { stride, values, runs }
     }
 
-    /// Relaxes all cells once. With `SHORT`, the arithmetic is arranged so that each cell waits less for its western
-    /// neighbour.
+    /// Relaxes all cells once. With `SHORT`, a cell waits less for its western neighbour.
     fn sweep<const SHORT: bool>(&mut self, factor: f64) {
         let (keep, quarter) = (1.0 - factor, 0.25 * factor);
         for &(from, to) in &self.runs {
@@ -222,7 +219,7 @@ fn compare(scene: &Scene, runs: usize, factor: Option<f64>) {
         solve * 1e3,
     );
     let Some(factor) = factor else { return };
-    // Minutes each on the largest grid: once.
+    // On the largest grid, each takes minutes, so it runs once.
     let sweep_runs = if rows > 1000 { 1 } else { runs.min(5) };
     let report = |name: &str, factor: f64, sweeps: usize| {
         let (plain, short) = (
@@ -245,8 +242,8 @@ fn compare(scene: &Scene, runs: usize, factor: Option<f64>) {
     }
 }
 
-/// Measures how many updates per second are possible. In each update an obstacle moves by one cell, the walls are
-/// rebuilt, and the last field is the initial guess.
+/// Measures the number of updates per second. In each update, an obstacle moves by one cell, the walls are rebuilt, and the last
+/// field is the initial guess.
 fn updates(scene: &Scene) {
     let [rows, columns] = scene.cells;
     let steps = columns - 20;

@@ -5,11 +5,11 @@ use pulp::x86::V3;
 use pulp::{Simd, f32x8, f64x4};
 use std::ops::{Add, Mul, Sub};
 
-/// Eight numbers in single precision, with a token that proves that the processor has AVX2.
+/// Eight numbers in single precision, with a token as proof that the processor has AVX2.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Singles(V3, f32x8);
 
-/// Eight numbers in double precision, in two vectors, with a token as in [`Singles`].
+/// Eight numbers in double precision in two vectors, with the same kind of token.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Doubles(V3, [f64x4; 2]);
 

@@ -6,8 +6,8 @@ use super::machine::{LANES, Machine, packs, packs_mut};
 /// more row.
 pub(super) const STAGES: usize = 5;
 
-/// The cells of one colour in several rows. Each row has one extra cell at both ends, and there is one extra row above
-/// the first and one below the last. A band may keep only the last few of many rows.
+/// The cells of one colour in several rows. Each row has an extra cell at either end, and there are extra rows above the first
+/// and below the last. A band may keep only the last few of many rows.
 #[derive(Debug, Clone)]
 pub(super) struct Band<T> {
     pub width: usize,
@@ -37,8 +37,8 @@ impl<T: Copy + Default> Band<T> {
         self.above(i + 2)
     }
 
-    /// Returns row `i`, including padding, as `count` packs. The caller passes the count so that loops over several
-    /// rows need no bounds checks.
+    /// Returns row `i`, including padding, as `count` packs. The caller passes the count, so that loops over several rows need no
+    /// bounds checks.
     #[inline(always)]
     pub fn row(&self, i: usize, count: usize) -> &[[T; LANES]] {
         packs(&self.data, self.start(i), count)

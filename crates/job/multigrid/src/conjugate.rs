@@ -1,11 +1,11 @@
 //! The passes of conjugate gradients, for the even cells, and of the finest level of the preconditioner.
 //!
-//! Vectors are stored in single precision. Their products with the operator are computed from them in double precision,
-//! so that rounding stays proportional to the residuals.
+//! Vectors are stored in single precision. Their products with the operator are computed in double precision, so that rounding
+//! errors stay proportional to the residuals.
 //!
-//! The preconditioner's smoother on the finest level is one Jacobi step on the system of the even cells, which equals
-//! one red-black Gauss-Seidel step on the full system. After it the residual of the odd cells is zero, so they are
-//! neither restricted nor interpolated.
+//! The preconditioner's smoother on the finest level is one Jacobi step on the system of the even cells, which equals one
+//! red-black Gauss-Seidel step on the full system. After it the residual of the odd cells is zero, so they are neither restricted
+//! nor interpolated.
 
 use super::band::{Band, Color};
 use super::cycle::Stack;
@@ -13,8 +13,8 @@ use super::machine::{Machine, Pack};
 use super::red_black::{RedBlack, Shape};
 use super::transfer::Corners;
 
-/// Residuals below this fraction of the initial maximum are set to 0. In single precision they would become subnormal
-/// numbers, which are slow.
+/// Residuals below this fraction of the initial maximum are set to 0. In single precision, they would become subnormal numbers,
+/// which are slow.
 const NEGLIGIBLE: f32 = 1e-25;
 
 /// The vectors of a solve. They can be reused for other solves, also with other walls, on a grid of the same shape.
@@ -47,7 +47,7 @@ pub(super) struct Step {
     pub beta: f64,
 }
 
-/// The greatest magnitudes that one pass over the grid meets.
+/// The greatest magnitudes in one pass over the grid.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Greatest {
     pub value: f64,
@@ -87,8 +87,8 @@ impl Workspace {
         }
     }
 
-    /// Takes a step, smooths the residual (starting from zero), and restricts it to the next coarser level. Returns the
-    /// greatest change and the greatest sum of changes.
+    /// Takes a step, smooths the residual, starting from zero, and restricts it to the next coarser level. Returns the greatest
+    /// change and the greatest sum of changes.
     pub(super) fn descend<M: Machine>(
         &mut self,
         m: M,
@@ -158,8 +158,8 @@ impl Workspace {
         Greatest { value: greatest(most), change: greatest(change) }
     }
 
-    /// Interpolates the coarse solution and smooths, which gives the preconditioned residual. Returns two scalar
-    /// products of it: with the residual, and with its image under the operator.
+    /// Interpolates the coarse solution and smooths it, which gives the preconditioned residual. Returns its scalar products with
+    /// the residual and with its own image under the operator.
     pub(super) fn ascend<M: Machine>(&mut self, m: M, red_black: &RedBlack, corners: &Corners) -> [f64; 2] {
         let count = red_black.count();
         let inverse = m.all((1.0 / red_black.degree) as f32);
@@ -312,7 +312,7 @@ impl Workspace {
         red_black.settle(&mut self.exact_odd, &self.exact_even, i);
     }
 
-    /// Returns the greatest magnitude in each lane, among the cells of a row and `most`.
+    /// Returns in each lane the greatest magnitude of `most` and of the cells of a row.
     #[inline(always)]
     fn greatest_value<M: Machine>(&self, m: M, count: usize, mut most: M::Double, i: usize) -> M::Double {
         for (a, b) in self.exact_even.row(i, count).iter().zip(self.exact_odd.row(i, count)) {
@@ -322,8 +322,8 @@ impl Workspace {
         most
     }
 
-    /// Computes the scaled residual of a row's even cells. Returns the greatest magnitude in each lane, among the
-    /// residual and `left`.
+    /// Computes the scaled residual of a row's even cells. Returns in each lane the greatest magnitude of this residual and of
+    /// `left`.
     #[inline(always)]
     fn scaled_residual<M: Machine>(
         &mut self,
@@ -380,7 +380,7 @@ fn part(row: &[f64], i: usize, even: &mut [f64], odd: &mut [f64]) {
     }
 }
 
-/// Merges the colours of a row: the inverse of splitting.
+/// Merges the colours of a row.
 #[inline(always)]
 fn merge(even: &[f64], odd: &[f64], i: usize, row: &mut [f64]) {
     let (even, odd) = if i.is_multiple_of(2) { (even, odd) } else { (odd, even) };

@@ -58,8 +58,8 @@ impl Hierarchy {
         }
     }
 
-    /// Runs one V-cycle through the levels below the finest. It starts from zero, for the right-hand side of the first
-    /// of these levels.
+    /// Runs one V-cycle through the levels below the finest, starting from zero, for the right-hand side of the first of these
+    /// levels.
     pub fn cycle<M: Machine>(&self, m: M, stack: &mut Stack) {
         let Stack { levels: vectors, rows, bottom } = stack;
         let last = self.transfers.len();
@@ -105,7 +105,7 @@ fn envelope<M: Machine>(m: M, operator: &Stencil) -> Envelope {
             ] {
                 if coupling != 0.0 {
                     let there = row * columns + column;
-                    // A cell that is its own neighbour on a tiny circle is so on both sides.
+                    // On a tiny circle, a cell is its own neighbour on both sides.
                     let twice = if there == here { 2.0 } else { 1.0 };
                     entries.push((here.max(there), here.min(there), -twice * f64::from(coupling)));
                 }

@@ -1,7 +1,7 @@
 //! Cholesky factorisation within the envelope of a small symmetric matrix, for the coarsest level.
 
-/// The factor `L` of `A = L L^T`. Row `i` of `L` is stored from the first column in which row `i` of `A` has an entry;
-/// to the left of it, all entries are 0 (Jennings 1966).
+/// The factor `L` of `A = L L^T`. Row `i` of `L` is stored from the first column in which row `i` of `A` has an entry. Entries to
+/// the left of it are 0 (Jennings 1966).
 #[derive(Debug, Clone)]
 pub(super) struct Envelope {
     first: Vec<usize>,
@@ -10,8 +10,8 @@ pub(super) struct Envelope {
 }
 
 impl Envelope {
-    /// Factorises a matrix. `entries` are those of its lower triangle, `(row, column, value)`, in any order; entries at
-    /// the same place are added. Rows without a positive pivot are removed, and their unknowns are 0.
+    /// Factorises a matrix. `entries` has its lower triangle as `(row, column, value)`, in any order; entries at the same place
+    /// are added. Rows without a positive pivot are removed, and their unknowns are 0.
     pub fn new(rows: usize, entries: &[(usize, usize, f64)]) -> Self {
         let mut first: Vec<usize> = (0..rows).collect();
         entries.iter().for_each(|&(i, j, _)| first[i] = first[i].min(j));
@@ -31,7 +31,7 @@ impl Envelope {
             }
             let squares: f64 = lower[start[i]..start[i + 1] - 1].iter().map(|a| a * a).sum();
             let pivot = scale - squares;
-            // The diagonal stores the reciprocal.
+            // The diagonal has the reciprocal of the pivot.
             lower[start[i + 1] - 1] = if pivot > MIN_PIVOT * scale { 1.0 / pivot.sqrt() } else { 0.0 };
         }
         Self { first, start, lower }
@@ -57,6 +57,6 @@ impl Envelope {
     }
 }
 
-/// Least pivot, as a fraction of the diagonal entry. Where a pivot is smaller, the matrix is singular: the pivot is
-/// only the rounding of entries, which are computed in single precision.
+/// Least pivot, as a fraction of the diagonal entry. If a pivot is smaller, the matrix is singular, and the pivot is only a
+/// rounding error of the entries, which are in single precision.
 const MIN_PIVOT: f64 = 1e-6;

@@ -1,4 +1,4 @@
-//! Memory layout of cells: rows padded to whole vectors, within a frame that implements the boundary conditions.
+//! Memory layout of cells: rows are padded to whole vectors, and a frame around them implements the boundary conditions.
 
 use super::machine::LANES;
 use std::ops::Range;
@@ -6,17 +6,17 @@ use std::ops::Range;
 /// Boundary condition at the two ends of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Ends {
-    /// Beyond the limit the value is 0, as in walls (Dirichlet).
+    /// Beyond the limit, the value is 0, as in walls (Dirichlet).
     High,
-    /// Beyond the limit, the cell at the limit has a mirror image with the same value, so nothing flows across the
-    /// limit (Neumann).
+    /// Beyond the limit, the cell at the limit has a mirror image with the same value, so nothing flows across the limit
+    /// (Neumann).
     Reflecting,
     /// The axis is a circle, so the two ends are neighbours.
     Joined,
 }
 
-/// The layout of one level. Each row has one extra cell at each end, and there is one extra row above the first and one
-/// below the last. After a row is finished, the extra cells have the values that [`Ends`] prescribes.
+/// The layout of one level. Each row has an extra cell at either end, and there are extra rows above the first and below the
+/// last. After a row is finished, these cells have the values that [`Ends`] prescribes.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Frame {
     pub rows: usize,
@@ -122,9 +122,9 @@ impl Frame {
         self.ends[0] == Ends::Joined
     }
 
-    /// Iterates over the steps of two loops that run together: the first loop makes rows, and the second uses each row
-    /// as soon as it and the rows around it are made. Then these rows are still in the cache. On a circle the last row
-    /// is made first, because it lies above the first row.
+    /// Iterates over the steps of two loops that run together: the first loop makes rows, and the second uses a row as soon as it
+    /// and the rows next to it are made, while they are still in the cache. On a circle, the last row is made first, because it
+    /// lies above the first one.
     pub fn ahead(&self) -> impl Iterator<Item = AheadStep> + use<> {
         let rows = self.rows;
         let first = (self.is_joined_at_rows() && rows > 1).then(|| AheadStep { made: Some(rows - 1), used: None });
@@ -134,8 +134,7 @@ impl Frame {
     }
 }
 
-/// A step of [`Frame::ahead`]: the row to make first, and the row to use afterwards. `None` if this step has no such
-/// row.
+/// A step of [`Frame::ahead`]: the row to make, and then the row to use. `None` if there is no such row in this step.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct AheadStep {
     pub made: Option<usize>,

@@ -1,10 +1,9 @@
 //! The next coarser level: interpolation that follows the operator, and the operator seen through it.
 //!
-//! Coarse cells are the cells in even rows and columns (box multigrid: Dendy 1982). A cell between two coarse cells of
-//! a row gets the value that balances the sums of couplings over its column, and likewise with rows and columns
-//! exchanged. A cell in an odd row and column then gets the value that solves its own equation. In open space, this is
-//! bilinear interpolation. On all levels, no value is interpolated across a wall, however thin, because couplings show
-//! where walls are.
+//! Coarse cells are the cells in even rows and columns (box multigrid: Dendy 1982). A cell between two coarse cells of a row gets
+//! the value that balances the sums of couplings over its column; in a column, likewise with rows and columns exchanged. A cell
+//! in an odd row and column then gets the value that solves its own equation. In open space, this is bilinear interpolation.
+//! Couplings show where walls are, so on no level is a value interpolated across a wall, however thin.
 
 use super::frame::{Ends, Frame};
 use super::machine::{LANES, Machine, Pack};
@@ -123,8 +122,7 @@ pub(super) fn coarsen<M: Machine, O: Operator>(m: M, operator: &O) -> (Transfer,
     (transfer, stencil)
 }
 
-/// Computes the weights of the fine cells that lie between two coarse cells, either of row `i`, or of rows `i` and `i +
-/// 1`.
+/// Computes the weights of the fine cells between two coarse cells, either of row `i`, or of rows `i` and `i + 1`.
 fn line_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer, i: usize) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (s, x) = (&window.below.even, &window.below.odd);
@@ -151,8 +149,8 @@ fn line_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transfer
     );
 }
 
-/// Sets to 0 the weights from coarse cells that are not unknowns. Without this, diagonal couplings that lead past such
-/// a cell would count as couplings to it.
+/// Sets the weights from coarse cells that are not unknowns to 0. Otherwise, diagonal couplings that lead past such a cell would
+/// count as couplings to it.
 fn keep_unknowns<M: Machine>(m: M, transfer: &mut Transfer, unknown: &[f32], i: usize) {
     let (row, below) = (transfer.coarse.row(i), transfer.coarse.below(i));
     m.run(
@@ -205,8 +203,8 @@ fn center_weights<M: Machine, O>(m: M, window: &Window<O>, transfer: &mut Transf
     );
 }
 
-/// Computes the entries of `A P` in the rows of the fine cells between the coarse cells of row `i`, and in the columns
-/// of the coarse cells to the west, east, south-west and south-east of them.
+/// Computes the entries of `A P` in the rows of the fine cells between the coarse cells of row `i`, for the columns of the coarse
+/// cells to the west, east, south-west and south-east of each.
 fn seen_between<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, i: usize, seen: &mut [Vec<f32>; 4]) {
     let (c, e) = (&window.middle.even, &window.middle.odd);
     let (n, nx) = (&window.above.even, &window.above.odd);
@@ -244,8 +242,8 @@ fn seen_between<M: Machine, O>(m: M, window: &Window<O>, transfer: &Transfer, i:
     }
 }
 
-/// Computes row `i` of `P^T A P`, and the part of row `i + 1` that the same fine rows contribute. Cells in the middle
-/// of four coarse cells contribute nothing, because their weights make `A P` zero there.
+/// Computes row `i` of `P^T A P`, and the contribution of the same fine rows to row `i + 1`. Cells in the middle of four coarse
+/// cells contribute nothing, because with their weights `A P` is zero there.
 fn products<M: Machine, O>(
     m: M,
     window: &Window<O>,
@@ -259,7 +257,7 @@ fn products<M: Machine, O>(
     let (n, nx) = (&window.above.even, &window.above.odd);
     let t = &transfer;
     let (row, above, below) = (t.coarse.row(i), t.coarse.above(i), t.coarse.below(i));
-    // Beyond an interval nothing is added, so that any row does for the last.
+    // Beyond the end of an interval, nothing is added, so any row will do after the last one.
     let following = t.coarse.row((i + 1) % t.coarse.rows).start;
     m.run(
         #[inline(always)]
@@ -269,7 +267,7 @@ fn products<M: Machine, O>(
                 let (west, east_before) = (m.load(&t.west, at), m.load(&t.east, at - 1));
                 let (north, south) = (m.load(&t.north, at), m.load(&t.south, at));
 
-                // A P at the coarse cell itself: its own, then towards east, south, south-east, south-west, as
+                // A P at the coarse cell itself: its own entry, then those towards east, south, south-east and south-west, as
                 // couplings.
                 let (ce, cs, cse, csw) = (
                     m.load(&c.east, j + 1),
@@ -293,7 +291,8 @@ fn products<M: Machine, O>(
                 let to_south_east = cse * m.load(&t.corners[3], at);
                 let to_south_west = csw * m.load(&t.corners[2], at - 1);
 
-                // At the cell south of it: north, south, and the eastern and western neighbours of those.
+                // At the cell to the south of it: entries for north and south, and for the eastern and western neighbours of
+                // those.
                 let (se, xe) = (m.load(&s.east, j + 1), m.load(&x.east, j));
                 let (sse, ssw, esw) =
                     (m.load(&s.south_east, j + 1), m.load(&s.south_west, j + 1), m.load(&e.south_west, j + 1));

@@ -2,14 +2,14 @@
 //!
 //! # The problem
 //!
-//! A grid has free cells and walls. For every free cell, `(degree + shift) u - sum of the free neighbours' u = b`. The
-//! degree is 4. Walls and high limits have value 0. Beyond each end of the grid, [`Ends`] applies, and a reflecting
-//! limit lowers the degree by 1.
+//! A grid has free cells and walls. For every free cell, `(degree + shift) u - sum of the free neighbours' u = b`. The degree is
+//! 4. Walls and high limits have value 0. Beyond each end of the grid, [`Ends`] applies, and a reflecting limit lowers the degree
+//! by 1.
 //!
-//! This is Poisson's equation, or with a positive shift Helmholtz's. With `b = 0` except at a goal it is Laplace's. A
-//! goal `g` among walls takes one solve: `A^-1 e_g` divided by its value at `g` ([`Multigrid::goal`]). So the hierarchy
-//! of levels, which depends only on the walls, serves all goals. Treat cells with known values as walls, and add each
-//! value to `b` of its free neighbours.
+//! This is Poisson's equation, or Helmholtz's if the shift is positive. If `b = 0` except at a goal, it is Laplace's. A goal `g`
+//! among walls takes one solve: `A^-1 e_g`, divided by its value at `g` ([`Multigrid::goal`]). So the hierarchy of levels, which
+//! depends only on the walls, serves all goals. Cells with known values count as walls; add the values to `b` of their free
+//! neighbours.
 //!
 //! ```
 //! use cplan_multigrid::{Ends, Multigrid};
@@ -33,25 +33,24 @@
 //!
 //! # Cost and guarantees
 //!
-//! Building the solver and each step are linear in the number of cells. 4 to 8 steps give an error of `1e-6` of the
-//! greatest value, independent of size and walls: about 60 ns per cell from walls to field on one core. Memory is a few
-//! numbers per cell, in the solver and in a [`Workspace`] that can be reused. The field of slightly different walls is
-//! a good initial guess.
+//! The construction of the solver and each step take time linear in the number of cells. 4 to 8 steps give an error of `1e-6` of
+//! the greatest value, whatever the size and the walls: about 60 ns per cell from walls to field on one core. The solver and a
+//! [`Workspace`], which can be reused, need memory for a few numbers per cell. The field among slightly different walls is a good
+//! initial guess.
 //!
-//! The error in [`Convergence`] is an estimate from the decrease of the last steps, and is compared with the tolerance.
-//! It is relative to the greatest value, so small values far away have fewer digits (the crate `cplan-harmonic` gives
-//! all values the same number). `converged` says whether the tolerance was reached.
+//! The error in [`Convergence`] is an estimate from the decrease of the last steps, and `converged` states whether it reached the
+//! tolerance. It is relative to the greatest value, so small values far away have fewer correct digits. (With the crate
+//! `cplan-harmonic`, all values have the same number of them.)
 //!
-//! The same input gives the same bits on every machine, with vector instructions (AVX2, detected at run time) and
-//! without. There are no other threads. Long solves can be interrupted: they pass a
-//! [`checkpoint`](cplan_interrupt::checkpoint).
+//! The same input gives the same bits on every machine, with vector instructions (AVX2, detected at run time) and without. There
+//! are no other threads. Long solves can be interrupted: they pass a [`checkpoint`](cplan_interrupt::checkpoint).
 //!
 //! # Method
 //!
-//! Cells are coloured like a chessboard (`red_black`). The cells of one colour are eliminated, which leaves half of the
-//! unknowns. Conjugate gradients for these run in rounds: vectors are in single precision; the residual at the start of
-//! each round, the values, and the products with the operator are in double precision. The preconditioner is one
-//! V-cycle in single precision. Its rounding costs steps, not digits.
+//! Cells are coloured like a chessboard (`red_black`). The cells of one colour are eliminated, which leaves half of the unknowns.
+//! Conjugate gradients for these run in rounds: vectors are in single precision; the residual at the start of each round, the
+//! values, and the products with the operator are in double precision. The preconditioner is one V-cycle in single precision,
+//! whose rounding errors cost steps, but no accuracy.
 #![forbid(unsafe_code)]
 
 mod band;

@@ -19,8 +19,8 @@ pub(super) trait Machine: Copy {
     type Single: Pack<f32>;
     type Double: Pack<f64>;
 
-    /// Runs a kernel with the instructions of this machine. The kernel and all functions called in its loops must be
-    /// marked as always inlined; otherwise the instructions become calls.
+    /// Runs a kernel with the instructions of this machine. The kernel, and all functions called in its loops, must be marked as
+    /// always inlined. Otherwise each instruction becomes a call.
     fn run<R>(self, kernel: impl FnOnce() -> R) -> R;
     fn pack(self, from: &[f32; LANES]) -> Self::Single;
     fn pack_double(self, from: &[f64; LANES]) -> Self::Double;
@@ -37,7 +37,7 @@ pub(super) trait Machine: Copy {
     fn all_double(self, x: f64) -> Self::Double;
     /// Returns the reciprocal of each positive number, and 0 for others.
     fn inverse(self, x: Self::Single) -> Self::Single;
-    /// Returns `x`, in which lanes with a magnitude below `negligible` are set to 0.
+    /// Returns `x` with 0 in those lanes whose magnitude is below `negligible`.
     fn significant(self, x: Self::Single, negligible: f32) -> Self::Single;
     fn double(self, x: Self::Single) -> Self::Double;
     fn single(self, x: Self::Double) -> Self::Single;
@@ -47,14 +47,13 @@ pub(super) trait Machine: Copy {
     fn greater_double(self, a: Self::Double, b: Self::Double) -> Self::Double;
 }
 
-/// Returns `count` packs that begin at index `at`. Loops over several such slices of equal length need no bounds
-/// checks.
+/// Returns `count` packs from index `at` on. Loops over several such slices of equal length need no bounds checks.
 #[inline(always)]
 pub(super) fn packs<T>(from: &[T], at: usize, count: usize) -> &[[T; LANES]] {
     &from[at..].as_chunks().0[..count]
 }
 
-/// Does the same as [`packs`], but for writing.
+/// Does the same as [`packs`] for writing.
 #[inline(always)]
 pub(super) fn packs_mut<T>(from: &mut [T], at: usize, count: usize) -> &mut [[T; LANES]] {
     &mut from[at..].as_chunks_mut().0[..count]

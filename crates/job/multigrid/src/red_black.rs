@@ -1,14 +1,12 @@
 //! The cells of a grid in two colours, as on a chessboard. Each colour has its own array.
 //!
-//! Neighbours have different colours. So the odd cells (for which row plus column is odd) depend only on even cells,
-//! and can be eliminated. A system for half of the cells remains. In row `i`, even cell number `j` is in column
-//! `2 j + i mod 2`, and odd cell number `j` is in column `2 j + 1 - i mod 2`. The neighbours of cell `j` in the rows
-//! above and below also have the number `j`. Its two neighbours in the same row have the numbers `j`, and `j - 1` or `j
-//! + 1`.
+//! Neighbours have different colours. So the odd cells, for which row plus column is odd, depend only on even cells and can be
+//! eliminated, which leaves a system for half of the cells. In row `i`, even cell `j` is in column `2 j + i mod 2`, and odd cell
+//! `j` is in column `2 j + 1 - i mod 2`. The neighbours of cell `j` in the rows above and below also have the number `j`. Its two
+//! neighbours in the same row have the numbers `j`, and `j - 1` or `j + 1`.
 //!
-//! If a limit reflects, or a circle has an odd number of cells, some neighbours have the same colour. Two even
-//! neighbours find each other's value in the frame of the odd cells. Two odd neighbours are eliminated together
-//! ([`RedBlack::settle`]).
+//! If a limit reflects, or a circle has an odd number of cells, some neighbours have the same colour. The frame of the odd cells
+//! has the values of even neighbours of even cells. Two odd neighbours are eliminated together ([`RedBlack::settle`]).
 
 use super::band::{Band, STAGES};
 use super::frame::Ends;
@@ -93,21 +91,21 @@ impl RedBlack {
         Band::new(self.even.width, self.shape.rows + 2)
     }
 
-    /// Allocates a band that keeps only the rows that one stage of a [`pipeline`](Self::pipeline) passes to the next.
-    /// On a circle it keeps all rows.
+    /// Allocates a band with only the rows that one stage of a [`pipeline`](Self::pipeline) passes to the next; on a circle, with
+    /// all rows.
     pub fn narrow_band<T: Copy + Default>(&self) -> Band<T> {
         let kept = if self.shape.ends[0] == Ends::Joined { self.shape.rows + 2 } else { STAGES + 1 };
         Band::new(self.even.width, kept)
     }
 
-    /// Calls `stage(s, i)` for all stages `s` (at most [`STAGES`]) and all rows `i`. Each call comes as soon as the
-    /// previous stage has been called for the rows around `i`, while those rows are still in the cache. If the rows
-    /// form a circle, each stage is called for all rows before the next stage.
+    /// Calls `stage(s, i)` for all stages `s` (at most [`STAGES`]) and all rows `i`: as soon as the previous stage is done for
+    /// row `i` and the rows next to it, while these are still in the cache. If the rows form a circle, each stage is done for all
+    /// rows before the next one begins.
     #[inline(always)]
     pub fn pipeline(&self, stages: usize, mut stage: impl FnMut(usize, usize)) {
         if self.shape.ends[0] == Ends::Joined {
             for s in 0..stages {
-                // Do not use an iterator: its closure would not be inlined.
+                // The closure of an iterator would not be inlined.
                 for i in 0..self.shape.rows {
                     stage(s, i);
                 }
@@ -123,8 +121,8 @@ impl RedBlack {
         }
     }
 
-    /// Returns whether the number of cells of an axis that is a circle is even or odd. If it is odd, neighbours across
-    /// the seam have the same colour. Returns `None` for an axis that is an interval.
+    /// Returns the parity of the number of cells along an axis that is a circle. If it is odd, neighbours across the seam have
+    /// the same colour. `None` for an interval.
     fn joined(&self, axis: usize) -> Option<Parity> {
         let odd = [self.shape.rows, self.shape.columns][axis] % 2 == 1;
         (self.shape.ends[axis] == Ends::Joined).then_some(if odd { Parity::Odd } else { Parity::Even })
@@ -144,9 +142,9 @@ impl RedBlack {
         });
     }
 
-    /// Sets those extra cells of the odd cells' band that depend on row `i`. Where an even cell has even neighbours, at
-    /// seams and reflecting limits, the extra cells have the values of these neighbours, so sums over neighbours are
-    /// also right there.
+    /// Sets those extra cells of the odd cells' band that depend on row `i`. Where an even cell has even neighbours, at seams and
+    /// reflecting limits, the extra cells have the values of these neighbours, so that sums over neighbours are correct there,
+    /// too.
     #[inline(always)]
     pub fn frame_odd<T: Real, U: Real + Into<T>>(&self, band: &mut Band<T>, even: &Band<U>, i: usize) {
         let (at, half) = (band.start(i), self.half());
@@ -159,7 +157,7 @@ impl RedBlack {
                 (band.data[at - 1], band.data[at + half]) = (band.data[at + half - 1], band.data[at]);
             }
             ends => {
-                // The extra cells before and after the row, which only even cells at its ends use.
+                // The extra cells before and after the row. Only the even cells at its ends use them.
                 let (before, after) = if ends == Ends::Joined { (last, first) } else { (first, last) };
                 band.data[at - 1] = before;
                 band.data[at + half] = after;
@@ -191,8 +189,7 @@ impl RedBlack {
         }
     }
 
-    /// Calls `set` for each extra row that depends on row `i`. Passes it the start of row `i` and the start of the
-    /// extra row.
+    /// Calls `set` for each extra row that depends on row `i`, with the starts of row `i` and of the extra row.
     #[inline(always)]
     fn rows_beyond<T: Real>(&self, band: &mut Band<T>, i: usize, mut set: impl FnMut(&mut Band<T>, usize, usize)) {
         let from = band.start(i);
@@ -224,8 +221,7 @@ impl RedBlack {
         }
     }
 
-    /// Computes the solution at the odd cells of row `i`. When called, the band has their right-hand sides divided by
-    /// the degree.
+    /// Computes the solution at the odd cells of row `i`. Before, the band has their right-hand sides divided by the degree.
     #[inline(always)]
     pub fn settle<T: Real, U: Real + Into<T>>(&self, band: &mut Band<T>, even: &Band<U>, i: usize) {
         if self.shape.ends != [Ends::High; 2] {
@@ -323,8 +319,8 @@ enum Parity {
     Odd,
 }
 
-/// Solves for two odd cells that are neighbours, given the value that each would have if the other were 0. If `both` is
-/// false, these values are the result.
+/// Solves for two neighbouring odd cells, given the value that each would have if the other were 0. If `both` is false, these
+/// values are the result.
 fn solve_coupled_pair<T: Real>(diagonal: f64, alone: [T; 2], both: bool) -> (T, T) {
     if !both {
         return alone.into();

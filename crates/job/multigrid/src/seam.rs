@@ -4,11 +4,10 @@ use super::frame::{Ends, Frame};
 use super::machine::Machine;
 use super::stencil::{Line, Operator};
 
-/// An operator with one more column or row at the seam of each circle of odd size. The new cells lie in the middle of
-/// the couplings across the seam. A coupling `c` becomes two couplings `2 c` in series, which are equivalent to `c`
-/// after the new unknown is eliminated. (This is exact for five-point operators. Coarse levels also have diagonal
-/// couplings across the seam, which are added to the straight couplings beside them. This changes only the
-/// preconditioner.)
+/// An operator with one more column or row at the seam of each circle of odd size. The new cells lie in the middle of the
+/// couplings across the seam: two couplings `2 c` in series replace a coupling `c`, to which they are equivalent after the new
+/// unknown is eliminated. (This is exact for five-point operators. Coarse levels also have diagonal couplings across the seam,
+/// which are added to the straight couplings beside them. This affects only the preconditioner.)
 pub(super) struct SeamlessOperator<'a, O> {
     operator: &'a O,
     fine: Frame,
@@ -109,9 +108,9 @@ impl<'a, O: Operator> SeamlessOperator<'a, O> {
     }
 }
 
-/// Returns the straight coupling between two cells that replaces couplings across the seam: their own coupling, and
-/// half of each diagonal coupling. The other half of a diagonal coupling goes to another pair. The result is 0 if one
-/// of the cells is not an unknown; then the diagonal couplings of the other cell stay in its diagonal coefficient.
+/// Returns the straight coupling between two cells that replaces couplings across the seam: their own one, and half of each
+/// diagonal one. The other half of a diagonal coupling belongs to another pair. The result is 0 if one of the cells is not an
+/// unknown; the diagonal couplings of the other cell then stay in its diagonal coefficient.
 fn straight_coupling(one: [f32; 3], other: [f32; 3], diagonals: [f32; 2]) -> f32 {
     if diagonals.iter().any(|&diagonal| diagonal <= 0.0) {
         return 0.0;

@@ -1,8 +1,8 @@
 //! Smoothing: two steps of Jacobi's method with the weights of Chebyshev, and residuals.
 //!
-//! The spectrum of `D^-1 A` lies within 0..2. With these weights, both steps together are the polynomial of degree 2
-//! that is least on the upper part of the spectrum, `0.5..2`, which coarser levels cannot represent. The order of cells
-//! does not matter, so whole rows are processed as vectors, and the cycle is symmetric.
+//! The spectrum of `D^-1 A` lies within 0..2. With these weights, both steps together are the polynomial of degree 2 with the
+//! least maximum on `0.5..2`, the part of the spectrum that coarser levels cannot represent. The order of cells does not matter,
+//! so whole rows are processed as vectors, and the cycle is symmetric.
 
 use super::around::NineCells;
 use super::frame::Frame;
@@ -46,12 +46,12 @@ impl Stencil {
         }
     }
 
-    /// Takes two more smoothing steps, from a solution whose frame is not set yet.
+    /// Takes two more smoothing steps from a solution whose frame is not set yet.
     pub fn go_on<M: Machine>(&self, m: M, vectors: &mut Vectors) {
         let Vectors { right, solution, other } = vectors;
         self.frame.finish(solution);
-        // Take the second step for a row as soon as the first step is done for the rows around it. The first step then
-        // no longer needs the old values of that row.
+        // The second step for a row follows as soon as the first step is done for the rows next to it. From then on, the first
+        // step no longer needs the old values of that row.
         m.run(
             #[inline(always)]
             || {

@@ -34,7 +34,7 @@ pub struct Multigrid {
     hierarchy: Option<Hierarchy>,
 }
 
-/// Result of a solve, which says how precise the values are.
+/// Result of a solve.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Convergence {
     /// Number of steps of conjugate gradients, each with one V-cycle.
@@ -45,24 +45,24 @@ pub struct Convergence {
     pub converged: bool,
 }
 
-/// Largest number of iterations. Each one gains about a decimal digit, so more are never needed.
+/// Largest number of iterations. Each gains about a decimal digit, so more are never useful.
 const MAX_ITERATIONS: usize = 100;
 
 /// Rounding error of sums in single precision, relative to the greatest value.
 const SINGLE_ROUNDING: f64 = 1e-7;
 
-/// Greatest fraction of the residual that may remain after a round. If more remains, it is only rounding.
+/// If more than this fraction of the residual remains after a round, only rounding errors remain.
 const MIN_PROGRESS: f64 = 0.5;
 
-/// Least assumed ratio between two consecutive changes. The error is estimated from the last two changes as the rest of
-/// a geometric series. A single step may change values only little by chance, which would make the ratio too small.
+/// Least assumed ratio of two consecutive changes. The error is estimated from the last two changes, as the rest of a geometric
+/// series. By chance, a single step may change values only little, and the ratio would be too small.
 const MIN_RATIO: f64 = 0.1;
 
 impl Multigrid {
     /// Builds the solver for `cells` rows and columns, with `free` row by row. Linear in the number of cells.
     ///
-    /// Without walls or high limits and with `shift` 0, the solution is not unique; it exists up to a constant if `b`
-    /// sums to 0. Then a shift of `1e-6` per cell is used.
+    /// Without walls, high limits and shift, solutions exist only if `b` sums to 0, and are unique only up to a constant. Then a
+    /// shift of `1e-6` per cell is used.
     ///
     /// # Panics
     /// If the length of `free` is not the product of `cells`, or `shift` is negative or not finite.
@@ -79,10 +79,10 @@ impl Multigrid {
         Workspace::new(&self.red_black, self.hierarchy.as_ref().map_or_else(Stack::default, Hierarchy::stack))
     }
 
-    /// Solves for the right-hand side `right`, starting from the finite numbers in `values`. Walls are not read, and
-    /// get the value 0. Stops when no value is likely to be wrong by more than `tolerance` times the greatest value.
+    /// Solves for the right-hand side `right`, starting from `values`, which must be finite. Walls are not read, and get the
+    /// value 0. Stops when the estimated error is at most `tolerance` times the greatest value.
     ///
-    /// Starting from zero, a tolerance of `1e-6` takes 4 to 8 iterations, independent of size and walls.
+    /// Starting from zero, a tolerance of `1e-6` takes 4 to 8 iterations, whatever the size and the walls.
     ///
     /// # Panics
     /// If a length is not the number of cells, or the workspace is for another grid.
@@ -98,7 +98,7 @@ impl Multigrid {
         }
     }
 
-    /// Runs rounds of conjugate gradients. Each computes the residual again.
+    /// Runs rounds of conjugate gradients. Each begins by computing the residual.
     fn rounds<M: Machine>(
         &self,
         m: M,
@@ -110,7 +110,7 @@ impl Multigrid {
     ) -> Convergence {
         let red_black = &self.red_black;
         let mut convergence = Convergence { iterations: 0, error: f64::INFINITY, converged: false };
-        // The residual is computed in the range of single precision.
+        // A power of two brings the residual into the range of single precision.
         let mut scale = power_of_two(right.iter().chain(&*values).map(|x| x.abs()).fold(0.0, f64::max));
         workspace.clear_steps();
         let mut start = workspace.correct(m, red_black, right, values, 0.0, Some(scale));
@@ -171,8 +171,8 @@ impl Multigrid {
                 return if step.is_some() { error } else { 0.0 };
             }
             let beta = if product > 0.0 { next / product } else { 0.0 };
-            // Directions are conjugate: the energy of the advice is that of its part along the last direction and the
-            // rest.
+            // Directions are conjugate, so the energy of the advice is the sum of those of its part along the last direction and
+            // of the rest.
             energy = image - beta * beta * energy;
             let (true, true) = (next > 0.0, energy > 0.0) else { return error };
             product = next;
@@ -189,7 +189,7 @@ impl Multigrid {
     pub fn goal(&self, goal: usize, values: &mut [f64], tolerance: f64, workspace: &mut Workspace) -> Convergence {
         let mut right = vec![0.0; values.len()];
         right[goal] = 1.0;
-        // A start in proportion to the solution is as good as the solution: with `A u = e`, `(A u)` at the goal is 1.
+        // The best initial guess is proportional to the solution: with `A u = e`, `(A u)` at the goal is 1.
         let free = |cell: &usize| self.red_black.is_free(*cell);
         let around: f64 = self.red_black.neighbors(goal).filter(free).map(|other| values[other]).sum();
         let source = self.red_black.degree * values[goal] - around;

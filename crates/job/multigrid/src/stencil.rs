@@ -3,8 +3,8 @@
 use super::frame::{Ends, Frame};
 use super::machine::{LANES, Machine, Pack};
 
-/// The operator `(A u)_p = d_p u_p - sum of c_pq u_q` over the eight neighbours `q` of a cell `p`. Each coupling `c` is
-/// stored once, at the first of its two cells. It is 0 if one of the cells is not an unknown.
+/// The operator `(A u)_p = d_p u_p - sum of c_pq u_q` over the eight neighbours `q` of a cell `p`. Each coupling `c` is stored
+/// once, at the first of its two cells. It is 0 unless both cells are unknowns.
 #[derive(Debug, Clone)]
 pub(super) struct Stencil {
     pub frame: Frame,
@@ -32,7 +32,7 @@ impl Stencil {
         }
     }
 
-    /// Computes the coefficients that depend on the couplings. Must be called after the couplings are set.
+    /// Computes the coefficients that follow from the couplings. To be called after these are set.
     pub fn finish(&mut self) {
         for part in [&mut self.diagonal, &mut self.east, &mut self.south, &mut self.south_east, &mut self.south_west] {
             self.frame.finish(part);

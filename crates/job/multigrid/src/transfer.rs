@@ -7,8 +7,8 @@ use super::seam::odd_circles;
 use super::smooth::Vectors;
 use super::stencil::Stencil;
 
-/// Interpolation `P` from a coarse level to the finer one, and its transpose, the restriction. The weights of a fine
-/// cell are stored at the coarse cell to the north or west of it.
+/// Interpolation `P` from a coarse level to the next finer one, and its transpose, the restriction. The weights of a fine cell
+/// are stored at the coarse cell to the north or west of it.
 #[derive(Debug, Clone)]
 pub(super) struct Transfer {
     pub fine: Frame,
@@ -57,7 +57,7 @@ impl Corners {
         Self { coarse: transfer.coarse, weights: transfer.corners }
     }
 
-    /// Computes row `i` of `P^T` times a residual that is zero at odd cells, and writes it to `into`.
+    /// Computes row `i` of `P^T` times a residual that is zero at odd cells, into `into`.
     #[inline(always)]
     pub fn restrict<M: Machine>(&self, m: M, residual: &Band<f32>, i: usize, into: &mut [f32]) {
         let (row, over, count) = (self.coarse.row(i).start, self.coarse.above(i), self.coarse.width / LANES);
@@ -75,8 +75,7 @@ impl Corners {
         }
     }
 
-    /// Computes row `i` of the sum of two vectors: `inverse` times the residual, and `P` times a coarse vector whose
-    /// frame is set.
+    /// Computes row `i` of the sum of `inverse` times the residual and of `P` times a coarse vector whose frame is set.
     #[inline(always)]
     pub fn prolong<M: Machine>(
         &self,
@@ -112,7 +111,7 @@ impl Transfer {
         Self { fine, coarse, west: zeros(), east: zeros(), north: zeros(), south: zeros(), corners }
     }
 
-    /// Sets the frames after the weights.
+    /// Sets the frames. To be called after the weights are set.
     pub fn finish(&mut self) {
         for part in [&mut self.west, &mut self.east, &mut self.north, &mut self.south] {
             self.coarse.finish(part);
@@ -141,7 +140,7 @@ impl Transfer {
         }
     }
 
-    /// Computes the residual of the finer level, applies `P^T` to it, and writes the result to `into`.
+    /// Computes the residual of the finer level and applies `P^T` to it. The result goes to `into`.
     pub fn restrict<M: Machine>(&self, m: M, level: &Stencil, upper: &Vectors, rows: &mut Rows, into: &mut [f32]) {
         let (fine, coarse) = (self.fine, self.coarse);
         let Rows { natural, even, odd, above, below } = rows;
@@ -191,7 +190,7 @@ impl Transfer {
         }
     }
 
-    /// Interpolates a coarse vector whose frame is set, and adds the result to a fine vector.
+    /// Interpolates a coarse vector, whose frame is set, and adds the result to a fine vector.
     pub fn prolong<M: Machine>(&self, m: M, from: &[f32], rows: &mut Rows, onto: &mut [f32]) {
         let Rows { even, odd, below, .. } = rows;
         let [a, b, c, d] = &self.corners;

@@ -125,14 +125,14 @@ pub struct FieldArgs {
     pub escape: Option<Escape>,
 }
 
-/// Default of the largest number of sweeps in each stage. It exceeds all published numbers of sweeps.
+/// Default of the largest number of sweeps in each stage. No published result needed more.
 const MAX_SWEEPS: u32 = 30_000;
-/// Tolerance for sums of changes over all cells. It is that of published numbers of sweeps (Deicu 2012, Tables 17 to
+/// Tolerance for sums of changes over all cells, with which published numbers of sweeps were counted (Deicu 2012, Tables 17 to
 /// 19).
 const SUM_TOLERANCE: f64 = 0.01;
 
 impl FieldArgs {
-    /// Returns the planner that follows the field. `None` if no option asks for another field than the default.
+    /// Returns the planner that follows the field; `None` for the default field.
     ///
     /// # Errors
     /// The reason, if options contradict each other or the planner.
@@ -174,8 +174,8 @@ impl FieldArgs {
         Ok(Some(FieldPlanner { field, limits, escape: self.escape, path: PathKind::Own }))
     }
 
-    /// Returns the measure that ends the relaxation. The default for SOR is the measure with which published numbers of
-    /// sweeps were counted.
+    /// Returns the measure that ends the relaxation. SOR has another default, with which published numbers of sweeps were
+    /// counted.
     fn measure(&self) -> Measure {
         let is_sor = self.relaxation == Some(RelaxationName::Sor) && self.device().is_cpu();
         self.measure.unwrap_or(if is_sor { Measure::SumOfChange } else { Measure::GreatestRelativeChange })
@@ -191,7 +191,7 @@ impl FieldArgs {
         self.device().adapter().err().map(|reason| format!("--on gpu: {reason}"))
     }
 
-    /// Returns the stated options in the order of the help, each with the fields to which it applies.
+    /// Returns the stated options in the order of the help, each with its fields.
     fn stated_options(&self) -> Vec<Stated> {
         use FieldName::{Bvp, Bvp2, Khatib, Local, Oriented};
         let options: [(bool, &str, &[FieldName]); 19] = [
@@ -278,7 +278,7 @@ impl FieldArgs {
 fn usual_tolerance(measure: Measure) -> f64 {
     match measure {
         Measure::SumOfChange | Measure::DifferenceOfSums => SUM_TOLERANCE,
-        // The squared tolerance of sums. On a grid of a single cell, both rules agree.
+        // The squared tolerance of sums. On a grid of a single cell, both measures stop at the same sweep.
         Measure::SumOfSquares => SUM_TOLERANCE * SUM_TOLERANCE,
         Measure::GreatestChange | Measure::GreatestRelativeChange => RELATIVE_TOLERANCE,
     }
@@ -290,7 +290,7 @@ fn names(fields: &[FieldName]) -> String {
     listed(&values.iter().map(PossibleValue::get_name).collect::<Vec<_>>(), " or ")
 }
 
-/// Parses numbers separated by commas. A text that is not a number becomes NaN.
+/// Parses numbers separated by commas. A part that is not a number becomes NaN.
 pub(super) fn numbers(text: &str) -> Vec<f64> {
     text.split(',').map(|part| part.trim().parse().unwrap_or(f64::NAN)).collect()
 }
@@ -307,8 +307,7 @@ pub fn direction(text: &str) -> Result<Direction, String> {
     vector.ok_or_else(|| "must be two numbers that are not both 0, such as 0,-1".into())
 }
 
-/// Splits a law such as `ranged:0.01,0.5` into its name and its constants. `None` if it has none, or one that is
-/// not positive.
+/// Splits a law such as `ranged:0.01,0.5` into its name and constants. `None` without constants, or if one is not positive.
 fn split_law(text: &str) -> Option<(&str, Vec<f64>)> {
     let (name, constants) = text.split_once(':')?;
     let constants = numbers(constants);

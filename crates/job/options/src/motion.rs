@@ -59,7 +59,7 @@ fn jerk(text: &str) -> Result<[Option<f64>; 2], String> {
 }
 
 impl MotionArgs {
-    /// Returns the options in the form of the motion layer.
+    /// Returns the options as settings for driving.
     pub fn drive(&self) -> Drive {
         let Self { period, blend, tip_speed, torque, .. } = *self;
         Drive { optimize: self.optimize, period, blend, tip_speed, torque }

@@ -1,4 +1,4 @@
-//! Words for planners, paths, searches and other choices, so that help and shells can list them.
+//! Words for planners, paths, searches and other choices, for help and shells to list.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use cplan_fields::{Device, Difference, Initial, Limits, Lines, Measure, Order, Scan, Stencil};
@@ -8,7 +8,7 @@ use cplan_planners::waves::search::Ties;
 use cplan_solver::{GridSpace, Method, NamedJoints};
 use std::ffi::OsStr;
 
-/// A value, its word on the command line, and its line in the help, which may be empty. After a bar, the word has an alias,
+/// A value, its word on the command line, and its line in the help, which may be empty. After a bar, the word may have an alias,
 /// which the help does not list.
 pub type Word<T> = (T, &'static str, &'static str);
 

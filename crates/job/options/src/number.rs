@@ -2,7 +2,7 @@
 
 use cplan_motion::MIN_INTERVAL;
 
-/// Parses a number that is allowed.
+/// Parses a number for which `allowed` returns true.
 ///
 /// # Errors
 /// Any other text. `range` describes the allowed numbers in the message.

@@ -35,14 +35,14 @@ pub struct EffortArgs {
 }
 
 impl EffortArgs {
-    /// Returns the planner with those of these options that it uses.
+    /// Sets those of these options that the planner reads.
     pub fn apply_to(&self, planner: Planner) -> Planner {
         let planner = self.margin.map_or(planner, |share| planner.with_margin(share));
         self.cells.map_or(planner, |counts| planner.with_cell_counts(counts))
     }
 
-    /// Returns the number of attempts of a planner. If only few cells are requested, they are not doubled, and the
-    /// number is that of the attempts with one size.
+    /// Returns the number of attempts of a planner. A few requested cells are not doubled, so there are only the attempts with
+    /// one size.
     pub fn levels(&self, planner: &Planner) -> usize {
         let is_coarse = |CellCounts(counts): CellCounts| counts.iter().all(|&n| n <= KEPT_CELLS);
         let usual = match planner.space().filter(|_| self.cells.is_some_and(is_coarse)) {
@@ -52,8 +52,8 @@ impl EffortArgs {
         self.levels.map_or(usual, usize::from)
     }
 
-    /// Returns a warning for each stated option that the planner does not use. Options that contradict the planner are
-    /// errors of [`PlannerArgs::planner`].
+    /// Returns a warning for each stated option that the planner does not use. [`PlannerArgs::planner`] refuses options that
+    /// contradict the planner.
     pub fn ignored(&self, planner: Method) -> Vec<String> {
         let refined = [Setting::Margin, Setting::Cells];
         let options: [(&str, bool, &[Setting]); 3] = [
@@ -69,7 +69,7 @@ impl EffortArgs {
         ignored.map(warning).collect()
     }
 
-    /// Returns these options, completed by those of `base`.
+    /// Fills options that are not stated from `base`.
     pub fn completed_by(&self, base: &Self) -> Self {
         Self {
             cells: self.cells.or(base.cells),
@@ -79,8 +79,7 @@ impl EffortArgs {
     }
 }
 
-/// Largest number of cells along an axis that is not doubled by default. With so few cells, pictures show a number in
-/// each.
+/// Largest number of cells along an axis that is not doubled by default. Pictures show a number in each of so few cells.
 const KEPT_CELLS: usize = 32;
 
 /// Measures of length.
@@ -226,7 +225,7 @@ impl PlannerArgs {
         Ok(self.apply_to(Planner::named(method).with_search(search), field))
     }
 
-    /// Checks that the planner has all options that are stated.
+    /// Checks that the planner has all stated options.
     fn check(&self, planner: Method) -> Result<(), String> {
         let Self { effort, optimum, path, roadmap, .. } = self;
         let shortest = "does not look for the shortest path";
@@ -282,7 +281,7 @@ impl OptimumArgs {
 }
 
 impl PathArgs {
-    /// Checks that the planner has the ties, the direction and the kind of path that are stated.
+    /// Checks that the planner has the stated ties, direction and kind of path.
     fn check(&self, planner: Method) -> Result<(), String> {
         if self.ties.is_some() && (!planner.reads(Setting::Ties) || self.search != Some(GridSearch::AStar)) {
             let planners = readers(&[Setting::Ties], " or ");
@@ -300,7 +299,7 @@ impl PathArgs {
         Ok(())
     }
 
-    /// Checks that the planner searches, and that its search can begin at the start, if --forward is stated.
+    /// If --forward is stated, checks that the planner searches, and that its search can begin at the start.
     fn check_forward(&self, planner: Method) -> Result<(), String> {
         if planner.reads(Setting::Search) {
             return Ok(());
@@ -336,7 +335,6 @@ fn margin(text: &str) -> Result<f64, String> {
     number_in(text, |x| (0.0..=MAX_MARGIN).contains(&x), &range)
 }
 
-/// Converts a range for the parser of whole numbers.
 pub(super) fn to_i64_range(range: &RangeInclusive<usize>) -> RangeInclusive<i64> {
     *range.start() as i64..=*range.end() as i64
 }

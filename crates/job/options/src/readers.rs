@@ -1,15 +1,15 @@
-//! Names of the planners that use a setting, for help and errors.
+//! Names of the planners that read a setting, for help and errors.
 
 use cplan_solver::{Method, Setting};
 
-/// Lists the planners that use one of these settings: `visibility, trapezoid or prm`. Planners that use the first
-/// setting come first. `last` is the text before the last name.
+/// Lists the planners that read one of these settings: `visibility, trapezoid or prm`. Those that read the first setting come
+/// first. `last` is the text before the last name.
 pub fn readers(settings: &[Setting], last: &str) -> String {
     let of = |&setting| Method::ALL.into_iter().filter(move |method| method.reads(setting));
     listed(&settings.iter().flat_map(of).map(Method::name).collect::<Vec<_>>(), last)
 }
 
-/// Checks that the planner uses an option. `why` follows the planner's name in the message.
+/// Checks that the planner uses `option`. In the message, `why` follows the planner's name.
 ///
 /// # Errors
 /// A planner that uses none of these settings.

@@ -34,10 +34,10 @@ pub struct RoadmapArgs {
 }
 
 impl RoadmapArgs {
-    /// Returns the search of a planner's roadmap, or the default search if it has no roadmap.
+    /// Returns the search of a planner's roadmap; the default if it has none.
     ///
     /// # Errors
-    /// A search that only grids have.
+    /// A search that is possible only on grids.
     pub fn search(&self, planner: Method, search: Option<GridSearch>) -> Result<RoadmapSearch, String> {
         if !planner.reads(Setting::Search) {
             return Ok(RoadmapSearch::default());
@@ -55,7 +55,7 @@ impl RoadmapArgs {
         Ok(RoadmapSearch { order, backward: self.backward })
     }
 
-    /// Returns the planner with those of these options that it uses.
+    /// Sets those of these options that the planner reads.
     pub fn apply_to(&self, planner: Planner) -> Planner {
         planner.with(Setting::Graph, |settings| settings.graph = self.graph.unwrap_or_default()).with(
             Setting::Samples,

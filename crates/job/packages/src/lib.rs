@@ -1,11 +1,11 @@
-//! Packages of ROS: folders with a `package.xml` that gives their name.
+//! Finds packages of ROS: folders with a `package.xml` that states their name.
 
 #![forbid(unsafe_code)]
 
 use std::collections::VecDeque;
 use std::path::{Path, PathBuf};
 
-/// Number of folders above a file that are searched for packages. They include the file's package, its repository, and
+/// Number of folders above a file whose contents are searched for packages. They include the file's package, its repository, and
 /// the workspace around the repository.
 const SEARCHED_PARENTS: usize = 5;
 
@@ -18,12 +18,11 @@ const MAX_FOLDERS: usize = 1_000;
 /// Largest size of a `package.xml`, bytes.
 const MAX_MANIFEST_BYTES: u64 = 1 << 20;
 
-/// Returns the folders that may be the package with this name, for a reference in a file, the most likely first.
+/// Returns the folders that may be the package `name` to which a file refers, the most likely first.
 ///
-/// A folder is the package if its `package.xml` has the name in `<name>`. Folders above the file come first. Then
-/// come folders below these, up to the root of a Git repository (sibling packages, and others of the same repository),
-/// and folders below `ROS_PACKAGE_PATH`. Last come folders that only have the package's name: above the file, and in
-/// `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`.
+/// A folder is the package if its `package.xml` has the name in `<name>`. Folders above the file come first. Next are folders
+/// below these, up to the root of a Git repository, and folders below `ROS_PACKAGE_PATH`. The last ones only share the package's
+/// name: folders above the file, and folders in `ROS_PACKAGE_PATH` and `AMENT_PREFIX_PATH`.
 pub fn packages(name: &str, file: &Path) -> impl Iterator<Item = PathBuf> + use<> {
     let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
     let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_owned());
@@ -48,7 +47,7 @@ pub fn packages(name: &str, file: &Path) -> impl Iterator<Item = PathBuf> + use<
     about.chain(below).chain(called).chain(installed.filter(|folder| folder.is_dir()))
 }
 
-/// Returns the folders below a folder, breadth first and sorted by name. Hidden folders are skipped.
+/// Returns all folders below a folder, breadth first and sorted by name. Skips hidden folders.
 fn folders_below(folder: &Path) -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = Vec::new();
     let mut next = VecDeque::from([(folder.to_owned(), SEARCHED_DEPTH)]);

@@ -5,7 +5,7 @@ use cplan_geometry::{Vector, merge_in_place};
 use cplan_judge::{Cell, CollisionBox, Deviation, Posture};
 use cplan_model::{Contacts, on_axis};
 
-/// Places where a wall of configurations is sought, as shares of the interval of `q1` in which a pair collides. Shapes
+/// Positions at which a wall of configurations is sought, as shares of the interval of `q1` in which a pair collides. Shapes
 /// usually overlap most in the middle.
 const WALL_POSITIONS: [f64; 5] = [0.5, 0.25, 0.75, 0.1, 0.9];
 
@@ -20,13 +20,13 @@ pub(super) struct Stretch {
 pub(super) enum Kind {
     /// Link 1 keeps its distance everywhere in the stretch.
     Free,
-    /// Link 1 is proven too near an obstacle over some width within the stretch, so no path crosses the stretch.
+    /// Over some width within the stretch, link 1 is provably too near an obstacle, so no path crosses the stretch.
     Wall(CollisionBox),
     /// It is not decided whether link 1 keeps its distance.
     Unknown,
 }
 
-/// Splits the domain of joint 1 into stretches, ascending. Takes `O(n log n)` for `n` contacts of link 1.
+/// Splits the domain of joint 1 into stretches, ascending. `O(n log n)` for `n` contacts of link 1.
 pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
     let scene = contacts.scene();
     let joint = &scene.arm().joints[0];
@@ -48,7 +48,7 @@ pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
         }
         let within = of_pairs.iter().filter(|(_, i)| band[0] <= i[0] && i[1] <= band[1]);
         let wall = within.filter_map(|(index, interval)| wall(contacts, clearance, *index, *interval)).next();
-        // A band may be a single value: where shapes graze, or at the end of the domain.
+        // A band may be a single value, where shapes graze or at the end of the domain.
         if band[0] < band[1] || wall.is_none() {
             stretches.push(Stretch { from: band[0], to: band[1], kind: wall.map_or(Kind::Unknown, Kind::Wall) });
         }
@@ -60,7 +60,7 @@ pub(super) fn bands(contacts: &Contacts, clearance: f64) -> Vec<Stretch> {
     stretches
 }
 
-/// Finds a collision box of the pair, as high as the domain, within an interval of `q1` where the pair is too near.
+/// Finds a collision box of a pair within an interval of `q1` in which the pair is too near. The box is as high as the domain.
 fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2]) -> Option<CollisionBox> {
     let scene = contacts.scene();
     let (pair, lever) = (scene.pairs()[index], contacts.lever(index));
@@ -69,7 +69,7 @@ fn wall(contacts: &Contacts, clearance: f64, index: usize, [from, to]: [f64; 2])
         let middle = from + (to - from) * share;
         let posture = Posture::new(scene, Vector::new(middle, (bottom + top) / 2.0));
         let depth = clearance - posture.greatest(pair, Deviation::Box([0.0, 0.0]));
-        // Use half of the width that the depth allows. The rest is a margin for rounding in the checker.
+        // Half of the width that the depth allows. The other half is a margin for rounding in the checker.
         let half = (depth / lever / 2.0).min(middle - from).min(to - middle);
         let cell = Cell { lower: [middle - half, bottom], upper: [middle + half, top] };
         let stands = cell.lower[0] < cell.upper[0] && bottom < top;

@@ -15,8 +15,8 @@ fn halves(cell: &Cell, axis: usize) -> [Cell; 2] {
     [below, above]
 }
 
-/// Returns the portal from this cell to another. `None` unless the two share a piece of a side of positive length. A
-/// common corner is no portal, because two other boxes share the same corner.
+/// Returns the portal from this cell to another. `None` unless they share a piece of a side of positive length. A common corner
+/// is no portal, because two other boxes have the same corner.
 pub(super) fn portal(cell: &Cell, other: &Cell, topology: &Topology) -> Option<Portal> {
     (0..2).find_map(|axis| portal_along(cell, other, axis, topology))
 }
@@ -47,7 +47,7 @@ fn portal_along(cell: &Cell, other: &Cell, axis: usize, topology: &Topology) -> 
     };
     let mut by = Configuration::zeros();
     by[axis] = shift;
-    // In the direction of growing `q1`, greater `q2` is to the left. In the direction of growing `q2`, lesser `q1` is
+    // Seen in the direction of growing `q1`, greater `q2` is to the left. Seen in the direction of growing `q2`, lesser `q1` is
     // to the left.
     let (left, right) = if ahead == (axis == 0) { (to, from) } else { (from, to) };
     Some(Portal { left: end(left), right: end(right), shift: by })
@@ -60,7 +60,7 @@ pub(super) struct Portal {
     pub left: Configuration,
     /// The right end.
     pub right: Configuration,
-    /// Shift of the other cell that places it beside the first one: a whole turn if they meet across a seam, or zero.
+    /// Shift of the other cell that places it beside this cell: whole turns if they meet across a seam, otherwise zero.
     pub shift: Configuration,
 }
 
@@ -80,24 +80,24 @@ pub(super) enum State {
     Colliding(Pair),
     /// These pairs are undecided. No other pair comes too near.
     Undecided(Vec<Pair>),
-    /// Undecided, and halving would not help. Either the box has the finest size, or it is in a column of the finest
-    /// width in which only pairs of link 1 are undecided.
+    /// Undecided, and halving would not help: the box has the finest size, or it is in a column of the finest width and only
+    /// pairs of link 1 are undecided.
     Finest,
     /// The sum of joint values is not allowed anywhere in the box.
     Beyond,
-    /// Replaced by two halves, which are the nodes with this index and the next one.
+    /// Replaced by two halves: the nodes with this index and the next one.
     Split(u32),
 }
 
 pub(super) struct Node {
     pub cell: Cell,
     pub state: State,
-    /// Indices of the boxes that share a side with this one. Empty for a collision box or a split box.
+    /// Indices of the boxes that share a side with this one. Empty for collision boxes and split boxes.
     pub neighbors: Vec<u32>,
 }
 
 impl Node {
-    /// Returns true if the box is neither a collision box nor split, so that it may contain free configurations.
+    /// Returns true if the box may contain free configurations: it is neither a collision box nor split.
     pub fn is_open(&self) -> bool {
         matches!(self.state, State::Free | State::Undecided(_) | State::Finest)
     }
@@ -109,25 +109,25 @@ pub(super) struct Subdivision<'a> {
     topology: Topology,
     clearance: f64,
     pub nodes: Vec<Node>,
-    /// Number of initial boxes. These come first in the list, and are halves of no other box.
+    /// Number of initial boxes. They come first in the list, and are not halves of other boxes.
     roots: usize,
 }
 
 /// Number of initial columns and rows. It must be at least three, so that no box is its own neighbour across a seam.
 const INITIAL_COLUMNS: usize = 8;
 
-/// Finest width of a column, as a share of the domain. Link 1 alone is decided on such intervals of `q1`. A column
-/// extends over the whole domain of `q2`, so fine columns cost little. A thin wall of link 1, such as a corner that
-/// just reaches an obstacle, needs them.
+/// Finest width of a column, as a share of the domain. On such an interval of `q1`, link 1 alone is decided. A column extends
+/// over the whole domain of `q2`, so fine columns cost little. A thin wall of link 1, such as a corner that just reaches an
+/// obstacle, needs them.
 const MIN_COLUMN_WIDTH: f64 = 1e-8;
 
-/// Maximum number of undecided columns of one width that are halved before the search. Each end of a contact leaves a
-/// few undecided columns. If there are far more, link 1 slides along an obstacle at exactly the clearance, and halving
-/// would not help. Then the search halves boxes of such columns only where it needs to.
+/// Largest number of undecided columns of one width that are halved before the search. Each end of a contact leaves a few
+/// undecided columns. If there are far more, link 1 slides along an obstacle at exactly the clearance, and halving would not
+/// help. Then the search halves boxes of such columns only where necessary.
 const MAX_UNDECIDED_COLUMNS: usize = 512;
 
-/// Finest size of a box, as a share of the domain along each axis. Finer boxes would be within the rounding error of a
-/// clearance. Without this limit, a start or goal without any free space around it would never be decided.
+/// Finest size of a box, as a share of the domain along each axis. Finer boxes would be within the rounding error of a clearance.
+/// Without this limit, the search would never end at a start or goal without free space around it.
 const MIN_BOX_SIZE: f64 = 1e-10;
 
 impl<'a> Subdivision<'a> {
@@ -139,7 +139,7 @@ impl<'a> Subdivision<'a> {
             if j == INITIAL_COLUMNS { top } else { bottom + (top - bottom) * j as f64 / INITIAL_COLUMNS as f64 }
         };
         let second: Vec<Pair> = scene.pairs().iter().copied().filter(|p| p.link > 0).collect();
-        // Only boxes of the same column, of neighbouring columns, or of the first and the last column can be adjacent.
+        // Adjacent boxes are in the same column, in neighbouring columns, or in the first and the last column.
         let (mut end_of_first, mut previous) = (0, 0);
         for (lower, upper, state) in this.columns() {
             let begin = this.nodes.len();
@@ -168,8 +168,8 @@ impl<'a> Subdivision<'a> {
         this
     }
 
-    /// Splits the domain of `q1` into intervals, ascending, with the state of link 1: free, in collision, or undecided
-    /// after all halvings.
+    /// Splits the domain of `q1` into intervals, ascending, with the state of link 1: free, in collision, or undecided after all
+    /// halvings.
     fn columns(&self) -> Vec<(f64, f64, State)> {
         let (lower, upper) = self.topology.ranges[0].domain();
         let first: Vec<Pair> = self.scene.pairs().iter().copied().filter(|p| p.link == 0).collect();
@@ -202,7 +202,7 @@ impl<'a> Subdivision<'a> {
         let mut node = Node { cell, state, neighbors: Vec::new() };
         for &other in candidates {
             let beside = &mut self.nodes[other as usize];
-            // Adjacency of two collision boxes does not matter. Split boxes no longer exist.
+            // The adjacency of two collision boxes does not matter. Split boxes no longer count.
             let matters = beside.is_open() || node.is_open() && matches!(beside.state, State::Colliding(_));
             if !matters || portal(&cell, &beside.cell, &self.topology).is_none() {
                 continue;
@@ -217,8 +217,8 @@ impl<'a> Subdivision<'a> {
         self.nodes.push(node);
     }
 
-    /// Replaces an undecided box by its two halves and returns true. If halving would not help, marks the box as finest
-    /// and returns false.
+    /// Replaces an undecided box by its two halves, and returns true. If halving would not help, marks the box as finest, and
+    /// returns false.
     pub fn split(&mut self, index: u32) -> bool {
         let State::Undecided(pairs) = &self.nodes[index as usize].state else { return false };
         let cell = self.nodes[index as usize].cell;
@@ -252,7 +252,7 @@ impl<'a> Subdivision<'a> {
         true
     }
 
-    /// Returns the axis along which the undecided pairs move more within the box.
+    /// Returns the axis along which undecided pairs move more within the box.
     fn longer(&self, cell: &Cell, open: &[Pair]) -> Option<usize> {
         let half = cell.half();
         let posture = Posture::new(self.scene, cell.center());
@@ -318,14 +318,13 @@ impl Mosaic for Subdivision<'_> {
     }
 }
 
-/// Converts an index of nodes to 32 bits. It cannot overflow, because four thousand million boxes would not fit into
-/// memory.
+/// Converts an index of nodes to 32 bits. It cannot overflow, because so many boxes would not fit into memory.
 fn index(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
 }
 
-/// Computes the state of a box, as [`judge`] does, within the range of the sum of joint values. A box that is free, but not
-/// wholly within that range, is undecided without pairs.
+/// Computes the state of a box, as [`judge`] does, but also respects the range of the sum of joint values. A free box that is not
+/// wholly within that range is undecided, without pairs.
 fn judge_within_sum(scene: &Scene, clearance: f64, cell: &Cell, pairs: &[Pair], fixed: &[Pair]) -> State {
     let topology = scene.arm().topology();
     let is_closed = |part: [f64; 2]| part[0] <= cell.lower[1] && cell.upper[1] <= part[1];
@@ -342,8 +341,8 @@ fn judge_within_sum(scene: &Scene, clearance: f64, cell: &Cell, pairs: &[Pair], 
     }
 }
 
-/// Computes the state of a box. `pairs` are the pairs to test, which were undecided in a larger box. The pairs `fixed`
-/// stay undecided and are not tested.
+/// Computes the state of a box. Tests `pairs`, which were undecided in a larger box. The pairs `fixed` stay undecided without a
+/// test.
 fn judge(scene: &Scene, clearance: f64, cell: &Cell, pairs: &[Pair], fixed: &[Pair]) -> State {
     checkpoint();
     let posture = Posture::new(scene, cell.center());

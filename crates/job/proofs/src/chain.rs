@@ -1,8 +1,8 @@
 //! Chains of adjacent boxes.
 //!
-//! The searches are written here, rather than taken from petgraph, for three reasons. Boxes are split between searches,
-//! so a graph would have to be built again each time. Free boxes cost nothing, so a double-ended queue can replace a
-//! heap. And the cost of a path depends on where it enters a box.
+//! These searches do not use petgraph for three reasons. Boxes are split between searches, so a graph would have to be built
+//! again each time. Free boxes cost nothing, so a double-ended queue can replace a heap. The cost of a path depends on the point
+//! where it enters a box.
 
 use super::boxes::portal;
 use cplan_geometry::OpenList;
@@ -24,29 +24,28 @@ pub(super) enum Openness {
     Finest,
 }
 
-/// A set of boxes that cover the domain without overlapping. Each has an index.
+/// Boxes, identified by indices, that cover the domain without overlapping.
 pub(super) trait Mosaic {
-    /// Returns an upper bound on the indices of boxes: all are below it.
+    /// Returns an upper bound on indices: all are below it.
     fn count(&self) -> usize;
     /// Returns the configurations of a box.
     fn cell(&self, index: u32) -> Cell;
-    /// Returns the state of a box. Returns `None` for a collision box or a box that no longer exists.
+    /// Returns the state of a box. `None` for a collision box or a split box.
     fn openness(&self, index: u32) -> Option<Openness>;
-    /// Calls `f` with the boxes that share a side with this one, in a fixed order.
+    /// Calls `f`, in a fixed order, with the boxes that share a side with this one.
     fn for_each_neighbor(&self, index: u32, f: impl FnMut(u32));
     /// Returns a box that contains `q` and is not a collision box.
     fn locate(&self, q: Configuration) -> Option<u32>;
-    /// Returns boxes that meet a segment in the domain and are not collision boxes. Returns all of them, or at least
-    /// one if the segment is a point.
+    /// Returns all boxes that meet a segment in the domain and are not collision boxes. For a point, one of them suffices.
     fn meeting(&self, piece: &Segment) -> Vec<u32>;
     /// Returns the topology of the configuration space.
     fn topology(&self) -> &Topology;
 }
 
-/// A goal segment within a box, preceded by the index of the box.
+/// The index of a box, and a goal segment within the box.
 pub(super) type End = (u32, Segment);
 
-/// Returns the parts of goals within boxes that are not collision boxes, sorted by the index of the box.
+/// Returns the parts of goals in boxes that are not collision boxes, sorted by the boxes' indices.
 pub(super) fn ends(boxes: &impl Mosaic, goals: &GoalSet) -> Vec<End> {
     let mut ends: Vec<End> = Vec::new();
     for piece in goals.wrapped(boxes.topology()) {
@@ -56,22 +55,20 @@ pub(super) fn ends(boxes: &impl Mosaic, goals: &GoalSet) -> Vec<End> {
     ends
 }
 
-/// Returns the goals within a box. The given goals must be sorted by the index of their box.
+/// Returns the goals within a box. `ends` must be sorted by the boxes' indices.
 pub(super) fn ends_in(ends: &[End], index: u32) -> impl Iterator<Item = &Segment> {
     let first = ends.partition_point(|end| end.0 < index);
     ends[first..].iter().take_while(move |end| end.0 == index).map(|end| &end.1)
 }
 
-/// Finds the chain of adjacent boxes from `from` to one of `ends` that contains the fewest undecided boxes. Boxes that
-/// halving would not decide are used only if `finest` is true. This is a breadth-first search in which free boxes cost
-/// nothing. It takes `O(boxes + adjacencies)`.
+/// Finds the chain of adjacent boxes from `from` to one of `ends` with the fewest undecided boxes. Uses boxes that halving would
+/// not decide only if `finest` is true. A breadth-first search in which free boxes cost nothing: `O(boxes + adjacencies)`.
 pub(super) fn fewest_undecided(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Option<Vec<u32>> {
     let (_, parent, last) = search(boxes, &[from], ends, finest);
     last.map(|last| chain_to(&parent, last))
 }
 
-/// Returns, in ascending order, all undecided boxes that lie on some chain with the fewest undecided boxes. Takes two
-/// searches.
+/// Returns all undecided boxes, ascending, on chains with the fewest undecided boxes. Takes two searches.
 pub(super) fn all_of_fewest_undecided(boxes: &impl Mosaic, from: u32, ends: &[End], finest: bool) -> Vec<u32> {
     let (here, ..) = search(boxes, &[from], &[], finest);
     let starts: Vec<u32> = ends.iter().map(|end| end.0).collect();
@@ -82,7 +79,7 @@ pub(super) fn all_of_fewest_undecided(boxes: &impl Mosaic, from: u32, ends: &[En
     (0..here.len()).filter(mixed).filter(|&index| cost(index) == fewest).map(|index| index as u32).collect()
 }
 
-/// Returns the cost of passing a box: 0 if it is free, 1 if it is undecided, `None` if it cannot be passed.
+/// Returns the cost of passing a box: 0 if it is free, 1 if it is undecided. `None` if it cannot be passed.
 fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
     match boxes.openness(index) {
         Some(Openness::Free) => Some(0),
@@ -92,8 +89,8 @@ fn cost_of(boxes: &impl Mosaic, index: u32, finest: bool) -> Option<u32> {
     }
 }
 
-/// Computes, for each box, the least cost of a chain from `starts` to it, the first and the last box included, and the
-/// box before it on that chain. Stops at the first of `ends`, and returns the index of its box.
+/// Computes for each box the least cost of a chain from `starts` to it, including both ends, and the previous box on that chain.
+/// Stops at the first of `ends`, and returns the index of its box.
 fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (Vec<u32>, Vec<u32>, Option<u32>) {
     let mut cost = vec![u32::MAX; boxes.count()];
     let mut parent = vec![NO_BOX; boxes.count()];
@@ -123,13 +120,12 @@ fn search(boxes: &impl Mosaic, starts: &[u32], ends: &[End], finest: bool) -> (V
     (cost, parent, None)
 }
 
-/// Finds a chain of free boxes from the start, in box `from`, to a goal. A short polyline leads through the middles of
-/// its portals. Dijkstra's search with one entry point per box makes this polyline approximately the shortest. A chain
-/// of free boxes must exist.
+/// Finds a chain of free boxes from the start, in box `from`, to a goal. Such a chain must exist. Dijkstra's search, with one
+/// entry point per box, makes the polyline through the middles of its portals approximately the shortest.
 pub(super) fn shortest(boxes: &impl Mosaic, start: Configuration, from: u32, ends: &[End]) -> Vec<u32> {
     let topology = boxes.topology();
     let mut length = vec![f64::INFINITY; boxes.count()];
-    // The wrapped point where the chain enters each box.
+    // The wrapped point at which the chain enters each box.
     let mut entry = vec![topology.wrap(start); boxes.count()];
     let mut parent = vec![NO_BOX; boxes.count()];
     let mut open = OpenList::default();

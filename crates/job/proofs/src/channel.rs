@@ -4,7 +4,7 @@ use super::boxes::{Portal, portal};
 use super::chain::{End, Mosaic, ends_in};
 use cplan_model::space::{Configuration, Measure, Metric, Path, Segment};
 
-/// A chain of adjacent free boxes. Each box is convex, so any path that runs straight from portal to portal is free.
+/// A chain of adjacent free boxes. Boxes are convex, so a path that is straight between portals is free.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Channel {
     start: Configuration,
@@ -14,15 +14,15 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// Makes the channel of a chain of boxes. The first box contains `start`, and the last box contains goals.
+    /// Creates the channel of a chain of boxes. The first box contains `start`, the last one contains goals.
     pub(super) fn new(boxes: &impl Mosaic, chain: &[u32], start: Configuration, ends: &[End]) -> Self {
         let topology = boxes.topology();
-        // What to add to wrapped values so that they continue from `start`.
+        // The shift that makes wrapped values continue from `start`.
         let mut lift = start - topology.wrap(start);
         let mut portals = Vec::with_capacity(chain.len());
         for pair in chain.windows(2) {
             let [a, b] = [pair[0], pair[1]].map(|i| boxes.cell(i));
-            // Boxes that follow one another share a side, so there is always a portal.
+            // Consecutive boxes share a side, so there is always a portal.
             let Some(Portal { left, right, shift }) = portal(&a, &b, topology) else { continue };
             portals.push([left + lift, right + lift]);
             lift += shift;
@@ -39,20 +39,19 @@ impl Channel {
         self.start
     }
 
-    /// Returns the goal segment in the last box that is nearest to the middle of the last portal, or to the start if
-    /// there is no portal. For a continuous joint it may be a copy of a goal on another turn.
+    /// Returns the goal segment in the last box that is nearest to the middle of the last portal, or to the start if there is no
+    /// portal. With continuous joints, it may be a copy of a goal, shifted by whole turns.
     pub fn goals(&self) -> &Segment {
         &self.goals
     }
 
-    /// Returns the pieces of sides that consecutive boxes share, in order, in unwrapped values. For each piece, the
-    /// first end is to the left of the direction of passage and the second to the right, as in a plot of `q2` over
-    /// `q1`.
+    /// Returns the portals in order: the pieces of sides that consecutive boxes share, in unwrapped values. As seen in the
+    /// direction of passage in a plot of `q2` over `q1`, the first end of a portal is to the left and the second to the right.
     pub fn portals(&self) -> &[[Configuration; 2]] {
         &self.portals
     }
 
-    /// Returns the path from the start through the middles of the portals to the goal segment.
+    /// Returns the path from the start, through the middles of the portals, to the goal segment.
     pub fn path(&self) -> Path {
         let middles = self.portals.iter().map(|[left, right]| (left + right) / 2.0);
         let mut places: Vec<Configuration> = std::iter::once(self.start).chain(middles).collect();

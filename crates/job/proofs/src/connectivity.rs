@@ -1,4 +1,4 @@
-//! Decides whether a path exists, by subdivision: finds a path, or proves that no path exists.
+//! Decides by subdivision whether a path exists: finds one, or proves that there is none.
 
 use super::boxes::{State, Subdivision};
 use super::chain::{Mosaic, all_of_fewest_undecided, ends, fewest_undecided, shortest};
@@ -16,12 +16,12 @@ pub enum Connectivity {
     Disconnected(Disconnection),
     /// A chain of free boxes from the start to a goal.
     Connected(Channel),
-    /// Boxes did not decide: the budget was spent, or halving did not help.
+    /// Neither: the budget is spent, or halving does not help.
     Undecided {
         /// Number of boxes examined.
         boxes: usize,
-        /// True if the search found that no path exists, but has no proof by boxes. Either the proof needs too many
-        /// boxes, or rounding prevents it.
+        /// True if the search found that no path exists, but has no proof by boxes, because it would need too many boxes or
+        /// because rounding prevents it.
         closed: bool,
     },
 }
@@ -48,15 +48,15 @@ pub struct Exploration {
     pub adjacencies: usize,
 }
 
-/// Decides whether a motion exists from `start` to one of `goals` that keeps more than zero and at least `clearance`
-/// from every obstacle. Examines at most `max_boxes` boxes.
+/// Decides whether there is a motion from `start` to one of `goals` whose distance from every obstacle is positive and at least
+/// `clearance`. Examines at most `max_boxes` boxes.
 ///
-/// Soft subdivision search (Wang, Chiang, Yap 2015): boxes are free, in collision, or undecided. If free boxes alone
-/// connect start and goal, there is a path. If free and undecided boxes together do not connect them, there is no path.
-/// Otherwise the search takes a connection with the fewest undecided boxes, and halves these.
+/// Soft subdivision search (Wang, Chiang, Yap 2015): boxes are free, in collision, or undecided. If free boxes connect start and
+/// goal, there is a path. If free and undecided boxes together do not connect them, there is none. Otherwise the search halves
+/// the undecided boxes on a connection with the fewest of them.
 ///
-/// The search is complete up to the resolution that `max_boxes` allows. It finds a path if there is free space around
-/// it. It proves that a passage is closed if shapes overlap there by some depth.
+/// The search is complete up to the resolution that `max_boxes` allows. It finds a path if there is enough free space around the
+/// path. It proves that a passage is closed if shapes overlap deeply enough there.
 pub fn connectivity(
     scene: &Scene,
     start: Configuration,
@@ -67,8 +67,8 @@ pub fn connectivity(
     proven(scene, |scene| decide(&mut Subdivision::new(scene, clearance), start, goals, max_boxes))
 }
 
-/// Decides first with the outer shapes, which contain the exact ones. A path among them is valid. If there is none,
-/// decides again with the inner shapes, unless these are the same. A proof with them is valid.
+/// Decides among the outer shapes, which contain the exact ones: a path among them is valid. If there is none, decides among the
+/// inner shapes, unless they are the same: a proof with them is valid.
 pub(super) fn proven(scene: &Scene, decide: impl Fn(&Scene) -> Connectivity) -> Connectivity {
     match (decide(scene), scene.inner()) {
         (Connectivity::Disconnected(proof), Cow::Owned(inner)) => match decide(&inner) {
@@ -91,7 +91,7 @@ pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: 
         State::Undecided(_) | State::Finest => Some(Occupancy::Undecided),
         State::Split(_) => None,
     };
-    // Undecided and free boxes list each other as neighbours. Collision boxes are listed on one side only.
+    // Free and undecided boxes list each other as neighbours. An adjacency with a collision box is listed on one side only.
     let adjacencies = |node: &super::boxes::Node| -> usize {
         node.neighbors.iter().map(|&n| if boxes.nodes[n as usize].is_open() { 1 } else { 2 }).sum()
     };
@@ -102,16 +102,16 @@ pub fn explore(scene: &Scene, start: Configuration, goals: &GoalSet, clearance: 
     }
 }
 
-/// Number of boxes from which all chains with the fewest undecided boxes are refined at once. With fewer boxes, one
-/// chain is refined at a time, because a search is then cheap compared with the boxes that it saves. With more boxes, a
-/// passage that is closed along a curve would take quadratic time, with a search for every few boxes along the curve.
+/// From this number of boxes on, all chains with the fewest undecided boxes are refined at once. With fewer boxes, one chain is
+/// refined at a time, because a search then costs less than the boxes that it saves. With more, a passage that is closed along a
+/// curve would take quadratic time: a search for every few boxes.
 const MIN_BATCH_BOXES: usize = 512;
 
 fn decide(boxes: &mut Subdivision, start: Configuration, goals: &GoalSet, max_boxes: usize) -> Connectivity {
     loop {
         let ends = ends(boxes, goals);
         let Some(from) = boxes.locate(start) else { return disconnected(boxes, start, goals) };
-        // Boxes of the finest size cannot be decided. They prevent a proof only if nothing else connects.
+        // Boxes of the finest size stay undecided. They prevent a proof only if there is no other connection.
         let chain = fewest_undecided(boxes, from, &ends, false).map(|chain| (chain, false));
         let Some((chain, finest)) =
             chain.or_else(|| fewest_undecided(boxes, from, &ends, true).map(|chain| (chain, true)))

@@ -1,12 +1,12 @@
 //! Evidence that no motion is shorter than a bound, for a checker.
 //!
-//! The evidence is a set of straight segments of configurations. On each segment, a pair of shapes is too near
-//! everywhere. *Walls* lie on slices, where joint 1 stays at one value. *Barriers* cross the strips between two slices.
-//! No motion crosses a segment, so no motion is shorter than the shortest path around all segments.
+//! The evidence is a set of straight segments in joint space. All along a segment, a pair of shapes is too near. *Walls* are
+//! segments at a single value of joint 1, a slice; *barriers* cross the strip between two slices. No motion crosses a segment, so
+//! no motion is shorter than the shortest path around all segments.
 //!
-//! Each segment is tested again, independently of the search that found it, and cut to its proven part. The test
-//! (`held`) computes overlap depths from the Minkowski difference, step by step along the segment. The checker of
-//! certificates judges the segments in exact arithmetic.
+//! Each segment is tested again, independently of the search, and cut to its proven part. The test (`held`) computes overlap
+//! depths from the Minkowski difference, step by step along the segment. The checker of certificates tests the segments in exact
+//! arithmetic.
 
 mod blocked_part;
 
@@ -20,13 +20,13 @@ use cplan_model::{Pair, Scene};
 pub(crate) struct Wall {
     /// Least value of joint 2.
     pub lower: f64,
-    /// Greatest value of joint 2. For a continuous joint it lies beyond the domain if the wall crosses the seam.
+    /// Greatest value of joint 2. With a continuous joint, it is beyond the domain if the wall crosses the seam.
     pub upper: f64,
     /// The pair that is too near.
     pub pair: Pair,
 }
 
-/// A straight line across the strip between a slice and the next, along which a pair collides.
+/// A straight line across the strip between two slices, all along which a pair collides.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Barrier {
     /// Values of joint 2 on the slice before and on the slice after.
@@ -35,8 +35,8 @@ pub(crate) struct Barrier {
     pub pair: Pair,
 }
 
-/// A value of joint 1, with the walls there, and with the barriers across the strip between it and the next slice. For
-/// a continuous joint 1, the first slice follows the last.
+/// A value of joint 1, its walls, and the barriers between it and the next slice. With a continuous joint 1, the first slice
+/// follows the last.
 #[derive(Debug, Clone)]
 pub(crate) struct Slice {
     /// Value of joint 1.
@@ -50,31 +50,30 @@ pub(crate) struct Slice {
 /// A straight segment of configurations along which a pair is proven too near.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClosedSegment {
-    /// Ends of the segment. They lie beyond the domain of a continuous joint if the segment crosses its seam.
+    /// Ends of the segment. With a continuous joint, they may be beyond the domain, if the segment crosses its seam.
     pub ends: [Configuration; 2],
     /// The pair that is too near.
     pub pair: Pair,
 }
 
-/// Walls and barriers found by a search for a lower bound; see [`bound_evidence`](crate::bound_evidence).
+/// Walls and barriers from a search for a lower bound; see [`bound_evidence`](crate::bound_evidence).
 #[derive(Debug, Clone)]
 pub struct BoundEvidence {
-    /// Slices, ascending, over the whole domain of joint 1. If joint 1 has limits, there are slices at both limits.
+    /// Slices, ascending, over the whole domain of joint 1, including its limits if it has any.
     pub(crate) slices: Vec<Slice>,
 }
 
-/// Shifts of `q2`, radians or metres, for a barrier that is not proven in its place. They are tried one after the
-/// other.
+/// If a barrier cannot be proven, it is shifted along `q2` by these values, radians or metres, one after the other.
 const BARRIER_SHIFTS: [f64; 9] = [0.0, 1e-7, -1e-7, 1e-6, -1e-6, 1e-5, -1e-5, 1e-4, -1e-4];
 
-/// Length by which barriers and walls are extended beyond a seam, radians. They then overlap their continuation despite
+/// Length by which barriers and walls are extended beyond a seam, radians, so that they overlap their continuation despite
 /// rounding.
 const SEAM_OVERLAP: f64 = 1e-7;
 
 impl BoundEvidence {
-    /// Returns the proven parts of the walls, and the proven barriers. Each is tested at up to `looks` places in either
-    /// direction from its middle. A barrier whose shapes barely overlap is shifted slightly. Segments that end at a
-    /// seam are extended slightly beyond it.
+    /// Returns the proven parts of walls, and the proven barriers. A segment is tested at up to `looks` places in either
+    /// direction from its middle. A barrier whose shapes barely overlap may be shifted slightly. Segments that end at a seam are
+    /// extended slightly beyond it.
     pub fn segments(&self, scene: &Scene, clearance: f64, looks: usize) -> Vec<ClosedSegment> {
         let (scene, mut closed) = (&*scene.inner(), Vec::new());
         let seen = |ends: [Configuration; 2], pair: Pair| {

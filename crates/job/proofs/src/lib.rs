@@ -1,18 +1,18 @@
-//! Search for proofs and bounds: slabs and boxes decide whether a path exists, and lower bounds limit how short a path
-//! can be. The results pass [`cplan_judge`], which shares with this crate only the kernels of geometry and its
-//! bounds on distances ([`cplan_judge::Posture`], [`cplan_judge::Deviation`]).
+//! Search for proofs and bounds: slabs and boxes decide whether a path exists, and lower bounds limit how short a path can be.
+//! The results pass [`cplan_judge`], which shares with this crate only the kernels of geometry and its bounds on distances
+//! ([`cplan_judge::Posture`], [`cplan_judge::Deviation`]).
 //!
-//! The question goes to [`slab_connectivity`] first. Within a slab of `q1`, contact angles with obstacles grown by the
-//! slab's motion give the values of joint 2 that are free all over the slab. Contact angles with shapes eroded by that
-//! motion give the values in collision all over it. Slabs are halved where the connection is undecided. Questions that
-//! slabs leave open (shapes without thickness) go to the boxes ([`connectivity()`]). Both prove infeasibility by
-//! collision boxes, and give paths as a channel of free boxes. Both results pass the checks.
+//! [`slab_connectivity`] is tried first. Within a slab of `q1`, contact angles with obstacles grown by the slab's motion give the
+//! values of joint 2 that are free all over the slab; contact angles with shapes eroded by that motion give the values in
+//! collision all over it. Slabs are halved where the connection is undecided. Questions that slabs leave open, such as those with
+//! shapes without thickness, go to boxes ([`connectivity()`]). Slabs and boxes both prove infeasibility by collision boxes, and
+//! give a path as a channel of free boxes.
 //!
-//! [`least_length`] bounds the optimum from below. Slices at some dozens of values of `q1` show exactly which values of
-//! joint 2 are in collision there. Between two slices, straight barriers are proven to be in collision. A search
-//! similar to Polyanya, over all turns at once, finds the shortest path around both. No motion is shorter than this
-//! path. Slices are added where the path crosses a collision region, so along smooth boundaries the gap falls with the
-//! square of their spacing. [`short_motion`] is the same search among obstacles that are grown slightly.
+//! [`least_length`] bounds the optimum from below. On slices at some dozens of values of `q1`, the walls are known exactly: the
+//! values of joint 2 in collision. Between slices, straight barriers are proven to be in collision. A search similar to Polyanya,
+//! over all turns at once, finds the shortest path around walls and barriers. No motion is shorter. Slices are added where the
+//! path crosses a collision region, so along smooth boundaries the gap falls with the square of their spacing. [`short_motion`]
+//! is the same search among slightly grown obstacles.
 //!
 //! ```
 //! use cplan_model::{Arm, MotionProblem, Obstacle, Scene, Workspace};

@@ -1,15 +1,15 @@
-//! Selection of the collision boxes that separate start and goals.
+//! Selects the collision boxes that separate start and goals.
 
 use super::boxes::{State, Subdivision};
 use super::chain::Mosaic;
 use cplan_judge::{CollisionBox, Disconnection};
 use cplan_model::space::{Configuration, GoalSet};
 
-/// Selects the collision boxes that separate start and goals. Precondition: the other boxes of the subdivision do not
-/// connect them.
+/// Selects the collision boxes that separate start and goals. Precondition: the other boxes of the subdivision do not connect
+/// them.
 ///
-/// Consider the boxes that may be free and are connected with the start. They form a region. Its sides are shared with
-/// collision boxes, or are limits of joints. So these collision boxes alone separate the start from the goals.
+/// The boxes that may be free and are connected with the start form a region. Its sides are shared with collision boxes, or are
+/// limits of joints. So these collision boxes suffice to separate the start from the goals.
 pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &GoalSet) -> Disconnection {
     let (here, there) = (collision_boxes_beside(boxes, &start.into()), collision_boxes_beside(boxes, goals));
     let fewer = if there.len() < here.len() { there } else { here };
@@ -20,9 +20,8 @@ pub(super) fn separating(boxes: &Subdivision, start: Configuration, goals: &Goal
     Disconnection::new(stuck.collect())
 }
 
-/// Returns the collision boxes, ascending, that share a side with the region connected to any of the places. Also
-/// returns the collision boxes that contain places, with one exception: a single place that another box contains as
-/// well.
+/// Returns the collision boxes, ascending, that share a side with the region connected to any of the places. Also returns the
+/// collision boxes that contain places, unless the place is a single configuration that another box contains as well.
 fn collision_boxes_beside(boxes: &Subdivision, places: &GoalSet) -> Vec<u32> {
     let mut reached = vec![false; boxes.nodes.len()];
     let mut waiting = Vec::new();

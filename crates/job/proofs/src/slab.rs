@@ -1,31 +1,30 @@
 //! Free and colliding values of joint 2 while joint 1 stays within a short interval, a *slab*.
 //!
-//! At a fixed `q1`, the values of `q2` at which a pair touches are known in closed form (contact angles). While joint 1
-//! moves by at most `h` from the middle of the slab, link 2 moves rigidly, and a point of it that touches the obstacle
-//! moves by at most a chord `m` about the base. So if the pair keeps more than `m` apart at the middle, it is free all
-//! over the slab. If a point of it lies more than `m` deep in both shapes, the pair collides all over the slab.
+//! At a fixed `q1`, closed forms give the values of `q2` at which a pair touches (contact angles). While joint 1 moves by at most
+//! `h` from the middle of the slab, link 2 moves rigidly, and those of its points that can touch the obstacle move by at most a
+//! chord `m` about the base. So if the distance of the pair exceeds `m` in the middle, it is free all over the slab. If a point
+//! is more than `m` deep in both shapes, the pair collides all over the slab.
 
 use cplan_geometry::{Convex, Features, Hits, Point, ROUNDING, Vector};
 use cplan_interrupt::checkpoint;
 use cplan_judge::{Cell, Deviation, Posture};
 use cplan_model::{CarriedPart, Contacts, Pair, Scene, on_axis};
 
-/// Assumed error of closed forms, metres: twice the error that they state. The second half covers the rounding of a few
-/// sums of lengths and of angles with whole turns.
+/// Assumed error of closed forms, metres: twice the error that they state. The rest covers the rounding of sums of a few lengths,
+/// and of angles with whole turns.
 pub(super) const CLOSED_FORM_ERROR: f64 = 2.0 * ROUNDING;
 
-/// Overlap that is required of shapes that collide in a whole slab, as a multiple of the motion over half a slab. The
-/// excess lets the boxes of a proof have some height at the ends of a colliding interval. There, joint 2 moves shapes
-/// by a quarter of that motion.
+/// Overlap that shapes need to collide in a whole slab, as a multiple of their motion over half the slab. With the excess, the
+/// boxes of a proof have some height at the ends of a colliding interval, where joint 2 may move the shapes by a quarter of that
+/// motion.
 const REQUIRED_OVERLAP: f64 = 1.25;
 
-/// A part of link 2, or the obstacle's piece, in one of the pairs of link 2.
+/// A part of link 2, or a piece of an obstacle, in a pair of link 2.
 struct PairShape {
     /// Greatest depth of any point of the shape, metres.
     depth: f64,
-    /// For each level of slabs so far, this shape eroded, if it is the deeper one of a pair. The outer `None` means
-    /// that it has not been computed. The inner `None` means that nothing is left of it. An eroded part is stored only
-    /// if it is the same for all pieces.
+    /// For each level of slabs so far, this shape eroded, if it is the deeper one of a pair. The outer `None` means not computed
+    /// yet, the inner `None` that nothing is left. An eroded part is stored only if it is the same for all pieces.
     eroded: Vec<Option<Option<ErodedShape>>>,
 }
 
@@ -39,7 +38,7 @@ impl PairShape {
 pub(super) enum ErodedShape {
     Part(CarriedPart),
     Piece(Features),
-    /// Grown by this length, metres, instead of eroded, because the clearance exceeds the required overlap.
+    /// Not eroded but grown by this length, metres, because the clearance exceeds the required overlap.
     Grown(f64),
 }
 
@@ -70,8 +69,8 @@ impl ErodedShape {
         piece.eroded(-grow).map(|shape| Self::Piece(Features::new(&shape)))
     }
 
-    /// Finds the values of the joint at which the eroded shape touches or overlaps the other shape of the pair. There,
-    /// the original shapes overlap by at least the erosion.
+    /// Finds the values of the joint at which the eroded shape meets the other shape of the pair. There, the original shapes
+    /// overlap by at least the erosion.
     pub fn hits(
         &self,
         part: &CarriedPart,
@@ -88,13 +87,13 @@ impl ErodedShape {
     }
 }
 
-/// Returns the length by which a piece with a negative radius must grow so that its radius is zero; 0 for other pieces.
-/// A distance from the core gives a distance from the piece only if the radius is at least zero.
+/// Returns the growth of a piece with a negative radius that makes the radius zero; 0 for other pieces. Only with a radius of at
+/// least zero does a distance from the core give one from the piece.
 fn missing_radius(piece: &Convex) -> f64 {
     (-piece.radius()).max(0.0)
 }
 
-/// Link 2 and the obstacles with which it can collide, prepared for slabs of joint 1.
+/// Link 2 and the obstacles that it can hit, prepared for slabs of joint 1.
 pub(super) struct SecondLink<'a> {
     contacts: Contacts<'a>,
     clearance: f64,
@@ -106,11 +105,11 @@ pub(super) struct SecondLink<'a> {
     near: Vec<u32>,
 }
 
-/// The values of joint 2 in a slab at which pairs collide, within the domain. Each list is ordered by pair. Pairs are
-/// numbered as in [`Contacts`].
+/// The values of joint 2, within the domain, at which pairs collide in a slab. Lists are ordered by pair, numbered as in
+/// [`Contacts`].
 #[derive(Default)]
 pub(super) struct Verdicts {
-    /// Outside these intervals, no pair comes too near anywhere in the slab.
+    /// Intervals outside which no pair comes too near anywhere in the slab.
     pub outer: Vec<[f64; 2]>,
     /// Pairs by number, each with an interval in which it is too near all over the slab.
     pub inner: Vec<(usize, [f64; 2])>,
@@ -144,8 +143,8 @@ impl<'a> SecondLink<'a> {
         &self.contacts
     }
 
-    /// Computes the intervals of joint 2 for the slab `from <= q1 <= to`. All slabs of a `level` have about the same
-    /// width, and `half` is half of it; this slab is no wider.
+    /// Computes the intervals of joint 2 for the slab `from <= q1 <= to`. Slabs of a `level` have about the same width, at most
+    /// twice `half`.
     pub fn judge(&mut self, from: f64, to: f64, level: usize, half: f64, verdicts: &mut Verdicts) {
         checkpoint();
         verdicts.outer.clear();
@@ -186,8 +185,8 @@ impl<'a> SecondLink<'a> {
         (self.scratch, self.near) = (scratch, near);
     }
 
-    /// Finds the values of joint 2 at which the shapes of a pair overlap by more than `overlap` minus the clearance.
-    /// Eroded shapes are stored, so `overlap` must depend only on the part and the level.
+    /// Finds the values of joint 2 at which the shapes of a pair overlap by more than `overlap` minus the clearance. `overlap`
+    /// must depend only on the part and the level, because eroded shapes are stored.
     fn collision_boxes(
         &mut self,
         index: usize,
@@ -201,7 +200,7 @@ impl<'a> SecondLink<'a> {
         let part = &mut self.parts[self.contacts.part_of(index) - self.contacts.second_link_parts().start];
         let piece = &mut self.pieces[index - self.contacts.second_link_pairs().start];
         let of_part = part.depth > piece.depth;
-        // Then the eroded part is the same for all pieces.
+        // In this case, the eroded part is the same for all pieces.
         let shared = of_part && missing_radius(shape) == 0.0;
         let known = if shared { &mut part.eroded } else { &mut piece.eroded };
         if known.len() <= level {
@@ -218,7 +217,7 @@ impl<'a> SecondLink<'a> {
     }
 }
 
-/// Returns true if the pair is too near in the whole box. Uses the same bounds as the check of a proof.
+/// Returns true if the pair is too near in the whole box, by the same bounds as in the check of a proof.
 pub(super) fn is_collision(scene: &Scene, pair: Pair, cell: &Cell, clearance: f64) -> bool {
     Posture::new(scene, cell.center()).greatest(pair, Deviation::Box(cell.half())) < clearance
 }
@@ -243,8 +242,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(600))]
 
-        /// Compares the verdicts with the distance of the shapes in sampled configurations. The distance does not
-        /// depend on contact angles.
+        /// Compares the verdicts with the distance of the shapes in sampled configurations, which is independent of contact
+        /// angles.
         #[test]
         fn verdicts_hold_all_over_the_slab(
             kinds in any::<[bool; 2]>(), offset in (-1.0..1.0f64, -1.0..1.0f64),
@@ -278,7 +277,7 @@ mod tests {
                     prop_assert!(distance < clearance.max(0.0) || distance < 0.0, "{distance}");
                 }
             }
-            // The boxes that state the interval cover exactly the interval.
+            // The boxes cover exactly the interval.
             for &(pair, interval) in &inner {
                 let mut boxes = Vec::new();
                 let pair = scene.pairs()[pair];

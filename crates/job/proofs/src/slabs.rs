@@ -1,9 +1,9 @@
 //! Decides whether a path exists, by slabs of joint 1: finds a path, or proves that no path exists.
 //!
-//! The domain of joint 1 is cut into slabs. In each slab, closed forms give the values of joint 2 that are free all
-//! over the slab, and those in collision all over it ([`super::slab`]). The values between are undecided. While free
-//! and undecided spans together connect start and goal, the slabs in which the connection is undecided are halved. So
-//! easy questions need few slabs, and a narrow passage needs fine slabs only along itself.
+//! The domain of joint 1 is cut into slabs. In each slab, closed forms give the values of joint 2 that are free all over the
+//! slab, and those in collision all over it ([`super::slab`]). Other values are undecided. As long as free and undecided spans
+//! together connect start and goal, but free ones alone do not, slabs with undecided spans of the connection are halved. So easy
+//! questions need few slabs, and a narrow passage needs fine slabs only along itself.
 
 mod proof;
 
@@ -17,20 +17,18 @@ use cplan_judge::{Cell, CollisionBox};
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, GoalSet, Segment, Topology};
 
-/// Number of initial slabs over the domain. Slabs beside values of joint 1 at which link 1 collides are narrower. All
-/// later slabs are made by halving. There must be at least three, so that no slab is its own neighbour across a seam.
+/// Number of initial slabs over the domain. Next to values of joint 1 at which link 1 collides, slabs are narrower. Later slabs
+/// are halves. There must be at least three, so that no slab is its own neighbour across a seam.
 const INITIAL_SLABS: usize = 16;
 
-/// Maximum number of times that a slab is halved. Within finer slabs, link 2 would move by less than the rounding
-/// error.
+/// Largest number of times that a slab is halved. In finer slabs, link 2 would move by less than the rounding error.
 const MAX_HALVINGS: usize = 26;
 
-/// Number of slabs from which all connections with the fewest undecided spans are refined at once. With more slabs, a
-/// separate search for each connection would take most of the time.
+/// From this number of slabs on, all connections with the fewest undecided spans are refined at once. Otherwise, separate
+/// searches for each connection would take most of the time.
 const MIN_BATCH_SLABS: usize = 512;
 
-/// Difference of widths, as a share, up to which slabs count as being of the same level. It is far greater than the
-/// rounding of their ends.
+/// Slabs whose widths differ by at most this share are of the same level. It is far above the rounding of their ends.
 const LEVEL_TOLERANCE: f64 = 1e-6;
 
 /// A stretch of `q1` and its spans.
@@ -39,10 +37,10 @@ struct Slab {
     from: f64,
     to: f64,
     level: usize,
-    /// True if link 1 is free in the whole slab. If false, no span counts as free, but spans in which link 2 collides
-    /// still count as colliding.
+    /// True if link 1 is free in the whole slab. If false, no span is free, but spans in which link 2 collides still count as
+    /// colliding.
     clear: bool,
-    /// True if link 2 has been examined. Before that, the whole slab is one undecided span.
+    /// True if link 2 has been examined. Before that, the slab has a single undecided span.
     judged: bool,
     /// Index of the first span, and one past the last.
     spans: [u32; 2],
@@ -64,18 +62,18 @@ struct Slabs<'a> {
     second: SecondLink<'a>,
     /// The slabs, by ascending values of joint 1.
     slabs: Vec<Slab>,
-    /// The spans. Those of halved slabs remain in the list, unused.
+    /// The spans, including unused ones of slabs that were halved.
     spans: Vec<Span>,
     walls: Vec<CollisionBox>,
     verdicts: Verdicts,
 }
 
-/// Decides whether a motion from `start` to one of `goals` keeps more than zero and at least `clearance` from every
-/// obstacle, with at most `max_slabs` slabs of joint 1 and a proof of at most `max_boxes` boxes.
+/// Decides whether there is a motion from `start` to one of `goals` whose distance from every obstacle is positive and at least
+/// `clearance`. Uses at most `max_slabs` slabs of joint 1, and at most `max_boxes` boxes for a proof.
 ///
-/// This answers the same question as [`super::connectivity`], usually in a small part of the time: a slab decides all
-/// values of `q2` at once, in `O(m log m)` for `m` contacts. Proofs consist of the same kind of boxes. The answer is
-/// undecided if shapes without area touch each other, or if only some nanometres of free space remain.
+/// This answers the same question as [`super::connectivity`], usually much faster: a slab decides all values of `q2` at once, in
+/// `O(m log m)` for `m` contacts. Proofs consist of the same kind of boxes. The answer is undecided if only shapes without area
+/// close a passage, or if only some nanometres of free space remain.
 pub fn slab_connectivity(
     scene: &Scene,
     start: Configuration,
@@ -107,7 +105,7 @@ fn decide(
     max_slabs: usize,
     max_boxes: usize,
 ) -> Connectivity {
-    // If a joint cannot move, the domain has no area to cut.
+    // A domain with a joint that cannot move has no area to cut.
     if slabs.topology.ranges.iter().any(|axis| axis.extent() <= 0.0) {
         return Connectivity::Undecided { boxes: 0, closed: false };
     }
@@ -179,8 +177,8 @@ impl<'a> Slabs<'a> {
         this
     }
 
-    /// Adds slabs for a stretch of `q1`, without examining them. The stretch is cut where initial slabs end, so that
-    /// all slabs of a level have the same width.
+    /// Adds slabs for a stretch of `q1`, without examining them. Cuts the stretch at the ends of initial slabs, so that all slabs
+    /// of a level have the same width.
     fn add_slabs(&mut self, from: f64, to: f64, clear: bool) {
         let (lower, upper) = self.topology.ranges[0].domain();
         let at = |i: usize| lower + (upper - lower) * i as f64 / INITIAL_SLABS as f64;
@@ -204,7 +202,7 @@ impl<'a> Slabs<'a> {
 
     /// Adds a slab and examines it.
     fn add(&mut self, from: f64, to: f64, clear: bool) {
-        // Find the finest level whose slabs are at least as wide. The ends of the initial slabs are rounded.
+        // The finest level whose slabs are at least as wide. The ends of initial slabs are rounded.
         let fits = |&level: &usize| (to - from) / 2.0 <= half_of_level(&self.topology, level) * (1.0 + LEVEL_TOLERANCE);
         let level = (0..=MAX_HALVINGS).take_while(fits).last().unwrap_or(0);
         self.second.judge(
@@ -266,7 +264,7 @@ impl<'a> Slabs<'a> {
         }
     }
 
-    /// Replaces slabs, given in ascending order, by their halves. Slabs that have not been examined are examined first.
+    /// Replaces the given slabs (ascending) by their halves. Examines them first if necessary.
     fn halve(&mut self, which: &[u32]) {
         let before = std::mem::take(&mut self.slabs);
         self.slabs.reserve(before.len() + which.len());
@@ -413,8 +411,7 @@ impl Mosaic for Slabs<'_> {
     }
 }
 
-/// Converts a number of spans to 32 bits. It cannot overflow, because four thousand million spans would not fit into
-/// memory.
+/// Converts a number of spans to 32 bits. It cannot overflow, because so many spans would not fit into memory.
 fn index(at: usize) -> u32 {
     u32::try_from(at).unwrap_or(u32::MAX)
 }

@@ -1,21 +1,18 @@
-//! Proofs with fewer boxes.
+//! Reduces proofs to fewer boxes.
 
 use cplan_judge::{CheckedProof, CollisionBox, Disconnection};
 
-/// Number of boxes up to which proofs are not reduced.
+/// Largest number of boxes of proofs that are not reduced.
 const MAX_UNREDUCED_BOXES: usize = 256;
 
-/// Inverse of the tolerance for the number of boxes. A reduced proof may exceed the smallest sufficient number by one
-/// part in this many.
+/// A reduced proof may exceed the smallest sufficient number of boxes by one part in this many.
 const EXCESS_DIVISOR: usize = 8;
 
-/// Reduces a proof to its tallest boxes (by their extent in `q2`): about the fewest of these that still separate start
-/// and goal. Proofs of up to 256 boxes are not reduced. `check` checks a selection of boxes. Returns `None` if it
-/// refuses all boxes together. Where shapes graze an obstacle's edge, slabs give thousands of boxes, but some dozens
-/// through the obstacle's middle suffice.
+/// Reduces a proof of more than 256 boxes to about the fewest of its tallest boxes (by extent in `q2`) that still separate start
+/// and goal. `check` checks a selection of boxes. Returns `None` if it refuses all boxes together. Where shapes graze an
+/// obstacle's edge, slabs give thousands of boxes, but some dozens through the obstacle's middle suffice.
 ///
-/// A selection with more boxes never separates less, so doubling and bisection find the number. Takes `O(log n)` calls
-/// of `check`.
+/// More boxes never separate less, so doubling and bisection find the number, with `O(log n)` calls of `check`.
 pub fn slimmed(proof: &Disconnection, check: impl Fn(Disconnection) -> Option<CheckedProof>) -> Option<CheckedProof> {
     let count = proof.collision_boxes().len();
     let height = |b: &CollisionBox| b.cell.upper[1] - b.cell.lower[1];

@@ -1,17 +1,17 @@
 //! Collision boxes for the colliding intervals of slabs, as few as possible.
 //!
-//! A colliding interval of a slab needs some dozens of boxes. Each box is as high as the overlap of its shapes allows,
-//! so boxes get lower towards the ends of the interval. If one place needs narrow slabs, all these boxes would be
-//! repeated for each of them. Therefore adjacent slabs share boxes: a rectangle over several slabs is one box if it
-//! collides everywhere, and is halved otherwise, across the joint that moves the shapes more.
+//! A colliding interval of a slab needs some dozens of boxes, because the height of a box is limited by the overlap of the
+//! shapes, which falls towards the ends of the interval. Narrow slabs would repeat all these boxes. So adjacent slabs share
+//! boxes: a rectangle over several slabs is one box if it collides everywhere. Otherwise it is halved, along the joint that moves
+//! the shapes more.
 
 use super::slab::is_collision;
 use cplan_interrupt::checkpoint;
 use cplan_judge::{Cell, CollisionBox, Deviation, Posture};
 use cplan_model::{Pair, Scene};
 
-/// Maximum number of boxes for a colliding interval of a slab. Where shapes overlap little, the height of boxes must be
-/// about the width of the slab.
+/// Largest number of boxes for a colliding interval of a slab. Where shapes overlap little, the height of boxes must be about the
+/// width of the slab.
 const MAX_TILES_PER_INTERVAL: usize = 4096;
 
 /// A slab `from <= q1 <= to` with its collisions: the pair, and the interval of joint 2.
@@ -21,8 +21,8 @@ pub(super) struct SlabCollision {
     pub by: Vec<(Pair, [f64; 2])>,
 }
 
-/// Adds boxes that cover all collisions of adjacent slabs, within the range of joint 2. Returns false if there are more
-/// than `most` boxes, or if the check of a proof would refuse one of them.
+/// Adds boxes that cover all collisions of adjacent slabs, within the range of joint 2. Returns false if there are more than
+/// `most` boxes, or if the check of a proof would refuse one.
 pub(super) fn add_boxes(
     scene: &Scene,
     clearance: f64,
@@ -71,8 +71,8 @@ pub(super) fn add_boxes(
     true
 }
 
-/// Adds boxes that together cover the slab `from <= q1 <= to` for `q2` in `interval`, where a pair collides. Returns
-/// false if the check of a proof would refuse one of them.
+/// Adds boxes that cover the slab `from <= q1 <= to` for `q2` in `interval`, where a pair collides. Returns false if the check of
+/// a proof would refuse one.
 pub(super) fn tile(
     scene: &Scene,
     clearance: f64,

@@ -1,5 +1,4 @@
-//! Roadmap planners other than the visibility graph: random roadmaps, triangles of a triangulation, and the Voronoi
-//! diagram.
+//! Roadmap planners besides the visibility graph: random roadmaps, triangulations, and the Voronoi diagram.
 
 mod prm;
 mod triangles;

@@ -13,19 +13,18 @@ use cplan_planners::planner::{GraphKind, PathKind, Planner, Proposal, Query, Run
 use cplan_text::counted;
 use petgraph::graph::NodeIndex;
 
-/// Largest number of random configurations that are drawn per requested sample. It is enough if a hundredth of the
-/// space is free.
+/// Largest number of random configurations that are drawn per requested sample. It suffices if a hundredth of the space is free.
 const MAX_DRAWS_PER_SAMPLE: usize = 100;
 
-/// The *probabilistic roadmap* (Kavraki, Svestka, Latombe, Overmars 1996), for comparison. It joins random free
-/// configurations to the nearest ones that a straight free motion can reach.
+/// The *probabilistic roadmap* (Kavraki, Svestka, Latombe, Overmars 1996), for comparison. It joins random free configurations to
+/// the nearest ones that a straight free motion can reach.
 ///
-/// Samples are uniform over free space. On circles all copies of a sample within the window are nodes. Triangulated
-/// free space decides exactly whether a motion between samples is free. The seed determines the sequence of samples,
-/// and a roadmap with fewer samples uses the first ones. So the same input gives the same roadmap.
+/// Samples are uniform over free space. On circles, all copies of a sample within the window are nodes. Triangulated free space
+/// decides exactly whether a motion between samples is free. The seed determines the sequence of samples, of which a roadmap uses
+/// the first ones. So the same input gives the same roadmap.
 ///
-/// If the planner finds no path it gives up, because a path may still exist. `O(n k log n)` for `n` samples with `k`
-/// neighbours, plus the triangles that motions cross.
+/// If the planner finds no path, it gives up: a path may still exist. `O(n k log n)` for `n` samples with `k` neighbours, plus
+/// the triangles that motions cross.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Prm {
     /// Number of free samples.
@@ -68,7 +67,7 @@ impl Planner for Prm {
         let nodes: Vec<NodeIndex> = samples.points().iter().map(|&at| roadmap.add(at)).collect();
         for (k, &at) in samples.points().iter().enumerate() {
             checkpoint();
-            // The sample itself is the nearest one.
+            // The nearest sample is the sample itself.
             for other in samples.nearest(at, self.nearest + 1) {
                 if other != k && mesh.is_clear(at, samples.points()[other]) {
                     roadmap.join(nodes[k], nodes[other]);
@@ -120,8 +119,8 @@ impl Prm {
         points
     }
 
-    /// Returns the roadmap with the start and the goals of a query. They are joined to the nearest samples. The start
-    /// is also joined to those goals to which the straight motion is free.
+    /// Returns the roadmap with the start and the goals of a query. They are joined to the nearest samples, and the start to
+    /// goals that a straight free motion reaches.
     fn query_graph(&self, map: &PrmMap, terminals: &Terminals) -> QueryGraph {
         let mut query_graph = map.roadmap.clone().query_graph(terminals.start);
         let start = query_graph.start;
@@ -145,8 +144,8 @@ impl Prm {
     }
 }
 
-/// Returns a polyline through free space as a path. For [`PathKind::Taut`] the path is pulled taut through the
-/// triangles that the polyline crosses, if that is possible.
+/// Returns a polyline through free space as a path. For [`PathKind::Taut`], it is pulled taut, if possible, through the triangles
+/// that it crosses.
 pub(super) fn propose_along(mesh: &Mesh, own: Vec<Point>, kind: PathKind) -> Proposal {
     let waypoints = match kind {
         PathKind::Own | PathKind::Middles => own,
@@ -164,7 +163,7 @@ fn pulled_taut(mesh: &Mesh, path: &[Point]) -> Option<Vec<Point>> {
             for portal in mesh.walk(at, leg[0], leg[1])? {
                 let back = mesh.twin(portal)?;
                 at = back / 3;
-                // The path leaves the triangle through the side by which it entered, so skip the triangle.
+                // The path leaves this triangle through the side by which it entered, so the triangle is skipped.
                 if portals.last() == Some(&back) {
                     portals.pop();
                 } else {

@@ -1,4 +1,4 @@
-//! Paths through the triangles of free space, from the middle of one side to that of another.
+//! Paths through the triangles of free space, which join midpoints of their sides.
 
 use cplan_geometry::Point;
 use cplan_geometry::planar::{Boundary, NO_ENTRY};
@@ -11,13 +11,13 @@ use cplan_planners::planner::{CellKind, ChannelPoints, PathKind, Planner, Propos
 use petgraph::graph::NodeIndex;
 use std::sync::Arc;
 
-/// The *triangular decomposition*. It finds a channel of triangles from start to goal whenever there is one, and a
-/// path in the channel.
+/// The *triangular decomposition*. It finds a channel of triangles from start to goal whenever there is one, and a path within
+/// it.
 ///
-/// Free space is triangulated (constrained Delaunay). The nodes of the roadmap are the midpoints of sides that two
-/// triangles share. The nodes of one triangle are joined by straight motions, which lie within the triangle
-/// (LaValle, *Planning Algorithms*, 2006, section 6.3.2). Even a taut path is not necessarily the shortest, because
-/// another channel may contain a shorter one. `O(n log n)` for `n` corners, with any search.
+/// Free space is triangulated (constrained Delaunay). The nodes of the roadmap are the midpoints of sides that two triangles
+/// share. The nodes of one triangle are joined by straight motions, which lie within the triangle (LaValle, *Planning
+/// Algorithms*, 2006, section 6.3.2). A taut path need not be the shortest, because another channel may contain a shorter one.
+/// `O(n log n)` for `n` corners, with any search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Triangles {
     /// The kind of path. [`PathKind::Taut`] is pulled taut within the channel, so it may touch obstacles.
@@ -40,9 +40,9 @@ pub struct TrianglesMap {
     /// Corners of each triangle, for pictures.
     corners: Arc<[Vec<Configuration>]>,
     roadmap: Roadmap,
-    /// For each node, one of the two half-edges of its side.
+    /// For each node, one of the two half-edges of the side whose midpoint it is.
     sides: Vec<u32>,
-    /// For each half-edge, the node at its midpoint; `NO_ENTRY` if it is part of the boundary.
+    /// For each half-edge, the node at its midpoint; `NO_ENTRY` on the boundary.
     middles: Vec<u32>,
 }
 
@@ -83,8 +83,8 @@ impl Planner for Triangles {
     }
 }
 
-/// Returns the shortest path from the start to the nearest goal through the given sides of triangles. Each side is
-/// given as the half-edge of the triangle that the path leaves there.
+/// Returns the shortest path from the start to the nearest goal through the given sides of triangles. A side is given as the
+/// half-edge of the triangle that the path leaves there.
 pub(super) fn taut(mesh: &Mesh, start: Point, goals: &Segment, sides: &[u32]) -> Vec<Point> {
     let portal = |&side: &u32| {
         let [right, left] = mesh.ends(side);
@@ -100,9 +100,9 @@ struct RoadmapPath {
     own: Vec<Point>,
     /// The triangles that the path passes.
     channel: Vec<u32>,
-    /// The sides through which the path leaves the triangles, one fewer.
+    /// The sides through which the path leaves the triangles, except the last triangle.
     portals: Vec<u32>,
-    /// The goals in the last triangle at which the path can end.
+    /// The part of the goals that lies in the last triangle.
     goals: Segment,
 }
 
@@ -131,7 +131,7 @@ impl TrianglesMap {
         Self { mesh, corners, roadmap, sides, middles }
     }
 
-    /// Returns the path that a search finds, and the configurations that the search expanded, in order.
+    /// Returns the path that a search finds, and the expanded configurations in order.
     fn route(&self, terminals: &Terminals, how: RoadmapSearch) -> (Option<RoadmapPath>, Vec<Configuration>) {
         let (mesh, start) = (&self.mesh, terminals.start);
         let euclid = Measure::from(Metric::Euclidean);
@@ -142,7 +142,7 @@ impl TrianglesMap {
         for side in first.iter().flat_map(|&triangle| mesh.portals(triangle)) {
             query_graph.join(begin, node(side));
         }
-        // For each goal's node: its triangle, and the part of the goals in it.
+        // For the node of each goal, its triangle and the part of the goals there.
         let mut goals: Vec<(NodeIndex, u32, Segment)> = Vec::new();
         for &(triangle, part) in &terminals.parts {
             let mut join = |from: NodeIndex| {
@@ -157,7 +157,7 @@ impl TrianglesMap {
         }
         let (route, expanded) = query_graph.search(how, terminals);
         let route = route.map(|nodes| {
-            // Returns the triangles to which a node belongs.
+            // Returns the triangles of a node.
             let around = |node: NodeIndex| -> Vec<u32> {
                 if let Some(&side) = self.sides.get(node.index()) {
                     return [Some(side), mesh.twin(side)].into_iter().flatten().map(|side| side / 3).collect();

@@ -1,12 +1,12 @@
-//! Limits that are assumed because the files state none, and their description.
+//! Limits that are assumed because no file states them, and their description.
 
 use cplan_model::DEFAULT_TIME_TO_TOP_SPEED;
 use cplan_text::short;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Limits that are assumed because the files state none, by joint. Only the timing depends on them; path, certificate
-/// and proof do not.
+/// Limits that are assumed because no file states them, by joint. Only the timing depends on them, not the path, its certificate
+/// or a proof.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct AssumedLimits {
@@ -36,7 +36,6 @@ impl AssumedLimits {
     }
 }
 
-/// Describes the assumed top speed of a joint.
 fn assumed_speed_note(whose: &str, value: f64, unit: &str) -> String {
     format!("{whose}: no top speed given; {} {unit}/s assumed, only for timing", short(value))
 }

@@ -20,7 +20,7 @@ pub enum DiagnosticKind {
 /// One defect of the input.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Diagnostic {
-    /// The file or the command-line option with the defect.
+    /// The file or command-line option with the defect.
     pub origin: String,
     /// Position in the file, if it is known.
     pub position: Option<Position>,
@@ -77,8 +77,7 @@ impl fmt::Display for Diagnostic {
     }
 }
 
-/// An error for unusable input. Its text has every diagnostic, with file, line and column, the line of the file, and a
-/// hint.
+/// Unusable input. The text of the error has every diagnostic, with file, line and column, the line of the file, and a hint.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 #[error("{}", list_diagnostics(.diagnostics))]
 pub struct InputError {
@@ -86,12 +85,12 @@ pub struct InputError {
 }
 
 impl InputError {
-    /// Returns the diagnostics, at least one, mostly in the order of the file.
+    /// Returns the diagnostics, at least one, usually in the order of the file.
     pub fn diagnostics(&self) -> &[Diagnostic] {
         &self.diagnostics
     }
 
-    /// Replaces the name of an option in the messages, for commands in which the option has another name.
+    /// Replaces the name of an option in the messages, for commands that name the option differently.
     pub fn with_option(mut self, name: &str, called: &str) -> Self {
         for Diagnostic { origin, message, help, .. } in &mut self.diagnostics {
             [Some(origin), Some(message), help.as_mut()]
@@ -108,7 +107,7 @@ impl InputError {
         Self { diagnostics: self.diagnostics.into_iter().map(|diagnostic| diagnostic.with_kind(kind)).collect() }
     }
 
-    /// Creates an error from these diagnostics. There must be at least one, and each needs a hint.
+    /// Creates an error from diagnostics, of which there must be at least one, each with a hint.
     pub fn of(diagnostics: Vec<Diagnostic>) -> Self {
         debug_assert!(!diagnostics.is_empty(), "an error without a diagnostic");
         debug_assert!(
@@ -133,8 +132,8 @@ impl From<Diagnostic> for InputError {
     }
 }
 
-/// Largest number of diagnostics that a message shows. Further ones are only counted, because the first ones usually
-/// cause them.
+/// Largest number of diagnostics that a message shows. It only counts further ones, which are usually consequences of the first
+/// ones.
 const MAX_SHOWN_DIAGNOSTICS: usize = 8;
 
 fn list_diagnostics(diagnostics: &[Diagnostic]) -> String {
@@ -145,11 +144,11 @@ fn list_diagnostics(diagnostics: &[Diagnostic]) -> String {
     lines.join("\n")
 }
 
-/// Largest number of names in a list. Further ones are only counted, because nobody reads so many, and each diagnostic
-/// may have its own list.
+/// Largest number of names in a list. Further ones are only counted, because nobody reads so many and each diagnostic may have a
+/// list.
 const MAX_LISTED_NAMES: usize = 64;
 
-/// Writes names in quotes, separated by commas, for messages.
+/// Lists names in quotes, separated by commas.
 pub fn quoted<S: AsRef<str>>(names: impl IntoIterator<Item = S>) -> String {
     let mut all = names.into_iter();
     let mut names: Vec<String> = all.by_ref().take(MAX_LISTED_NAMES).map(|n| format!("\"{}\"", n.as_ref())).collect();

@@ -3,12 +3,12 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Identity of a file. It does not depend on the spelling of its path or on links.
+/// Identity of a file. It depends neither on links nor on the spelling of the path.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FileIdentity {
     /// Absolute path, without links.
     path: PathBuf,
-    /// Device and inode number, on systems that have them. Hard links to one file share them.
+    /// Device and inode number, if the system has them. All hard links to a file share them.
     number: Option<(u64, u64)>,
 }
 
@@ -20,7 +20,7 @@ impl FileIdentity {
             let number = fs::metadata(&path).ok().and_then(|found| number(&found));
             return Some(Self { path, number });
         }
-        // Writing follows a link, even to a file that does not exist yet.
+        // Writing follows a link even if its target does not exist yet.
         let target = fs::read_link(path).map(|target| path.with_file_name(target));
         let path = target.as_deref().unwrap_or(path);
         let folder = match path.parent() {

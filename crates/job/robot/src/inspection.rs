@@ -1,4 +1,4 @@
-//! The report on a robot, whether it is usable for planning or not.
+//! The report on a robot that may or may not be usable for planning.
 
 use super::error::InputError;
 use cplan_geometry::Point;
@@ -9,7 +9,7 @@ use nalgebra::Vector3;
 use serde::Serialize;
 use std::path::PathBuf;
 
-/// The report on a robot. Facts that are unknown because of defects in the file are empty or missing.
+/// The report on a robot. Facts that defects of the file hide are empty or missing.
 #[derive(Debug, Clone, Default, Serialize)]
 pub struct Inspection {
     /// The path of the URDF, as given.
@@ -24,19 +24,19 @@ pub struct Inspection {
     pub links: Vec<LinkEntry>,
     /// Joints, in the order of the file.
     pub joints: Vec<JointEntry>,
-    /// All pairs of independent joints in which the first carries the second, base first. Each entry states whether the
-    /// pair forms a planar arm.
+    /// All pairs of independent joints of which the first carries the second, base first. Each entry states whether the pair
+    /// forms a planar arm.
     pub pairs: Vec<PairEntry>,
     /// The two joints that the rest of the report describes, base to tip.
     pub chosen: Option<[String; 2]>,
-    /// True if the joints were not chosen by the world file or by the robot itself. They are then the first pair that
-    /// forms a planar arm.
+    /// True if neither the world file nor the robot itself determines the joints. They are then the first pair that forms a
+    /// planar arm.
     pub assumed: bool,
     /// Link whose origin is the tip.
     pub tip: Option<String>,
     /// The plane of motion.
     pub plane: Option<PlaneEntry>,
-    /// Outlines of the two arm links. Empty if they cannot be made.
+    /// Outlines of the two arm links. Empty if there are none.
     pub outlines: Vec<OutlineEntry>,
     /// Links of the robot that its other links can hit.
     pub self_obstacles: Vec<SelfObstacleEntry>,
@@ -49,15 +49,14 @@ pub struct Inspection {
     pub ignored: Vec<String>,
     /// Warnings.
     pub warnings: Vec<String>,
-    /// A table `[robot]` for the world file that makes the robot usable, if no other data is missing. Its ranges,
-    /// speeds and radii are placeholders. `None` if no table is needed.
+    /// A table `[robot]` for the world file that makes the robot usable, unless other data is missing. Its ranges, speeds and
+    /// radii are placeholders. `None` if no table is needed.
     #[serde(rename = "remedy")]
     pub help: Option<String>,
     /// Errors that prevent planning. Planning reports only the first of them.
     #[serde(skip)]
     pub errors: Vec<InputError>,
-    /// The arm among the world's obstacles, for a picture. Ranges and outlines that are missing are replaced by assumed
-    /// ones.
+    /// The arm among the world's obstacles, for a picture. Assumed ranges and outlines replace missing ones.
     #[serde(skip)]
     pub scene: Option<Scene>,
     /// The trajectories of the scene's loose obstacles.
@@ -66,7 +65,7 @@ pub struct Inspection {
     /// Paths of the files that were read: the URDF, the files of its xacro, its meshes, and those of the world.
     #[serde(skip)]
     pub files: Vec<PathBuf>,
-    /// Frames of the two joints' links and of the tip's link at the zero configuration.
+    /// Frames, at the zero configuration, of the links that the two joints move, and of the tip's link.
     #[serde(skip)]
     pub frames: Vec<Frame>,
 }
@@ -78,13 +77,13 @@ impl Inspection {
     }
 }
 
-/// The motors of both joints, and the joint values that they leave.
+/// The motors of both joints, and the joint values that they allow.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MotorEntry {
     /// Mounting of the elbow's motor, in words.
     #[serde(skip)]
     pub words: String,
-    /// The motors, without the limits that are limits of joints.
+    /// The motors. Limits that are those of a joint are not repeated here.
     #[serde(flatten)]
     pub motors: Motors,
     /// The least and the greatest value that each joint can take within the limits of all joints and motors, radians. `None`
@@ -102,7 +101,7 @@ impl MotorEntry {
         };
         let mut ranges = [interval(0), interval(1)];
         if let (Some([least, most]), [Some(first), Some(second)], true) = (motors.range, ranges, motors.ratio != 0.0) {
-            // For each value of joint 1, joint 2 must have a value for which the sum is within its range; and vice versa.
+            // For each value of joint 1, some value of joint 2 must give a sum within its range, and vice versa.
             let turned = [(least - second[1]) / motors.ratio, (most - second[0]) / motors.ratio];
             let own = first.map(|q1| motors.ratio * q1);
             ranges = [
@@ -133,13 +132,13 @@ pub struct LinkEntry {
 pub enum Role {
     /// One of the two planned joints.
     Moves,
-    /// A joint on the chain or carried by it, held at a constant value.
+    /// A joint on the chain or carried by it, kept at a constant value.
     Held,
-    /// A joint carried by the arm, held at the value that its mimic rule determines.
+    /// A joint carried by the arm, kept at the value that its mimic rule gives.
     Follows,
     /// A movable joint on which the arm does not depend.
     Ignored,
-    /// A fixed joint, or a joint of another type whose position is not a single value.
+    /// A fixed joint, or a joint whose position is not a single value.
     Rigid,
     /// The role is unknown, because no two joints could be chosen.
     Undecided,
@@ -153,7 +152,7 @@ pub struct JointEntry {
     /// Type of the joint, as in the file.
     #[serde(rename = "type")]
     pub kind: String,
-    /// True for a prismatic joint, whose values are in metres. Values of other joints are in radians.
+    /// True for a prismatic joint, whose values are in metres; false for joints with values in radians.
     #[serde(skip)]
     pub slides: bool,
     /// Number of the joint's line in the URDF.
@@ -164,8 +163,8 @@ pub struct JointEntry {
     pub child: String,
     /// Axis in the joint's own frame, of unit length. `None` for joints that cannot move.
     pub axis: Option<[f64; 3]>,
-    /// Axis in the root frame, with the chosen joints at zero and the others at their held values. `None` for joints
-    /// that cannot move.
+    /// Axis in the root frame, with the chosen joints at zero and the others at their constant values. `None` for joints that
+    /// cannot move.
     pub direction: Option<[f64; 3]>,
     /// The joint that this joint mimics.
     pub mimics: Option<String>,
@@ -196,7 +195,7 @@ pub enum LimitSource {
     World,
     /// The joint is continuous, so it needs no range.
     Continuous,
-    /// No range is known that is suitable for planning.
+    /// No known range is suitable for planning.
     Unset,
 }
 
@@ -205,7 +204,7 @@ pub enum LimitSource {
 pub struct LimitEntry {
     /// Source of the range.
     pub source: LimitSource,
-    /// Least and greatest value. `None` for a continuous joint and a range that is not set.
+    /// Least and greatest value. `None` for a continuous joint or a missing range.
     pub range: Option<[f64; 2]>,
 }
 
@@ -217,7 +216,7 @@ pub enum RateSource {
     Urdf,
     /// The world file.
     World,
-    /// Not stated; assumed in proportion to the top speed.
+    /// Not stated. The assumed limit is proportional to the top speed.
     Default,
 }
 
@@ -230,7 +229,7 @@ pub struct RateEntry {
     pub source: RateSource,
 }
 
-/// Two joints of one chain, which may form a planar arm.
+/// Two joints of one chain, which may or may not form a planar arm.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PairEntry {
     /// Names of the joints, base to tip.
@@ -265,7 +264,7 @@ pub struct OutlineEntry {
     pub source: &'static str,
     /// Number of convex parts.
     pub parts: usize,
-    /// Sum of the parts' areas, in square metres. An area that two parts share counts twice.
+    /// Sum of the parts' areas, in square metres. Overlapping areas count twice.
     pub area: f64,
     /// Least and greatest height, in metres. `None` without parts.
     pub heights: Option<[f64; 2]>,
@@ -284,7 +283,7 @@ pub struct BodyEntry {
     pub area: f64,
 }
 
-/// A link of the robot, or a layer of it, that other links further along the chain can hit.
+/// A link of the robot, or a layer of it, that links further along the chain can hit.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct SelfObstacleEntry {
     /// The URDF link.
@@ -293,8 +292,8 @@ pub struct SelfObstacleEntry {
     pub moves: bool,
     /// Least and greatest height, in metres.
     pub heights: [f64; 2],
-    /// URDF links further along the chain whose contact with it is ignored, because the world file allows it, or because
-    /// a shape of the link meets it in every configuration.
+    /// Links further along the chain whose contact with this link is ignored, because the world file allows it, or because their
+    /// shapes meet in every configuration.
     pub ignored: Vec<String>,
 }
 
@@ -303,10 +302,10 @@ pub struct SelfObstacleEntry {
 pub struct ReachEntry {
     /// Position of the tip at the zero configuration, in plane coordinates, in metres.
     pub tip: [f64; 2],
-    /// Least and greatest distance of the tip from joint 1 without joint limits, in metres. `None` unless both joints
-    /// are revolute.
+    /// Least and greatest distance of the tip from joint 1, without joint limits, in metres. `None` unless both joints are
+    /// revolute.
     pub distances: Option<[f64; 2]>,
-    /// Upper bound on the distance of any part of the arm from joint 1, with prismatic joints at zero, in metres.
+    /// Upper bound on the distance of any part of the arm from joint 1, in metres, with prismatic joints at zero.
     pub outline: f64,
 }
 
@@ -321,7 +320,6 @@ pub struct Frame {
     pub axes: [Vector3<f64>; 3],
 }
 
-/// Returns the word for an outline's source.
 pub(crate) fn source_name(source: OutlineSource) -> &'static str {
     match source {
         OutlineSource::Collision => "collision",

@@ -6,11 +6,11 @@
 //! [robot] of a world file --> RobotSettings ------+--> survey ---> Inspection
 //! ```
 //!
-//! [`load`] stops at the first stage that fails; [`survey`] reports all stages. The other readers use the same errors
+//! [`load`] stops at the first stage that fails; [`survey`] reports all stages. Readers of other files use the same errors
 //! ([`InputError`], [`Diagnostic`]), files ([`Source`]) and numbers ([`Quantity`]).
 //!
-//! Reading order for the code: `error` and `source`, then `toml_values`, `robot_table` and `quantity`, then `urdf`, whose
-//! module documentation lists the stages.
+//! To understand the code, read `error` and `source` first, then `toml_values`, `robot_table` and `quantity`, then `urdf`, whose
+//! documentation lists the stages.
 
 mod assumed;
 mod calibration;

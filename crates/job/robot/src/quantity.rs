@@ -1,4 +1,4 @@
-//! Numbers, angles, joint values and lengths, as world files state them: `0.5`, `"30deg"` or `"20 mm"`.
+//! Numbers, angles, joint values and lengths as in world files: `0.5`, `"30deg"` or `"20 mm"`.
 
 use super::error::Diagnostic;
 use super::source::Source;
@@ -25,7 +25,7 @@ pub type Number = Spanned<f64>;
 /// Several numbers, with the position of the list and of each number.
 pub type Numbers = Spanned<Vec<Number>>;
 
-/// A length in metres. The file may state it with its unit, such as "20 mm".
+/// A length in metres. The file may state it with a unit, such as "20 mm".
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Metres(pub f64);
 
@@ -35,7 +35,7 @@ pub type Length = Spanned<Metres>;
 /// Several lengths, with the position of the list and of each length.
 pub type Lengths = Spanned<Vec<Length>>;
 
-/// Values by joint name, with the position of both.
+/// Values by joint name. Names and values have their positions in the file.
 pub type PerJoint<T> = BTreeMap<Spanned<String>, T>;
 
 /// Returns a joint's entry in one of the world's tables.
@@ -43,12 +43,12 @@ pub(crate) fn find<'a, T>(table: &'a PerJoint<T>, name: &str) -> Option<&'a T> {
     table.iter().find(|(k, _)| k.get_ref() == name).map(|(_, v)| v)
 }
 
-/// Greatest length or coordinate, in metres. Beyond it, products of coordinates lose the last micrometre. No arm is
-/// that large.
+/// Greatest length or coordinate, in metres. Above it, products of coordinates would lose the last micrometre. No arm is that
+/// large.
 pub const MAX_LENGTH: f64 = 1e6;
 
 impl Quantity {
-    /// Returns the angle that a text states in degrees, such as "30deg".
+    /// Returns the angle that a text such as "30deg" states in degrees.
     pub fn degrees(text: &str) -> Option<Self> {
         let degrees: f64 = text.trim().strip_suffix("deg")?.trim_end().parse().ok()?;
         Some(Self { value: degrees.to_radians(), in_degrees: true })
@@ -81,7 +81,7 @@ impl FromToml for Metres {
 /// Returns a length in metres: a number, or a text with a unit.
 ///
 /// # Errors
-/// Another value. The message names the `expected` one.
+/// Any other value. The message states what is `expected`.
 pub fn length(value: &TomlValue, expected: &str) -> Result<f64, TomlError> {
     let Some(text) = value.get_ref().as_str() else { return number(value, expected) };
     let has_unit = text.trim_end().ends_with(|c: char| c.is_ascii_alphabetic()) && !text.trim_end().ends_with("px");

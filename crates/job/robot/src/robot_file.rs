@@ -1,11 +1,10 @@
-//! The file of a robot: URDF, or another language that is converted to URDF.
+//! The file of a robot: URDF, or a file in another language that is converted to URDF.
 
 use super::error::InputError;
 use super::source::Source;
 use std::path::{Path, PathBuf};
 
-/// A conversion of robots in another language to URDF. Gets the text and the arguments of the file. Returns `None` for a
-/// text that is already URDF.
+/// Converts a robot's text and its arguments from another language to URDF. Returns `None` if the text is already URDF.
 pub type Conversion = fn(&Source, &[(String, String)]) -> Option<Result<Source, InputError>>;
 
 /// The file of a robot, with arguments for its conversion.
@@ -32,7 +31,7 @@ impl<P: AsRef<Path>> From<P> for RobotFile {
 }
 
 impl RobotFile {
-    /// Reads the file as URDF, converted if necessary. Positions in messages then refer to the original files.
+    /// Reads the file as URDF, and converts it if necessary. Positions in messages refer to the original files.
     ///
     /// # Errors
     /// A file that cannot be read or converted, and arguments for a file that is not converted.

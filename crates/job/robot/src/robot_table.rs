@@ -78,7 +78,7 @@ toml_table! {
 }
 
 impl RobotTable {
-    /// Returns the same table without the placement of the robot and its errors. The reader of URDFs receives this table.
+    /// Returns the table without the robot's placement and errors, for the reader of URDFs.
     #[must_use]
     pub fn unplaced(&self) -> Self {
         Self { at: None, angle: None, calibration: None, ..self.clone() }
@@ -89,12 +89,12 @@ impl RobotTable {
         self.wrist.as_ref()?.joint.as_ref()
     }
 
-    /// Returns true if strokes and turns of the wrist may overlap with motions of the arm, which is the default.
+    /// Returns true if strokes and turns of the wrist may overlap with motions of the arm. By default, they may.
     pub fn allows_arches(&self) -> bool {
         !matches!(self.arch.as_ref().map(Spanned::get_ref), Some(ArchValue::Switch(false)))
     }
 
-    /// Returns true if links of the robot are obstacles to its other links, which is the default.
+    /// Returns true if links of the robot are obstacles to its other links. By default, they are.
     pub fn own_body_is_obstacle(&self) -> bool {
         self.own_body != Some(false)
     }

@@ -1,4 +1,5 @@
-//! JSON schemas of files in TOML, derived from the types that read them, and their files in `docs`. Only tests need them.
+//! JSON schemas of TOML files, derived from the types that read these files. Only tests need them, to compare them with the files
+//! in `docs`.
 
 pub use super::quantity::{Metres, Quantity};
 use super::spanned::Spanned;
@@ -12,10 +13,10 @@ pub use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-/// Returns a generator of JSON schemas of files in TOML, in draft 7, which editors of TOML support.
+/// Returns a generator of JSON schemas of TOML files, in draft 7, which TOML editors support.
 pub fn toml_schemas() -> SchemaGenerator {
     let mut settings = SchemaSettings::draft07();
-    // First, because the draft's own transforms may apply to its result.
+    // This transform comes first, because those of the draft may apply to its result.
     settings.transforms.insert(0, Box::new(TomlSchema));
     settings.into_generator()
 }
@@ -26,7 +27,7 @@ pub fn toml_schemas() -> SchemaGenerator {
 /// A schema that differs from its file.
 pub fn compare_with_file(schema: Schema, name: &str) {
     let mut schema = schema.to_value();
-    // In any order of serde_json's maps, which other crates may choose.
+    // The order of keys depends on features of serde_json that other crates may enable.
     schema.sort_all_objects();
     let text = format!("{schema:#}\n");
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../docs").join(name);
@@ -36,8 +37,8 @@ pub fn compare_with_file(schema: Schema, name: &str) {
     assert_eq!(text, fs::read_to_string(file).unwrap(), "run `just docs`");
 }
 
-/// Adapts a schema to TOML. Removes `null` from the types of optional keys, because TOML has no null, and number
-/// formats such as `double`, which are Rust's.
+/// Adapts a schema to TOML. Removes `null` from the types of optional keys, which TOML does not have, and number formats of Rust
+/// such as `double`.
 #[derive(Debug, Clone)]
 struct TomlSchema;
 
@@ -64,7 +65,7 @@ impl Transform for TomlSchema {
     }
 }
 
-/// Has the schema of its value.
+/// The schema is that of the value.
 impl<T: JsonSchema> JsonSchema for Spanned<T> {
     fn inline_schema() -> bool {
         T::inline_schema()
@@ -89,7 +90,7 @@ pub type NumberPair = [f64; 2];
 /// Two lengths.
 pub type LengthPair = [Metres; 2];
 
-/// Defines a type that represents the values of a field in a schema: its documentation, its name and its own schema.
+/// Defines a type that stands for a field's values in a schema: its documentation, its name and its schema.
 #[macro_export]
 macro_rules! stands_for {
     ($(#[$doc:meta])* $name:ident, $schema:tt) => {

@@ -19,16 +19,16 @@ pub struct Position {
     pub column: usize,
 }
 
-/// The text of an input, read from a file or created by the program. Its serialised form has the text and its name.
-/// Deserialising it does not read the file again.
+/// The text of an input, from a file or made by the program. It is serialised as its text and its name; deserialising it does not
+/// read the file again.
 #[derive(Debug, Clone, Serialize, Deserialize)]
 pub struct Source {
     /// Path of the file, or name of a text in memory.
     path: PathBuf,
     text: String,
-    /// True if the file exists. Then the text can refer to other files relative to it.
+    /// True if the text is a file's. Only then can it refer to other files relative to it.
     is_file: bool,
-    /// The files from which the text was made. Positions in the text are reported as positions in these files.
+    /// The files from which the text was made, to which reported positions refer.
     #[serde(skip)]
     origins: Option<Arc<dyn Origins>>,
     /// Position of every [`LINE_INDEX_INTERVAL`]th byte, computed on first use.
@@ -36,12 +36,12 @@ pub struct Source {
     milestones: OnceLock<Vec<Position>>,
 }
 
-/// The files from which a text was made, and the place from which each of its parts comes.
+/// The files from which a text was made, and the origin of each part of the text.
 pub trait Origins: Debug + Send + Sync {
     /// Returns the paths of all files.
     fn files(&self) -> Vec<PathBuf>;
 
-    /// Returns the file and the range in it from which the text at a byte offset comes.
+    /// Returns the file from which the text at a byte offset comes, and the range in that file.
     fn place(&self, offset: usize) -> Option<(Source, Range<usize>)>;
 }
 
@@ -54,7 +54,7 @@ impl PartialEq for Source {
 
 impl Eq for Source {}
 
-/// Finds the positions of ascending byte offsets in one pass over the text.
+/// Finds the positions of ascending byte offsets in one pass through the text.
 #[derive(Debug)]
 pub struct Cursor<'a> {
     bytes: &'a [u8],
@@ -63,8 +63,8 @@ pub struct Cursor<'a> {
 }
 
 impl Cursor<'_> {
-    /// Returns line and column of a byte offset. An offset beyond the text counts as its end. An offset before the
-    /// previous one restarts the pass.
+    /// Returns line and column of a byte offset. An offset beyond the text counts as its end. If an offset is less than the
+    /// previous one, the pass starts again.
     pub fn position(&mut self, offset: usize) -> Position {
         let offset = offset.min(self.bytes.len());
         if offset < self.read {
@@ -73,7 +73,7 @@ impl Cursor<'_> {
         for byte in &self.bytes[self.read..offset] {
             match byte {
                 b'\n' => self.at = Position { line: self.at.line + 1, column: 1 },
-                // Only the first byte of a character counts as a column.
+                // Continuation bytes of a character do not count as columns.
                 byte if byte & 0xc0 != 0x80 => self.at.column += 1,
                 _ => {}
             }
@@ -83,11 +83,11 @@ impl Cursor<'_> {
     }
 }
 
-/// Largest size of a file, in bytes. Real files, including meshes, are far smaller. The limit stops the reading of
-/// endless devices.
+/// Largest size of a file, in bytes. Real files, including meshes, are far smaller. The limit ends the reading of endless
+/// devices.
 const MAX_FILE_BYTES: u64 = 256 << 20;
 
-/// Reads a file. Unlike [`read_bytes`], returns the error of the operating system.
+/// Reads a file. In contrast to [`read_bytes`], returns the error of the operating system.
 ///
 /// # Errors
 /// I/O errors, and a file larger than 256 MiB.
@@ -105,11 +105,11 @@ fn read_at_most(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Largest size of a recording, in bytes. Hours of motion at a thousand samples per second fit, in the format that
-/// cplan writes. In memory, the values take up to three times as much.
+/// Largest size of a recording, in bytes. It suffices for hours of motion with a thousand samples per second in cplan's format.
+/// In memory, the values need up to three times as much.
 const MAX_RECORDING_BYTES: u64 = 2 << 30;
 
-/// Interval of byte offsets, in bytes, at which positions are stored.
+/// Positions are stored at intervals of this number of bytes.
 const LINE_INDEX_INTERVAL: usize = 4096;
 
 /// Reads a file.
@@ -139,23 +139,23 @@ fn unreadable(path: &Path, error: &io::Error, too_large: &str) -> Diagnostic {
     }
 }
 
-/// Returns the file in the folder of a missing one whose name is nearest to its name.
+/// Returns the file whose name is most similar to that of a missing file in the same folder.
 pub fn nearest_file(missing: &Path) -> Option<PathBuf> {
     let folder = missing.parent().filter(|folder| !folder.as_os_str().is_empty());
     let entries = fs::read_dir(folder.unwrap_or(Path::new("."))).ok()?;
     let mut names: Vec<String> = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
-    // The order in a folder differs between machines.
+    // The order of files in a folder depends on the machine.
     names.sort();
     nearest_word(missing.file_name()?.to_str()?, names.iter().map(String::as_str))
         .map(|near| missing.with_file_name(near))
 }
 
-/// Number of characters before and after the defect that an excerpt of a long line shows.
+/// Number of characters on either side of the defect that an excerpt of a long line shows.
 const EXCERPT_REACH: usize = 60;
 
 impl Source {
-    /// Creates a source from a text in memory. Messages show `name`, and a world without a name of its own has this
-    /// name. The text cannot refer to other files such as meshes and maps.
+    /// Creates a source from a text in memory. `name` appears in messages, and names a world that does not state its name. The
+    /// text cannot refer to other files such as meshes and maps.
     pub fn in_memory(name: impl Into<PathBuf>, text: impl Into<String>) -> Self {
         Self { path: name.into(), text: text.into(), is_file: false, origins: None, milestones: OnceLock::new() }
     }
@@ -165,8 +165,7 @@ impl Source {
         &self.path
     }
 
-    /// Returns the paths of the files from which the text was read: its own, and those of a conversion. Empty for a text
-    /// in memory.
+    /// Returns the paths of the files with the text: its own, and those of a conversion. Empty for a text in memory.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> = self.is_file.then(|| self.path.clone()).into_iter().collect();
         files.extend(self.origins.iter().flat_map(|origins| origins.files()).filter(|path| *path != self.path));
@@ -178,14 +177,14 @@ impl Source {
         &self.text
     }
 
-    /// Returns the source with another text, for example an editor's unsaved changes. References in the text are still
-    /// relative to the same file.
+    /// Returns the source with another text, such as an editor's unsaved changes. References in the text stay relative to the
+    /// same file.
     #[must_use]
     pub fn with_text(&self, text: impl Into<String>) -> Self {
         Self { is_file: self.is_file, ..Self::in_memory(self.path.clone(), text) }
     }
 
-    /// Returns the source with a text that was made from it and from other files.
+    /// Returns the source with a text that was made from this one and from other files.
     #[must_use]
     pub fn converted(&self, text: impl Into<String>, origins: Arc<dyn Origins>) -> Self {
         Self { origins: Some(origins), ..self.with_text(text) }
@@ -196,8 +195,7 @@ impl Source {
         self.origins.is_some()
     }
 
-    /// Returns the file from which a byte of the text comes, and the range of bytes in that file. `None` if the text is
-    /// the file's own.
+    /// Returns the file and the range of bytes from which a byte of the text comes. `None` if the text was not made from others.
     fn origin(&self, offset: usize) -> Option<(Self, Range<usize>)> {
         self.origins.as_ref()?.place(offset)
     }
@@ -230,10 +228,10 @@ impl Source {
         Ok(Self { is_file: true, ..Self::in_memory(path, text) })
     }
 
-    /// Returns the path to which the names of other files are relative.
+    /// Returns the path of the file, to which the names of other files are relative.
     ///
     /// # Errors
-    /// The reason why there is none, for a text in memory.
+    /// A text in memory, with the reason in words.
     pub fn anchor(&self) -> Result<&Path, &'static str> {
         if self.is_file {
             Ok(&self.path)
@@ -252,8 +250,8 @@ impl Source {
         self.path.file_stem().map(|stem| stem.to_string_lossy().into_owned())
     }
 
-    /// Returns line and column of a byte offset. For a converted text, they are those in the original file. `O(1)` after
-    /// the first call, which stores positions throughout the text.
+    /// Returns line and column of a byte offset, in the original file if the text was converted. `O(1)`, except the first call,
+    /// which stores positions throughout the text.
     pub fn position(&self, offset: usize) -> Position {
         if let Some((file, range)) = self.origin(offset) {
             return file.position(range.start);
@@ -269,7 +267,7 @@ impl Source {
         cursor.position(offset)
     }
 
-    /// Returns a cursor at the beginning of the text. It finds the positions of many offsets efficiently.
+    /// Returns a cursor at the beginning of the text, which finds the positions of many offsets efficiently.
     pub fn cursor(&self) -> Cursor<'_> {
         Cursor { bytes: self.text.as_bytes(), read: 0, at: Position { line: 1, column: 1 } }
     }
@@ -292,8 +290,7 @@ impl Source {
         }
     }
 
-    /// Creates a diagnostic at a line and column as parsers report them. Both are counted from 1; 0 means that they are
-    /// unknown.
+    /// Creates a diagnostic at a parser's line and column, both from 1, or 0 if unknown.
     pub fn diagnostic_at_position(&self, line: usize, column: usize, message: impl Into<String>) -> Diagnostic {
         if line == 0 {
             return self.diagnostic(message);

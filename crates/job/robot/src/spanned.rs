@@ -4,18 +4,18 @@ use super::toml_values::{FromToml, TomlError, TomlValue};
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 
-/// A value with its position in a file. Values are compared without their positions.
+/// A value with its position in a file. Comparison ignores the position.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Spanned<T>(toml::Spanned<T>);
 
 impl<T> Spanned<T> {
-    /// Creates a value that is written at a range of bytes.
+    /// Creates a value with the range of bytes where it is written.
     pub fn new(range: Range<usize>, value: T) -> Self {
         Self(toml::Spanned::new(range, value))
     }
 
-    /// Returns the range of bytes at which the value is written.
+    /// Returns the range of bytes where the value is written.
     pub fn span(&self) -> Range<usize> {
         self.0.span()
     }

@@ -1,5 +1,5 @@
-//! Reads TOML into types. A function for each type takes its value from the parser's tree, which has all positions.
-//! Messages are those of serde.
+//! Reads TOML into types. Each type has a function that takes its value from the parser's tree, which has all positions. Messages
+//! are the same as serde's.
 
 use super::error::Diagnostic;
 use super::source::Source;
@@ -17,7 +17,7 @@ use toml::de::{DeTable, DeValue};
 /// A value in a TOML file, with its position.
 pub type TomlValue<'a> = toml::Spanned<DeValue<'a>>;
 
-/// A type of values in TOML files.
+/// A type that can be read from TOML files.
 pub trait FromToml: Sized {
     /// Reads a value.
     ///
@@ -25,8 +25,7 @@ pub trait FromToml: Sized {
     /// Values of wrong types, and unknown and missing keys.
     fn read(value: &TomlValue) -> Result<Self, TomlError>;
 
-    /// Returns the value of a missing key, or of a missing element if the table is written as a list. `None` if there
-    /// must be one.
+    /// Returns the value if the key, or the element of a table that is written as a list, is missing. `None` if it is required.
     fn missing(_in_list: bool) -> Option<Self> {
         None
     }
@@ -37,7 +36,7 @@ pub trait FromToml: Sized {
 pub struct TomlError {
     message: String,
     at: Range<usize>,
-    /// Hint that precedes the hint of the file's reader.
+    /// Hint that precedes that of the file's reader.
     hint: Option<String>,
 }
 
@@ -86,7 +85,7 @@ impl Source {
     }
 }
 
-/// Returns the message in TOML's words for keys and numbers. Rust's words are replaced.
+/// Replaces Rust's words for keys and numbers in a message by those of TOML.
 fn in_toml_words(message: &str) -> String {
     message
         .replace("unknown field", "unknown key")
@@ -99,7 +98,7 @@ fn in_toml_words(message: &str) -> String {
 /// Returns a number.
 ///
 /// # Errors
-/// Another value; `expected` says what it should be.
+/// Any other value. The message states what is `expected`.
 pub fn number(value: &TomlValue, expected: &str) -> Result<f64, TomlError> {
     Ok(value.clone().into_deserializer().deserialize_any(NumberVisitor(expected))?)
 }
@@ -179,8 +178,8 @@ impl<T: FromToml> FromToml for BTreeMap<Spanned<String>, T> {
     }
 }
 
-/// The fields of a table, which can also be written as a list of their values. The macro [`toml_table`](crate::toml_table)
-/// uses it.
+/// The fields of a table, which may also be written as a list of their values. Used by the macro
+/// [`toml_table`](crate::toml_table).
 #[derive(Debug)]
 pub struct Fields<'a> {
     value: &'a TomlValue<'a>,
@@ -194,7 +193,7 @@ impl<'a> Fields<'a> {
         Self { value, name, keys }
     }
 
-    /// Returns the given keys and values, in the order in which they are read.
+    /// Returns the keys and values that the file states, in the order of reading.
     ///
     /// # Errors
     /// A value that is neither a table nor a list.
@@ -214,10 +213,10 @@ impl<'a> Fields<'a> {
         TomlError { message: Message::unknown_field(key, self.keys).to_string(), at, hint }
     }
 
-    /// Returns the value of a field that is not given.
+    /// Returns the value of a field that the file does not state.
     ///
     /// # Errors
-    /// A field that must be given.
+    /// A required field.
     pub fn missing<T: FromToml>(&self, key: &'static str) -> Result<T, TomlError> {
         T::missing(self.value.get_ref().is_array()).ok_or_else(|| self.missing_error(key))
     }
@@ -235,7 +234,7 @@ impl<'a> Fields<'a> {
     }
 }
 
-/// Returns the key of a field: its name without the `r#` of a word that Rust reserves.
+/// Returns the key of a field: its name, without the `r#` of names that are reserved in Rust.
 pub const fn key_of(field: &'static str) -> &'static str {
     match field.as_bytes() {
         [b'r', b'#', ..] => field.split_at(2).1,
@@ -243,7 +242,7 @@ pub const fn key_of(field: &'static str) -> &'static str {
     }
 }
 
-/// Defines the type of a table in TOML files, and reads it. Unknown keys are refused.
+/// Defines the type of a table in TOML files, and reads it. Refuses unknown keys.
 #[macro_export]
 macro_rules! toml_table {
     ($(

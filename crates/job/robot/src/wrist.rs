@@ -34,8 +34,8 @@ toml_table! {
 }
 
 impl WristTable {
-    /// Reads the wrist's limits. `source` is the file with the table, and `jerks` are the limits on the jerks of joints. The
-    /// wrist may turn objects while the arm moves if `turns_on_the_way` is true.
+    /// Reads the wrist's limits. `source` is the file with the table, and `jerks` has the jerk limits of joints.
+    /// `turns_on_the_way` is true if the wrist may turn objects while the arm moves.
     ///
     /// # Errors
     /// A limit that is not positive or not finite.

@@ -1,8 +1,8 @@
-//! Starts and goals that are free, but blocked in a space whose obstacles are grown by a margin.
+//! Starts and goals that are free in the scene, but blocked in a space with grown obstacles.
 //!
-//! A smaller margin everywhere would give many more corners. Instead, a *stand-in* replaces such a start or goal: a
-//! configuration that is free in the space, at the end of a short, certified straight motion. That motion completes the
-//! planner's path, and the result is judged as a whole, like any other path.
+//! A smaller margin would give many more corners. Instead, a *stand-in* replaces such a start or goal: a configuration that is
+//! free in the space, with a short, certified straight motion to the start or goal. This motion completes the planner's path, and
+//! the whole path is then certified like any other.
 
 use super::planner_space::PlannerSpace;
 use cplan_judge::certify;
@@ -12,18 +12,18 @@ use cplan_planners::cspace::free_stretches;
 use cplan_planners::planner::Query;
 use std::f64::consts::TAU;
 
-/// Number of directions in which the search for a stand-in looks.
+/// Number of directions in which stand-ins are sought.
 const STAND_IN_DIRECTIONS: usize = 64;
 
-/// Number of steps that are tried in each direction, the shortest first. Each is twice as long as the one before.
+/// Number of steps that are tried in each direction. The shortest comes first, and each is twice as long as the previous one.
 const STEPS_PER_DIRECTION: usize = 13;
 
-/// Length of the shortest step, radians or metres. A stand-in usually needs far longer steps with the default margin, a
-/// thousandth of the reach.
+/// Length of the shortest step, radians or metres. With the default margin, a thousandth of the reach, stand-ins usually need far
+/// longer steps.
 const SHORTEST_STEP: f64 = 1e-4;
 
-/// Returns `q` if the space admits it. Otherwise returns an admitted configuration to which a certified straight motion
-/// leads from `q`, the shortest that is found. Returns `q` itself if none is found.
+/// Returns `q` if the space admits it. Otherwise returns the nearest admitted configuration that the search finds with a
+/// certified straight motion from `q`; if there is none, returns `q`.
 fn stand_in(scene: &Scene, space: &impl PlannerSpace, q: Configuration) -> Configuration {
     if space.admits(q) {
         return q;
@@ -45,30 +45,29 @@ fn stand_in(scene: &Scene, space: &impl PlannerSpace, q: Configuration) -> Confi
     q
 }
 
-/// Number of samples on a free stretch of goals. With them the search tests whether the space admits any part of the
-/// stretch.
+/// Number of samples on a free stretch of goals that show whether the space admits a part of it.
 const SAMPLES_PER_STRETCH: usize = 17;
 
-/// Largest number of stretches of goals that get a stand-in. The longest stretches come first.
+/// Largest number of stretches of goals that get a stand-in. The longest stretches take precedence.
 const MAX_STRETCHES: usize = 8;
 
 /// Start and goals of a problem, with their stand-ins.
 pub(super) struct Ends {
     topology: Topology,
     start: Configuration,
-    /// Pairs of a stand-in and its true goal, on the turns near the start.
+    /// Pairs of a stand-in and its true goal, shifted by whole turns to be near the start.
     stand_ins: Vec<[Configuration; 2]>,
     /// The query for the planner.
     pub query: Query,
 }
 
-/// Distance below which two configurations count as the same, up to whole turns, in radians or metres. It is far above
-/// rounding, and far below any distance that matters.
+/// Configurations closer than this count as the same, up to whole turns, in radians or metres. It is far above rounding errors,
+/// and far below any relevant distance.
 const COPY_DISTANCE: f64 = 1e-9;
 
 impl Ends {
-    /// Finds stand-ins for the start and for single goals that the space does not admit. Of a goal segment, the space
-    /// usually admits some part. If it admits no part of a free stretch, the stretch's middle gets a stand-in.
+    /// Finds stand-ins for the start and for single goals that the space does not admit. The space usually admits a part of a
+    /// goal segment. If it admits no part of a free stretch, the middle of the stretch gets a stand-in.
     pub fn new(problem: &MotionProblem, space: &impl PlannerSpace) -> Self {
         let (scene, start) = (problem.scene(), problem.start());
         let topology = scene.arm().topology();
@@ -100,13 +99,13 @@ impl Ends {
         self.stand_ins.iter().any(|[stand_in, goal]| stand_in != goal)
     }
 
-    /// Completes the planner's path, so that it leads from the true start to the true goal through the stand-ins.
+    /// Completes the planner's path through the stand-ins: from the true start to the true goal.
     pub fn complete(&self, path: &Path) -> Path {
         self.join(path.waypoints(), self.goal_reached(path))
     }
 
-    /// Completes the planner's path, but leaves out the stand-ins. The result is shorter than that of
-    /// [`Ends::complete`] if the direct motion is free. Returns `None` if the path has no stand-ins.
+    /// Completes the planner's path without the stand-ins. If the direct motion is free, the result is shorter than that of
+    /// [`Ends::complete`]. Returns `None` if the path has no stand-ins.
     pub fn past_stand_ins(&self, path: &Path) -> Option<Path> {
         let (inner, goal) = (path.waypoints(), self.goal_reached(path));
         let (first, last) = (self.start != path.start(), goal != path.goal());
@@ -114,7 +113,7 @@ impl Ends {
         (inner.len() > 1 && (first || last)).then(past)
     }
 
-    /// Returns the true goal that the path leads to, on the turn where the path ends.
+    /// Returns the true goal to which the path leads, with the whole turns that the path has made.
     fn goal_reached(&self, path: &Path) -> Configuration {
         let end = path.goal();
         let of = |[stand_in, goal]: &[Configuration; 2]| {
@@ -128,7 +127,7 @@ impl Ends {
     }
 }
 
-/// Returns the middles of those free stretches of a segment of which the space admits no part. Each needs a stand-in.
+/// Returns the middles of those free stretches of a segment of which the space admits no part. Each of them needs a stand-in.
 fn middles_unknown(scene: &Scene, space: &impl PlannerSpace, piece: &Segment) -> Vec<Configuration> {
     let knows = |stretch: &Segment| {
         (0..SAMPLES_PER_STRETCH).any(|k| space.admits(stretch.at(k as f64 / (SAMPLES_PER_STRETCH - 1) as f64)))

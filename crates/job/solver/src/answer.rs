@@ -9,21 +9,21 @@ use std::borrow::Cow;
 use std::cmp::Ordering;
 use std::fmt;
 
-/// The outcome of planning a single motion, with the steps that led to it. `F` is the type of a success:
-/// [`solve`](super::solve) gives a path, and `plan` of the engine a motion along the path.
+/// The outcome of planning a single motion, with the steps that led to it. `F` is what a success yields: a path from
+/// [`solve`](super::solve), or a motion along the path from `plan` of the engine.
 #[derive(Debug, Clone)]
 pub struct Answer<F = BoundedPath> {
     /// The planner.
     pub method: Method,
-    /// The path or motion that was found, or a proof that there is no path, or the reason why neither is known.
+    /// The path or motion, a proof that there is none, or the reason why neither is known.
     pub outcome: Outcome<F, CheckedProof, Unknown>,
     /// The requested kind of path.
     pub path_kind: PathKind,
     /// Results of all attempts except the last, from coarse to fine, in words.
     pub history: Vec<String>,
-    /// The planner's last run, including its trace.
+    /// The planner's last run, with its trace.
     pub run: Run,
-    /// The space of the run.
+    /// The space of the last run.
     pub space: Space,
     /// Time spent in each stage.
     pub stages: Stages,
@@ -44,8 +44,8 @@ pub struct BoundedPath {
 pub struct Unknown {
     /// The reason, in words.
     pub reason: String,
-    /// A certified path that slabs or boxes found. It proves that a path exists, although the requested planner found
-    /// none in its own space.
+    /// A certified path that slabs or boxes found. It shows that a path exists, although the requested planner found none in its
+    /// own space.
     pub witness: Option<CertifiedPath>,
 }
 
@@ -55,8 +55,8 @@ impl BoundedPath {
         self.certified.path()
     }
 
-    /// Returns a proven lower bound on the distance between arm and obstacles along the path, metres. Infinite if no
-    /// obstacle is within reach.
+    /// Returns a proven lower bound on the distance between arm and obstacles along the path, metres; infinite if no obstacle is
+    /// within reach.
     pub fn clearance(&self) -> f64 {
         self.certified.clearance()
     }
@@ -93,8 +93,8 @@ impl From<String> for Unknown {
     }
 }
 
-/// Largest number of corners of a visibility graph that is drawn completely. Of a larger graph, only the searched part
-/// is drawn, since more lines would make a grey surface.
+/// Largest number of corners of a visibility graph that is drawn completely. Of larger graphs, pictures show only the searched
+/// part, because all lines together would be a grey area.
 const MAX_DRAWN_CORNERS: usize = 5_000;
 
 impl<F: AsRef<BoundedPath>> Answer<F> {
@@ -119,13 +119,13 @@ impl<F> Answer<F> {
         }
     }
 
-    /// Returns the trace to draw: the planner's own trace. For a visibility graph, adds all arcs between corners, and
-    /// first has to find them.
+    /// Returns the trace to draw. It is the planner's own trace; for a visibility graph, all arcs between corners are computed
+    /// and added.
     pub fn drawn(&self) -> Cow<'_, Trace> {
         if let (Trace::Roadmap { edges, whole: false }, Space::Regions(regions)) = (&self.run.trace, &self.space) {
             let map = Visibility::default().build(regions);
             if map.corners() <= MAX_DRAWN_CORNERS {
-                // Searched arcs may also end at start and goals, and may have the opposite direction.
+                // Searched arcs may have the opposite direction, and may end at start and goals.
                 let key = |[a, b]: [Configuration; 2]| [a[0], a[1], b[0], b[1]];
                 let directed = |[a, b]: [Configuration; 2]| if key([a, b]) <= key([b, a]) { [a, b] } else { [b, a] };
                 let mut arcs: Vec<_> = map.arcs().into_iter().chain(edges.iter().copied()).map(directed).collect();

@@ -1,4 +1,4 @@
-//! Upper bound on how much longer a path is than the shortest one.
+//! Bounds on how much longer a path is than the shortest one.
 
 use super::rungs::extent;
 use cplan_model::MotionProblem;
@@ -12,21 +12,21 @@ use cplan_proofs::{BoundEvidence, MotionQuery, bound_evidence, least_length};
 pub struct Bound {
     /// The metric in which lengths are measured.
     pub metric: Metric,
-    /// Lower bound on the lengths of all motions from the start to any of the goals, on any turns.
+    /// Lower bound on the lengths of all motions from the start to any goal, with any number of turns.
     pub lower: f64,
     /// Length of the path.
     pub upper: f64,
 }
 
 impl Bound {
-    /// Returns the share by which the path is longer than the lower bound: 0.001 for a thousandth. Infinite if no lower
-    /// bound is known.
+    /// Returns the relative excess of the path's length over the lower bound: 0.001 for a thousandth. Infinite without a lower
+    /// bound.
     pub fn gap(&self) -> f64 {
         if self.upper <= self.lower { 0.0 } else { self.upper / self.lower - 1.0 }
     }
 
-    /// Searches for evidence of the lower bound: walls and barriers that close all shorter paths. This repeats the
-    /// search for the bound, which does not keep its evidence.
+    /// Searches for evidence of the lower bound: walls and barriers that close all shorter paths. The search for the bound keeps
+    /// no evidence, so this repeats it.
     pub fn evidence(&self, problem: &MotionProblem) -> BoundEvidence {
         let gap = (self.gap() * EVIDENCE_GAP_SHARE).clamp(MIN_EVIDENCE_GAP, 1.0);
         bound_evidence(&motions(problem, self.metric), self.upper.max(self.lower), gap)
@@ -40,29 +40,29 @@ pub fn bound(problem: &MotionProblem, path: &Path, metric: Metric, gap: f64) -> 
     Bound { metric, lower: lower_bound(&motions(problem, metric), upper, gap, &[]), upper }
 }
 
-/// Largest distance between the polygons inside a gantry's C-obstacles and the borders of these C-obstacles, as a share
-/// of the gap times the arm's extent. At each corner, a path among the polygons is shorter by about this distance.
+/// The polygons lie within the C-obstacles of a gantry, at most this far from their borders, as a share of the gap times the
+/// arm's extent. At each corner, a path among the polygons is shorter by about this distance.
 const POLYGON_LOSS: f64 = 0.02;
 
-/// Least value of the distance that [`POLYGON_LOSS`] limits, as a share of the arm's extent. It is far greater than
-/// rounding errors.
+/// Lower limit of the distance that [`POLYGON_LOSS`] gives, as a share of the arm's extent. It is far greater than rounding
+/// errors.
 const MIN_POLYGON_LOSS: f64 = 1e-9;
 
-/// Largest number of pairs of shapes of a gantry for which the polygons are united. At the resolution of
-/// [`POLYGON_LOSS`], this many pairs take some tenths of a second. A few times as many overlapping pairs take a minute.
+/// Largest number of pairs of shapes of a gantry for which the polygons are united. With the accuracy of [`POLYGON_LOSS`], this
+/// takes some tenths of a second; with several times as many overlapping pairs, it would take a minute.
 pub(super) const MAX_UNITED_PAIRS: usize = 512;
 
-/// Fraction of a length by which rounding may change it.
+/// Bound on the relative rounding error of a length.
 const ROUNDING: f64 = 1e-9;
 
-/// Computes a lower bound on the lengths of motions. For gantries it is the length of the shortest path past the exact
-/// C-obstacles, up to a small tolerance; otherwise it is that of [`least_length`].
+/// Computes a lower bound on the lengths of motions. For gantries, it is the length of the shortest path past the exact
+/// C-obstacles, up to a small tolerance; for other arms, see [`least_length`].
 pub(super) fn lower_bound(motions: &MotionQuery, upper: f64, gap: f64, slices: &[f64]) -> f64 {
     length_past_polygons(motions, gap).unwrap_or_else(|| least_length(motions, upper, gap, slices))
 }
 
-/// Computes the length of the shortest path past polygons that lie inside the C-obstacles of a gantry. `None` if no
-/// such polygons are known.
+/// Computes the length of the shortest path past polygons within the C-obstacles of a gantry. `None` if there are no such
+/// polygons.
 fn length_past_polygons(motions: &MotionQuery, gap: f64) -> Option<f64> {
     let MotionQuery { scene, start, goals, metric, .. } = *motions;
     if scene.pairs().len() > MAX_UNITED_PAIRS {
@@ -77,14 +77,14 @@ fn length_past_polygons(motions: &MotionQuery, gap: f64) -> Option<f64> {
     Some(metric.length(&path) * (1.0 - ROUNDING))
 }
 
-/// Gap at which the search for evidence ends, as a share of the stated gap. The search for the bound knew slices with
-/// which it began; this one does not. So it must aim closer to prove as much.
+/// The search for evidence ends at this share of the stated gap. It lacks the initial slices that the search for the bound had,
+/// so it must aim at a smaller gap to prove as much.
 const EVIDENCE_GAP_SHARE: f64 = 0.05;
 
-/// Smallest gap at which the search for evidence ends, even if the stated gap is smaller.
+/// Lower limit of the gap at which the search for evidence ends.
 const MIN_EVIDENCE_GAP: f64 = 1e-9;
 
-/// Returns the query for all motions that solve a problem.
+/// Returns the query for all motions from the problem's start to its goals.
 pub(super) fn motions(problem: &MotionProblem, metric: Metric) -> MotionQuery<'_> {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;

@@ -1,4 +1,4 @@
-//! Number of cells of a grid along its axes.
+//! Numbers of cells along the axes of a grid.
 
 use super::planner_errors::wrong_number;
 use super::setting::ALLOWED_CELLS;
@@ -6,13 +6,11 @@ use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::str::FromStr;
 
-/// Numbers of cells along the axes of the first and the second joint. As text: `256` or `128x512`. As data: a number or
-/// a pair.
+/// Numbers of cells along the axes of joint 1 and joint 2. As text, `256` or `128x512`; in JSON, a number or a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(from = "CellCountsForm", into = "CellCountsForm")]
 pub struct CellCounts(pub [usize; 2]);
 
-/// Serialized form of cell counts.
 #[derive(Debug, Clone, Copy, Serialize, Deserialize)]
 #[serde(untagged)]
 enum CellCountsForm {
@@ -89,7 +87,7 @@ mod tests {
             let written = serde_json::to_string(&counts).unwrap();
             assert_eq!(serde_json::from_str::<CellCounts>(&written).unwrap(), counts);
         }
-        // Equal counts are written as one number, as in older files.
+        // Equal counts are written as one number, for compatibility with older files.
         assert_eq!(serde_json::to_string(&CellCounts::square(64)).unwrap(), "64");
         assert_eq!(CellCounts([8, 7]).error(), Some("cells: 7 must be from 8 to 2048".to_owned()));
     }

@@ -1,20 +1,20 @@
-//! Removal of corners, which makes a path a little longer and the motion along it faster.
+//! Removes corners of a path. This makes the path a little longer, and the motion along it faster.
 //!
-//! Shortest paths follow obstacles in many short pieces. Where a path turns to the same side at both ends of a piece,
-//! the pieces before and after it are extended until they meet. The new corner lies away from the obstacle, and the
-//! path has one corner less.
+//! Shortest paths follow obstacles in many short pieces. If a path turns to the same side at both ends of a piece, the pieces
+//! before and after it can be extended until they meet. The new corner is farther from the obstacle, and the path has one corner
+//! less.
 
 use cplan_geometry::OpenList;
 use cplan_judge::{CertifiedPath, Rejection, certify};
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, Metric, Path, Topology};
 
-/// Largest number of attempts to certify a path with fewer corners. Some pieces were removed where the refused path
-/// comes too near to an obstacle. The next attempt keeps these pieces.
+/// Largest number of attempts to certify a path with fewer corners. Each attempt keeps the pieces whose removal brought the
+/// refused path too near to an obstacle.
 const MAX_ATTEMPTS: usize = 6;
 
-/// Longest extension of a piece, as a multiple of the length of the removed piece. Without this limit, pieces that meet
-/// at a small angle would be extended very far.
+/// Longest extension of a piece, as a multiple of the removed piece's length. Without it, pieces that meet at a small angle would
+/// become very long.
 const MAX_EXTENSION: f64 = 8.0;
 
 /// Returns a certified path with fewer corners that is longer than `path` by at most `budget`. `None` if no corner can
@@ -43,13 +43,13 @@ pub(super) fn fewer_corners(scene: &Scene, path: &Path, metric: Metric, budget: 
 struct Piece {
     before: usize,
     after: usize,
-    /// Number of changes to the piece or its neighbours.
+    /// Number of changes of the piece and its neighbours so far.
     version: u32,
     is_removed: bool,
 }
 
-/// Removes pieces and returns the remaining waypoints. A piece is kept if its removal would lead past a configuration
-/// in `too_near`.
+/// Removes pieces and returns the remaining waypoints. Keeps a piece if its removal would lead past a configuration in
+/// `too_near`.
 fn remove_pieces(
     topology: &Topology,
     waypoints: &[Configuration],
@@ -61,7 +61,7 @@ fn remove_pieces(
     let n = at.len();
     let mut left: Vec<Piece> =
         (0..n).map(|i| Piece { before: i.wrapping_sub(1), after: i + 1, version: 0, is_removed: false }).collect();
-    // The index of a piece is that of its first corner.
+    // A piece has the index of its first corner.
     let offer = |at: &[Configuration], left: &[Piece], i: usize| {
         let (h, j) = (left[i].before, left[i].after);
         let k = left.get(j)?.after;
@@ -111,8 +111,8 @@ fn remove_pieces(
     (0..n).filter(|&i| !left[i].is_removed).map(|i| at[i]).collect()
 }
 
-/// Returns the point where the lines `a b` and `d c` meet, beyond `b` and beyond `c`. `None` if they do not meet there,
-/// or only far away.
+/// Returns the point where the line `a b` beyond `b` meets the line `d c` beyond `c`. `None` if they do not meet, or only far
+/// away.
 fn meeting([a, b, c, d]: [Configuration; 4]) -> Option<Configuration> {
     let (first, second, base) = (b - a, c - d, c - b);
     let cross = |u: Configuration, v: Configuration| u[0] * v[1] - u[1] * v[0];
@@ -123,8 +123,7 @@ fn meeting([a, b, c, d]: [Configuration; 4]) -> Option<Configuration> {
     (along >= 0.0 && back >= 0.0 && along.is_finite() && back.is_finite() && near(b) && near(c)).then_some(corner)
 }
 
-/// Returns true if a configuration is near some others: inside their bounding box after it is widened by its own
-/// extent.
+/// Returns true if a configuration is near some others: within their bounding box, widened by its own extent.
 fn is_near(q: Configuration, others: &[Configuration; 3]) -> bool {
     (0..2).all(|k| {
         let (least, greatest) =
@@ -142,7 +141,7 @@ mod tests {
 
     const WIDE: Topology = Topology::new([JointRange::Interval { lower: -2.0, upper: 2.0 }; 2]);
 
-    /// Returns a quarter of a circle made of `chords` chords, with a tangent line at each end.
+    /// Returns a quarter of a circle as `chords` chords, with a tangent line at each end.
     fn quarter(chords: usize) -> Vec<Configuration> {
         let at = |k: usize| {
             let (sin, cos) = (FRAC_PI_2 * k as f64 / chords as f64).sin_cos();
@@ -165,9 +164,8 @@ mod tests {
         for budget in [1e-5, 1e-4, 1e-3, 1e-2] {
             let fewer = remove_pieces(&WIDE, &arc, Metric::Euclidean, budget, &[]);
             assert!(length(&fewer) <= length(&arc) + budget + 1e-12, "{budget}: {}", length(&fewer));
-            // A tangent that spans `a` radians is longer than its arc by about a^3 / 12. So the least number n of
-            // tangents within the budget satisfies (pi / 2)^3 / (12 n^2) = budget. Removing the cheapest pieces first
-            // leaves fewer than twice as many.
+            // A tangent over an angle `a` is longer than its arc by about a^3 / 12. So the least number n of tangents within the
+            // budget satisfies (pi / 2)^3 / (12 n^2) = budget. Greedy removal leaves fewer than twice as many.
             let least = (FRAC_PI_2.powi(3) / 12.0 / budget).sqrt();
             assert!((fewer.len() as f64) < 2.0 * least + 4.0 && fewer.len() < before, "{budget}: {}", fewer.len());
             before = fewer.len();
@@ -191,7 +189,7 @@ mod tests {
             JointRange::Interval { lower: -2.0, upper: 1.0 },
         ]);
         assert!(remove_pieces(&narrow, &arc, Metric::Euclidean, 10.0, &[]).iter().all(|q| narrow.contains(*q)));
-        // An obstacle was met at the corner where all pieces would meet.
+        // The corner where all pieces would meet is in an obstacle.
         let others = remove_pieces(&WIDE, &arc, Metric::Euclidean, 10.0, &[Configuration::new(0.999, 0.999)]);
         assert!(others.len() > 3 && !others.contains(&all[1]), "{others:?}");
     }

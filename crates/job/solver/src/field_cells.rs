@@ -7,13 +7,11 @@ use cplan_fields::{Cell, Domain, Limits, field_domain};
 use cplan_model::MotionProblem;
 use cplan_planners::cspace::ZonedGrid;
 
-/// Returns the cells of a problem's first level with the world's preferences, and marks which of them are free,
-/// obstacles and goals. The planner `harmonic` relaxes an equation on such cells. `cells` are those of the
-/// planner's `--cells`.
+/// Returns the cells of a problem's first level, each marked as free, obstacle or goal, with the world's preferences. The planner
+/// `harmonic` relaxes an equation on such cells. `cells` is the value of the planner's `--cells`.
 ///
 /// # Errors
-/// Returns the reason, in words, if the start or the goal has no free cell near it, or if no free cell leads to the
-/// goal.
+/// The reason, in words: no free cell near the start or the goal, or no free cell from which the goal can be reached.
 pub fn field_on_cells(
     problem: &MotionProblem,
     cells: CellCounts,

@@ -16,7 +16,7 @@ pub(super) fn solve(Request { problem, options, .. }: Request) -> Answer {
     answer(Method::First, decided, stages)
 }
 
-/// Makes the answer of a planner that builds no space. It has an outcome, but no trace and no history.
+/// Creates the answer of a planner without a space: it has an outcome, but no trace and no history.
 pub(super) fn answer(method: Method, decided: Outcome<CertifiedPath, CheckedProof>, stages: Stages) -> Answer {
     let (proposal, outcome) = match decided {
         Outcome::Found(path) => (Proposal::Found(path.path().clone()), Outcome::Found(path.into())),

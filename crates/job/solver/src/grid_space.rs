@@ -1,28 +1,26 @@
-//! Methods that decide the cells of a grid.
+//! Tests of the cells of a grid.
 
 use serde::{Deserialize, Serialize};
 
-/// The method that decides the cells of a grid.
+/// Test that determines which cells of a grid are free.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum GridSpace {
-    /// Exact slices. Each size of cells is tried twice. In the first attempt, a cell counts as free only if all of it
-    /// is free. In the second, it counts as free if its centre is free. [`Proves`](cplan_planners::cspace::Proves) states
-    /// which of the two applies.
+    /// Exact slices. Each number of cells has two attempts: first, a cell is free if all of it is free; then, if its centre is
+    /// free. [`Proves`](cplan_planners::cspace::Proves) states which of them applies.
     #[default]
     Rows,
-    /// Exact slices, and in every attempt a cell counts as free only if all of it is free.
+    /// Exact slices. In every attempt, a cell is free only if all of it is free.
     Whole,
-    /// Exact slices. A cell counts as free if its centre is free, from the first attempt on, as usual in the
-    /// literature.
+    /// Exact slices. In every attempt, a cell is free if its centre is free, as usual in the literature.
     Centers,
-    /// Collision checks by parry2d at the centres of cells ([`Proves::Sampled`](cplan_planners::cspace::Proves::Sampled)),
-    /// for comparison with other libraries. Slower than slices by the number of cells per slice.
+    /// Collision checks by parry2d at the centres of cells ([`Proves::Sampled`](cplan_planners::cspace::Proves::Sampled)), for
+    /// comparison with other libraries. They take as many times longer than slices as a slice has cells.
     Sampled,
 }
 
 impl GridSpace {
-    /// All methods, in the order of the command line's help.
+    /// All tests, in the order of the command line's help.
     pub const ALL: [Self; 4] = [Self::Rows, Self::Whole, Self::Centers, Self::Sampled];
 
     /// Returns the name on the command line.
@@ -43,7 +41,7 @@ impl GridSpace {
         }
     }
 
-    /// Returns the name that results report. `None` for the default.
+    /// Returns the name in results. `None` for the default.
     pub fn reported_name(self) -> Option<&'static str> {
         (self != Self::Rows).then(|| self.name())
     }

@@ -15,24 +15,24 @@ use cplan_planners::cspace::{Grid, Regions, ZonedGrid, not_polygons};
 use cplan_planners::planner::{Note, Planner, Proposal, Query, Run, Visibility};
 use cplan_text::percent;
 
-/// Number of boxes of the first search for a proof, after the first attempt has failed. It suffices if a proof is easy,
-/// and is cheap compared with a finer attempt if it is not.
+/// Number of boxes of the first search for a proof, after the first attempt has failed. Easy proofs need no more, and the search
+/// is cheap compared with a finer attempt.
 pub(super) const FIRST_BOXES: usize = 20_000;
 
-/// Gap below which a lower bound is not refined further. The path is then longer than the bound by at most this share.
+/// A lower bound is refined until the path is longer by at most this share.
 pub(super) const CLOSE_GAP: f64 = 1e-4;
 
-/// Gap above which a path is planned again on finer levels, even if no gap was requested. A shorter path may lead
-/// through a passage that the first level closes. Such paths are rare: about one in a hundred.
+/// A path with a larger gap is planned again on finer levels, even if no gap was requested. A shorter path may lead through a
+/// passage that is closed on the first level; this happens to about one path in a hundred.
 const WIDE_GAP: f64 = 0.05;
 
-/// Last level on which a path is planned again because of [`WIDE_GAP`]. Each level is four times finer, so this level
-/// shows passages down to a five-thousandth of the arm's reach.
+/// Last level on which [`WIDE_GAP`] matters. The margin of each level is a quarter of that before, so this level shows passages
+/// down to a five-thousandth of the arm's reach.
 const LAST_LEVEL_FOR_GAP: usize = 2;
 
 /// Answers `problem` with the options' planner. Failed attempts are reported to `progress`.
 ///
-/// The search omits obstacles out of the arm's reach. Paths are certified among all obstacles.
+/// The search omits obstacles out of the arm's reach, but paths are certified among all obstacles.
 pub fn solve(problem: &MotionProblem, options: &Options, progress: &mut dyn FnMut(&str)) -> Answer {
     let scene = problem.scene();
     let Some(near) = scene.within_reach() else { return answered(problem, options, progress) };
@@ -92,7 +92,7 @@ where
     climb(request, planner, |level| zoned_cells(problem, space, cells, level))
 }
 
-/// Answers by a visibility graph. Other planners that optimise also use this.
+/// Answers by a visibility graph. Other planners that minimise length use this as well.
 pub(super) fn by_visibility(request: Request) -> Answer {
     let metric = request.options.planner.metric(request.problem.scene().arm());
     on_polygons(request, |s, _| Visibility { metric, search: s.search, graph: s.graph })
@@ -131,10 +131,10 @@ where
         };
         climb.stages.query += clock.elapsed();
         climb.level = level;
-        // A field on a finer grid takes even more sweeps.
+        // On a finer grid, a field takes even more sweeps.
         let takes_more = matches!((&run.outcome, &run.note), (Proposal::GaveUp(_), Some(Note::Unconverged { .. })));
         let failure = climb.judge(&ends, &run.outcome).map(|failure| format!("{}: {failure}", space.describe()));
-        // Exact polygons were requested for display, so the answer keeps them even if the path needs another space.
+        // Pictures and files should show exact polygons, so the answer keeps them even if the path needs another space.
         if level == 0 || !keeps_first {
             last = Some((run, space));
         }
@@ -159,7 +159,7 @@ where
     }
     let (run, space) = last.unwrap_or_else(|| unreachable!("the first level always has a space"));
     let why = || history.last().cloned().unwrap_or_default();
-    // Local minima of force fields remain on finer grids.
+    // Force fields still have local minima on finer grids.
     let has_minima = options.planner.field().is_some_and(|planner| matches!(planner.field, FieldChoice::Khatib(_)));
     let is_coarse = options.planner.cells().is_some() && history.len() == options.levels && !has_minima;
     let hint = if is_coarse && !sweeps_end { "; more --cells or --levels may find one" } else { "" };
@@ -186,12 +186,12 @@ struct Climb<'a> {
     metric: Metric,
     level: usize,
     stages: Stages,
-    /// The shortest certified path so far. Its lower bound holds on all levels.
+    /// The shortest certified path so far, with its bounds. The lower bound is valid on all levels.
     path: Option<BoundedPath>,
 }
 
 impl Climb<'_> {
-    /// Judges a level's outcome. Returns the reason, in words, for trying a finer level. `None` if there is no reason.
+    /// Judges a level's outcome. Returns the reason, in words, why a finer level must be tried, if there is one.
     fn judge(&mut self, ends: &Ends, outcome: &Proposal) -> Option<String> {
         let proposal = match outcome {
             Proposal::Found(path) => path,
@@ -201,7 +201,7 @@ impl Climb<'_> {
         match self.certify_proposal(ends, proposal) {
             Ok(path) => {
                 self.keep_if_shorter(path);
-                // Without a bound there is no reason to refine, so the message always has a number.
+                // Without a bound, no finer level is tried, so the message always has a number.
                 let excess = self.bound().map_or_else(String::new, |bound| percent(bound.gap()));
                 self.reason_to_refine(format!("the path of the planner is {excess} longer than the proven bound"))
             }
@@ -212,19 +212,19 @@ impl Climb<'_> {
         }
     }
 
-    /// Returns `failure` if a finer level must be tried: no path is known, or the gap of the best path is too large.
-    /// The largest gap is the requested one. If none was requested, it is [`WIDE_GAP`] before level
-    /// [`LAST_LEVEL_FOR_GAP`], and unlimited from there on.
+    /// Returns `failure` if a finer level must be tried: no path is known, or the gap of the best path exceeds the requested one.
+    /// If none was requested, [`WIDE_GAP`] is the limit on levels before [`LAST_LEVEL_FOR_GAP`], and there is no limit from there
+    /// on.
     fn reason_to_refine(&self, failure: String) -> Option<String> {
         let gap = self.options.planner.gap().or((self.level < LAST_LEVEL_FOR_GAP).then_some(WIDE_GAP));
-        // A search that does not optimise accepts this path.
+        // A search that does not minimise length accepts any path.
         let gap = gap.filter(|_| self.options.planner.optimizes());
         let wants_more = self.bound().zip(gap).is_some_and(|(bound, gap)| bound.gap() > gap);
         (self.path.is_none() || wants_more).then_some(failure)
     }
 
-    /// Certifies a proposed path. If the proposal begins or ends at a stand-in, the path is first completed to the true
-    /// start and goal. The direct motion is tried first, then the motion through the stand-in.
+    /// Certifies a proposed path. If it begins or ends at a stand-in, completes it to the true start and goal: first directly,
+    /// and if that fails, through the stand-in.
     fn certify_proposal(&mut self, ends: &Ends, proposal: &Path) -> Result<CertifiedPath, Rejection> {
         let clock = Instant::now();
         let judge = |path| certify(self.problem.scene(), path);
@@ -239,8 +239,8 @@ impl Climb<'_> {
         self.path.as_ref().and_then(|path| path.bound)
     }
 
-    /// Keeps a path if it is the shortest so far, with its bounds. If the method does not minimise length, or bounds
-    /// were not requested, keeps every path, without bounds.
+    /// Keeps a path, with its bounds, if it is the shortest so far. If the planner does not minimise length, or no bounds were
+    /// requested, keeps every path without bounds.
     fn keep_if_shorter(&mut self, certified: CertifiedPath) {
         if !self.options.bounded || !self.options.planner.method().optimizes() {
             self.path = Some(certified.into());
@@ -249,7 +249,7 @@ impl Climb<'_> {
         let clock = Instant::now();
         let (metric, gap) = (self.metric, self.options.planner.gap());
         let upper = metric.length(certified.path());
-        // The lower bound does not depend on the path, so it is computed once.
+        // The lower bound does not depend on the path, so it is computed only once.
         let best = self.bound();
         let found = best.map_or_else(
             || bound(self.problem, certified.path(), metric, gap.map_or(CLOSE_GAP, |gap| CLOSE_GAP.min(gap / 2.0))),
@@ -262,8 +262,8 @@ impl Climb<'_> {
     }
 }
 
-/// Returns the run whose path, completed to the true goal, is the shortest. A planner measures lengths to the stand-in
-/// of a goal. So if there are several goals and some have stand-ins, each goal is planned for separately.
+/// Returns the run whose path to the true goal is the shortest. A planner measures only the length to a goal's stand-in. So if
+/// there are several goals, some with stand-ins, each goal is planned for separately.
 fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -> Run {
     if ends.query.goals.pieces().len() < 2 || !ends.has_goal_stand_ins() {
         return query(&ends.query);
@@ -278,7 +278,7 @@ fn shortest_of_all(ends: &Ends, metric: Metric, query: impl Fn(&Query) -> Run) -
     shortest.unwrap_or_else(|| query(&ends.query))
 }
 
-/// Decides whether a path exists at all, without the planner's own space. `None` if the question stays undecided.
+/// Decides whether a path exists, without the planner's own space. `None` if the question stays undecided.
 fn decide_feasibility(
     problem: &MotionProblem,
     boxes: usize,

@@ -1,53 +1,49 @@
-//! The solver: it builds a space, plans a path and certifies it. If that fails, it refines the space and plans again.
-//! If no path is found, it looks for a proof that no path exists.
+//! The solver builds a space, plans a path and certifies it. If that fails, it refines the space and plans again. If it finds no
+//! path, it looks for a proof that none exists.
 //!
-//! Planners see approximations of the configuration space, so their paths are only proposals. Every path that this
-//! crate reports as found has passed [`cplan_judge::certify`]. Every answer reported as infeasible is proven.
+//! Planners see approximations of the configuration space, so their paths are only proposals. Every path that this crate returns
+//! has passed [`cplan_judge::certify`], and every answer *infeasible* is proven.
 //!
 //! # The ladder
 //!
 //! A rung of the ladder is a space:
 //! - Roadmaps use `cspace::regions` with a margin, which shrinks to a quarter on each rung.
-//! - Fields first use `cspace::outer_grid`, whose free cells are free throughout. Then they use
-//!   `cspace::grid_from_slices` with the same number of cells, which are free at their centres: passages look some
-//!   three cells wider, and the certificate judges the path. Then the number of cells along each axis is doubled.
+//! - Fields first use `cspace::outer_grid`, whose free cells are free throughout. The next rung is `cspace::grid_from_slices`
+//!   with the same number of cells, whose free cells are free at their centres: passages look some three cells wider, and the
+//!   certificate decides about the path. Then the number of cells along each axis doubles.
 //!
-//! The cells of fields are square in joint space unless their number is given, so that the equation is that of the
-//! configuration space (`rungs`).
+//! Unless their number is given, the cells of fields are square in joint space, so that the equation does not depend on the grid
+//! (`rungs`).
 //!
-//! A start or goal nearer to an obstacle than the margin is free, but not in such a space. For these, `admission` finds
-//! a certified straight step to a configuration that is free in the space. If the path can also be certified without
-//! this detour, it skips the configuration.
+//! A free start or goal may be nearer to an obstacle than the margin, and thus blocked in the space. Then `admission` finds a
+//! certified straight step to a configuration that is free in the space. The final path avoids this detour if it can be certified
+//! without it.
 //!
-//! The path that a planner proposes is certified. If that fails, the space is refined and the path planned again. After
-//! the first failure, and at the end, [`cplan_proofs`] looks for a proof that there is no path. If that search finds a
-//! path instead, which the planner's space does not show, the answer remains unknown and includes that path
-//! ([`Unknown::witness`]).
+//! After the first failure, and at the end, [`cplan_proofs`] looks for a proof that there is no path. This search may find a path
+//! that the planner's space does not show. Then the answer is still unknown, but includes the path ([`Unknown::witness`]).
 //!
 //! # Replays
 //!
-//! [`Replay`] shows a run again in phases, from its trace and from data that is recomputed only for the replay.
+//! [`Replay`] shows a run in phases, from its trace and from data that is computed only for the replay.
 //!
 //! # Planners without a space
 //!
-//! [`decide`], and the planner `first`, run that search alone, within one budget. Among thousands of pieces, they first
-//! try some of the pieces: if these block all paths, so do all pieces together. The planner `subdivision` is the search
-//! of boxes itself. It judges the scene, so it has no representation to build or to refine, and uses only the funnel
-//! path of `planner`.
+//! [`decide`] and the planner `first` run only the search for a path or a proof. If there are thousands of pieces, they first try
+//! some of them: if these block all paths, so do all pieces. The planner `subdivision` is the search of boxes. It works on the
+//! scene itself, so it has no space to build or to refine.
 //!
-//! The planner `shortest`, the default, runs the search that bounds the optimum twice:
+//! The planner `shortest`, the default, runs the search for a lower bound twice:
 //! - Slabs give a first path, whose length limits the search.
 //! - Among slightly grown obstacles, the shortest path keeps off the true ones and can be certified.
-//! - The same slices among the true obstacles give the bound.
+//! - Among the true obstacles, the same slices give the bound.
 //! - The remaining gap is spent on removing corners (`corners`), which makes motions faster.
 //!
-//! The C-obstacles of gantries are polygons. There, a visibility graph past slightly grown polygons gives the path, and
-//! one past slightly shrunk polygons the bound. That takes milliseconds where strips take seconds, as in a long spiral.
-//! For other arms, polygons and graphs are built only if the search fails: then the visibility graph answers for
-//! `shortest`.
+//! The C-obstacles of gantries are polygons. For gantries, a visibility graph past slightly grown polygons gives the path, and
+//! one past slightly shrunk polygons gives the bound. In a long spiral, for example, this takes milliseconds instead of seconds.
+//! For other arms, `shortest` builds a visibility graph only if its own search fails.
 //!
-//! The planner `visibility` itself climbs to finer margins until both ends of the interval meet. Without `--gap` it
-//! climbs two levels at most, and only if the interval is wider than 5 %.
+//! The planner `visibility` climbs to finer margins until the lower bound meets the path's length. Without `--gap`, it climbs at
+//! most two levels, and only if the gap exceeds 5 %.
 
 mod admission;
 mod answer;
@@ -98,14 +94,14 @@ pub enum Space {
     Regions(Box<Regions>),
     /// Cells of a grid.
     Grid(Box<Grid>),
-    /// No representation: subdivision works on the scene itself.
+    /// No space: subdivision works on the scene itself.
     Scene,
 }
 
 /// Time spent in each stage, over all attempts.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Stages {
-    /// Building the configuration space, and the planner's preparation that does not depend on start and goal.
+    /// Building the space, and the planner's preparation, except what depends on start and goal.
     pub build: Duration,
     /// Answering the query.
     pub query: Duration,

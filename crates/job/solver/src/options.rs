@@ -34,25 +34,25 @@ pub enum NamedJoints {
 pub struct Options {
     /// The planner with its own settings.
     pub planner: Planner,
-    /// Number of attempts (levels), from 1 to 12, each finer than the one before. With polygons, the margin shrinks to
-    /// a quarter. With cells, the first attempt uses cells that are free throughout; the next one uses the same number
-    /// of cells, with free centres. Then their number along each axis doubles. If cells are judged by their centres
-    /// from the first attempt on, the number doubles with each attempt.
+    /// Number of attempts (levels), from 1 to 12, each finer than the previous one. With polygons, the margin shrinks to a
+    /// quarter. With cells, the first attempt uses cells that are free throughout, and the second one cells with free centres;
+    /// then their number along each axis doubles, and so on. If all attempts judge cells by their centres, the number doubles
+    /// with each attempt.
     pub levels: usize,
     /// Number of boxes for a proof that there is no path, and for planning by subdivision.
     pub boxes: usize,
-    /// True if planners that minimise length compute a proven lower bound. If false, they aim at the gap without proof.
+    /// True if planners that minimise length compute a proven lower bound. If false, they aim at the gap but do not prove it.
     pub bounded: bool,
     /// Settings for driving along the path.
     pub drive: Drive,
-    /// Greatest jerk of each joint, rad/s3 or m/s3, which replaces the robot's own limit. `None` to keep the robot's
-    /// limits; in the array, `None` for a joint without a limit.
+    /// Greatest jerk of each joint, rad/s3 or m/s3, instead of the robot's limits; `None` in the array for a joint without a
+    /// limit. `None` keeps the robot's limits.
     pub jerk: Option<[Option<f64>; 2]>,
-    /// Joints that ROS 2 messages name.
+    /// Joints in ROS 2 messages.
     pub joints: NamedJoints,
     /// True if tables and messages include accelerations, so that controllers join points by quintics.
     pub accelerations: bool,
-    /// True if the JSON includes the time of each stage. If false, the same input gives the same bytes.
+    /// True if the JSON includes the time of each stage. If false, equal input gives equal bytes.
     pub timings: bool,
 }
 
@@ -80,15 +80,14 @@ impl From<Planner> for Options {
 }
 
 impl From<Method> for Options {
-    /// Returns the default options with this planner.
     fn from(method: Method) -> Self {
         Planner::named(method).into()
     }
 }
 
 impl Options {
-    /// Replaces the arm's jerk limits by the limits in these options. If the options or the arm ask for it, motions
-    /// must also respect the joints' efforts.
+    /// Replaces the arm's jerk limits by those in these options. Motions must also respect effort limits if these options or the
+    /// arm require it.
     pub fn override_limits(&self, arm: &mut Arm) {
         Joint::override_jerks(&mut arm.joints, self.jerk);
         if self.drive.torque || arm.dynamics.is_some_and(|dynamics| dynamics.limits) {
@@ -96,8 +95,8 @@ impl Options {
         }
     }
 
-    /// Describes the first option that is invalid, and names it. `None` if all are valid. `has_steps` is true if the
-    /// options are for a sequence of steps.
+    /// Names and describes the first invalid option. `None` if all are valid. `has_steps` is true if the options are for a task
+    /// with steps.
     pub fn error(&self, has_steps: bool) -> Option<String> {
         let Drive { period, blend, tip_speed, optimize: _, torque: _ } = self.drive;
         let jerks = self.jerk.into_iter().flatten().flatten();

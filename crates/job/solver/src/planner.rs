@@ -20,7 +20,7 @@ pub struct Planner {
 }
 
 impl Planner {
-    /// Returns the planner of that name with its defaults.
+    /// Returns the planner with its default settings.
     pub fn named(method: Method) -> Self {
         Self { method, settings: (method.descriptor().defaults)() }
     }
@@ -35,8 +35,7 @@ impl Planner {
         &self.settings
     }
 
-    /// Returns the same planner with one setting modified by `change`. Returns it unchanged if it does not read that
-    /// setting.
+    /// Changes one setting, if the planner reads it.
     #[must_use]
     pub fn with(mut self, setting: Setting, change: impl FnOnce(&mut Settings)) -> Self {
         if self.method.reads(setting) {
@@ -45,54 +44,49 @@ impl Planner {
         self
     }
 
-    /// Returns the same planner with this kind of path. Returns it unchanged if it does not read that setting.
+    /// Sets the kind of path, if the planner has several.
     #[must_use]
     pub fn with_path(self, kind: PathKind) -> Self {
         self.with(Setting::Path, |settings| settings.path = kind)
     }
 
-    /// Returns the same planner with this criterion for short paths. Returns it unchanged if it does not minimise
-    /// length.
+    /// Sets the criterion for short paths, if the planner minimises length.
     #[must_use]
     pub fn with_criterion(self, criterion: Criterion) -> Self {
         self.with(Setting::Criterion, |settings| settings.criterion = criterion)
     }
 
-    /// Returns the same planner with this gap, a share of the optimum. Returns it unchanged if it does not minimise
-    /// length.
+    /// Sets the gap, a share of the optimum, if the planner minimises length.
     #[must_use]
     pub fn with_gap(self, share: f64) -> Self {
         self.with(Setting::Gap, |settings| settings.gap = Some(share))
     }
 
-    /// Returns the same planner with this margin on the first level, a share of the arm's reach. Returns it unchanged
-    /// if it does not plan among polygons.
+    /// Sets the margin of the first level, a share of the arm's reach, if the planner plans among polygons.
     #[must_use]
     pub fn with_margin(self, share: f64) -> Self {
         self.with(Setting::Margin, |settings| settings.margin = share)
     }
 
-    /// Returns the same planner with this number of cells along each axis on the first level. Returns it unchanged if
-    /// it has no cells.
+    /// Sets the number of cells along each axis on the first level, if the planner has cells.
     #[must_use]
     pub fn with_cells(self, n: usize) -> Self {
         self.with_cell_counts(CellCounts::square(n))
     }
 
-    /// Returns the same planner with these numbers of cells along the axes on the first level. Returns it unchanged if
-    /// it has no cells.
+    /// Sets the numbers of cells along both axes on the first level, if the planner has cells.
     #[must_use]
     pub fn with_cell_counts(self, counts: CellCounts) -> Self {
         self.with(Setting::Cells, |settings| settings.cells = Some(counts))
     }
 
-    /// Returns the same planner with this search of its roadmap. Returns it unchanged if it has no roadmap.
+    /// Sets the search of the roadmap, if the planner has one.
     #[must_use]
     pub fn with_search(self, search: RoadmapSearch) -> Self {
         self.with(Setting::Search, |settings| settings.search = search)
     }
 
-    /// Returns the same planner with this method of deciding cells. Returns it unchanged if it has no cells.
+    /// Sets the test of cells, if the planner has cells.
     #[must_use]
     pub fn with_space(self, space: GridSpace) -> Self {
         self.with(Setting::Space, |settings| settings.space = space)
@@ -103,7 +97,7 @@ impl Planner {
         self.settings.path
     }
 
-    /// Returns true if the exact polygons of a gantry are requested, for files, pictures and the first attempt.
+    /// Returns true if files, pictures and the first attempt should have the exact polygons of a gantry.
     pub fn is_exact(&self) -> bool {
         self.settings.margin == 0.0
     }
@@ -113,7 +107,7 @@ impl Planner {
         self.settings.cells
     }
 
-    /// Returns which visibility graph the planner searches. `None` if it searches none.
+    /// Returns the kind of visibility graph that the planner searches. `None` if it searches none.
     pub fn graph(&self) -> Option<VisibilityGraph> {
         self.value_if_read(Setting::Graph, self.settings.graph)
     }
@@ -123,22 +117,22 @@ impl Planner {
         self.settings.criterion.metric(arm)
     }
 
-    /// Returns the requested gap. `None` if none was requested, or if the planner does not optimise.
+    /// Returns the requested gap. `None` if none was requested, or if the planner does not minimise length.
     pub fn gap(&self) -> Option<f64> {
         self.settings.gap
     }
 
-    /// Returns how the planner searches its roadmap. `None` if it has no roadmap.
+    /// Returns the search of the planner's roadmap. `None` if it has no roadmap.
     pub fn search(&self) -> Option<RoadmapSearch> {
         self.value_if_read(Setting::Search, self.settings.search)
     }
 
-    /// Returns true if the planner's search minimises length.
+    /// Returns true if the planner minimises length.
     pub fn optimizes(&self) -> bool {
         self.method.optimizes() && self.settings.search.order.is_optimal()
     }
 
-    /// Returns how the cells of the planner's grid are decided. `None` if it has no grid.
+    /// Returns the test of the cells of the planner's grid. `None` if it has no grid.
     pub fn space(&self) -> Option<GridSpace> {
         self.value_if_read(Setting::Space, self.settings.space)
     }

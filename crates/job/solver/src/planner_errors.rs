@@ -8,8 +8,8 @@ use cplan_planners::planner::{GridSearch, PathKind};
 use std::ops::RangeInclusive;
 
 impl Planner {
-    /// Reports the first preference that the planner's field needs and the world file lacks, with a hint. `None` if
-    /// none is missing.
+    /// Describes the first preference that the planner's field needs and the world file lacks, with a hint. `None` if none is
+    /// missing.
     pub fn missing_preference(&self, preferences: &[Preference]) -> Option<String> {
         let FieldChoice::Relaxed { equation, .. } = self.field()?.field else { return None };
         let name = match equation {
@@ -31,7 +31,7 @@ impl Planner {
         preferences.is_empty().then(needs)
     }
 
-    /// Describes the first invalid setting, and names it. `None` if all are valid.
+    /// Names and describes the first invalid setting. `None` if all are valid.
     pub(super) fn error(&self) -> Option<String> {
         if self.path_kind() == PathKind::Middles && !self.method().descriptor().paths.contains(&PathKind::Middles) {
             return Some(format!("path: middles needs the planner trapezoid, not {}", self.method()));
@@ -67,7 +67,7 @@ fn not_positive(name: &str, value: f64) -> Option<String> {
     (!value.is_finite() || value <= 0.0).then(|| format!("{name}: {value} must be finite and positive"))
 }
 
-/// Describes a number that lies outside its range. `None` if it lies within.
+/// Describes a number outside its range. `None` if it is within.
 pub(super) fn wrong_number(name: &str, n: usize, range: &RangeInclusive<usize>) -> Option<String> {
     (!range.contains(&n)).then(|| format!("{name}: {n} must be from {} to {}", range.start(), range.end()))
 }

@@ -1,11 +1,11 @@
-//! What the solver needs from a planner's representation of free space.
+//! The requirements of the solver on a planner's representation of free space.
 
 use super::Space;
 use cplan_model::space::Configuration;
 use cplan_planners::cspace::{Grid, Proves, Regions, ZonedGrid};
 
-/// A planner's representation of free space. It may refuse a start or goal that is free, because it is not exact. Then
-/// the search uses a *stand-in*: an admitted configuration nearby.
+/// A planner's representation of free space. It may not admit a free start or goal, because it is not exact. Then the search uses
+/// a *stand-in*: an admitted configuration nearby.
 pub(super) trait PlannerSpace {
     /// Returns true if a planner can begin or end at `q`.
     fn admits(&self, q: Configuration) -> bool;

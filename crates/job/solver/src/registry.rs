@@ -14,7 +14,7 @@ use cplan_roadmaps::{Prm, Triangles, Voronoi};
 use std::fmt;
 use std::str::FromStr;
 
-/// Everything that the rest of the program knows about a planner.
+/// All that the rest of the program needs to know about a planner.
 #[derive(Debug)]
 pub struct Descriptor {
     /// Name on the command line.
@@ -86,8 +86,7 @@ impl Method {
         self.descriptor().paths.contains(&PathKind::Own)
     }
 
-    /// Returns true if the planner minimises the length in some metric, and bounds its path's distance from the
-    /// optimum.
+    /// Returns true if the planner minimises length in some metric, and bounds its path's distance from the optimum.
     pub fn optimizes(self) -> bool {
         self.reads(Gap)
     }
@@ -110,7 +109,7 @@ impl FromStr for Method {
     }
 }
 
-/// Defines [`Method`] from the table: for each planner a variant, its line in the help, and its descriptor.
+/// Defines [`Method`] from the table: for each planner a variant, with its line in the help as documentation, and a descriptor.
 macro_rules! planners {
     ($($method:ident: $summary:literal { $($field:ident: $value:expr),+ $(,)? })+) => {
         /// A planner by name.
@@ -136,7 +135,7 @@ macro_rules! planners {
 const TAUT_PATHS: &[PathKind] = &[PathKind::Taut];
 const OWN_AND_TAUT_PATHS: &[PathKind] = &[PathKind::Own, PathKind::Taut];
 
-// In this order: the default, roadmap planners, field planners, planners that judge the scene itself.
+// Order: the default planner, roadmap planners, field planners, and planners that work on the scene itself.
 planners! {
     Shortest: "The shortest path by exact slices, with a proven bound on the optimum, or a proof of infeasibility" {
         name: "shortest",
@@ -175,7 +174,7 @@ planners! {
         family: Family::Roadmap,
         paths: OWN_AND_TAUT_PATHS,
         settings: &[Path, Margin, Search],
-        // Its own path keeps far from obstacles; a taut path does not.
+        // The planner's own path keeps far from obstacles; a taut path would not.
         defaults: || Settings { path: PathKind::Own, ..Settings::default() },
         solve: |request| on_polygons(request, |s, _| Voronoi { path: s.path, search: s.search }),
     }
@@ -194,7 +193,7 @@ planners! {
         family: Family::Field,
         paths: OWN_AND_TAUT_PATHS,
         settings: &[GridSearch, Ties, Forward, Neighborhood, Space, Path, Cells],
-        // With a given number, cells are not made square in joint space.
+        // A given number of cells prevents cells that are square in joint space.
         defaults: || Settings { cells: Some(CellCounts::square(DEFAULT_CELLS)), ..Settings::default() },
         solve: |request| on_cells(request, |s, _| Wavefront {
             search: s.grid_search,
@@ -209,7 +208,7 @@ planners! {
         family: Family::Field,
         paths: OWN_AND_TAUT_PATHS,
         settings: &[Field, Space, Path, Cells],
-        // The path of interest is the one that follows the field.
+        // The path that follows the field is the one of interest.
         defaults: || Settings { path: PathKind::Own, ..Settings::default() },
         solve: |request| match request.options.planner.field().copied() {
             None => on_cells(request, |s, _| Harmonic { path: s.path }),

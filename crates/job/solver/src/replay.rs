@@ -1,8 +1,8 @@
 //! Replays of a planner's run in phases, for animated pages and pictures.
 //!
-//! Most of the data is in the run's [`Trace`], in chronological order. A phase states which part of the trace is shown.
-//! Runs do not keep the final boxes of slabs, the values of a field between its sweeps, and the path before it was
-//! pulled taut. These are computed again for the replay, so plans without a replay cost nothing extra.
+//! Most of the data is in the run's [`Trace`], in chronological order, and a phase states which part of it to show. Runs do not
+//! keep the final boxes of slabs, the values of a field between sweeps, and the path before it was pulled taut. The replay
+//! computes these again, so plans without a replay have no extra cost.
 
 use super::admission::Ends;
 use super::bound::{Bound, motions};
@@ -20,12 +20,11 @@ use cplan_text::{counted, fixed, percent, round_down};
 /// The replay of a planner's run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Replay {
-    /// Phases in order. Each phase remains visible after it ends. Boxes and values that are computed only for the
-    /// replay do not.
+    /// Phases in order. A phase remains visible after its end, except boxes and values that are computed only for the replay.
     pub phases: Vec<Phase>,
 }
 
-/// A part of a run.
+/// A part of a replay.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Phase {
     /// Description of the phase, in one line.
@@ -34,13 +33,13 @@ pub struct Phase {
     pub shows: Shows,
     /// Number of events, at least one.
     pub events: usize,
-    /// Length of the certified path that is known at the end of the phase. `None` without a path, or if the phase does
-    /// not change it.
+    /// Length of the certified path that is known at the end of the phase. `None` if there is no path, or if its length has not
+    /// changed.
     pub length: Option<f64>,
 }
 
-/// The content of a phase, shown event by event. A variant without a field stands for the corresponding part of the
-/// drawn [`Trace`], in the trace's order.
+/// The content of a phase, shown event by event. A variant without a field stands for a part of the drawn [`Trace`], in the
+/// trace's order.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Shows {
     /// Configurations, in the order in which edges reach them.
@@ -56,7 +55,7 @@ pub enum Shows {
     Channel,
     /// The nodes that a search of a graph expanded.
     Expanded,
-    /// The first path that was certified, from which the search for a shorter one begins.
+    /// The first certified path, from which the search for a shorter one begins.
     First(Path),
     /// The rounds in which the lower bound on the length rises.
     Bound {
@@ -85,7 +84,7 @@ pub enum Shows {
     Proof,
 }
 
-/// Boxes that cover the configuration space: lower and upper corner of each, the largest first.
+/// Boxes that cover the configuration space, the largest first. Each has its lower and its upper corner.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct SlabBoxes {
     /// Boxes that are free throughout.
@@ -101,16 +100,16 @@ pub struct SlabBoxes {
 pub struct Sweeps {
     /// Number of cells of each frame along the two axes.
     pub cells: [usize; 2],
-    /// For each frame, the number of sweeps so far and the natural logarithms of the values, which are minus infinity
-    /// where the field is still zero.
+    /// For each frame, the number of sweeps so far, and the natural logarithms of the values; minus infinity if a value is still
+    /// zero.
     pub frames: Vec<(usize, Vec<f64>)>,
 }
 
-/// Largest number of slabs in a replay. With the limit on pairs of shapes, this takes some tens of milliseconds.
+/// Largest number of slabs in a replay. In scenes with few enough pairs of shapes, they take some tens of milliseconds.
 const MAX_REPLAY_SLABS: usize = 2_000;
 const MAX_REPLAY_PAIRS: usize = 4096;
 
-/// Smallest width of a box in a replay, as a share of the joint's range. Narrower boxes would be less than a pixel.
+/// Smallest width of a box in a replay, as a share of the joint's range. Narrower boxes would be thinner than a pixel.
 const MIN_BOX_WIDTH: f64 = 1.0 / 1024.0;
 
 /// Largest number of rounds of the bound in a replay.
@@ -144,8 +143,7 @@ impl Replay {
     }
 }
 
-/// Returns the bound on the length of a path. The bound ignores moving obstacles, so that it says little about a path
-/// among them.
+/// Returns the bound on the length of a path; `None` among moving obstacles, which the bound ignores.
 fn stated_bound(problem: &MotionProblem, found: &BoundedPath) -> Option<Bound> {
     found.bound.filter(|_| problem.scene().loose_obstacles().is_empty())
 }
@@ -251,7 +249,7 @@ impl Phases {
         }
     }
 
-    /// Adds the phase with the slabs that decide whether there is a path.
+    /// Adds the phase with the slabs that decide whether a path exists.
     fn of_slabs(&mut self, problem: &MotionProblem) {
         let scene = problem.scene();
         if scene.pairs().len() > MAX_REPLAY_PAIRS {
@@ -264,8 +262,7 @@ impl Phases {
             |(cell, _): &(cplan_judge::Cell, Occupancy)| [0, 1].map(|k| (cell.upper[k] - cell.lower[k]) / extents[k]);
         let mut seen: Vec<_> =
             all.into_iter().filter(|one| sides(one).iter().all(|&side| side >= MIN_BOX_WIDTH)).collect();
-        // Slabs of one level have equal widths. The sort is stable, so slabs of one level stay in order from left to
-        // right.
+        // Slabs of one level have the same width. The sort is stable, so they stay in order from left to right.
         seen.sort_by_key(|one| (1.0 / sides(one)[0]).log2().round() as i64);
         let mut found = SlabBoxes::default();
         for (cell, occupancy) in &seen {
@@ -280,7 +277,7 @@ impl Phases {
         self.add(seen.len(), caption, Shows::Slabs(found));
     }
 
-    /// Adds the phases in which the length is enclosed: the first path, then the rising lower bound.
+    /// Adds the phases that enclose the optimum: the first path, then the rising lower bound.
     fn of_bound(&mut self, problem: &MotionProblem, options: &Options, bound: &Bound) {
         let unit = problem.scene().arm().unit_in(bound.metric);
         if let Outcome::Found(first) = decide(problem, options.boxes.min(FIRST_BOXES)) {
@@ -294,12 +291,12 @@ impl Phases {
         }
         let mut rounds = bound_rounds(&motions(problem, bound.metric), bound.upper, bound.gap());
         if rounds.len() > MAX_ROUNDS {
-            // The first rounds improve the bound most.
+            // The first rounds improve the bound the most.
             let last = rounds.pop();
             rounds.truncate(MAX_ROUNDS - 1);
             rounds.extend(last);
         }
-        // This search may prove a little more than the stated bound, which began with other slices.
+        // This search began with other slices, so it may prove slightly more than the stated bound.
         rounds.iter_mut().for_each(|round| round.lower = round.lower.min(bound.lower));
         rounds.iter_mut().last().into_iter().for_each(|last| last.lower = bound.lower);
         let caption = format!(
@@ -316,7 +313,7 @@ impl Phases {
         self.add(found.frames.len(), caption, Shows::Sweeps(found));
     }
 
-    /// Adds the phases with the path as the planner found it, and with the final path.
+    /// Adds the phases with the path as the planner found it and with the final path.
     fn of_path<F>(&mut self, problem: &MotionProblem, options: &Options, answer: &Answer<F>, found: &BoundedPath) {
         let path = found.path();
         let own = (answer.path_kind == PathKind::Taut && answer.method.has_own_path())
@@ -340,8 +337,7 @@ impl Phases {
     }
 }
 
-/// Returns the path before it is pulled taut. To find it, plans again with the planner's own kind of path, in the space
-/// of the answer.
+/// Returns the path before it is pulled taut, by planning again with the planner's own kind of path in the space of the answer.
 fn own_path<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Option<Path> {
     let levels = answer.history.len() + 1;
     let planner = options.planner.with_path(PathKind::Own);
@@ -352,7 +348,7 @@ fn own_path<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -
     }
 }
 
-/// Relaxes the field once more and samples it between sweeps.
+/// Relaxes the field once more, and samples it between sweeps.
 fn sweeps<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> Option<Sweeps> {
     let planner = options.planner.field()?;
     let FieldChoice::Relaxed {
@@ -380,7 +376,7 @@ fn sweeps<F>(problem: &MotionProblem, options: &Options, answer: &Answer<F>) -> 
         let at = (0..cells[0]).flat_map(|i| (0..cells[1]).map(move |j| i * step[0] * shape[1] + j * step[1]));
         at.map(|cell| values[cell].max(0.0).ln()).collect::<Vec<f64>>()
     };
-    // The first sweeps change the most, so the distance between frames grows.
+    // The first sweeps change the most, so frames become rarer later.
     let wanted = |k: usize| (total as f64).powf(k as f64 / (FIELD_FRAMES - 1) as f64).round() as usize;
     let (mut frames, mut earlier, mut seen) = (Vec::new(), 0, 0);
     let watch = &mut |watched: cplan_fields::SweepSnapshot| {

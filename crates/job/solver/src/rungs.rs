@@ -1,4 +1,4 @@
-//! The representation of each level: successively finer approximations of one configuration space.
+//! The space of each level: successively finer approximations of a configuration space.
 
 use super::setting::DEFAULT_CELLS;
 use super::{CellCounts, GridSpace};
@@ -8,39 +8,38 @@ use cplan_planners::cspace::{
     traced_pairs,
 };
 
-/// Largest number of cells along an axis on levels after the first. With more than 2048 x 2048 cells, fields take
-/// minutes.
+/// Largest number of cells along an axis, except on the first level. With more, fields take minutes.
 const MAX_CELLS: usize = 2048;
 
-/// Largest number of collision checks of a sampled grid on levels after the first. They take some ten seconds. A level
-/// that needs more has no grid.
+/// Largest number of collision checks of a sampled grid, except on the first level. They take some ten seconds. A level that
+/// needs more has no grid.
 const MAX_CHECKS: usize = 1 << 30;
 
-/// If the reach is smaller than this fraction of a prismatic joint's stroke, the fraction replaces it. This is so for a
-/// gantry with a slender tool.
+/// For a gantry with a slender tool, the reach is small. If it is below this fraction of a prismatic joint's stroke, the fraction
+/// of the stroke replaces it.
 const STROKE_SHARE: f64 = 0.1;
 
-/// Number of whole turns of continuous joints, on either side of the start, that polygons cover.
+/// Number of whole turns of continuous joints that polygons cover on either side of the start.
 const TURNS_PER_SIDE: usize = 1;
 
-/// Largest number of pairs of shapes from which polygons are made on the first level without a larger margin. They take
-/// one or two seconds. With more pairs, [`MARGIN_INCREASE`] applies.
+/// Largest number of pairs of shapes from which polygons are made on the first level with the requested margin. They take one or
+/// two seconds. With more pairs, [`MARGIN_INCREASE`] applies.
 const MAX_FIRST_PAIRS: usize = 6144;
 
-/// Factor by which the margin grows while there are more than [`MAX_FIRST_PAIRS`] pairs, and how often it may grow. A
-/// greater margin merges shapes, so that fewer pairs remain.
+/// Factor by which the margin grows while there are more than [`MAX_FIRST_PAIRS`] pairs, and the greatest number of such
+/// increases. Greater margins merge shapes, which reduces the number of pairs.
 const MARGIN_INCREASE: (f64, usize) = (2.0, 6);
 
-/// Largest number of pairs of shapes from which polygons are made on levels after the first. A level with more has no
+/// Largest number of pairs of shapes from which polygons are made, except on the first level. A level with more pairs has no
 /// polygons.
 const MAX_PAIRS: usize = 16_384;
 
-/// Margin of the level after exact polygons, as a share of the arm's reach. Paths among exact polygons usually touch
-/// them and are refused. With this margin, paths are still within the usual gap (1e-4) of the shortest.
+/// Margin, as a share of the arm's reach, of the level after exact polygons. Paths among exact polygons usually touch them and
+/// are refused. With this margin, paths stay within the usual gap (1e-4) of the shortest one.
 const MARGIN_AFTER_EXACT: f64 = 4e-5;
 
-/// Returns the polygons of a level. If `first`, the first margin, is 0 and C-obstacles are polygons, the first level has
-/// them. All other polygons are grown. `None` if there is no finer level.
+/// Returns the polygons of a level. The first level has exact polygons if `first`, its margin, is 0 and C-obstacles are polygons.
+/// All other polygons are grown. `None` if there is no finer level.
 pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
     if first > 0.0 {
         return grown_polygons(problem, first, level);
@@ -51,8 +50,8 @@ pub(super) fn polygons(problem: &MotionProblem, first: f64, level: usize) -> Opt
     }
 }
 
-/// Returns polygons grown by the level's margin. `first`, the margin of level 0, is a share of the arm's extent. Each
-/// level has a quarter of the margin of the level before. `None` if there is no finer level.
+/// Returns polygons grown by the level's margin, a quarter of the margin of the level before. `first`, the margin of level 0, is
+/// a share of the arm's extent. `None` if there is no finer level.
 fn grown_polygons(problem: &MotionProblem, first: f64, level: usize) -> Option<Regions> {
     let scene = problem.scene();
     let few = |margin: f64, most: usize| scene.pairs().len() <= most || traced_pairs(scene, margin) <= most;
@@ -72,26 +71,26 @@ fn margin(problem: &MotionProblem, first: f64, level: usize) -> f64 {
     first * extent(problem.scene().arm()) * 0.25_f64.powi(level as i32)
 }
 
-/// Returns the arm's extent, metres, to which margins are relative: the arm's reach, or a share of a prismatic joint's
-/// stroke if that is greater.
+/// Returns the arm's extent in metres, to which margins are relative: the arm's reach, or a share of a prismatic joint's stroke
+/// if that is greater.
 pub(super) fn extent(arm: &Arm) -> f64 {
     let strokes = arm.joints.iter().filter(|joint| !joint.joint_type.is_revolute()).map(|joint| joint.range.extent());
     strokes.map(|stroke| STROKE_SHARE * stroke).fold(arm.reach(), f64::max)
 }
 
-/// Largest ratio of the two joints' ranges for which a field's cells are square. With a larger ratio, the axis with the
-/// smaller range would get too few square cells.
+/// Largest ratio of the joints' ranges for which a field's cells are square. With a larger ratio, the axis with the smaller range
+/// would have too few cells.
 const MAX_SQUARE_RATIO: f64 = 16.0;
 
 /// Returns the cells of a level. `None` if the level is too fine. `first` gives the numbers of cells on level 0.
 ///
-/// With [`GridSpace::Rows`], the number along each axis doubles with every second level. There are two levels of each
-/// size. On the first, a cell counts as free if all of it is free. On the second, it counts as free if its centre is,
-/// so passages look some three cells wider. The path is certified in either case. To show the same passage, cells that
-/// are free throughout would take sixteen times as long.
+/// With [`GridSpace::Rows`], there are two levels for each number of cells, which then doubles along each axis. On the first one,
+/// a cell is free if all of it is free. On the second one, it is free if its centre is, so passages look some three cells wider;
+/// to show the same passage, cells that are free throughout would take sixteen times as long. The path is certified in either
+/// case.
 ///
-/// If `first` is `None`, cells are square in joint space, where a radian is as long as a metre. Then a field's equation
-/// is that of the configuration space, and does not depend on the grid.
+/// If `first` is `None`, cells are square in joint space, where a radian is as long as a metre. Then a field's equation does not
+/// depend on the grid.
 pub(super) fn grid_cells(
     problem: &MotionProblem,
     space: GridSpace,
@@ -103,14 +102,14 @@ pub(super) fn grid_cells(
     Some(grid(problem, space, level, shape))
 }
 
-/// Returns the numbers of cells along the axes that make cells square. There are about `n * n` cells in total.
+/// Returns the numbers of cells along the axes, about `n * n` in total, that make cells square.
 fn square_in_joint_space(problem: &MotionProblem, n: f64) -> [usize; 2] {
     let [a, b] = problem.scene().arm().topology().ranges.map(|axis| axis.extent());
     let ratio = (a / b).clamp(1.0 / MAX_SQUARE_RATIO, MAX_SQUARE_RATIO).sqrt();
     [n * ratio, n / ratio].map(|cells| cells.round().max(1.0) as usize)
 }
 
-/// Returns the cells of a level, with the preferences of the workspace's zones.
+/// Returns the cells of a level with the workspace's preferences.
 pub(super) fn zoned_cells(
     problem: &MotionProblem,
     space: GridSpace,
@@ -120,8 +119,7 @@ pub(super) fn zoned_cells(
     grid_cells(problem, space, first, level).map(|grid| ZonedGrid::new(grid, problem.scene()))
 }
 
-/// Returns the numbers of cells along the axes on a level; `first` gives those of level 0. `None` if the level is too
-/// fine.
+/// Returns the numbers of cells along the axes on a level. `first` has those of level 0. `None` if the level is too fine.
 fn finer(problem: &MotionProblem, space: GridSpace, CellCounts(first): CellCounts, level: usize) -> Option<[usize; 2]> {
     let (finer, checks) = match space {
         GridSpace::Rows => (level / 2, 0),

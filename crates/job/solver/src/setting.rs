@@ -1,4 +1,4 @@
-//! The settings of planners. Each planner reads some of them, as its descriptor says.
+//! The settings of planners. The descriptor of a planner lists those that it reads.
 
 use super::{CellCounts, GridSpace};
 use cplan_fields::FieldPlanner;
@@ -27,18 +27,18 @@ pub const ALLOWED_SAMPLES: RangeInclusive<usize> = 1..=100_000;
 /// Allowed numbers of neighbours to which each sample is connected.
 pub const ALLOWED_NEIGHBORS: RangeInclusive<usize> = 1..=1000;
 
-/// Definition of the length that planners minimise.
+/// The length that planners minimise.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Criterion {
-    /// Square root of the sum of squares. Radians and metres are added as numbers.
+    /// Square root of the sum of squares; a radian counts like a metre.
     #[default]
     Euclidean,
-    /// Square root of the sum of squares after multiplying the joints' values by these weights, both positive.
+    /// Square root of the sum of squares of the joints' values, multiplied by these positive weights.
     Weighted([f64; 2]),
-    /// Travel time in seconds, with each joint, and the elbow's motor on the base, at its top speed.
+    /// Travel time in seconds, if each joint, and the elbow's motor on the base, moves at top speed.
     Time,
-    /// Square root of the sum of squares of the angles by which both motors turn, without their gears.
+    /// Square root of the sum of squares of the angles by which both motors turn, before gears.
     Motor,
 }
 
@@ -49,7 +49,7 @@ impl Criterion {
             Criterion::Euclidean => Metric::Euclidean,
             Criterion::Weighted(weights) => Metric::Weighted { weights },
             Criterion::Time => arm.time_metric(),
-            // Motors that are not known count as direct ones.
+            // Unknown motors count as direct drives.
             Criterion::Motor => Metric::Motor { ratio: arm.motors.map_or(0.0, |motors| motors.ratio) },
         }
     }
@@ -65,7 +65,7 @@ macro_rules! settings {
             $($(#[$doc])+ $setting),+
         }
 
-        /// Values of all settings. Settings that a planner does not read have their defaults.
+        /// Values of all settings. Those that a planner does not read have their defaults.
         #[derive(Debug, Clone, Copy, PartialEq)]
         pub struct Settings {
             $($(#[$doc])+ pub $field: $kind),+
@@ -106,11 +106,10 @@ macro_rules! settings {
 }
 
 settings! {
-    /// Definition of the length that the planner minimises.
+    /// The length that the planner minimises.
     Criterion, criterion: Criterion = Criterion::Euclidean, "criterion";
-    /// Largest gap: the path is refined until it is proven to be at most this share longer than the optimum. A larger
-    /// gap permits faster motions. With `None`, the planner `shortest` uses 1e-4, and the planner `visibility` accepts
-    /// the gap that its first margin gives.
+    /// Largest gap: the path is refined until it is proven to be at most this share longer than the optimum. A larger gap permits
+    /// faster motions. With `None`, the planner `shortest` uses 1e-4, and `visibility` accepts the gap of its first margin.
     Gap, gap: Option<f64> = None, "gap";
     /// Margin by which polygonal obstacles are grown on the first level, as a share of the arm's reach. Each finer
     /// level has a quarter of the margin before it. With 0, the first level has the exact polygons of a gantry. If a
@@ -136,11 +135,11 @@ settings! {
     Forward, forward: bool = false, "forward";
     /// Neighbours that a move on a grid can lead to.
     Neighborhood, neighborhood: waves::Neighborhood = waves::Neighborhood::default(), "neighborhood";
-    /// Method that decides the cells of a grid.
+    /// Test of the cells of a grid.
     Space, space: GridSpace = GridSpace::default(), "space";
     /// Numbers of cells along the axes on the first level; finer levels double them. With `None`, the first level has
     /// about 256 x 256 cells, which are square in joint space.
     Cells, cells: Option<CellCounts> = None, "cells";
-    /// The field that replaces the harmonic one. [`Settings::path`] applies to its path.
+    /// The field that replaces the harmonic one. [`Settings::path`] also applies to it.
     Field, field: Option<FieldPlanner> = None, "field";
 }

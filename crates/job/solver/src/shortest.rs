@@ -1,10 +1,10 @@
 //! The planner `shortest`: an approximately shortest path, with a bound on its distance from the optimum.
 //!
-//! Slabs decide whether there is a path. The first path limits the search. The search that bounds the optimum from
-//! below is run among slightly grown obstacles, so its path keeps off the true ones. Then it is run among the true ones
-//! with the same slices, for the bound. The remaining gap is spent on removing corners, and the result is certified.
+//! Slabs decide whether there is a path, and the first path limits the search for a shorter one. The search for a lower bound
+//! runs twice: among slightly grown obstacles, so that its path keeps off the true ones, and with the same slices among the true
+//! ones for the bound. The remaining gap allows corners to be removed. The result is certified.
 //!
-//! Polygons, graphs and grids are built only if that fails, or for gantries, whose C-obstacles are polygons. There, one
+//! Polygons and visibility graphs are used only if this fails, or for gantries, whose C-obstacles are polygons. For these, one
 //! visibility graph gives the path and another one the bound.
 
 use super::bound::{Bound, MAX_UNITED_PAIRS, lower_bound, motions};
@@ -20,29 +20,27 @@ use cplan_planners::planner::{Size, Trace};
 use cplan_proofs::{MotionQuery, ProposedPath, RefusalReason, short_motion};
 use std::time::Duration;
 
-/// Extra clearances to try, in this order, as fractions of the arm's reach times the gap.
+/// Extra clearances in the order of the attempts, as fractions of the arm's reach times the gap.
 const CLEARANCE_FRACTIONS: [f64; 4] = [0.25, 0.06, 0.015, 0.004];
 
-/// Largest extra clearance, as a fraction of the arm's reach, for any gap.
+/// Upper limit of the extra clearance, as a fraction of the arm's reach.
 const MAX_EXTRA_CLEARANCE: f64 = 0.01;
 
-/// Largest number of pairs of shapes with which all extra clearances are tried. With more pairs, only the first extra
-/// clearance is tried.
+/// Largest number of pairs of shapes with which all extra clearances are tried. With more, only the first one is tried.
 const MAX_PAIRS_FOR_RETRIES: usize = 1000;
 
-/// Largest number of pairs of shapes with which slices look for a shorter path. With more pairs, a visibility graph
-/// does.
+/// Largest number of pairs of shapes with which slices look for a shorter path. With more, a visibility graph does.
 const MAX_PAIRS: usize = 20_000;
 
-/// Fraction of the requested gap that the lower bound may use up: it is refined until it is this close to the path's
-/// length. The rest allows corners to be removed.
+/// The lower bound is refined until it is within this fraction of the requested gap. The rest of the gap allows corners to be
+/// removed.
 const BOUND_FRACTION: f64 = 0.5;
 
 /// Fraction of the remaining gap by which the path may become longer when corners are removed.
 const SLACK_FRACTION: f64 = 0.9;
 
-/// Answers a request with an approximately shortest path. If slabs do not decide whether there is a path, or if the
-/// path is not proven to be within the gap, a visibility graph plans as well, and the shorter path is the answer.
+/// Answers a request with an approximately shortest path. If slabs do not decide whether there is a path, or the path is not
+/// proven to be within the gap, a visibility graph plans as well. The shorter path is the answer.
 pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let metric = options.planner.metric(problem.scene().arm());
     let clock = Instant::now();
@@ -58,7 +56,7 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let mut by_graph = || by_visibility(Request { problem, options, progress });
     let (own, by_graph) = match first {
         Outcome::Infeasible(_) => return answer(Method::Shortest, first, stages),
-        // Polygons unite many pieces, so with this many pieces the visibility graph is the faster method.
+        // Polygons unite pieces, so the visibility graph is faster if there are this many.
         Outcome::Found(_) if problem.scene().pairs().len() > MAX_PAIRS => {
             let by_graph = by_graph();
             let own = answer(Method::Shortest, first, stages);
@@ -90,9 +88,9 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     best
 }
 
-/// Limit on the margin by which a gantry's polygons are grown at first. The margin is a fraction of the arm's reach,
-/// and the limit on it is this multiple of the gap. With a greater margin, paths are farther from corners, which makes
-/// motions faster. If the margin is too large for the gap, it is quartered.
+/// The first margin by which a gantry's polygons are grown is at most this multiple of the gap, as a fraction of the arm's reach.
+/// A greater margin keeps paths farther from corners, which makes motions faster. If the margin is too large for the gap, it is
+/// quartered.
 const MARGIN_FRACTION: f64 = 0.4;
 
 /// Answers for a gantry, whose C-obstacles are polygons: finds the shortest path among slightly grown polygons. Returns
@@ -118,7 +116,6 @@ fn among_polygons(problem: &MotionProblem, options: &Options, stages: Stages) ->
     Some(answer)
 }
 
-/// Returns true if the answer needs no improvement.
 fn meets_gap(answer: &Answer, options: &Options) -> bool {
     !options.bounded || answer.bound().is_some_and(|bound| bound.gap() <= options.planner.gap().unwrap_or(CLOSE_GAP))
 }
@@ -139,10 +136,10 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
     let clock = Instant::now();
     let (mut upper, mut path, mut free) = (metric.length(first.path()), first, Vec::new());
     if path.path().waypoints().len() == 2 {
-        // A straight path can seldom be made shorter.
+        // A straight path can seldom be shortened.
         bounding.bound(upper, &[]);
     }
-    // Among thousands of pieces an attempt may take a second.
+    // With thousands of pieces, an attempt may take a second.
     let attempts = if scene.pairs().len() <= MAX_PAIRS_FOR_RETRIES { CLEARANCE_FRACTIONS.len() } else { 1 };
     for share in &CLEARANCE_FRACTIONS[..attempts] {
         if bounding.is_close(upper) {
@@ -153,7 +150,7 @@ fn shorter(problem: &MotionProblem, options: &Options, first: CertifiedPath, mut
         let judge = |ProposedPath { path: proposal, slices, is_shortest }: ProposedPath| {
             let length = metric.length(&proposal);
             let certificate = || certify(scene, proposal.clone()).map_err(RefusalReason::By);
-            // The first proposed path is usually good, and then only the one with fewer corners needs a certificate.
+            // The first proposal is usually good. Then only the path with fewer corners needs a certificate.
             tries += 1;
             let certified = if tries > 1 { Some(certificate()?) } else { None };
             bounding.bound(length, &slices);
@@ -198,19 +195,19 @@ struct PathBounding<'a> {
     motions: MotionQuery<'a>,
     /// The gap to reach.
     gap: f64,
-    /// True if the options request a bound. If false, the lower bound stays 0.
+    /// True if a bound is requested. If false, the lower bound stays 0.
     is_asked: bool,
-    /// Lower bound on the lengths of all motions.
+    /// Lower bound on the lengths of all motions from start to goals.
     lower: f64,
-    /// Length of the path for which the bound was last computed.
+    /// Length of the path up to which the bound was last computed.
     bounded_length: f64,
     /// Time spent on bounds.
     time_spent: Duration,
 }
 
 impl PathBounding<'_> {
-    /// Improves the lower bound, up to the length `upper` of a path. Does nothing if that path is already known to be
-    /// within the gap, or if the bound was last computed for the same length.
+    /// Improves the lower bound up to `upper`, the length of a path. Does nothing if the path is known to be within the gap, or
+    /// if this length is the same as last time.
     fn bound(&mut self, upper: f64, slices: &[f64]) {
         if self.is_asked && upper != self.bounded_length && !self.is_close(upper) {
             let clock = Instant::now();
@@ -225,14 +222,14 @@ impl PathBounding<'_> {
         Bound { metric: self.motions.metric, lower: self.lower, upper }.gap() <= self.gap
     }
 
-    /// Returns by how much a path of length `upper` may become longer when corners are removed.
+    /// Returns by how much a path of length `upper` may grow when corners are removed.
     fn length_allowance(&self, upper: f64) -> f64 {
         length_allowance(upper, self.is_asked.then_some(self.lower), self.gap)
     }
 }
 
-/// Returns by how much a path of length `upper` may become longer when corners are removed. Without a lower bound, this
-/// is a share of the requested gap.
+/// Returns by how much a path of length `upper` may grow when corners are removed. Without a lower bound, it is a share of the
+/// requested gap.
 fn length_allowance(upper: f64, lower: Option<f64>, gap: f64) -> f64 {
     SLACK_FRACTION * lower.map_or(gap / 2.0 * upper, |lower| lower * (1.0 + gap) - upper)
 }

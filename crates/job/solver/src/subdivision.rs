@@ -10,10 +10,9 @@ use cplan_model::{MotionProblem, Outcome};
 use cplan_planners::planner::{PathKind, Proposal, Run, Size, Trace};
 use cplan_proofs::{Channel, Connectivity, Exploration, Occupancy, explore};
 
-/// Answers a request by [`explore`]: with a path, with a proof, or with neither if
-/// [`Options::boxes`](super::Options::boxes) boxes do not decide. The path leads through free boxes. It is pulled taut,
-/// unless the path through the middles of the portals is requested. There is only one attempt, since the search itself
-/// refines boxes where needed.
+/// Answers a request by [`explore`]: with a path or a proof, or with neither if [`Options::boxes`](super::Options::boxes) boxes
+/// do not suffice. The path leads through free boxes. It is pulled taut, unless the path through the middles of portals is
+/// requested. There is a single attempt, because the search itself refines boxes.
 pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     let scene = problem.scene();
     let clearance = scene.workspace().clearance;
@@ -65,8 +64,8 @@ pub(super) fn solve(Request { problem, options, progress }: Request) -> Answer {
     }
 }
 
-/// Certifies the shortest path through the channel. That path touches the sides of boxes, so rounding may prevent its
-/// certification. In that case, certifies the path through the middles of the portals.
+/// Certifies the shortest path through the channel. It touches the sides of boxes, so rounding may prevent this. Then certifies
+/// the path through the middles of the portals.
 pub(super) fn certify_shortest_in_channel(
     problem: &MotionProblem,
     channel: &Channel,
@@ -74,7 +73,6 @@ pub(super) fn certify_shortest_in_channel(
     certify(problem.scene(), taut(channel)).or_else(|_| certify(problem.scene(), channel.path()))
 }
 
-/// Returns the channel's shortest path.
 pub(super) fn taut(channel: &Channel) -> Path {
     let portal = |&[left, right]: &[Configuration; 2]| Portal { left, right };
     let portals: Vec<Portal> = channel.portals().iter().map(portal).collect();

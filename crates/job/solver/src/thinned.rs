@@ -1,4 +1,4 @@
-//! Problems with fewer pieces of obstacles. If there is no path past fewer pieces, there is none past all pieces.
+//! Problems with fewer pieces of obstacles. If fewer pieces block all paths, so do all pieces.
 
 use cplan_geometry::{Convex, Point};
 use cplan_model::{MotionProblem, Obstacle, Pair};
@@ -8,17 +8,15 @@ use std::collections::HashMap;
 pub(super) struct ThinnedProblem {
     /// The problem with the remaining pieces.
     pub problem: MotionProblem,
-    /// For each obstacle, the original indices of its remaining pieces, and the original number of pieces.
+    /// For each obstacle, the original indices of the remaining pieces, and the original number of pieces.
     kept: Vec<(Vec<usize>, usize)>,
 }
 
 impl ThinnedProblem {
-    /// Keeps one piece of each group of similar pieces: the one with the greatest depth. Two pieces are similar if
-    /// their bounding boxes are equal after rounding to a lattice with this spacing, metres, and if they lie along the
-    /// same diagonal.
+    /// Keeps the piece with the greatest depth of each group of similar pieces. Pieces are similar if they lie along the same
+    /// diagonal, and if their bounding boxes are equal after rounding to a lattice with this spacing, metres.
     ///
-    /// The omitted pieces lie near remaining ones. If the remaining pieces block all paths, then so do all pieces
-    /// together, because more obstacles block more. Takes `O(n)` for `n` pieces.
+    /// Omitted pieces lie near remaining ones. If the remaining pieces block all paths, so do all pieces. `O(n)` for `n` pieces.
     pub fn new(problem: &MotionProblem, lattice: f64) -> Self {
         let kept: Vec<(Vec<usize>, usize)> = problem
             .scene()
@@ -36,12 +34,12 @@ impl ThinnedProblem {
         Self { problem: MotionProblem::trusted(scene, problem.start(), problem.goals().clone()), kept }
     }
 
-    /// Returns the pair of the original scene for a pair of the scene with fewer pieces.
+    /// Returns the original scene's pair for a pair of the scene with fewer pieces.
     pub fn original_pair(&self, pair: Pair) -> Pair {
         // Links of the robot keep all their pieces.
         let Some((kept, all)) = self.kept.get(pair.obstacle) else { return pair };
-        // For a payload that stays level, more shapes are derived from the pieces. They are numbered after the pieces,
-        // one or several times in the same order.
+        // If a payload stays level, more shapes are derived from the pieces. Their numbers follow those of the pieces, once or
+        // several times in the same order.
         Pair { piece: pair.piece / kept.len() * all + kept[pair.piece % kept.len()], ..pair }
     }
 }

@@ -1,4 +1,4 @@
-//! Colours, and the colours of obstacles, paths and values, which colour-blind readers can tell apart.
+//! Colours of obstacles, paths and values, which colour-blind readers can tell apart.
 
 use super::WHITE;
 use serde::{Serialize, Serializer};
@@ -24,11 +24,11 @@ impl Rgb {
         self.mixed(Rgb(0, 0, 0), part)
     }
 
-    /// Returns the colour of the same hue and saturation (HSL) whose lightness is one minus that of this colour.
+    /// Returns the colour of the same hue and saturation (HSL) with the opposite lightness, one minus that of this colour.
     pub fn with_reversed_lightness(self) -> Rgb {
         let Rgb(r, g, b) = self;
-        // The lightness is half the sum of the least and the greatest channel; adding a constant to all channels keeps
-        // hue and chroma.
+        // Lightness is half the sum of the least and the greatest channel. Adding a constant to all channels keeps hue and
+        // chroma.
         let shift = 255 - i16::from(r.max(g).max(b)) - i16::from(r.min(g).min(b));
         let shifted = |channel: u8| (i16::from(channel) + shift).clamp(0, 255) as u8;
         Rgb(shifted(r), shifted(g), shifted(b))
@@ -65,8 +65,8 @@ pub fn recolored(svg: &str, mut replaced: impl FnMut(Rgb) -> String) -> String {
     text
 }
 
-/// Colours of obstacles: Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021), ordered so that
-/// neighbours in the list differ strongly.
+/// Colours of obstacles: Paul Tol's scheme "muted" (Technical Note SRON/EPS/TN/09-002, 2021). Neighbours in the list differ
+/// strongly.
 const OBSTACLE_COLORS: [Rgb; 9] = [
     Rgb(0x88, 0xcc, 0xee),
     Rgb(0xcc, 0x66, 0x77),
@@ -79,8 +79,8 @@ const OBSTACLE_COLORS: [Rgb; 9] = [
     Rgb(0x11, 0x77, 0x33),
 ];
 
-/// Returns the colour of the obstacle with this index. There are nine hues. After nine obstacles the hues repeat,
-/// alternately paler and deeper, so that the first 63 obstacles have different colours.
+/// Returns the colour of the obstacle with this index. Nine hues repeat, alternately paler and deeper, so that the first 63
+/// obstacles have different colours.
 pub fn obstacle(index: usize) -> Rgb {
     let hue = OBSTACLE_COLORS[index % OBSTACLE_COLORS.len()];
     match index / OBSTACLE_COLORS.len() % 7 {
@@ -104,16 +104,15 @@ pub const PATH_COLORS: [(Rgb, Rgb); 6] = [
     (Rgb(0x2b, 0x90, 0xc9), Rgb(0x8f, 0xd3, 0xff)),
 ];
 
-/// Returns the colour and the dashes of path `index` of a comparison: the strong half of Okabe and Ito's scheme (2008).
-/// Dashes distinguish paths that lie on top of each other. When the colours repeat, the dashes change, so that the
-/// first 36 paths differ.
+/// Returns colour and dashes of path `index` of a comparison. The colours are the strong half of Okabe and Ito's scheme (2008).
+/// Dashes distinguish paths on top of each other; they change when the colours repeat, so that the first 36 paths differ.
 pub fn path(index: usize) -> (Rgb, &'static [f64]) {
     const PATH_DASHES: [&[f64]; 6] = [&[], &[9.0, 4.0], &[3.0, 3.0], &[10.0, 3.0, 2.0, 3.0], &[5.0, 5.0], &[14.0, 4.0]];
     (PATH_COLORS[index % PATH_COLORS.len()].0, PATH_DASHES[(index + index / PATH_COLORS.len()) % PATH_DASHES.len()])
 }
 
-/// Colours of the scale of values, evenly spaced from light to dark: seaborn's "mako" without its darkest third, reversed,
-/// so that a dark path stays legible on it. Pages get them from here.
+/// Colours of the scale of values, evenly spaced from light to dark: seaborn's "mako", reversed, without its darkest third, so
+/// that a dark path stays legible on it. Pages use the same colours.
 pub const SCALE_STOPS: [Rgb; 8] = [
     Rgb(0xde, 0xf5, 0xe5),
     Rgb(0xa8, 0xe1, 0xbc),
@@ -155,8 +154,7 @@ mod tests {
         assert_eq!(obstacle(63), obstacle(0));
     }
 
-    /// Compares obstacles with the paler colours of configuration spaces. One obstacle once had nearly the colour of
-    /// the channel.
+    /// Compares obstacles with the paler colours in configuration spaces. Once, an obstacle had almost the colour of the channel.
     #[test]
     fn no_obstacle_has_the_colour_of_the_channel() {
         for index in 0..63 {

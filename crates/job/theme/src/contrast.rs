@@ -2,7 +2,7 @@
 
 use crate::Rgb;
 
-/// Returns the relative luminance (WCAG) of a colour. It does not depend on the code that mixes colours.
+/// Returns the relative luminance (WCAG) of a colour, computed independently of the code that mixes colours.
 pub fn luminance(c: Rgb) -> f64 {
     let linear = |v: u8| {
         let v = f64::from(v) / 255.0;

@@ -1,6 +1,6 @@
-//! The design of all pages and pictures: colours by role, each for a light and a dark background, and sizes of type and
-//! spacing. Pages have it as a style sheet ([`css`]), pictures as constants. All have the font Inter: pages contain it, and so does
-//! the program for pixels.
+//! The design of all pages and pictures: colours by role, for a light and a dark background, and sizes of type and spacing. For
+//! pages it is a style sheet ([`css`]), for pictures constants. The font is Inter, which is part of every page and, for pictures
+//! in pixels, of the program.
 
 mod color;
 #[cfg(test)]
@@ -14,16 +14,16 @@ pub use roles::*;
 
 use cplan_text::base64;
 
-/// Fonts of pictures: the built-in one, and others for readers of SVG files who lack it.
+/// Fonts of pictures: the built-in one, and substitutes for readers of SVG files without it.
 pub const PICTURE_FONTS: &str = "Inter, 'DejaVu Sans', Helvetica, Arial, sans-serif";
 
-/// The built-in font for the pixels of pictures: Inter Regular with Latin, Greek and Cyrillic letters and signs.
+/// The built-in font of pictures in pixels: Inter Regular with Latin, Greek and Cyrillic letters and signs.
 pub const PICTURE_FONT: &[u8] = include_bytes!("../fonts/inter-regular.ttf");
 
 /// Inter SemiBold with the same letters.
 pub const BOLD_PICTURE_FONT: &[u8] = include_bytes!("../fonts/inter-semibold.ttf");
 
-/// The built-in font for pages, each for a range of weights: Latin letters and the signs of pages.
+/// The built-in fonts of pages, each for a range of weights. They have Latin letters and the signs that pages use.
 const PAGE_FONTS: [(&str, &[u8]); 2] = [
     ("100 500", include_bytes!("../fonts/inter-regular.woff2")),
     ("501 900", include_bytes!("../fonts/inter-semibold.woff2")),
@@ -32,8 +32,8 @@ const PAGE_FONTS: [(&str, &[u8]); 2] = [
 /// Sizes of type, spacing and corners, which are the same for both backgrounds.
 const SIZES: &str = include_str!("tokens.css");
 
-/// Returns the style sheet that all pages begin with: the variables of `tokens.css`, and one variable `--NAME` for each
-/// role, `--path-0` to `--path-5`, and one for each colour of planners, light or dark as the reader's system asks.
+/// Returns the style sheet with which all pages begin: the variables of `tokens.css`, a variable `--NAME` for each role,
+/// `--path-0` to `--path-5`, and one for each colour of planners. Colours are light or dark, according to the reader's system.
 pub fn css() -> String {
     let variables = |is_dark: bool| -> String {
         let roles = ROLES.iter().map(|role| (role.name.to_owned(), role.light, role.dark));

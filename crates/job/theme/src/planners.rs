@@ -1,4 +1,4 @@
-//! Colours and dashes of planners in comparisons: one hue for each family of planners, with shades of different lightness.
+//! Colours and dashes of planners in comparisons: a hue for each family of planners, in several shades.
 
 use super::Rgb;
 
@@ -20,7 +20,7 @@ impl PlannerFamily {
     pub const ALL: [PlannerFamily; 4] =
         [PlannerFamily::Roadmap, PlannerFamily::Field, PlannerFamily::Exact, PlannerFamily::Other];
 
-    /// Returns the word with which the names of this family's variables in style sheets begin.
+    /// Returns the first word of this family's variables in style sheets.
     pub fn name(self) -> &'static str {
         match self {
             PlannerFamily::Roadmap => "roadmap",
@@ -68,8 +68,7 @@ impl PlannerFamily {
 /// Number of shades of each family. No family has more planners.
 const SHADE_COUNT: usize = 5;
 
-/// Lengths of dashes and gaps, in pixels. Dashes distinguish the planners of a family, and paths that lie on top of each
-/// other.
+/// Lengths of dashes and gaps, in pixels. They distinguish the planners of a family, and paths on top of each other.
 const DASHES: [&[f64]; SHADE_COUNT] = [&[], &[9.0, 4.0], &[3.0, 3.0], &[10.0, 3.0, 2.0, 3.0], &[14.0, 4.0]];
 
 /// The line of a planner in pictures and charts.
@@ -84,8 +83,8 @@ pub struct PlannerPen {
 }
 
 impl PlannerPen {
-    /// Returns the pen of the planner with this index within its family. When the shades repeat, the dashes change, so
-    /// that the first 25 planners of a family differ.
+    /// Returns the pen of the planner with this index within its family. When the shades repeat, the dashes change, so that the
+    /// first 25 planners of a family differ.
     pub fn new(family: PlannerFamily, index: usize) -> Self {
         Self { family, shade: index % SHADE_COUNT, dash: DASHES[(index + index / SHADE_COUNT) % DASHES.len()] }
     }
@@ -141,7 +140,7 @@ mod tests {
         }
     }
 
-    /// Compares hues by the order of the channels, which all shades of a hue share.
+    /// Compares hues by the order of the channels, which is the same for all shades of a hue.
     #[test]
     fn each_family_has_its_own_hue() {
         for pen in PlannerPen::all() {

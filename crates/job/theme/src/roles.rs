@@ -1,4 +1,4 @@
-//! Colours by role: what they mean, for a light and a dark background.
+//! Colours by role, for a light and a dark background.
 
 use super::{PATH_COLORS, PlannerPen, Rgb};
 
@@ -39,7 +39,7 @@ pub const INFEASIBLE: Rgb = Rgb(0xc2, 0x2e, 0x2e);
 pub const PROOF: Rgb = Rgb(0xd9, 0x5f, 0x02);
 /// Boxes of free configurations.
 pub const FREE: Rgb = Rgb(0xd3, 0xee, 0xda);
-/// Undecided boxes: grey, which no obstacle is.
+/// Undecided boxes: grey, unlike any obstacle.
 pub const UNDECIDED: Rgb = Rgb(0xae, 0xb3, 0xbb);
 /// Edges of roadmaps, sides of cells.
 pub const EDGE: Rgb = Rgb(0x7d, 0x8f, 0xa6);
@@ -55,14 +55,14 @@ pub const PREFERRED: Rgb = Rgb(0x2b, 0x7a, 0x78);
 pub const REACHED: Rgb = Rgb(0xb8, 0xdc, 0xcb);
 /// Places that the tip can reach with several IK solutions.
 pub const REACHED_TWICE: Rgb = Rgb(0x4f, 0x9f, 0x83);
-/// Places at which the arm would be free, but that it provably cannot reach.
+/// Places where the arm would be free, but which it provably cannot reach.
 pub const UNREACHABLE: Rgb = Rgb(0xe8, 0xa1, 0x6b);
 /// Places at which the arm would collide.
 pub const OCCUPIED: Rgb = Rgb(0xe1, 0xe4, 0xe8);
 /// Places for which it is unknown whether the arm can reach them.
 pub const UNKNOWN: Rgb = Rgb(0xc9, 0xa7, 0xdc);
 
-/// All roles. The constants of this module are their colours on a light background.
+/// All roles. The constants above are their colours on a light background.
 pub const ROLES: [Role; 24] = [
     Role { name: "paper", light: WHITE, dark: Rgb(0x16, 0x19, 0x1d) },
     Role { name: "page", light: PAGE, dark: Rgb(0x0e, 0x10, 0x13) },
@@ -90,20 +90,20 @@ pub const ROLES: [Role; 24] = [
     Role { name: "unknown", light: UNKNOWN, dark: Rgb(0x6c, 0x4f, 0x7d) },
 ];
 
-/// Returns the name of the role or planner that has this colour on a light background, which is also the name of a
-/// variable in style sheets. `None` for other colours.
+/// Returns the name of the role or planner with this colour on a light background. It is also the name of a variable in style
+/// sheets. `None` for other colours.
 pub fn variable(color: Rgb) -> Option<String> {
     let role = ROLES.iter().find(|role| role.light == color).map(|role| role.name.to_owned());
     role.or_else(|| PlannerPen::all().find(|pen| pen.light() == color).map(PlannerPen::name))
 }
 
-/// Returns the name of the role or planner that has this colour on a light background, and `#rrggbb` for any other colour.
+/// Returns the name of the role or planner with this colour on a light background, or `#rrggbb` if there is none.
 pub fn role_or_hex(color: Rgb) -> String {
     variable(color).unwrap_or_else(|| color.to_string())
 }
 
-/// Returns the colour for a dark background that corresponds to a colour for a light one: the other colour of its
-/// role, planner or path, or a colour of the same hue with the lightness reversed.
+/// Returns the colour on a dark background that corresponds to one on a light background: the other colour of its role, planner
+/// or path; otherwise the same hue with reversed lightness.
 pub fn on_dark(color: Rgb) -> Rgb {
     let role = ROLES.iter().find(|role| role.light == color).map(|role| role.dark);
     let planner = || PlannerPen::all().find(|pen| pen.light() == color).map(PlannerPen::dark);
@@ -139,7 +139,7 @@ mod tests {
                 assert!(contrast(a, b) >= 1.6, "{} and {}: {}", one.name, other.name, contrast(a, b));
             }
         }
-        // The outline of a pose along the path.
+        // The outline of the arm's poses along the path.
         assert!(contrast(GRAY.lighter(0.3), WHITE) >= 3.0);
     }
 

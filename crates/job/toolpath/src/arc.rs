@@ -1,28 +1,28 @@
-//! Arcs between two points, from a centre or a radius.
+//! Arcs between two points, given by a centre or a radius.
 
 use crate::curve::{minus, norm};
 use crate::{Curve, Point};
 use std::f64::consts::TAU;
 
-/// Greatest difference, metres, between the distances of both ends of an arc from its centre. Files round their numbers,
-/// and the controller Grbl accepts the same difference.
+/// An arc's two ends may differ by this in their distance from its centre, metres. Files round their numbers, and the controller
+/// Grbl accepts the same difference.
 const MAX_RADIUS_DIFFERENCE: f64 = 5e-6;
 
-/// Greatest difference between these distances as a share of the radius, as in Grbl.
+/// The same difference as a share of the radius, as in Grbl. Larger arcs may have larger differences.
 const MAX_RADIUS_SHARE: f64 = 1e-3;
 
-/// Difference between these distances up to which an arc is one of a circle, metres. It is rounding.
+/// A smaller difference is rounding, metres: the arc is part of a circle.
 const ROUNDING: f64 = 1e-12;
 
-/// Turn up to which an arc counts as a whole turn, radians. It is rounding.
+/// An arc that turns by less, radians, is a whole turn: the rest is rounding.
 const LEAST_TURN: f64 = 1e-9;
 
-/// Greatest share by which the radius of an arc may be too short for its ends. Then it is half their distance.
+/// If the radius is too short for the ends of the arc by at most this share, half their distance replaces it.
 const RADIUS_ROUNDING: f64 = 1e-3;
 
-/// Returns the arc about a centre, or the distances of both ends from the centre if they differ too much. The radius
-/// changes linearly from the first end to the second. If both ends are in the same direction from the centre, the arc
-/// is a whole turn.
+/// Returns the arc about a centre, whose radius changes linearly from the first end to the second. If both ends are in the same
+/// direction from the centre, the arc is a whole turn. If their distances from the centre differ too much, returns these
+/// distances as the error.
 pub(crate) fn about(from: Point, to: Point, center: Point, is_left: bool) -> Result<Curve, [f64; 2]> {
     let radii = [from, to].map(|end| norm(minus(end, center)));
     let growth = radii[1] - radii[0];
@@ -38,8 +38,8 @@ pub(crate) fn about(from: Point, to: Point, center: Point, is_left: bool) -> Res
     Ok(Curve::Arc { center, radius, from, by, growth })
 }
 
-/// Returns the arc with a radius: at most half a circle, or the rest of the circle if the radius is negative. Returns
-/// `None` if the ends are farther apart than twice the radius, or equal.
+/// Returns the arc with a radius: at most half a circle or, if the radius is negative, the longer arc. Returns `None` if the ends
+/// are equal, or farther apart than twice the radius.
 pub(crate) fn with_radius(from: Point, to: Point, radius: f64, is_left: bool) -> Option<Curve> {
     let chord = minus(to, from);
     let half = norm(chord) / 2.0;
@@ -47,7 +47,7 @@ pub(crate) fn with_radius(from: Point, to: Point, radius: f64, is_left: bool) ->
         return None;
     }
     let aside = (radius * radius - half * half).max(0.0).sqrt();
-    // The centre of a short arc is on the side to which the arc turns.
+    // The centre of a short arc is on the side to which the arc turns; that of a long arc is on the other side.
     let side = if (radius > 0.0) == is_left { 1.0 } else { -1.0 };
     let normal = [-chord[1] / (2.0 * half), chord[0] / (2.0 * half)];
     let center = [0, 1].map(|k| (from[k] + to[k]) / 2.0 + side * aside * normal[k]);

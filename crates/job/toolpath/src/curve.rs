@@ -5,19 +5,20 @@ use serde::{Deserialize, Serialize};
 /// A point or a displacement in the plane, metres.
 pub type Point = [f64; 2];
 
-/// Number of intervals by which the length of a cubic curve is integrated.
+/// Number of intervals in the numerical integral for the length of a cubic curve.
 const LENGTH_INTERVALS: usize = 32;
 
 /// Step of the parameter in the search for the nearest point of a cubic curve.
 const NEAREST_STEP: f64 = 1.0 / 64.0;
 
-/// Number of steps that refine the nearest point of a spiral. Near the curve, each step leaves a small share of the error.
+/// Number of steps that refine the nearest point of a spiral. Near the curve, each step reduces the error to a small share of it.
 const NEAREST_DIRECTION_STEPS: usize = 4;
 
 /// Number of golden sections that refine the nearest point of a cubic curve.
 const NEAREST_STEPS: usize = 6;
 
-/// Number of steps of Newton's method after them. The rest is below a billionth of the parameter, except near cusps.
+/// Number of Newton steps after the golden sections. The remaining error is below a billionth of the parameter, except near
+/// cusps.
 const NEWTON_STEPS: usize = 3;
 
 /// A curve. Its parameter `u` runs from 0 to 1.
@@ -31,8 +32,8 @@ pub enum Curve {
         /// The other end, metres.
         to: Point,
     },
-    /// An arc about a centre at constant angular speed of the parameter: of a circle, or of a spiral whose radius changes
-    /// linearly.
+    /// An arc about a centre, at constant angular speed of the parameter. It is part of a circle, or of a spiral whose radius
+    /// changes linearly.
     Arc {
         /// The centre, metres.
         center: Point,
@@ -51,7 +52,7 @@ pub enum Curve {
 }
 
 impl Curve {
-    /// Returns the point at a parameter, metres. It is exact at both ends, except for rounding on arcs.
+    /// Returns the point at a parameter, metres. At both ends it is exact, on arcs up to rounding.
     pub fn at(&self, u: f64) -> Point {
         match *self {
             Curve::Line { from, to } => mix(from, to, u),
@@ -89,7 +90,7 @@ impl Curve {
         let along = self.derivative(u);
         let second = match *self {
             Curve::Line { .. } => return Some(0.0),
-            // With the direction from the centre, the second derivative is that of polar coordinates.
+            // In polar coordinates about the centre.
             Curve::Arc { radius, by, growth, .. } => {
                 let [out, across] = [growth, (radius + growth * u) * by];
                 let square = out * out + across * across;
@@ -104,7 +105,7 @@ impl Curve {
         (square > 0.0).then(|| (along[0] * second[1] - along[1] * second[0]) / square)
     }
 
-    /// Returns a bound on the length of the second derivative by the parameter over the whole curve, metres.
+    /// Returns an upper bound on the length of the second derivative by the parameter, metres, for the whole curve.
     pub fn bend(&self) -> f64 {
         match *self {
             Curve::Line { .. } => 0.0,
@@ -116,7 +117,7 @@ impl Curve {
         }
     }
 
-    /// Returns a bound like [`Curve::bend`] for the part between two parameters.
+    /// Does the same as [`Curve::bend`] for the part between two parameters.
     pub fn bend_between(&self, ends: [f64; 2]) -> f64 {
         let Curve::Cubic([a, b, c, d]) = *self else { return self.bend() };
         // The second derivative of a cubic curve is linear.
@@ -135,11 +136,11 @@ impl Curve {
         self.at(1.0)
     }
 
-    /// Returns the unit direction in which the curve leaves its first end (0) or reaches its other end (1). Returns
-    /// `None` if the curve has no length.
+    /// Returns the unit direction in which the curve leaves its first end (`end` is 0) or reaches its other end (1). `None` if
+    /// the curve has no length.
     pub fn direction(&self, end: f64) -> Option<Point> {
         let derivative = match *self {
-            // The derivative may vanish where control points coincide; the next one then gives the direction.
+            // Where control points coincide, the derivative vanishes. Then the next control point gives the direction.
             Curve::Cubic(points) => {
                 let own = points[if end > 0.5 { 3 } else { 0 }];
                 let others = if end > 0.5 { [2, 1, 0] } else { [1, 2, 3] };
@@ -176,8 +177,9 @@ impl Curve {
         }
     }
 
-    /// Returns the parameter from `least` on at which the curve is near a point. It is the nearest one on lines, and on
-    /// circles within half a turn. On spirals it is near the place in the same direction from the centre. On cubic curves it is the first one from which the distance grows, in small steps.
+    /// Returns a parameter of at least `least` at which the curve is near a point. On lines, and on circles within half a turn,
+    /// it is the nearest one. On spirals, it is near the place in the same direction from the centre. On cubic curves, it is the
+    /// first parameter, in small steps, from which the distance grows.
     pub fn nearest(&self, point: Point, least: f64) -> f64 {
         match *self {
             Curve::Line { from, to } => {
@@ -190,7 +192,7 @@ impl Curve {
                 let away = minus(point, center);
                 let middle = from + by * least;
                 let turned = (away[1].atan2(away[0]) - middle) * by.signum();
-                // Within half a turn of the place `least`.
+                // Within half a turn of the place at `least`.
                 let turn = turned - std::f64::consts::TAU * (turned / std::f64::consts::TAU).round();
                 let beside = (least + (turn / by.abs()).max(0.0)).clamp(least, 1.0);
                 if growth == 0.0 { beside } else { self.refined(point, least, beside) }
@@ -199,7 +201,7 @@ impl Curve {
         }
     }
 
-    /// Refines the place that is nearest to a point by steps along the curve's direction.
+    /// Refines a guess for the parameter nearest to a point, by steps along the tangent.
     fn refined(&self, point: Point, least: f64, guess: f64) -> f64 {
         let far = |u: f64| norm(minus(self.at(u), point));
         (0..NEAREST_DIRECTION_STEPS).fold(guess, |u, _| {
@@ -209,7 +211,7 @@ impl Curve {
         })
     }
 
-    /// Finds the first place from `least` on where the distance stops falling, and refines it by golden sections and by
+    /// Finds the first parameter of at least `least` from which the distance grows, and refines it by golden sections and by
     /// Newton's method.
     fn nearest_ahead(&self, point: Point, least: f64) -> f64 {
         const GOLDEN: f64 = 0.618_033_988_749_894_9;
@@ -246,7 +248,7 @@ impl Curve {
         [low, high, refined].into_iter().min_by(|a, b| far(*a).total_cmp(&far(*b))).unwrap_or(middle)
     }
 
-    /// Returns the curve after a scaling about the origin, a rotation about it, radians, and a displacement.
+    /// Returns the curve scaled about the origin, then turned about it by `turn` radians, then moved.
     #[must_use]
     pub fn placed(&self, scale: f64, turn: f64, shift: Point) -> Self {
         let (sin, cos) = turn.sin_cos();
@@ -274,7 +276,6 @@ impl Curve {
     }
 }
 
-/// Returns true for the number 0.
 #[expect(clippy::trivially_copy_pass_by_ref, reason = "serde passes a reference")]
 fn is_zero(number: &f64) -> bool {
     *number == 0.0

@@ -4,13 +4,13 @@ use crate::curve::norm;
 use crate::heading::mixed;
 use crate::{Curve, Point};
 
-/// Number of intervals in which the least speeds of a curve are sought.
+/// Number of intervals in which a curve's slowest places are sought.
 const INTERVALS: u32 = 64;
 
-/// Share of the greatest speed of the parameter below which a least speed is a cusp.
+/// A place is a cusp if the speed of the parameter there is below this share of its greatest value.
 const CUSP_SHARE: f64 = 0.25;
 
-/// Number of golden sections that locate a least speed.
+/// Number of golden sections that locate a slowest place.
 const SECTIONS: u32 = 40;
 
 /// Returns the parts of a curve between its cusps, in order. Curves without a cusp stay whole.
@@ -35,7 +35,7 @@ pub(crate) fn parts(curve: &Curve) -> Vec<Curve> {
     parts
 }
 
-/// Returns the place of the least value of a function between two places.
+/// Returns the parameter between two others at which a function is least.
 fn least([mut low, mut high]: [f64; 2], value: impl Fn(f64) -> f64) -> f64 {
     const GOLDEN: f64 = 0.618_033_988_749_894_9;
     for _ in 0..SECTIONS {

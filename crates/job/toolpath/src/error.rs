@@ -4,9 +4,9 @@
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{message}")]
 pub struct Error {
-    /// Line number from 1, if a line is to blame.
+    /// Number of the line with the defect, from 1. `None` if no single line is to blame.
     pub line: Option<usize>,
-    /// Column from 1, in characters, if a word is to blame.
+    /// Column of the word with the defect, from 1, in characters. `None` if no single word is to blame.
     pub column: Option<usize>,
     /// Description of the defect.
     pub message: String,

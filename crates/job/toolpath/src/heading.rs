@@ -3,16 +3,16 @@
 use crate::curve::{Curve, Point, minus, norm};
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-/// The headings on a part of a curve: all differ by at most `half` from `middle`, radians. Headings count from the x axis.
+/// The headings on a part of a curve, as angles from the x axis. All differ by at most `half` from `middle`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Headings {
     /// The heading in the middle, radians.
     pub middle: f64,
-    /// Greatest difference from it, radians, not negative.
+    /// Greatest difference from `middle`, radians, not negative.
     pub half: f64,
 }
 
-/// Returns an angle plus the whole turns that bring it nearest to zero, radians.
+/// Adds the whole turns that bring an angle nearest to zero, radians.
 pub fn wrapped(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }
@@ -38,7 +38,7 @@ impl Curve {
             Curve::Line { .. } => Some(Headings { middle: self.heading(0.0)?, half: 0.0 }),
             Curve::Arc { radius, by, growth, .. } => {
                 let middle = (from + to) / 2.0;
-                // The angle between the heading and the direction from the centre changes in one sense.
+                // The angle between the heading and the direction from the centre is monotone.
                 let [a, b, c] = [from, middle, to].map(|u| slant(radius + growth * u, by, growth));
                 let half = (by * (to - from)).abs() / 2.0 + (a - b).abs().max((c - b).abs());
                 Some(Headings { middle: self.heading(middle)?, half })
@@ -46,7 +46,7 @@ impl Curve {
             Curve::Cubic(points) => {
                 let [a, b, c] = [0, 1, 2].map(|k| minus(points[k + 1], points[k]));
                 let at = |s: f64, t: f64| mixed(mixed(a, b, s), mixed(b, c, s), t);
-                // The control points of the derivative on the part; a point of zero length has no direction.
+                // Control points of the derivative on this part. One of zero length has no direction.
                 let control = [at(from, from), at(from, to), at(to, to)];
                 let units = control.into_iter().filter(|v| norm(*v) > 0.0).map(|v| v.map(|x| x / norm(v)));
                 let units: Vec<Point> = units.collect();
@@ -64,7 +64,7 @@ fn slant(radius: f64, by: f64, growth: f64) -> f64 {
     if growth == 0.0 { by.signum() * FRAC_PI_2 } else { (radius * by).atan2(growth) }
 }
 
-/// Returns the point at a share of the way between two points.
+/// Interpolates between two points.
 pub(crate) fn mixed(a: Point, b: Point, u: f64) -> Point {
     [0, 1].map(|k| a[k] * (1.0 - u) + b[k] * u)
 }
@@ -103,10 +103,10 @@ mod tests {
     fn a_curve_without_a_direction_has_no_heading() {
         let point = Curve::Line { from: [1.0, 2.0], to: [1.0, 2.0] };
         assert_eq!((point.heading(0.5), point.headings([0.0, 1.0])), (None, None));
-        // The first two control points coincide, so the third gives the direction.
+        // The first two control points coincide, so the third one gives the direction.
         let cubic = Curve::Cubic([[0.0, 0.0], [0.0, 0.0], [0.0, 1.0], [1.0, 1.0]]);
         assert_eq!(cubic.heading(0.0), Some(FRAC_PI_2));
-        // This one turns back.
+        // This curve reverses.
         let back = Curve::Cubic([[0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [0.0, 0.0]]);
         assert_eq!(back.headings([0.0, 1.0]), None);
     }

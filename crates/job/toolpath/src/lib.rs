@@ -1,5 +1,5 @@
-//! Lines that the tip of a robot follows: straight lines, circular arcs and cubic Bézier curves, read from G-code, or
-//! through given points.
+//! Lines that the tip of a robot follows: straight lines, circular arcs and cubic Bézier curves, read from G-code, or through
+//! given points.
 //!
 //! ```
 //! use cplan_toolpath::{Curve, Format, Placement, read};
@@ -17,19 +17,19 @@
 //!
 //! # G-code
 //!
-//! The reader follows straight lines and arcs, displacements, units, shifted origins (G92) and dwells (G4). Words that
-//! command the machine have no effect on the line, and are listed in a note. Words that would change the line are
-//! refused by name, all in one error: a machine that does something else than the file says is worse than one that stops.
+//! The reader follows straight lines and arcs, relative coordinates, units, shifted origins (G92) and dwells (G4). Words that
+//! only command the machine have no effect on the line, and a note lists them. If other words would change the line, one error
+//! lists all of them: a machine that deviates from its file is worse than one that stops.
 //!
-//! The first point of the file is where the line begins. A later G0 is a piece with [`Piece::is_travel`]: a straight
-//! move of the tip.
+//! The line begins at the first point of the file. A later G0 is a straight move of the tip, and a piece with
+//! [`Piece::is_travel`].
 //!
-//! Files round their numbers, so both ends of an arc are rarely equally far from its centre. The radius of such an arc
-//! changes linearly from one to the other.
+//! Files round their numbers, so both ends of an arc are rarely equally far from its centre. The radius of such an arc changes
+//! linearly from one end to the other.
 //!
 //! # SVG
 //!
-//! Drawings are read by the reader that the program gives ([`read_svg_by`]).
+//! The program has to provide the reader of drawings: see [`read_svg_by`].
 #![forbid(unsafe_code)]
 
 mod arc;
@@ -74,10 +74,10 @@ impl Format {
     }
 }
 
-/// Reads a line, and places it.
+/// Reads a line and moves it to its place.
 ///
 /// # Errors
-/// If the file is broken, has something that cannot be followed, or has no line.
+/// A damaged file, words that cannot be followed, and a file without a line.
 pub fn read(bytes: &[u8], format: Format, placement: &Placement) -> Result<Toolpath, Error> {
     match format {
         Format::GCode => gcode::read(text(bytes)?, placement),
@@ -88,22 +88,23 @@ pub fn read(bytes: &[u8], format: Format, placement: &Placement) -> Result<Toolp
     }
 }
 
-/// A reader of lines, which also places them.
+/// Reads a line and moves it to its place.
 pub type LineReader = fn(&[u8], &Placement) -> Result<Toolpath, Error>;
 
 static SVG_READER: OnceLock<LineReader> = OnceLock::new();
 
-/// Sets the reader of [`Format::Svg`] for the whole process. Without one, [`read`] refuses drawings. The first one stays.
+/// Sets the reader of [`Format::Svg`] for the whole process. Only the first call has an effect. Without a reader, [`read`]
+/// refuses drawings.
 pub fn read_svg_by(reader: LineReader) {
     SVG_READER.get_or_init(|| reader);
 }
 
-/// Reads a G-code program move by move, for a machine with its own kinematics. It may contain moves to places of the
-/// machine (G28). After such a move, the tip is at `home`, metres, as at the beginning. If `home` is `None`, the place
-/// of the tip is then unknown.
+/// Reads the single moves of a G-code program, for a machine with its own kinematics. The program may contain moves to positions
+/// of the machine (G28). At the beginning and after such a move, the tip is at `home`, metres; if `home` is `None`, its position
+/// is unknown.
 ///
 /// # Errors
-/// If the file is broken, has something that cannot be followed, or has no move.
+/// A damaged file, words that cannot be followed, and a file without a move.
 pub fn read_program(bytes: &[u8], home: Option<Point>) -> Result<Program, Error> {
     gcode::program(text(bytes)?, home)
 }

@@ -1,16 +1,16 @@
-//! A line in pieces.
+//! A line as a sequence of pieces.
 
 use crate::curve::{minus, norm};
 use crate::{Curve, Error, Placement, Point, cusps};
 use serde::{Deserialize, Serialize};
 
-/// Greatest number of pieces of a line. A line with more is refused.
+/// Greatest number of pieces of a line.
 pub const MAX_PIECES: usize = 1_000_000;
 
-/// Greatest magnitude of a coordinate, metres. It is that of obstacles.
+/// Greatest absolute value of a coordinate, metres. It is the same for obstacles.
 const MAX_COORDINATE: f64 = 1e6;
 
-/// Greatest distance, metres, between the end of a piece and the start of the next one. It is rounding.
+/// The next piece may begin this far from the end of a piece, metres. A smaller gap is rounding.
 const MAX_GAP: f64 = 1e-9;
 
 /// A place in a file, both numbers from 1.
@@ -36,9 +36,9 @@ pub struct Piece {
     pub curve: Curve,
     /// Speed of the tip that the file states, metres per second; `None` without one.
     pub speed: Option<f64>,
-    /// True if the tip only travels to where the next piece begins (G0). Then the file's speed does not apply.
+    /// True if the tip only travels to the beginning of the next piece (G0). The file's speed does not apply then.
     pub is_travel: bool,
-    /// Time for which the tip rests at the end of the piece, seconds; `None` if it need not stop there.
+    /// Time for which the tip rests at the end of the piece, seconds. `None` if it need not stop.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub dwell: Option<f64>,
     /// Place of the piece in the file.
@@ -57,8 +57,7 @@ impl Piece {
     }
 }
 
-/// A line in the plane, as pieces in order. Each piece begins where the one before it ends. There is at least one
-/// piece, and every piece has a length.
+/// A line in the plane: a sequence of at least one piece. Each piece begins where the previous one ends, and has a length.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "Vec<Piece>", into = "Vec<Piece>")]
 pub struct Toolpath {
@@ -67,12 +66,12 @@ pub struct Toolpath {
 }
 
 impl Toolpath {
-    /// Creates a line. Pieces without a length are omitted. Cubic curves are cut where they turn back in a cusp, or almost
-    /// do, so that these places are ends of pieces.
+    /// Creates a line. Omits pieces without a length. Cuts cubic curves at cusps, where they reverse or almost do, so that cusps
+    /// are ends of pieces.
     ///
     /// # Errors
-    /// If no piece has a length, if a piece does not begin where the one before it ends, if there are more than
-    /// [`MAX_PIECES`] pieces, or if a number is too large or not finite.
+    /// No piece with a length, gaps between pieces, more than [`MAX_PIECES`] pieces, and numbers that are too large or not
+    /// finite.
     pub fn new(pieces: Vec<Piece>) -> Result<Self, Error> {
         let mut kept: Vec<Piece> = Vec::with_capacity(pieces.len());
         for piece in pieces {
@@ -86,7 +85,7 @@ impl Toolpath {
             }
             let parts = cusps::parts(&piece.curve).into_iter().filter(|curve| curve.length() > 0.0);
             kept.extend(parts.map(|curve| Piece { curve, dwell: None, ..piece }));
-            // A dwell without a piece before it is at the start of the line, where the tip rests anyway.
+            // A dwell before the first piece is at the start of the line, where the tip rests anyway.
             if let Some((seconds, last)) = piece.dwell.zip(kept.last_mut()) {
                 last.dwell = Some(last.dwell.unwrap_or(0.0) + seconds);
             }
@@ -101,13 +100,13 @@ impl Toolpath {
         Ok(Self { pieces: kept, notes: Vec::new() })
     }
 
-    /// Returns the line with notes about omissions and assumptions.
+    /// Adds notes about omissions and assumptions.
     #[must_use]
     pub fn with_notes(self, notes: Vec<String>) -> Self {
         Self { notes, ..self }
     }
 
-    /// Returns the line at another place.
+    /// Returns the line, placed in the plane.
     ///
     /// # Errors
     /// If a coordinate becomes too large.
@@ -141,8 +140,8 @@ impl Toolpath {
         self.pieces[self.pieces.len() - 1].curve.end()
     }
 
-    /// Returns points along the line, for pictures. Each curve is within `tolerance` metres of its chords. Each inner
-    /// list is a stretch without a travel.
+    /// Returns points on the line, for pictures. The chords between them are within `tolerance` metres of the curves. A travel
+    /// separates one inner list from the next.
     pub fn outlines(&self, tolerance: f64) -> Vec<Vec<Point>> {
         const MAX_CHORDS: f64 = 1e4;
         let mut outlines: Vec<Vec<Point>> = Vec::new();

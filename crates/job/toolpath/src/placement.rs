@@ -3,12 +3,12 @@
 use crate::{Curve, Point};
 use cplan_text::Unit;
 
-/// The place of a line in the plane: it is scaled about its origin, then turned about it, then moved.
+/// The place of a line in the plane. The line is first scaled about its origin, then turned about it, then moved.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Placement {
-    /// Unit of the file's numbers. With `None`, it is the unit that the file states.
+    /// Unit of the file's numbers. `None` for the unit that the file states.
     pub unit: Option<Unit>,
-    /// Factor by which the line is scaled. Positive. Speeds of the file stay the same.
+    /// Positive factor by which the line is scaled. It does not change speeds.
     pub scale: f64,
     /// Angle by which the line is turned, radians, positive counter-clockwise.
     pub turn: f64,
@@ -17,14 +17,14 @@ pub struct Placement {
 }
 
 impl Default for Placement {
-    /// Returns the placement that changes nothing, in the unit that the file states.
+    /// Leaves the line as it is, in the unit that the file states.
     fn default() -> Self {
         Self { unit: None, scale: 1.0, turn: 0.0, shift: [0.0; 2] }
     }
 }
 
 impl Placement {
-    /// Returns the curve at its place. Its lengths are already metres.
+    /// Returns the curve, placed in the plane. Its lengths are already in metres.
     pub fn place(&self, curve: &Curve) -> Curve {
         curve.placed(self.scale, self.turn, self.shift)
     }

@@ -3,32 +3,32 @@
 use crate::curve::{dot, minus, norm};
 use crate::{Curve, Error, Point, arc};
 
-/// Greatest ratio of the distance of an arc's middle point from its chord to the chord's length at which three points
-/// count as lying on a straight line. The arc's radius would be above 10 km for each metre.
+/// Three points count as collinear if the middle one is nearer to the chord than this share of the chord's length. The arc's
+/// radius would exceed 10 km for each metre of the chord.
 const STRAIGHT: f64 = 1e-5;
 
-/// Share by which rounding may make arcs too long for the lines between them.
+/// Rounding may make the arcs at the ends of a line longer than the line by this share.
 const FIT_ROUNDING: f64 = 1e-9;
 
-/// Unit to which the greatest radius is rounded down in messages, metres.
+/// Messages round the greatest possible radius down to a multiple of this, metres.
 const RADIUS_UNIT: f64 = 1e-6;
 
-/// A curve, and the index of the point to which it leads.
+/// A curve, and the index of the point at its end.
 pub type Leg = (Curve, usize);
 
-/// Returns the straight lines between points. At each inner point, an arc with this radius, metres, joins both lines; with
-/// the radius 0 they meet in a corner. It takes `O(n)` for `n` points.
+/// Returns the straight lines between points. At each inner point, an arc with this radius, metres, joins two lines; with the
+/// radius 0, they meet in a corner. `O(n)` for `n` points.
 ///
 /// # Errors
 /// Fewer than two points, two equal points in sequence, or arcs that do not fit between the points.
 pub fn polyline(points: &[Point], radius: f64) -> Result<Vec<Leg>, Error> {
     require_different(points, "points")?;
     let last = points.len() - 1;
-    // For each point: the length that its arc takes of both lines there.
+    // For each point, the length by which its arc shortens each of the two lines there.
     let cut = |i: usize| if i == 0 || i == last { 0.0 } else { radius * half_turn(points, i).tan() };
     let cuts: Vec<f64> = (0..=last).map(cut).collect();
     let lengths: Vec<f64> = points.windows(2).map(|pair| norm(minus(pair[1], pair[0]))).collect();
-    // With the radius 0, nothing is cut.
+    // With the radius 0, no line is shortened.
     let fit = |i: usize| if radius > 0.0 { lengths[i - 1] / (cuts[i - 1] + cuts[i]) } else { f64::INFINITY };
     if let Some(i) = (1..=last).min_by(|a, b| fit(*a).total_cmp(&fit(*b))).filter(|i| fit(*i) < 1.0 - FIT_ROUNDING) {
         let message = format!("corners rounded by {radius} m do not fit between points {i} and {}", i + 1);
@@ -62,7 +62,7 @@ pub fn polyline(points: &[Point], radius: f64) -> Result<Vec<Leg>, Error> {
     Ok(legs)
 }
 
-/// Returns half of the angle by which a polyline turns at an inner point, radians.
+/// Returns half the angle by which a polyline turns at an inner point, radians.
 fn half_turn(points: &[Point], i: usize) -> f64 {
     let [before, after] = [minus(points[i], points[i - 1]), minus(points[i + 1], points[i])];
     let cross = before[0] * after[1] - before[1] * after[0];
@@ -83,7 +83,7 @@ pub fn arc_through([from, through, to]: [Point; 3]) -> Result<Leg, Error> {
     }
     let [a2, b2] = [dot(a, a), dot(b, b)];
     let center = [from[0] + (b[1] * a2 - a[1] * b2) / (2.0 * cross), from[1] + (a[0] * b2 - b[0] * a2) / (2.0 * cross)];
-    // The triangle is passed to the left exactly if the arc is.
+    // The arc turns left if and only if the triangle of the three points does.
     let curve = arc::about(from, to, center, cross > 0.0);
     curve.map(|curve| (curve, 2)).map_err(|_| {
         let message = "the circle through the three points of this arc is too large";
@@ -91,9 +91,9 @@ pub fn arc_through([from, through, to]: [Point; 3]) -> Result<Leg, Error> {
     })
 }
 
-/// Returns the cubic spline through points, with the distances of the points as its parameter. Its first and second
-/// derivatives are continuous. At its ends the second derivative is zero. If the last point is the first one, the spline
-/// is closed and as smooth there as at the other points. It takes `O(n)` for `n` points.
+/// Returns the cubic spline through points. Its parameter grows by the distance between successive points. Its first and second
+/// derivatives are continuous; at the ends, the second derivative is zero. If the last point equals the first, the spline is
+/// closed and as smooth there as elsewhere. `O(n)` for `n` points.
 ///
 /// # Errors
 /// Fewer than two points, or two equal points in sequence.
@@ -116,11 +116,11 @@ pub fn spline(points: &[Point]) -> Result<Vec<Leg>, Error> {
     Ok((0..steps.len()).map(curve).collect())
 }
 
-/// Returns the first derivatives of a cubic spline at its points, for one coordinate. `steps` are the lengths of its
-/// intervals, `secants` the slopes of its chords.
+/// Returns the first derivatives of a cubic spline at its points, for one coordinate. `steps` are the lengths of the intervals,
+/// `secants` the slopes of the chords.
 fn slopes(steps: &[f64], secants: &[f64], is_closed: bool) -> Vec<f64> {
     let last = steps.len();
-    // In the row of a point: the factors of the slopes before it, at it and after it, and the right side.
+    // The equation of a point: the factors of the slopes before it, at it and after it, and the right-hand side.
     let inner = |before: usize, after: usize| {
         let share = steps[after] / (steps[before] + steps[after]);
         let right = 3.0 * (share * secants[before] + (1.0 - share) * secants[after]);
@@ -132,11 +132,11 @@ fn slopes(steps: &[f64], secants: &[f64], is_closed: bool) -> Vec<f64> {
         rows.push([1.0, 2.0, 0.0, 3.0 * secants[last - 1]]);
         return tridiagonal(&rows);
     }
-    // The last point is the first one. The two factors outside of the three diagonals are replaced by a correction of rank
-    // one (Sherman and Morrison).
+    // The last point equals the first. The matrix then has two entries outside its three diagonals, which a correction of rank
+    // one replaces (Sherman and Morrison).
     let mut rows: Vec<[f64; 4]> = (0..last).map(|i| inner(if i == 0 { last - 1 } else { i - 1 }, i)).collect();
     if last < 3 {
-        // Two intervals of equal length: the slopes of both points follow from symmetry.
+        // With two intervals of equal length, the slopes follow from symmetry.
         return vec![(secants[0] + secants[last - 1]) / 2.0; last + 1];
     }
     let (first_before, last_after) = (rows[0][0], rows[last - 1][2]);
@@ -156,8 +156,8 @@ fn slopes(steps: &[f64], secants: &[f64], is_closed: bool) -> Vec<f64> {
     slopes
 }
 
-/// Solves a system of equations whose matrix has three diagonals and is diagonally dominant. Each row has its factors
-/// before, at and after the diagonal, and its right side.
+/// Solves a linear system whose matrix is tridiagonal and diagonally dominant. A row has the entries before, on and after the
+/// diagonal, and the right-hand side.
 fn tridiagonal(rows: &[[f64; 4]]) -> Vec<f64> {
     let mut reduced: Vec<[f64; 2]> = Vec::with_capacity(rows.len());
     for &[before, at, after, right] in rows {
@@ -173,8 +173,7 @@ fn tridiagonal(rows: &[[f64; 4]]) -> Vec<f64> {
     solution
 }
 
-/// Returns an error if there are fewer than two points, or two equal ones in sequence. `key` is the key of the points in
-/// TOML.
+/// Refuses fewer than two points, and two equal points in sequence. `key` is the key of the points in TOML.
 fn require_different(points: &[Point], key: &str) -> Result<(), Error> {
     if points.len() < 2 {
         let message = format!("a line needs two points or more, not {}", points.len());

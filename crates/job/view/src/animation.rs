@@ -7,8 +7,8 @@ use super::{legend, page};
 /// Time between two pictures, in hundredths of a second: nearly 17 pictures per second.
 pub const FRAME_DELAY: u16 = 6;
 
-/// Shortest and longest time, in seconds, for which an animation shows the motion. A shorter motion is slowed down, and
-/// a longer one is sped up.
+/// Shortest and longest time, in seconds, that an animation takes for the motion. Shorter motions are slowed down, longer ones
+/// are sped up.
 const MOTION_TIMES: [f64; 2] = [2.0, 3.5];
 
 /// Longest time for which an animation shows the planner's run, in seconds.
@@ -21,7 +21,7 @@ const GOAL_DELAY: u16 = 80;
 /// Time for which the last picture of the animation is shown, in hundredths of a second.
 const END_DELAY: u16 = 200;
 
-/// A moment of the animation, with the time for which its picture is shown, in hundredths of a second.
+/// A moment of the animation. Its picture is shown for `delay` hundredths of a second.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
     kind: MomentKind,
@@ -60,7 +60,6 @@ pub fn moments(view: &View) -> Vec<Moment> {
     moments
 }
 
-/// Draws the picture of a moment.
 pub fn figure(view: &View, moment: Moment) -> Figure {
     let shown = match moment.kind {
         MomentKind::Thinking(phase, part) => &view.at_replay_moment(phase, part),

@@ -16,13 +16,13 @@ pub struct ArmStyle {
     width: f64,
     opacity: f64,
     joints: bool,
-    /// True if no name may lie on the arm. If false, names may lie on the arm but avoid its outline, because the arm
-    /// covers too much.
+    /// True if names must not lie on the arm. If false, they only avoid its outline, because the arm covers too much of the
+    /// panel.
     blocks: bool,
 }
 
 impl ArmStyle {
-    /// Returns true if no name may lie on the arm.
+    /// Returns true if names must not lie on the arm.
     pub fn blocks(&self) -> bool {
         self.blocks
     }
@@ -40,7 +40,7 @@ pub const START_LOOK: ArmStyle =
 /// The arm at the goal.
 pub const GOAL_LOOK: ArmStyle =
     ArmStyle { fill: PALE, line: INK, width: 1.4, opacity: 0.9, joints: true, blocks: true };
-/// The arm at a goal that it cannot reach.
+/// The arm at a goal that no motion reaches.
 pub const UNREACHED_LOOK: ArmStyle =
     ArmStyle { fill: WHITE, line: INFEASIBLE, width: 1.2, opacity: 0.6, joints: false, blocks: true };
 /// The arm at its current configuration.
@@ -61,7 +61,7 @@ pub fn placed_shapes(arm: &Arm, payload: Option<&PayloadView>, q: Configuration)
     parts.chain(held).collect()
 }
 
-/// Draws the arm at `q`: first its outline, then the payload over it in the colour of the object.
+/// Draws the arm at `q`: first its outline, then the payload in the object's colour.
 pub fn items(frame: &Frame, arm: &Arm, payload: Option<&PayloadView>, q: Configuration, look: &ArmStyle) -> Vec<Item> {
     let body = Style::line(look.line, 2.0 * look.width).filled(look.fill).faded(look.opacity);
     let links = arm.links.iter().zip(arm.poses(q));

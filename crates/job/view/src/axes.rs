@@ -36,20 +36,20 @@ pub fn span(values: impl IntoIterator<Item = f64>) -> Range {
     values.into_iter().fold(all, |(least, greatest), value| (least.min(value), greatest.max(value)))
 }
 
-/// Returns a range of positive, finite length. A range that is too short is widened about its middle. A range that is
-/// not finite is replaced.
+/// Returns a finite range of positive length. Widens a range that is too short about its middle, and replaces one that is not
+/// finite.
 fn sound((lower, upper): Range) -> Range {
     if !(lower.is_finite() && upper.is_finite()) {
         return (-1.0, 1.0);
     }
-    // A millimetre, or a twentieth of a degree. A shorter range would only make the labels long.
+    // A millimetre, or a twentieth of a degree. Shorter ranges would only lengthen the labels.
     let least = f64::max(1e-3, 1e-9 * lower.abs().max(upper.abs()));
     if upper - lower >= least { (lower, upper) } else { (lower - least / 2.0, lower + least / 2.0) }
 }
 
 impl Frame {
-    /// Returns the largest frame in `area` that shows exactly these ranges. With `equal_scale`, both axes have the same
-    /// scale, and the frame is centred horizontally at the top of the area.
+    /// Returns the largest frame in `area` that shows exactly these ranges. If `equal_scale`, both axes have the same scale, and
+    /// the frame is at the top of the area, in the middle horizontally.
     pub fn fitted(area: Rect, x: Range, y: Range, equal_scale: bool) -> Self {
         let (x, y) = (sound(x), sound(y));
         let mut rect = area;
@@ -62,7 +62,7 @@ impl Frame {
         Self { rect, x, y }
     }
 
-    /// Returns the frame that fills `area` with the same scale along both axes, and shows at least these ranges.
+    /// Returns a frame that fills `area`, has the same scale along both axes, and shows at least these ranges.
     pub fn filling(area: Rect, x: Range, y: Range) -> Self {
         let (x, y) = (sound(x), sound(y));
         let scale = (area.width / (x.1 - x.0)).min(area.height / (y.1 - y.0));
@@ -87,8 +87,7 @@ impl Frame {
         self.rect.width / (self.x.1 - self.x.0)
     }
 
-    /// Draws light lines across the frame at the ticks. Callers draw them before everything else, so that they lie
-    /// below it.
+    /// Draws light lines across the frame at the ticks. Callers draw them first, below everything else.
     pub fn grid(&self, units: [Unit; 2]) -> Vec<Item> {
         let line = |from, to| Item::Outline(vec![Step::Move(from), Step::Line(to)], Style::line(FAINT, 1.0));
         let [x, y] = self.ticks(units);
@@ -98,8 +97,8 @@ impl Frame {
         upright.chain(level.map(|y| line([self.rect.x, y], [self.rect.right(), y]))).collect()
     }
 
-    /// Draws sides, ticks and titles. Callers draw them last, so that they lie above everything else. A side is dashed
-    /// if it is a seam, across which the space continues on the opposite side.
+    /// Draws sides, ticks and titles. Callers draw them last, above everything else. A dashed side is a seam, across which the
+    /// space continues on the opposite side.
     pub fn border(&self, units: [Unit; 2], titles: [String; 2], seams: [bool; 2]) -> Vec<Item> {
         let mut items = self.sides(seams);
         items.extend(self.tick_marks(units, [true; 2]));
@@ -124,7 +123,7 @@ impl Frame {
         ]
     }
 
-    /// Draws marks at the ticks, with values along the axes for which `values` is true.
+    /// Draws marks at the ticks of both axes. Axes for which `values` is true also have values there.
     pub fn tick_marks(&self, units: [Unit; 2], values: [bool; 2]) -> Vec<Item> {
         let (left, bottom) = (self.rect.x, self.rect.bottom());
         let mark = |a: [f64; 2], b: [f64; 2]| Item::Outline(vec![Step::Move(a), Step::Line(b)], Style::line(PALE, 1.0));
@@ -143,8 +142,8 @@ impl Frame {
         items
     }
 
-    /// Draws the titles of the axes in the middle of the sides of `around`, outside the values at the ticks. `around`
-    /// is the rectangle of this frame, or of several frames that share their titles.
+    /// Draws the titles of the axes in the middle of the sides of `around`, outside the values at the ticks. `around` is the
+    /// rectangle of this frame, or of several frames with common titles.
     pub fn titles(&self, around: Rect, units: [Unit; 2], [x_title, y_title]: [String; 2]) -> [Item; 2] {
         let [_, y_ticks] = self.ticks(units);
         let widest = y_ticks.iter().map(|(_, name)| super::figure::text_width(name, 13.0)).fold(0.0, f64::max);
@@ -163,8 +162,7 @@ impl Frame {
     }
 }
 
-/// Returns round values in the range, with their labels. There are at most `at_most` of them, but at least two if the
-/// range has two.
+/// Returns round values in the range, with their labels: at most `at_most`, and at least two if the range contains two.
 fn ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> {
     let few = sparse_ticks(range, unit, at_most.max(2));
     if few.len() >= 2 { few } else { sparse_ticks(range, unit, 2 * at_most.max(2)) }
@@ -178,7 +176,7 @@ fn sparse_ticks(range: Range, unit: Unit, at_most: usize) -> Vec<(f64, String)> 
     };
     let (lower, upper) = (range.0 * factor, range.1 * factor);
     let step = round((upper - lower) / at_most as f64);
-    // Half a per mille of a step, so that a limit gets its tick although rounding moved it slightly off a round number.
+    // Half a per mille of a step. A limit that rounding has moved slightly off a round number still gets its tick.
     let slack = 5e-4;
     let (first, last) = ((lower / step - slack).ceil(), (upper / step + slack).floor());
     let decimals = (-step.log10()).ceil().clamp(0.0, 9.0) as usize;
@@ -197,13 +195,13 @@ fn label(value: f64, decimals: usize) -> String {
     if value < 0.0 && !is_zero { format!("\u{2212}{text}") } else { text }
 }
 
-/// Returns the smallest number of the form 1, 2 or 5 times a power of ten that is not below `least`.
+/// Returns the smallest number of at least `least` that is 1, 2 or 5 times a power of ten.
 fn decimal_step(least: f64) -> f64 {
     let power = 10_f64.powf(least.log10().floor());
     [1.0, 2.0, 5.0].into_iter().map(|m| m * power).find(|&s| s >= least * (1.0 - 1e-9)).unwrap_or(10.0 * power)
 }
 
-/// Returns the smallest step in degrees that divides a turn, or is a multiple of a turn, and is not below `least`.
+/// Returns the smallest step of at least `least` degrees that divides a turn or is a multiple of a turn.
 fn degree_step(least: f64) -> f64 {
     const DEGREE_STEPS: [f64; 10] = [1.0, 2.0, 5.0, 10.0, 15.0, 30.0, 45.0, 90.0, 180.0, 360.0];
     if least < 0.5 {

@@ -19,18 +19,17 @@ const BLOCKING_DASH: &[f64] = &[7.0, 3.0];
 /// Width of the outlines of blocking obstacles, in pixels.
 const OUTLINE_WIDTH: f64 = 3.0;
 
-/// The obstacles that block the motion, and the narrowest place.
+/// The obstacles that block a motion, and the place where the arm gets stuck.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct BlockingView {
     /// Indices of the blocking obstacles.
     pub blockers: Vec<usize>,
-    /// The configuration where the arm gets stuck, and the place in the plane where it touches. `None` if there is no
-    /// such configuration.
+    /// The configuration where the arm gets stuck, and the point where it touches an obstacle there. `None` if there is no such
+    /// configuration.
     #[serde(serialize_with = "pair", skip_serializing_if = "Option::is_none")]
     pub at: Option<(Configuration, Point)>,
 }
 
-/// Serialises the configuration and the place for pages.
 fn pair<S: Serializer>(at: &Option<(Configuration, Point)>, serializer: S) -> Result<S::Ok, S::Error> {
     at.map(|(q, p)| [[q[0], q[1]], [p.x, p.y]]).serialize(serializer)
 }
@@ -65,7 +64,7 @@ fn pen() -> Style {
     Style::line(INFEASIBLE, OUTLINE_WIDTH).dashed(BLOCKING_DASH)
 }
 
-/// Draws a cross on white.
+/// Draws a cross on a white ground.
 pub fn cross([x, y]: [f64; 2]) -> Vec<Item> {
     let strokes = |r: f64| {
         vec![

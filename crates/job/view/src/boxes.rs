@@ -7,7 +7,7 @@ use super::view::Chain;
 use cplan_model::space::Configuration;
 use cplan_theme::{EDGE, FREE, PROOF, UNDECIDED, WHITE};
 
-/// Width in pixels below which boxes are drawn without sides. The sides would hide the colours of such boxes.
+/// Boxes narrower than this, in pixels, are drawn without sides, which would hide their colours.
 const MIN_OUTLINED_WIDTH: f64 = 2.0;
 
 fn rect([lower, upper]: [Configuration; 2], frame: &Frame) -> Rect {
@@ -43,13 +43,12 @@ pub fn keys() -> Vec<Key> {
 /// Horizontal distance between neighbouring lines of a hatch, in pixels.
 const HATCH_DISTANCE: f64 = 7.0;
 
-/// Draws the boxes of a proof over the C-obstacles. No other boxes are hatched.
+/// Draws the boxes of a proof over the C-obstacles. Only such boxes are hatched.
 pub fn proof(boxes: &Chain, frame: &Frame) -> Vec<Item> {
     hatched(&boxes.pairs().map(|b| rect(b, frame)).collect::<Vec<_>>())
 }
 
-/// Draws hatched rectangles with their sides. A translucent ground below the hatch keeps the hatch visible over any
-/// colour.
+/// Draws hatched rectangles with their sides. The hatch lies on a translucent ground, which keeps it visible over any colour.
 pub fn hatched(rects: &[Rect]) -> Vec<Item> {
     let sides: Vec<Step> = rects.iter().copied().flat_map(rectangle).collect();
     let lines: Vec<Step> = rects.iter().copied().flat_map(hatch).collect();
@@ -60,8 +59,8 @@ pub fn hatched(rects: &[Rect]) -> Vec<Item> {
     ]
 }
 
-/// Returns lines that rise to the right, cut to a rectangle. The lines are the same for all rectangles, so that the
-/// hatches of neighbours fit together.
+/// Returns lines that rise to the right, cut to a rectangle. They lie on the same lines for all rectangles, so hatches of
+/// neighbours fit together.
 fn hatch(rect: Rect) -> Vec<Step> {
     // On each line, x + y is a multiple of the distance.
     let (least, greatest) = (rect.x + rect.y, rect.right() + rect.bottom());
@@ -93,7 +92,7 @@ mod tests {
         assert_eq!(style.pen.map(|pen| pen.color), Some(PROOF));
     }
 
-    /// Tests that a place is on the hatch of a rectangle exactly if it is in the rectangle and on one of the lines.
+    /// Checks that a place is on the hatch of a rectangle if and only if it is in the rectangle and on one of the lines.
     #[test]
     fn a_hatch_fills_its_rectangle_and_goes_on_in_the_next() {
         for rect in [[3.0, 40.0, 31.0, 22.0], [34.0, 40.0, 2.0, 22.0], [0.0, 0.0, 7.0, 90.0]] {
@@ -108,7 +107,7 @@ mod tests {
                 }
                 length += (b[0] - a[0]).hypot(b[1] - a[1]);
             }
-            // The expected total length for lines at this distance, up to one line at each end.
+            // The expected total length of lines at this distance, up to one line at each end.
             let expected = width * height / (HATCH_DISTANCE / std::f64::consts::SQRT_2);
             assert!((length - expected).abs() < 2.0 * width.min(height) + HATCH_DISTANCE, "{length} for {expected}");
         }

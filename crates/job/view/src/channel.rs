@@ -1,4 +1,4 @@
-//! The channel of a cell decomposition, and the points that paths through its middle visit.
+//! The channel of a cell decomposition: its cells, their centres, and the middles of the portals.
 
 use super::axes::span;
 use super::chart::Chart;
@@ -8,14 +8,13 @@ use super::labels::{centered_rect, is_within, overlap};
 use super::view::Chain;
 use cplan_theme::{CHANNEL, EDGE, INK, WHITE};
 
-/// Width in pixels below which cells are drawn with finer sides. With normal sides, many such cells would make a moiré
-/// pattern.
+/// Cells narrower than this, in pixels, are drawn with finer sides. Many normal sides would make a moiré pattern.
 const NARROW_CELL: f64 = 5.0;
 /// Radius of a point, in pixels.
 const POINT_RADIUS: f64 = 3.0;
 /// Height of the names of points, in pixels.
 const NAME_SIZE: f64 = 11.0;
-/// Largest number of cells in a channel whose points have names.
+/// Largest number of cells of a channel whose points are named.
 const MAX_NAMED_CELLS: usize = 24;
 
 /// Draws the surface of the channel.
@@ -42,8 +41,8 @@ fn is_wide(Chain(corners): &Chain, chart: &Chart) -> bool {
     high - low >= NARROW_CELL
 }
 
-/// Draws centres of cells as discs, and middles of portals as rings. Their names are `C1`, `Q1`, `C2` and so on. In a
-/// channel of at most [`MAX_NAMED_CELLS`] cells, also draws those names that cover no marker.
+/// Draws centres of cells as discs, and middles of portals as rings. In a channel of at most [`MAX_NAMED_CELLS`] cells, they are
+/// named `C1`, `Q1`, `C2` and so on; names that would cover a marker are omitted.
 pub fn points([centers, middles]: [&Chain; 2], chart: &Chart) -> Vec<Item> {
     let places = |points: &Chain| points.0.iter().map(|&q| chart.place(q)).collect::<Vec<[f64; 2]>>();
     let (centers, middles) = (places(centers), places(middles));
@@ -83,7 +82,7 @@ fn ring(at: [f64; 2]) -> Item {
     Item::Disc(at, POINT_RADIUS, Style::line(INK, 1.4).filled(WHITE))
 }
 
-/// Returns the sign of the legend for a middle of a portal (`is_middle`) or a centre of a cell.
+/// Returns the sign in the legend for the middle of a portal if `is_middle`, otherwise for the centre of a cell.
 pub fn sign(at: [f64; 2], is_middle: bool) -> Item {
     if is_middle { ring(at) } else { disc(at) }
 }

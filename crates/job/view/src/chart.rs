@@ -8,8 +8,7 @@ use cplan_geometry::cross;
 use cplan_model::space::{Configuration, Topology};
 use cplan_model::{Arm, Joint};
 
-/// Largest ratio of the joints' ranges for which both axes have the same scale. The joints must also be of the same
-/// kind.
+/// Both axes have the same scale if the joints are of one kind and the ratio of their ranges is at most this.
 const MAX_ONE_SCALE_RATIO: f64 = 2.2;
 
 /// A frame of the page that shows the whole joint space of an arm.
@@ -21,9 +20,9 @@ pub struct Chart {
     pub units: [Unit; 2],
     /// Topology of the joint space: which joints wrap around.
     pub topology: Topology,
-    /// Part of joint space in which paths are drawn, with copies across seams.
+    /// Part of joint space in which paths are drawn. Paths that cross seams have copies.
     pub paths: Window,
-    /// Part of joint space in which obstacles are drawn, with a copy for each turn of a revolute joint.
+    /// Part of joint space in which obstacles are drawn. They have a copy for each turn of a revolute joint.
     pub obstacles: Window,
 }
 
@@ -35,7 +34,7 @@ impl Chart {
         let units = units(arm);
         let frame = Frame::fitted(area, ranges[0], ranges[1], one_scale(arm).is_some());
         let paths = Window { ranges, repeats: topology.ranges.map(|axis| axis.is_circle()) };
-        // A revolute link meets an obstacle again after each turn, whether or not it has limits.
+        // A revolute link meets an obstacle again after each turn, even if the joint has limits.
         let obstacles = Window { ranges, repeats: units.map(|u| u == Unit::Degrees) };
         Self { frame, units, topology, paths, obstacles }
     }
@@ -57,7 +56,7 @@ impl Chart {
         pieces.into_iter().flat_map(|p| chain(p.iter().map(|q| self.frame.at(q[0], q[1])), false)).collect()
     }
 
-    /// Returns a closed outline with the same copies on circles as paths have.
+    /// Returns a closed outline, with copies on circles like those of paths.
     pub fn polygon(&self, Chain(corners): &Chain) -> Vec<Step> {
         self.copies(corners, &self.paths)
     }
@@ -67,8 +66,8 @@ impl Chart {
         window.shifts(corners).into_iter().flat_map(copy).collect()
     }
 
-    /// Returns contours with their copies as one outline. With a style that draws the pen below the fill, it looks like
-    /// the outline of their union.
+    /// Returns contours and their copies as one outline. If the style draws the pen below the fill, it looks like the outline of
+    /// their union.
     pub fn c_obstacle<'a>(&self, contours: impl Iterator<Item = &'a ContourView>, style: Style) -> Item {
         let mut steps = Vec::new();
         for Chain(contour) in contours.map(|c| &c.contour) {
@@ -89,8 +88,7 @@ fn units(arm: &Arm) -> [Unit; 2] {
     [0, 1].map(|k| if arm.joints[k].joint_type.is_revolute() { Unit::Degrees } else { Unit::Meters })
 }
 
-/// Returns the ratio of height to width of the chart of the whole joint space, if both axes have the same scale. `None`
-/// if they should not have the same scale.
+/// Returns the ratio of height to width of the chart of the whole joint space. `None` if its axes should have different scales.
 pub fn one_scale(arm: &Arm) -> Option<f64> {
     let [width, height] = arm.topology().ranges.map(|axis| axis.extent());
     let [first, second] = units(arm);

@@ -1,4 +1,4 @@
-//! A checked configuration: the arm there, its contacts, and the nearest free configuration.
+//! A checked configuration: the arm in it, its contacts, and the nearest free configuration.
 
 use super::arm::{self, GHOST_LOOK, UNREACHED_LOOK};
 use super::axes::Frame;
@@ -24,7 +24,7 @@ pub struct CheckedView {
     at: [f64; 2],
     /// True if the configuration is not free.
     is_blocked: bool,
-    /// Places of contact in the plane: corners that lie in the other shape, and crossings of sides.
+    /// Places of contact in the plane: corners of one shape within the other, and crossings of sides.
     contacts: Vec<[f64; 2]>,
     /// The nearest free configuration. `None` if the configuration is free, or if the search found none.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -78,7 +78,7 @@ impl CheckedView {
     /// Returns the view of these findings about a scene, with key figures and the shortest line to the obstacles.
     pub fn new(scene: &Scene, findings: &ConfigurationFindings) -> Self {
         let q = findings.configuration.into();
-        // Shapes of a level attachment are not its own, but derived ones.
+        // A level payload in the gripper has derived shapes; pictures show the original ones.
         let scene = &*scene.drawn();
         let nearest = scene.closest(q).filter(|near| near.separation.distance > 0.0 && !scene.is_attached(near.pair));
         let nearest = nearest.map(|near| DistanceView {
@@ -94,7 +94,7 @@ impl CheckedView {
     }
 }
 
-/// Returns the nearest points of two shapes that are apart: first that of the arm.
+/// Returns the nearest points of two shapes that are apart, the arm's first.
 fn shortest_line(scene: &Scene, q: Configuration, near: &Contact) -> [[f64; 2]; 2] {
     let part = scene.part(near.pair).at(&scene.arm().pose(near.pair.link, q));
     let piece = scene.piece(near.pair);
@@ -106,7 +106,7 @@ fn shortest_line(scene: &Scene, q: Configuration, near: &Contact) -> [[f64; 2]; 
     [moved(from, part.radius()), moved(to, -piece.radius())]
 }
 
-/// Returns the nearest points of two convex polygons that are apart. One of the points is a corner.
+/// Returns the nearest points of two convex polygons that are apart. At least one of the points is a corner.
 pub fn nearest_points(a: &[[f64; 2]], b: &[[f64; 2]]) -> [[f64; 2]; 2] {
     let sides = |of: &[[f64; 2]]| (0..of.len()).map(|i| [of[i], of[(i + 1) % of.len()]]).collect::<Vec<_>>();
     let from_corners = |corners: &[[f64; 2]], of: &[[f64; 2]]| {
@@ -120,7 +120,7 @@ pub fn nearest_points(a: &[[f64; 2]], b: &[[f64; 2]]) -> [[f64; 2]; 2] {
     ours.into_iter().chain(theirs).min_by(|p, q| length(p).total_cmp(&length(q))).unwrap_or_default()
 }
 
-/// Returns the point of a side that is nearest to another point.
+/// Returns the point on a side that is nearest to `p`.
 fn foot(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
     let along = [b[0] - a[0], b[1] - a[1]];
     let square = along[0] * along[0] + along[1] * along[1];
@@ -129,7 +129,7 @@ fn foot(p: [f64; 2], [a, b]: [[f64; 2]; 2]) -> [f64; 2] {
     [a[0] + part * along[0], a[1] + part * along[1]]
 }
 
-/// Returns the point in which two sides cross, up to rounding. `None` for parallel sides.
+/// Returns the point where the lines through two sides cross, up to rounding. `None` if they are parallel.
 fn crossing([a, b]: [[f64; 2]; 2], [c, d]: [[f64; 2]; 2]) -> Option<[f64; 2]> {
     let minus = |p: [f64; 2], q: [f64; 2]| [p[0] - q[0], p[1] - q[1]];
     let cross = |p: [f64; 2], q: [f64; 2]| p[0] * q[1] - p[1] * q[0];

@@ -1,5 +1,4 @@
-//! Drawings of a comparison for pages: large ones with all paths, in which a page can light up each path, and the parts
-//! of small ones.
+//! Drawings of a comparison for pages. Large ones show all paths, and a page can light up each of them; small ones come in parts.
 
 use super::arm::{self, GOAL_LOOK, START_LOOK};
 use super::axes::Frame;
@@ -11,7 +10,7 @@ use cplan_theme::{INK, Rgb, WHITE};
 
 /// Width and height of a large drawing, in pixels. A page shows two side by side, or one below the other.
 const LARGE_SIZE: [f64; 2] = [520.0, 380.0];
-/// Room left of a large drawing's panel, above it, right of it and below it, for the values and titles of its axes.
+/// Room around a large drawing's panel for the values and titles of the axes: left, above, right, below.
 const LARGE_MARGINS: [f64; 4] = [64.0, 6.0, 14.0, 48.0];
 /// Width and height of a small drawing, in pixels.
 const SMALL_SIZE: [f64; 2] = [120.0, 100.0];
@@ -21,11 +20,11 @@ const SMALL_MARGIN: f64 = 1.0;
 /// Drawings of the paths of a comparison. Their colours are variables of the page's style sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ComparedPaths {
-    /// Workspace and configuration space. Elements with the attribute `data-path` belong to the path with this index.
+    /// Workspace and configuration space. Elements of path `k` have the attribute `data-path` with the value `k`.
     pub large: [String; 2],
-    /// Workspace and configuration space in small.
+    /// Small drawings of workspace and configuration space.
     pub small: [SmallPicture; 2],
-    /// Colours on a light background that have no name in the style sheet. The variable of `#rrggbb` is `--xrrggbb`.
+    /// Colours, on a light background, without a name in the style sheet. The variable of `#rrggbb` is `--xrrggbb`.
     pub colors: Vec<Rgb>,
 }
 
@@ -42,9 +41,8 @@ pub struct SmallPicture {
     pub markers: String,
 }
 
-/// Draws a comparison. `id` distinguishes the names within its drawings from those of other drawings in the page. The paths
-/// with the indices `top` lie above the others. `None`
-/// if the view has no configuration space.
+/// Draws a comparison. `id` distinguishes the names in its drawings from those in other drawings of the page. The paths with the
+/// indices `top` lie above the others. `None` if the view has no configuration space.
 pub fn compared(view: &View, id: &str, top: &[usize]) -> Option<ComparedPaths> {
     let mut view = view.clone();
     view.still.lights_paths = true;
@@ -63,7 +61,6 @@ pub fn compared(view: &View, id: &str, top: &[usize]) -> Option<ComparedPaths> {
     Some(ComparedPaths { large, small, colors })
 }
 
-/// Returns the part of a small drawing that its contents fill.
 fn small_area() -> Rect {
     let [width, height] = SMALL_SIZE.map(|side| side - 2.0 * SMALL_MARGIN);
     Rect { x: SMALL_MARGIN, y: SMALL_MARGIN, width, height }
@@ -89,7 +86,7 @@ fn small_workspace(view: &View, colors: &mut Vec<Rgb>) -> SmallPicture {
 }
 
 fn small_cspace(view: &View, colors: &mut Vec<Rgb>) -> SmallPicture {
-    // The picture is as wide as the joint space, without room beside it.
+    // The picture is as wide as the joint space, with no room beside it.
     let Rect { width, height, .. } = Chart::new(&view.arm, small_area()).frame.rect;
     let chart = Chart::new(&view.arm, Rect { width, height, ..small_area() });
     let worlds: [&WorldView; 1] = [view.first_world()];

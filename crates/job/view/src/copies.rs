@@ -4,11 +4,10 @@ use super::axes::{Range, span};
 use cplan_model::space::Configuration;
 use std::f64::consts::TAU;
 
-/// Largest number of copies. A panel is some 500 pixels wide. With more copies, a turn would be narrower than half a
-/// pixel.
+/// Largest number of copies. With more, a turn would be narrower than half a pixel of a panel, which is some 500 pixels wide.
 const MAX_COPIES: f64 = 1000.0;
 
-/// The visible part of joint space, and the axes along which the drawing repeats with each turn.
+/// The visible part of joint space. Along some axes, the drawing repeats with each turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Window {
     /// Lower and upper value of each axis.
@@ -18,7 +17,7 @@ pub struct Window {
 }
 
 impl Window {
-    /// Returns all shifts by whole turns that bring a part of the box around `points` into the window.
+    /// Returns all shifts by whole turns after which the box around `points` overlaps the window.
     pub fn shifts(&self, points: &[Configuration]) -> Vec<Configuration> {
         let [first, second] = [0, 1].map(|k| self.shifts_along(k, span(points.iter().map(|p| p[k]))));
         first.iter().flat_map(|&a| second.iter().map(move |&b| Configuration::new(a, b))).collect()
@@ -38,8 +37,7 @@ impl Window {
         (0..=count).map(|k| (first + k as f64) * TAU).collect()
     }
 
-    /// Returns the polyline and its copies, cut at the sides of the window, so that no piece leaves the window.
-    /// `O(copies * corners)`.
+    /// Returns the polyline and its copies, cut at the sides of the window. `O(copies * corners)`.
     pub fn pieces(&self, polyline: &[Configuration]) -> Vec<Vec<Configuration>> {
         let mut all = Vec::new();
         for shift in self.shifts(polyline) {
@@ -85,14 +83,14 @@ impl Window {
         (from <= to).then_some((from, to))
     }
 
-    /// Moves a configuration into the window, if rounding left it slightly outside.
+    /// Moves a configuration into the window if rounding left it slightly outside.
     fn clamp(&self, q: Configuration) -> Configuration {
         let [x, y] = self.ranges;
         Configuration::new(q[0].max(x.0).min(x.1), q[1].max(y.0).min(y.1))
     }
 }
 
-/// Adds a piece to `all`. Omits a piece that only touches the window in a point.
+/// Adds a piece to `all`, unless it only touches the window in a point.
 fn finish(piece: &mut Vec<Configuration>, all: &mut Vec<Vec<Configuration>>) {
     let piece = std::mem::take(piece);
     if piece.iter().any(|q| *q != piece[0]) {
@@ -145,8 +143,8 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(200))]
 
-        /// Tests that the pieces are the wrapped path. Walks along the path, wraps every point, and checks that one of
-        /// the pieces contains it. The lengths are equal as well, so the pieces contain nothing else.
+        /// Checks that the pieces form the wrapped path: walks along the path, wraps every point, and seeks it in the pieces. The
+        /// lengths are equal as well, so the pieces contain nothing else.
         #[test]
         fn pieces_are_the_wrapped_path(
             corners in prop::collection::vec((-12.0..12.0f64, -12.0..12.0f64), 2..8),
@@ -174,7 +172,7 @@ mod tests {
             }
             let drawn: f64 = pieces.iter().flat_map(|p| p.windows(2)).map(|w| (w[1] - w[0]).norm()).sum();
             let step: f64 = path.windows(2).map(|w| (w[1] - w[0]).norm() / f64::from(n)).fold(0.0, f64::max);
-            // Sampling is wrong by at most one step at each of the few crossings of a side.
+            // At each of the few crossings of a side, sampling is wrong by at most one step.
             prop_assert!((drawn - length).abs() <= 16.0 * path.len() as f64 * step, "{drawn} drawn of {length}");
         }
     }

@@ -1,4 +1,4 @@
-//! A panel with a configuration space.
+//! A panel that shows a configuration space.
 
 use super::chart::{self, Chart};
 use super::checked::{self, CheckedView};
@@ -9,16 +9,16 @@ use super::view::{ContourView, MAX_NAMED_OBSTACLES, PanelView, View, WorldView};
 use super::{blocking, boxes, followed, preferences, tags, trace};
 use cplan_theme::{ACCENT, INK, Rgb, WHITE};
 
-/// Pen for goals along a segment.
+/// Pen of goals that are segments.
 const GOAL_SEGMENT_PEN: Pen = Pen { color: INK, width: 2.0, dash: &[1.5, 3.5] };
 
-/// Size of the markers on a line that the tip follows, whose image is often small.
+/// Size of the markers on the image of a line that the tip follows. The image is often small.
 const SMALL_MARKER: f64 = 0.7;
 
 /// Half the width of the markers of starts and goals, in pixels.
 const MARKER_HALF_WIDTH: f64 = 10.0;
 
-/// Draws the panel in this part of the page, with room for a scale of colours to the right of it.
+/// Draws the panel in this part of the page. To its right, the page has room for a scale of colours.
 pub fn panel(view: &View, panel: &PanelView, area: Rect) -> Vec<Item> {
     let chart = Chart::new(&view.arm, area);
     let mut items = self::items(view, panel, &chart);
@@ -53,11 +53,11 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     items.extend(frame.sides(chart.seams()));
     items.extend(world.scale.iter().flat_map(|scale| trace::color_bar(scale, &frame.rect)));
     let size = marker_size(panel) * if view.still.line.is_some() { SMALL_MARKER } else { 1.0 };
-    // If there are paths, the marker of a goal that no path reached is hollow.
+    // If there are paths, a goal that none of them reached has a hollow marker.
     for (q, _, reached) in view.ends(panel) {
         items.extend(goal_marker(chart.place(q), reached, size));
     }
-    // Crosses mark the configurations of a line that cannot be followed.
+    // Crosses mark the configurations where a line cannot be followed.
     let has_start = view.still.line.as_ref().is_none_or(|line| line.motion.is_some());
     items.extend(panel.starts.iter().filter(|_| has_start).flat_map(|&q| start_marker(chart.place(q.into()), size)));
     if let Some((q, world)) = view.still.now
@@ -71,8 +71,8 @@ pub fn items(view: &View, panel: &PanelView, chart: &Chart) -> Vec<Item> {
     items
 }
 
-/// Draws the C-obstacles. If link 2 may reach into an obstacle in one of the worlds, some part of its C-obstacle is
-/// free there. That part is dashed.
+/// Draws the C-obstacles. If link 2 may reach into an obstacle in one of the worlds, the part of the C-obstacle that is free in
+/// that world is dashed.
 pub fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     let (mut dashed, mut solid) = (Vec::new(), Vec::new());
     for (number, obstacle) in worlds[0].obstacles.iter().enumerate() {
@@ -86,8 +86,8 @@ pub fn c_obstacles(worlds: &[&WorldView], chart: &Chart) -> Vec<Item> {
     dashed
 }
 
-/// Draws the C-obstacles of moving obstacles at the current time. A still picture also shows them, dashed, at each stop
-/// of their trajectories.
+/// Draws the C-obstacles of moving obstacles at the current time. A still picture also shows them, dashed, at each stop of the
+/// obstacles.
 fn moving_obstacle_items(view: &View, world: &WorldView, chart: &Chart) -> Vec<Item> {
     let mut items = Vec::new();
     for (number, mover) in world.movers.iter().enumerate() {
@@ -103,8 +103,8 @@ fn moving_obstacle_items(view: &View, world: &WorldView, chart: &Chart) -> Vec<I
     items
 }
 
-/// Draws the numbers of steps beside the places where they end, and the names of obstacles on the visible parts of their
-/// C-obstacles, or numbers if there are many obstacles. `paths` are the outlines of the paths, which names dodge.
+/// Draws the numbers of steps beside the places where the steps end, and the names of obstacles on the visible parts of their
+/// C-obstacles (numbers if there are many obstacles). Names dodge `paths`, the outlines of the paths.
 fn names(view: &View, panel: &PanelView, chart: &Chart, paths: &[(Vec<Step>, Pen)]) -> Vec<Item> {
     let (world, mut placer) = (&view.worlds[panel.worlds[0]], Placer::new(chart.frame.rect));
     let (ends, mut tags) = (view.ends(panel), Vec::new());
@@ -131,11 +131,11 @@ fn names(view: &View, panel: &PanelView, chart: &Chart, paths: &[(Vec<Step>, Pen
     let visible: Vec<_> = visible.collect();
     let is_crowded = visible.len() > MAX_NAMED_OBSTACLES;
     let regions = visible.into_iter().filter_map(|(number, outline)| {
-        // Numbers would look like those of the steps.
+        // Numbers of obstacles would look like those of steps.
         let text = if is_crowded { world.called(number) } else { world.obstacles[number].name.clone() };
         (!is_crowded || !view.is_task()).then_some(NamedRegion { text, outline })
     });
-    // A moving obstacle may begin out of reach. Its name is then at the place where it comes near.
+    // A moving obstacle may begin out of reach. Then its name is where it first comes within reach.
     let end = view.duration().filter(|_| view.still.now.is_none());
     let moving = world.movers.iter().enumerate().filter_map(|(number, mover)| {
         let later = end.map_or_else(Vec::new, |end| mover.moments(end));
@@ -159,13 +159,13 @@ fn c_obstacle_style(color: Rgb) -> Style {
     Style { pen_below: true, ..style }
 }
 
-/// Returns the style of the C-obstacle of an obstacle that link 2 may reach into.
+/// Returns the style of the C-obstacle of an obstacle into which link 2 may reach.
 fn passable(color: Rgb) -> Style {
     let style = Style::line(color.darker(0.25), 2.6).dashed(ABSENT_DASH).filled(color.lighter(0.85)).faded(0.85);
     Style { pen_below: true, ..style }
 }
 
-/// Returns the size of the markers in a panel. In a panel with many paths, they are smaller.
+/// Returns the size of the markers in a panel: smaller if the panel has many paths.
 fn marker_size(panel: &PanelView) -> f64 {
     match panel.paths.len() {
         0..=3 => 1.0,
@@ -174,13 +174,13 @@ fn marker_size(panel: &PanelView) -> f64 {
     }
 }
 
-/// Draws the start of a motion: a ring, which leaves room for the arm's current configuration.
+/// Draws the start of a motion: a ring, within which the arm's current configuration stays visible.
 pub fn start_marker(at: [f64; 2], size: f64) -> Vec<Item> {
     let ring = Style::line(INK, 2.2 * size.sqrt()).filled(WHITE);
     vec![Item::Disc(at, 9.5 * size, Style::fill(WHITE).faded(0.85)), Item::Disc(at, 7.0 * size, ring)]
 }
 
-/// Draws the goal of a motion: a diamond, hollow if no path ended there.
+/// Draws the goal of a motion: a diamond, hollow unless a path ends there.
 pub fn goal_marker([x, y]: [f64; 2], reached: bool, size: f64) -> Vec<Item> {
     let diamond = |r: f64| {
         vec![

@@ -1,4 +1,4 @@
-//! The neutral figure: items and their places on the page, without a file format.
+//! The figure: items at places on the page, for any file format.
 
 #[cfg(feature = "png")]
 use super::DrawError;
@@ -37,7 +37,7 @@ pub enum Step {
     Move([f64; 2]),
     /// A straight line to a place.
     Line([f64; 2]),
-    /// An arc to a place on a circle of this radius: at most half a turn, counter-clockwise as seen on the page.
+    /// An arc of this radius to a place: at most half a turn, counter-clockwise as seen on the page.
     Arc(f64, [f64; 2]),
     /// A line back to the beginning of the piece.
     Close,
@@ -54,14 +54,14 @@ pub struct Pen {
     pub dash: &'static [f64],
 }
 
-/// Style of an outline: it is filled by the non-zero rule, then stroked, and the result is made transparent.
+/// Style of an outline. It is filled by the non-zero rule and stroked; then opacity applies to the result.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Style {
     /// Colour of the inside.
     pub fill: Option<Rgb>,
     /// Pen of the outline.
     pub pen: Option<Pen>,
-    /// True to draw the pen first and the fill over it. If pieces overlap, only their common outline then shows.
+    /// True to draw the fill over the pen. If pieces overlap, only their common outline is then visible.
     pub pen_below: bool,
     /// Opacity: 0 is invisible, 1 is opaque.
     pub opacity: f64,
@@ -102,7 +102,7 @@ impl Style {
     }
 }
 
-/// The point of a text that lies at its place.
+/// Point of a text that lies at the text's place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anchor {
     /// Left end of the baseline.
@@ -116,7 +116,7 @@ pub enum Anchor {
 /// A line of text.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Label {
-    /// The place on the page at which the text is anchored.
+    /// Place of the anchor on the page.
     pub at: [f64; 2],
     /// The text; any characters are allowed.
     pub text: String,
@@ -128,7 +128,7 @@ pub struct Label {
     pub upwards: bool,
     /// Colour of the letters.
     pub color: Rgb,
-    /// True if a pale line around the letters makes them legible on any ground.
+    /// True if a pale line around the letters keeps them legible on any ground.
     pub has_halo: bool,
     /// True for bold letters.
     pub is_bold: bool,
@@ -154,9 +154,9 @@ pub enum Item {
     Clip(Rect, Vec<Item>),
     /// A rectangle of coloured cells.
     Raster(Raster),
-    /// Items that belong to the path with this index, which a page can light up.
+    /// Items of the path with this index, which a page can light up.
     OfPath(usize, Vec<Item>),
-    /// Items with a name, which viewers show beside the pointer.
+    /// Items with a name, which viewers show when the pointer is on them.
     Titled(String, Vec<Item>),
 }
 
@@ -174,9 +174,9 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// Divides the cells into rectangles for each colour: the first column, the rows between the lower side and the bottom
-    /// of the raster, the width and the height of each, in cells. Consecutive cells of one colour in a column form a
-    /// rectangle. Equal rectangles in the next columns extend it.
+    /// Divides the cells into rectangles for each colour. A rectangle has its first column, the number of rows between its lower
+    /// side and the bottom of the raster, its width and its height, in cells. Consecutive cells of one colour in a column form a
+    /// rectangle, which equal rectangles in the next columns extend.
     pub(crate) fn rectangles(&self) -> Vec<Vec<[usize; 4]>> {
         let [columns, rows] = self.cells;
         let mut rectangles = vec![Vec::new(); self.palette.len()];
@@ -215,7 +215,7 @@ pub struct Figure {
     pub height: f64,
     /// Items in drawing order.
     pub items: Vec<Item>,
-    /// True for a dark background. Items have their colours for a light one; writers replace them.
+    /// True for a dark background. The colours of items are those on a light background; writers replace them.
     pub is_dark: bool,
 }
 
@@ -250,14 +250,14 @@ impl Figure {
         super::gif_writer::still(self, width)
     }
 
-    /// Returns the colour with which a colour is shown on the background of this figure.
+    /// Returns the colour that stands for `color` on the background of this figure.
     pub fn shown(&self, color: Rgb) -> Rgb {
         if self.is_dark { on_dark(color) } else { color }
     }
 }
 
-/// Returns the outline of an open (or closed) chain of places. Skips a place that is nearer than a quarter of a pixel
-/// to the one before. Nobody could see the difference, and files stay small.
+/// Returns the outline of a chain of places, which may be closed. Skips places nearer than a quarter of a pixel to the one
+/// before: the difference is invisible, and files stay small.
 pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Step> {
     const MIN_VISIBLE_SIZE: f64 = 0.25;
     let mut steps = Vec::new();
@@ -284,8 +284,8 @@ pub fn chain(spots: impl IntoIterator<Item = [f64; 2]>, closed: bool) -> Vec<Ste
     steps
 }
 
-/// Draws lines that are visible on any ground, because each lies on a broader pale line. All pale lines are drawn
-/// first. So no pale line hides a line that shows in the gaps of another line's dashes.
+/// Draws lines that are visible on any ground: each lies on a broader pale line. All pale lines come first, so that none of them
+/// hides another line.
 pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> {
     let (mut halos, mut lines) = (Vec::new(), Vec::new());
     for (steps, pen) in outlines {
@@ -296,8 +296,8 @@ pub fn lines(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>) -> Vec<Item> 
     halos
 }
 
-/// Draws the same as [`lines`], in groups by path. The paths with the indices `top` lie above the
-/// others, the first of them topmost. Each path also has a broad invisible line, which is easy to point at.
+/// Draws the same as [`lines`], in groups by path. The paths with the indices `top` lie above the others, the first of them
+/// topmost. Each path also has a broad invisible line, which makes it easy to point at.
 pub fn lines_by_path(outlines: impl IntoIterator<Item = (Vec<Step>, Pen)>, top: &[usize]) -> Vec<Item> {
     const POINTER_WIDTH: f64 = 14.0;
     let (mut halos, mut drawn) = (Vec::new(), Vec::new());
@@ -339,8 +339,7 @@ pub fn rectangle(rect: Rect) -> Vec<Step> {
     ]
 }
 
-/// Returns the width of a text in pixels in the built-in font, for a height of the font in pixels. The width of letters
-/// that are not Latin is an estimate.
+/// Returns the width of a text of this size in the built-in font, in pixels. For letters that are not Latin, it is an estimate.
 pub fn text_width(text: &str, size: f64) -> f64 {
     width(text, size, false)
 }

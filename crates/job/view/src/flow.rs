@@ -1,4 +1,4 @@
-//! The lines of a field in pictures.
+//! The lines that pictures draw through a field.
 
 use super::chart::Chart;
 use super::figure::{Item, Pen, Step, Style, chain};
@@ -52,7 +52,6 @@ impl FieldLines {
     }
 }
 
-/// Returns an arrow head a little after the beginning of a line of steepest ascent.
 fn arrow(Chain(line): &Chain, chart: &Chart) -> Vec<Step> {
     let Some(at) = line.len().checked_sub(2).map(|last| last.min(3)) else { return Vec::new() };
     let [a, b]: [[f64; 2]; 2] = [line[at], line[at + 1]].map(|q| chart.frame.at(q[0], q[1]));

@@ -8,7 +8,7 @@ use cplan_theme::{INK, WHITE};
 
 /// Length of an axis that lies in the plane, in pixels.
 const AXIS_LENGTH: f64 = 52.0;
-/// An axis is drawn as perpendicular to the plane if its projection is shorter than this share of its length.
+/// An axis whose projection is shorter than this share of its length is drawn as perpendicular to the plane.
 const PERPENDICULAR_SHARE: f64 = 0.1;
 const AXIS_LETTERS: [&str; 3] = ["x", "y", "z"];
 
@@ -22,7 +22,7 @@ fn frame_items(panel: &Frame, frame: &FrameView) -> Vec<Item> {
     let mut items = Vec::new();
     for (k, &[u, v, w]) in frame.axes.iter().enumerate() {
         let (color, _) = cplan_theme::path(k);
-        // The page's y axis points down.
+        // The y axis of the page points down.
         let shadow = Vector::new(u, -v);
         let text = |at: [f64; 2]| label(at, AXIS_LETTERS[k], 14.0, Anchor::Middle, color);
         if shadow.norm() < PERPENDICULAR_SHARE {

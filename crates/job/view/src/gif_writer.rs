@@ -1,7 +1,7 @@
 //! A sequence of figures as an animated GIF.
 //!
-//! Of each picture, only the part that has changed is written. All pictures share one palette of the most frequent colours,
-//! so that flat colours stay unchanged.
+//! Only the part of a picture that has changed is written. All pictures share one palette of the most frequent colours, so that
+//! areas of one colour stay unchanged.
 
 use super::DrawError;
 use super::figure::Figure;
@@ -12,16 +12,16 @@ use std::borrow::Cow;
 use std::collections::HashMap;
 use tiny_skia::Pixmap;
 
-/// Number of colours in the palette. The index after the last colour (`UNCHANGED_INDEX`) marks unchanged pixels.
+/// Number of colours in the palette. `UNCHANGED_INDEX`, the index after the last colour, marks unchanged pixels.
 const PALETTE_COLORS: usize = 255;
 const UNCHANGED_INDEX: u8 = PALETTE_COLORS as u8;
 
-/// Distance below which colours are merged: the sum of the squared differences of the three channels (0 to 255).
+/// Colours nearer than this are merged. The distance is the sum of the squared differences of the three channels (0 to 255).
 const COLOR_DISTANCE: i32 = 48;
 
 type Color = [u8; 3];
 
-/// A part of a picture that differs from the previous picture: left, top, width and height, and the pixels.
+/// A part of a picture that differs from the previous picture: its left side, top, width, height and pixels.
 struct Patch {
     place: [usize; 4],
     pixels: Vec<Color>,
@@ -67,7 +67,8 @@ fn colors(picture: &Pixmap) -> Vec<Color> {
     picture.pixels().iter().map(|p| [p.red(), p.green(), p.blue()]).collect()
 }
 
-/// Returns the smallest rectangle in which two pictures differ, or the whole picture if there is no previous one.
+/// Returns the smallest rectangle that contains all differences between two pictures; the whole picture if there is no previous
+/// one.
 fn differing_rectangle(before: Option<&[Color]>, now: &[Color], [width, height]: [usize; 2]) -> Option<[usize; 4]> {
     let Some(before) = before else { return Some([0, 0, width, height]) };
     let differs = |y: usize| before[y * width..][..width] != now[y * width..][..width];
@@ -89,14 +90,14 @@ fn distance(a: Color, b: Color) -> i32 {
     (0..3).map(|k| (i32::from(a[k]) - i32::from(b[k])).pow(2)).sum()
 }
 
-/// Returns the most frequent colours. Of similar colours, only one is included.
+/// Returns the most frequent colours, only one of those that are similar.
 fn palette(patches: &[Patch]) -> Vec<Color> {
     let mut counts: HashMap<Color, usize> = HashMap::new();
     for color in patches.iter().flat_map(|patch| &patch.pixels) {
         *counts.entry(*color).or_default() += 1;
     }
     let mut colors: Vec<(usize, Color)> = counts.into_iter().map(|(color, count)| (count, color)).collect();
-    // By frequency. Equally frequent colours are ordered by their values, since the order of the map is undefined.
+    // Equally frequent colours are ordered by their values, because the order of the map is undefined.
     colors.sort_unstable_by_key(|&(count, color)| (std::cmp::Reverse(count), color));
     let mut palette: Vec<Color> = Vec::new();
     for (_, color) in colors {

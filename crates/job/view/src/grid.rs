@@ -1,4 +1,4 @@
-//! The configuration spaces, side by side.
+//! The panels of configuration spaces, side by side.
 
 use super::chart::{self, Chart};
 use super::cspace;
@@ -7,7 +7,7 @@ use super::view::{PanelView, View};
 use cplan_model::Arm;
 use cplan_theme::{GRAY, INK};
 
-/// Gaps between columns (for the values at the ends of the axes) and between rows (for titles), in pixels.
+/// Gap between columns, for the values at the ends of the axes, and gap between rows, for titles, in pixels.
 const PANEL_GAPS: [f64; 2] = [40.0, 64.0];
 /// Greatest height of two panels one below the other, in pixels.
 const MAX_STACKED_HEIGHT: f64 = 640.0;
@@ -26,11 +26,11 @@ pub struct Grid {
 }
 
 impl Grid {
-    /// Creates the grid, with the number of columns with which the panels are best legible in this width.
+    /// Arranges the panels in the number of columns that makes them most legible in this width.
     pub fn new(count: usize, arm: &Arm, width: f64) -> Self {
         let proportion = chart::one_scale(arm).unwrap_or(PANEL_PROPORTION).clamp(0.5, 1.2);
         let room = |columns: usize| (width - PANEL_GAPS[0] * (columns - 1) as f64) / columns as f64;
-        // Two low panels become wider if one is below the other.
+        // Two low panels are larger one below the other.
         let below = ((MAX_STACKED_HEIGHT - PANEL_GAPS[1]) / 2.0 / proportion).min(room(1));
         let (columns, side) = match count {
             0..=1 => (1, room(1).min(530.0)),
@@ -55,8 +55,8 @@ impl Grid {
         Rect { x, y: top + row * (height + PANEL_GAPS[1]), width, height }
     }
 
-    /// Draws the panels. Only the leftmost panels and the lowest panel of each column have values at their axes. The
-    /// titles of the axes are drawn once for all panels.
+    /// Draws the panels. Only the leftmost panels, and the lowest of each column, have values at their axes. All panels share the
+    /// titles of the axes.
     pub fn items(&self, view: &View, panels: &[&PanelView], left_out: usize, corner: [f64; 2]) -> Vec<Item> {
         let arm = &view.arm;
         let mut items = Vec::new();
@@ -82,7 +82,6 @@ impl Grid {
     }
 }
 
-/// Draws the title above a frame, and a second line below it.
 fn title(panel: &PanelView, frame: Rect) -> [Item; 2] {
     const TITLE_SIZE: f64 = 15.0;
     const SUBTITLE_SIZE: f64 = 13.0;

@@ -1,4 +1,4 @@
-//! Signs and their meaning.
+//! Signs of the legend and their meanings.
 
 use super::figure::Pen;
 use super::{Object, object};
@@ -11,13 +11,13 @@ pub enum Sign {
     Start,
     /// End of the motion.
     Goal,
-    /// Intended end of a motion that was not found.
+    /// Intended end of a motion that does not reach it.
     Unreached,
     /// A piece of line, drawn with this pen.
     Line(Pen),
     /// A small square of this colour.
     Swatch(Rgb),
-    /// A small square in a colour of the scale, from 0 to 1.
+    /// A small square in the colour of this value (0 to 1) on the scale.
     Shade(f64),
     /// A dashed outline.
     Dashed(Rgb),
@@ -38,9 +38,8 @@ pub type Key = (Sign, String);
 /// An entry of the legend, and the layers of the page that it explains.
 pub type Layered = (Key, &'static [&'static str]);
 
-/// Returns an entry of the legend for pages. `layers` are those that the entry explains: the page hides the entry together
-/// with them, and always shows an entry without layers. It shows an entry with `think` only while it shows the planner's
-/// search.
+/// Returns an entry of the legend for pages. The page hides the entry together with `layers`, the layers that it explains;
+/// without layers, it always shows the entry. If `think`, it shows the entry only during the planner's search.
 pub fn document(((sign, text), layers): Layered, think: bool) -> Object {
     let of = |name: &str| object!("sign": name);
     let colored = |name: &str, color: Rgb| of(name).with("color", &role_or_hex(color));

@@ -1,9 +1,7 @@
-//! The placer of names in a panel. A name lies within its shape, touches it, or has a line that ends on it. It lies
-//! neither on the arm, nor on a marker, nor on another name, avoids paths as far as possible, and is omitted if it has no
-//! place.
+//! The placer of names in a panel. A name lies within its shape, touches it, or has a line to it. It never lies on the arm, on a
+//! marker or on another name, and avoids paths as far as possible. A name without a possible place is omitted.
 //!
-//! Pages have the same rule in `view/assets/labels.js`: the same places in the same order, with the same costs. A change
-//! here needs the same change there.
+//! For pages, `view/assets/labels.js` has the same places in the same order with the same costs. Change both together.
 
 use super::axes::Frame;
 use super::figure::{Anchor, Item, Label, Rect, Step, Style, bold_text_width, shortened};
@@ -19,28 +17,28 @@ const MAX_NAME_WIDTH: f64 = 160.0;
 const NAME_HEIGHT: f64 = 15.0;
 /// Distance between a name's box and the shape beside it, in pixels.
 const NAME_GAP: f64 = 3.0;
-/// Distances from the shape at which a name needs a line to it, in pixels.
+/// Distances from the shape at which a name needs a line to its shape, in pixels.
 const LEADER_GAPS: [f64; 3] = [18.0, 36.0, 58.0];
-/// Greatest distance between a name's box and its shape without a line, in pixels: across a corner, or beside the drawn
-/// line of a wall.
+/// Greatest distance between a name's box and its shape without a line, in pixels, as across a corner, or beside the drawn line
+/// of a wall.
 const TOUCH: f64 = 5.0;
-/// Distance between the points that stand for a line, in pixels.
+/// Distance between the points that represent a line, in pixels.
 const LINE_STEP: f64 = 4.0;
-/// Distance that a name keeps from the points of a line, in pixels, unless it must cross it.
+/// Distance that a name keeps from the points of a line, in pixels, unless it has to cross the line.
 const LINE_GAP: f64 = 2.0;
 
 /// Places for a name relative to its object, in the order of preference: on it, above, below, beside it, at its
 /// corners.
 const NAME_PLACES: [[f64; 2]; 9] =
     [[0.0, 0.0], [0.0, -1.0], [0.0, 1.0], [1.0, 0.0], [-1.0, 0.0], [1.0, -1.0], [-1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]];
-/// Cost of each place compared with the one before it.
+/// Additional cost of each place compared with the one before it.
 const PLACE_COST: f64 = 0.01;
 /// Cost of crossing a path.
 const CROSSING_COST: f64 = 3.0;
 /// Cost of a line to the shape.
 const LEADER_COST: f64 = 0.6;
 
-/// A name and the surface of any shape that it names: an outline that is filled by the non-zero rule.
+/// A name and the surface that it names: an outline, filled by the non-zero rule.
 pub struct NamedRegion {
     /// The name.
     pub text: String,
@@ -48,14 +46,12 @@ pub struct NamedRegion {
     pub outline: Vec<Step>,
 }
 
-/// Places the names of a panel one after the other. Earlier names choose their places first.
+/// Places the names of a panel one after the other; earlier names have the first choice.
 pub struct Placer {
     page: Rect,
-    /// Boxes of names and markers.
     boxes: Vec<Rect>,
-    /// Boxes of names.
     names: Vec<Rect>,
-    /// Shapes of arms in pixels that count upwards, so that corners stay counter-clockwise.
+    /// Convex parts of arms, in pixels that count upwards, so that corners stay counter-clockwise.
     shapes: Vec<Convex>,
     /// Points on lines.
     points: Vec<[f64; 2]>,
@@ -63,27 +59,26 @@ pub struct Placer {
 }
 
 impl Placer {
-    /// Creates the placer of a panel that fills `page`.
     pub fn new(page: Rect) -> Self {
         Self { page, boxes: Vec::new(), names: Vec::new(), shapes: Vec::new(), points: Vec::new(), items: Vec::new() }
     }
 
-    /// Lets names avoid a convex shape of the panel's plane, such as a part of the arm.
+    /// Keeps names off a convex shape of the panel's plane, such as a part of the arm.
     pub fn block_shape(&mut self, frame: &Frame, shape: &Convex) {
         self.shapes.push(in_pixels(frame, shape));
     }
 
-    /// Lets names avoid a marker.
+    /// Keeps names off a marker.
     pub fn block_spot(&mut self, spot: [f64; 2], half: f64) {
         self.boxes.push(centered_rect(spot, [2.0 * half; 2]));
     }
 
-    /// Lets names avoid a box.
+    /// Keeps names off a box.
     pub fn block_box(&mut self, place: Rect) {
         self.boxes.push(place);
     }
 
-    /// Lets names dodge a line.
+    /// Makes names dodge a line.
     pub fn block_line(&mut self, outline: &[Step]) {
         let (mut before, mut begin): (Option<[f64; 2]>, Option<[f64; 2]>) = (None, None);
         for step in outline {
@@ -110,8 +105,8 @@ impl Placer {
         }
     }
 
-    /// Places names, each with the box of its shape. A name lies on its shape. If the shape is too small, the name lies
-    /// beside it, where it covers least of the other shapes.
+    /// Places names, each with the box of its shape. A name lies on its shape. If the shape is too small, the name lies beside
+    /// it, where it covers the least of other shapes.
     pub fn beside(&mut self, names: &[Named]) {
         for (index, name) in names.iter().enumerate() {
             let others = names.iter().enumerate().filter(|(other, _)| *other != index).map(|(_, other)| &other.rect);
@@ -120,20 +115,21 @@ impl Placer {
         }
     }
 
-    /// Does the same as [`Placer::beside`] among regions. A name covers as little of them as possible.
+    /// Does the same as [`Placer::beside`], but each name covers as little of these regions as possible.
     pub fn beside_among(&mut self, names: &[Named], regions: &[NamedRegion]) {
         let raster = RegionRaster::new(self.page, regions.iter().map(|region| &region.outline[..]));
         names.iter().for_each(|name| self.put(name, |place, _| raster.covered_share(place, None)));
     }
 
-    /// Places names on regions of any shape: within the part of a region that is visible, as far as possible from its
-    /// outline, or beside a smaller part. A name that would cover another region there has a line to its own. Later
-    /// regions cover earlier ones.
+    /// Places names on regions of any shape. A name lies within the visible part of its region, as far as possible from the
+    /// outline. If that part is too small, the name lies beside it; if it would then cover another region, it has a line to its
+    /// own. Later regions cover earlier ones.
     pub fn on_regions(&mut self, regions: &[NamedRegion]) {
         self.on_all(regions, true);
     }
 
-    /// Does the same on bars, which may be lower than letters: a name is within its bar, above it or below it.
+    /// Does the same as [`Placer::on_regions`] for bars, which may be lower than letters: a name lies within its bar, above it or
+    /// below it.
     pub fn on_bars(&mut self, regions: &[NamedRegion]) {
         self.on_all(regions, false);
     }
@@ -156,14 +152,14 @@ impl Placer {
             };
             if let Some((at, true)) = place {
                 let place = moved_into_page(centered_rect(at, size), &self.page);
-                // A name that sticks out of its region may meet another one that does.
+                // A name that sticks out of its region may meet another name that does.
                 if self.is_blocked(&place) {
                     rest.push((index, spot(name, at)));
                 } else {
                     self.write(name, place);
                 }
             } else if let Some(at) = place.map(|(at, _)| at).or_else(|| raster.any_part(index)) {
-                // The path may cover all of a small region.
+                // Paths may cover all of a small region.
                 rest.push((index, spot(name, at)));
             }
         }
@@ -204,8 +200,8 @@ impl Placer {
         self.points.iter().any(|point| x.contains(&point[0]) && y.contains(&point[1]))
     }
 
-    /// Places a name at the best of its free places, or leaves it out. `cost` adds to the cost of a box, with or without
-    /// a line to the shape.
+    /// Places a name at the best of its free places, or omits it. `cost` is the additional cost of a box, with or without a line
+    /// to the shape.
     fn put(&mut self, named: &Named, cost: impl Fn(&Rect, bool) -> f64) {
         let name = shortened(&named.text, NAME_SIZE, MAX_NAME_WIDTH);
         let (mut best, mut least) = (None, f64::INFINITY);
@@ -252,7 +248,8 @@ impl Placer {
     }
 }
 
-/// Returns the possible places of a name, nearest first, and whether each is too far from the shape to have no line.
+/// Returns the possible places of a name, nearest first. The flag is true if the place is so far from the shape that the name
+/// needs a line.
 fn places(size: [f64; 2], of: &Rect) -> Vec<(Rect, bool)> {
     let fits = size[0] <= of.width && size[1] <= of.height;
     let middle = [of.x + of.width / 2.0, of.y + of.height / 2.0];
@@ -270,8 +267,8 @@ fn clamped([x, y]: [f64; 2], to: &Rect) -> [f64; 2] {
     [x.clamp(to.x, to.right()), y.clamp(to.y, to.bottom())]
 }
 
-/// Returns the share of a shape's box that a name would cover. It is better to hide a part of a large shape than the
-/// whole of a small one.
+/// Returns the share of a shape's box that a name would cover. Hiding a part of a large shape is better than hiding a small one
+/// wholly.
 fn covered_share(place: &Rect, other: &Rect) -> f64 {
     overlap(place, other) / (other.width * other.height).max(NAME_HEIGHT * NAME_HEIGHT)
 }
@@ -281,7 +278,7 @@ pub fn centered_rect([x, y]: [f64; 2], [width, height]: [f64; 2]) -> Rect {
     Rect { x: x - width / 2.0, y: y - height / 2.0, width, height }
 }
 
-/// Returns the box for the name of a line that comes from `from` and ends at `tip`. The box lies beyond that end.
+/// Returns the box for the name of a line from `from` to `tip`. The box lies beyond `tip`.
 pub fn label_box_beyond(name: &str, tip: [f64; 2], from: [f64; 2]) -> Rect {
     let away = [tip[0] - from[0], tip[1] - from[1]];
     let length = away[0].hypot(away[1]).max(f64::MIN_POSITIVE);
@@ -296,7 +293,7 @@ pub fn overlap(a: &Rect, b: &Rect) -> f64 {
     width.max(0.0) * height.max(0.0)
 }
 
-/// Moves a box by the least distance that brings it into the page.
+/// Moves a box by the least distance that brings it onto the page.
 fn moved_into_page(place: Rect, page: &Rect) -> Rect {
     let x = place.x.min(page.right() - place.width).max(page.x);
     let y = place.y.min(page.bottom() - place.height).max(page.y);
@@ -324,7 +321,6 @@ mod tests {
 
     const PAGE: Rect = Rect { x: 0.0, y: 0.0, width: 300.0, height: 300.0 };
 
-    /// Returns the names with the middles of their boxes.
     fn placed(placer: Placer) -> Vec<(String, [f64; 2])> {
         let text = |item: Item| if let Item::Text(label) = item { Some((label.text, label.at)) } else { None };
         let middle = |(text, [x, bottom]): (String, [f64; 2])| (text, [x, bottom + 3.5 - NAME_HEIGHT / 2.0]);
@@ -361,7 +357,7 @@ mod tests {
             1.0,
         );
         let mut placer = Placer::new(PAGE);
-        // An arm takes the place above the shape, a marker the one below, a line the one to the right.
+        // The arm is above the shape, the marker below it, and the line to its right.
         placer.block_shape(&frame, &arm);
         placer.block_spot([150.0, 166.0], 4.0);
         placer.block_line(&[Step::Move([175.0, 140.0]), Step::Line([175.0, 160.0])]);
@@ -392,12 +388,12 @@ mod tests {
         assert!(label.at[1] < 126.0);
     }
 
-    /// The box around a hollow shape is no part of it: a name that does not touch the shape has a line to it.
+    /// The box around a hollow shape is no part of the shape, so a name that only touches the box has a line to the shape.
     #[test]
     fn lines_end_on_shapes() {
         let frame = Frame::filling(PAGE, (0.0, 300.0), (0.0, 300.0));
         let wall = |corners: [[f64; 2]; 4]| Convex::trusted(corners.map(|[x, y]| Point::new(x, y)).to_vec(), 0.0);
-        // A U that opens upwards. All places are taken, except those between its ends.
+        // A U that opens upwards. All places except those between its ends are taken.
         let pieces = [
             wall([[100.0, 100.0], [200.0, 100.0], [200.0, 110.0], [100.0, 110.0]]),
             wall([[100.0, 100.0], [110.0, 100.0], [110.0, 200.0], [100.0, 200.0]]),
@@ -417,7 +413,7 @@ mod tests {
         assert!((y - 100.0).abs() < 1e-9, "{y}");
     }
 
-    /// A small region among others has a line to its name, which would seem to name one of the others.
+    /// A small region among others has a line to its name. Without it, the name would seem to belong to another region.
     #[test]
     fn names_on_other_regions_have_lines() {
         let region = |text: &str, place: Rect| NamedRegion { text: text.to_owned(), outline: rectangle(place) };
@@ -435,7 +431,7 @@ mod tests {
         assert!((146.0..=154.0).contains(&x) && (146.0..=154.0).contains(&y), "{x}, {y}");
     }
 
-    /// A bar that is lower than letters has its name above it, a higher one within it.
+    /// If a bar is lower than letters, its name is above it; otherwise, the name is within it.
     #[test]
     fn names_do_not_cover_low_bars() {
         for (height, is_within) in [(13.0, false), (40.0, true)] {

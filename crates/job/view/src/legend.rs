@@ -1,4 +1,4 @@
-//! The legend: the signs of a picture, with their meanings.
+//! The legend: the signs of a picture and their meanings.
 
 use super::Object;
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, label, rectangle, shortened, text_width};
@@ -53,7 +53,7 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     let start = match (named, view.moves()) {
         (Some(name), _) => Some(name),
         (None, true) => Some("start"),
-        // The view of an arm alone has no configuration of interest.
+        // No configuration of an arm alone is of interest.
         (None, false) => (view.frames.is_empty() && view.still.line.is_none()).then_some("configuration"),
     };
     let mut keys: Vec<Layered> = start.map(|start| always((Sign::Start, start.to_owned()))).into_iter().collect();
@@ -92,14 +92,13 @@ fn layered_keys(view: &View, still: bool) -> Vec<Layered> {
     keys
 }
 
-/// Returns the legend of the obstacles by their colours. It is empty if there are too many obstacles.
+/// Returns the legend of the obstacles by colour. Empty if there are too many obstacles.
 pub fn obstacles<'a>(shown: impl Iterator<Item = &'a ObstacleView> + Clone) -> Vec<Key> {
     let count = shown.clone().count();
     shown.filter(|_| count <= MAX_NAMED_OBSTACLES).map(|o| (Sign::Swatch(o.color), o.name.clone())).collect()
 }
 
-/// Returns the legend of the paths. It has their names, or for a task one entry for paths with a payload and one for
-/// those without.
+/// Returns the legend of the paths by name. For a task, it has one entry for paths with a payload and one for those without.
 fn paths(view: &View) -> Vec<Key> {
     let named = |path: &PathView, name: &str| (Sign::Line(path.pen()), name.to_owned());
     if view.is_task() {
@@ -122,7 +121,7 @@ pub fn layout(keys: Vec<Key>, room: f64) -> Vec<Vec<Key>> {
     let mut rows: Vec<Vec<Key>> = vec![Vec::new()];
     let mut used = 0.0;
     for (sign, name) in keys {
-        // A path's name includes the options of its planner, so it gets more room.
+        // Names of paths include the options of planners, so they get more room.
         let share = if let Sign::Line(_) = sign { 3.0 } else { 5.0 };
         let key = (sign, shortened(&name, TEXT_SIZE, room / share));
         let needed = width(&key) + KEY_GAP;

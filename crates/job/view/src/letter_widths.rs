@@ -1,5 +1,5 @@
-//! Widths of letters in the built-in font Inter, so that layouts are the same with and without it: ASCII, letters up to
-//! U+017F, dashes, apostrophe, bullet, ellipsis, minus sign, and arrow.
+//! Widths of letters in the built-in font Inter. With them, layouts do not depend on the presence of the font. The table has
+//! ASCII, letters up to U+017F, dashes, apostrophe, bullet, ellipsis, minus sign and arrow.
 
 use std::collections::HashMap;
 use std::sync::LazyLock;
@@ -7,8 +7,8 @@ use std::sync::LazyLock;
 /// Units of the font per its height.
 const UNITS_PER_EM: f64 = 2048.0;
 
-/// Widths of letters in Inter Regular and in Inter SemiBold, as fractions of the font's height. Each line of the file has
-/// the number of a letter, and its widths in units of the font.
+/// Widths of letters in Inter Regular and in Inter SemiBold, as fractions of the font's height. Each line of the file has a
+/// letter's number and its two widths in units of the font.
 static WIDTHS: LazyLock<HashMap<char, [f64; 2]>> = LazyLock::new(|| {
     let width = |text: &str| text.parse::<f64>().ok().map(|units| units / UNITS_PER_EM);
     let known = include_str!("letter_widths.txt").lines().filter_map(|line| {
@@ -29,7 +29,6 @@ mod tests {
     use super::*;
     use crate::letters::Fonts;
 
-    /// Compares with the font itself.
     #[test]
     fn widths_are_those_of_the_font() {
         let fonts = Fonts::built_in();

@@ -1,4 +1,4 @@
-//! Texts as outlines, in the font Inter, which is part of the program, so that pictures look alike on all machines.
+//! Texts as outlines. The font Inter is part of the program, so that pictures look alike on all machines.
 
 use super::figure::Anchor;
 use tiny_skia::{Path, PathBuilder};
@@ -28,8 +28,8 @@ impl Fonts {
 pub struct Font(Face<'static>);
 
 impl Font {
-    /// Returns the outline of a line of text of this size. Its anchor is at the place `[left, bottom]` of the page.
-    /// `None` if no letter has an outline.
+    /// Returns the outline of a line of text of this size, with its anchor at the place `[left, bottom]` of the page. `None` if
+    /// no letter has an outline.
     pub fn outline(&self, text: &str, size: f32, anchor: Anchor, [left, bottom]: [f32; 2]) -> Option<Path> {
         let scale = size / f32::from(self.0.units_per_em());
         let glyphs = self.glyphs(text);
@@ -43,7 +43,7 @@ impl Font {
         let mut pen = Pen { path: PathBuilder::new(), scale, origin: [0.0, bottom] };
         for (glyph, place) in glyphs.into_iter().zip(places) {
             pen.origin[0] = left + (place - shift) * scale;
-            // A space has no outline.
+            // Spaces have no outline.
             let _ = self.0.outline_glyph(glyph, &mut pen);
         }
         pen.path.finish()
@@ -56,7 +56,7 @@ impl Font {
         Some(f64::from(self.0.glyph_hor_advance(glyph)?) / f64::from(self.0.units_per_em()))
     }
 
-    /// Returns the glyphs of a text. A letter that the font lacks becomes a box.
+    /// Returns the glyphs of a text. Letters that the font lacks become boxes.
     fn glyphs(&self, text: &str) -> Vec<GlyphId> {
         text.chars().map(|letter| self.0.glyph_index(letter).unwrap_or_default()).collect()
     }
@@ -73,8 +73,8 @@ impl Font {
         places
     }
 
-    /// Returns the kerning of a pair: the amount by which the second glyph is farther from the first, in units of the
-    /// font. In each lookup, the first table that lists the pair determines it.
+    /// Returns the kerning of a pair: the additional distance of the second glyph from the first, in units of the font. In each
+    /// lookup, the first table that lists the pair counts.
     fn kern(&self, first: GlyphId, second: GlyphId) -> i16 {
         let lookups = self.0.tables().gpos.into_iter().flat_map(|table| table.lookups);
         let known = lookups.filter_map(|lookup| {
@@ -100,7 +100,6 @@ struct Pen {
     path: PathBuilder,
     /// Pixels per unit of the font.
     scale: f32,
-    /// The glyph's origin.
     origin: [f32; 2],
 }
 
@@ -152,8 +151,7 @@ mod tests {
         assert!((middle[0] + middle[1] - 1000.0).abs() < 2.0, "{middle:?}");
     }
 
-    /// Compares the position with the one that HarfBuzz computes for this font: the second of the letters "AV" overlaps
-    /// the first.
+    /// Compares the position with HarfBuzz's result for this font, in which the second letter of "AV" overlaps the first.
     #[test]
     fn pairs_of_letters_are_kerned() {
         let Fonts { regular: font, .. } = Fonts::built_in();

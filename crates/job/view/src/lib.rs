@@ -1,4 +1,4 @@
-//! Pictures and pages: pure functions of results, via one common description of the content.
+//! Pictures and pages as pure functions of results. Both are made from one description of the content, the [`View`].
 //!
 //! ```text
 //! Picture (one motion), TaskPicture -> View -> Figure -> SVG, PNG
@@ -6,13 +6,13 @@
 //!                                     \-> JSON -> HTML
 //! ```
 //!
-//! A picture has two panels side by side. The left one is the workspace in metres: the arm at the start, at the goal
-//! and along its path, and the trace of its tip. The right one is the configuration space in degrees or metres: the
-//! C-obstacles in the colours of their obstacles and with their names, the path, and the planner's trace; only proofs
-//! are hatched. The picture of a task has a configuration space for each payload state.
+//! A picture has two panels side by side. The left one is the workspace in metres: the arm at the start, at the goal and along
+//! its path, and the trace of its tip. The right one is the configuration space in degrees or metres: the C-obstacles with the
+//! colours and names of their obstacles, the path, and the planner's trace. Only proofs are hatched. The picture of a task has a
+//! configuration space for each payload state.
 //!
-//! The [`View`] determines the content and its colours. The figure places it on the page, and knows no file format. The
-//! same view always gives the same file, byte for byte.
+//! The [`View`] determines the content and its colours. The [`Figure`] places the content on the page, whatever the file format.
+//! The same view always gives the same file, byte for byte.
 
 pub mod output;
 mod animation;
@@ -104,9 +104,9 @@ pub fn workspace_svg(view: &View) -> String {
     page::workspace_figure(view).svg()
 }
 
-/// Returns the animation of a view: SVG documents, each with the time for which it is shown, in hundredths of a second.
-/// If the view contains a replay, the animation first shows how the planner found its answer. Then it shows the motion
-/// of the arm. The last document is [`svg()`].
+/// Iterates over the pictures of a view's animation: SVG documents, each with the time for which it is shown, in hundredths of a
+/// second. If the view contains a replay, the animation first shows how the planner found its answer. Then it shows the arm's
+/// motion. The last document is [`svg()`].
 pub fn moving(view: &View) -> impl Iterator<Item = (String, u16)> {
     let moments = animation::moments(view).into_iter();
     moments.map(|moment| (animation::figure(view, moment).svg(), moment.delay))

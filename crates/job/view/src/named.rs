@@ -8,26 +8,26 @@ use super::view::bounding_box;
 use cplan_geometry::{Convex, Point, separation};
 use cplan_model::Shape;
 
-/// Side of the square in the middle of a wall around which the wall's name may lie, in pixels: the width of its line.
+/// Side of the square in the middle of a wall around which the wall's name may lie, in pixels. It is the width of the wall's
+/// line.
 const WALL_SPOT_SIDE: f64 = 3.0;
 
 /// A name and the shape that it names.
 pub struct Named {
     /// The name.
     pub text: String,
-    /// The box on which or around which the name may lie.
+    /// The box on which the name may lie, or around which it may lie.
     pub rect: Rect,
-    /// The shape, as the union of convex pieces, in pixels that count upwards.
+    /// The shape as a union of convex pieces, in pixels that count upwards.
     pieces: Vec<Convex>,
 }
 
 impl Named {
-    /// Creates the name of a box.
     pub fn of_box(text: String, rect: Rect) -> Self {
         Self { text, rect, pieces: vec![outline_of(&rect, 0.0)] }
     }
 
-    /// Creates the name of the union of pieces in the panel's plane. It may lie around `rect`.
+    /// Creates the name of a union of pieces in the panel's plane. The name may lie around `rect`.
     pub fn of_pieces<'a>(
         text: String,
         rect: Rect,
@@ -50,15 +50,15 @@ impl Named {
         Self::of_pieces(text, rect, frame, pieces)
     }
 
-    /// Creates the name of lines through spots, whose box is `rect`.
+    /// Creates the name of lines, given by their points. `rect` is the box around them.
     pub fn of_lines(text: String, rect: Rect, lines: &[Vec<[f64; 2]>]) -> Self {
         let corner = |&[x, y]: &[f64; 2]| Point::new(x, -y);
         let side = |ends: &[[f64; 2]]| Convex::trusted(ends.iter().map(corner).collect(), 0.0);
         Self { text, rect, pieces: lines.iter().flat_map(|spots| spots.windows(2)).map(side).collect() }
     }
 
-    /// Returns the distance between a box and the shape in pixels, and the place on the shape that is nearest to the box.
-    /// The distance is not positive if the box and the shape overlap.
+    /// Returns the distance in pixels between a box and the shape, which is not positive if they overlap, and the point of the
+    /// shape that is nearest to the box.
     pub fn nearest(&self, place: &Rect) -> (f64, [f64; 2]) {
         let own = outline_of(place, 0.0);
         let distance = |piece: &Convex| separation(&own, piece).distance;
@@ -66,14 +66,14 @@ impl Named {
         let Some((distance, piece)) = nearest else { return (f64::INFINITY, [f64::NAN; 2]) };
         let corners = |shape: &Convex| shape.core().iter().map(|p| [p.x, p.y]).collect::<Vec<_>>();
         let [from, to] = nearest_points(&corners(&own), &corners(piece));
-        // From the core to the rounded outline.
+        // The share of the distance from the core to the rounded outline.
         let share = piece.radius() / (distance + piece.radius()).max(f64::MIN_POSITIVE);
         let [x, y] = [0, 1].map(|k| to[k] + (from[k] - to[k]) * share);
         (distance, [x, -y])
     }
 }
 
-/// Returns a convex shape of the panel's plane in pixels that count upwards, so that corners stay counter-clockwise.
+/// Returns a convex shape of the panel's plane, in pixels that count upwards, so that corners stay counter-clockwise.
 pub fn in_pixels(frame: &Frame, shape: &Convex) -> Convex {
     let corner = |p: Point| {
         let [x, y] = frame.at(p.x, p.y);
@@ -89,8 +89,8 @@ pub fn outline_of(place: &Rect, radius: f64) -> Convex {
     Convex::trusted(corners.to_vec(), radius)
 }
 
-/// Returns the box to which the name of a shape refers. It is the box around the whole shape, or for a wall a square in
-/// the middle of its longest stretch.
+/// Returns the box to which a name refers: the box around the shape or, for a wall, a square in the middle of its longest
+/// stretch.
 fn place<'a>(frame: &Frame, shape: &Shape, pieces: impl IntoIterator<Item = &'a Convex>) -> Rect {
     if let Shape::Polyline(points) = shape {
         let longest = points.windows(2).max_by(|a, b| (a[1] - a[0]).norm().total_cmp(&(b[1] - b[0]).norm()));

@@ -1,15 +1,15 @@
-//! Objects of the documents that pages read.
+//! JSON objects in the documents that pages read.
 
 use serde::ser::{Error, SerializeMap};
 use serde::{Serialize, Serializer};
 use serde_json::value::RawValue;
 
-/// An object of a document: names in this order, with values that are already text.
+/// A JSON object: names in this order, with serialised values.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Object(Vec<(&'static str, String)>);
 
 impl Object {
-    /// Returns the object with another value. A missing value is left out.
+    /// Adds a value, unless it is missing.
     ///
     /// # Panics
     /// If the value has keys that are no strings.
@@ -20,7 +20,7 @@ impl Object {
         self
     }
 
-    /// Returns the object with another value. Leaves out a value that is missing, empty or false.
+    /// Adds a value, unless it is missing, empty or false.
     #[must_use]
     pub fn with_any(self, name: &'static str, value: &impl Serialize) -> Self {
         let mut object = self.with(name, value);

@@ -13,8 +13,8 @@ use cplan_text::markup;
 /// Margin on each side of the obstacles, as a fraction of their extent.
 const MARGIN_SHARE: f64 = 0.04;
 
-/// Draws obstacles, the largest first. Each has its name if there is room. Obstacles of the same group have the same
-/// colour; `groups` has the group of each. The first line of `title` is the title.
+/// Draws obstacles, the largest first, with their names if there is room. Obstacles of the same group have the same colour;
+/// `groups` has the group of each. The first line of `title` is the title.
 pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> Figure {
     let mut known: Vec<&str> = Vec::new();
     let mut colors = Vec::with_capacity(obstacles.len());
@@ -46,9 +46,9 @@ pub fn obstacles(title: &[String], obstacles: &[Obstacle], groups: &[&str]) -> F
     })
 }
 
-/// Largest number of colours for which there is a legend.
+/// Largest number of entries of the legend.
 const MAX_KEYS: usize = 32;
-/// Largest number of obstacles with names. With more names, it would be unclear to which obstacle each belongs.
+/// Largest number of obstacles whose names are drawn. More names could not be told apart.
 const MAX_NAMES: usize = 200;
 /// Draws names on their obstacles or beside them.
 fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
@@ -61,7 +61,7 @@ fn names(frame: &Frame, obstacles: &[Obstacle]) -> Vec<Item> {
     placer.into_items()
 }
 
-/// Returns least and greatest coordinates of obstacles.
+/// Returns the least and greatest coordinates of obstacles.
 pub fn extent(obstacles: &[Obstacle]) -> [Range; 2] {
     bounding_box(obstacles.iter().flat_map(|obstacle| &obstacle.pieces))
 }

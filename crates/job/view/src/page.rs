@@ -1,4 +1,4 @@
-//! The page: titles, the workspace, configuration spaces, the steps of a task, legend.
+//! The page: titles, workspace, configuration spaces, steps of a task, and legend.
 
 use super::figure::{Anchor, Figure, Item, Rect, bold, bold_text_width, label, shortened};
 use super::grid::Grid;
@@ -11,14 +11,14 @@ use cplan_theme::{FOUND, GRAY, INFEASIBLE, INK, Rgb};
 
 /// Width of every picture, in pixels.
 const PAGE_WIDTH: f64 = 1400.0;
-/// Height of pictures of one motion, and least height of other pictures, in pixels.
+/// Height of pictures of a single motion, and least height of other pictures, in pixels.
 const MIN_PAGE_HEIGHT: f64 = 720.0;
 /// Margin on all sides, in pixels.
 const PAGE_MARGIN: f64 = 28.0;
-/// Space below panels, in pixels: values and titles of their axes, and the distance to the next item.
+/// Room below panels, in pixels: values and titles of the axes, and the gap before the next item.
 const AXES_HEIGHT: f64 = 58.0;
 
-/// Room between two panels, in pixels: values and title of an axis.
+/// Room between two panels, in pixels, for values and title of an axis.
 const PAIR_GAP: f64 = RIGHT_COLUMN.x - LEFT_COLUMN.x - LEFT_COLUMN.width;
 /// Width and height of the workspace alone, in pixels.
 const WORKSPACE_SIZE: [f64; 2] = [370.0, 350.0];
@@ -34,8 +34,8 @@ const RIGHT_COLUMN: Rect = Rect { x: 760.0, y: 0.0, width: 612.0, height: 0.0 };
 const SCALED_COLUMN: Rect = Rect { x: 770.0, y: 0.0, width: 530.0, height: 0.0 };
 /// Least and greatest height of the workspace in the picture of a task, in pixels.
 const WORKSPACE_HEIGHTS: [f64; 2] = [520.0, 640.0];
-/// Largest number of payload states that a picture shows, not counting that of a failed step. With more of them, the
-/// page would be too long to read.
+/// Largest number of payload states that a picture shows, in addition to that of a failed step. With more, the page would be too
+/// long.
 const MAX_PAYLOAD_STATES: usize = 24;
 
 /// Upper bound on the ratio of the widths of a bold text and a normal one.
@@ -46,8 +46,8 @@ pub fn compose(view: &View) -> Figure {
     explained(view, legend::keys(view))
 }
 
-/// Composes the page with the given legend. All pictures of an animation have the same legend, so that nothing moves
-/// when the content changes.
+/// Composes the page with the given legend. All pictures of an animation have the same legend, so that nothing else moves when
+/// the content changes.
 pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     let mut items = titles(&view.title, verdict(view), PAGE_WIDTH);
     let lines = 18.0 * view.title.len().max(1) as f64;
@@ -82,8 +82,7 @@ pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
     Figure { width: PAGE_WIDTH, height, items, is_dark: view.still.is_dark }
 }
 
-/// Returns the title of a configuration space. Among moving obstacles, it states the time for which their C-obstacles are
-/// drawn.
+/// Returns the title of a configuration space. Among moving obstacles, it states the time for which C-obstacles are drawn.
 fn space_title(view: &View, panel: &PanelView) -> String {
     let movers = &view.worlds[panel.worlds[0]].movers;
     match (movers.is_empty(), view.still.now, view.duration()) {
@@ -95,23 +94,23 @@ fn space_title(view: &View, panel: &PanelView) -> String {
     }
 }
 
-/// Returns the places of the workspace and of a single configuration space. If both axes of the configuration space have
-/// the same scale, both panels have the same size.
+/// Returns the places of the workspace and of a single configuration space. Both have the same size if the axes of the
+/// configuration space have the same scale.
 fn pair(view: &View, top: f64, height: f64) -> [Rect; 2] {
     let has_scale = view.first_world().scale.is_some();
     let column = if has_scale { SCALED_COLUMN } else { RIGHT_COLUMN };
     let natural = chart::one_scale(&view.arm).map(|proportion| height / proportion);
     let width = natural.filter(|width| *width <= column.width && *width >= MIN_PAIR_WIDTH).unwrap_or(LEFT_COLUMN.width);
     let right = width.min(column.width);
-    // Both panels are in the middle of the page, with room between them only for the values of an axis.
+    // Both panels are in the middle of the page, and the room between them suffices only for the values of an axis.
     let beside = if has_scale { PAGE_WIDTH - PAGE_MARGIN - SCALED_COLUMN.right() } else { 0.0 };
     let total = width + PAIR_GAP + right + beside;
     let x = (PAGE_WIDTH - total + LEFT_COLUMN.x - PAGE_MARGIN) / 2.0;
     [Rect { x, y: top, width, height }, Rect { x: x + width + PAIR_GAP, y: top, width: right, height }]
 }
 
-/// Draws the strip over time, with its upper edge at `top`: for a motion along a line if there is one, otherwise for a
-/// motion among moving obstacles. Returns the strip's height; 0 if there is no strip.
+/// Draws the strip over time at `top`: that of a motion along a line, or that among moving obstacles. Returns the strip's height,
+/// or 0 without a strip.
 fn strips(view: &View, [left, right]: [f64; 2], top: f64, items: &mut Vec<Item>) -> f64 {
     let area = Rect { x: left, y: top, width: right - left, height: 0.0 };
     if let Some(line) = view.still.line.as_ref().filter(|line| line.motion.is_some()) {
@@ -130,8 +129,8 @@ pub fn workspace_figure(view: &View) -> Figure {
     Figure { width, height, items: workspace::panel(view, area), is_dark: view.still.is_dark }
 }
 
-/// Composes a page with a single panel and a legend below it. The panel's height is `aspect` times its width, unless
-/// the page has too little room.
+/// Composes a page with a single panel and a legend below it. If the page has room, the panel's height is `aspect` times its
+/// width.
 pub fn single_panel_page(
     title: &[String],
     keys: Vec<Key>,
@@ -154,7 +153,7 @@ pub fn single_panel_page(
     Figure { width, height, items, is_dark: false }
 }
 
-/// Draws the workspace, a configuration space for each payload state, and the steps; returns the height of the page.
+/// Draws the workspace, a configuration space for each payload state, and the steps. Returns the height of the page.
 fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &mut Vec<Item>) -> f64 {
     let going = panels.iter().filter(|panel| panel.fails.is_none());
     let left_out = going.clone().count().saturating_sub(MAX_PAYLOAD_STATES);
@@ -183,16 +182,15 @@ fn task(view: &View, panels: &[PanelView], keys: &[Vec<Key>], top: f64, items: &
 /// Places of the parts of a page, in pixels.
 struct Layout {
     workspace: Rect,
-    /// Places of the lists of steps below the workspace and below the configuration spaces, with their numbers of rows.
-    /// The height of a list depends on its rows.
+    /// Places of the lists of steps below the workspace and below the configuration spaces, each with its number of rows, which
+    /// determines its height.
     lists: [(Rect, usize); 2],
-    /// Distance from the top of the page to the end of all parts.
+    /// Distance from the top of the page to the lower end of all parts.
     height: f64,
 }
 
-/// Places the list of steps below the workspace, or below the configuration spaces, or divides it between these two
-/// places. The configuration spaces are `grid` pixels high. Chooses the place for which the page is lower. A short list
-/// is not divided.
+/// Places the list of steps below the workspace or below the configuration spaces (which are `grid` pixels high), or divides it
+/// between both, so that the page is as low as possible. Short lists are not divided.
 fn layout(top: f64, grid: f64, rows: usize) -> Layout {
     const MIN_DIVIDED_ROWS: usize = 9;
     let list = |rows: usize| if rows == 0 { 0.0 } else { AXES_HEIGHT + steps::ROW_HEIGHT * (rows + 1) as f64 };
@@ -221,7 +219,7 @@ fn verdict(view: &View) -> (String, Rgb) {
     (format!("{sign}{}", view.status), color)
 }
 
-/// Draws the title and the lines below it on the left, and the status on the right.
+/// Draws title and further lines on the left, and the status on the right.
 fn titles(lines: &[String], (status, color): (String, Rgb), width: f64) -> Vec<Item> {
     let mut items = Vec::new();
     let status_width = bold_text_width(&status, 18.0);

@@ -7,7 +7,7 @@ use super::page;
 use cplan_geometry::Point;
 use cplan_theme::{INK, Rgb, obstacle};
 
-/// Ratio of height to width of the two panels together.
+/// Ratio of height to width of both panels together.
 const PROPORTION: f64 = 0.48;
 /// Height of the titles of the panels, pixels.
 const TITLE_HEIGHT: f64 = 18.0;
@@ -31,7 +31,7 @@ pub struct PolygonPair<'a> {
     pub difference: &'a [Vec<Point>],
 }
 
-/// Draws two polygons, and beside them their difference with the origin.
+/// Draws two polygons on the left, and their difference with the origin on the right.
 pub fn polygon_pair(pair: &PolygonPair) -> Figure {
     let [a, b, difference] = [0, 1, 2].map(obstacle);
     let keys: Vec<Key> = [(a, "A"), (b, "B"), (difference, "B \u{2212} A")]
@@ -65,7 +65,7 @@ fn frame(area: Rect, polygons: &[&[Point]]) -> Frame {
     Frame::filling(area, x, y)
 }
 
-/// Draws polygons with their colours, and points, in a frame with a title.
+/// Draws a titled panel with coloured polygons and points.
 fn panel(area: Rect, title: &str, polygons: &[(&[Point], Rgb)], points: &[Point]) -> Vec<Item> {
     let outlines: Vec<&[Point]> = polygons.iter().map(|(corners, _)| *corners).chain([points]).collect();
     let frame = frame(area, &outlines);
@@ -87,7 +87,6 @@ fn panel(area: Rect, title: &str, polygons: &[(&[Point], Rgb)], points: &[Point]
     items
 }
 
-/// Draws the names of corners, unless there are too many.
 fn names(frame: &Frame, name: &str, corners: &[Point]) -> Vec<Item> {
     let text = |(i, p): (usize, &Point)| {
         let [x, y] = frame.at(p.x, p.y);

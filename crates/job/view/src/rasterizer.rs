@@ -11,19 +11,18 @@ use tiny_skia::{
     Transform,
 };
 
-/// Greatest side of a picture, in pixels. It fits into 16 bits, and a picture of this size needs at most 1 GB.
+/// Greatest side of a picture, in pixels. It fits into 16 bits, and such a picture needs at most 1 GB.
 const MAX_SIDE: f64 = 16_384.0;
 
-/// A renderer of figures. It uses the font that is part of the program.
+/// A renderer of figures with the built-in font.
 pub struct Rasterizer(Fonts);
 
 impl Rasterizer {
-    /// Creates a rasteriser with its font.
     pub fn new() -> Self {
         Self(Fonts::built_in())
     }
 
-    /// Returns the pixels of a figure on its background, `scale` of them for each pixel of the page.
+    /// Returns the pixels of a figure on its background: `scale` times `scale` for each pixel of the page.
     pub fn picture(&self, figure: &Figure, scale: f64) -> Result<Pixmap, DrawError> {
         let mut pixels = blank(figure, scale)?;
         pixels.fill(shown(WHITE, figure));
@@ -58,7 +57,7 @@ impl Rasterizer {
     }
 
     fn paint_text(&self, label: &Label, figure: &Figure, transform: Transform, pixels: &mut Pixmap) {
-        // As in SVG, spaces at the ends are not shown, and several spaces in a row are one.
+        // As in SVG, spaces at the ends are omitted, and several spaces in a row become one.
         let words: Vec<&str> = label.text.split([' ', '\n']).filter(|word| !word.is_empty()).collect();
         let [x, y] = label.at.map(single);
         let path = self.0.of(label.is_bold).outline(&words.join(" "), label.size as f32, label.anchor, [x, y]);
@@ -77,18 +76,17 @@ fn blank(figure: &Figure, scale: f64) -> Result<Pixmap, DrawError> {
     size.flatten().ok_or(DrawError::Scale(scale))
 }
 
-/// Returns the colour with which a colour is shown on the background of a figure.
+/// Returns the colour that stands for `color` on the background of a figure.
 fn shown(color: Rgb, figure: &Figure) -> Color {
     let Rgb(red, green, blue) = figure.shown(color);
     Color::from_rgba8(red, green, blue, 255)
 }
 
-/// Returns a coordinate in single precision.
 fn single(value: f64) -> f32 {
     value.clamp(-MAX_COORDINATE, MAX_COORDINATE) as f32
 }
 
-/// Returns an outline as a path. `None` if it has no length, so that nothing is drawn.
+/// Returns an outline as a path; `None` if it has no length and is therefore invisible.
 fn outline(steps: &[Step]) -> Option<Path> {
     let mut path = PathBuilder::new();
     let mut at = [0.0; 2];
@@ -113,7 +111,7 @@ fn add_arc(path: &mut PathBuilder, from: [f64; 2], radius: f64, to: [f64; 2]) {
     if half == 0.0 {
         return;
     }
-    // Rounding may leave the radius of half a turn slightly too small.
+    // Rounding may make the radius of half a turn slightly too small.
     let radius = radius.max(half);
     let height = (radius * radius - half * half).sqrt() / (2.0 * half);
     let center = [(from[0] + to[0]) / 2.0 + height * dy, (from[1] + to[1]) / 2.0 - height * dx];
@@ -121,7 +119,7 @@ fn add_arc(path: &mut PathBuilder, from: [f64; 2], radius: f64, to: [f64; 2]) {
     let turn = -2.0 * (half / radius).asin();
     let count = (turn.abs() / FRAC_PI_2).ceil().max(1.0);
     let handle = 4.0 / 3.0 * (turn / count / 4.0).tan();
-    // The point at an angle, moved by `by` along the tangent.
+    // The point at an angle, moved by `by` along the tangent there.
     let point = |angle: f64, by: f64| {
         let (sin, cos) = angle.sin_cos();
         [center[0] + radius * (cos - by * sin), center[1] + radius * (sin + by * cos)].map(single)
@@ -133,7 +131,7 @@ fn add_arc(path: &mut PathBuilder, from: [f64; 2], radius: f64, to: [f64; 2]) {
     }
 }
 
-/// Draws on a separate layer, which is then laid over the page. The layer covers only the area within `bounds`.
+/// Draws on a separate layer, which is then laid over the page. The layer is only as large as `bounds`.
 fn on_layer(
     bounds: Rect,
     transform: Transform,
@@ -141,7 +139,7 @@ fn on_layer(
     pixels: &mut Pixmap,
     draw: impl FnOnce(Transform, &mut Pixmap),
 ) {
-    // Smoothing extends edges by up to a pixel.
+    // Anti-aliasing extends edges by up to a pixel.
     let reach = bounds.transform(transform).and_then(|bounds| bounds.outset(2.0, 2.0)?.round_out());
     let page = IntRect::from_xywh(0, 0, pixels.width(), pixels.height());
     let Some(place) = reach.zip(page).and_then(|(reach, page)| reach.intersect(&page)) else { return };
@@ -192,7 +190,7 @@ fn paint_of(color: Rgb, figure: &Figure) -> Paint<'static> {
     paint
 }
 
-/// Paints cells without smoothing, which would show seams between rectangles.
+/// Paints cells without anti-aliasing, which would show seams between rectangles.
 fn paint_cells(raster: &Raster, figure: &Figure, transform: Transform, pixels: &mut Pixmap) {
     let [columns, rows] = raster.cells.map(|count| count.max(1) as f32);
     let [x, y, width, height] = [raster.rect.x, raster.rect.y, raster.rect.width, raster.rect.height].map(single);
@@ -242,7 +240,7 @@ mod tests {
         assert_eq!([at(&pixels, 4, 7), at(&pixels, 10, 7), at(&pixels, 7, 12)], [NOTHING; 3]);
     }
 
-    /// Checks that, where line and fill overlap, only the upper of the two is visible, at any opacity of the shape.
+    /// Checks that, where line and fill overlap, only the upper one is visible, whatever the opacity.
     #[test]
     fn opacity_is_that_of_the_whole() {
         let style = Style::line(BLUE, 8.0).filled(RED).faded(0.5);
@@ -260,7 +258,7 @@ mod tests {
         assert_eq!([3, 7, 11].map(|x| at(&pixels, x, 10)), [[0, 0, 255, 255], NOTHING, [0, 0, 255, 255]]);
     }
 
-    /// Compares two half turns with the disc of the same radius, and a quarter with its middle.
+    /// Compares two half turns with a disc of the same radius, and a quarter turn with its middle.
     #[test]
     fn arcs_turn_counter_clockwise() {
         let ring =
@@ -276,7 +274,7 @@ mod tests {
         assert_eq!(at(&pixels, 12, 7), NOTHING);
     }
 
-    /// Tests that a text turns about its anchor. It reads upwards, centred at the middle of the right side.
+    /// Checks that a text turns about its anchor. It reads upwards, centred at the middle of the right side.
     #[test]
     fn texts_turn_about_their_anchor() {
         let Item::Text(label) = upwards([10.0, 20.0], "ll", 10.0, RED) else { panic!("a text") };

@@ -1,4 +1,4 @@
-//! A raster of the visible parts of regions, in which names of regions find the roomiest place.
+//! A raster of the visible parts of regions. With it, names of regions find the place with the most room.
 
 use super::figure::{Rect, Step};
 
@@ -8,9 +8,9 @@ const CELL: f64 = 4.0;
 const NOTHING: i32 = 0;
 /// Value of a cell that no name may cover.
 const BLOCKED: i32 = -1;
-/// Least part of a name that must lie on its region.
+/// Least share of a name that must lie on its region.
 const MIN_PART: f64 = 0.3;
-/// Preference of places near the middle of a region, per cell of distance. It only decides between equal places.
+/// Bonus per cell of distance for places nearer to the middle of a region. It only decides between otherwise equal places.
 const CENTER_PREFERENCE: f64 = 1e-4;
 
 /// Cells of a panel, each with the number of the uppermost region that covers its middle.
@@ -18,9 +18,9 @@ pub struct RegionRaster {
     page: Rect,
     columns: usize,
     rows: usize,
-    /// Region of each cell, from 1, row by row; [`BLOCKED`] for cells that no name may cover.
+    /// Region of each cell, numbered from 1, row by row; [`BLOCKED`] for cells that no name may cover.
     cells: Vec<i32>,
-    /// Region of each cell, without regard to blocked cells.
+    /// Region of each cell, whether or not it is blocked.
     full: Vec<i32>,
 }
 
@@ -36,7 +36,7 @@ impl RegionRaster {
         raster
     }
 
-    /// Lets names avoid a box.
+    /// Keeps names off a box.
     pub fn block(&mut self, place: &Rect) {
         let [x, y] = [self.page.x, self.page.y];
         let range = |low: f64, high: f64, count: usize| {
@@ -51,18 +51,18 @@ impl RegionRaster {
         }
     }
 
-    /// Returns the middle of the best place in a region for a name of this size in pixels, and whether the name fits
-    /// there. `None` if no cell of the region is visible.
+    /// Returns the middle of the best place in a region for a name of this size in pixels, and true if the name fits into the
+    /// region there. `None` if no cell of the region is visible.
     ///
-    /// A name that fits within the region lies as far as possible from its outline. Otherwise, if it may stick out, its
-    /// middle lies on the region, and the rest covers nothing else.
+    /// A name that fits lies as far as possible from the region's outline. A name that sticks out has its middle on the region,
+    /// and covers no other region.
     pub fn roomiest(&self, region: usize, size: [f64; 2], may_stick_out: bool) -> Option<([f64; 2], bool)> {
         let size = size.map(|side| (side / CELL).ceil() as usize);
         let search = Search::new(self, &self.cells, region, size)?;
         search.roomiest(may_stick_out).map(|(at, fits)| (self.on_page(at), fits))
     }
 
-    /// Returns the upright part of a region through a place on it, as a box without width.
+    /// Returns the vertical stretch of a region through a place, as a box without width.
     pub fn upright_part(&self, region: usize, [x, y]: [f64; 2]) -> Rect {
         let [column, row] = [x - self.page.x, y - self.page.y].map(|at| (at / CELL).floor().max(0.0) as usize);
         let is_own = |row: &usize| {
@@ -81,7 +81,7 @@ impl RegionRaster {
         Some(self.on_page(at))
     }
 
-    /// Returns the share of a box that lies on regions, except on one if it is given. It is sampled at 15 points.
+    /// Returns the share of a box that lies on regions other than `except`, sampled at 15 points.
     pub fn covered_share(&self, place: &Rect, except: Option<usize>) -> f64 {
         let own = except.map_or(NOTHING, |region| region as i32 + 1);
         let spots = (0..5).flat_map(|i| (0..3).map(move |j| [(f64::from(i) + 0.5) / 5.0, (f64::from(j) + 0.5) / 3.0]));
@@ -99,7 +99,7 @@ impl RegionRaster {
         [self.page.x + column * CELL, self.page.y + row * CELL]
     }
 
-    /// Fills an outline by the non-zero rule: a cell belongs to it if its middle does.
+    /// Fills an outline by the non-zero rule. A cell belongs to it if the cell's middle does.
     fn fill(&mut self, outline: &[Step], id: i32) {
         let sides = sides(outline);
         let mut crossings: Vec<(f64, i32)> = Vec::new();
@@ -116,7 +116,7 @@ impl RegionRaster {
             for pair in crossings.windows(2) {
                 winding += pair[0].1;
                 if winding != 0 {
-                    // The cells whose middles lie between the two crossings.
+                    // The cells with their middles between two crossings.
                     let column =
                         |x: f64| ((x - self.page.x) / CELL - 0.5).ceil().clamp(0.0, self.columns as f64) as usize;
                     let (from, to) = (column(pair[0].0), column(pair[1].0));
@@ -128,7 +128,7 @@ impl RegionRaster {
     }
 }
 
-/// Returns the sides of an outline, whose pieces are closed.
+/// Returns the sides of an outline; all its pieces count as closed.
 fn sides(outline: &[Step]) -> Vec<[[f64; 2]; 2]> {
     let (mut sides, mut begin, mut at) = (Vec::new(), None, None);
     for step in outline {
@@ -147,7 +147,7 @@ fn sides(outline: &[Step]) -> Vec<[[f64; 2]; 2]> {
     sides
 }
 
-/// A search for a place in one region, within the part of the raster around the region.
+/// A search for a place in one region, in the part of the raster around the region.
 struct Search<'a> {
     raster: &'a RegionRaster,
     cells: &'a [i32],
@@ -209,7 +209,7 @@ impl<'a> Search<'a> {
         Some((self.fitting([side; 2])?, false))
     }
 
-    /// Returns the middle of the place with the largest margin about the name, found by bisection.
+    /// Returns the middle of the place with the most room around the name, by bisection.
     fn with_largest_margin(&self, mut fit: [f64; 2]) -> [f64; 2] {
         let (mut low, mut high) = (0, self.extent[0].max(self.extent[1]).div_ceil(2));
         while high > low + 1 {
@@ -222,12 +222,13 @@ impl<'a> Search<'a> {
         fit
     }
 
-    /// Returns the middle of a box of this size within the region that is nearest to the region's middle.
+    /// Returns the place within the region, for a box of this size, that is nearest to the middle of the region. Places are given
+    /// by their middles.
     fn fitting(&self, size: [usize; 2]) -> Option<[f64; 2]> {
         self.best(size, |x, y| (self.own.count([x, y], size) as usize == size[0] * size[1]).then_some(1.0))
     }
 
-    /// Returns the middle of the box with the best rating. `rate` returns `None` for a box that is not possible.
+    /// Returns the middle of the box with the best rating. `rate` returns `None` for impossible boxes.
     fn best(&self, size: [usize; 2], rate: impl Fn(usize, usize) -> Option<f64>) -> Option<[f64; 2]> {
         let (mut best, mut most) = (None, f64::NEG_INFINITY);
         for y in 0..(self.extent[1] + 1).saturating_sub(size[1]) {
@@ -245,7 +246,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Counts cells of a kind in any box, by a table of sums.
+/// Counts the cells of a kind in any box, by a table of sums.
 struct Counter {
     sums: Vec<u32>,
     columns: usize,

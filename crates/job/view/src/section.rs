@@ -1,4 +1,4 @@
-//! Sections: parts of pictures and pages that companions bring.
+//! Sections: parts of pictures and pages that companion crates contribute.
 
 use super::axes::Frame;
 use super::chart::Chart;
@@ -14,19 +14,19 @@ use serde_json::value::RawValue;
 /// Radius of a dot, in pixels.
 const DOT_RADIUS: f64 = 1.1;
 
-/// A part of a picture or page that a companion brings. Pages get data, and a script that shows them; pictures get cells
-/// and dots.
+/// A part of a picture or page that a companion crate contributes. Pages get data and a script that shows them; pictures get
+/// cells and dots.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Section {
-    /// Name by which the page finds the data.
+    /// Key under which the page finds the data.
     pub name: &'static str,
     /// Data, as JSON.
     pub data: String,
-    /// Code of pages that have this section.
+    /// Script of pages with this section.
     pub script: &'static str,
-    /// Name of the start. `None` for the usual one.
+    /// Name of the start configuration. `None` for the usual one.
     pub start: Option<&'static str>,
-    /// Cells of the workspace, below everything else.
+    /// Cells of the workspace, drawn below everything else.
     pub cells: Option<CellLayer>,
     /// Dots in the configuration space, each with its colour.
     pub dots: Vec<(Configuration, Rgb)>,
@@ -52,7 +52,7 @@ pub struct CellLayer {
 }
 
 impl Section {
-    /// Creates a section whose data the page finds by this name.
+    /// Creates a section with this name and data.
     ///
     /// # Panics
     /// If the data have keys that are no strings.

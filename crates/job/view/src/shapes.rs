@@ -6,7 +6,7 @@ use super::view::ObstacleView;
 use cplan_geometry::{Convex, Point, Vector};
 use cplan_model::Shape;
 
-/// Dashes of objects that will be placed later, and of obstacles that links may enter, in pixels.
+/// Dashes, in pixels, for objects at future places and for obstacles into which links may reach.
 pub const ABSENT_DASH: &[f64] = &[5.0, 3.0];
 
 /// Draws an obstacle at its pose.
@@ -22,7 +22,7 @@ pub fn dashed(frame: &Frame, object: &ObstacleView) -> Item {
     item(frame, object, line.filled(object.color.lighter(0.85)).faded(0.9), line)
 }
 
-/// Draws the outline of an obstacle with this pen.
+/// Draws the outline of an obstacle.
 pub fn marked(frame: &Frame, obstacle: &ObstacleView, pen: Style) -> Item {
     item(frame, obstacle, pen, pen)
 }
@@ -87,7 +87,7 @@ mod tests {
     use super::super::figure::Rect;
     use super::*;
 
-    /// Compares the area of the flattened outline with Steiner's formula.
+    /// Compares the area of the flattened outline with that by Steiner's formula.
     #[test]
     fn outlines_enclose_their_shape() {
         let area = Rect { x: 0.0, y: 0.0, width: 100.0, height: 100.0 };
@@ -114,9 +114,9 @@ mod tests {
                     Step::Close => {}
                 }
             }
-            // Counter-clockwise on the page is clockwise in coordinates whose y axis points down.
+            // The y axis points down, so counter-clockwise on the page is clockwise in its coordinates.
             let found = (-twice / 2.0 + arcs) / frame.scale().powi(2);
-            // The arc sine loses half of the digits at half a turn.
+            // The arc sine loses half of the digits near half a turn.
             assert!((found - shape.area()).abs() < 1e-7, "{n} corners, radius {r}: {found} for {}", shape.area());
         }
     }

@@ -7,13 +7,13 @@ use cplan_theme::{FAINT, GRAY};
 /// Height of a row, in pixels.
 pub const ROW_HEIGHT: f64 = 22.0;
 const TEXT_SIZE: f64 = 14.0;
-/// Size of the numbers of steps in the file.
+/// Size of the column with numbers of steps in the file.
 const SMALL_SIZE: f64 = 12.0;
-/// Room for the numbers of steps in the file, to the left of the times, in pixels.
+/// Width of that column, to the left of the times, in pixels.
 const FILE_NUMBER_WIDTH: f64 = 64.0;
-/// Name of the column of these numbers.
+/// Name of that column.
 const FILE_NUMBER_HEAD: &str = "in the file";
-/// Room for the numbers at the left, in pixels.
+/// Width of the column with numbers, in pixels.
 const NUMBER_WIDTH: f64 = 26.0;
 
 /// Draws a list of steps in the upper part of `area`: first the names of the columns, then a row for each step, with a

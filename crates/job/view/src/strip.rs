@@ -1,5 +1,5 @@
-//! The strip below a picture among moving obstacles: progress along the motion against time. Regions that obstacles block
-//! have the colours of the obstacles; the motion passes between them.
+//! The strip below a picture among moving obstacles: progress along the motion against time. Regions that an obstacle blocks have
+//! its colour; the motion passes between them.
 
 use super::axes::{Frame, Unit};
 use super::figure::{Anchor, Item, Pen, Rect, Step, Style, bold, chain, label, lines};
@@ -22,13 +22,13 @@ const MOTION_PEN: Pen = Pen { color: INK, width: 2.4, dash: &[] };
 /// Pen of the motion while it waits.
 const WAIT_PEN: Pen = Pen { color: ACCENT, width: 4.0, dash: &[] };
 
-/// Returns the outline of a region. A region that is too low to be seen is drawn higher, on the side where the motion does
-/// not pass.
+/// Returns the outline of a region. A region too low to be seen is drawn higher; it grows towards the side on which the motion
+/// does not pass.
 fn visible(strip: &StripView, frame: &Frame, corners: &[Configuration]) -> Vec<Step> {
     let begin = corners.iter().map(|q| q[0]).fold(f64::INFINITY, f64::min);
     let [low, high] = [f64::min, f64::max].map(|pick| corners.iter().map(|q| q[1]).reduce(pick).unwrap_or_default());
     let missing = (LEAST_HEIGHT / frame.rect.height - (high - low)).max(0.0);
-    // The motion only advances: if it is beyond the region when this begins, it is beyond all that lies below.
+    // The motion only advances. If it is beyond the region when the region begins, it stays beyond it.
     let passed = strip.motion.0.iter().take_while(|q| q[0] <= begin).last().is_some_and(|q| q[1] > high);
     let middle = f64::midpoint(low, high);
     let shifted = |q: &Configuration| {

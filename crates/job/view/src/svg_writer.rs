@@ -10,23 +10,23 @@ use std::fmt::Write;
 /// Weight of bold texts.
 const BOLD_WEIGHT: &str = "600";
 
-/// Greatest absolute value of coordinates, in pixels. Places beyond it are invisible. Up to here, viewers that compute
-/// in single precision are exact to a tenth of a pixel.
+/// Greatest absolute value of coordinates, in pixels; places beyond it are invisible. Below it, viewers with single precision are
+/// accurate to a tenth of a pixel.
 pub const MAX_COORDINATE: f64 = 1e6;
 
-/// Width of the pale line around letters, in pixels. Half of it shows.
+/// Width of the pale line around letters, in pixels. Half of it is visible.
 pub const HALO_WIDTH: f64 = 3.5;
 
-/// Writes the figure as an SVG document without a size of its own: it fills the width that its reader gives it. Texts have
-/// the widths of the built-in font in any other font, too. The result is deterministic to the byte; coordinates have two decimals.
+/// Writes the figure as an SVG document without a size: it fills the width that its reader provides. In every font, texts have
+/// the widths of the built-in font. The result is the same byte for byte; coordinates have two decimals.
 pub fn write(figure: &Figure) -> String {
     let ground = Rectangle::new().set("width", number(figure.width)).set("height", number(figure.height));
     document(figure, Group::new().add(ground.set("fill", figure.shown(WHITE).to_string())))
 }
 
-/// Writes the figure without a background, as an element of a page. Its colours are variables of the page's style sheet,
-/// so that it is light or dark as the page is. `id` distinguishes its names from those of other drawings in the page.
-/// Adds those that have no name there to `colors`: the variable of `#rrggbb` is `--xrrggbb`.
+/// Writes the figure without a background, as an element of a page. Its colours are variables of the page's style sheet, so it is
+/// light or dark like the page. `id` distinguishes its names from those of other drawings in the page. Colours without a name in
+/// the style sheet are added to `colors`: the variable of `#rrggbb` is `--xrrggbb`.
 pub fn write_for_page(figure: &Figure, id: &str, colors: &mut Vec<Rgb>) -> String {
     let svg = document(figure, Group::new());
     let svg = svg.replace("<clipPath id=\"", &format!("<clipPath id=\"{id}-"));
@@ -34,7 +34,7 @@ pub fn write_for_page(figure: &Figure, id: &str, colors: &mut Vec<Rgb>) -> Strin
     with_variables(&svg, colors)
 }
 
-/// Writes items without a document around them, with colours as in [`write_for_page`]. They must not be clipped.
+/// Writes items without a document around them, with colours as in [`write_for_page`]. Clipped items are not allowed.
 pub fn elements(items: &[Item], colors: &mut Vec<Rgb>) -> String {
     let figure = Figure { width: 0.0, height: 0.0, items: Vec::new(), is_dark: false };
     let group = add_all(Group::new(), items, &figure, &mut Vec::new()).set("stroke-linejoin", "round");
@@ -69,7 +69,7 @@ fn document(figure: &Figure, ground: Group) -> String {
         .to_string()
 }
 
-/// Adds an item. Its colours are those for the background of the figure.
+/// Adds an item, with its colours on the figure's background.
 fn add(group: Group, item: &Item, figure: &Figure, clips: &mut Vec<Rect>) -> Group {
     match item {
         Item::Outline(steps, _) if steps.is_empty() => group,
@@ -172,8 +172,7 @@ fn text(label: &Label, figure: &Figure) -> Text {
     if label.is_bold {
         text = text.set("font-weight", BOLD_WEIGHT);
     }
-    // The font is not part of the document, which would be much larger: a reader without it fits its own letters into the
-    // same width.
+    // The font would make the document much larger. A reader without it fits its own letters into the same width.
     if label.text.chars().all(|letter| letter_width(letter, label.is_bold).is_some()) && !label.text.is_empty() {
         text = text.set("textLength", number(label.width())).set("lengthAdjust", "spacingAndGlyphs");
     }
@@ -191,8 +190,8 @@ fn is_xml(c: char) -> bool {
     !c.is_control() && !matches!(c, '\u{fffe}' | '\u{ffff}')
 }
 
-/// Writes the cells as one path of rectangles per colour, in units of cells. Smoothing is off, because it would show
-/// seams between rectangles.
+/// Writes the cells as one path of rectangles per colour, in units of cells, without anti-aliasing, which would show seams
+/// between rectangles.
 fn cells(raster: &Raster, figure: &Figure) -> Group {
     let [columns, rows] = raster.cells;
     let Rect { x, y, width, height } = raster.rect;
@@ -202,7 +201,7 @@ fn cells(raster: &Raster, figure: &Figure) -> Group {
     for (rectangles, color) in raster.rectangles().iter().zip(&raster.palette).filter(|(all, _)| !all.is_empty()) {
         let mut d = String::new();
         for [i, j, w, h] in rectangles {
-            // Cells are numbered upwards, but y points down on pages: row j begins at rows - j from the top.
+            // Cells count upwards and y points down: row j begins at rows - j from the top.
             let _ = write!(d, "M{i} {}h{w}v-{h}h-{w}z", rows - j);
         }
         group = group.add(Path::new().set("fill", figure.shown(*color).to_string()).set("d", d));
@@ -269,7 +268,7 @@ mod tests {
         assert!(!svg.contains("\"#"), "{svg}");
     }
 
-    /// Paints the rectangles and compares the result with the cells.
+    /// Paints the rectangles, and compares the result with the cells.
     #[test]
     fn raster_rectangles_cover_each_cell_once() {
         let [columns, rows] = [7_usize, 5];

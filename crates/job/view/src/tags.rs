@@ -4,7 +4,7 @@ use super::labels::centered_rect;
 use super::named::Named;
 use super::view::ranges;
 
-/// Distance in pixels below which places have one name for their numbers.
+/// Places nearer than this, in pixels, share one name with all their numbers.
 const SHARED_NAME_DISTANCE: f64 = 4.0;
 
 /// Steps that end at one place.
@@ -16,7 +16,7 @@ pub struct Tag {
     pub numbers: Vec<usize>,
 }
 
-/// Adds the number of a step at a place. A number that is already there is not added again.
+/// Adds the number of a step at a place, unless it is already there.
 pub fn add(tags: &mut Vec<Tag>, at: [f64; 2], number: usize) {
     match tags.iter_mut().find(|tag| (tag.at[0] - at[0]).hypot(tag.at[1] - at[1]) < SHARED_NAME_DISTANCE) {
         Some(tag) if tag.numbers.contains(&number) => {}
@@ -25,7 +25,7 @@ pub fn add(tags: &mut Vec<Tag>, at: [f64; 2], number: usize) {
     }
 }
 
-/// Returns the numbers as names for the placer. `half` is half the width of the markers at the places, in pixels.
+/// Returns the numbers as names for the placer. `half` is half the width of the markers there, in pixels.
 pub fn names(tags: &[Tag], half: f64) -> Vec<Named> {
     tags.iter().map(|tag| Named::of_box(ranges(&tag.numbers), centered_rect(tag.at, [2.0 * half; 2]))).collect()
 }

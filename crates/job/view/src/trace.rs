@@ -8,7 +8,7 @@ use super::view::{Chain, LEVELS, ScaleView, TraceView, Waves};
 use super::{boxes, channel, wave_numbers};
 use cplan_theme::{ACCENT, CHANNEL, EDGE, GRAY, INK, Rgb};
 
-/// Number of colours of a wavefront. Each colour stands for several of its levels.
+/// Number of colours of a wavefront; each stands for several levels.
 const WAVE_SHADES: usize = 32;
 
 /// Fraction of white that is mixed into the colours of surfaces, so that lines on them stay legible.
@@ -30,7 +30,7 @@ pub fn items_below_obstacles(trace: &TraceView, chart: &Chart) -> Vec<Item> {
 pub fn items_above_obstacles(trace: &TraceView, field_lines: FieldLines, chart: &Chart) -> Vec<Item> {
     match trace {
         TraceView::Roadmap { edges: lines, .. } => vec![edges(lines, chart)],
-        // Many slices lie side by side, so each is faint.
+        // There are many slices side by side, so each is faint.
         TraceView::Slices { free } => vec![faint_edges(free, chart, 0.5, 0.3)],
         TraceView::Roads { edges: lines, expanded, .. } => {
             [edges(lines, chart)].into_iter().chain(places(expanded, chart)).collect()
@@ -68,7 +68,7 @@ fn faint_edges(lines: &Chain, chart: &Chart, width: f64, opacity: f64) -> Item {
     Item::Outline(steps, Style::line(EDGE, width).faded(opacity))
 }
 
-/// Draws the places that a search expanded. The earlier a place was expanded, the darker it is.
+/// Draws the places that a search expanded: the earlier, the darker.
 fn places(expanded: &Chain, chart: &Chart) -> impl Iterator<Item = Item> {
     let last = expanded.0.len().saturating_sub(1).max(1) as f64;
     let shade = move |k: usize| cplan_theme::scale(k as f64 / last);

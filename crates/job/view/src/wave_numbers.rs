@@ -1,4 +1,4 @@
-//! Numbers of a wavefront, written into its cells.
+//! Numbers of a wavefront, drawn in its cells.
 
 use super::figure::{Anchor, Item, Rect, Step, Style, label, text_width};
 use super::view::{LEVELS, Waves};
@@ -8,14 +8,14 @@ use cplan_theme::{INK, PALE, WHITE};
 const MIN_DIGIT_HEIGHT: f64 = 5.0;
 /// Greatest height of digits, in pixels.
 const MAX_DIGIT_HEIGHT: f64 = 13.0;
-/// Fractions of a cell's width and height that digits in its corner take. There they lie beside a path through the
-/// middles of cells. In small cells, the digits take the whole cell.
+/// Fractions of a cell's width and height that digits in its corner fill, beside a path through the middles of cells. In small
+/// cells, digits fill the whole cell.
 const CORNER_SHARE: [f64; 2] = [0.42, 0.38];
-/// First level whose cells are so dark that their digits are white.
+/// First level with cells so dark that their digits are white.
 const FIRST_DARK_LEVEL: usize = LEVELS * 3 / 5;
 
-/// Draws the sides of cells, and the number of each cell that the wave reached. Draws nothing if the grid is fine, or
-/// if the digits would be too small to read.
+/// Draws the sides of cells, and the number of each cell that the wave reached. Draws nothing if digits would be too small to
+/// read.
 pub fn items(waves: &Waves, frame: &Rect) -> Vec<Item> {
     let Some(longest) = waves.numbers.iter().flatten().max() else { return Vec::new() };
     let [columns, rows] = waves.blocks;

@@ -1,4 +1,4 @@
-//! The workspace, with the arm and everything in it.
+//! The workspace with the arm, the obstacles and the objects.
 
 use super::arm::{self, ArmStyle, CURRENT_LOOK, GHOST_LOOK, GOAL_LOOK, START_LOOK, UNREACHED_LOOK};
 use super::axes::{Frame, Unit};
@@ -79,7 +79,7 @@ pub fn panel(view: &View, area: Rect) -> Vec<Item> {
     items
 }
 
-/// Draws the arm at a configuration, which names avoid.
+/// Draws the arm at a configuration. Names avoid it.
 fn pose(view: &View, frame: &Frame, placer: &mut Placer, world: usize, q: Configuration, look: &ArmStyle) -> Vec<Item> {
     let payload = view.worlds[world].payload.as_ref();
     for shape in arm::placed_shapes(&view.arm, payload, q) {
@@ -90,7 +90,7 @@ fn pose(view: &View, frame: &Frame, placer: &mut Placer, world: usize, q: Config
         }
     }
     if look.blocks() {
-        // The shapes of a link may leave its joint bare.
+        // The shapes of a link may leave its joint uncovered.
         for joint in [view.arm.base, view.arm.elbow_at(q[0])] {
             placer.block_spot(frame.at(joint.x, joint.y), JOINT_HALF_WIDTH);
         }
@@ -120,7 +120,7 @@ fn marks(view: &View, frame: &Frame, placer: &mut Placer) -> Vec<Item> {
     items
 }
 
-/// Draws moving obstacles at their current poses. A still picture also shows their trajectories, dashed.
+/// Draws moving obstacles at their current poses. In a still picture, also draws their trajectories, dashed.
 fn movers(view: &View, frame: &Frame) -> Vec<Item> {
     let (movers, mut items) = (&view.world_now().movers, Vec::new());
     if let (None, Some(duration)) = (view.still.now, view.duration()) {
@@ -136,8 +136,7 @@ fn movers(view: &View, frame: &Frame) -> Vec<Item> {
     items
 }
 
-/// Returns the names of the arm's poses and of the obstacles. Obstacles have numbers instead of names if there are
-/// many.
+/// Returns the names of the arm's poses and of the obstacles. Many obstacles have numbers instead.
 fn names(view: &View, frame: &Frame) -> Vec<Named> {
     let arm = |name: &str, q: [f64; 2]| {
         let [tip, elbow] = [view.arm.tip_at(q.into()), view.arm.elbow_at(q[0])].map(|p| frame.at(p.x, p.y));
@@ -151,7 +150,7 @@ fn names(view: &View, frame: &Frame) -> Vec<Named> {
     let world = view.first_world();
     let lying = world.obstacles.iter().enumerate().filter(|(_, obstacle)| obstacle.lies());
     let obstacles = lying.map(|(number, o)| Named::of_shape(world.called(number), frame, &o.outline, o.own()));
-    // A moving obstacle may begin outside the picture: its name is then where it enters.
+    // A moving obstacle may begin outside the picture. Then its name is where it enters.
     let end = view.duration().filter(|_| view.still.now.is_none());
     let movers = world.movers.iter().map(|mover| {
         let now = mover.at(view.still.time);
@@ -171,8 +170,7 @@ fn walls<'a>(view: &'a View, frame: &'a Frame) -> impl Iterator<Item = Vec<Step>
     })
 }
 
-/// Draws a dot at each place where a step ends, or should end if it fails, and returns the places with the numbers of
-/// the steps.
+/// Draws a dot where each step ends, or should end if it fails. Returns the places with the numbers of the steps.
 fn step_ends(view: &View, frame: &Frame, items: &mut Vec<Item>) -> Vec<Tag> {
     let mut tags = Vec::new();
     for (q, number, reached) in view.still.panels.iter().flat_map(|panel| view.ends(panel)) {
@@ -216,10 +214,9 @@ fn ground(frame: &Frame, arm: &Arm) -> Vec<Item> {
     items
 }
 
-/// Returns the path of the tip. Straight motions in joint space are curves here, so they are drawn in small steps.
+/// Returns the path of the tip. Straight motions in joint space are curves here, and are drawn in small steps.
 pub fn tip_trace(frame: &Frame, arm: &Arm, path: &PathView) -> Vec<Step> {
-    /// Step in radians. With it, a chord deviates from its arc by at most 2e-5 of the reach, which is a hundredth of a
-    /// pixel.
+    /// Step in radians. A chord then deviates from its arc by at most 2e-5 of the reach, which is a hundredth of a pixel.
     const ARC_STEP: f64 = 0.0125;
     const MAX_ARC_POINTS: f64 = 2000.0;
     let turns = [0, 1].map(|k| arm.joints[k].joint_type.is_revolute());

@@ -16,8 +16,8 @@ pub struct Digests {
 }
 
 impl Digests {
-    /// Returns the digests of a URDF, a world, and the other files among `files`. These must be all files that were
-    /// read ([`LoadedScene::files`](super::LoadedScene::files)).
+    /// Returns the digests of a URDF, of a world file and of all other `files`. `files` must list every file that was read: see
+    /// [`LoadedScene::files`](super::LoadedScene::files).
     ///
     /// # Errors
     /// A file that can no longer be read.

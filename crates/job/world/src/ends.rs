@@ -1,4 +1,4 @@
-//! Start and goals of a motion, as far as they are given.
+//! The start and the goals of a motion, if they are given.
 
 use super::problem::Place;
 use super::{LoadedScene, Overrides};
@@ -6,12 +6,11 @@ use cplan_model::Goal;
 use cplan_robot::InputError;
 
 impl LoadedScene {
-    /// Returns the start and the alternative goals. Values on the command line override those of the world file. Does
-    /// not check whether start and goals are free and within the limits, because a check of the recorded motion shows
-    /// that.
+    /// Returns the start and the alternative goals. Values on the command line override those of the world file. Start and goals
+    /// may be blocked or outside the limits: the check of the recorded motion reports this.
     ///
     /// # Errors
-    /// Invalid values on the command line, and a side of the elbow for an arm without one.
+    /// Invalid values on the command line, and a side of the elbow if the arm has no elbow.
     pub fn ends(&self, overrides: &Overrides) -> Result<(Option<Goal>, Vec<Goal>), InputError> {
         let joints = &self.scene.arm().joints;
         let start = match &overrides.start {

@@ -1,4 +1,4 @@
-//! The steps of a world file as nested groups, with objects and supports by their numbers.
+//! A world file's steps as nested groups. Objects and supports are given by their numbers.
 
 use super::object::Supports;
 use cplan_geometry::{Interval, Point};
@@ -10,13 +10,12 @@ use std::ops::Range;
 /// Steps that are repeated together.
 pub(super) struct Group {
     pub body: Body,
-    /// Number of repetitions.
     pub repeat: usize,
-    /// Position in the file of the key `repeat`, or of the group if it has no such key.
+    /// Position in the file of the key `repeat`; the group's position if the key is missing.
     pub at: Range<usize>,
-    /// The objects that steps of the group pick. Each repetition replaces them by new ones.
+    /// The objects that steps of the group pick and that are new in each repetition.
     pub renewed: BTreeSet<usize>,
-    /// The number of steps, with repetitions counted.
+    /// Number of steps, with repetitions counted.
     pub length: usize,
 }
 
@@ -36,21 +35,19 @@ pub(super) enum Node {
 
 /// A single step, as the file states it.
 pub(super) struct Leaf {
-    /// Number of the step in the file, from 1.
     pub number: usize,
     /// File, line and column of the step, for messages.
     pub place: String,
-    /// Position of the step's target in the file. The target is an object's name, a point or joint values.
+    /// Position in the file of the step's target: an object's name, a point or joint values.
     pub at: Range<usize>,
     pub action: LeafAction,
     pub speed: f64,
     pub dwell: f64,
     pub tool: ToolValues,
-    /// Side of the elbow at a pick or a place.
+    /// Side of the elbow at this pick or place.
     pub elbow: Option<Elbow>,
 }
 
-/// The action of a step, as the file states it.
 pub(super) enum LeafAction {
     Pick { object: usize, grasp: Point, supports: Supports, when: Option<When> },
     Place { at: Point, angle: Option<(f64, Range<usize>)>, supports: Option<Supports>, height: Option<f64> },

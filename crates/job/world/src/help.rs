@@ -1,7 +1,7 @@
 //! Hints for values of the wrong type in a world file.
 
-/// Names of keys, with the form of their values. A name such as `robot.joints` is that of a key in one table. A name
-/// without a table applies to all other tables.
+/// Keys, each with the form of its value. `robot.joints` means this key in the table `[robot]`. A key without a table applies to
+/// all other tables.
 const KEY_FORMS: [(&str, &str); 33] = [
     ("start", "[start] joints = [q1, q2], or tip = [x, y]"),
     ("goal", "[goal] joints = [q1, q2], or tip = [x, y]"),
@@ -45,13 +45,13 @@ const KEY_FORMS: [(&str, &str); 33] = [
 const DEFAULT_HINT: &str =
     "`cplan init` writes a world with every key explained; `cplan schema` prints the schema for editors";
 
-/// Returns the hint for an error at a byte of a world file: the form of the value of the key at that place.
+/// Returns the hint for an error at the byte `at` of a world file: the form of the value of the key at this place.
 pub(super) fn help(text: &str, at: usize) -> &'static str {
     let before = &text[..char_boundary(text, at)];
     let line_start = before.rfind('\n').map_or(0, |i| i + 1);
     let line_end = text[line_start..].find('\n').map_or(text.len(), |i| line_start + i);
     let line = text[line_start..line_end].trim();
-    // Text in which the key is sought: the line of the error, which may contain an inline table.
+    // The key is on the line of the error, possibly in an inline table.
     let written = &text[line_start.min(before.len())..line_end];
     let reach = before.len() - line_start.min(before.len());
     let key_of = |part: &str| {
@@ -72,7 +72,7 @@ pub(super) fn help(text: &str, at: usize) -> &'static str {
     form(&format!("{table}.{key}")).or_else(|| form(&key)).unwrap_or(DEFAULT_HINT)
 }
 
-/// Returns the nearest boundary of a character at or before a byte.
+/// Returns the last boundary between characters at or before a byte.
 fn char_boundary(text: &str, at: usize) -> usize {
     (0..=at.min(text.len())).rev().find(|i| text.is_char_boundary(*i)).unwrap_or(0)
 }

@@ -1,11 +1,10 @@
-//! Values of both joints as in the world file.
+//! Values of both joints, as the world file states them.
 
 use cplan_model::Joint;
 use cplan_robot::{Diagnostic, Source};
 use std::ops::Range;
 
-/// Values of both joints, base to tip, in radians or metres. `degrees` has the positions in the file of the values that
-/// are written in degrees.
+/// Values of both joints, base to tip, in radians or metres. `degrees` has the positions in the file of values in degrees.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct JointPair {
     pub values: [f64; 2],

@@ -1,5 +1,5 @@
-//! Reads files and options: worlds in TOML with maps, objects and steps become problems or tasks, and recorded
-//! trajectories of any program become recordings.
+//! Reads the input files and the options. A URDF and a world file become a motion problem or a task; a recorded trajectory
+//! becomes a recording.
 //!
 //! ```text
 //! .map, .yaml with .pgm or .png
@@ -13,9 +13,9 @@
 //! motion.json, .csv, .yaml ---> Recording
 //! ```
 //!
-//! [`load`] reads both files: `cplan-robot` makes the arm, polygons are decomposed into convex pieces, and start and
-//! goal are checked. It returns a problem, or all diagnostics together. [`load_recording`] reads a motion that any
-//! program recorded. If the file is cplan's result of a task, it also reads the steps.
+//! [`load`] reads URDF and world file, decomposes polygons into convex pieces, and checks start and goal. The arm comes from
+//! `cplan-robot`. [`load`] returns a problem, or all diagnostics together. [`load_recording`] reads a motion that any program
+//! recorded. If the file is cplan's result of a task, it also reads the steps.
 
 mod digest;
 mod ends;
@@ -78,14 +78,14 @@ use cplan_robot::{Diagnostic, InputError, Inspection, RobotFile, RobotReport, Ro
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// Reason why a line cannot have an angle of the tool in a world with a limit on the wrist's jerk.
+/// The reason why a line cannot state an angle of the tool if the world limits the wrist's jerk.
 pub(crate) const WRIST_WITH_JERK: &str =
     "the line requires an angle of the tool, but limits on the wrist's jerk cannot be kept along lines";
 
-/// Help for such a line.
+/// Hint for such a line.
 pub(crate) const WITHOUT_JERK: &str = "remove the wrist's `jerk` from [robot], or `wrist` from the line";
 
-/// Help for a line that needs a wrist.
+/// Hint for a line that needs a wrist.
 pub(crate) const NAME_THE_WRIST: &str = "[robot] wrist = { joint = \"NAME\", velocity = 6.0 }, in rad/s";
 
 /// Arm, obstacles and objects of the files, without start, goal and steps.
@@ -98,7 +98,7 @@ pub struct LoadedScene {
     pub trajectories: Vec<ObstacleTrajectory>,
     /// The world file.
     pub world: World,
-    /// The arm as the URDF places it, before the world places the robot.
+    /// The arm as in the URDF, not yet moved to the world's pose of the robot.
     arm: Arm,
     /// Report on how the robot was read.
     pub robot: RobotReport,
@@ -110,7 +110,7 @@ pub struct LoadedProblem {
     /// Scene, start and goals. Unless the [`Rules`] say otherwise, start and goals are free and within the limits. A task
     /// has no goals, and its objects are at their initial places.
     pub problem: MotionProblem,
-    /// The stated goals, which may be out of reach. Empty if the rules check goals.
+    /// The goals as stated, which may be out of reach. Empty if the [`Rules`] demand a check of the goals.
     pub stated_goals: Vec<Goal>,
     /// The task. `None` for a motion.
     pub task: Option<Task>,
@@ -120,11 +120,11 @@ pub struct LoadedProblem {
     pub robot: RobotReport,
     /// Notes for the user: defaults, blocked IK solutions of the goal, joints whose value does not matter.
     pub notes: Vec<String>,
-    /// The errors of the robot and the world for which the motion must be free; `None` without errors.
+    /// Errors of robot and world despite which the motion must be free; `None` if no errors are stated.
     pub errors: Option<AllowedErrors>,
 }
 
-/// Errors of a robot and its world for which a motion must be free.
+/// Errors of a robot and its world. A motion must be free for all of them.
 #[derive(Debug, Clone)]
 pub struct AllowedErrors {
     /// Errors of the robot.
@@ -144,8 +144,8 @@ pub fn load_scene(robot: impl Into<RobotFile>, world: &Path) -> Result<LoadedSce
     scene_of_world(world, robot.into().read()?)
 }
 
-/// Does the same as [`load_scene`] for motions during which the wrist turns, as in steps: each link that it carries counts
-/// as the disc that it sweeps about the wrist's axis. This matters only for a world that names the wrist's joint.
+/// Does the same as [`load_scene`], for motions during which the wrist turns: each link beyond the wrist is replaced by the disc
+/// that it sweeps about the wrist's axis. This makes a difference only if the world names the wrist's joint.
 ///
 /// # Errors
 /// Same as for [`load_scene`], and a link whose shape is not centred on the wrist's axis.
@@ -166,8 +166,8 @@ pub fn scene_from(urdf: Source, world: Source) -> Result<LoadedScene, InputError
 /// Reads a world for an arm that was made in code.
 ///
 /// # Errors
-/// [`InputError`] with all defects of the world; a table `[robot]`, which applies to URDFs only; an arm with invalid
-/// numbers.
+/// [`InputError`] with all defects of the world, and for an arm with invalid numbers. A table `[robot]` is an error as well,
+/// because it applies to URDFs only.
 pub fn scene_of(arm: Arm, world: Source) -> Result<LoadedScene, InputError> {
     let world = world::read(world)?;
     let refused = |message: String, help: &str| Diagnostic::new(world.source.name(), message).help(help);
@@ -219,8 +219,8 @@ impl LoadedScene {
         Some(Wrist { joint, ..*wrist })
     }
 
-    /// Returns the wrist for a line along which the tool has an angle, with the name of its joint, and a note about its
-    /// limits if any is assumed.
+    /// Returns the wrist for a line that states the angle of the tool, the name of the wrist's joint, and a note if any of its
+    /// limits is assumed.
     ///
     /// # Errors
     /// A world without a wrist, without the name of its joint, or with a limit on its jerk.
@@ -237,7 +237,7 @@ impl LoadedScene {
         })
     }
 
-    /// Returns the sensor of the world. Properties that the world file does not state are those of [`Sensor::default_for`].
+    /// Returns the sensor of the world. For properties that the world file does not state, uses [`Sensor::default_for`].
     pub fn sensor(&self) -> Sensor {
         let turn = self.world.place.as_ref().map_or(0.0, |place| place.rotation.angle());
         self.world.sensor.completed_by(Sensor { turn, ..Sensor::default_for(self.scene.arm()) })
@@ -248,8 +248,8 @@ impl LoadedScene {
         self.robot.files.iter().cloned().chain(self.world.files()).collect()
     }
 
-    /// Does the same as [`scene_from`] for a changed text of the world. If only the placement of the robot has changed
-    /// in the table `[robot]`, the robot is not read again.
+    /// Does the same as [`scene_from`], for a changed text of the world. Reads the robot again only if the table `[robot]` has
+    /// changed in more than the robot's pose.
     ///
     /// # Errors
     /// [`InputError`] with all defects of the texts.
@@ -295,9 +295,8 @@ fn scene_of_world(world: World, urdf: Source) -> Result<LoadedScene, InputError>
     Ok(loaded)
 }
 
-/// Examines a robot and collects all defects. Without a world file, no joints are chosen, held or overridden. Decisions
-/// that a world file would have to make are then among the diagnostics, and [`Inspection::help`] has entries that make
-/// them.
+/// Examines a robot and collects all defects. The world file chooses, holds and overrides joints. Without it, the decisions that
+/// it would have to make are among the diagnostics, and [`Inspection::help`] has entries that make them.
 pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection {
     let mut unread = None;
     let file = match world.map(|path| Source::read(path).and_then(world::read)) {
@@ -311,7 +310,7 @@ pub fn inspect(robot: impl Into<RobotFile>, world: Option<&Path>) -> Inspection 
     let inspection = cplan_robot::survey(&robot.into(), file.robot_settings());
     let mut files = inspection.files;
     files.extend(file.files());
-    // A world that cannot be read counts as an input, too.
+    // A world that cannot be read is an input file, too.
     files.extend(world.map(Path::to_owned));
     let in_world = |alone: Scene| file.scene(file.initial_workspace(), alone.arm());
     let mut inspection = Inspection {

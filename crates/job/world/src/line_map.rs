@@ -39,9 +39,8 @@ impl LineMap {
     /// Reads a map. Ignores blank lines, lines that begin with `#`, tabs and carriage returns.
     ///
     /// # Errors
-    /// A file of another kind, lines in the wrong order, and missing lines or lines after the end. Also numbers that
-    /// are not finite or outside the bounds, and a `NumLines` that differs from the number of lines. Each error has
-    /// line and column.
+    /// A file of another kind; lines in the wrong order, missing, or after the end; numbers that are not finite or outside the
+    /// bounds; a `NumLines` that differs from the number of lines. Each error has line and column.
     pub fn read(path: &Path) -> Result<Self, InputError> {
         let mut text = MapText::read(path)?;
         let bounds = text.bounds()?;

@@ -147,7 +147,6 @@ impl LineTable {
         })
     }
 
-    /// Returns the line through points of the table.
     fn through(
         &self,
         reader: &Reader,

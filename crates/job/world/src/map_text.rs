@@ -17,7 +17,7 @@ pub(super) struct MapText {
     next: usize,
 }
 
-/// The numbers of a line, and the position of the line.
+/// The numbers on a line, with the line's position.
 pub(super) struct Numbers<const N: usize> {
     pub values: [f64; N],
     pub at: Range<usize>,
@@ -48,7 +48,7 @@ impl MapText {
         Some((&self.source.text()[at.clone()], at.clone()))
     }
 
-    /// Returns the next line. `what` names it in the message.
+    /// Returns the next line. `what` names the line in error messages.
     ///
     /// # Errors
     /// The file has ended.
@@ -60,7 +60,7 @@ impl MapText {
         })
     }
 
-    /// Skips a line that consists of this word.
+    /// Skips a line that consists of the single word `word`.
     pub fn word(&mut self, word: &str) -> Result<(), Diagnostic> {
         let what = format!("\"{word}\"");
         let (found, at) = self.next_line(&what)?;
@@ -98,7 +98,7 @@ impl MapText {
         Ok((value as usize, at))
     }
 
-    /// Reads the numbers of a line with numbers only.
+    /// Reads the numbers of a line that contains nothing else.
     pub fn numbers<const N: usize>(&mut self, what: &str) -> Result<Numbers<N>, Diagnostic> {
         let (_, at) = self.next_line(&format!("{what} ({})", counted(N)))?;
         let values = self.parsed(at.clone(), what)?;
@@ -106,7 +106,7 @@ impl MapText {
         Ok(Numbers { values, at })
     }
 
-    /// Reads lines of numbers, then the line `end`. `count` lines are expected, as the file announced.
+    /// Reads lines of numbers, then the line `end`. The file has announced `count` lines.
     pub fn list<const N: usize>(
         &mut self,
         announced: (usize, Range<usize>),
@@ -119,8 +119,7 @@ impl MapText {
         Ok(list)
     }
 
-    /// Reads lines of numbers, up to a line that begins with `end`, which is not read. `count` lines are expected, as
-    /// the file announced.
+    /// Reads lines of numbers, up to but excluding a line that begins with `end`. The file has announced `count` lines.
     pub fn list_before<const N: usize>(
         &mut self,
         (count, at): (usize, Range<usize>),
@@ -151,7 +150,7 @@ impl MapText {
         Ok([lower.into(), upper.into()])
     }
 
-    /// Returns the two points of a line, which must lie within the bounds.
+    /// Returns the two points on a line, which must lie within the bounds.
     pub fn corners(&self, values: &[f64], at: &Range<usize>, bounds: &[Point; 2]) -> Result<[Point; 2], Diagnostic> {
         let corners = [Point::new(values[0], values[1]), Point::new(values[2], values[3])];
         let [lower, upper] = bounds;
@@ -204,7 +203,7 @@ impl MapText {
     }
 }
 
-/// Limit on the number of lines that a file may announce. Even the largest file that can be read has fewer lines.
+/// Limit on the number of lines that a file may announce. No file that can be read has more.
 const MAX_COUNT: f64 = 1e9;
 
 fn counted(n: usize) -> String {

@@ -1,11 +1,11 @@
-//! Checks whether obstacles are near the arm at all. Drawings and maps may use other units, or another origin.
+//! Warns about obstacles far from the arm: drawings and maps may use other units, or another origin.
 
 use cplan_geometry::{Convex, separation};
 use cplan_model::space::JointRange;
 use cplan_model::{Obstacle, Scene};
 use cplan_text::format_distinct;
 
-/// Distance, in reaches of the arm, beyond which an obstacle is probably in other units. Walls of a hall are nearer.
+/// An obstacle farther away than this is probably in other units. In reaches of the arm; the walls of a hall are nearer.
 const FAR_REACHES: f64 = 10.0;
 
 /// Returns a warning if all obstacles are out of the arm's reach; otherwise one for each obstacle that is far from it.
@@ -17,7 +17,7 @@ pub(super) fn warnings(scene: &Scene) -> Vec<String> {
     });
     let reach = arm.reach() + slides.sum::<f64>();
     let base = Convex::trusted(vec![arm.base], 0.0);
-    // Stops at the first piece of an obstacle that may be within reach.
+    // Ignores the pieces after the first one that may be within reach.
     let distance = |obstacle: &Obstacle| {
         let mut nearest = f64::INFINITY;
         for piece in &obstacle.pieces {

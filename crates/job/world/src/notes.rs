@@ -1,10 +1,10 @@
-//! Notes about input that was corrected while reading. They are counted by kind, so that a drawing with a thousand
-//! shapes gives one line.
+//! Notes about input that was corrected while reading. Each kind of correction gives one line, so a drawing with a thousand
+//! shapes does not give a thousand.
 
 use std::borrow::Cow;
 use std::cell::RefCell;
 
-/// Largest number of shapes that a note names. If there are more, the note has only their number.
+/// Largest number of shapes that a note names. A note about more shapes states only how many.
 const MAX_NAMED_SHAPES: usize = 3;
 
 /// Corrections of the input by kind, each with the names of the corrected shapes.
@@ -12,7 +12,7 @@ const MAX_NAMED_SHAPES: usize = 3;
 pub(super) struct Corrections(RefCell<Vec<(Cow<'static, str>, Vec<String>)>>);
 
 impl Corrections {
-    /// Records a correction `what` of the shape `whom`.
+    /// Records that the shape `whom` was corrected; `what` describes the correction.
     pub fn note(&self, whom: &str, what: impl Into<Cow<'static, str>>) {
         let what = what.into();
         let mut kinds = self.0.borrow_mut();

@@ -68,23 +68,21 @@ toml_table! {
 /// A list of names, each with its position in the file.
 pub(super) type NameList = Spanned<Vec<Spanned<String>>>;
 
-/// An object, with defaults for the steps that handle it.
+/// An object, with the defaults of the steps that handle it.
 #[derive(Debug, Clone)]
 pub(super) struct MovableObject {
     pub object: Object,
-    /// The point of the object to which the tip moves, in the object's frame.
+    /// Point of the object, in its own frame, to which the tip moves.
     pub grasp: Point,
     pub supports: Supports,
     /// True if each repetition of the steps finds a new object at the initial place.
     pub is_renewed: bool,
 }
 
-/// The obstacles and objects that an object may touch at its resting place.
+/// The obstacles and objects that an object may touch where it rests.
 #[derive(Debug, Clone)]
 pub(super) struct Supports {
-    /// Numbers of obstacles and objects. Objects are numbered after the static obstacles.
     pub numbers: Vec<usize>,
-    /// Position of the list of names in the file.
     pub at: Range<usize>,
 }
 
@@ -93,7 +91,7 @@ pub(super) struct Names<'a> {
     objects: BTreeMap<String, usize>,
     /// Indices of the objects on each pallet, by their common name.
     families: BTreeMap<&'a str, Range<usize>>,
-    /// Numbers of obstacles by name, because several can have the same name.
+    /// Numbers of obstacles by name. Several obstacles may share a name.
     obstacles: BTreeMap<&'a str, Vec<usize>>,
     /// Number of static obstacles.
     fixed: usize,
@@ -147,7 +145,7 @@ impl<'a> Names<'a> {
         Ok(names)
     }
 
-    /// Returns the index of the object with this name.
+    /// Returns the index of an object.
     ///
     /// # Errors
     /// An unknown name.
@@ -172,7 +170,7 @@ impl<'a> Names<'a> {
         Err(reader.source.diagnostic_at(name.span(), message).help(help))
     }
 
-    /// Returns the indices of all objects on a pallet that share this name, row by row.
+    /// Returns the indices of all objects on a pallet, whose common name this is, row by row.
     ///
     /// # Errors
     /// An unknown name.
@@ -196,7 +194,7 @@ impl<'a> Names<'a> {
         join_names(single.map(|(name, _)| name.as_str()).chain(self.families.keys().copied()))
     }
 
-    /// Returns the indices, as obstacles, of the obstacles and objects in a list of supports.
+    /// Returns the obstacles and objects in a list of supports, by their numbers as obstacles.
     ///
     /// # Errors
     /// An unknown name.
@@ -221,7 +219,7 @@ impl<'a> Names<'a> {
         Ok(Supports { numbers, at: list.span() })
     }
 
-    /// Returns the index of an object as an obstacle.
+    /// Returns the number of an object as an obstacle.
     pub fn as_obstacle(&self, object: usize) -> usize {
         self.fixed + object
     }
@@ -235,7 +233,7 @@ struct PlacedObject<'a> {
     at: Pose,
 }
 
-/// Returns all objects with their initial poses. Objects on a pallet are in the order of the rows.
+/// Returns all objects with their initial poses. Those on a pallet are listed row by row.
 fn placed<'a>(
     reader: &Reader,
     tables: &'a [Spanned<ObjectTable>],
@@ -275,11 +273,11 @@ fn placed<'a>(
     Ok(all)
 }
 
-/// Checks that the objects of a table begin where their pallet ends, if both state heights.
+/// Checks that the lower ends of the objects are at the height of their pallet, if both heights are stated.
 fn require_height(reader: &Reader, given: &ObjectTable, pallet: &Pallet, what: &str) -> Result<(), Diagnostic> {
     let Some((numbers, height)) = given.height.as_ref().zip(pallet.height) else { return Ok(()) };
     let [lower, upper] = reader.number_pair(numbers, &format!("{what}: height"))?;
-    // Heights in the wrong order are refused where they are read.
+    // Another check refuses heights in the wrong order.
     if (lower - height).abs() <= RESTING_TOLERANCE || upper <= lower {
         return Ok(());
     }
@@ -289,11 +287,11 @@ fn require_height(reader: &Reader, given: &ObjectTable, pallet: &Pallet, what: &
     Err(reader.source.diagnostic_at(numbers.span(), message).help(help))
 }
 
-/// Reads all objects. `default` states how the gripper holds an object whose table does not state it.
+/// Reads all objects. `default` is how the gripper holds an object, unless its table states it.
 ///
 /// # Errors
-/// Names that are not unique; a table without exactly one shape, or without exactly one of position and pallet; invalid
-/// shapes and values; unknown pallets and supports.
+/// Names that are not unique; a table without exactly one shape, or without exactly one of position and pallet; invalid shapes
+/// and values; unknown pallets and supports.
 pub(super) fn read<'a>(
     reader: &Reader,
     tables: &'a [Spanned<ObjectTable>],
@@ -356,7 +354,7 @@ fn movable(
     Ok(MovableObject { object, grasp: grasp.unwrap_or_else(Point::zeros), supports, is_renewed: given.renew })
 }
 
-/// Returns the motion of an object. A stop without a position gets the position of the object.
+/// Reads the motion of an object. Stops without a position get the object's position.
 fn read_object_trajectory(
     reader: &Reader,
     given: &ObjectTable,
@@ -379,7 +377,7 @@ fn read_object_trajectory(
     motion.get_ref().read(reader, what, Some(at), motion.span())
 }
 
-/// Returns the diagnostic about an object that is listed as its own support.
+/// Returns the diagnostic about an object that lists itself as a support.
 pub(super) fn rests_on_itself(reader: &Reader, name: &str, supports: &Supports) -> Diagnostic {
     let message = format!("object \"{name}\" cannot rest on itself");
     reader.source.diagnostic_at(supports.at.clone(), message).help("remove it from `supports`")

@@ -75,12 +75,12 @@ toml_table! {
 /// Largest number of convex pieces of a map. With more pieces, each planner takes minutes.
 pub(super) const MAX_PIECES: usize = 1 << 20;
 
-/// Distances that the world's obstacles have unless they say otherwise, metres.
+/// Clearance and displacement of obstacles that state none of their own, metres.
 #[derive(Clone, Copy)]
 pub(super) struct Margins {
     /// Least distance to keep.
     pub clearance: f64,
-    /// Greatest displacement for which motions stay free.
+    /// Greatest displacement for which motions must stay free.
     pub displacement: f64,
 }
 
@@ -96,8 +96,8 @@ const SIMPLE_POLYGON_HINT: &str =
     "list the corners in order round the shape (and round each hole), each once; a wall without area is a polyline";
 
 impl ObstacleTable {
-    /// Reads the obstacle with this index in its file. `world` has the obstacle's least clearance, and its displacement
-    /// unless the table states one, both in metres.
+    /// Reads the obstacle with this index in its file. `world` has the least clearance of all obstacles, and the displacement of
+    /// an obstacle whose table states none.
     ///
     /// # Errors
     /// A table without exactly one shape, values that are not finite, invalid shapes, and unusable files.
@@ -113,7 +113,7 @@ impl ObstacleTable {
         let place = reader.pose(obstacle.at.as_ref(), obstacle.angle.as_ref(), &what)?;
         let trajectory = obstacle.motion.as_ref().map(|m| m.get_ref().read(reader, &what, place.as_ref(), m.span()));
         let trajectory = trajectory.transpose()?;
-        // The shape of a moving obstacle stays in the obstacle's own frame.
+        // If the obstacle moves, its shape stays in its own frame.
         let place = place.as_ref().filter(|_| trajectory.is_none());
         let (shape, pieces) = match (&obstacle.polygon, &obstacle.circle, &obstacle.polyline, &obstacle.image) {
             (Some(corners), None, None, None) => {

@@ -37,7 +37,7 @@ toml_table! {
 }
 
 impl ObstacleTrajectoryTable {
-    /// Returns the motion of an obstacle. If a stop has no position or no angle, it gets that of `place`.
+    /// Returns the motion of an obstacle. Stops without a position or an angle get that of `place`.
     ///
     /// # Errors
     /// Times that do not increase, numbers that are not finite, and an empty table.

@@ -38,11 +38,10 @@ toml_table! {
 /// Largest number of places of a pallet. No machine has more.
 const MAX_PLACES: usize = 10_000;
 
-/// Number of significant digits to which coordinates of places are rounded, counted from the first digit of the largest
-/// number in their sum. This removes rounding errors, so that a place has the decimals that people would write.
+/// Sums of coordinates are rounded to this number of significant digits of the largest summand. Without rounding errors, places
+/// have the decimals that people would write.
 const PLACE_DIGITS: i32 = 15;
 
-/// A grid of places.
 #[derive(Debug, Clone)]
 pub(super) struct Pallet {
     rows: usize,
@@ -56,12 +55,11 @@ pub(super) struct Pallet {
 }
 
 impl Pallet {
-    /// Returns the number of places.
     pub fn count(&self) -> usize {
         self.rows * self.columns
     }
 
-    /// Iterates over all places, row by row. Each is given by row and column, as in its name, and by its pose.
+    /// Iterates over all places, row by row. Each item has the row and the column, as in the place's name, and the pose.
     pub fn places(&self) -> impl Iterator<Item = (String, Pose)> + '_ {
         (0..self.rows).flat_map(move |row| {
             (0..self.columns).map(move |column| {
@@ -75,7 +73,7 @@ impl Pallet {
     }
 }
 
-/// Removes rounding errors from a sum of numbers that are at most `largest`.
+/// Rounds off the errors of a sum whose summands are at most `largest`.
 fn rounded(sum: f64, largest: f64) -> f64 {
     let before = largest.log10().ceil().clamp(-300.0, 300.0) as i32;
     let decimals = usize::try_from(PLACE_DIGITS - before).unwrap_or(0);
@@ -200,7 +198,7 @@ mod tests {
         let quarter = std::f64::consts::FRAC_PI_2;
         assert_eq!(last([0.1, 0.7], [0.2, 0.1], 0.0), Point::new(0.3, 0.8));
         assert_eq!(last([0.3, -0.3], [0.3, 0.3], quarter), Point::new(0.0, 0.0));
-        // The same for the smallest and the largest arms.
+        // The same holds for tiny and huge pallets.
         assert_eq!(last([1.2345678901e-5, 0.0], [1e-6, 0.0], 0.0), Point::new(1.3345678901e-5, 0.0));
         assert_eq!(last([1234.5678901234, 0.0], [0.1, 0.0], 0.0), Point::new(1234.6678901234, 0.0));
     }

@@ -3,8 +3,7 @@
 use cplan_robot::{Diagnostic, Source};
 use serde_saphyr::{MessageFormatter, UserMessageFormatter};
 
-/// Returns the diagnostic of a JSON error, with its position. Removes the position from the end of the parser's
-/// message.
+/// Returns the diagnostic of a JSON error, with its position, which is removed from the end of the parser's message.
 pub(crate) fn json_diagnostic(source: &Source, error: &serde_json::Error) -> Diagnostic {
     let message = error.to_string();
     let message = message.lines().next().unwrap_or_default();
@@ -12,7 +11,7 @@ pub(crate) fn json_diagnostic(source: &Source, error: &serde_json::Error) -> Dia
     source.diagnostic_at_position(error.line(), error.column(), message)
 }
 
-/// Returns the diagnostic of a YAML error, with its position. Removes advice that is meant for programmers.
+/// Returns the diagnostic of a YAML error, with its position. Removes the parser's advice for programmers.
 pub(crate) fn yaml_diagnostic(source: &Source, error: &serde_saphyr::Error) -> Diagnostic {
     let (line, column) = error.location().map_or((0, 0), |p| (p.line() as usize, p.column() as usize));
     source.diagnostic_at_position(line, column, UserMessageFormatter.format_message(error))

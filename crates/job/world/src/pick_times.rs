@@ -6,8 +6,7 @@ use cplan_handling::{MAX_STOP_TIME, Object};
 use cplan_robot::{Diagnostic, Lengths, Numbers, Spanned};
 use std::ops::Range;
 
-/// Distance from an axis, in metres, within which a position counts as on the axis. This is the precision with which
-/// people write positions.
+/// A position within this distance of an axis counts as on the axis, in metres. People write positions with this precision.
 const ON_AXIS_DISTANCE: f64 = 1e-3;
 
 /// The keys of a pick about its time.
@@ -19,7 +18,7 @@ pub(super) struct PickTimes<'a> {
 }
 
 impl PickTimes<'_> {
-    /// Returns the times at which the object may be picked. `None` if the step states none.
+    /// Returns the times at which the object may be picked; `None` if the step leaves them open.
     ///
     /// # Errors
     /// An object that does not move, a point that it does not pass, and an invalid or missed window.

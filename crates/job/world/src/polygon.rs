@@ -5,7 +5,7 @@ use cplan_geometry::{Convex, Point, Polygon, Pose, RingError, SimplePolygon};
 use cplan_model::Shape;
 use cplan_robot::{Diagnostic, FromToml, Number, Spanned, TomlError, TomlValue, length};
 
-/// A number, or a list of coordinates. So it can be a point, a ring, or GeoJSON's list of rings.
+/// A number or a list of coordinates: together a point, a ring, or GeoJSON's list of rings.
 pub(super) enum Coordinates {
     Number(f64),
     List(Vec<Spanned<Coordinates>>),
@@ -23,9 +23,8 @@ impl FromToml for Coordinates {
     }
 }
 
-/// Note about a ring whose last point repeats the first.
+/// Note about a closed ring.
 const CLOSED_RING_NOTE: &str = "the last point of a ring repeats the first; it counts once";
-/// Note about repeated points.
 const REPEATED_POINTS_NOTE: &str = "points that repeat the previous point count once";
 /// Note about a polygon whose boundary touches itself but whose inside is well defined.
 const TOUCHING_BOUNDARY_NOTE: &str = "the boundary touches itself in single points; the enclosed area is solid";
@@ -38,7 +37,7 @@ impl Coordinates {
         }
     }
 
-    /// Returns true if this is a list of rings, as in GeoJSON, and not a single ring.
+    /// Returns true for a list of rings, as in GeoJSON, and false for a single ring.
     fn is_nested(&self) -> bool {
         let first_point = self.list().first().map(Spanned::get_ref);
         let first_coordinate = first_point.and_then(|point| point.list().first()).map(Spanned::get_ref);
@@ -49,7 +48,7 @@ impl Coordinates {
 /// Returns a polygon at its place.
 ///
 /// # Errors
-/// A polygon that crosses itself. `help` is the hint.
+/// A polygon that crosses itself; `help` is the hint of this error.
 pub(super) fn polygon(
     reader: &Reader,
     given: &Ring,
@@ -91,7 +90,7 @@ pub(super) fn polygon(
 /// Returns a polygon whose boundary does not touch itself.
 ///
 /// # Errors
-/// A boundary that touches or crosses itself. `help` is the hint.
+/// A boundary that touches or crosses itself; `help` is the hint of this error.
 pub(super) fn simple_polygon(
     reader: &Reader,
     given: &Ring,

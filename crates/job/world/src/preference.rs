@@ -30,19 +30,18 @@ toml_table! {
     }
 }
 
-/// Largest extent of a region of configurations, in radians or metres. On a circle, the region is searched in every
-/// copy by a whole turn, so it must be bounded.
+/// Largest extent of a region of configurations, in radians or metres. On circles, the region has a copy for each whole turn, so
+/// their number must be bounded.
 const MAX_REGION_WIDTH: f64 = 100.0;
 
-/// Hint for a region that is not a simple polygon.
 const CORNER_ORDER_HINT: &str = "list the corners in order round the region, each once";
 
 impl PreferenceTable {
-    /// Reads the preference with this index in its file.
+    /// Reads the preference with this index in the world file.
     ///
     /// # Errors
-    /// Values that are not finite, a direction of length 0, other than exactly one region, and a region that is not a
-    /// simple polygon.
+    /// Values that are not finite, a direction of length 0, other than exactly one region, and a region that is not a simple
+    /// polygon.
     pub fn read(reader: &Reader, index: usize, table: &Spanned<Self>) -> Result<Preference, Diagnostic> {
         let given = table.get_ref();
         let name = given.name.clone().unwrap_or_else(|| format!("preference {}", index + 1));
@@ -66,7 +65,7 @@ impl PreferenceTable {
 fn direction(reader: &Reader, numbers: &Numbers, what: &str) -> Result<[f64; 2], Diagnostic> {
     let vector = reader.number_pair(numbers, &format!("{what}, direction"))?;
     let length = vector[0].hypot(vector[1]);
-    // The square of a shorter length is not a normal number, so the direction would lose its digits.
+    // The square of a shorter length is subnormal, so the direction would lose digits.
     if length < 1e-150 {
         let diagnostic = reader.source.diagnostic_at(numbers.span(), format!("{what}: the direction is zero"));
         return Err(diagnostic.help("direction = [q1, q2], such as [1, 0]; leave the key out for no direction"));

@@ -1,5 +1,4 @@
-//! Checks start and goal: both must be within the limits and free. Finds every IK solution that reaches a goal of the
-//! tip.
+//! Checks that start and goal are within the limits and free. Finds every IK solution for a goal of the tip.
 
 use super::reasons::{
     HELP_FOR_LIMITS, beyond_limits, describe, describe_out_of_reach, describe_segment, help_at, help_for_ik_solutions,
@@ -30,22 +29,22 @@ impl Place<'_> {
     }
 }
 
-/// The requirements of a command on start, goal and steps.
+/// A command's requirements on start, goal and steps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rules {
-    /// The task of a world with steps, or with values of the tool's joints; otherwise a motion. The start is free, and
-    /// the goals of a motion are, too.
+    /// The start is free. A world with steps, or with values of the tool's joints, gives a task; any other world gives a motion,
+    /// whose goals are free, too.
     Plan,
-    /// A motion. Start and goals are free.
+    /// A motion whose start and goals are free.
     Motion,
-    /// A motion that may have no goal. Start and goals are free, and no obstacle moves.
+    /// A motion that may lack a goal. Start and goals are free, and no obstacle moves.
     Exploration,
-    /// The stated start and goals, which may be blocked.
+    /// Start and goals as stated, which may be blocked.
     Unchecked,
-    /// The start alone, which may be blocked. The goal is the start. The world may have steps.
+    /// Only the start counts, which may be blocked; it is also the goal. The world may have steps.
     Start,
-    /// The task with which a recording is compared. Its start may be outside the limits or blocked; the check of the
-    /// recording reports that.
+    /// The task with which a recording is compared. Its start may be blocked or outside the limits: the check of the recording
+    /// reports this.
     Recording,
 }
 
@@ -94,7 +93,7 @@ impl LoadedScene {
         Ok(LoadedProblem { problem, stated_goals, task, trajectories, robot, notes, errors })
     }
 
-    /// Returns the errors for which motions must be free, with the problem without them.
+    /// Returns the errors for which motions must be free, and the problem without these errors.
     fn allowed_errors(&self, overrides: &Overrides, rules: Rules) -> Option<AllowedErrors> {
         if !self.world.has_errors() || !matches!(rules, Rules::Plan | Rules::Motion) {
             return None;
@@ -116,7 +115,7 @@ impl LoadedScene {
         self.resolve(overrides, Rules::Motion)
     }
 
-    /// Returns the stated goals. An excess over a limit that is due to rounding is removed, with a note.
+    /// Returns the stated goals. Values beyond a limit by a rounding error are set to the limit, with a note.
     fn stated_goals(&self, overrides: &Overrides, notes: &mut Vec<String>) -> Result<Vec<Goal>, InputError> {
         let (mut goals, _) = self.goals(overrides)?;
         for goal in &mut goals {
@@ -127,7 +126,7 @@ impl LoadedScene {
         Ok(goals)
     }
 
-    /// Returns the configurations that reach any goal and are not known to be blocked, at least one.
+    /// Returns the configurations that reach a goal and are not known to be blocked. There is at least one.
     fn free_goals(
         &self,
         overrides: &Overrides,
@@ -142,9 +141,9 @@ impl LoadedScene {
                 Err(diagnostic) => refused.push(diagnostic),
             }
         }
-        // A goal that is free for some of the errors must not be missing in a proof that there is no motion.
+        // In a world with errors, a refused goal may be free for some of them. A proof of infeasibility would miss it.
         if goals.is_empty() || self.world.has_errors() && !refused.is_empty() {
-            // There is at least one goal, so there is at least one reason.
+            // `refused` is not empty, since there is at least one goal.
             return Err(refused.swap_remove(0).with_kind(DiagnosticKind::Goal).into());
         }
         notes.extend(refused.iter().map(|diagnostic| format!("a goal is ruled out: {}", diagnostic.message)));
@@ -179,8 +178,8 @@ impl LoadedScene {
         }
     }
 
-    /// Returns the configurations that put the tip on the boundary of a rectangle and are not known to be blocked. If
-    /// the tip is inside the rectangle at the start, adds the start.
+    /// Returns the configurations that put the tip on the boundary of a rectangle and are not known to be blocked. If the start
+    /// has the tip inside the rectangle, includes the start.
     fn area(&self, area: [Point; 2], start: Configuration, place: &Place) -> Result<GoalSet, Diagnostic> {
         let [low, high] = area;
         let shown = format!("the goal area from ({}, {}) to ({}, {})", low.x, low.y, high.x, high.y);
@@ -240,7 +239,7 @@ impl LoadedScene {
         }
     }
 
-    /// Checks that the arm has an elbow, if a goal states its side.
+    /// Checks that the arm has an elbow if a goal states a side of the elbow.
     pub(super) fn require_elbow(&self, goal: &Goal, place: &Place) -> Result<(), Diagnostic> {
         match goal.elbow().and_then(|_| no_elbow(&self.scene)) {
             Some((message, help)) => Err(place.diagnostic(format!("the goal: {message}")).help(help)),
@@ -248,7 +247,7 @@ impl LoadedScene {
         }
     }
 
-    /// Returns the diagnostic that a world with steps has no goal.
+    /// Returns the diagnostic about a goal in a world with steps.
     pub(super) fn has_no_goal(&self, overrides: &Overrides) -> Diagnostic {
         if self.world.steps.is_none() {
             let message =
@@ -273,7 +272,6 @@ impl LoadedScene {
         self.world.source.diagnostic(format!("there is no {what}")).help(help)
     }
 
-    /// Checks that a configuration is within the limits and free.
     pub(super) fn require(&self, what: &str, q: Configuration, place: &Place) -> Result<(), Diagnostic> {
         let outside = beyond_limits(&self.scene, q);
         if !outside.is_empty() {
@@ -294,7 +292,7 @@ impl LoadedScene {
         !self.trajectories.is_empty()
     }
 
-    /// Checks that no obstacle moves, for functions that ignore time. `what` names the function.
+    /// Checks that no obstacle moves. Called by functions that ignore time; `what` names the function.
     ///
     /// # Errors
     /// A moving obstacle.
@@ -306,7 +304,7 @@ impl LoadedScene {
         Err(self.world.source.diagnostic(message).help(help).into())
     }
 
-    /// Checks that all obstacles have their real size, for explorations, whose sensor sees them.
+    /// Checks that no obstacle is grown by errors. An exploration's sensor must see obstacles in their real size.
     fn require_real_shapes(&self) -> Result<(), InputError> {
         let grown = self.scene.workspace().obstacles.iter().find(|obstacle| obstacle.growth.total > 0.0);
         if grown.is_none() && !self.world.has_errors() {
@@ -332,8 +330,8 @@ impl LoadedScene {
         Err(place.diagnostic(message).help("change the obstacle's initial position, or choose another start"))
     }
 
-    /// Returns every IK solution for `tip` that is within the limits and not proven to be blocked, with the elbow on the
-    /// stated side.
+    /// Returns every IK solution for `tip` with the elbow on the stated side that is within the limits and not proven to be
+    /// blocked.
     fn ik_solutions(
         &self,
         (tip, elbow): (Point, Option<Elbow>),
@@ -379,18 +377,17 @@ impl LoadedScene {
         let ruled_out = |reason: String| format!("one IK solution for the tip at {at} cannot be used: {reason}");
         let reasons = outside.into_iter().chain(blocked).map(ruled_out).collect();
         notes.extend(first_lines(reasons, |more| format!("and so are {more} more")));
-        // Motions cannot end at these, but proofs of infeasibility must exclude them.
+        // A motion cannot end at an undecided goal, but a proof of infeasibility must rule it out.
         Ok(goals.into_iter().chain(undecided).collect())
     }
 }
 
-/// Returns the reason and the hint if the arm has no elbow.
 pub(super) fn no_elbow(scene: &Scene) -> Option<(&'static str, &'static str)> {
     let is_absent = !scene.arm().only_turns();
     is_absent.then_some(("only arms with two revolute joints have an elbow", "leave out its side"))
 }
 
-/// Describes the freedom of the joints when the tip is at a place.
+/// Explains which values the joints may have while the tip stays at a place.
 fn freedom(scene: &Scene, at: &str, free: Freedom) -> String {
     let name = |joint: usize| &scene.arm().joints[joint].name;
     match free {

@@ -10,15 +10,13 @@ use std::f64::consts::TAU;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Mount {
-    /// The tip. The forward direction is from the origin of link 2 to the tip, or link 2's x axis if both coincide.
+    /// The tip. Straight ahead is the direction from the origin of link 2 to the tip, or link 2's x axis if both coincide.
     Tip,
-    /// The base, which does not move. The forward direction is the robot's x axis: the x axis of the plane, turned as
-    /// the robot is.
+    /// The base, which does not move. Straight ahead is the robot's x axis.
     Base,
 }
 
-/// A range sensor: a fan of rays, each of which measures the distance to the nearest obstacle. The arm does not block
-/// the rays.
+/// A range sensor: a fan of rays that measure distances to obstacles. The arm does not block the rays.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Sensor {
     /// The body to which the sensor is attached.
@@ -33,7 +31,7 @@ pub struct Sensor {
     pub range: f64,
     /// Distance between readings on a path, in joint space (mixing radians and metres).
     pub step: f64,
-    /// Greatest error of a measured distance, in metres. Errors are uniform between plus and minus this.
+    /// Greatest error of a measured distance, in metres. Errors are uniformly distributed between plus and minus this.
     pub noise: f64,
     /// Seed of the random errors.
     pub seed: u64,
@@ -42,12 +40,12 @@ pub struct Sensor {
 }
 
 impl Sensor {
-    /// Default number of map cells per length of the arm's reach.
+    /// Default number of map cells along the arm's reach.
     const DEFAULT_CELLS: f64 = 40.0;
 
-    /// Returns the default sensor of an arm. It is at the tip, without errors, with a range of half the arm's reach,
-    /// and with a reading every tenth of a radian or metre. Its 360 rays point in all directions, because the arm
-    /// mostly moves towards places beside the tip, not ahead of it.
+    /// Returns the default sensor of an arm. It is mounted at the tip and has no errors; its range is half the arm's reach. It
+    /// takes a reading every tenth of a radian or metre. Its 360 rays point in all directions, because the arm mostly moves
+    /// sideways, not straight ahead.
     pub fn default_for(arm: &Arm) -> Self {
         let cell = arm.reach() / Self::DEFAULT_CELLS;
         let range = arm.reach() / 2.0;
@@ -64,7 +62,7 @@ impl Sensor {
         }
     }
 
-    /// Returns the position of the sensor and the angle of its forward direction, in radians.
+    /// Returns the position of the sensor, and the angle of its forward direction in radians.
     pub fn pose(&self, arm: &Arm, q: [f64; 2]) -> (Point, f64) {
         match self.mount {
             Mount::Base => (arm.base, self.turn),
@@ -90,14 +88,14 @@ impl Sensor {
         first + self.field_of_view * (k as f64 / self.gaps() as f64)
     }
 
-    /// Returns the number of gaps between rays in the field of view. If the field of view is a whole turn, there is one
-    /// more gap, between the last ray and the first.
+    /// Returns the number of gaps between rays. A field of view of a whole turn has one more gap, between the last ray and the
+    /// first.
     fn gaps(&self) -> usize {
         if self.field_of_view < TAU { self.rays.max(2) - 1 } else { self.rays }
     }
 
-    /// Iterates over the indices of the rays within `angle` of a direction. A ray can occur more than once if the angle
-    /// is half a turn or more.
+    /// Iterates over the indices of the rays within `angle` of a direction. If the angle is half a turn or more, a ray may occur
+    /// twice.
     pub fn rays_about(&self, ahead: f64, direction: f64, angle: f64) -> impl Iterator<Item = usize> + use<> {
         let (rays, gap) = (self.rays, self.field_of_view / self.gaps() as f64);
         let from_first = (direction - self.ray(ahead, 0)).rem_euclid(TAU);

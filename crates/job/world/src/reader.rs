@@ -11,10 +11,10 @@ use std::cell::RefCell;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
-/// A reader that checks values of a world file. It knows the file, which its messages quote.
+/// Checks the values of a world file, and quotes the file in messages.
 pub(super) struct Reader<'a> {
     pub source: &'a Source,
-    /// Corrections of input that is accepted in a corrected form.
+    /// Corrections of input.
     pub taken: Corrections,
     /// Joint values that are written in degrees.
     pub in_degrees: RefCell<Vec<JointPair>>,
@@ -120,7 +120,7 @@ impl Reader<'_> {
         Ok((found, areas.span()))
     }
 
-    /// Returns joint values or a point for the tip, and their position in the file.
+    /// Returns joint values or a point for the tip, and its position in the file.
     pub fn goal(&self, goal: &GoalTable, at: Range<usize>, what: &str) -> Result<(Goal, Range<usize>), Diagnostic> {
         if let Some(areas) = &goal.areas {
             let diagnostic = self.source.diagnostic_at(areas.span(), format!("{what}: a step cannot have areas"));
@@ -153,7 +153,7 @@ impl Reader<'_> {
         elbow.map(read).transpose()
     }
 
-    /// Returns joint values or a point for the tip from the two keys, of which exactly one must be present.
+    /// Returns joint values or a point for the tip. Exactly one of the two keys must be present.
     pub fn place(
         &self,
         joints: Option<&Spanned<Vec<Written>>>,
@@ -179,7 +179,6 @@ impl Reader<'_> {
         }
     }
 
-    /// Returns the path of a file that the world names relative to its own file.
     pub fn path_of_named_file(&self, name: &Spanned<String>, what: &str) -> Result<PathBuf, Diagnostic> {
         let anchor = self.source.anchor();
         let anchor = anchor.map_err(|why| {
@@ -200,7 +199,7 @@ impl Reader<'_> {
         Err(self.source.diagnostic_at(name.span(), message).help(help))
     }
 
-    /// Returns heights, or all heights if the key is missing.
+    /// Returns the stated heights, or all heights if the key is missing.
     pub fn heights(&self, height: Option<&Lengths>, what: &str) -> Result<Heights, Diagnostic> {
         let Some(height) = height else { return Ok(Heights::ALL) };
         let [lower, upper] = self.number_pair(height, &format!("{what}, height"))?;

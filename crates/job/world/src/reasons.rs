@@ -6,8 +6,8 @@ use cplan_model::{Freedom, Inverse, Joint, Obstruction, Scene, equivalent_values
 use cplan_text::{fixed, format_distinct, joined};
 use std::f64::consts::TAU;
 
-/// Returns the IK solutions of `solved` that the joint limits allow, shifted by all whole turns that they allow. Also
-/// returns the reason for each solution that is outside the limits.
+/// Returns the IK solutions of `solved` that are within the joint limits, shifted by every whole turn that keeps them there. Also
+/// returns a reason for each solution outside the limits.
 pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, Vec<String>) {
     let joints = &scene.arm().joints;
     let outside = |branch: &Configuration| {
@@ -16,7 +16,7 @@ pub(super) fn within_limits(scene: &Scene, solved: &Inverse) -> (Vec<Segment>, V
         let alone = || Inverse { branches: vec![*branch], free: solved.free }.solutions(scene.arm());
         let beyond = (0..2).any(|i| counts(i) && copies[i].is_empty())
             || scene.arm().topology().sum.is_some() && alone().is_empty();
-        // A free joint has values within its limits, so any of them may be shown.
+        // A joint that is free at this point has allowed values, so the message may show any value.
         let shown = Configuration::from_fn(|i, _| match joints[i].range {
             JointRange::Interval { lower, upper } if !counts(i) => branch[i].clamp(lower, upper),
             _ => copies[i].first().copied().unwrap_or(branch[i]),
@@ -46,7 +46,7 @@ pub(super) fn describe_segment(scene: &Scene, segment: &Segment) -> String {
     format!("{}, {}", value(0), value(1))
 }
 
-/// Rounds to six decimals, which is enough for people.
+/// Rounds to six decimals, which suffice for messages.
 fn rounded(value: f64) -> f64 {
     (value * 1e6).round() / 1e6 + 0.0
 }
@@ -59,7 +59,7 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
             && !joint.range.contains(*value)
         {
             let unit = joint.unit();
-            // Not rounded if rounding would hide that the value is outside.
+            // A rounded value could be within the limits although the value is not.
             let shown = if joint.range.contains(rounded(*value)) { *value } else { rounded(*value) };
             outside.push(format!(
                 "joint \"{}\" at {shown} {unit} exceeds its limits [{lower}, {upper}] {unit}",
@@ -81,8 +81,9 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     outside
 }
 
-/// Returns the hint about a configuration outside the limits. If a value of more than a turn is within them in degrees, the
-/// hint asks whether degrees were meant. `in_file` is true for values in the world file, where they are texts.
+/// Returns the hint about a configuration outside the limits. If a value of more than a turn would be within the limits in
+/// degrees, asks whether degrees were meant. `in_file` is true for values in the world file, where degrees are written as
+/// strings.
 pub(super) fn help_for_limits(scene: &Scene, q: Configuration, in_file: bool) -> String {
     let degrees = |(joint, value): (&Joint, &f64)| {
         let is_meant = joint.joint_type.is_revolute()
@@ -117,8 +118,8 @@ pub(super) fn obstructions(scene: &Scene, q: Configuration) -> Vec<String> {
     scene.obstructions(q).iter().map(|obstruction| scene.explain(obstruction)).collect()
 }
 
-/// Returns the hint about a blocked configuration. If the robot's links hit only each other, it names the shapes, and
-/// the line of the world file that lets the links touch.
+/// Returns the hint about a blocked configuration. If only links of the robot hit each other, names them and the line of the
+/// world file that lets them touch.
 pub(super) fn help_at(scene: &Scene, q: Configuration) -> String {
     let (mut shapes, mut links) = (Vec::new(), Vec::new());
     for Obstruction { contact, .. } in scene.obstructions(q) {
@@ -139,7 +140,7 @@ pub(super) fn help_at(scene: &Scene, q: Configuration) -> String {
     )
 }
 
-/// Returns the hint about a target at which the arm hits or nearly hits something. `target` names its kind: a
+/// Returns the hint about a target at which the arm touches an obstacle, or nearly does. `target` names its kind: a
 /// configuration, or a point for the tip.
 fn help_for_contact(scene: &Scene, target: &str) -> String {
     let clearance = scene.workspace().clearance;
@@ -152,8 +153,8 @@ fn help_for_contact(scene: &Scene, target: &str) -> String {
     }
 }
 
-/// Returns the hint for a target all of whose IK solutions are unusable. `outside` is true if some are outside the
-/// limits, and `blocked` if some are blocked.
+/// Returns the hint for a target without a usable IK solution. `outside` is true if some solutions are outside the limits, and
+/// `blocked` if some are blocked.
 pub(super) fn help_for_ik_solutions(scene: &Scene, outside: bool, blocked: bool) -> String {
     let contact = help_for_contact(scene, "point");
     match (outside, blocked) {

@@ -1,4 +1,4 @@
-//! Requirements of steps on the arm. Each requirement of a repeated step is listed once.
+//! Conditions on the arm that follow from steps. If a step is repeated, each of its conditions is listed once.
 
 use cplan_geometry::Point;
 use cplan_model::Elbow;
@@ -33,7 +33,7 @@ pub(super) enum Required {
 #[derive(Default)]
 pub(super) struct Requirements {
     pub all: Vec<Requirement>,
-    /// For each requirement, the number of the step, the kind, and the bits of the values.
+    /// The listed requirements: number of the step, kind, and bits of the values.
     known: BTreeSet<(usize, u8, [u64; 2])>,
 }
 

@@ -1,4 +1,4 @@
-//! Decides whether something carries the objects of a task where they are placed.
+//! Decides whether objects have something to rest on where a task places them.
 
 use super::group::Leaf;
 use super::sequence::{ObjectPlace, Writer};
@@ -8,11 +8,11 @@ use cplan_robot::Diagnostic;
 use cplan_text::{length, short};
 
 impl Writer<'_> {
-    /// Returns the elevation of an object at a place where its bottom is to be at a height, in metres. Without a
-    /// height, it is the elevation at which the object was picked.
+    /// Returns the elevation at which the object's bottom is at `height`, both in metres. Without a height, returns the elevation
+    /// at which the object was picked.
     ///
     /// # Errors
-    /// An object without heights of its own, and a height above that at which the object is carried.
+    /// An object that states no heights, or a height above that at which the object is carried.
     pub(super) fn elevation(&self, leaf: &Leaf, object: usize, height: Option<f64>) -> Result<f64, Diagnostic> {
         let Some(height) = height else { return Ok(self.object_places[object].elevation) };
         let object = &self.objects[object].object;
@@ -37,8 +37,8 @@ impl Writer<'_> {
         Ok(if elevation.abs() <= RESTING_TOLERANCE { 0.0 } else { elevation })
     }
 
-    /// Returns true if an obstacle or another object ends where the object's bottom is at a place. An object at all heights
-    /// needs nothing.
+    /// Returns true if the top of an obstacle or of another object is at the height of the object's bottom there. An object that
+    /// extends over all heights needs no support.
     pub(super) fn is_carried(&self, object: usize, place: &ObjectPlace) -> bool {
         let own = &self.objects[object].object;
         let bottom = own.heights_at(place.elevation).lower;
@@ -47,7 +47,7 @@ impl Writer<'_> {
         }
         let shapes = match place.angle {
             Some(angle) => own.pieces.iter().map(|piece| piece.at(&Pose::new(place.at, angle))).collect(),
-            // Its orientation is unknown: a disc about its origin covers it.
+            // The disc about its origin covers the object in every orientation.
             None => {
                 let reach = own.pieces.iter().map(|piece| piece.reach_from(Pose::identity().translation));
                 vec![Convex::trusted(vec![place.at], reach.fold(0.0, f64::max))]

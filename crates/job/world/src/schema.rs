@@ -1,4 +1,4 @@
-//! Types that represent fields of world files in their JSON schema.
+//! Types that stand for fields of world files in the JSON schema.
 
 pub(super) use cplan_robot::schema::*;
 use cplan_robot::stands_for;

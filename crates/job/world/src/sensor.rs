@@ -7,11 +7,9 @@ use crate::{Mount, Sensor};
 use cplan_robot::{Diagnostic, Length, Number, Spanned, Written, toml_table};
 use std::f64::consts::TAU;
 
-/// Largest number of rays. No sensor has more.
 const MAX_RAYS: u64 = 100_000;
 
-/// Least distance between readings, in joint space. At this distance, a path of many turns already has millions of
-/// readings.
+/// Least distance between readings, in joint space. With it, a path of many turns already has millions of readings.
 const MIN_READING_STEP: f64 = 1e-4;
 
 toml_table! {
@@ -46,7 +44,7 @@ toml_table! {
     }
 }
 
-/// The properties of a sensor that the file states.
+/// The properties of the sensor that the file states.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(super) struct SensorWishes {
     mount: Option<Mount>,
@@ -118,7 +116,7 @@ impl SensorTable {
 }
 
 impl SensorWishes {
-    /// Returns the sensor `usual`. Properties that the file states replace those of `usual`.
+    /// Returns the sensor with the properties that the file states, and otherwise those of `usual`.
     pub fn completed_by(&self, usual: Sensor) -> Sensor {
         Sensor {
             mount: self.mount.unwrap_or(usual.mount),

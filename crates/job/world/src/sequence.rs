@@ -1,4 +1,4 @@
-//! The steps of a task with all repetitions, and the state of the objects after each step.
+//! A task's steps with all repetitions written out, and the state of the objects after each step.
 
 use super::group::{Body, Group, Leaf, LeafAction, Node, When};
 use super::object::{MovableObject, Names, Supports, rests_on_itself};
@@ -24,8 +24,8 @@ pub(super) struct Sequence {
     pub at: Range<usize>,
 }
 
-/// Largest difference of two orientations that count as equal, in radians. It is far above the rounding of angles, and
-/// below the repeatability of any wrist.
+/// Orientations count as equal within this angle, in radians. It is far above rounding errors, and below the repeatability of any
+/// wrist.
 const ANGLE_TOLERANCE: f64 = 1e-9;
 
 /// Returns the file's steps with all repetitions written out. `at` is the position of the first step in the file.
@@ -59,7 +59,7 @@ pub(super) fn write_out(
     Ok(Sequence { items: writer.items, requirements: writer.requirements.all, at })
 }
 
-/// The place of an object. After the object was carried, parts of it may be unknown.
+/// The place of an object. Parts of it may be unknown after the object was carried.
 #[derive(Clone, Copy)]
 pub(super) struct ObjectPlace {
     pub at: Point,
@@ -69,7 +69,7 @@ pub(super) struct ObjectPlace {
     tip: Option<Point>,
     /// True if the object moves by itself. The other fields are then its initial values.
     moves: bool,
-    /// Height of the object above its own heights, metres.
+    /// Height by which the object is raised above its stated heights, metres.
     pub elevation: f64,
 }
 
@@ -91,16 +91,16 @@ impl ObjectPlace {
     }
 }
 
-/// Statements of a world about its wrist.
+/// What a world states about its wrist.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum WristOfWorld {
     /// There is no wrist.
     None,
-    /// There is a wrist whose joint is not known.
+    /// The wrist's joint is not named.
     Nameless,
-    /// There is a wrist with a joint whose jerk is limited.
+    /// The wrist's joint is named, and its jerk is limited.
     WithJerk,
-    /// There is a wrist with a joint.
+    /// The wrist's joint is named.
     Named,
 }
 
@@ -109,7 +109,7 @@ pub(super) enum WristOfWorld {
 struct CarriedObject {
     object: usize,
     grasp: Point,
-    /// Number of a step since the pick that requires the object to keep its orientation.
+    /// Number of a step since the pick during which the object must keep its orientation.
     kept_by: Option<usize>,
 }
 
@@ -121,9 +121,10 @@ pub(super) struct Writer<'a> {
     wrist: WristOfWorld,
     carried: Option<CarriedObject>,
     pub object_places: Vec<ObjectPlace>,
-    /// For each object, true if something carries it initially. Otherwise a surface at its own height is assumed everywhere.
+    /// For each object, true if something carries it initially. Otherwise, surfaces are assumed everywhere at the object's
+    /// height.
     rest_initially: Vec<bool>,
-    /// For each step of the file, the number of times that it has been written out.
+    /// For each step of the file, the number of times that it has already been written out.
     cycles: Vec<usize>,
     items: Vec<Item>,
     requirements: Requirements,
@@ -158,7 +159,7 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Begins the next repetition of a group. The arm must carry the same object as when the group began: `initial`.
+    /// Begins the next repetition of a group. The arm must carry `initial`, the same object as when the group began.
     fn repeat(&mut self, group: &Group, initial: Option<usize>) -> Result<(), Diagnostic> {
         let carried = self.carried.map(|c| c.object);
         if carried != initial {
@@ -235,8 +236,8 @@ impl Writer<'_> {
         })
     }
 
-    /// Returns the line of a step. With a level payload, the angle of the tool means the angle of the payload, which
-    /// stays the same anyway.
+    /// Returns the line of a step. For a level payload, the stated angle is the angle of the payload, which does not change along
+    /// the line anyway.
     ///
     /// # Errors
     /// An angle of the tool without a known wrist, or an angle that would turn the payload.
@@ -364,8 +365,8 @@ impl Writer<'_> {
         Ok(Action::Place { at, angle: asked, supports: supports.numbers.clone() })
     }
 
-    /// Returns the angle at which an object is placed. If the current angle equals the requested one, returns the
-    /// current one, otherwise the requested one.
+    /// Returns the angle at which an object is placed: the requested angle, or the object's current one if both are equal up to
+    /// rounding.
     ///
     /// # Errors
     /// An object that is held rigidly, or a requested turn without a wrist.
@@ -375,7 +376,7 @@ impl Writer<'_> {
             Err(self.reader.source.diagnostic_at(place.clone(), message).help(help))
         };
         let name = self.in_words(Some(object));
-        // Only a rigid payload's orientation can be unknown.
+        // The orientation is unknown only for a rigid payload.
         let (Holding::Level, Some(before)) = (self.objects[object].object.holding, self.object_places[object].angle)
         else {
             let message =
@@ -393,7 +394,7 @@ impl Writer<'_> {
         Ok(angle)
     }
 
-    /// Records that the object must be able to rest on its supports.
+    /// Requires that the object can rest on its supports.
     fn require_rest(&mut self, leaf: &Leaf, object: usize, supports: &Supports) -> Result<(), Diagnostic> {
         if supports.numbers.contains(&self.names.as_obstacle(object)) {
             return Err(rests_on_itself(self.reader, &self.objects[object].object.name, supports));

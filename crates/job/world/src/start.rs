@@ -11,11 +11,11 @@ use cplan_model::{Goal, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::listed;
 
-/// Largest excess over a limit that is removed as rounding, in radians or metres. It covers the rounding to nine
-/// digits, and is far below the resolution of any drive.
+/// Largest excess over a limit, in radians or metres, that counts as rounding and is removed. It covers values with nine digits,
+/// and is far below the resolution of any drive.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
-/// Largest number of IK solutions that a message lists. If there are more, it states their number.
+/// Largest number of IK solutions that a message lists. A message about more states only how many.
 const MAX_LISTED_SOLUTIONS: usize = 6;
 
 impl LoadedScene {
@@ -28,8 +28,8 @@ impl LoadedScene {
         })
     }
 
-    /// Returns the start, and where it comes from. It must be within the limits. An excess over a limit that is due to
-    /// rounding is removed, with a note.
+    /// Returns the start, which must be within the limits, and where it is stated. Values beyond a limit by a rounding error are
+    /// set to the limit, with a note.
     pub(super) fn start(
         &self,
         overrides: &Overrides,
@@ -55,13 +55,13 @@ impl LoadedScene {
         let q = match start {
             Goal::Joints(q) => *q,
             Goal::Tip(tip) => self.only_ik_solution(*tip, &place, notes)?,
-            // A start is never an area, and states no side of the elbow.
+            // A start cannot be an area or state a side of the elbow.
             Goal::TipAndElbow(corner, _) | Goal::Area([corner, _]) => self.only_ik_solution(*corner, &place, notes)?,
         };
         Ok((q, place))
     }
 
-    /// Returns the configuration with values that exceed a limit only by rounding set to the limit.
+    /// Sets values that exceed a limit by a rounding error to the limit.
     pub(super) fn at_limits(&self, what: &str, q: Configuration, notes: &mut Vec<String>) -> Configuration {
         let joints = &self.scene.arm().joints;
         Configuration::from_fn(|i, _| {
@@ -79,7 +79,7 @@ impl LoadedScene {
         })
     }
 
-    /// Returns the only IK solution for a tip position. Exactly one must be within the limits and free.
+    /// Returns the IK solution for a tip position. Exactly one solution must be within the limits and free.
     fn only_ik_solution(
         &self,
         tip: Point,

@@ -1,4 +1,4 @@
-//! The world file's `[[step]]` and `[task]`: which steps there are, and in which groups.
+//! The world file's `[[step]]` and `[task]`: reads steps and groups of steps.
 
 use super::goal_table::GoalTable;
 use super::group::{Body, Group, Leaf, LeafAction, Node};
@@ -149,11 +149,11 @@ toml_table! {
     }
 }
 
-/// Largest number of steps of a task, with repetitions counted. A robot would take some days for them.
+/// Largest number of steps of a task, with repetitions counted. A robot would need days for them.
 const MAX_STEPS: usize = 100_000;
 
-/// Unit to which the coordinates of a line's start are rounded, in metres. It is far below all tolerances, and hides the
-/// rounding of arcs.
+/// The coordinates of a line's start are rounded to multiples of this, in metres. It exceeds the rounding errors of arcs, and is
+/// far below all tolerances.
 const PICOMETRE: f64 = 1e-12;
 
 /// Speed and dwell of steps that state none.
@@ -163,7 +163,7 @@ struct Pace {
     dwell: f64,
 }
 
-/// The keys of a group, besides its steps.
+/// The keys of a group, except its steps.
 struct Manner<'a> {
     repeat: Option<&'a Spanned<i64>>,
     order: Option<&'a Spanned<String>>,
@@ -194,8 +194,8 @@ impl<'a> StepReader<'a> {
     /// Returns all steps of the file, at least one.
     ///
     /// # Errors
-    /// Steps without exactly one action, misplaced keys, invalid values, unknown objects and supports, groups in free
-    /// order with other actions than picks and places, and more than [`MAX_STEPS`] steps.
+    /// Steps without exactly one action; misplaced keys; invalid values; unknown objects and supports; groups in free order that
+    /// contain other actions than picks and places; more than [`MAX_STEPS`] steps.
     pub fn all(mut self, tables: &[Spanned<StepTable>], task: Option<&TaskTable>) -> Result<Group, Diagnostic> {
         let pace = Pace { speed: 1.0, dwell: 0.0 };
         let pace = task.map_or(Ok(pace), |t| self.read_pace(pace, t.speed.as_ref(), t.dwell.as_ref()))?;
@@ -327,7 +327,7 @@ impl<'a> StepReader<'a> {
         Ok(leaves.collect())
     }
 
-    /// Returns the next step. `at` is the position of its target, and `table` the position of its table.
+    /// Returns the next step. `at` is the position of its target in the file, `table` that of its table.
     fn leaf(
         &mut self,
         at: Range<usize>,
@@ -342,7 +342,7 @@ impl<'a> StepReader<'a> {
         Node::Step(Leaf { number: self.count, place, at, action, speed, dwell, tool: ToolValues::default(), elbow })
     }
 
-    /// Returns the steps of a line: a move to where it begins, and the line.
+    /// Returns the two steps of a line: a move to the beginning of the line, and the line itself.
     fn follow(
         &mut self,
         follow: &Spanned<Table<LineTable>>,

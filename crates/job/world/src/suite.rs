@@ -1,4 +1,4 @@
-//! Many problems: those that a manifest lists, or one robot in all worlds of a folder.
+//! Several problems: those in a manifest, or one robot in all worlds of a folder.
 
 use super::{LoadedProblem, LoadedScene, Overrides, RobotFile, load_scene};
 use cplan_robot::{Diagnostic, InputError, Source, Spanned, toml_table};
@@ -22,12 +22,12 @@ pub struct Suite {
     pub files: Vec<PathBuf>,
 }
 
-/// A world in which planners cannot be compared.
+/// A world that is left out because planners cannot be compared in it.
 #[derive(Debug, Clone)]
 pub struct ExcludedWorld {
     /// The world file.
     pub world: PathBuf,
-    /// The reason, as a clause that follows "it" in messages.
+    /// The reason, as a clause that follows the word "it".
     pub why: &'static str,
 }
 
@@ -69,8 +69,8 @@ struct Pair {
     world: PathBuf,
 }
 
-/// Reads the problems that a manifest lists. `place` is the manifest, or a folder with a manifest named
-/// [`MANIFEST_NAME`]. Paths in a manifest are relative to its folder.
+/// Reads the problems that a manifest lists. `place` is the manifest, or a folder with a manifest named [`MANIFEST_NAME`]. Paths
+/// in a manifest are relative to its folder.
 ///
 /// ```toml
 /// name = "two tables"          # optional
@@ -81,11 +81,11 @@ struct Pair {
 /// name = "tray"                # optional; the world's file name without it
 /// ```
 ///
-/// `robot_file` adds the conversion of the robots' files.
+/// `robot_file` converts the path of a robot's file.
 ///
 /// # Errors
-/// [`InputError`] for a manifest that cannot be read, and with every diagnostic of all its files if no problem can be
-/// read. If some can, the others are in [`Suite::refused`].
+/// [`InputError`] if the manifest cannot be read, or none of its problems can; the error then has the diagnostics of all files.
+/// If only some problems cannot be read, they are in [`Suite::refused`].
 pub fn load_suite(place: &Path, robot_file: &dyn Fn(PathBuf) -> RobotFile) -> Result<Suite, InputError> {
     let manifest = if place.is_dir() { place.join(MANIFEST_NAME) } else { place.to_owned() };
     if place.is_dir() && !manifest.is_file() {
@@ -136,8 +136,8 @@ pub fn load_suite(place: &Path, robot_file: &dyn Fn(PathBuf) -> RobotFile) -> Re
 /// Reads one robot in all worlds of a folder: every file `.toml` except [`MANIFEST_NAME`], ordered by name.
 ///
 /// # Errors
-/// [`InputError`] for a folder without worlds, and with all diagnostics of all files if none can be read. If some can
-/// be read, the others are in [`Suite::refused`].
+/// [`InputError`] if the folder has no worlds, or none of them can be read; the error then has the diagnostics of all files. If
+/// only some worlds cannot be read, they are in [`Suite::refused`].
 pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, InputError> {
     let whole = |message: String| Diagnostic::new(folder.display().to_string(), message);
     let entries = std::fs::read_dir(folder).map_err(|error| {
@@ -158,7 +158,6 @@ pub fn load_folder(robot: impl Into<RobotFile>, folder: &Path) -> Result<Suite, 
     read(folder_name(folder), pairs, Vec::new())
 }
 
-/// Reads all problems. Collects the defects of those that cannot be read.
 fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<RefusedProblem>) -> Result<Suite, InputError> {
     let (mut members, mut left_out) = (Vec::<Member>::new(), Vec::new());
     let mut files = Vec::new();
@@ -194,14 +193,14 @@ fn read(name: String, pairs: Vec<Pair>, mut refused: Vec<RefusedProblem>) -> Res
     Ok(Suite { name, members, left_out, refused, files })
 }
 
-/// Fails with all defects of these problems.
+/// Returns the defects of all these problems as one error.
 ///
 /// # Errors
-/// The error, if there are any defects.
+/// All defects, if there are any.
 fn all_of(refused: &[RefusedProblem]) -> Result<(), InputError> {
     let mut diagnostics: Vec<Diagnostic> = Vec::new();
     for diagnostic in refused.iter().flat_map(|refused| refused.error.diagnostics()) {
-        // Diagnostics about the robot are the same in each world, so they are reported once.
+        // A diagnostic about the robot recurs in every world, but is reported once.
         if !diagnostics.contains(diagnostic) {
             diagnostics.push(diagnostic.clone());
         }
@@ -210,8 +209,7 @@ fn all_of(refused: &[RefusedProblem]) -> Result<(), InputError> {
 }
 
 impl Suite {
-    /// Reads start and goal for every scene, as [`LoadedScene::problem`] does. Invalid problems are added to those that
-    /// cannot be read.
+    /// Reads start and goal of every scene, as [`LoadedScene::problem`] does. Adds invalid problems to the refused ones.
     ///
     /// # Errors
     /// [`InputError`] with the diagnostics of all problems, if no valid problem is left.
@@ -230,7 +228,7 @@ impl Suite {
     }
 }
 
-/// Valid problems with their names, and the problems that are invalid or cannot be read.
+/// Valid problems with their names, and refused problems.
 pub type LoadedProblems = (Vec<(String, LoadedProblem)>, Vec<RefusedProblem>);
 
 /// Returns a file's name without its extension.
@@ -245,8 +243,7 @@ fn folder_name(folder: &Path) -> String {
     whole.file_name().map_or_else(|| whole.display().to_string(), |name| name.to_string_lossy().into_owned())
 }
 
-/// Returns `name` if it is not taken. Otherwise returns a distinct name, with the name of the robot and, if necessary,
-/// a number.
+/// Returns `name` if it is free; otherwise appends the robot's name and, if necessary, a number.
 fn distinct(name: &str, robot: &str, is_taken: impl Fn(&str) -> bool) -> String {
     let with_robot = format!("{name}, {robot}");
     let numbered = (2_usize..).map(|number| format!("{with_robot}, {number}"));

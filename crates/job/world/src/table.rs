@@ -3,7 +3,8 @@
 use cplan_robot::{FromToml, TomlError, TomlValue};
 use toml::de::DeValue;
 
-/// A table that refuses arrays. Other tables may be arrays of their values in the order of the keys. Then `place = [0.5, 0.6]` would be refused because of its first number, with a confusing message.
+/// A table that must not be written as an array. Other tables may be arrays of their values in the order of the keys. As such an
+/// array, `place = [0.5, 0.6]` would be refused with a confusing message about its first number.
 pub(super) struct Table<T>(pub T);
 
 impl<T: FromToml> FromToml for Table<T> {

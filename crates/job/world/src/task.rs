@@ -15,8 +15,8 @@ use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::{length, listed, short};
 
 impl LoadedScene {
-    /// Returns true if the world is a task: it has steps, or its start or goal states values of the tool's joints. Then the
-    /// task is a move to the goal.
+    /// Returns true if the world is a task: it has steps, or its start or goal states values of the tool's joints. Without steps,
+    /// the task is a move to the goal.
     pub fn is_task(&self) -> bool {
         self.world.is_task()
     }
@@ -26,8 +26,8 @@ impl LoadedScene {
         self.world.steps.is_some()
     }
 
-    /// Returns the task of the world's steps, or of its move from the start to the goal. Unless `is_checked`, the tool may
-    /// hit something at the start.
+    /// Returns the task: the world's steps, or a move from the start to the goal. Unless `is_checked`, the tool may hit something
+    /// at the start.
     pub(super) fn task(
         &self,
         overrides: &Overrides,
@@ -86,7 +86,7 @@ impl LoadedScene {
         Ok(task)
     }
 
-    /// Returns the only step of a world without steps: a move to the goal.
+    /// Returns the only step of a task without steps: a move to the goal.
     fn own_move(&self, overrides: &Overrides, tool: ToolValues) -> Result<Item, InputError> {
         let (goals, place) = self.goals(overrides)?;
         let step = Self::move_to_goal(&goals, &place, tool)?;
@@ -165,7 +165,7 @@ impl LoadedScene {
     }
 }
 
-/// Describes the limits of a tool's joint, which follow "the".
+/// Describes the limits of a tool's joint, as a phrase after "the".
 fn limits(joint: &ToolJoint) -> String {
     match joint.range {
         JointRange::Interval { lower, upper } => format!("limits [{lower}, {upper}] m of joint \"{}\"", joint.name),
@@ -186,7 +186,7 @@ fn lifted_higher<'a>(stroke: &Stroke, objects: &'a [Object]) -> impl Iterator<It
     })
 }
 
-/// Iterates over diagnostics about objects that the tool cannot reach, because its joint cannot lower it so far.
+/// Returns diagnostics about objects below the lowest position of the tool.
 fn too_deep<'a>(stroke: &'a Stroke, world: &'a World) -> impl Iterator<Item = Diagnostic> + 'a {
     let joint = &stroke.joint;
     world.objects.iter().filter_map(|object| {

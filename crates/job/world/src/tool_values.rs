@@ -11,7 +11,7 @@ use cplan_robot::{Diagnostic, InputError, Length, Written};
 use cplan_text::listed;
 use std::ops::Range;
 
-/// Values of the tool's joints as the file states them, each with its position.
+/// Values of the tool's joints as the file states them, with their positions in the file.
 #[derive(Debug, Clone, Default)]
 pub(super) struct StatedTool {
     /// The value of the stroke's joint, metres.
@@ -40,8 +40,8 @@ impl StatedTool {
 }
 
 impl LoadedScene {
-    /// Returns the values of the tool's joints at the start and the goal. If the goal states a value of the wrist, the start
-    /// has one, too.
+    /// Returns the values of the tool's joints at the start and at the goal. If the goal has a value of the wrist, the start has
+    /// one, too.
     ///
     /// # Errors
     /// Values of joints that the world does not name, and values outside the joints' limits.
@@ -50,7 +50,7 @@ impl LoadedScene {
         let (start, goal) = (self.values_of("the start", start)?, self.values_of("the goal", goal)?);
         let rest = self.robot.joints.wrist.as_ref().map(|joint| joint.rest);
         let from = start.wrist.or(rest.filter(|_| goal.wrist.is_some()));
-        // Without another value, the wrist stays.
+        // A wrist without a stated goal stays where it is.
         let to = goal.wrist.or(from.filter(|_| !self.has_steps()));
         Ok([ToolValues { wrist: from, ..start }, ToolValues { wrist: to, ..goal }])
     }
@@ -63,7 +63,7 @@ impl LoadedScene {
         Ok(ToolValues { depth, wrist: self.value_of(what, "wrist", &stated.wrist, joints.wrist.as_ref())? })
     }
 
-    /// Returns a stated value of a joint of the tool, if it is within the joint's limits.
+    /// Returns the stated value of a tool's joint, which must be within the joint's limits.
     fn value_of(
         &self,
         what: &str,
@@ -94,8 +94,7 @@ impl LoadedScene {
         }
     }
 
-    /// Returns the only item of the task of a world whose start or goal states values of the tool's joints: a move to the
-    /// goal.
+    /// Returns the task's only item, a move to the goal, for a world whose start or goal states values of the tool's joints.
     pub(super) fn move_to_goal(goals: &[Goal], place: &Place, tool: ToolValues) -> Result<Item, Diagnostic> {
         let &[goal @ (Goal::Joints(_) | Goal::Tip(_) | Goal::TipAndElbow(..))] = goals else {
             let message = "values of the tool's joints, in [start] or [goal], are not possible with a goal of areas";

@@ -28,7 +28,6 @@ pub struct Overrides {
 }
 
 impl Overrides {
-    /// Returns the goal of the tip.
     pub(super) fn tip_goal(&self) -> Option<Goal> {
         let TipPoint(tip) = self.goal_tip?;
         Some(self.elbow.map_or(Goal::Tip(tip), |elbow| Goal::TipAndElbow(tip, elbow)))
@@ -36,8 +35,8 @@ impl Overrides {
 }
 
 impl LoadedScene {
-    /// Sets the clearance, in metres, and the errors for which motions stay free, which override the world's. `None`
-    /// keeps the world's.
+    /// Overrides the world's clearance, in metres, and the errors for which motions must stay free. `None` keeps those of the
+    /// world.
     ///
     /// # Errors
     /// A clearance that is negative or not finite; errors in a world with steps.
@@ -61,7 +60,7 @@ impl LoadedScene {
             return Ok(self);
         }
         check_clearance(clearance).map_err(refused)?;
-        // How much errors grow the obstacles depends on the clearance.
+        // The growth of obstacles by errors depends on the clearance.
         self.world.workspace.fixed.clearance = clearance;
         let Self { scene, world, arm, robot, .. } = self;
         let mut changed = Self::unchecked(world, arm, robot);
@@ -70,7 +69,7 @@ impl LoadedScene {
         Ok(changed)
     }
 
-    /// Returns the scene with the arm at rest during strokes and turns of the wrist, as with `arch = false`.
+    /// Returns the scene without arches, as with `arch = false`: the arm rests during strokes and turns of the wrist.
     #[must_use]
     pub fn without_arches(mut self) -> Self {
         self.robot.joints.stroke.iter_mut().for_each(|stroke| stroke.arch = None);
@@ -90,14 +89,14 @@ impl LoadedScene {
                 .into());
         }
         keep_efforts(self.scene.arm_mut());
-        // Efforts replace assumed acceleration limits.
+        // Effort limits replace assumed acceleration limits.
         self.robot.assumed.acceleration.clear();
         Ok(self)
     }
 }
 
-/// Two joint values as the user writes them: `-0.9,0.4` or `10deg, 20deg`. Values without the suffix `deg` are in
-/// radians for a revolute joint, and in metres for a prismatic one.
+/// Two joint values as the user writes them: `-0.9,0.4` or `10deg, 20deg`. Values without the suffix `deg` are in radians, or in
+/// metres if the joint is prismatic.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct JointValues {
     numbers: [f64; 2],

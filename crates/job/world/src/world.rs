@@ -26,10 +26,10 @@ use cplan_robot::{
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// A world file that has been read. Its workspace is valid, but names of joints and links are not checked yet.
+/// A world file that has been read. Its workspace is valid; names of joints and links are not checked yet.
 #[derive(Debug, Clone)]
 pub struct World {
-    /// Obstacles without the objects, clearance and title.
+    /// Obstacles (except the objects), clearance and title.
     pub workspace: TimedWorkspace,
     /// Objects that can be carried.
     pub objects: Vec<Object>,
@@ -42,9 +42,9 @@ pub struct World {
     /// Pose of the robot in the world. `None` if the file states none.
     pub(super) place: Option<Pose>,
     pub(super) start: Option<(Goal, Range<usize>)>,
-    /// Joint values that are written in degrees. Whether the joints are revolute is checked when the robot is known.
+    /// Joint values that are written in degrees. They are checked once the types of the joints are known.
     pub(super) in_degrees: Vec<JointPair>,
-    /// The alternative goals, at least one, and their position in the file. `None` if the file states no goal.
+    /// The alternative goals, at least one, and their position in the file. `None` without a goal.
     pub(super) goals: Option<(Vec<Goal>, Range<usize>)>,
     pub(super) steps: Option<Sequence>,
     /// Values of the tool's joints that the start and the goal state.
@@ -54,7 +54,7 @@ pub struct World {
     pub(super) wrist: Option<(Wrist, Option<String>)>,
     /// True if the wrist turns during motions although the world has no steps.
     pub(super) wrist_turns: bool,
-    /// Errors for which motions stay free.
+    /// Errors for which motions must stay free.
     pub(super) calibration: CalibrationTable,
 }
 
@@ -86,7 +86,7 @@ impl World {
         self.source.files().into_iter().chain(self.named_files.iter().cloned())
     }
 
-    /// Returns true if there are steps, or values of the tool's joints at the start or the goal.
+    /// Returns true if there are steps, or if start or goal state values of the tool's joints.
     pub(super) fn is_task(&self) -> bool {
         self.steps.is_some() || self.tool.iter().any(|tool| !tool.is_empty())
     }
@@ -96,7 +96,7 @@ impl World {
         RobotSettings { table: &self.robot, source: &self.source, wrist_turns: self.is_task() || self.wrist_turns }
     }
 
-    /// Returns the workspace with all objects after the static obstacles. Each object is at its initial place, or moves
+    /// Returns the workspace with all objects, which follow the static obstacles. Each object is at its initial place, or moves
     /// as the file states.
     pub(super) fn initial_workspace(&self) -> TimedWorkspace {
         let mut workspace = self.workspace.clone();
@@ -112,15 +112,15 @@ impl World {
         workspace.grown()
     }
 
-    /// Returns the scene of an arm with the workspace, with the errors for which motions stay free.
+    /// Returns the scene of an arm in this workspace, with the errors for which motions must stay free.
     pub(super) fn scene(&self, workspace: TimedWorkspace, arm: &Arm) -> Scene {
         let placed = self.place.as_ref().map_or_else(|| arm.clone(), |place| arm.placed(place));
         let (drawn, errors) = (workspace.scene_trusted(placed), self.calibration.of_robot());
         if errors == Calibration::default() { drawn } else { drawn.within_errors(&errors) }
     }
 
-    /// Replaces the errors for which motions stay free by those that an option states. If the option states a
-    /// displacement of obstacles, it applies to all obstacles.
+    /// Replaces the errors for which motions must stay free by those of an option. A displacement that the option states applies
+    /// to all obstacles.
     pub(super) fn replace_errors(&mut self, stated: CalibrationTable) {
         self.calibration = self.calibration.replaced_by(stated);
         if let Some(LengthError(error)) = stated.obstacles {
@@ -130,25 +130,24 @@ impl World {
         }
     }
 
-    /// Removes all errors for which motions stay free.
     pub(super) fn remove_errors(&mut self) {
         self.calibration = CalibrationTable::default();
         self.replace_errors(CalibrationTable { obstacles: Some(LengthError(0.0)), ..CalibrationTable::default() });
     }
 
-    /// Returns the greatest displacement of an obstacle for which motions stay free, metres.
+    /// Returns the greatest displacement of an obstacle for which motions must stay free, metres.
     pub(super) fn greatest_displacement(&self) -> f64 {
         let moving = self.workspace.movers.iter().map(|mover| &mover.obstacle);
         let all = self.workspace.fixed.obstacles.iter().chain(moving).map(|obstacle| obstacle.growth.error);
         all.fold(self.calibration.obstacles.unwrap_or_default().0, f64::max)
     }
 
-    /// Returns true if motions must stay free within errors of the robot or of an obstacle's place.
+    /// Returns true if motions must stay free despite errors of the robot or displacements of obstacles.
     pub fn has_errors(&self) -> bool {
         self.calibration.of_robot() != Calibration::default() || self.greatest_displacement() > 0.0
     }
 
-    /// Returns the diagnostic that a task does not allow for errors.
+    /// Returns the diagnostic about a task in a world with errors.
     pub(super) fn task_with_errors(&self) -> Diagnostic {
         let at = self.robot.calibration.as_ref().map(|table| table.span());
         let message = "errors (calibration) do not apply to worlds with steps, because they would also displace the objects that are picked and placed";
@@ -292,7 +291,7 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
         start,
         in_degrees: reader.in_degrees.take(),
         named_files: reader.files.take(),
-        // If the world has steps, the goals of its map are ignored.
+        // Steps replace the goals of the map.
         goals: goals.or(map.goals.filter(|_| steps.is_none())),
         objects: movables.into_iter().map(|movable| movable.object).collect(),
         steps,

@@ -34,11 +34,11 @@ toml_table! {
     }
 }
 
-/// The obstacles, goals and preferences that a map adds to a world, in metres.
+/// The obstacles, goals and preferences, in metres, that a map adds to a world.
 #[derive(Default)]
 pub(super) struct MapContent {
     pub obstacles: Vec<Obstacle>,
-    /// The goal rectangles, and the position in the world file of the name of their file.
+    /// The goal rectangles, and the position of their file's name in the world file.
     pub goals: Option<(Vec<Goal>, Range<usize>)>,
     pub preferences: Vec<Preference>,
 }
@@ -76,7 +76,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
         let points: Vec<Point> = points.into_iter().map(place).collect();
         let (shape, pieces) = match points[..] {
             [center] => (Shape::Circle { center, radius: 0.0 }, vec![Convex::point(center)]),
-            // The ends differ in the file but are equal in metres, so the line is a point.
+            // The ends differ in the file but coincide in metres.
             _ => {
                 let pieces = points.windows(2).map(|w| Convex::between(w[0], w[1])).collect();
                 (Shape::Polyline(points), pieces)
@@ -119,7 +119,7 @@ pub(super) fn read(reader: &Reader, table: &MapTable) -> Result<MapContent, Inpu
     Ok(content)
 }
 
-/// Returns the file's name without extension, as a prefix of obstacles' names.
+/// Returns the file's name without its extension, which becomes a prefix of obstacles' names.
 fn stem(path: &Path) -> String {
     path.file_stem().map_or_else(|| "map".to_owned(), |s| s.to_string_lossy().into_owned())
 }

@@ -5,24 +5,23 @@ use cplan::Point;
 use cplan::view::figure::{Figure, Style};
 use cplan_theme::{ACCENT, GRAY, INK, PALE, WHITE, obstacle};
 
-/// Lengths of both links, and places of the tip in the order of the steps.
+/// Lengths of both links, and positions of the tip in the order of the steps.
 const LINKS: [f64; 2] = [1.0, 0.8];
 const PLACES: [(&str, [f64; 2]); 4] =
     [("start", [1.6, 0.2]), ("pick", [0.9, 0.9]), ("place", [-0.3, 1.3]), ("rest", [0.5, 1.5])];
 
-/// Returns both IK solutions of a place: joint angles, elbow down and elbow up.
+/// Returns both IK solutions for a position, elbow down and elbow up, as joint angles.
 fn solve([x, y]: [f64; 2]) -> [[f64; 2]; 2] {
     let [a, b] = LINKS;
     let elbow = ((x * x + y * y - a * a - b * b) / (2.0 * a * b)).clamp(-1.0, 1.0).acos();
     [elbow, -elbow].map(|elbow| [y.atan2(x) - (b * elbow.sin()).atan2(a + b * elbow.cos()), elbow])
 }
 
-/// Draws the IK solutions of each step as a graph, with the turn of the joint that turns most on each edge, and the best
-/// sequence.
+/// Draws the IK solutions of each step as a graph, whose edges have the turn of the joint that turns more, and the best sequence.
 pub fn solutions() -> Figure {
     let columns: Vec<[[f64; 2]; 2]> = PLACES.iter().map(|(_, place)| solve(*place)).collect();
     let turn = |p: [f64; 2], q: [f64; 2]| (0..2).map(|k| (q[k] - p[k]).abs()).fold(0.0, f64::max);
-    // The start has one IK solution: the arm is there.
+    // At the start, only one IK solution counts: that of the arm.
     let mut best: Vec<[(f64, usize); 2]> = vec![[(0.0, 0), (f64::INFINITY, 0)]];
     for pair in columns.windows(2) {
         let before = best[best.len() - 1];
@@ -77,7 +76,7 @@ pub fn solutions() -> Figure {
     sketch.figure()
 }
 
-/// Draws a gripper on a gantry before and after it takes a block, with the C-obstacle of the same wall.
+/// Draws a gripper on a gantry before and after it takes a block, each with the C-obstacle of the same wall.
 pub fn payload() -> Figure {
     let wall = [[1.2, 0.0], [1.5, 0.0], [1.5, 0.9], [1.2, 0.9]];
     let gripper = [[-0.12, 0.0], [0.12, 0.0], [0.12, 0.25], [-0.12, 0.25]];
@@ -88,7 +87,8 @@ pub fn payload() -> Figure {
     {
         let frame = Sketch::frame([left, 34.0, 340.0, 210.0], (0.0, 2.2), (0.0, 1.36));
         sketch.heading(left, heading);
-        // The places of the gripper's origin at which a part meets the wall: sums of intervals, as all sides are parallel.
+        // The positions of the gripper's origin at which a part meets the wall. All sides are parallel, so they are sums of
+        // intervals.
         let shadows: Vec<[Point; 2]> = parts
             .iter()
             .map(|part| {

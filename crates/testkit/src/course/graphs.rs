@@ -33,12 +33,12 @@ pub fn visibility() -> Figure {
 
 /// Draws the points that are equally far from the two nearest parts of the boundary.
 pub fn voronoi() -> Figure {
-    /// Side of a cell in which the curve is straight.
+    /// Side of a cell, in which the curve counts as straight.
     const STEP: f64 = 0.2;
     let mut sketch = Sketch::new(320.0);
     let frame = scene(&mut sketch);
     let obstacles = obstacles();
-    // The lower and the left side of the room are one part, the upper and the right one another.
+    // The lower and the left side of the room form one part, the upper and the right one another.
     let distances = |p: Point| -> Vec<f64> {
         let walls = [p.x.min(p.y), (ROOM[0] - p.x).min(ROOM[1] - p.y)];
         obstacles.iter().map(|polygon| distance(polygon, p)).chain(walls).collect()
@@ -74,7 +74,7 @@ pub fn voronoi() -> Figure {
     sketch.figure()
 }
 
-/// Draws random points, each joined to the nearest ones that it sees.
+/// Draws random points, each joined to the nearest points that it sees.
 pub fn probabilistic() -> Figure {
     const COUNT: usize = 60;
     const NEIGHBORS: usize = 4;

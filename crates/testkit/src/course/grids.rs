@@ -6,7 +6,7 @@ use cplan::view::Frame;
 use cplan::view::figure::{Figure, Item, Raster, Style};
 use cplan_theme::{ACCENT, GRAY, INFEASIBLE, INK, PALE, ROBOT, WHITE, scale};
 
-/// The grid of the wavefront: `#` is an obstacle, `S` the start, `G` the goal.
+/// The grid of the wavefront: `#` is an obstacle, `S` the start, and `G` the goal.
 const ROOM: [&str; 6] = [
     "..............", //
     "..##....####..",
@@ -94,7 +94,7 @@ impl Grid {
         labels
     }
 
-    /// Returns the cells from the start to a cell without a lower neighbour.
+    /// Returns the cells of a descent from the start to a cell without a lower neighbour.
     fn descent(&self, value: impl Fn(usize) -> f64) -> Vec<usize> {
         let mut path = vec![self.start];
         while let Some(next) = self.free_neighbors(path[path.len() - 1]).min_by(|&a, &b| value(a).total_cmp(&value(b)))
@@ -125,7 +125,7 @@ impl Grid {
         sketch.path(frame, &cells.iter().map(|&cell| self.middle(cell)).collect::<Vec<_>>());
     }
 
-    /// Draws the values of free cells in shades by rank: of `SHADES` equally large groups, the lowest is the lightest.
+    /// Draws the values of free cells in shades: `SHADES` equally large groups, the lowest of which is the lightest.
     fn shade(&self, sketch: &mut Sketch, frame: &Frame, values: &[f64]) {
         let mut order: Vec<usize> = (0..values.len()).filter(|&cell| !self.is_blocked[cell]).collect();
         order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));
@@ -147,7 +147,7 @@ impl Grid {
     }
 }
 
-/// Draws the labels of a wavefront, and a path that steps to smaller ones.
+/// Draws the labels of a wavefront, and a path along decreasing labels.
 pub fn wave() -> Figure {
     let grid = Grid::new(&ROOM);
     let mut sketch = Sketch::new(340.0);
@@ -183,7 +183,7 @@ pub fn astar() -> Figure {
     let mut expanded = Vec::new();
     let mut open = vec![grid.start];
     lengths[grid.start] = 0;
-    // The open cell with the least estimate, of those the one nearest to the goal, and of those the first.
+    // The open cell with the least estimate; of equals, the one nearest to the goal, then the first.
     while let Some(at) =
         (0..open.len()).min_by_key(|&k| (lengths[open[k]] + distance(open[k]), distance(open[k]), open[k]))
     {
@@ -250,7 +250,7 @@ pub fn harmonic() -> Figure {
     values[grid.goal] = 0.0;
     for _ in 0..SWEEPS {
         for cell in (0..values.len()).filter(|&cell| !grid.is_blocked[cell] && cell != grid.goal) {
-            // Beyond the grid there are obstacles.
+            // Cells beyond the grid count as obstacles.
             let around = grid.neighbors(cell);
             let sum: f64 = around.iter().map(|&other| values[other]).sum();
             values[cell] = (sum + (4 - around.len()) as f64) / 4.0;

@@ -1,5 +1,5 @@
-//! The small figures of the course, one for each idea, computed from the formulas of the chapters. `examples/pictures.rs`
-//! writes them.
+//! The small figures of the course, one per idea, computed from the formulas of the chapters. `examples/pictures.rs` writes their
+//! files.
 
 mod arms;
 mod graphs;

@@ -7,13 +7,13 @@ use cplan::Point;
 use cplan::view::figure::{Figure, Item, Style};
 use cplan_theme::{ACCENT, CHANNEL, FOUND, FREE, GRAY, INFEASIBLE, INK, OCCUPIED, PROOF, UNDECIDED, WHITE};
 
-/// Draws the verticals of a sweep, the trapezoids between them that the taut path passes, and that path.
+/// Draws the verticals of a sweep, those trapezoids between them that the taut path passes, and the path.
 pub fn trapezoids() -> Figure {
     let mut sketch = Sketch::new(320.0);
     let obstacles = obstacles();
     let (points, edges) = visibility();
     let path = shortest(&points, &edges);
-    // The next obstacle above and below a point of a vertical.
+    // The nearest obstacles above and below a point of a vertical.
     let limits = |x: f64, y: f64| {
         let heights = obstacles.iter().flat_map(|polygon| crossings(polygon, x));
         let (mut low, mut high) = (0.0f64, ROOM[1]);
@@ -33,7 +33,7 @@ pub fn trapezoids() -> Figure {
     for ends in stops.windows(2).filter(|ends| ends[1] - ends[0] > 1e-9) {
         let middle = f64::midpoint(ends[0], ends[1]);
         let Some(y) = height(&path, middle) else { continue };
-        // Just within the strip, both sides belong to it.
+        // Slightly within the strip, both sides belong to it.
         let sides = [ends[0] + 1e-6, ends[1] - 1e-6].map(|x| (x, along(&path, x, y)));
         let [(a, ya), (b, yb)] = sides;
         let ((la, ha), (lb, hb)) = (limits(a, ya), limits(b, yb));
@@ -77,7 +77,7 @@ fn height(path: &[Point], x: f64) -> Option<f64> {
     Some(piece[0].y + (piece[1].y - piece[0].y) * (x - piece[0].x) / (piece[1].x - piece[0].x))
 }
 
-/// Returns the height of the path, or `otherwise` beyond its ends.
+/// Returns the height of the path at `x`, or `otherwise` beyond its ends.
 fn along(path: &[Point], x: f64, otherwise: f64) -> f64 {
     height(path, x).unwrap_or(otherwise)
 }
@@ -123,7 +123,7 @@ pub fn boxes() -> Figure {
     sketch.figure()
 }
 
-/// Draws pieces of a path, each with the disc that its bound on the motion allows.
+/// Draws pieces of a path, each with the disc that its motion bound allows.
 pub fn pieces() -> Figure {
     let mut sketch = Sketch::new(320.0);
     let frame = scene(&mut sketch);
@@ -156,7 +156,7 @@ pub fn pieces() -> Figure {
     sketch.figure()
 }
 
-/// Draws two joint spaces of continuous joints: one wall leaves the way around, two walls do not.
+/// Draws two joint spaces of continuous joints. With one wall, a path leads around it; two walls leave none.
 pub fn torus() -> Figure {
     let mut sketch = Sketch::new(280.0);
     let [start, goal] = [Point::new(0.25, 0.5), Point::new(0.75, 0.5)];
@@ -176,7 +176,7 @@ pub fn torus() -> Figure {
             sketch.rectangles(&frame, &wall(x), Style::line(PROOF, 1.2).filled(PROOF.lighter(0.6)));
         }
         if walls.len() == 1 {
-            // Out on the left, and in on the right.
+            // Leaves on the left, and enters on the right.
             sketch.line(&frame, &[start, Point::new(0.0, 0.5)], Style::line(ACCENT, 2.8));
             sketch.line(&frame, &[Point::new(1.0, 0.5), goal], Style::line(ACCENT, 2.8));
         }

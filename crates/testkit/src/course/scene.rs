@@ -22,7 +22,7 @@ pub fn obstacles() -> [Vec<Point>; COUNT] {
     ]
 }
 
-/// Returns the distance of a point from the outline of a convex polygon, negative inside.
+/// Returns the distance of a point from the outline of a convex polygon; negative inside.
 pub fn distance(polygon: &[Point], p: Point) -> f64 {
     let sides = || polygon.iter().zip(polygon.iter().cycle().skip(1));
     let to_side = |(a, b): (&Point, &Point)| {
@@ -38,7 +38,7 @@ pub fn distance(polygon: &[Point], p: Point) -> f64 {
 /// Returns true if the open segment does not enter an obstacle.
 pub fn sees(obstacles: &[Vec<Point>], a: Point, b: Point) -> bool {
     obstacles.iter().all(|polygon| {
-        // The part of the segment on the inner side of all sides so far.
+        // The part of the segment within all sides so far.
         let (mut low, mut high) = (0.0f64, 1.0f64);
         for (p, q) in polygon.iter().zip(polygon.iter().cycle().skip(1)) {
             let (at, along) = ((q - p).perp(&(a - p)), (q - p).perp(&(b - a)));
@@ -61,7 +61,7 @@ pub fn shortest(points: &[Point], edges: &[[usize; 2]]) -> Vec<Point> {
     let mut lengths = vec![f64::INFINITY; points.len()];
     let mut before = vec![usize::MAX; points.len()];
     lengths[0] = 0.0;
-    // Every pass settles at least one more point of each shortest path.
+    // Each pass settles at least one more point of every shortest path.
     for _ in points {
         for &[i, j] in edges {
             for (from, to) in [(i, j), (j, i)] {
@@ -79,7 +79,7 @@ pub fn shortest(points: &[Point], edges: &[[usize; 2]]) -> Vec<Point> {
     path.iter().rev().map(|&k| points[k]).collect()
 }
 
-/// Returns the start, the goal and all corners, and the pairs that see each other.
+/// Returns the start, the goal and all corners, and the pairs of points that see each other.
 pub fn visibility() -> (Vec<Point>, Vec<[usize; 2]>) {
     let obstacles = obstacles();
     let points: Vec<Point> = ends().into_iter().chain(obstacles.iter().flatten().copied()).collect();

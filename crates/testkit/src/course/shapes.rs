@@ -8,8 +8,8 @@ use cplan_theme::{ACCENT, GHOST, GRAY, INFEASIBLE, INK, PALE, WHITE, obstacle};
 /// Distance of the corner from the elbow, angle of the corner at the elbow, and distance of the side from the elbow.
 const CORNER: (f64, f64, f64) = (1.2, 0.21, 0.8);
 
-/// Draws the contact angles of the two front corners of a link with one side of an obstacle. The link is blocked between
-/// the outer angles; at the inner ones, the other corner is already inside.
+/// Draws the contact angles of the two front corners of a link with one side of an obstacle. The link is blocked between the
+/// outer ones; at the inner ones, the other corner is already inside.
 pub fn slice() -> Figure {
     let (r, alpha, d) = CORNER;
     let mut sketch = Sketch::new(300.0);
@@ -79,7 +79,7 @@ pub fn slice() -> Figure {
     sketch.figure()
 }
 
-/// Draws the sides of B and of the mirrored A in the order of their directions, and the difference that they enclose.
+/// Draws the sides of B and of the mirrored A, ordered by direction, and the difference that they enclose.
 pub fn minkowski() -> Figure {
     let (a, b) = pair();
     let mirrored: Vec<Point> = a.iter().map(|p| -p).collect();
@@ -107,7 +107,7 @@ pub fn minkowski() -> Figure {
     let mut from = corners[corners.len() - 1];
     for (k, (&to, (side, is_of_a))) in corners.iter().zip(&sides).enumerate() {
         sketch.line(&right, &[from, to], if *is_of_a { blue } else { orange });
-        // The number stands outside, to the right of the side's direction.
+        // The number is outside, to the right of the side's direction.
         let out = Point::new(side.y, -side.x);
         let length = out.x.hypot(out.y);
         let [x, y] = right.at(
@@ -127,7 +127,7 @@ pub fn minkowski() -> Figure {
     sketch.figure()
 }
 
-/// Draws the differences of a block and of a link that turns, one above the other.
+/// Draws the differences of a block and a turning link, one above the other.
 pub fn turning() -> Figure {
     let link = [[-0.1, -0.08], [0.6, -0.08], [0.6, 0.08], [-0.1, 0.08]].map(point);
     let block = [[-0.35, -0.35], [0.35, -0.35], [0.35, 0.35], [-0.35, 0.35]].map(point);
@@ -153,7 +153,7 @@ pub fn turning() -> Figure {
         if k % 3 == 0 {
             let [x, y] = frame.at(1.35, 1.1 * share);
             sketch.text([x, y + 5.0], format!("\u{3b8} = {}\u{b0}", 15 * k), GRAY);
-            // The link at that angle, beside its section.
+            // The link at that angle, next to its section.
             let small = turned.map(|p| Point::new(0.45 * p.x - 1.35, 0.45 * p.y + 1.1 * share));
             sketch.polygon(&frame, &small, Style::line(INK, 1.2).filled(WHITE));
         }
@@ -169,8 +169,8 @@ fn pair() -> (Vec<Point>, Vec<Point>) {
     (a, b)
 }
 
-/// Returns the sides of `b` and of the mirrored `a` by direction, from that of the positive x axis, and whether each is of
-/// `a`.
+/// Returns the sides of `b` and of the mirrored `a` by direction, beginning with that of the positive x axis. The flag is true
+/// for sides of `a`.
 fn sorted_sides(a: &[Point], b: &[Point]) -> Vec<(Point, bool)> {
     let side = |corners: &[Point], i: usize| corners[(i + 1) % corners.len()] - corners[i];
     let mirrored = (0..a.len()).map(|i| (-side(a, i), true));
@@ -180,7 +180,7 @@ fn sorted_sides(a: &[Point], b: &[Point]) -> Vec<(Point, bool)> {
     sides
 }
 
-/// Returns the lowest corner, from which the directions of the sides of a convex polygon grow.
+/// Returns the lowest corner of a convex polygon. From it on, the directions of the sides increase.
 fn lowest(corners: &[Point]) -> Point {
     let lower = |p: &&Point, q: &&Point| p.y.total_cmp(&q.y).then(p.x.total_cmp(&q.x));
     *corners.iter().min_by(lower).expect("a polygon has corners")

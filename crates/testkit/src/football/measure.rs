@@ -1,5 +1,5 @@
-//! The cost of computing the fields of a match, compared with the source (M. Oliveira da Silva 2011, tables 6.3 to
-//! 6.17; a CPU of 2009).
+//! The cost of computing a match's fields, compared with the source (M. Oliveira da Silva 2011, tables 6.3 to 6.17; a CPU of
+//! 2009).
 
 use super::play::{CELLS, Frame, MOST, RATE, walls};
 use cplan::field::{
@@ -36,7 +36,7 @@ impl Kind {
     }
 }
 
-/// A line of the table: a field and how it is solved.
+/// A line of the table: a field and its solution.
 pub struct Case {
     /// The field.
     pub kind: Kind,
@@ -80,8 +80,8 @@ pub fn standing(difference: Difference) -> Result<MovingField, RelaxError> {
     MovingField::new(CELLS, walls(), [Boundary::High; 2], difference)
 }
 
-/// A clock that measures the CPU time of this thread, so that other load on the machine does not count. If the system
-/// does not report that time, the clock measures the time of day.
+/// Measures the CPU time of this thread, so that other load on the machine does not matter. If the system does not report it,
+/// measures the time of day.
 struct Clock {
     day: Instant,
     core: Option<f64>,
@@ -92,8 +92,7 @@ impl Clock {
         Self { day: Instant::now(), core: Self::core() }
     }
 
-    /// Returns the nanoseconds that this thread has run on a processor, as Linux reports them. Returns `None` on other
-    /// systems.
+    /// Returns the nanoseconds that this thread has run on a processor, as Linux reports them. `None` on other systems.
     fn core() -> Option<f64> {
         std::fs::read_to_string("/proc/thread-self/schedstat").ok()?.split(' ').next()?.parse().ok()
     }
@@ -109,7 +108,7 @@ impl Clock {
 pub struct Run {
     /// Number of fields.
     pub fields: usize,
-    /// Number of frames that took at most one sweep.
+    /// Number of frames that needed at most one sweep.
     pub at_once: usize,
     /// Number of sweeps, of all fields together.
     pub sweeps: usize,
@@ -118,7 +117,7 @@ pub struct Run {
 }
 
 impl Run {
-    /// Returns the share of the fields that took at most one sweep.
+    /// Returns the share of the fields that needed at most one sweep.
     pub fn share_at_once(&self) -> f64 {
         self.at_once as f64 / self.fields.max(1) as f64
     }
@@ -152,7 +151,7 @@ pub fn run<'a>(
     Ok(run)
 }
 
-/// A line of the table with its results.
+/// A line of the table, with its results.
 pub struct Row {
     /// The field, and how it is solved.
     pub case: Case,
@@ -205,15 +204,15 @@ impl fmt::Display for Row {
     }
 }
 
-/// Solves the fields of the red robots as if the strategy needed them `times` times per frame, although the camera sees
-/// a change only once.
+/// Solves the fields of the red robots as if the strategy needed them `times` times per frame, although the camera sees a change
+/// only once.
 pub fn run_after_every_frame(frames: &[Frame], times: usize, case: &Case) -> Result<Run, RelaxError> {
     let moments: Vec<&Moment> = frames.iter().flat_map(|frame| std::iter::repeat_n(&frame.moments[3], times)).collect();
     run(moments.into_iter(), case, PUBLISHED_BELOW, false)
 }
 
-/// Returns the milliseconds per frame of all blue robots' own fields, and of the field that the red ones share. The
-/// settings are central differences and Gauss-Seidel relaxation, from the previous frame.
+/// Returns the milliseconds per frame for all blue robots' own fields, and for the field that the red ones share, by central
+/// differences and Gauss-Seidel relaxation from the previous frame.
 pub fn three_and_one(frames: &[Frame]) -> Result<[f64; 2], RelaxError> {
     let case = |kind| Case { kind, difference: Difference::Central, solver: sor(1.0), published: None };
     let mut three = 0.0;
@@ -225,8 +224,7 @@ pub fn three_and_one(frames: &[Frame]) -> Result<[f64; 2], RelaxError> {
     Ok([three, run(shared, &case(Kind::LocallyOriented), PUBLISHED_BELOW, false)?.milliseconds])
 }
 
-/// A direction that is computed by elimination: the number of its frame, and the position of the seeker of the blue
-/// team.
+/// A direction computed by elimination: the number of its frame, and the position of the seeker of the blue team.
 pub struct Exact {
     frame: usize,
     at: [f64; 2],
@@ -235,7 +233,7 @@ pub struct Exact {
 
 /// One in this many frames is also solved by elimination.
 const ELIMINATED: usize = 20;
-/// A field counts as level if it differs from the obstacles' value by less than this. Its goal is then unreachable.
+/// A field counts as level if it differs from the obstacles' value by less than this. Its goal is then out of reach.
 const LEVEL: f64 = 1e-12;
 
 /// Returns the directions in the field of the seeker of the blue team, for frames in which the goal can be reached.
@@ -243,7 +241,7 @@ pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
     let mut found = Vec::new();
     for (k, frame) in frames.iter().enumerate().step_by(ELIMINATED) {
         let (moment, at) = (Kind::Oriented.moment(frame), frame.robots[frame.seekers[0]]);
-        // The field is not relaxed; it only provides the kind of each cell.
+        // The field is not relaxed, but provides the kind of each cell.
         let mut field = standing(Difference::Upwind)?;
         field.next(&moment, &sor(1.0), 1.0, 0)?;
         let domain = field.domain();
@@ -258,8 +256,8 @@ pub fn exact(frames: &[Frame]) -> Result<Vec<Exact>, RelaxError> {
     Ok(found)
 }
 
-/// Returns the angles between two directions of the seeker of the blue team, in degrees, in ascending order: the
-/// direction in its relaxed field and that in its exact field.
+/// Returns the angles, in degrees and ascending, between the directions of the blue team's seeker in its relaxed field and in its
+/// exact field.
 pub fn direction_errors(
     frames: &[Frame],
     exact: &[Exact],
@@ -272,7 +270,7 @@ pub fn direction_errors(
     for (k, frame) in frames.iter().enumerate() {
         field.next(&Kind::Oriented.moment(frame), solver, below, MOST)?;
         if let Some(Exact { at, direction: b, .. }) = sought.next_if(|exact| exact.frame == k) {
-            // If there is no direction, the error counts as the greatest one.
+            // A missing direction counts as the greatest error.
             let angle = |a: [f64; 2]| (a[0] * b[0] + a[1] * b[1]).clamp(-1.0, 1.0).acos().to_degrees();
             angles.push(field.direction(*at).map_or(180.0, angle));
         }
@@ -325,7 +323,7 @@ pub fn report(frames: &[Frame]) -> Result<(), RelaxError> {
     Ok(())
 }
 
-/// Prints by how much directions of relaxed fields deviate from exact ones.
+/// Prints the deviations of directions of relaxed fields from exact ones.
 fn directions(frames: &[Frame]) -> Result<(), RelaxError> {
     let exact = exact(frames)?;
     println!(

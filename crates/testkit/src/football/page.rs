@@ -1,18 +1,18 @@
-//! The page that replays a match. It is one file that loads nothing.
+//! The page that replays a match, in one file that loads nothing.
 
 use super::play::{BALL, BODY, CELLS, DEPTH, Frame, INFLUENCE, MOUTH, PER_CM, RATE};
 use cplan::field::{Cell, MovingField};
 use serde_json::{Value, json};
 
-/// Number of frames from one picture of the fields to the next (`EVERY`), and of cells from one arrow to the next.
+/// Number of frames from one picture of the fields to the next (`EVERY`), and number of cells from one arrow to the next.
 const EVERY: usize = 4;
 const APART: usize = 3;
-/// Number of points of a curve that are left out between two that are shown.
+/// Number of points of a curve that are skipped between two that are shown.
 const SPARSE: usize = 6;
 /// Letters for the directions of arrows. Each stands for an equal step of a turn. A dot stands for no direction.
 const TURN: &[u8] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+-";
-/// Number of letters per power of ten for the values of a field, which are from 0 to 1. A letter stands for the
-/// logarithm of a value's distance from 1.
+/// Letters per power of ten for the values of a field, which are from 0 to 1. A letter stands for the logarithm of a value's
+/// distance from 1.
 const A_POWER: f64 = 4.0;
 
 /// A recorded match.
@@ -23,7 +23,7 @@ pub struct Film {
 }
 
 impl Film {
-    /// Adds a frame. `fields` are the fields that guide the robots in the frame, and `score` is the score after it.
+    /// Adds a frame. `fields` guide the robots in the frame, and `score` is the score after it.
     pub fn add_frame(&mut self, frame: &Frame, fields: &[MovingField], score: [usize; 2]) {
         let places = frame.robots.iter().chain([&frame.ball]).flatten().map(|&x| rounded(x));
         self.frames.push(json!([places.collect::<Vec<_>>(), frame.seekers, score]));

@@ -1,9 +1,9 @@
-//! Three robots against three with a ball, all guided by fields: a match of our own in the league of the source (IEEE
-//! Very Small Size: 150 cm x 130 cm, goals 10 cm deep, 85 x 65 cells of 2 cm, robots of 7.5 cm).
+//! A match of our own, three robots against three, all guided by fields, in the league of the source (IEEE Very Small Size: 150
+//! cm x 130 cm, goals 10 cm deep, 85 x 65 cells of 2 cm, robots of 7.5 cm).
 //!
-//! Positions are rows (along the field) and columns of cells. Robots roll without slip in the commanded direction, one
-//! after the other in each frame. Each blue robot has its own oriented field with its own goal. The red robots share a
-//! locally oriented field, whose goal is the ball.
+//! Positions are rows (along the field) and columns of cells. Robots roll without slip in the commanded direction, one after the
+//! other in each frame. Each blue robot has its own oriented field with its own goal. The red robots share a locally oriented
+//! field, whose goal is the ball.
 
 use cplan::field::{
     Boundary, Cell, Difference, Direction, Disc, Factor, Influence, Moment, MovingField, Order, RelaxError, Relaxation,
@@ -18,17 +18,17 @@ pub const DEPTH: f64 = 5.0;
 pub const MOUTH: [f64; 2] = [22.0, 42.0];
 /// Number of cells per centimetre.
 pub const PER_CM: f64 = 0.5;
-/// Radius of a disc that contains a robot of 7.5 cm x 7.5 cm in every orientation, in cells: half a diagonal.
+/// Radius of a disc that contains a robot of 7.5 cm x 7.5 cm in every orientation: half a diagonal, in cells.
 pub const BODY: f64 = 7.5 * std::f64::consts::FRAC_1_SQRT_2 * PER_CM;
 /// Radius of a golf ball, in cells.
 pub const BALL: f64 = 2.135 * PER_CM;
 /// Number of frames per second.
 pub const RATE: f64 = 60.0;
-/// Number of steps along its curve that a robot moves per frame. The speed is then 0.96 m/s.
+/// Number of steps along its curve that a robot takes per frame, which amounts to 0.96 m/s.
 const STEPS: usize = 4;
 /// Greatest distance that a robot moves in a frame, in cells.
 pub const REACH: f64 = STEPS as f64 * STEP_LENGTH;
-/// Distance at which a robot pushes the ball, and radius of the seeker's goal around the ball, in cells.
+/// Distance at which a robot pushes the ball, and radius of the seeker's goal around it, in cells.
 const CONTACT: f64 = BODY + BALL + 0.6;
 const SOUGHT: f64 = CONTACT - 0.3;
 /// Speed of a pushed ball in cells per frame (`PUSHED`), and the factors by which it decreases per frame and at each
@@ -40,20 +40,20 @@ const BOUNCES: f64 = 0.6;
 const EPSILON: f64 = 0.5;
 /// Radius of the influence of a local drift, in cells: 20 cm.
 pub const INFLUENCE: f64 = 10.0;
-/// A robot becomes the seeker if it is nearer to the ball than the current seeker by this, in cells.
+/// A robot becomes the seeker if it is nearer to the ball than the current one by this, in cells.
 const TAKES_OVER: f64 = 6.0;
 /// Distance from the ball that red robots keep unless they seek it, in cells.
 const KEEPS_OFF: f64 = 14.0;
-/// Tolerance of the fields of the match, which SOR solves with the source's factor. With this sum of squared changes,
-/// directions are correct.
+/// Tolerance of the match's fields, which SOR solves with the source's factor. With this sum of squared changes, directions are
+/// correct.
 const BELOW: f64 = 1e-12;
 const FACTOR: f64 = 1.7;
 /// Largest number of sweeps for a field of the match.
 pub const MOST: usize = 2000;
-/// A ball that stays within a distance for a number of frames is moved to a mark of the field. The first value is the
-/// number of frames, the second the distance in cells.
+/// A ball that stays within a distance (second value, in cells) for a number of frames (first value) is moved to a mark of the
+/// field.
 const STALE: (usize, f64) = (120, 12.0);
-/// The marks of the field, as in the league: four, each 37.5 cm from the middle and 40 cm from the middle line.
+/// The four marks of the field, as in the league: 37.5 cm from the middle and 40 cm from the middle line.
 const MARKS: [[f64; 2]; 4] = [[23.25, 12.0], [23.25, 52.0], [60.75, 12.0], [60.75, 52.0]];
 
 /// The state at the beginning of a frame.
@@ -76,7 +76,7 @@ pub struct Match {
     noise: u64,
     /// Goals of the blue team and of the red team.
     pub score: [usize; 2],
-    /// For each team, the number of moves that another robot cut short.
+    /// For each team, the number of moves that were shortened because of another robot.
     pub refused: [usize; 2],
     /// For each team, the number of times that a robot had no direction in a frame.
     pub lost: [usize; 2],
@@ -86,13 +86,13 @@ struct State {
     robots: [[f64; 2]; 6],
     ball: [f64; 2],
     rolls: [f64; 2],
-    /// A position of the ball, and the frame since which the ball has stayed near it.
+    /// A position of the ball, and the frame since which it has stayed nearby.
     left: ([f64; 2], usize),
     seekers: [usize; 2],
     frame: usize,
 }
 
-/// Returns, for each cell, true if the centre of a robot must not be there. Only a rectangle of cells is free.
+/// Returns, for each cell, true if the centre of a robot must not be there. The free cells form a rectangle.
 pub fn walls() -> Vec<bool> {
     let [rows, columns] = CELLS;
     (0..rows * columns).map(|cell| !is_open([(cell / columns) as f64, (cell % columns) as f64])).collect()
@@ -106,7 +106,7 @@ fn is_open([row, column]: [f64; 2]) -> bool {
 }
 
 impl Match {
-    /// Creates a match with different positions and pushes for each seed.
+    /// Creates a match. The seed determines positions and pushes.
     pub fn new(seed: u64) -> Result<Self, RelaxError> {
         let mut noise = seed;
         let homes = [[11.0, 32.0], [26.0, 20.0], [33.0, 42.0], [73.0, 32.0], [58.0, 44.0], [51.0, 22.0]];
@@ -131,7 +131,7 @@ impl Match {
             field.next(moment, &solver, BELOW, MOST)?;
         }
         let State { robots, ball, seekers, .. } = self.state;
-        // The first robot to move changes from frame to frame.
+        // The robot that moves first changes from frame to frame.
         for turn in 0..6 {
             self.go((turn + self.state.frame) % 6);
         }
@@ -157,7 +157,7 @@ impl Match {
                 self.lost[team] += usize::from(field.direction(at).is_none());
                 field.advance(at, STEPS)
             }
-            // Another robot has come so near that this cell is blocked. The robot moves back by half a step.
+            // Another robot has come so near that this cell is blocked, so the robot moves back by half a step.
             _ => {
                 let nearest =
                     others.iter().min_by(|a, b| distance_between(**a, at).total_cmp(&distance_between(**b, at)));
@@ -166,8 +166,8 @@ impl Match {
                 [0, 1].map(|k| at[k] + 0.5 * REACH * away[k])
             }
         };
-        // The field contains the positions of the other robots at the beginning of the frame, except those of team
-        // mates that share it. So a step is shortened if it would lead too near to another robot.
+        // The field has the positions of other robots at the beginning of the frame, except those of team mates that share it. So
+        // a step is shortened if it would lead too near to another robot.
         let shorter = [1.0, 0.5, 0.25].map(|part| [0, 1].map(|k| at[k] + part * (to[k] - at[k])));
         let fits = |to: &[f64; 2]| {
             let apart = others
@@ -181,7 +181,7 @@ impl Match {
         }
     }
 
-    /// Pushes the ball away from a robot that touches it, towards the other goal.
+    /// Makes a robot that touches the ball push it, towards the other goal.
     fn push(&mut self) {
         let ball = self.state.ball;
         let nearest = (0..6).min_by(|&a, &b| {
@@ -241,8 +241,8 @@ impl Match {
     }
 }
 
-/// Least distance that robots must have at the end of a step, in cells. On straight lines, two robots may come slightly
-/// nearer to each other in between.
+/// Least distance between robots at the end of a step, in cells. On straight lines, two robots may come slightly nearer in
+/// between.
 const CLOSE: f64 = 0.25;
 
 impl State {
@@ -250,8 +250,8 @@ impl State {
         (0..6).filter(|&other| other != robot).map(|other| self.robots[other]).collect()
     }
 
-    /// Chooses the seeker of each team: the robot nearest to the ball, except the keeper. The current seeker stays
-    /// unless another robot is much nearer.
+    /// Chooses the seeker of each team: the robot nearest to the ball, except the keeper. The current seeker changes only if
+    /// another robot is much nearer.
     fn choose_seekers(&mut self) {
         for (team, first) in [(0, 1), (1, 3)] {
             let distance = |robot: usize| {
@@ -263,14 +263,14 @@ impl State {
         }
     }
 
-    /// Returns discs that the centre of a robot must avoid, wherever the other robots move within the frame.
+    /// Returns discs that the centre of a robot must avoid, whichever way the other robots move within the frame.
     fn obstacles(&self, robots: impl Iterator<Item = usize>) -> Vec<Disc> {
         robots.map(|k| Disc { center: self.robots[k], radius: BODY + REACH + CLOSE }.grown_for(BODY)).collect()
     }
 
-    /// Returns the input of a blue robot's own field. The other robots are obstacles, and the drift applies everywhere.
-    /// The seeker approaches the ball in the direction of the intended push. Another robot stands halfway between ball
-    /// and goal, and the first one guards the goal.
+    /// Returns the input of a blue robot's own field. The other robots are obstacles, and the drift applies everywhere. The
+    /// seeker approaches the ball in the direction of the intended push. Another robot's goal is halfway between ball and goal,
+    /// and the keeper guards the goal.
     fn of_one(&self, robot: usize) -> Moment {
         let keeps = [10.0, self.ball[1].clamp(MOUTH[0], MOUTH[1])];
         let (goal, heading) = match robot {
@@ -290,9 +290,9 @@ impl State {
         }
     }
 
-    /// Returns the input of the field that red robots share. Blue robots are obstacles, the ball is the goal, and each
-    /// red robot has a drift around it. The seeker approaches in the direction of the intended push; the others are
-    /// pulled back.
+    /// Returns the input of the field that red robots share. Blue robots are obstacles, the ball is the goal, and each red robot
+    /// has a drift around it: that of the seeker is in the direction of the intended push, and those of the others pull them
+    /// back.
     fn of_red(&self) -> Moment {
         let robots = (3..6).filter_map(|robot| {
             let heading = match robot == self.seekers[1] {

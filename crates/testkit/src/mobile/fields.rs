@@ -5,12 +5,12 @@ use super::occupancy::{CELLS, Occupancy, cell};
 use super::robot::{Robot, wrapped};
 use cplan::Point;
 
-/// Returns true if a field treats a cell as solid, that is, if it is not known to be free.
+/// Returns true if a field treats a cell as solid: it is not known to be free.
 pub fn is_solid(map: &Occupancy, k: usize) -> bool {
     map.at([k / CELLS[1], k % CELLS[1]]) > 0.0
 }
 
-/// Drives down a field, row by row, until the robot is within 0.5 m of a target.
+/// Descends a field, given row by row, until the robot is within 0.5 m of a target.
 pub fn drive(robot: &mut Robot, field: &[f64], target: Point) -> Ending {
     let (speed_gain, turn_gain, stop) = (5.0, 0.5, 0.5);
     approach(robot, target, stop, |robot, distance| {

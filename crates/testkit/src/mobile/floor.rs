@@ -1,4 +1,4 @@
-//! The floor of a room, whose obstacles stop a robot's rays and its body.
+//! The floor of a room, whose obstacles stop a robot's rays and body.
 
 use crate::root;
 use cplan::cspace::c_obstacles;
@@ -9,7 +9,7 @@ use cplan::space::Path;
 use cplan::view::{Picture, View, svg};
 use cplan::{Configuration, Point};
 
-/// A world of cplan, with the sides of its obstacles for the simulated sensors.
+/// A world of cplan, with the sides of its obstacles for simulated sensors.
 pub struct Floor {
     /// The obstacles, and a gantry (`robots/mobile_robot.urdf`) whose configurations are the positions of the robot.
     pub scene: Scene,
@@ -49,14 +49,13 @@ impl Floor {
         Self { scene, sides, discs }
     }
 
-    /// Returns the length of a ray up to the first obstacle, in metres, or `most` if that is less.
+    /// Returns the length of a ray to the first obstacle, in metres, or `most` if that is less.
     pub fn range(&self, from: Point, angle: f64, most: f64) -> f64 {
         let ray = Vector2::new(angle.cos(), angle.sin());
         let side = |[a, b]: &[Point; 2]| {
             let (along, to) = (b - a, a - from);
             let turn = ray.perp(&along);
-            // The place where ray and side intersect, as fractions of the length of each. A ray along a side intersects
-            // the adjacent sides.
+            // The intersection of ray and side, as fractions of their lengths. A ray along a side intersects the adjacent sides.
             let (t, s) = (to.perp(&along) / turn, to.perp(&ray) / turn);
             (t >= 0.0 && (0.0..=1.0).contains(&s)).then_some(t)
         };

@@ -5,9 +5,8 @@ use super::occupancy::Occupancy;
 use super::robot::{Pose, Robot};
 use cplan::nalgebra::{Rotation2, Vector2};
 
-/// The sonars of a Pioneer 3-DX, from its handbook. For each, the distances ahead of the robot's middle and to the left
-/// of it, metres, and the direction, degrees to the left. (The source counts the sonars from 0, and states only that
-/// there are 16.)
+/// The sonars of a Pioneer 3-DX, from its handbook: for each, the distances ahead of the robot's middle and to the left of it,
+/// metres, and the direction, degrees to the left. (The source counts the sonars from 0, and states only that there are 16.)
 pub const SONARS: [(f64, f64, f64); 16] = [
     (0.069, 0.136, 90.0),
     (0.114, 0.119, 50.0),
@@ -48,7 +47,7 @@ pub fn follow(robot: &mut Robot, map: &mut Occupancy, seconds: f64) {
         map.scan(robot.floor, robot.pose);
         let mut turn = -gain * along(robot);
         if front(robot) < 4.0 {
-            // There is a wall ahead. The robot turns on the spot until the wall is beside it, or there is room ahead.
+            // A wall is ahead. The robot turns on the spot until the wall is beside it, or there is room ahead.
             turn = most;
             while along(robot).abs() > 0.1 && front(robot) < 3.0 && robot.time < end {
                 robot.drive(0.0, turn, CYCLE);

@@ -6,8 +6,8 @@ use cplan::Point;
 use cplan::field::{Attraction, Repulsion};
 use cplan::nalgebra::Vector2;
 
-/// Time between two commands, in seconds. In the source, this depends on how fast the program draws: at most ten
-/// commands per second (Player).
+/// Time between two commands, in seconds. In the source, it depends on the speed of drawing, with at most ten commands per second
+/// (Player).
 pub const CYCLE: f64 = 0.1;
 
 /// Greatest speed, in metres per second. The source states no limit, and forces are unbounded near obstacles.
@@ -19,26 +19,26 @@ const PATIENCE: f64 = 60.0;
 /// Least decrease of the distance to the target that counts as progress, in metres.
 const NEARER: f64 = 0.01;
 
-/// The way in which a leg ends.
+/// The end of a leg.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Ending {
     /// The robot is at the target.
     Reached,
     /// The robot made no progress towards the target for a minute. Contains the least distance to it, in metres.
     Trapped(f64),
-    /// The robot is in an obstacle cell, which has no force. The source's program ends with an error.
+    /// The robot is in an obstacle cell, which has no force. (The source's program ends with an error here.)
     OnObstacle,
 }
 
-/// A version of the method: as printed in the source, or as its text describes it.
+/// A version of the method: as the source prints it, or as its text describes it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Manner {
     /// True to fill the map while driving (algorithm 11), false for a fixed map (algorithm 9).
     pub maps: bool,
-    /// True to follow the source's text, false to follow its program. They differ in two respects. In the text, the
-    /// robot stands still while it faces more than 10 degrees away from the force. The program tests whether the error
-    /// is less than `degrees(10)`, which is 573, radians, so its robot never stands still. In the text, a reached
-    /// target is not an obstacle. The program marks the bin as an obstacle while the robot stands at it.
+    /// True to follow the source's text, false to follow its program. They differ in two respects. In the text, the robot stands
+    /// still while it faces more than 10 degrees away from the force; the program tests whether the error is less than
+    /// `degrees(10)`, which is 573, radians, so its robot never stands still. In the text, a reached target is no obstacle; the
+    /// program marks the bin as an obstacle while the robot is at it.
     pub follows_text: bool,
 }
 
@@ -54,8 +54,7 @@ impl Patience {
         Self { best: f64::INFINITY, since: robot.time }
     }
 
-    /// Returns the least distance to the target so far if the robot has made no progress for too long. Otherwise
-    /// returns `None`.
+    /// Returns the least distance to the target so far, if the robot has made no progress for too long; otherwise `None`.
     pub fn lost(&mut self, robot: &Robot, distance: f64) -> Option<f64> {
         if distance < self.best - NEARER {
             *self = Self { best: distance, since: robot.time };
@@ -64,8 +63,8 @@ impl Patience {
     }
 }
 
-/// Returns the force at a place in the plane: 1 towards the target, and `1 / d^2`, with `d` in cells, away from each
-/// occupied cell. Returns `None` in an occupied cell.
+/// Returns the force at a point: 1 towards the target, and `1 / d^2`, with `d` in cells, away from each occupied cell. `None` in
+/// an occupied cell.
 pub fn force(map: &Occupancy, target: Point, at: Point) -> Option<Vector2<f64>> {
     if map.at(cell(at)) >= 0.9 {
         return None;
@@ -77,7 +76,7 @@ pub fn force(map: &Occupancy, target: Point, at: Point) -> Option<Vector2<f64>> 
     let d = to_target.norm();
     let mut force = if d > 0.0 { to_target * (attraction.force(d) / d) } else { Vector2::zeros() };
     for [i, j] in map.occupied() {
-        // The distance is measured from the corner of the cell that its indices denote, as printed.
+        // As printed, the distance is measured from the corner of the cell that its indices denote.
         let away = Vector2::new(column - j as f64, row - i as f64);
         let d = away.norm();
         force += away * (repulsion.force(d) / d);
@@ -86,8 +85,7 @@ pub fn force(map: &Occupancy, target: Point, at: Point) -> Option<Vector2<f64>> 
     Some(Vector2::new(force.x, -force.y))
 }
 
-/// Drives to within `stop` of a target by commands of speed and turning rate, which `command` returns for each
-/// distance.
+/// Drives to within `stop` of a target. `command` returns speed and turning rate for each distance.
 pub fn approach(
     robot: &mut Robot,
     target: Point,

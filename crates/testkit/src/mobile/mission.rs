@@ -32,7 +32,7 @@ pub struct Leg {
     pub way: Vec<Point>,
 }
 
-/// Runs the mission leg by leg. After a failed leg the robot is placed at its target, so that each leg can be judged.
+/// Runs the mission leg by leg. After a failed leg, the robot is placed at the target, so that each leg can be judged.
 fn legs(floor: &Floor, mut drive: impl FnMut(&mut Robot, usize) -> Ending) -> Vec<Leg> {
     let mut robot = Robot::new(floor, START, 0.0);
     let leg = |leg: usize| {
@@ -55,7 +55,7 @@ fn legs(floor: &Floor, mut drive: impl FnMut(&mut Robot, usize) -> Ending) -> Ve
     (0..TARGETS.len()).map(leg).collect()
 }
 
-/// Drives the mission by forces, in an unknown room or with a known map. `follows_text` is explained at [`Manner`].
+/// Performs the mission by forces, in an unknown room or with a known map. For `follows_text`, see [`Manner`].
 pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, follows_text: bool) -> Vec<Leg> {
     let mut map = known.cloned().unwrap_or_else(Occupancy::unknown);
     let manner = Manner { maps: known.is_none(), follows_text };
@@ -70,7 +70,7 @@ pub fn by_forces(floor: &Floor, known: Option<&Occupancy>, follows_text: bool) -
     })
 }
 
-/// Drives the mission along fields that are relaxed on a map. A field that does not converge gives no path.
+/// Performs the mission along fields that are relaxed on a map. A field that does not converge gives no path.
 pub fn by_fields(floor: &Floor, field: &dyn Fn(usize) -> Option<Vec<f64>>) -> Vec<Leg> {
     legs(floor, |robot, leg| match field(leg) {
         Some(values) => fields::drive(robot, &values, TARGETS[leg].1.into()),
@@ -78,7 +78,7 @@ pub fn by_fields(floor: &Floor, field: &dyn Fn(usize) -> Option<Vec<f64>>) -> Ve
     })
 }
 
-/// Returns the map that the wall follower draws within this time, and its path. In the source, the time is 300 s.
+/// Returns the map that the wall follower draws in this time, which is 300 s in the source, and its path.
 pub fn followed(floor: &Floor, seconds: f64) -> (Occupancy, Vec<Point>) {
     let (mut robot, mut map) = (Robot::new(floor, START, 0.0), Occupancy::unknown());
     follower::follow(&mut robot, &mut map, seconds);
@@ -86,7 +86,7 @@ pub fn followed(floor: &Floor, seconds: f64) -> (Occupancy, Vec<Point>) {
     (map, way)
 }
 
-/// Number of cells of the coarse grid, with sides of 0.5 m.
+/// Numbers of cells of the coarse grid, whose cells are 0.5 m wide.
 const COARSE: CellCounts = CellCounts([80, 40]);
 
 /// Returns the planners with which cplan explores towards a target, by name.
@@ -117,8 +117,8 @@ pub fn planners() -> Vec<(&'static str, Planner)> {
     ]
 }
 
-/// The sensor of cplan's robot. That robot is a gantry without a heading, while the source's robot turns its scanner of
-/// 180 degrees. So this sensor sees in all directions. The cells are those of the source.
+/// The sensor of cplan's robot, which is a gantry without a heading. The source's robot turns its scanner of 180 degrees, so this
+/// sensor sees in all directions. The cells are those of the source.
 pub const SENSOR: Sensor = Sensor {
     mount: Mount::Tip,
     turn: 0.0,
@@ -131,7 +131,7 @@ pub const SENSOR: Sensor = Sensor {
     cell: 0.5,
 };
 
-/// Runs the mission with cplan: to each target in turn, through a room that is initially unknown.
+/// Performs the mission with cplan: to each target in turn, through a room that is initially unknown.
 ///
 /// # Errors
 /// Invalid settings.
@@ -146,7 +146,7 @@ pub fn explored(floor: &Floor, planner: Planner) -> Result<Vec<(Scene, Explorati
         }
         let scene = Scene::new(floor.scene.arm().clone(), workspace)?;
         let usual = Settings::default();
-        // Fields use a single grid for each decision, because finer grids would show nothing new.
+        // Fields use one grid per decision, because finer grids would show nothing new.
         let levels = if planner.method() == Method::Harmonic { 1 } else { usual.options.levels };
         let options = Options { planner, levels, ..usual.options };
         let settings = Settings { cells: [160, 80], decisions: 2_000, options, ..usual };

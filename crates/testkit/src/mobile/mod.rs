@@ -1,5 +1,5 @@
-//! Simulated mobile robots from the literature. The examples `mission`, `wall_follower` and `differential_drive` and
-//! their tests use them.
+//! Simulated mobile robots from the literature, for the examples `mission`, `wall_follower` and `differential_drive` and their
+//! tests.
 
 pub mod fields;
 pub mod floor;
@@ -20,7 +20,7 @@ pub const START: [f64; 2] = [-19.0, -8.0];
 pub const TARGETS: [(&str, [f64; 2]); 4] =
     [("object 1", [2.0, 4.0]), ("bin", [-19.0, 2.0]), ("object 2", [9.0, -7.0]), ("bin", [-19.0, 2.0])];
 
-/// Returns the targets that are obstacles on the leg with this number: those of later legs, and the bin.
+/// Returns the targets that are obstacles on the leg with this number: the bin, and those of later legs.
 pub fn in_the_way(leg: usize) -> Vec<(&'static str, Point)> {
     let (bin, second) = (TARGETS[1], TARGETS[2]);
     let marked: &[_] = match leg {

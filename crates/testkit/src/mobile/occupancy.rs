@@ -19,7 +19,7 @@ pub struct Occupancy {
     cells: Vec<f64>,
 }
 
-/// Converts a place to rows and columns, with fractions (algorithm 2).
+/// Converts a position to row and column, with fractions (algorithm 2).
 pub fn place(at: Point) -> [f64; 2] {
     let [rows, columns] = CELLS.map(|n| n as f64);
     let within = |k: f64, n: f64| match k {
@@ -30,7 +30,7 @@ pub fn place(at: Point) -> [f64; 2] {
     [within(rows - (at.y / SIDE + rows / 2.0), rows), within(at.x / SIDE + columns / 2.0, columns)]
 }
 
-/// Returns the cell of a place. Fractions are truncated towards zero.
+/// Returns the cell of a position. Fractions are truncated towards zero.
 pub fn cell(at: Point) -> [usize; 2] {
     place(at).map(|k| k as usize)
 }
@@ -62,9 +62,9 @@ impl Occupancy {
         [0.0, 1.0, 0.5].map(|value| self.cells.iter().filter(|&&cell| cell == value).count())
     }
 
-    /// Records a scan of 180 rays, a degree apart, from right to left (algorithm 3). The cell at the end of a ray is
-    /// occupied, or free if the ray met nothing. Unknown cells before it become free. (By the indentation in the
-    /// source, the last step is done for one ray only. By the source's text and figures, it is done for all rays.)
+    /// Records a scan of 180 rays, a degree apart, from right to left (algorithm 3). The cell at the end of a ray becomes
+    /// occupied, or free if the ray met nothing. Unknown cells before it become free. (According to the indentation in the
+    /// source, the last step is done for one ray only; according to its text and figures, for all rays.)
     pub fn scan(&mut self, floor: &Floor, pose: Pose) {
         for ray in 0..180 {
             let angle = pose.heading + f64::from(ray - 90).to_radians();
@@ -75,11 +75,10 @@ impl Occupancy {
         }
     }
 
-    /// Marks the unknown cells between two cells as free (Bresenham 1965, as printed: the end with the greater index is
-    /// omitted).
+    /// Marks the unknown cells between two cells as free (Bresenham 1965; as printed, the end with the greater index is omitted).
     fn clear_line(&mut self, from: [usize; 2], to: [usize; 2]) {
         let is_steep = to[0].abs_diff(from[0]) > to[1].abs_diff(from[1]);
-        // The second index counts along the longer direction.
+        // The second index is that along the longer direction.
         let turned = |[row, column]: [usize; 2]| if is_steep { [column, row] } else { [row, column] };
         let (mut from, mut to) = (turned(from), turned(to));
         if from[1] > to[1] {

@@ -15,10 +15,10 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// Returns the pose after a time at constant linear (m/s) and angular speed (rad/s): an exact arc of a circle.
+    /// Returns the pose after a time at constant linear (m/s) and angular speed (rad/s), on an exact arc of a circle.
     pub fn after(self, speed: f64, turn: f64, seconds: f64) -> Self {
         let half = 0.5 * turn * seconds;
-        // The chord of the arc: its length is that of the arc times sin(half) / half.
+        // The chord of the arc has the arc's length times sin(half) / half.
         let sinc = if half.abs() < 1e-8 { 1.0 } else { half.sin() / half };
         let middle = self.heading + half;
         let chord = speed * seconds * sinc * Vector2::new(middle.cos(), middle.sin());
@@ -40,11 +40,11 @@ pub fn wrapped(angle: f64) -> f64 {
 /// Longest part of a motion between two checks for obstacles, in seconds.
 const STEP: f64 = 0.02;
 
-/// Distance that the body keeps from obstacles, in metres. It is far above rounding, and too small to be seen.
+/// Distance between body and obstacles that counts as touching, in metres. It is far above rounding errors, and invisible.
 const TOUCHING: f64 = 1e-6;
 
-/// A robot that drives over a floor. Its body never enters an obstacle: a motion that would do so only turns the robot,
-/// as if its bumpers had stopped it.
+/// A robot that drives over a floor. Its body never enters an obstacle: such a motion only turns the robot, as if its bumpers had
+/// stopped it.
 pub struct Robot<'a> {
     /// The floor.
     pub floor: &'a Floor,

@@ -24,7 +24,7 @@ pub struct Tanh {
     pub pull: f64,
     /// Gain of the repulsion (`eta`).
     pub push: f64,
-    /// Obstacles farther away than this are ignored, metres (`Q`).
+    /// Distance beyond which obstacles are ignored, metres (`Q`).
     pub range: f64,
 }
 
@@ -48,10 +48,10 @@ pub fn nearest(robot: &Robot) -> Nearest {
 impl Tanh {
     /// Returns the velocity of the controlled point, m/s: towards the target, and away from the nearest obstacle.
     ///
-    /// If `D` points away from the obstacle, the source's terms `tanh(zeta (x - goal))` and `tanh(eta (1/Q - 1/d) / d^2
-    /// D)` are gradients: the first points away from the goal, and the second, whose factor is negative within `Q`, to
-    /// the obstacle. The velocity is opposite to both. (As printed, `U` is their sum: equation 3 lacks a sign.) No
-    /// component exceeds 1 by either term.
+    /// If `D` points away from the obstacle, the source's terms `tanh(zeta (x - goal))` and `tanh(eta (1/Q - 1/d) / d^2 D)` are
+    /// gradients: the first points away from the goal, and the second, whose factor is negative within `Q`, towards the obstacle.
+    /// The velocity is opposite to both. (As printed, `U` is their sum: equation 3 lacks a sign.) Neither term has a component
+    /// above 1.
     pub fn velocity(&self, point: Point, target: Point, nearest: Nearest) -> Vector2<f64> {
         let attraction = (self.pull * (point - target)).map(f64::tanh);
         let away = -(Rotation2::new(nearest.angle) * Vector2::x());
@@ -61,7 +61,7 @@ impl Tanh {
     }
 }
 
-/// Returns the linear and the angular speed with which the controlled point moves at a velocity (equation 4).
+/// Returns the linear and the angular speed that give the controlled point this velocity (equation 4).
 pub fn speeds(velocity: Vector2<f64>, heading: f64) -> [f64; 2] {
     let own = Rotation2::new(-heading) * velocity;
     [own.x, own.y / AHEAD]
@@ -70,17 +70,16 @@ pub fn speeds(velocity: Vector2<f64>, heading: f64) -> [f64; 2] {
 /// Greatest distance between consecutive waypoints, metres.
 pub const SPACING: f64 = 0.2;
 
-/// A waypoint is passed when the controlled point is at most this far from it, in metres.
+/// A waypoint is passed when the controlled point is within this distance of it, in metres.
 pub const PASSED: f64 = 0.01;
 
-/// Greatest distance of the robot's middle from the line that it follows, metres, if nothing repels it.
-/// Each component of the controlled point approaches that of the waypoint without overshooting. So the point stays in
-/// the rectangle between its last position and the waypoint. No point of that rectangle is farther from the diagonal
-/// than half the diagonal, and the start of the diagonal is at most [`PASSED`] off the line. The middle is [`AHEAD`]
-/// behind the point. The last term is a margin for steps of finite length.
+/// Greatest distance of the robot's middle from its line, metres, if nothing repels it. Each component of the controlled point
+/// approaches that of the waypoint without overshooting, so the point stays in the rectangle between its last position and the
+/// waypoint. No point of it is farther from the diagonal than half the diagonal, and the diagonal begins at most [`PASSED`] off
+/// the line. The middle is [`AHEAD`] behind the point. The last term allows for steps of finite length.
 pub const DEVIATION: f64 = 0.5 * (SPACING + PASSED) + PASSED + AHEAD + 0.01;
 
-/// Returns the corners of a line, and points between them.
+/// Returns the corners of a line, and points in between.
 pub fn waypoints(corners: &[[f64; 2]]) -> Vec<Point> {
     let mut points: Vec<Point> = corners.first().map(|&corner| corner.into()).into_iter().collect();
     for pair in corners.windows(2) {
@@ -102,7 +101,7 @@ pub struct Drive {
     pub fastest: [f64; 2],
 }
 
-/// Drives from waypoint to waypoint until the last is passed, or for at most this many seconds.
+/// Drives from waypoint to waypoint until the last one is passed, but for at most this many seconds.
 pub fn follow(robot: &mut Robot, law: &Tanh, waypoints: &[Point], seconds: f64) -> Drive {
     let end = robot.time + seconds;
     let mut drive = Drive { passed: 0, repelled: 0, fastest: [0.0; 2] };

@@ -1,5 +1,5 @@
-//! The controller of a differential drive of R. F. Gonçalves da Silva, *Trabalho Prático 1*, equation 5. It follows a
-//! point that moves along a line, such as the cells of a wavefront or of A\*.
+//! The controller of a differential drive of R. F. Gonçalves da Silva, *Trabalho Prático 1*, equation 5. The robot follows a
+//! point that moves along a line, such as a path of a wavefront or of A\*.
 
 use super::robot::Robot;
 use super::tanh::{AHEAD, CYCLE, PASSED, speeds};
@@ -16,8 +16,8 @@ pub struct Tracking {
 }
 
 impl Tracking {
-    /// Returns the velocity of the controlled point: `k (xd - x) + xd'`. With it, the distance to the desired point
-    /// decreases by the factor `exp(-k t)`, however that point moves.
+    /// Returns the velocity of the controlled point: `k (xd - x) + xd'`. Its distance from the desired point decreases by the
+    /// factor `exp(-k t)`, however that point moves.
     pub fn velocity(&self, point: Point, desired: Desired) -> Vector2<f64> {
         self.gain * (desired.at - point) + desired.velocity
     }

@@ -18,22 +18,21 @@ struct Goal {
     name: &'static str,
     /// Position in metres from the middle of the room; the second coordinate points upwards.
     at: [f64; 2],
-    /// The vector `v`, along rows (downwards) and columns.
+    /// The vector `v` along rows (downwards) and columns.
     direction: [f64; 2],
     harmonic: usize,
     oriented: usize,
 }
 
-/// Goals in the order of the source's figures 7 and 8. In the source, the first component of `v` counts upwards: (0,
-/// -1) and (-1, 0).
+/// Goals in the order of the source's figures 7 and 8. In the source, the first component of `v` is upwards: (0, -1) and (-1, 0).
 const GOALS: [Goal; 3] = [
     Goal { name: "bin (-19, 2)", at: [-19.0, 2.0], direction: [0.0, -1.0], harmonic: 114, oriented: 424 },
     Goal { name: "object 1 (2, 4)", at: [2.0, 4.0], direction: [0.0, -1.0], harmonic: 104, oriented: 419 },
     Goal { name: "object 2 (9, -7)", at: [9.0, -7.0], direction: [1.0, 0.0], harmonic: 111, oriented: 323 },
 ];
 
-/// Returns the room with a goal. Outer walls are solid. So are the cells for which `is_solid` is true; their numbers
-/// count row by row. The row and column of a place follow from the source's rule.
+/// Returns the room with a goal. Outer walls are solid, and cells for which `is_solid` is true (numbered row by row). Row and
+/// column of a place follow the source's rule.
 fn room(at: [f64; 2], is_solid: &dyn Fn(usize) -> bool) -> Domain {
     let [rows, columns] = CELLS;
     let row = (rows as f64 / 2.0 - at[1] / 0.5) as usize;

@@ -15,7 +15,7 @@ pub const SCALES: [usize; 2] = [100, 250];
 pub struct Table {
     /// Number of the table in the source, and the part of the map that was used.
     pub title: &'static str,
-    /// The world of the map, in `workspaces/maps`.
+    /// The world of the map in `workspaces/maps`.
     world: &'static str,
     /// The obstacle that was left out. `None` if all were used.
     without: Option<&'static str>,
@@ -29,10 +29,9 @@ pub struct Table {
 /// The names of the relaxations. The source calls them "simples" and "simultâneo".
 pub const RELAXATIONS: [&str; 4] = ["GS simple", "GS simultaneous", "SOR simple", "SOR simultaneous"];
 
-/// Returns the settings of a relaxation. Lines have increasing `x`. Values of Gauss-Seidel are `float`s; with doubles,
-/// the counts on 250 x 250 cells are 8928, 8931, 5572, 5575. Over-relaxed values are doubles, because `float`s never
-/// settle among preferences. They must be brought back into 0..1; otherwise the first stage takes 230 sweeps on map 1
-/// instead of 147.
+/// Returns the settings of a relaxation. Lines have increasing `x`. Values of Gauss-Seidel are `float`s; with doubles, the counts
+/// on 250 x 250 cells are 8928, 8931, 5572, 5575. Over-relaxed values are doubles, because `float`s never settle among
+/// preferences. They must be clamped to 0..1; otherwise, the first stage takes 230 sweeps on map 1 instead of 147.
 fn relaxation(of: usize) -> Relaxation {
     let order = if of.is_multiple_of(2) { Order::Lines(Scan::ROWS) } else { Order::Corners(Lines::Rows) };
     match of {
@@ -41,8 +40,8 @@ fn relaxation(of: usize) -> Relaxation {
     }
 }
 
-/// Returns the stopping rule: the sum of all changes in a sweep must fall below 0.01. Every published count is below
-/// the limits on the number of sweeps. Over-relaxation with preferences may not converge at all.
+/// Returns the stopping rule: the sum of all changes in a sweep must fall below 0.01. All published counts are below these limits
+/// on the number of sweeps; over-relaxation with preferences may not converge at all.
 fn stopping(of: usize) -> Stopping {
     Stopping { measure: Measure::SumOfChange, below: 0.01, max_sweeps: if of < 2 { 30_000 } else { 3_000 } }
 }
@@ -54,8 +53,8 @@ pub type Sweeps = [Option<usize>; 2];
 /// [`RELAXATIONS`].
 pub fn measure(scene: &Scene, cells: usize, of: usize, altered: bool) -> Sweeps {
     let relaxation = relaxation(of);
-    // The sign of the altered form is that of the source's equation, `- epsilon v grad p`, not of its algorithm; the
-    // other form has the sign of the algorithm.
+    // The sign of the altered form is that of the source's equation, `- epsilon v grad p`, not of its algorithm; that of the
+    // other form is the algorithm's.
     let sign = if altered { -1.0 } else { 1.0 };
     let epsilon = scene.epsilon(cells).into_iter().map(|epsilon| sign * epsilon).collect();
     let equation = match altered {
@@ -70,9 +69,8 @@ pub fn measure(scene: &Scene, cells: usize, of: usize, altered: bool) -> Sweeps 
 }
 
 impl Table {
-    /// Returns the printed number of sweeps for a relaxation (an index into [`RELAXATIONS`]) and a scale (an index into
-    /// [`SCALES`]). Stage 0 is that before preferences. The numbers of stages 1 and 2 are totals, with preferences and
-    /// with altered ones.
+    /// Returns the printed number of sweeps for a relaxation (index into [`RELAXATIONS`]) and a scale (index into [`SCALES`]).
+    /// Stage 0 is without preferences. Stages 1 and 2 have totals, with preferences and with altered ones.
     pub fn published(&self, of: usize, stage: usize, scale: usize) -> usize {
         match stage {
             0 => self.before[of][scale].0,
@@ -89,8 +87,7 @@ pub fn scene(table: &Table) -> Result<Scene, Box<dyn Error>> {
     Scene::read(table.world, table.without)
 }
 
-/// A line of a table: the algorithm, the scale, the counts before preferences, and the total counts if there are
-/// preferences.
+/// A line of a table: algorithm, scale, counts before preferences, and total counts with preferences, if there are any.
 pub struct Line {
     algorithm: String,
     cells: usize,
@@ -112,9 +109,9 @@ impl std::fmt::Display for Line {
     }
 }
 
-/// Returns all lines of a table at these scales, which are indices into [`SCALES`].
+/// Returns all lines of a table at these scales (indices into [`SCALES`]).
 pub fn lines(table: &Table, scene: &Scene, scales: &[usize]) -> Vec<Line> {
-    // Each algorithm is a task of its own. Its harmonic stage also belongs to the preferences that follow.
+    // Each algorithm is a separate task. Its harmonic stage is also the first stage of the preferences after it.
     let tasks = scales.iter().flat_map(|&scale| (0..8).map(move |task| (scale, task % 4, task / 4)));
     let results: Vec<_> = std::thread::scope(|scope| {
         let threads: Vec<_> = tasks

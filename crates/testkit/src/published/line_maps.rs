@@ -1,4 +1,4 @@
-//! The worlds of published line maps as domains of cells, as the published counts require.
+//! The worlds of published line maps as domains of cells that reproduce the published counts.
 
 use crate::root;
 use cplan::field::{Boundary, Cell, Domain, Levels};
@@ -7,7 +7,7 @@ use cplan::input::{Overrides, load_scene};
 use cplan::model::{MotionProblem, Obstacle, Preference, Region, Shape};
 use std::error::Error;
 
-/// A line map with a goal and preferences, in millimetres as in the source. It can be divided into cells.
+/// A line map with a goal and preferences, in millimetres as in the source, for division into cells.
 pub struct Scene {
     /// Lower left and upper right corner.
     bounds: [Point; 2],
@@ -41,9 +41,9 @@ impl Scene {
         })
     }
 
-    /// Returns `n x n` cells. The first index is that of `x`, the second that of `y`, both ascending. Walls are the
-    /// cells of the lines and the outermost cells. The goal, which may lie on a wall, has all cells from that of its
-    /// lower left corner to that of its upper right corner.
+    /// Returns `n x n` cells. The first index is that of `x`, the second that of `y`, both ascending. Walls are the cells of the
+    /// lines and the outermost cells. The goal, which may be on a wall, has all cells from that of its lower left corner to that
+    /// of its upper right one.
     pub fn domain(&self, n: usize) -> Domain {
         let mut kinds = vec![Cell::Free; n * n];
         for &[a, b] in &self.lines {
@@ -63,8 +63,8 @@ impl Scene {
         Domain::new([n, n], kinds, [Boundary::High; 2], Levels::PUBLISHED)
     }
 
-    /// Returns the epsilon of each cell. Later rectangles of the world overwrite earlier ones. Unlike for a goal, the
-    /// cell of the upper right corner is outside, as the published counts show.
+    /// Returns the epsilon of each cell. Later rectangles of the world overwrite earlier ones. As the published counts show, the
+    /// cell of the upper right corner does not belong to a rectangle, in contrast to a goal.
     pub fn epsilon(&self, n: usize) -> Vec<f64> {
         let mut epsilon = vec![0.0; n * n];
         for (rectangle, strength) in &self.rectangles {
@@ -87,7 +87,7 @@ fn bounds(problem: &MotionProblem) -> [Point; 2] {
     [Point::new(x.0, y.0), Point::new(x.1, y.1)].map(millimetres)
 }
 
-/// Returns the segments of a wall. Returns none if the obstacle is not a polyline.
+/// Returns the segments of a wall; none unless the obstacle is a polyline.
 fn segments(obstacle: &Obstacle) -> Vec<[Point; 2]> {
     match &obstacle.shape {
         Shape::Polyline(points) => points.windows(2).map(|ends| [ends[0], ends[1]].map(millimetres)).collect(),
@@ -114,7 +114,7 @@ fn cell_of(point: Point, [low, high]: [Point; 2], n: usize) -> [usize; 2] {
     [along(point.x, low.x, high.x), along(point.y, low.y, high.y)]
 }
 
-/// Returns the cells of a line (Bresenham 1965), both ends included.
+/// Returns the cells of a line, including both ends (Bresenham 1965).
 fn line(from: [usize; 2], to: [usize; 2]) -> Vec<[usize; 2]> {
     let [dx, dy] = [0, 1].map(|k| from[k].abs_diff(to[k]) as i64);
     let towards = |at: &mut usize, to: usize| if *at < to { *at += 1 } else { *at -= 1 };

@@ -1,5 +1,4 @@
-//! Numbers that are published in the literature, beside ours: sweeps of relaxations on the maps and worlds of their
-//! sources.
+//! Numbers published in the literature, next to ours: sweeps of relaxations on the maps and worlds of their sources.
 
 pub mod alves;
 pub mod deicu;

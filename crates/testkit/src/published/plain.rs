@@ -1,18 +1,17 @@
-//! A plain relaxation with every choice that the source of Tables 17 to 19 leaves open. It shares no code with the
-//! library's.
+//! A plain relaxation with every choice that the source of Tables 17 to 19 leaves open. It shares no code with the library.
 
 use cplan::field::{Cell, Domain};
 use std::f64::consts::PI;
 use std::fmt;
 
-/// Treatment of values above 1. Over-relaxation produces such values, and the source does not say what happens to them.
+/// Treatment of values above 1, which over-relaxation produces. The source does not state it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Beyond {
     /// The value stays.
     Kept,
     /// The value becomes 1. A value below 0 becomes 0 in the same way.
     Clamped,
-    /// The value becomes this number below 1, possibly so that free cells are not taken for obstacles.
+    /// The value becomes this number below 1, perhaps so that free cells are not mistaken for obstacles.
     Reset(f64),
 }
 
@@ -21,7 +20,7 @@ pub enum Beyond {
 pub enum Rule {
     /// The sum of `|change|`.
     SumOfChanges,
-    /// `|sum of change|`: how much the sum of all values changes.
+    /// `|sum of change|`: the change of the sum of all values.
     ChangeOfSum,
     /// Difference between the sum of `|change|` and that of the previous sweep: the rule in the text.
     DifferenceOfSums,
@@ -62,7 +61,7 @@ impl fmt::Display for Choice {
     }
 }
 
-/// A field while it is relaxed, on `n x n` cells, of which the outermost ones are walls.
+/// A field during its relaxation, on `n x n` cells, of which the outermost ones are walls.
 #[derive(Clone)]
 pub struct Plain<'a> {
     n: usize,
@@ -80,16 +79,16 @@ impl<'a> Plain<'a> {
         Self { n: domain.cells()[0], domain, values: values.collect() }
     }
 
-    /// Relaxes until the rule is satisfied, and returns the number of sweeps. Returns `None` if that takes too many.
-    /// `of` is one of the four relaxations of the tables. `drift` returns the term that is added to a cell's value. It
-    /// gets the cell and its neighbours' values in the order `-x, +x, -y, +y`.
+    /// Relaxes until the rule is satisfied, and returns the number of sweeps. `None` if that takes too many. `of` is one of the
+    /// four relaxations of the tables. `drift` returns the term to add to a cell's value, given the cell and its neighbours'
+    /// values in the order `-x, +x, -y, +y`.
     pub fn relax(&mut self, of: usize, choice: &Choice, drift: impl Fn(usize, [f64; 4]) -> f64) -> Option<usize> {
         let n = self.n;
         let over = of >= 2;
         let factor = if over { best_factor(n) } else { 1.0 };
         let mut before = f64::INFINITY;
         for sweep in 0..MOST[usize::from(over)] {
-            // Sweeps begin at each corner in turn, or always at the first.
+            // Sweeps begin at each corner in turn, or always at the first one.
             let corner = if of.is_multiple_of(2) { 0 } else { sweep % 4 };
             let [mut sum, mut signed, mut squares, mut greatest] = [0.0_f64; 4];
             for a in 1..n - 1 {

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-/// The claim about a measured number. The example fails if the claim is wrong.
+/// A claim about a measured number. The example fails if it is false.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Claim {
     /// The measured number equals the published one.

@@ -1,4 +1,4 @@
-//! The interpretations to try, and the number of published counts that each explains.
+//! Interpretations of a source to try, and the number of published counts that each explains.
 
 use super::deicu::{self, SCALES, TABLES, Table};
 use super::line_maps::Scene;
@@ -6,8 +6,8 @@ use super::plain::{Beyond, Choice, Plain, Rule};
 use std::error::Error;
 use std::fmt;
 
-/// Published counts of sweeps, each paired with the count that an interpretation of the source gives. The latter is
-/// `None` if the relaxation does not converge.
+/// Published counts of sweeps, each paired with the count by an interpretation of the source. The latter is `None` if the
+/// relaxation does not converge.
 #[derive(Debug, Clone, Default)]
 pub struct Tally(pub Vec<(usize, Option<usize>)>);
 
@@ -16,22 +16,22 @@ impl Tally {
         self.0.iter().filter(|(printed, found)| found.is_some_and(|f| near(*printed as f64, f as f64))).count()
     }
 
-    /// Returns how many counts equal the published ones.
+    /// Returns the number of counts that equal the published ones.
     pub fn exact(&self) -> usize {
         self.count(|printed, found| found == printed)
     }
 
-    /// Returns how many counts differ from the published ones by at most 2 sweeps.
+    /// Returns the number of counts that differ from the published ones by at most 2 sweeps.
     pub fn within_2(&self) -> usize {
         self.count(|printed, found| (found - printed).abs() <= 2.0)
     }
 
-    /// Returns how many counts differ from the published ones by at most five per cent.
+    /// Returns the number of counts that differ from the published ones by at most five per cent.
     pub fn within_5_per_cent(&self) -> usize {
         self.count(|printed, found| (found / printed - 1.0).abs() <= 0.05)
     }
 
-    /// Returns a rank by which tallies are compared. More exact matches are better, then more close ones.
+    /// Returns a rank for comparing tallies: first by exact matches, then by close ones.
     fn rank(&self) -> [usize; 3] {
         [self.exact(), self.within_2(), self.within_5_per_cent()]
     }
@@ -99,8 +99,8 @@ impl Maps {
     }
 }
 
-/// Returns the interpretations of the source that are tried for Gauss-Seidel relaxation. Its values never leave 0..1,
-/// so only the stopping rule and the precision are unknown.
+/// Returns the interpretations of the source to try for Gauss-Seidel relaxation. Its values never leave 0..1, so only the
+/// stopping rule and the precision are unknown.
 pub fn gauss_seidel() -> Vec<Choice> {
     let mut choices = Vec::new();
     for single in [true, false] {
@@ -125,8 +125,8 @@ pub fn gauss_seidel() -> Vec<Choice> {
     choices
 }
 
-/// Returns the interpretations of the source that are tried for over-relaxation. Their stopping rule is the one that
-/// was found for Gauss-Seidel relaxation, or one of the two nearest to it.
+/// Returns the interpretations of the source to try for over-relaxation, with the stopping rule found for Gauss-Seidel
+/// relaxation, or one of the two nearest to it.
 pub fn over_relaxation() -> Vec<Choice> {
     let mut choices = Vec::new();
     for single in [true, false] {
@@ -155,7 +155,7 @@ pub fn together(tallies: Vec<Tally>) -> Tally {
     })
 }
 
-/// Returns the interpretation that explains most counts. If several explain as many, returns the first.
+/// Returns the interpretation that explains most counts, the first of equals.
 pub fn best(tried: &[(Choice, Tally)]) -> Option<&Choice> {
     let mut best: Option<&(Choice, Tally)> = None;
     for candidate in tried {

@@ -1,10 +1,9 @@
 //! Tables 6.3 to 6.17 of M. Oliveira da Silva, *Campos potenciais modificados aplicados ao controle de múltiplos robôs*
-//! (ICMC-USP, São Carlos 2011): mean sweeps per state of robot soccer. Each field is relaxed from that of the previous
-//! state.
+//! (ICMC-USP, São Carlos 2011): mean sweeps per state of robot soccer. Each field is relaxed from that of the previous state.
 //!
-//! The five minutes of play that were measured there are not published. The field is rebuilt here (IEEE Very Small
-//! Size: 150 cm x 130 cm and goals 10 cm deep, which are 85 x 65 cells of 2 cm). Three robots on each side and a ball
-//! move along curves of our own. So one can compare the counts with one another, but not with those of the source.
+//! The five minutes of play that the source measured are not published. This module rebuilds the field (IEEE Very Small Size: 150
+//! cm x 130 cm and goals 10 cm deep, which are 85 x 65 cells of 2 cm), but its robots, three on each side, and its ball move
+//! along our own curves. So the counts can be compared with one another, but not with those of the source.
 
 use super::row::{Claim, Count};
 use cplan::field::{
@@ -13,11 +12,11 @@ use cplan::field::{
 };
 use std::f64::consts::TAU;
 
-/// Number of cells along the field, over which the source's outer loop runs, and across it.
+/// Number of cells along the field, over which the source's outer loop runs, and number of cells across it.
 const CELLS: [usize; 2] = [85, 65];
 /// Depth of a goal, in cells.
 const DEPTH: usize = 5;
-/// Range of the cells of a goal's mouth, across the field (40 cm).
+/// Range of cells of a goal's mouth, across the field (40 cm).
 const MOUTH: std::ops::Range<usize> = 22..42;
 /// Number of states of play per second.
 const RATE: f64 = 30.0;
@@ -45,7 +44,7 @@ const CURVES: [([f64; 2], [f64; 2], [f64; 2]); 7] = [
 /// Returns the position on curve `k` of [`CURVES`], in cells.
 fn place(k: usize, seconds: f64) -> [f64; 2] {
     let (middle, reach, periods) = CURVES[k];
-    // Each curve has its own phase, so that not all are in the middle at once.
+    // Each curve has its own phase, so that not all objects are in the middle at once.
     [0, 1].map(|axis| middle[axis] + reach[axis] * (TAU * (seconds / periods[axis] + 0.3 * k as f64)).sin())
 }
 
@@ -116,8 +115,8 @@ fn mean_sweeps(kind: Kind, relaxation: &Relaxation) -> Option<f64> {
     Some(total as f64 / STATES as f64)
 }
 
-/// A table of numbers of sweeps. `published` has the numbers of JR and WJR in parallel, then of GS and SOR in sequence,
-/// and of GS and SOR in parallel.
+/// A table of numbers of sweeps. `published` has the numbers of JR and WJR in parallel, then those of GS and SOR in sequence and
+/// in parallel.
 pub struct Table {
     /// Number of the table, and its field.
     pub title: &'static str,
@@ -134,7 +133,7 @@ const WEIGHT: f64 = 1.8;
 pub fn rows(table: &Table) -> Vec<(String, Count)> {
     let rows = Order::Lines(Scan::ROWS);
     let [sequential, parallel] = table.factors.map(Factor::Given);
-    // The order red-black stands for the source's parallel sweeps.
+    // The order red-black represents the source's parallel sweeps.
     let relaxations = [
         Relaxation::JACOBI,
         Relaxation::weighted_jacobi(WEIGHT),

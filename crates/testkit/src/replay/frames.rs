@@ -6,15 +6,15 @@ use crate::solid::{V, add, rotate, sub};
 use cplan::geometry::Point;
 use cplan::model::{Arm, Growth, Heights, JointType, MovingObstacle, Object, Obstacle, Shape};
 
-/// A frame: cosine and sine of its turn, and its origin.
+/// A frame: cosine and sine of its angle, and its origin.
 pub type Frame = (V, V);
 
-/// Returns the frame `b`, which is stated in the frame `a`.
+/// Composes two frames, of which `b` is stated in the frame `a`.
 pub fn compose(a: Frame, b: Frame) -> Frame {
     (rotate(b.0, a.0), add(a.1, rotate(b.1, a.0)))
 }
 
-/// Returns the frame in which the given frame's own base is stated.
+/// Returns the inverse of a frame.
 pub(super) fn inverse(a: Frame) -> Frame {
     let back = [a.0[0], -a.0[1]];
     (back, rotate([-a.1[0], -a.1[1]], back))
@@ -42,7 +42,7 @@ pub fn pose_on_trajectory(object: &Object, time: f64) -> Frame {
     let Some(trajectory) = object.trajectory.clone() else {
         return turned(object.at.rotation.angle(), [object.at.translation.x, object.at.translation.y]);
     };
-    // The object's pose follows from two of its points.
+    // Two points of the object determine its pose.
     let pieces = vec![disc(Point::zeros(), 0.1), disc(Point::new(1.0, 0.0), 0.1)];
     let points = Obstacle {
         name: String::new(),

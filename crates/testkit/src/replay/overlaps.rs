@@ -8,7 +8,7 @@ use cplan::motion::Trajectory;
 /// A turn: its angles and its duration.
 pub(super) type Turn = ([f64; 2], f64);
 
-/// The turns of the wrist that a motion may overlap with: the one after the step before, and its own.
+/// The turns of the wrist with which a motion may overlap: that after the previous step, and its own.
 pub(super) struct MotionTurns {
     /// The turn, and the time from the departure to its end.
     before: Option<(Turn, f64)>,
@@ -28,7 +28,7 @@ impl MotionTurns {
         }
     }
 
-    /// Returns the times by which strokes and turns overlap with both ends of the motion, seconds.
+    /// Returns the times, seconds, by which strokes and turns overlap with both ends of the motion.
     pub(super) fn ends(&self, [raising, lowering]: [f64; 2], seconds: f64) -> Result<[f64; 2], String> {
         let both = [(self.before, raising), (self.own, lowering)].map(|(turn, stroke)| match turn {
             // The tool turns only while it is raised.
@@ -62,19 +62,19 @@ impl MotionTurns {
         }
     }
 
-    /// Gives the payload the orientation before its own turn, which is checked at rest, too.
+    /// Gives the payload the orientation before the motion's own turn, which is also checked at rest.
     pub(super) fn hold_at_rest(&self, world: &mut World) {
         if let Some((([from, _], _), _)) = self.own {
             world.hold(from);
         }
     }
 
-    /// Checks the limits of the wrist at a time of a turn. The wrist also compensates the rotation of link 2.
+    /// Checks the limits of the wrist at a time of a turn, during which the wrist also compensates the rotation of link 2.
     pub(super) fn limits(&self, task: &Task, t: &Trajectory, at: f64) -> Result<(), String> {
         const STEP: f64 = 1e-5;
         for (([from, to], seconds), begin) in self.begins() {
             let wrist = task.wrist.ok_or("there is no wrist")?;
-            // Numeric derivatives need a neighbourhood without changes of acceleration, so they have a wide tolerance.
+            // Numerical derivatives need a neighbourhood without changes of acceleration. Their tolerance is wide.
             if at - begin < 2.0 * STEP || at - begin > seconds - 2.0 * STEP || at < STEP || at > self.seconds - STEP {
                 continue;
             }
@@ -93,7 +93,7 @@ impl MotionTurns {
             let acceleration = (rate(at + STEP) - rate(at - STEP)) / (2.0 * STEP);
             let before = (rate(at) - rate(at - STEP)) / STEP;
             let after = (rate(at + STEP) - rate(at)) / STEP;
-            // At a change of the acceleration, this is a mean of both sides.
+            // Where the acceleration changes, this is a mean of both sides.
             if before.abs().min(after.abs()).min(acceleration.abs()) > wrist.acceleration * 1.001 + 1e-2 {
                 return Err(format!("the wrist accelerates at {acceleration} rad/s2"));
             }
@@ -102,7 +102,7 @@ impl MotionTurns {
     }
 }
 
-/// Returns the share of a turn that is done some seconds after its beginning: the fastest motion, stretched in time.
+/// Returns the share of a turn that is completed at a time after its beginning: the fastest motion, stretched in time.
 pub(super) fn turned_share(task: &Task, ([from, to], seconds): Turn, since: f64) -> f64 {
     let distance = (to - from).abs();
     let Some(wrist) = &task.wrist else { return 0.0 };
@@ -129,14 +129,14 @@ pub(super) fn depth_of(task: &Task, leg: &Leg) -> f64 {
     stroke.travel.unwrap_or(task.objects[event.object()].lift)
 }
 
-/// Returns the time of a stroke over a distance, seconds, from the formula for constant acceleration.
+/// Returns the duration of a stroke over a distance, seconds, by the formula for constant acceleration.
 pub(super) fn stroke_time(task: &Task, distance: f64) -> f64 {
     let Some(stroke) = &task.stroke else { return 0.0 };
     let (v, a) = (stroke.velocity, stroke.acceleration);
     if distance <= v * v / a { 2.0 * (distance / a).sqrt() } else { distance / v + v / a }
 }
 
-/// Returns the distance covered by a stroke some seconds after its beginning, metres.
+/// Returns the distance, metres, that a stroke has covered at a time after its beginning.
 pub(super) fn stroke_height(task: &Task, distance: f64, since: f64) -> f64 {
     let Some(stroke) = &task.stroke else { return 0.0 };
     let (whole, a) = (stroke_time(task, distance), stroke.acceleration);
@@ -151,7 +151,7 @@ pub(super) fn stroke_height(task: &Task, distance: f64, since: f64) -> f64 {
     }
 }
 
-/// Checks that the tool is raised completely during a motion, and as high as the task requires at its ends.
+/// Checks that the tool is completely raised during a motion, and as high as the task requires at its ends.
 pub(super) fn check_overlaps(task: &Task, seconds: f64, ends: [(f64, f64); 2]) -> Result<(), String> {
     let [(_, raising), (_, lowering)] = ends;
     if raising + lowering > seconds + 1e-9 || raising < 0.0 || lowering < 0.0 {

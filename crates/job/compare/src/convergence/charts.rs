@@ -37,7 +37,7 @@ impl Convergence {
                 &self.strengths.iter().map(|(_, scan)| scan).collect(),
             ),
         ];
-        // Central differences are monotone below a strength.
+        // Below this strength, central differences are monotone.
         let monotone = 2.0 / a.abs().max(b.abs());
         let marks = [(Factor::Formula.value(self.cells), "formula"), (1.0, "Jacobi"), (monotone, "monotone")];
         let axes = ["factor", "factor", "epsilon (per cell)"].into_iter().zip(marks);
@@ -51,7 +51,7 @@ impl Convergence {
     }
 }
 
-/// Returns the line of a scan: the points of converged relaxations.
+/// Returns the line of a scan: its converged relaxations.
 fn line((k, scan): (usize, &&ParameterScan)) -> Line {
     let mut points: Vec<Point> = scan.all_points().copied().collect();
     points.sort_by(|a, b| a.at.total_cmp(&b.at));
@@ -59,7 +59,7 @@ fn line((k, scan): (usize, &&ParameterScan)) -> Line {
     Line { name: scan.equation.clone(), pen: lines::pen(k), points, dots: true }
 }
 
-/// Charts the relaxations of one equation: the error if it is known, otherwise the sum of squared changes of a sweep.
+/// Draws the relaxations of one equation: their errors, or, if these are unknown, the sum of squared changes in a sweep.
 fn errors(runs: &[RelaxationRun]) -> LineChart {
     let known = runs.iter().flat_map(|run| &run.trace.samples).any(|sample| sample.error.is_some());
     let line = |run: &RelaxationRun| {
@@ -83,7 +83,7 @@ fn errors(runs: &[RelaxationRun]) -> LineChart {
     }
 }
 
-/// Returns the pen of a relaxation. Each relaxation has its own colour, and each order its own dashes.
+/// Returns the pen of a relaxation. The colour depends on the relaxation, the dashes on the order.
 fn pen(scheme: Scheme) -> cplan_view::figure::Pen {
     match scheme {
         Scheme::Simultaneous { factor } => lines::pen_of(0, usize::from(factor != 1.0)),

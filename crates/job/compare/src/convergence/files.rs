@@ -63,8 +63,8 @@ impl Convergence {
         Table { columns, rows: self.runs.iter().map(row).collect() }
     }
 
-    /// Returns a table with one row per equation. It has the number of sweeps with the best factor of the scan, with
-    /// the formula's factor, and with Young's factor.
+    /// Returns a table with one row per equation: the numbers of sweeps with the best factor of the scan, with the formula's
+    /// factor, and with Young's factor.
     pub fn factor_table(&self) -> Table {
         let cells =
             |point: Option<Point>| [point.map(|p| format!("{:.3}", p.at)), point.map(|p| sweeps(p.sweeps, p.ending))];
@@ -94,8 +94,7 @@ impl Convergence {
         Table { columns, rows: self.weights.iter().map(row).collect() }
     }
 
-    /// Returns a table of the relaxations that have two stages. It shows how the changes in a sweep jump when
-    /// preferences are added in the second stage.
+    /// Returns a table of the relaxations with two stages, with the jump of the changes when the second stage adds preferences.
     pub fn leap_table(&self) -> Table {
         let row = |run: &RelaxationRun| {
             let leap = run.trace.leap()?;
@@ -120,10 +119,9 @@ impl Convergence {
         Table { columns: columns.collect(), rows: (0..count).step_by(5).map(row).collect() }
     }
 
-    /// Returns CSV with one line per sample, in full precision. Samples are taken after sweeps (`error`), for each
-    /// factor of SOR (`factor`) and of weighted Jacobi (`weight`), and for each strength of the drift (`epsilon`). For
-    /// the last three kinds, `sweep` is the total number of sweeps. Columns that do not apply are empty. The last line
-    /// of a relaxation has its `ending`.
+    /// Returns CSV with one line per sample, in full precision. The `series` are: `error` (samples after sweeps), `factor`
+    /// (factors of SOR), `weight` (factors of weighted Jacobi) and `epsilon` (strengths of the drift). In the last three, `sweep`
+    /// is the total number of sweeps. Columns that do not apply are empty. The last line of a relaxation has its `ending`.
     pub fn to_csv(&self) -> String {
         let mut text = format!("{CSV_COLUMNS}\n");
         for RelaxationRun { equation, relaxation, trace } in &self.runs {
@@ -138,7 +136,7 @@ impl Convergence {
                 text += &format!("{head},,,{},,,,{}\n", trace.sweeps, word(trace.ending));
             }
         }
-        // The columns of a point: factor and epsilon, of which the scan varies one.
+        // Columns of a point: factor and epsilon, one of which the scan varies.
         let mut add = |series: &str, relaxation: &str, scan: &ParameterScan, columns: fn(f64) -> String| {
             for point in scan.all_points() {
                 let (equation, columns, ending) = (quoted(&scan.equation), columns(point.at), word(point.ending));
@@ -154,8 +152,8 @@ impl Convergence {
         text
     }
 
-    /// Returns all data as a JSON object. A sample is a list of numbers. All samples have the same length, with null
-    /// for a value that is unknown or infinite.
+    /// Returns all data as a JSON object. A sample is a list of numbers, with null for a value that is unknown or infinite, so
+    /// that all samples have the same length.
     pub fn to_json(&self) -> Value {
         let run = |RelaxationRun { equation, relaxation, trace }: &RelaxationRun| {
             let list = |of: &dyn Fn(&Sample) -> Value| trace.samples.iter().map(of).collect::<Vec<_>>();

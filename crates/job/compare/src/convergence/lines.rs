@@ -26,7 +26,7 @@ pub const CHART_SIZE: [f64; 2] = [LEFT_MARGIN + PLOT_SIZE[0] + RIGHT_MARGIN, TOP
 /// Dashes of lines, in pixels. They distinguish lines of one colour.
 const DASHES: [&[f64]; 4] = [&[], &[7.0, 3.0], &[2.0, 3.0], &[7.0, 3.0, 2.0, 3.0]];
 
-/// Returns the pen of a line, given the line's index. After all colours have been used, the next dashes follow.
+/// Returns the pen of a line with this index. When all colours have been used, the next dashes follow.
 pub fn pen(line: usize) -> Pen {
     pen_of(line, line / PATH_COLORS.len())
 }
@@ -42,7 +42,7 @@ pub struct LineChart {
     /// Titles of the axes.
     pub axes: [&'static str; 2],
     pub lines: Vec<Line>,
-    /// Values of the horizontal axis that are marked, with their names.
+    /// Values on the horizontal axis to mark, with their names.
     pub marks: Vec<(f64, &'static str)>,
 }
 
@@ -56,12 +56,12 @@ pub struct Line {
 }
 
 impl LineChart {
-    /// Draws the chart with its upper left corner at `corner`. Draws nothing if there are no points. An axis is
-    /// logarithmic if its values differ greatly. Values that a logarithmic axis cannot show are omitted.
+    /// Draws the chart with its upper left corner at `corner`. Draws nothing without points. An axis is logarithmic if its values
+    /// differ greatly; values that cannot be shown on it are omitted.
     pub fn items(&self, corner: [f64; 2]) -> Vec<Item> {
         let of = |k: usize| self.lines.iter().flat_map(|line| &line.points).map(move |point| point[k]);
         let marks = self.marks.iter().map(|mark| mark.0);
-        // An error can be zero, which has no place on a logarithmic axis.
+        // An error may be zero, which has no place on a logarithmic axis.
         let positive = of(1).filter(|&value| value > 0.0);
         let (Some(x), Some(y)) = (Axis::over(of(0).chain(marks), None), Axis::over(positive, None)) else {
             return Vec::new();

@@ -23,7 +23,7 @@ pub struct Setup<'a> {
     pub stopping: Stopping,
 }
 
-/// Factor of weighted Jacobi. 0.8 is the usual choice for smoothers in two dimensions.
+/// Factor of weighted Jacobi. 0.8 is usual for smoothers in two dimensions.
 const JACOBI_WEIGHT: f64 = 0.8;
 
 /// Returns the relaxations whose error is measured after each sweep.
@@ -45,8 +45,8 @@ fn factors() -> Vec<f64> {
     (20..39).map(|k| f64::from(k) / 20.0).chain((95..100).map(|k| 1.0 + f64::from(k) / 100.0)).collect()
 }
 
-/// Iterates over the factors of weighted Jacobi in the scan, in steps of 0.05. The scan begins at 0.5, because smaller
-/// factors only take longer.
+/// Iterates over the factors of weighted Jacobi in the scan, in steps of 0.05. The scan begins at 0.5, because smaller factors
+/// are only slower.
 fn weights() -> impl Iterator<Item = f64> {
     (10..40).map(|k| f64::from(k) / 20.0)
 }
@@ -56,10 +56,9 @@ fn strengths() -> Vec<f64> {
     (0..=30).map(|k| f64::from(k) / 5.0).collect()
 }
 
-/// Relaxes each equation by Jacobi, weighted Jacobi, Gauss-Seidel and SOR in each order, and measures the error after
-/// each sweep. Then scans the factors of SOR and of weighted Jacobi for each equation, and the strength of the drift by
-/// Gauss-Seidel with either discretisation. Reports its progress to `progress`. It runs some hundred relaxations, and
-/// one elimination for the exact solution of each equation.
+/// Relaxes each equation by Jacobi, weighted Jacobi, Gauss-Seidel and SOR in each order, and measures the error after each sweep.
+/// Then scans the factors of SOR and of weighted Jacobi for each equation, and, by Gauss-Seidel with either discretisation, the
+/// strength of the drift. Runs some hundred relaxations, and one elimination for the exact solution of each equation.
 ///
 /// # Errors
 /// [`RelaxError::Refused`] if an equation does not fit the domain. Divergence is a result, not an error.
@@ -115,8 +114,8 @@ pub fn convergence(setup: &Setup, progress: &mut dyn FnMut(&str)) -> Result<Conv
     })
 }
 
-/// Relaxes with increasing factors of weighted Jacobi. Stops at the first factor that does not converge and is at least
-/// 1. Below 1, a relaxation that does not converge may only be slow.
+/// Relaxes with increasing factors of weighted Jacobi, up to the first factor of at least 1 that does not converge. Below 1, a
+/// relaxation that does not converge may only be slow.
 fn weight_scan(
     name: &str,
     domain: &Domain,
@@ -134,8 +133,7 @@ fn weight_scan(
     Ok(ParameterScan::new(name.to_owned(), points))
 }
 
-/// Returns the best factor of SOR by Young's formula, given Jacobi's rate of convergence. `None` if the rate is not
-/// below 1.
+/// Returns the best factor of SOR by Young's formula for Jacobi's rate of convergence. `None` unless the rate is below 1.
 fn best_factor(rate: f64) -> Option<f64> {
     (rate < 1.0).then(|| 2.0 / (1.0 + (1.0 - rate * rate).sqrt()))
 }

@@ -1,13 +1,13 @@
-//! Convergence of relaxations: the error against the number of sweeps, for each equation, relaxation and order; and the
-//! number of sweeps against the factor of SOR, and against the strength of a drift.
+//! Convergence of relaxations: the error against the number of sweeps, for each equation, relaxation and order. Also the number
+//! of sweeps against the factor of SOR, and against the strength of a drift.
 //!
 //! ```text
 //! Setup (a domain and equations on it) -> convergence -> Convergence -> table, CSV, JSON
 //!                                                                  \-> charts -> page
 //! ```
 //!
-//! Measurements come from [`cplan_fields::trace()`], scans from [`cplan_fields::relax()`]. All outputs are pure
-//! functions of the [`Convergence`].
+//! Measurements come from [`cplan_fields::trace()`], scans from [`cplan_fields::relax()`]. All outputs are pure functions of the
+//! [`Convergence`].
 
 mod charts;
 mod files;
@@ -35,10 +35,10 @@ pub struct Convergence {
     pub runs: Vec<RelaxationRun>,
     /// For each equation, the number of sweeps as a function of the factor of SOR.
     pub factors: Vec<ParameterScan>,
-    /// For each equation, the number of sweeps as a function of the factor of weighted Jacobi, in steps of 0.05. The scan
-    /// ends at the first factor from 1 on that does not converge, because no greater factor converges. The reason: for each
-    /// eigenvalue `m` of Jacobi's relaxation, a sweep multiplies a part of the error by `1 - w (1 - m)`. Its absolute value
-    /// is convex in the factor `w`, and 1 at `w = 0`.
+    /// For each equation, the number of sweeps as a function of the factor of weighted Jacobi, in steps of 0.05. The scan ends at
+    /// the first factor of at least 1 that does not converge, because no greater one does: for each eigenvalue `m` of Jacobi's
+    /// relaxation, a sweep multiplies a part of the error by `1 - w (1 - m)`, whose absolute value is convex in the factor `w`,
+    /// and 1 at `w = 0`.
     pub weights: Vec<ParameterScan>,
     /// Direction of the drift in the scans over its strength, in grid coordinates; a vector of length 1.
     pub direction: [f64; 2],
@@ -65,16 +65,13 @@ pub struct ParameterScan {
     pub equation: String,
     /// Results for the values of the scan, in ascending order.
     pub points: Vec<Point>,
-    /// The result for the factor `4 / (2 + sqrt(4 - c^2))`, the best one for Laplace's equation in an empty rectangle
-    /// of this many cells. `c` is as in the formula of [`cplan_fields::Factor::Formula`]. `None` unless the parameter is the
-    /// factor of SOR.
+    /// The result for the factor `4 / (2 + sqrt(4 - c^2))`, which is the best for Laplace's equation in an empty rectangle of
+    /// this many cells (for `c`, see [`cplan_fields::Factor::Formula`]). `None` unless the parameter is the factor of SOR.
     pub formula: Option<Point>,
-    /// The result for the factor `2 / (1 + sqrt(1 - r^2))`, where `r` is the measured rate of Jacobi relaxation on this
-    /// domain. For consistent orders, such as rows and red-black, this is the best factor if all eigenvalues are real
-    /// (Young 1954).
+    /// The result for the factor `2 / (1 + sqrt(1 - r^2))`, where `r` is the measured rate of Jacobi relaxation on this domain.
+    /// For consistent orders, such as rows and red-black, this is the best factor if all eigenvalues are real (Young 1954).
     ///
-    /// `None` if `r` is unknown or not below 1, or the equation is not monotone, and unless the parameter is the factor of
-    /// SOR.
+    /// `None` if `r` is unknown or not below 1, if the equation is not monotone, or if the parameter is not the factor of SOR.
     pub by_rate: Option<Point>,
 }
 
@@ -106,15 +103,13 @@ impl ParameterScan {
         self.points.iter().chain(&self.formula).chain(&self.by_rate)
     }
 
-    /// Returns the converged point with the fewest sweeps, among all points. If several are equal, returns the one with the
-    /// least value.
+    /// Returns the converged point with the fewest sweeps; of equal ones, that with the least value.
     pub fn best(&self) -> Option<Point> {
         let converged = self.all_points().filter(|point| point.converged().is_some()).copied();
         converged.min_by(|a, b| a.sweeps.cmp(&b.sweeps).then(a.at.total_cmp(&b.at)))
     }
 
-    /// Returns the point with the least value from which on no relaxation of the scan converges. `None` if the last one
-    /// converges.
+    /// Returns the first point from which on no relaxation of the scan converges. `None` if the last one converges.
     pub fn divergence_start(&self) -> Option<Point> {
         let last = self.points.iter().rposition(|point| point.converged().is_some());
         self.points.get(last.map_or(0, |last| last + 1)).copied()

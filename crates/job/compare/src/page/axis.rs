@@ -1,6 +1,6 @@
 //! The axis of a chart.
 
-/// Least ratio of an axis's greatest to its least value for which the axis is logarithmic.
+/// An axis is logarithmic if the ratio of its greatest to its least value is at least this.
 const LOGARITHMIC_RATIO: f64 = 8.0;
 
 /// Largest number of ticks, except on a logarithmic axis over many decades.
@@ -11,13 +11,13 @@ const MAX_TICKS: usize = 6;
 pub struct Axis {
     lower: f64,
     upper: f64,
-    /// True if equal ratios of values are equally far apart.
+    /// True for a logarithmic axis.
     pub is_logarithmic: bool,
 }
 
 impl Axis {
-    /// Returns an axis that contains these values with a small margin, and `base` if it is given. `None` if there
-    /// is neither. The axis is logarithmic if all values are positive and differ greatly.
+    /// Returns an axis that contains these values, and `base` if it is given, with a small margin. `None` without values. The
+    /// axis is logarithmic if all values are positive and differ greatly.
     pub fn over(values: impl Iterator<Item = f64> + Clone, base: Option<f64>) -> Option<Self> {
         let all = values.chain(base).filter(|v| v.is_finite());
         let min = all.clone().reduce(f64::min)?;
@@ -54,7 +54,7 @@ impl Axis {
         }
     }
 
-    /// Returns powers of ten and multiples of them. It uses as many kinds of multiples as there is room for.
+    /// Returns powers of ten and multiples of them, as many as there is room for.
     fn factors(&self) -> Vec<f64> {
         let decades = self.lower.log10().floor() as i32..=self.upper.log10().ceil() as i32;
         let within = |digits: &[f64]| -> Vec<f64> {
@@ -80,7 +80,7 @@ impl Axis {
 
     fn multiples(&self, step: f64) -> Vec<f64> {
         let first = (self.lower / step).ceil();
-        // Products instead of sums, which would accumulate rounding errors.
+        // Products, because sums would accumulate rounding errors.
         let multiples = (0..=2 * MAX_TICKS).map(|i| (first + i as f64) * step);
         multiples.take_while(|v| *v <= self.upper + 1e-9 * step).collect()
     }
@@ -91,12 +91,12 @@ fn with_minus(text: String) -> String {
     text.replace('-', "\u{2212}")
 }
 
-/// Formats a round number. It has as many digits as needed to distinguish it from neighbours at the distance `apart`.
+/// Formats a round number with enough digits to distinguish it from neighbours at the distance `apart`.
 fn written(value: f64, apart: f64) -> String {
     if value == 0.0 {
         return "0".to_owned();
     }
-    // The small addition protects powers of ten from the rounding of the logarithm.
+    // The small addition compensates for rounding of the logarithm at powers of ten.
     let power = |v: f64| (v.abs().log10() + 1e-9).floor();
     let (magnitude, last) = (power(value), power(apart));
     if (-4.0..6.0).contains(&magnitude) {

@@ -5,7 +5,7 @@ use super::markup::{self, margin, name_before, number};
 use crate::{Comparison, Measure, Spread, Study, labels};
 use cplan_text::{counted, markup};
 
-/// Width of a chart in pixels. It is about the width of a phone's screen, so that phones show charts unscaled.
+/// Width of a chart in pixels. It is about that of a phone's screen, so that phones need not scale charts.
 const CHART_WIDTH: f64 = 460.0;
 /// Room right of the plot, in pixels.
 const RIGHT_MARGIN: f64 = 14.0;
@@ -15,8 +15,8 @@ const ROW_HEIGHT: f64 = 30.0;
 const TOP_MARGIN: f64 = 6.0;
 /// Room below the last line for the axis, in pixels.
 const AXIS_HEIGHT: f64 = 26.0;
-/// Largest number of runs that are shown as dots. More dots would merge into a grey surface. With more runs, only every
-/// second or third one is shown, and so on.
+/// Largest number of dots. More would merge into a grey area. If there are more runs, only every second or third one has a dot,
+/// and so on.
 const MAX_DOTS: usize = 250;
 
 /// Draws the chart of one measure. `None` if no run has a value.
@@ -55,11 +55,11 @@ pub fn chart(study: &Study, measure: Measure) -> Option<String> {
     Some(svg + "</svg>\n")
 }
 
-/// Least number of runs for a box. Fewer runs are drawn as dots, because quartiles of so few mean nothing.
+/// Least number of runs for a box. Quartiles of fewer runs would mean nothing, so these are drawn as dots.
 pub const MIN_RUNS: usize = 5;
 
-/// Draws one line: whiskers from the least to the greatest value, a box between the quartiles, the median across it,
-/// and a dot for each run. Fewer than [`MIN_RUNS`] runs are drawn as dots alone.
+/// Draws one line: whiskers from the least to the greatest value, a box between the quartiles, the median across it, and a dot
+/// for each run. With fewer than [`MIN_RUNS`] runs, only dots.
 fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) -> String {
     if values.len() < MIN_RUNS {
         let dot = |value: &f64| {
@@ -76,7 +76,7 @@ fn drawn(spread: &Spread, values: &[f64], middle: f64, x: &impl Fn(f64) -> f64) 
     svg += &format!("<rect class=\"box\" x=\"{low}\" y=\"{}\" width=\"{width}\" height=\"16\"/>", number(middle - 8.0));
     let stride = values.len().div_ceil(MAX_DOTS).max(1);
     for (k, value) in values.iter().enumerate().step_by(stride) {
-        // The dots are spread vertically by a fixed pattern, so that equal values do not hide each other.
+        // A fixed pattern spreads the dots vertically, so that equal values do not hide each other.
         let y = number(middle + ((k * 7) % 11) as f64 - 5.0);
         svg += &format!("<circle class=\"dot\" cx=\"{}\" cy=\"{y}\" r=\"1.6\"/>", number(x(*value)));
     }
@@ -119,7 +119,7 @@ mod tests {
     #[test]
     fn boxes_are_placed_by_their_values() {
         let svg = chart(&study(&[2.0, 1.0, 5.0, 3.0, 4.0]), Measure::Duration).unwrap();
-        // The axis ranges from 0.84 to 5.16: the values with a twenty-fifth of their range on either side.
+        // The axis is from 0.84 to 5.16: the range of the values, and a twenty-fifth of it on either side.
         let left = margin(&["<planner>"]);
         let x = |value: f64| left + (CHART_WIDTH - left - RIGHT_MARGIN) * (value - 0.84) / 4.32;
         assert_eq!(attribute(&svg, "box", "x"), number(x(2.0)));

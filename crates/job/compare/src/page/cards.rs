@@ -111,7 +111,7 @@ fn of_problem(comparison: &Comparison, purpose: Purpose, picture: Option<&PathPi
     })
 }
 
-/// Names the planner of the fastest motion, because it could also be called the quickest planner.
+/// Names the planner of the fastest motion, to distinguish it from the quickest planner.
 fn fastest_motion(comparison: &Comparison, names: &[String]) -> String {
     let fastest = comparison.recommended(Purpose::FastestMotion);
     let of = |index: usize| {

@@ -8,7 +8,7 @@ const CHART_SIZE: [f64; 2] = [460.0, 380.0];
 /// Room left of the plot, above it, right of it and below it, in pixels.
 const PLOT_MARGINS: [f64; 4] = [78.0, 10.0, 14.0, 46.0];
 
-/// A chart with its axes, to which the caller adds the contents.
+/// A chart with its axes, to which the caller adds contents.
 pub struct Frame<F> {
     /// The SVG text so far.
     pub svg: String,

@@ -6,11 +6,11 @@ use cplan_text::{markup, wrapped};
 /// Largest number of characters in one line of a planner's name before a chart.
 const MAX_NAME_CHARACTERS: usize = 24;
 
-/// Distance of two lines of a name, in pixels.
+/// Distance between two lines of a name, in pixels.
 const NAME_LINE_HEIGHT: f64 = 13.0;
 
-/// Writes a name before a line of a chart: right-aligned at `right`, and centred about the height `middle`. A long name
-/// takes two lines. If the name is too long for two lines, the second line shows its end.
+/// Writes a name before a line of a chart, right-aligned at `right` and centred about the height `middle`. A long name takes two
+/// lines. If it is too long for these, the second line shows its end.
 pub fn name_before(name: &str, right: f64, middle: f64) -> String {
     let lines = name_lines(name);
     let first = middle - NAME_LINE_HEIGHT * 0.5 * (lines.len() - 1) as f64;
@@ -51,7 +51,7 @@ pub fn upright_text(y: f64, text: &str) -> String {
     format!("<text class=\"tick\" transform=\"translate(13 {y}) rotate(-90)\">{text}</text>\n")
 }
 
-/// Writes a text of a chart, which belongs to a class of the style sheet.
+/// Writes a text of a chart, with a class of the style sheet.
 pub fn text(class: &str, [x, y]: [f64; 2], text: &str) -> String {
     format!("<text class=\"{class}\" x=\"{}\" y=\"{}\">{}</text>\n", number(x), number(y), markup(text))
 }
@@ -63,8 +63,8 @@ pub fn number(value: f64) -> String {
     if text == "-0" { "0".to_owned() } else { text.to_owned() }
 }
 
-/// Encodes an SVG picture as the source of an image. As an image, it keeps its own names and styles, and cannot run
-/// scripts.
+/// Encodes an SVG picture as the source of an image. As an image, its names and styles do not mix with those of the page, and it
+/// cannot run scripts.
 pub fn image_source(svg: &str) -> String {
     let mut source = String::from("data:image/svg+xml,");
     for byte in svg.bytes() {
@@ -77,8 +77,8 @@ pub fn image_source(svg: &str) -> String {
     source
 }
 
-/// Writes a table whose first column has the headings of the rows. A table that is too wide scrolls by itself, also
-/// with the keyboard.
+/// Writes a table whose first column has the headings of the rows. A table that is too wide scrolls within itself, also by
+/// keyboard.
 pub fn table(table: &Table) -> String {
     let class = |align| if align == Align::Right { " class=\"r\"" } else { "" };
     let head = table.columns.iter().map(|c| format!("<th scope=\"col\"{}>{}</th>", class(c.align()), markup(c.name())));

@@ -1,6 +1,6 @@
-//! A study as one page of HTML: the conclusion, the recommended planners, pictures and a sortable table, then charts and
-//! all figures. The file needs no other file and no network. Without scripts it shows the same, but nothing lights up. It
-//! is light or dark, as the reader's system is.
+//! A study as one page of HTML: the conclusion, the recommended planners, pictures and a sortable table, then charts and all
+//! figures. The page needs no other file and no network. Without scripts, its content is the same, but nothing lights up. It is
+//! light or dark, like the reader's system.
 
 mod axis;
 mod boxes;
@@ -110,7 +110,7 @@ impl Page<'_> {
         section("Distributions", &format!("<div class=\"charts\">\n{charts}</div>\n<p class=\"sub\">{note}</p>\n"))
     }
 
-    /// Shows many problems: their outcomes, all paths of each planner in a world, and one part for each drawn problem.
+    /// Shows many problems: their outcomes, for a world all paths of each planner, and a part for each drawn problem.
     fn problems(&self) -> String {
         let matrix = outcomes::key() + &outcomes::matrix(self.study);
         let many = self.study.comparisons.len() > MAX_UNFOLDED_PROBLEMS;
@@ -125,7 +125,7 @@ impl Page<'_> {
             let heading = format!("{}: {}", comparison.problem, comparison.outcome());
             let conclusion = format!("<p>{}</p>\n", with_names(&comparison.conclusion()));
             let part = collapsible_section(&heading, &(conclusion + &planners::of_problem(comparison, Some(picture))));
-            // Without other pictures, the first part is unfolded: a page of folded parts looks empty.
+            // Without other pictures, the first part is unfolded, because a page of only folded parts looks empty.
             let is_unfolded = self.overlays.is_empty() && index == 0;
             html += &if is_unfolded { part.replacen("<details", "<details open=\"\"", 1) } else { part };
         }
@@ -161,13 +161,13 @@ fn with_names(text: &str) -> String {
     text.split('`').enumerate().map(part).collect()
 }
 
-/// Returns the element with the page's script. As character data, the script is the same in HTML and in XML.
+/// Returns the element with the page's script. Marked as character data, the script means the same in HTML and in XML.
 fn script() -> String {
     format!("<script>\n//<![CDATA[\n{SCRIPT}//]]>\n</script>")
 }
 
-/// Returns the beginning of a page, up to its title. `style` is added to the style sheet; the page has scripts if
-/// `has_script` is true.
+/// Returns the beginning of a page, up to its title. `style` is added to the style sheet. `has_script` is true if the page has
+/// scripts.
 pub fn head(title: &str, subtitle: &str, style: &str, has_script: bool) -> String {
     let scripts = if has_script { "; script-src 'unsafe-inline'" } else { "" };
     format!(

@@ -21,7 +21,7 @@ pub struct Overlay {
     pub planners: Vec<(String, Vec<Vec<[f64; 2]>>)>,
     /// Colour of each planner.
     pub pens: Vec<PlannerPen>,
-    /// Which paths are shown, in words, if not all are. `None` if all are shown.
+    /// A note that states which paths are shown. `None` if all are shown.
     pub note: Option<String>,
 }
 
@@ -30,7 +30,7 @@ const PANEL_SIZE: f64 = 220.0;
 /// Room left of the plot and below it, for the names of the joints, in pixels.
 const NAME_MARGIN: f64 = 18.0;
 
-/// Draws one panel per planner. `id` distinguishes the blocked region of this overlay from others in the page.
+/// Draws one panel per planner. `id` distinguishes this overlay's blocked region from others in the page.
 pub fn panels(overlay: &Overlay, id: usize) -> String {
     let mut html = String::from("<div class=\"panels\">\n");
     for (i, (name, paths)) in overlay.planners.iter().enumerate() {
@@ -55,7 +55,7 @@ pub fn panels(overlay: &Overlay, id: usize) -> String {
     html + "</div>\n"
 }
 
-/// Returns the data of one SVG path for all lines. On circles, it contains all copies that reach into the window.
+/// Returns the data of one SVG path for all lines. On circles, it has all copies that reach into the window.
 fn lines(overlay: &Overlay, lines: &[Vec<[f64; 2]>], closed: bool) -> String {
     let mut data = String::new();
     for line in lines {
@@ -69,8 +69,7 @@ fn lines(overlay: &Overlay, lines: &[Vec<[f64; 2]>], closed: bool) -> String {
     data
 }
 
-/// Returns the distances by which a line must be moved along an axis so that its copies reach into the window. On an
-/// interval, returns only 0.
+/// Returns the shifts of a line along an axis with which its copies reach into the window; only 0 on an interval.
 fn shifts(overlay: &Overlay, line: &[[f64; 2]], axis: usize) -> Vec<f64> {
     if !overlay.circles[axis] {
         return vec![0.0];
@@ -130,7 +129,7 @@ mod tests {
         let twice = lines(&overlay([true, false]), &[line], false);
         assert_eq!(twice, "M-55.0 165.0L55.0 165.0M165.0 165.0L275.0 165.0");
         let around = lines(&overlay([true, true]), &[vec![[-3.0, 0.5], [3.0, 0.5]]], false);
-        // From -3 to 3 over a turn from -1 to 1: three copies cross it, two touch an end.
+        // From -3 to 3, over a turn from -1 to 1: three copies cross it, and two touch an end.
         assert_eq!(around.matches('M').count(), 5, "{around}");
     }
 

@@ -11,7 +11,7 @@ use cplan_view::output::names::capitalized;
 pub struct PathPictures {
     /// Index of the problem in the study.
     pub problem: usize,
-    /// The drawings. Their paths are counted among the rows that have a path.
+    /// The drawings. Their paths are numbered among the rows that have a path.
     pub drawn: ComparedPaths,
 }
 
@@ -19,7 +19,7 @@ pub struct PathPictures {
 const PANEL_NAMES: [&str; 2] = ["workspace", "configuration space"];
 
 impl PathPictures {
-    /// Returns the parts that all small pictures of this problem share. The page must have them once.
+    /// Returns the parts that all small pictures of this problem share. The page must contain them once.
     pub fn shared_parts(&self) -> String {
         let mut html = String::from("<svg class=\"shared\" width=\"0\" height=\"0\" aria-hidden=\"true\">\n");
         for (panel, small) in self.drawn.small.iter().enumerate() {
@@ -70,7 +70,7 @@ impl PathPictures {
     }
 }
 
-/// Returns the style sheet that defines the colours of drawings, light or dark as the page is.
+/// Returns the style sheet with the colours of drawings, which are light or dark like the page.
 pub fn colors(pictures: &[PathPictures]) -> String {
     let mut all: Vec<Rgb> = Vec::new();
     for &color in pictures.iter().flat_map(|picture| &picture.drawn.colors) {

@@ -10,7 +10,7 @@ use crate::{Better, Comparison, Family, Measure, Purpose, Row, Study, hue};
 use cplan_model::Status;
 use cplan_text::markup;
 
-/// Writes the pictures and the table of one problem, which light each other up.
+/// Writes the pictures and the table of one problem. Each lights up the paths in the other.
 pub fn of_problem(comparison: &Comparison, picture: Option<&PathPictures>) -> String {
     let pictures = picture.map_or_else(String::new, |picture| {
         format!(
@@ -29,7 +29,7 @@ pub fn of_problem(comparison: &Comparison, picture: Option<&PathPictures>) -> St
     )
 }
 
-/// Returns the line below the pictures. A script replaces it by the description of the lit path.
+/// Returns the line below the pictures, which a script replaces by the description of the lit path.
 fn hint(comparison: &Comparison) -> String {
     if comparison.rows.iter().all(|row| row.length.is_none()) {
         return String::new();

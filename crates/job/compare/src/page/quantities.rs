@@ -9,12 +9,12 @@ fn significant(value: f64, digits: i32) -> String {
     format!("{value:.decimals$}")
 }
 
-/// Formats a length in joint space, as the terminal does. An arm with joints of two kinds has no single unit.
+/// Formats a length in joint space as the terminal does. If the joints are of two kinds, there is no single unit.
 pub fn path_length(value: f64, unit: &str) -> String {
     format!("{value:.4} {}", if unit.contains(',') { "in joint space" } else { unit })
 }
 
-/// Formats the ratio of a length to the optimum as the excess, which is rounded up.
+/// Formats the ratio of a length to the optimum as an excess, rounded up.
 pub fn excess(ratio: f64) -> String {
     percent(ratio - 1.0)
 }

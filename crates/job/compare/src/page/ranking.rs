@@ -35,18 +35,18 @@ impl RankedColumn {
         Self { heading: heading.to_owned(), hint, better, origin: 0.0, values, shown }
     }
 
-    /// Returns this column with bars that begin at another value.
+    /// Makes the bars begin at another value.
     pub fn measured_from(self, origin: f64) -> Self {
         Self { origin, ..self }
     }
 
-    /// Returns the rows with the best value. Rows whose `is_ranked` is false cannot be the best.
+    /// Returns the rows with the best value. Rows for which `is_ranked` is false cannot be the best.
     fn best(&self, is_ranked: &[bool]) -> Vec<usize> {
         let of = |(value, ranked): (&Option<f64>, &bool)| value.filter(|_| *ranked);
         self.better.that_stand_out(&self.values.iter().zip(is_ranked).map(of).collect::<Vec<_>>(), &self.shown)
     }
 
-    /// Returns the length of a bar, as a fraction of the longest one. A value without bound has the whole length.
+    /// Returns the length of a bar as a fraction of the longest one. An infinite value has the whole length.
     fn share(&self, value: f64) -> f64 {
         let finite = self.values.iter().flatten().filter(|value| value.is_finite());
         let longest = finite.map(|value| value - self.origin).fold(0.0, f64::max);
@@ -75,7 +75,7 @@ pub struct RankedRow {
     pub is_ranked: bool,
 }
 
-/// Writes the table. A script makes it sortable by the heads of the columns.
+/// Writes the table. A script makes it sortable by its column heads.
 pub fn table(caption: &str, outcome_heading: &str, rows: &[RankedRow], columns: &[RankedColumn]) -> String {
     let is_ranked: Vec<bool> = rows.iter().map(|row| row.is_ranked).collect();
     let best: Vec<Vec<usize>> = columns.iter().map(|column| column.best(&is_ranked)).collect();

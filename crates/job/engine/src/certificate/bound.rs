@@ -1,11 +1,10 @@
 //! Evidence that no motion is shorter than a bound: walls that motions cannot cross, and potentials of the walls' ends.
 //!
-//! A potential is a lower bound on the length of paths from the start to a place. The checker requires that along each
-//! leg between two places, a potential grows by at most the leg's length, unless a wall bars the leg. The lengths of
-//! shortest paths from the start satisfy this as long as they are below the bound. For other places, the checker itself
-//! takes the bound minus the least remaining length, so the certificate need not state their potentials. The evidence
-//! is made by computing the shortest paths once more, among the walls alone, with every leg counted slightly shorter
-//! than it is. Walls that bar no leg are then dropped.
+//! A potential is a lower bound on the length of paths from the start to a place. The checker requires that along each leg
+//! between two places, the potential grows by at most the leg's length, unless a wall bars the leg. The lengths of shortest paths
+//! from the start satisfy this as long as they are below the bound. For other places, the checker takes the bound minus the least
+//! remaining length, so the certificate need not state their potentials. To make the evidence, shortest paths are computed once
+//! more, among the walls alone, with every leg counted slightly shorter than it is. Walls that bar no leg are then dropped.
 
 use cplan_geometry::OpenList;
 use cplan_interrupt::checkpoint;
@@ -30,17 +29,16 @@ pub(super) struct Potential {
     pub value: f64,
 }
 
-/// Fraction by which the evidence reduces the length of each straight leg of a path. It allows for rounding.
+/// Fraction by which the evidence shortens each straight leg of a path, to allow for rounding.
 const LEG_ROUNDING: f64 = 1e-8;
 
-/// Fraction of the whole length by which the evidence reduces every leg in addition. It is far above rounding.
+/// Fraction of the whole length by which the evidence additionally shortens each leg. It is far above rounding errors.
 const TOTAL_ROUNDING: f64 = 1e-11;
 
-/// Least distance from a wall's ends at which a leg must cross the wall to count as crossing it, as a fraction of the
-/// wall's length.
+/// A leg counts as crossing a wall if it crosses at least this far from the wall's ends, as a fraction of the wall's length.
 const WALL_END_MARGIN: f64 = 1e-9;
 
-/// Number of rounds in which walls that are not needed are dropped. Each round drops fewer than the one before.
+/// Number of rounds in which unnecessary walls are dropped. Each round drops fewer than the previous one.
 const PRUNING_ROUNDS: usize = 2;
 
 /// Largest number of wall ends from which paths are extended.
@@ -79,7 +77,7 @@ struct Corner {
     reached: f64,
 }
 
-/// A place from which paths are extended: the start, or an end of a wall.
+/// A place from which paths extend: the start, or an end of a wall.
 #[derive(Clone, Copy)]
 struct Source {
     at: Configuration,
@@ -87,11 +85,11 @@ struct Source {
     potential: f64,
 }
 
-/// A line on which joint 1 is constant: the bits of its value, and the number of whole turns.
+/// A line of constant joint 1: the bits of its value, and the number of whole turns.
 type Line = (u64, i64);
 
-/// Overlapping walls on one line, as a single range of joint 2. `beside` lists the walls that lead to the line from
-/// either side and end within the range.
+/// Overlapping walls on one line, as a single range of joint 2. `beside` lists the walls that reach the line from either side and
+/// end within the range.
 struct WallRun {
     ends: [f64; 2],
     walls: Vec<usize>,
@@ -99,11 +97,11 @@ struct WallRun {
 }
 
 impl LeastLength {
-    /// Builds the evidence from these walls. `None` if they prove no bound.
+    /// Creates the evidence from these walls. `None` if they prove no bound.
     pub(super) fn new(limits: &PathLimits, walls: Vec<ClosedSegment>) -> Option<Self> {
         let mut plane = Plane::new(limits, &walls);
         let length = plane.lengths()? - limits.leg_reduction();
-        // With fewer walls there are fewer ends from which paths extend, so that still fewer walls are needed.
+        // Fewer walls have fewer ends from which paths extend, so that even fewer walls are needed.
         for _ in 0..PRUNING_ROUNDS {
             let needed = plane.needed_walls(length);
             plane.copies.retain(|copy| needed.contains(&copy.wall));
@@ -122,24 +120,22 @@ impl LeastLength {
 }
 
 impl PathLimits<'_> {
-    /// Returns the length by which every leg is reduced in addition to [`LEG_ROUNDING`].
+    /// Returns the length by which each leg is shortened in addition to [`LEG_ROUNDING`].
     fn leg_reduction(&self) -> f64 {
         TOTAL_ROUNDING * self.limit
     }
 
-    /// Returns the length of a leg, reduced as in the evidence.
+    /// Returns the length of a leg, shortened as in the evidence.
     fn leg(&self, from: Configuration, to: Configuration) -> f64 {
         (self.metric.norm(to - from) * (1.0 - LEG_ROUNDING) - self.leg_reduction()).max(0.0)
     }
 
-    /// Returns a lower bound on the length from a configuration to a goal. `displacement` is the difference between the
-    /// two.
+    /// Returns a lower bound on the length from a configuration to a goal, given the displacement between them.
     fn to_goal(&self, displacement: Configuration) -> f64 {
         (self.metric.norm(displacement) - self.goal_tolerance * self.limit).max(0.0)
     }
 
-    /// Returns numbers of whole turns of a joint. With each of them, the range from `low` to `high` is moved to values
-    /// that paths can reach.
+    /// Returns the numbers of whole turns of a joint that move the range from `low` to `high` to values that paths can reach.
     fn turns(&self, joint: usize, low: f64, high: f64) -> std::ops::RangeInclusive<i64> {
         let JointRange::Circle = self.topology.ranges[joint] else { return 0..=0 };
         let reach = self.limit / self.metric.least(joint);
@@ -210,8 +206,8 @@ impl<'a> Plane<'a> {
         Self { limits, copies, widest, runs, corners, goals }
     }
 
-    /// Computes the length of the shortest path to a goal, and the lengths of shorter paths to ends of walls. `None` if
-    /// there are too many ends.
+    /// Computes the lengths of shortest paths to a goal and, as far as they are shorter, to ends of walls. `None` if there are
+    /// too many ends.
     fn lengths(&mut self) -> Option<f64> {
         let corners = &self.corners;
         let mut lengths = vec![f64::INFINITY; corners.len()];
@@ -256,8 +252,8 @@ impl<'a> Plane<'a> {
         (corner.reached + corner.rest < length - self.limits.leg_reduction() / 4.0).then_some(corner.reached)
     }
 
-    /// Returns the walls that are needed for the evidence. A wall is needed if it bars a leg that would make potentials
-    /// too small. Walls that contain an end of a needed wall are needed as well.
+    /// Returns the walls that the evidence needs. A wall is needed if it bars a leg that would make potentials too small. Walls
+    /// that contain an end of a needed wall are also needed.
     fn needed_walls(&self, length: f64) -> BTreeSet<usize> {
         let known = |corner: &Corner| {
             let potential = self.potential(length, corner)?;
@@ -278,7 +274,7 @@ impl<'a> Plane<'a> {
             }
             checkpoint();
         }
-        // An end within another wall is no corner as long as that wall is present.
+        // As long as another wall is present, an end within it is no corner.
         for run in self.runs.values().flatten() {
             let is_needed = |wall: &usize| needed.contains(wall);
             let ends_within = run.beside.iter().flatten().any(|(_, wall)| is_needed(wall));
@@ -315,7 +311,7 @@ impl<'a> Plane<'a> {
             || self.barring_run(from, line, to, other).is_some()
     }
 
-    /// Iterates over the walls that a leg may cross. Those near the leg's beginning come first.
+    /// Iterates over the walls that a leg may cross, beginning with those near the leg's beginning.
     fn near(&self, from: Configuration, to: Configuration) -> impl Iterator<Item = &WallCopy> {
         let first = self.copies.partition_point(|copy| copy.begins() < from[0].min(to[0]) - self.widest);
         let last = self.copies.partition_point(|copy| copy.begins() <= from[0].max(to[0]));
@@ -324,8 +320,8 @@ impl<'a> Plane<'a> {
         onward.iter().chain(back.iter().rev())
     }
 
-    /// Returns the run of walls that bars a leg along its line, with one wall on each side that ends there. With these
-    /// two walls, the leg cannot pass the run on either side.
+    /// Returns the run of walls that bars a leg along its line, and one wall on each side that ends there. Because of these two
+    /// walls, the leg cannot pass the run on either side.
     fn barring_run(
         &self,
         from: Configuration,
@@ -350,14 +346,14 @@ impl WallCopy {
 }
 
 impl WallRun {
-    /// Returns true if a value of joint 2 is in the run, by more than rounding.
+    /// Returns true if a value of joint 2 is in the run by more than rounding errors.
     fn contains(&self, q2: f64) -> bool {
         let hair = WALL_END_MARGIN * (self.ends[1] - self.ends[0]);
         self.ends[0] + hair < q2 && q2 < self.ends[1] - hair
     }
 }
 
-/// Collects the runs of walls on which joint 1 is constant, with the other walls that end within each run.
+/// Collects the runs of walls of constant joint 1, and the other walls that end within each run.
 fn runs(copies: &[WallCopy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<WallRun>> {
     let mut runs: BTreeMap<Line, Vec<WallRun>> = BTreeMap::new();
     let lines = |copy: &WallCopy| walls[copy.wall].ends.map(|end| (end[0].to_bits(), copy.turns[0]));
@@ -398,7 +394,7 @@ fn runs(copies: &[WallCopy], walls: &[ClosedSegment]) -> BTreeMap<Line, Vec<Wall
     runs
 }
 
-/// Returns true if a leg crosses the interior of a wall, by more than rounding.
+/// Returns true if a leg crosses the interior of a wall by more than rounding errors.
 fn crosses([a, b]: &[Configuration; 2], from: Configuration, to: Configuration) -> bool {
     let apart = |k: usize| from[k].max(to[k]) < a[k].min(b[k]) || a[k].max(b[k]) < from[k].min(to[k]);
     if apart(0) || apart(1) {

@@ -1,4 +1,4 @@
-//! The shapes and parts of obstacles to which the evidence of a certificate refers.
+//! The shapes and obstacle parts to which the evidence of a certificate refers.
 
 use super::{Evidence, lines, reaching_out};
 use cplan_geometry::Convex;
@@ -8,7 +8,7 @@ use serde::Serialize;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 
-/// A collision box as certificates contain it.
+/// A collision box in the form of certificates.
 #[derive(Serialize)]
 struct CertificateBox {
     lower: [f64; 2],
@@ -22,7 +22,7 @@ pub(super) struct Contacts<'a> {
     scene: &'a Scene,
     pub shapes: Vec<Value>,
     pub parts: Vec<Value>,
-    /// For each shape of the scene that the evidence names, its index in the list of shapes.
+    /// For each shape of the scene in the evidence, its index in the list of shapes.
     shape_numbers: BTreeMap<(usize, usize), usize>,
     part_numbers: BTreeMap<(usize, usize), usize>,
 }
@@ -40,13 +40,13 @@ impl<'a> Contacts<'a> {
         Self { scene, shapes: vec![], parts: vec![], shape_numbers: BTreeMap::new(), part_numbers: BTreeMap::new() }
     }
 
-    /// Returns the lists as members of the certificate's JSON. There are none if the evidence names no shape.
+    /// Returns the lists as members of the certificate's JSON. Empty if the evidence names no shape.
     pub fn named(&self) -> Evidence {
         let lists = [("shapes", &self.shapes), ("parts", &self.parts)].map(|(name, list)| (name, lines(list)));
         if self.shapes.is_empty() { Vec::new() } else { lists.into() }
     }
 
-    /// Returns the indices of the shape and of the obstacle's part in the lists, for a pair of shapes.
+    /// Returns the indices, in the lists, of the shape and the obstacle part of a pair of shapes.
     pub fn numbers(&mut self, pair: Pair) -> (usize, usize) {
         let Self { scene, shapes, parts, .. } = self;
         let Pair { link, part, obstacle, piece } = pair;
@@ -63,7 +63,7 @@ impl<'a> Contacts<'a> {
         ("boxes", lines(&boxes))
     }
 
-    /// Converts a box to the form of certificates. A box across the seam at half a turn becomes two boxes.
+    /// Converts a box to the form of certificates. A box that crosses the seam at half a turn becomes two boxes.
     fn collision_boxes(&mut self, stuck: &CollisionBox) -> Vec<CertificateBox> {
         let (shape, part) = self.numbers(stuck.pair);
         let parts = reaching_out(self.scene, stuck).into_iter();
@@ -71,8 +71,8 @@ impl<'a> Contacts<'a> {
     }
 }
 
-/// Identifies a part of a link by its URDF link and its index among the shapes of that link. A bar is the last of a
-/// link's own parts.
+/// Identifies a part of a link by its URDF link and its index among the shapes of that link. A bar is the last one of a link's
+/// own parts.
 fn shape(scene: &Scene, pair: Pair) -> Value {
     let link = scene.link(pair);
     let Part { body, number, is_visual, heights, .. } = &link.parts[pair.part];
@@ -84,8 +84,7 @@ fn shape(scene: &Scene, pair: Pair) -> Value {
     of_layer(json!({ "link": body, kind(*is_visual): number }), *heights, layers)
 }
 
-/// Identifies a piece of an obstacle by its corners. A disc needs no corners, because it is the only piece of its
-/// obstacle.
+/// Identifies a piece of an obstacle by its corners. A disc, which is always the only piece of its obstacle, needs none.
 fn part_of(scene: &Scene, pair: Pair) -> Value {
     let obstacle = pair.obstacle;
     if let Some(own) = scene.self_obstacle(obstacle) {
@@ -108,8 +107,7 @@ fn kind(is_visual: bool) -> &'static str {
     if is_visual { "visual" } else { "collision" }
 }
 
-/// Adds a height to the identification of a shape, if the shape is cut into several layers. The height lies in the
-/// middle of the layer.
+/// If a shape is cut into several layers, adds the height of the layer's middle to the identification.
 fn of_layer(mut named: Value, own: Heights, mut all: impl Iterator<Item = Heights>) -> Value {
     if all.any(|other| other != own) {
         named["height"] = json!(f64::midpoint(own.lower, own.upper));

@@ -1,4 +1,4 @@
-//! Evidence for a motion of the tip along a line, or for the claim that no motion follows it.
+//! Evidence for a motion of the tip along a line, or that no motion follows the line.
 
 use super::contacts::Contacts;
 use super::{
@@ -24,7 +24,7 @@ pub struct CertifiedLine<'a> {
     pub line: &'a Toolpath,
     /// Greatest distance between the tip and the line, metres.
     pub tolerance: f64,
-    /// The side of the elbow along the line; `None` if either side will do.
+    /// The side of the elbow along the line; `None` for either side.
     pub elbow: Option<Elbow>,
     /// The values that replace those of the world file.
     pub asked: &'a Overrides,
@@ -39,15 +39,14 @@ pub struct ExcludedSolution {
     pub place: Place,
     /// Number of the IK solution, 0 or 1.
     pub solution: usize,
-    /// The joint values of the solution, with their whole turns.
+    /// The joint values of the solution, including whole turns.
     pub q: [f64; 2],
     /// The shapes that collide. `None` if a joint is outside its limits.
     pub pair: Option<Pair>,
 }
 
 impl CertifiedLine<'_> {
-    /// Returns the certificate of a motion along the line, as controllers play it. It takes time linear in the number of
-    /// samples.
+    /// Returns the certificate of a motion along the line, as controllers execute it. Linear in the number of samples.
     pub fn of_motion(&self, trajectory: &Trajectory) -> String {
         let arm = self.scene.arm();
         let motion = motion::evidence(arm, trajectory, true);
@@ -56,11 +55,11 @@ impl CertifiedLine<'_> {
         self.written("found", places, [motion])
     }
 
-    /// Returns the certificate that no motion follows the line past a place, or past the stretch between several places.
-    /// All IK solutions are excluded there. Without any, the place `from` is out of reach.
+    /// Returns the certificate that no motion follows the line past a place, or past the stretch between several places, because
+    /// all IK solutions are excluded there. If `excluded` is empty, the place `from` is out of reach.
     ///
     /// # Errors
-    /// [`NoCertificate::Line`] if no box of collisions is found around a solution.
+    /// [`NoCertificate::Line`] if no collision box is found around a solution.
     pub fn of_exclusions(&self, from: &Place, excluded: &[ExcludedSolution]) -> Result<String, NoCertificate> {
         let position = |place: &Place| place.piece as f64 + place.u;
         let positions = || excluded.iter().map(|solution| position(&solution.place)).chain([position(from)]);
@@ -89,8 +88,7 @@ impl CertifiedLine<'_> {
         ("line", format!("{{ {} }}", members.join(",\n  ")))
     }
 
-    /// Returns a box of collisions around all configurations of a solution that keep the tip within the tolerance: the
-    /// widest one that is found.
+    /// Returns the widest collision box found around all configurations of a solution that keep the tip within the tolerance.
     fn collision_box(&self, excluded: &ExcludedSolution) -> Option<CollisionBox> {
         let scene = &*self.scene.inner();
         let (arm, q) = (scene.arm(), Configuration::from(excluded.q));
@@ -135,9 +133,8 @@ fn pieces_and_travels(line: &Toolpath) -> (Vec<Value>, Vec<usize>) {
     (line.pieces().iter().map(|piece| curve(&piece.curve)).collect(), travels.map(|(number, _)| number).collect())
 }
 
-/// Returns moments of a motion, and the positions on the line at which the tip is near then. A moment is a sample plus
-/// the share of the time until the next one, and a position is a piece plus its parameter. `motion` has the pieces of the
-/// motion; at least one.
+/// Returns moments of a motion, and the positions of the tip on the line at these moments. A moment is a sample plus the share of
+/// the time until the next one; a position is a piece plus its parameter. `motion` has the pieces of the motion, at least one.
 fn places(arm: &Arm, line: &Toolpath, tolerance: f64, motion: &[Piece]) -> Vec<[f64; 2]> {
     let last = Foot { piece: line.pieces().len() - 1, u: 1.0 };
     let ends = [Foot { piece: 0, u: 0.0 }, last];
@@ -146,7 +143,7 @@ fn places(arm: &Arm, line: &Toolpath, tolerance: f64, motion: &[Piece]) -> Vec<[
     deviation.pairing(motion).pairs.into_iter().map(|(moment, foot)| [moment, foot.piece as f64 + foot.u]).collect()
 }
 
-/// Returns the pieces of a motion between two samples; a piece at rest if both are the same.
+/// Returns the pieces of a motion between two samples, or a piece at rest if both are the same.
 pub(super) fn motion_pieces(trajectory: &Trajectory, [first, last]: [usize; 2]) -> Vec<Piece> {
     let end = |k: usize| [trajectory.position[k].into(), trajectory.velocity[k].into()];
     let piece = |k: usize| Piece::hermite(trajectory.time[k], trajectory.time[k + 1], end(k), end(k + 1));

@@ -12,16 +12,16 @@ use cplan_solver::Bound;
 use cplan_world::Overrides;
 use serde_json::json;
 
-/// Number of points along a wall, in either direction, at which a checker computes the distance. With more points, the
-/// check takes longer.
+/// Number of points along a wall, in either direction, at which a checker computes the distance. More points make the check
+/// slower.
 const CHECKS_PER_WALL: usize = 60;
-/// Number of points along a wall that replaces [`CHECKS_PER_WALL`] if too much of the bound would be lost.
+/// Replaces [`CHECKS_PER_WALL`] if too much of the bound would be lost.
 const MORE_CHECKS_PER_WALL: usize = 300;
 
-/// A length, and the evidence that no motion is shorter. The length is the bound of a result, except for a small loss.
+/// A length, and the evidence that no motion is shorter. The length is the bound of a result, up to a small loss.
 ///
-/// The motions lead to one configuration, or to any configuration that puts the tip at the requested place. In the
-/// latter case, boxes cover the configurations that are not free.
+/// The motions lead to one configuration, or to any that puts the tip at the requested place. In the latter case, boxes cover
+/// those of these configurations that are not free.
 pub(super) struct LowerBound {
     least: LeastLength,
     metric: Metric,
@@ -30,10 +30,9 @@ pub(super) struct LowerBound {
 }
 
 impl LowerBound {
-    /// Computes evidence for a bound. If more than the fraction `loss` of the bound is lost, computes it again with
-    /// more points per wall. The loss occurs where shapes separate slowly, as in a slot, so that walls end too early.
-    /// Returns `None` if the goals are a curve, or if a checker could not separate them from neighbouring
-    /// configurations.
+    /// Computes evidence for a bound. If more than the fraction `loss` of the bound is lost, computes it again with more points
+    /// per wall. Bounds lose where shapes separate slowly, as in a slot, because walls then end too early. `None` if the goals
+    /// are a curve, or if a checker could not separate them from neighbouring configurations.
     pub fn of(problem: &MotionProblem, stated: &Bound, asked: &Overrides, loss: f64) -> Option<Self> {
         let scene = problem.scene();
         let topology = scene.arm().topology();
@@ -107,8 +106,7 @@ struct Ends {
 }
 
 impl Ends {
-    /// Collects the goals. `None` if they form a curve, or if a checker could not separate them from neighbouring
-    /// configurations.
+    /// Collects the goals. `None` if they are a curve, or if a checker could not separate them from neighbouring configurations.
     fn of(problem: &MotionProblem, asked: &Overrides) -> Option<Self> {
         let (arm, pieces) = (problem.scene().arm(), problem.goals().pieces());
         let topology = arm.topology();
@@ -120,7 +118,7 @@ impl Ends {
             return Some(Self { to: Some(*goal), goals, boxes: Vec::new() });
         }
         let solved = inverse(arm, arm.tip_at(*goals.first()?), problem.start());
-        // The checker divides ranges into equal parts, which all solutions share, including those on other turns.
+        // The checker divides ranges into equal parts for all solutions together, including those on other turns.
         let least = MIN_SEPARATION * solved.solutions(arm).len().max(1) as f64;
         if solved.free.is_some() || solved.branches.iter().any(|q| manipulability(arm, *q) <= least) {
             return None;
@@ -130,17 +128,16 @@ impl Ends {
     }
 }
 
-/// Tolerance with which a checker compares a goal with the place of the tip, as a fraction of the path length. The
-/// checker computes the goal configurations itself, to 10^-12 of the joints' ranges.
+/// Tolerance with which a checker compares a goal with the tip's place, as a fraction of the path length. The checker computes
+/// the goal configurations itself, to 10^-12 of the joints' ranges.
 const GOAL_TOLERANCE: f64 = 1e-6;
 
-/// Least value of [`manipulability`] for goals of a certificate. Below it, a checker cannot separate the configurations
-/// that have one place of the tip from their neighbours. The checker divides both joints' ranges into equal parts.
+/// Least value of [`manipulability`] for goals of a certificate. Below it, a checker, which divides both joints' ranges into
+/// equal parts, cannot separate the configurations with one place of the tip from their neighbours.
 const MIN_SEPARATION: f64 = 0.012;
 
-/// Returns a measure of how well the joints control the tip, from 0 to 1/4. It is the area spanned by the two
-/// directions in which the joints move the tip, divided by the square of the sum of their lengths. It is zero if the
-/// arm is stretched or folded.
+/// Returns a measure, from 0 to 1/4, of how well the joints control the tip. It is the area spanned by the two directions in
+/// which the joints move the tip, divided by the square of the sum of their lengths. Zero if the arm is stretched or folded.
 fn manipulability(arm: &Arm, q: Configuration) -> f64 {
     const DERIVATIVE_STEP: f64 = 1e-6;
     let ranges = arm.topology().ranges;

@@ -1,5 +1,4 @@
-//! Evidence for an answer, which an independent checker can verify against the two files. `docs/certificates.md`
-//! describes it.
+//! Evidence for an answer, which an independent checker verifies against the two files. See `docs/certificates.md`.
 
 mod bound;
 mod contacts;
@@ -28,7 +27,7 @@ use serde::Serialize;
 use serde_json::json;
 use thiserror::Error;
 
-/// Fraction of a bound that the certificate of a motion may lose, so that it is small and can be checked quickly.
+/// Fraction of a bound that the certificate of a motion may lose, so that it stays small and quick to check.
 const MAX_BOUND_LOSS: f64 = 1e-3;
 
 /// Reason why an answer has no certificate.
@@ -40,12 +39,12 @@ pub enum NoCertificate {
     /// The answer is that a task is infeasible.
     #[error("there are no certificates for infeasible tasks; the result states the step that fails, and the reason")]
     Task,
-    /// The goal of a task is on the command line.
+    /// The goal of a task is stated on the command line.
     #[error(
         "the certificate includes the tool's joints, so the goal must be in the world file, not on the command line"
     )]
     Goal,
-    /// An object rests on another one, and its outline has corners that a checker cannot move inwards.
+    /// An object rests on another one, and the corners of its outline cannot be moved inwards, as a checker does.
     #[error(
         "the outline of object \"{0}\", which rests on a support, cannot be shrunk by the allowed depth of contact, because it is too fine or touches itself"
     )]
@@ -53,13 +52,13 @@ pub enum NoCertificate {
     /// The motion has no times, but the world has moving obstacles.
     #[error("the motion has no times, so it is unknown whether it avoids the moving obstacles")]
     Untimed,
-    /// No box of collisions is found around an IK solution that is excluded at a place of a line.
+    /// No collision box is found around an IK solution that is excluded at a place of a line.
     #[error("an IK solution collides so slightly that a checker could not confirm it; a smaller tolerance may help")]
     Line,
     /// The range of a wrist excludes an IK solution at a place of a line.
     #[error("the proof depends on the range of the wrist, but certificates of lines do not cover the wrist")]
     Wrist,
-    /// A line is too large for all placements.
+    /// A line is too large for some placements.
     #[error("the answer is about all placements of the line, but a certificate is about one placement")]
     Placement,
 }
@@ -168,18 +167,17 @@ fn tip_and_clearance(asked: &Overrides) -> impl Iterator<Item = Member> + use<> 
     tip.into_iter().chain(elbow).chain(clearance).chain(errors)
 }
 
-/// Two values of a joint that differ by less than this count as equal, in radians or metres.
+/// Values of a joint closer than this count as equal, in radians or metres.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
-/// Margins of boxes around IK solutions that are tried, as fractions of the joints' ranges, the widest first.
+/// Margins of boxes around IK solutions in the order of the attempts, as fractions of the joints' ranges.
 const BOX_MARGINS: [f64; 11] = [1e-2, 3e-3, 1e-3, 3e-4, 1e-4, 3e-5, 1e-5, 3e-6, 1e-6, 3e-7, 1e-7];
 
 /// Largest number of times that a curve of IK solutions is halved to find boxes around its pieces.
 const MAX_HALVINGS: u32 = 12;
 
-/// Returns boxes around the IK solutions that are not free, and therefore are no goals. A checker knows only the place
-/// of the tip; without the boxes, it would count these solutions as goals. Also returns the middles of curves of
-/// solutions for which no box was found.
+/// Returns boxes around the IK solutions that are not free and thus no goals. A checker knows only the place of the tip, so
+/// without the boxes it would count them as goals. Also returns the middles of curves of solutions without boxes.
 fn blocked_solutions(problem: &MotionProblem) -> (Vec<CollisionBox>, Vec<Configuration>) {
     let (scene, goals) = (problem.scene(), problem.goals());
     let (arm, topology) = (scene.arm(), scene.arm().topology());
@@ -202,12 +200,11 @@ fn blocked_solutions(problem: &MotionProblem) -> (Vec<CollisionBox>, Vec<Configu
     (boxes, left)
 }
 
-/// Returns the widest box around a segment in which one pair of shapes collides everywhere. `None` if there is no such
-/// box.
+/// Returns the widest box around a segment in which one pair of shapes collides everywhere, if there is one.
 fn collision_box_about(scene: &Scene, piece: &Segment) -> Option<CollisionBox> {
     let (scene, [from, to]) = (&*scene.inner(), piece.ends());
     let ranges = scene.arm().topology().ranges.map(|range| range.domain());
-    // A checker does not accept an obstacle that the arm may pass over or under.
+    // A checker does not accept obstacles that the arm may pass above or below.
     let obstructions = scene.obstructions(piece.at(0.5));
     BOX_MARGINS.into_iter().find_map(|margin| {
         let room = ranges.map(|(lower, upper)| margin * (upper - lower));
@@ -218,13 +215,12 @@ fn collision_box_about(scene: &Scene, piece: &Segment) -> Option<CollisionBox> {
     })
 }
 
-/// Distance from a limit below which values are moved inwards, as a fraction of the limit or of the range, whichever is
-/// larger. It covers rounding: a limit in degrees, or with many digits, may lie up to two units in the last place
-/// inside the double that represents it. Near a limit of 0, control points of polynomials are differences of values
-/// within the range.
+/// Values closer than this to a limit are moved inwards, as a fraction of the limit or of the range, whichever is larger. It
+/// covers rounding: a limit in degrees, or with many digits, may be up to two units in the last place inside the double that
+/// represents it. Near a limit of 0, control points of polynomials are differences of values within the range.
 const LIMIT_MARGIN: f64 = 4.0 * f64::EPSILON;
 
-/// Returns a configuration in the form of certificates. Values at a limit are moved slightly inwards.
+/// Returns a configuration in the form of certificates, with values at a limit moved slightly inwards.
 fn inward(topology: &Topology, q: Configuration) -> Configuration {
     Configuration::from_fn(|k, _| match topology.ranges[k] {
         JointRange::Interval { lower, upper } => {
@@ -235,9 +231,9 @@ fn inward(topology: &Topology, q: Configuration) -> Configuration {
     })
 }
 
-/// Returns the least and greatest values of a box. A box across half a turn of a circle is split there into two. A part
-/// that ends at the end of the domain is extended slightly. The reason is that limits are decimals and half a turn is
-/// irrational, so the nearest double would leave a gap.
+/// Returns the least and greatest values of a box, which is split in two at half a turn of a circle. A part that ends at the end
+/// of the domain is extended slightly: limits are decimals, but half a turn is irrational, so the nearest double would leave a
+/// gap.
 fn reaching_out(scene: &Scene, stuck: &CollisionBox) -> Vec<[[f64; 2]; 2]> {
     let mut parts = vec![[stuck.cell.lower, stuck.cell.upper]];
     for (k, range) in scene.arm().topology().ranges.into_iter().enumerate() {

@@ -9,9 +9,9 @@ use cplan_motion::Trajectory;
 use cplan_world::{Digests, Overrides};
 use serde_json::{Value, json};
 
-/// Returns the evidence of a planned motion: its samples, and the interpolations between them. Programs that read
-/// tables and ROS 2 messages join samples by cubics. The JSON defines quartics between them. With limits on jerk, it
-/// defines the same cubics, and programs may also join samples by quintics, which `has_quintics` includes.
+/// Returns the evidence of a planned motion: its samples, and the interpolations between them. Readers of tables and ROS 2
+/// messages join samples by cubics; the JSON defines quartics. With limits on jerk, the JSON defines the same cubics, and readers
+/// may also use quintics, which `has_quintics` includes.
 pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory, has_quintics: bool) -> Member {
     let is_smooth = arm.limits_jerks();
     let Trajectory { time, position, velocity, acceleration, torque: _, wrist: _ } = trajectory;
@@ -23,10 +23,9 @@ pub(super) fn evidence(arm: &Arm, trajectory: &Trajectory, has_quintics: bool) -
     }
 }
 
-/// Returns the certificate of a recorded motion, whose samples are joined as in the recording's format. It claims that
-/// the motion leads from the start of the world, or of `asked`, to the goal. If `ends` has no start or goal, the
-/// motion's own start or end is claimed instead. A recorded task leads from the start through all its steps. The
-/// certificate refers to `files`.
+/// Returns the certificate of a recorded motion, whose samples are joined as in the recording's format. It claims that the motion
+/// leads from the start of the world, or of `asked`, to the goal. If `ends` has no start or goal, the motion's own start or end
+/// replaces it. A recorded task leads from the start through all its steps. The certificate refers to `files`.
 ///
 /// # Errors
 /// [`NoCertificate::Untimed`] and [`NoCertificate::Outline`].
@@ -78,8 +77,8 @@ pub(super) fn written_inward(topology: &Topology, positions: &[[f64; 2]]) -> Vec
     positions.iter().map(|&q| inward(topology, q.into()).into()).collect()
 }
 
-/// Returns the motion as a member of the certificate's JSON. It consists of knots, each with a time and the values of
-/// the columns at that time. `readings` are the names of the interpolations.
+/// Returns the motion as a member of the certificate's JSON: knots, each with a time and the values of the columns at that time.
+/// `readings` are the names of the interpolations.
 pub(super) fn motion_member(readings: &[&str], times: &[f64], columns: &[&Vec<[f64; 2]>]) -> Member {
     let knot =
         |k: usize| json!([times[k]].into_iter().chain(columns.iter().flat_map(|rows| rows[k])).collect::<Vec<f64>>());

@@ -1,4 +1,4 @@
-//! Certificates of the claims in a result, computed again for its files.
+//! Certificates of the claims in a result, computed anew for its files.
 
 use super::contacts::Contacts;
 use super::lower_bound::LowerBound;
@@ -14,7 +14,7 @@ const MAX_STATED_BOUND_LOSS: f64 = 1e-6;
 /// A certificate that no motion is shorter than a length.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoundCertificate {
-    /// The proven length. The evidence is computed again, so the length can differ from the stated bound.
+    /// The proven length. It may differ from the stated bound, because the evidence is computed anew.
     pub length: f64,
     /// The number of walls that bar shorter motions.
     pub walls: usize,
@@ -22,8 +22,8 @@ pub struct BoundCertificate {
     pub text: String,
 }
 
-/// Returns a certificate with the claim that boxes separate the start from all goals. Does not check whether that is
-/// true. The certificate includes the values in `asked`, which override the world file.
+/// Returns a certificate with the claim, which is not checked, that boxes separate the start from all goals. It includes the
+/// values in `asked`, which override the world file.
 ///
 /// # Errors
 /// The first box whose shapes are not part of the problem, or never meet.
@@ -42,8 +42,8 @@ pub fn certificate_of_boxes(
     Ok(written("infeasible", members.concat()))
 }
 
-/// Returns the certificate of a bound. `None` if the goals form a curve, or if a checker could not separate them from
-/// neighbouring configurations.
+/// Returns the certificate of a bound. `None` if the goals are a curve, or if a checker could not separate them from neighbouring
+/// configurations.
 pub fn certificate_of_bound(problem: &MotionProblem, stated: &Bound, asked: &Overrides) -> Option<BoundCertificate> {
     let bound = LowerBound::of(problem, stated, asked, MAX_STATED_BOUND_LOSS)?;
     let mut contacts = Contacts::new(problem.scene());

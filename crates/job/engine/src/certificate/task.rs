@@ -1,5 +1,5 @@
-//! Evidence for a task: the motion, the part of it that performs each step, the turns of the wrist with the payload, and
-//! the lines that steps follow. The positions of all objects then follow from the world.
+//! Evidence for a task: the motion, the part of it for each step, the wrist's turns with the payload, and the lines that steps
+//! follow. With the world, these determine the positions of all objects.
 
 use super::line::{motion_pieces, step_line};
 use super::{NoCertificate, lines};
@@ -13,8 +13,7 @@ use cplan_motion::{Trajectory, single};
 use serde_json::{Value, json};
 use std::collections::BTreeSet;
 
-/// Returns the steps of a planned task as a member of the certificate's JSON. The motion of such a task is part of the
-/// result; `trajectory` has its samples.
+/// Returns the steps of a planned task as a member of the certificate's JSON. `trajectory` has the samples of the whole motion.
 pub(super) fn steps(task: &Task, steps: &[StepReport], trajectory: &Trajectory) -> (&'static str, String) {
     let step = |step: &StepReport| {
         let turn = step.turn.as_ref();
@@ -77,7 +76,7 @@ pub(super) fn steps_of_recording(
     ("steps", lines(&steps.iter().enumerate().map(&mut step).collect::<Vec<_>>()))
 }
 
-/// Returns the line that a step follows. `None` if the step follows no line.
+/// Returns the line that a step follows, if it follows one.
 fn followed_line(task: &Task, number: usize) -> Option<&FollowedLine> {
     match &task.steps().find(|step| step.number == number)?.action {
         Action::Follow(line) => Some(line),
@@ -85,7 +84,7 @@ fn followed_line(task: &Task, number: usize) -> Option<&FollowedLine> {
     }
 }
 
-/// A step that was done. Overlaps with motions of the arm are the seconds before its arrival and after its departure.
+/// An executed step. An overlap with motions of the arm has the seconds before its arrival and after its departure.
 struct DoneStep {
     number: usize,
     /// First and last sample of the motion.
@@ -96,8 +95,8 @@ struct DoneStep {
     turn: Option<(f64, f64, [f64; 2])>,
     /// The joint's value while the tool is lowered, in metres, and the overlaps of the strokes.
     stroke: Option<(f64, [f64; 2])>,
-    /// If the tool rises before the first step: the joint's value in metres from which it rises, and the time in
-    /// seconds at which it is raised.
+    /// If the tool rises before the first step: the joint's value from which it rises, in metres, and the time at which it is
+    /// raised, in seconds.
     first: Option<[f64; 2]>,
 }
 
@@ -140,8 +139,8 @@ fn stroke_knots(stroke: &Stroke, [from, to]: [f64; 2], begin: f64) -> Vec<[f64; 
     knots_of(single((to - from).abs(), &stroke.limits()), begin, [from, to])
 }
 
-/// Returns the knots of a motion of one joint between two values: time in seconds, value, and velocity. `phases` are
-/// seconds since the beginning, distance and speed at the ends of its phases.
+/// Returns the knots of a motion of one joint between two values: time in seconds, value, and velocity. `phases` has seconds
+/// since the beginning, distance and speed at the ends of the phases.
 fn knots_of(phases: Vec<[f64; 3]>, begin: f64, [from, to]: [f64; 2]) -> Vec<[f64; 3]> {
     let sign = (to - from).signum();
     let mut knots: Vec<[f64; 3]> = phases
@@ -164,8 +163,7 @@ fn pressed_objects(task: &Task) -> BTreeSet<usize> {
     task.steps().filter_map(rests).collect()
 }
 
-/// Checks that the corners of all objects that rest on supports can be moved inwards, as a checker of the certificate
-/// must do.
+/// Checks that the corners of all objects on supports can be moved inwards, which a checker of the certificate does.
 ///
 /// # Errors
 /// [`NoCertificate::Outline`].

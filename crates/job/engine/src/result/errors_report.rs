@@ -5,7 +5,7 @@ use cplan_model::Status;
 use cplan_world::AllowedErrors;
 use serde::Serialize;
 
-/// The errors for which a motion must be free, with the claims of the answer.
+/// The errors for which a motion must be free, and the claims of the answer about them.
 #[derive(Serialize)]
 pub(super) struct ErrorsReport {
     base: ErrorReport,
@@ -14,7 +14,6 @@ pub(super) struct ErrorsReport {
     zeros: ErrorReport,
     /// Greatest displacement of an obstacle, metres.
     obstacles: f64,
-    /// The proven statement.
     proves: Option<&'static str>,
     /// Status of the problem without errors. `None` if its start or all of its goals are not free.
     drawn: Option<Status>,
@@ -43,8 +42,8 @@ impl ErrorsReport {
 }
 
 impl Plan {
-    /// Returns the proven statement about the errors for which the motion must be free. `None` without errors, and for an
-    /// unknown answer.
+    /// Returns what is proven about the errors for which the motion must be free. `None` without errors, and for an unknown
+    /// answer.
     pub fn claim_about_errors(&self) -> Option<&'static str> {
         self.problem().errors()?;
         match self.status() {

@@ -8,13 +8,13 @@ use cplan_motion::{Format, JointMotion, Trajectory, csv, csv_of_joints, ros_yaml
 use cplan_motion::{Stage, mcap};
 
 impl Plan {
-    /// Returns the result as a file in this format. `None` if the format can contain only a trajectory and there is no
-    /// motion. All formats except MCAP are text in UTF-8.
+    /// Returns the result as a file in this format. `None` if the format has only a trajectory, but there is no motion. All
+    /// formats except MCAP are text in UTF-8.
     ///
-    /// The table of a task has a column with the number of each sample's step, counted from 1 in the order of
-    /// execution. If the tool has joints, it has all joints. A ROS 2 message has the whole motion. A recording has a message for each step: its motion, followed
-    /// by the turns of the wrist and strokes of the tool. This recording has nothing to display; see
-    /// `PlanOutput::bytes` of the crate `view` for one that has.
+    /// The table of a task has a column with the number of each sample's step, counted from 1 in the order of execution. If the
+    /// tool has joints, the table has all joints. A ROS 2 message has the whole motion. A recording has a message for each step:
+    /// its motion, then the turns of the wrist and the strokes of the tool. It lacks a scene to display; see `PlanOutput::bytes`
+    /// of the crate `view` for one with a scene.
     pub fn encoded(&self, format: Format) -> Option<Vec<u8>> {
         Some(match format {
             Format::Json => self.to_json().into_bytes(),
@@ -43,9 +43,8 @@ impl Plan {
         Some(mcap(&steps.iter().map(|(begin, motion)| (motion, *begin)).collect::<Vec<_>>(), stage))
     }
 
-    /// Returns the motion of each step of a task as a file of its own. The files have no waits, and their times count
-    /// from the beginning of the motion. `None` for a single motion, and for formats that cannot contain single
-    /// trajectories.
+    /// Returns the motion of each step of a task as a separate file, without waits, with times from the beginning of the motion.
+    /// `None` for a single motion, and for formats that cannot contain single trajectories.
     pub fn encoded_per_step(&self, format: Format) -> Option<Vec<Vec<u8>>> {
         let (_, answer) = self.task()?;
         let text: Vec<String> = match format {
@@ -67,7 +66,7 @@ impl Plan {
         Some(text.into_iter().map(String::into_bytes).collect())
     }
 
-    /// Returns the motion of all joints, without accelerations. `None` unless it is a task and the tool has joints.
+    /// Returns the motion of all joints, without accelerations. `None` unless it is a task whose tool has joints.
     pub(super) fn motion_with_tool(&self) -> Option<JointMotion> {
         if !self.moves_tool() {
             return None;
@@ -81,7 +80,7 @@ impl Plan {
         self.task().is_some() && self.problem().robot().joints.joints.iter().any(is_tool)
     }
 
-    /// Returns a motion as a table. If given, `steps` has the number of each sample's step.
+    /// Returns a motion as a table. `steps`, if given, has the number of each sample's step.
     fn table(&self, motion: &Trajectory, steps: Option<&[usize]>) -> String {
         let joints = self.arm().joints.each_ref().map(|joint| joint.name.clone());
         let motors = self.arm().motor_angles(&motion.position);

@@ -1,8 +1,8 @@
 //! The result as JSON: its fields and their order.
 //!
-//! Fields that scripts rely on are always present: `path`, `length`, `clearance` and `trajectory` are null if there is
-//! none. Other fields are omitted if they have no value. Numbers are finite: radians for a revolute joint, metres for a
-//! prismatic one, and seconds.
+//! The fields that scripts rely on are always present: `path`, `length`, `clearance` and `trajectory`, which may be null. Other
+//! fields are omitted if they have no value. Numbers are finite: radians for a revolute joint, metres for a prismatic one, and
+//! seconds.
 
 use super::errors_report::ErrorsReport;
 use super::step_report::{FailedStepReport, step_reports};
@@ -22,7 +22,7 @@ use serde_json::value::RawValue;
 use std::collections::BTreeMap;
 use std::time::Duration;
 
-/// A writer that writes selected fields, in the order in which they are passed to it.
+/// Writes selected fields, in the order in which they are passed to it.
 struct Fields<'a, M> {
     map: M,
     /// Names of the fields to write. Empty for all fields.
@@ -74,7 +74,7 @@ impl From<JointMotion> for AllJoints {
     }
 }
 
-/// Descriptions of the assumed limits, by joint, and in one text.
+/// Descriptions of the assumed limits, by joint, and all in one text.
 #[derive(Serialize)]
 struct AssumedLimitTexts {
     #[serde(flatten)]
@@ -173,8 +173,7 @@ impl PlanResult<'_> {
         self.trajectory(fields, plan.trajectory().map(|trajectory| self.samples(trajectory, None)))
     }
 
-    /// Writes the fields of a task. The path follows the steps. (In the result of a motion, the path precedes the
-    /// bounds.)
+    /// Writes the fields of a task. Its path follows the steps; in the result of a motion, the path precedes the bounds.
     fn task<M: SerializeMap>(&self, fields: &mut Fields<M>, task: &Task, answer: &TaskAnswer) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         let motion = answer.outcome.found();
@@ -200,7 +199,7 @@ impl PlanResult<'_> {
         fields.add_optional("all_joints", plan.motion_with_tool().map(AllJoints::from))
     }
 
-    /// Writes the margins of the motion, if there is one. They are computed only if they are written.
+    /// Writes the margins of the motion, if there is one. Computes them only if they are written.
     fn margins<M: SerializeMap>(&self, fields: &mut Fields<M>) -> Result<(), M::Error> {
         let Self { plan, .. } = self;
         let is_written = plan.trajectory().is_some() && ["margins", "tolerances"].iter().any(|name| fields.has(name));
@@ -225,8 +224,7 @@ impl PlanResult<'_> {
     }
 }
 
-/// Returns the names of the joints that a tip goal leaves free. The path's last waypoint shows which values were
-/// chosen.
+/// Returns the names of the joints that a tip goal leaves free. The path's last waypoint has the chosen values.
 fn free_joints(problem: &MotionProblem) -> Vec<&str> {
     let goals = problem.goals().pieces();
     let is_free = |k: &usize| goals.iter().any(|goals| goals.ends()[0][*k] != goals.ends()[1][*k]);
@@ -277,7 +275,7 @@ impl Plan {
         "all_joints",
     ];
 
-    /// Returns the result with these fields only, in their usual order. If the list is empty, returns all fields.
+    /// Returns the result with only these fields, in their usual order. An empty list stands for all fields.
     pub fn result<'a>(&'a self, fields: &'a [String]) -> impl Serialize + 'a {
         PlanResult { plan: self, fields, certificate: None }
     }

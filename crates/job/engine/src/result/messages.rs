@@ -1,10 +1,10 @@
 //! Motions of all joints of the robot during a task, for messages that name them.
 //!
-//! The arm moves with the tool raised, and the wrist does not turn the payload, except where a stroke or a turn overlaps
-//! with the motion. While the arm stands still, the wrist turns, and the tool is lowered and raised.
-//! If the world names the wrist's joint, that joint compensates the rotation of link 2, so that level payloads keep
-//! their orientation. Without a payload, it returns towards its rest position during the motion, as far as its limits
-//! allow, or turns to the value that the step states. Along a line, it gives the tool its angle.
+//! While the arm moves, the tool is raised, and the wrist does not turn the payload, except where a stroke or a turn overlaps
+//! with the motion. While the arm stands still, the wrist turns, and the tool is lowered and raised. If the world names the
+//! wrist's joint, this joint compensates the rotation of link 2, so that level payloads keep their orientation. Without a
+//! payload, it returns towards its rest position during the motion, as far as its limits allow, or turns to the value that the
+//! step states. Along a line, it sets the tool's angle.
 
 use cplan_handling::{Derivative, Driver, Drives, Piece, RobotJoint, RobotJoints, Task, ToolJoint, Wrist};
 use cplan_legs::{Event, Leg, Sequence, ToolStroke, WristMotion, wrist_state};
@@ -13,10 +13,10 @@ use cplan_motion::recorded::turn_profile;
 use cplan_motion::{AccelerationJump, JointMotion, nanoseconds, phase_at, seconds, single, whole_nanoseconds};
 use thiserror::Error;
 
-/// Reason why messages cannot name all joints as requested.
+/// The reason why messages cannot name all joints as requested.
 #[derive(Debug, Clone, PartialEq, Error)]
 pub enum MessageError {
-    /// Accelerations that jump, which would mislead programs that read them.
+    /// Accelerations that jump, which would mislead readers.
     #[error(transparent)]
     Jump(#[from] AccelerationJump),
     /// A joint of the tool that moves. Its accelerations are unknown.
@@ -49,13 +49,12 @@ pub enum MessageError {
 pub struct Messages {
     /// The motion of the whole task, including the times at which the arm stands still.
     pub whole: JointMotion,
-    /// For each step, the time in seconds at which it begins, and its motion until all of the joints are at rest. If the
-    /// arm departs while the tool is still raised or turned for the step before, the motion begins with that raising or
-    /// turn.
+    /// For each step, the time in seconds at which it begins, and its motion until all joints are at rest. If the arm departs
+    /// while the tool is still being raised or turned for the previous step, the motion begins with this stroke or turn.
     pub steps: Vec<(f64, JointMotion)>,
 }
 
-/// Fraction of a limit by which rounding may exceed it.
+/// Excess over a limit, as a fraction of it, that is due to rounding.
 const ROUNDING: f64 = 1e-6;
 
 impl Messages {
@@ -91,8 +90,8 @@ impl Messages {
     }
 }
 
-/// Shortest time between a row and a change of a stroke's acceleration that gets a row of its own, nanoseconds. Up to
-/// this time, the stroke between rows deviates from its profile by less than a nanometre.
+/// A change of a stroke's acceleration at least this far from a row, in nanoseconds, gets its own row. If it is nearer, the
+/// stroke between rows deviates from its profile by less than a nanometre.
 const MIN_ROW_GAP: u64 = 1_000;
 
 /// A stroke of the tool, down or up, or a turn of the wrist.
@@ -100,7 +99,7 @@ const MIN_ROW_GAP: u64 = 1_000;
 struct TimedStroke {
     /// Time at which it begins, nanoseconds.
     begin: u64,
-    /// The joint's values at both ends, metres or radians. For a turn, they count from its beginning.
+    /// The joint's values at both ends, metres or radians; for a turn, relative to its beginning.
     ends: [f64; 2],
     /// Seconds since the beginning, distance and speed at the ends of phases of constant jerk.
     phases: Vec<[f64; 3]>,
@@ -112,15 +111,15 @@ impl TimedStroke {
         self.phases.iter().map(|[time, ..]| self.begin + nanoseconds(*time))
     }
 
-    /// Returns the joint's value and velocity at the time of a row during or after the stroke. `before` and `after` are
-    /// the times of the rows beside it.
+    /// Returns the joint's value and velocity at the time of a row during or after the stroke. `before` and `after` are the times
+    /// of the adjacent rows.
     fn at(&self, time: u64, [before, after]: [Option<u64>; 2]) -> [f64; 2] {
         let [from, to] = self.ends;
         let since = seconds(time - self.begin);
         let end = self.phases.last().map_or(0.0, |[time, ..]| *time);
         let phase = self.phases.windows(2).find(|phase| phase[1][0] > since);
-        // A row may stand for the beginning or the end of the stroke shortly before or after it, unless the row beside it
-        // does. If two rows did, the stroke between the next ones would be too fast.
+        // A row shortly before or after the beginning or the end of the stroke may stand for it, unless the adjacent row does. If
+        // two rows did, the stroke between the next ones would be too fast.
         let end = self.begin + nanoseconds(end);
         let is_near = |row: Option<u64>, change: u64| row.is_some_and(|row| row.abs_diff(change) <= MIN_ROW_GAP);
         let is_over = time >= end || (is_near(Some(time), end) && !is_near(after, end));
@@ -141,7 +140,7 @@ impl Messages {
         Self { whole: self.whole.without_accelerations(), steps: steps.collect() }
     }
 
-    /// Checks that quintics also describe the motion of the tool. They do so only if it does not move, because its
+    /// Checks that quintics also describe the motion of the tool. This is so only if the tool does not move, because its
     /// acceleration would jump.
     pub fn check_accelerations(&self, robot: &RobotJoints) -> Result<(), MessageError> {
         let tool = |driver: Driver| matches!(driver, Driver::Stroke | Driver::Wrist);
@@ -167,10 +166,10 @@ struct Row {
 }
 
 impl Row {
-    /// Returns the row at a time between this row and a later one. All joints move along cubics.
+    /// Returns the row at a time between this row and a later one, with all joints on cubics.
     fn toward(&self, later: &Self, at: u64) -> Self {
         if self.value == later.value && self.rate == later.rate {
-            // Rounding must not move joints at rest.
+            // A rounding error must not move joints at rest.
             return Self { at, ..*self };
         }
         let ends = [self.at, later.at].map(seconds);
@@ -196,14 +195,14 @@ impl Row {
 struct Rows(Vec<Row>);
 
 impl Rows {
-    /// Adds a row. It replaces an earlier row with the same time, because only its acceleration applies to the interval
-    /// that begins then.
+    /// Adds a row. It replaces an earlier row with the same time, because its acceleration is that of the interval that begins
+    /// then.
     fn push(&mut self, row: Row) {
         self.0.pop_if(|last| last.at == row.at);
         self.0.push(row);
     }
 
-    /// Adds further rows where the acceleration of a stroke or a turn changes.
+    /// Adds rows where the acceleration of a stroke or a turn changes.
     fn add_changes<'a>(&mut self, strokes: impl Iterator<Item = &'a TimedStroke>) {
         for change in strokes.flat_map(TimedStroke::changes) {
             let next = self.0.partition_point(|row| row.at < change);
@@ -215,7 +214,7 @@ impl Rows {
         }
     }
 
-    /// Adds strokes to rows that have the initial value of the stroke.
+    /// Adds strokes to rows with the initial value of the stroke.
     fn add_strokes(&mut self, strokes: &[TimedStroke]) {
         for index in 0..self.0.len() {
             let (beside, row) = (self.beside(index), &mut self.0[index]);
@@ -248,7 +247,7 @@ impl Rows {
         }
     }
 
-    /// Returns the time of the row that stands for a time: itself, unless there is a row closely before or after it.
+    /// Returns the time of the row that stands for `time`: `time` itself, unless there is a row closely before or after it.
     fn nearest(&self, time: u64) -> u64 {
         let next = self.0.partition_point(|row| row.at < time);
         let beside = [next.checked_sub(1), Some(next)].into_iter().flatten().filter_map(|row| self.0.get(row));
@@ -256,7 +255,7 @@ impl Rows {
         closest.filter(|at| at.abs_diff(time) <= MIN_ROW_GAP).unwrap_or(time)
     }
 
-    /// Returns the rows between two times. The last one has no acceleration, since its interval is not included.
+    /// Returns the rows between two times. The last one has no acceleration, because the interval after it is not included.
     fn between(&self, from: u64, to: u64) -> Self {
         let mut rows: Vec<Row> = self.0.iter().filter(|row| (from..=to).contains(&row.at)).copied().collect();
         rows.last_mut().into_iter().for_each(|last| last.acceleration = [0.0; 2]);
@@ -290,7 +289,7 @@ struct Tool<'a> {
 }
 
 impl Tool<'_> {
-    /// Returns the row at the beginning of a task in which the arm rests first. `None` if it departs at once.
+    /// Returns the row at the beginning of a task that begins with a rest. `None` if the arm departs at once.
     fn first_row(&self, leg: &Leg, sequence: &Sequence) -> Option<Row> {
         let [begin, ..] = sequence.times(0);
         let planned = *leg.timed.trajectory.position.first()?;
@@ -303,7 +302,7 @@ impl Tool<'_> {
         self.robot.stroke.as_ref().map_or(0.0, |stroke| stroke.lowered(self.task.start_tool.depth))
     }
 
-    /// Records the raising with which a motion begins. `departure` is the time at which the arm departs, in nanoseconds.
+    /// Records the stroke up with which a motion begins. `departure` is the time at which the arm departs, in nanoseconds.
     fn raise_first(&mut self, leg: &Leg, departure: u64) {
         let Some(raising) = leg.raising else { return };
         let mut at = (departure + nanoseconds(leg.overlap.raising)).saturating_sub(nanoseconds(raising.seconds));
@@ -327,8 +326,7 @@ impl Tool<'_> {
         }
         let Some(&Row { value, .. }) = rows.0.last() else { return rows };
         self.wrist = value.wrist;
-        // In a place step, the wrist turns before the tool is lowered. In a pick, it turns after the tool has been
-        // raised.
+        // At a place, the wrist turns before the tool is lowered; at a pick, after the tool has been raised.
         let places = matches!(leg.event, Some(Event::Release { .. }));
         let mut at = arrival - nanoseconds(leg.overlap.arrival());
         if places {
@@ -342,7 +340,7 @@ impl Tool<'_> {
             self.turn(leg, &mut at);
         }
         self.wrist_motion(leg);
-        // The whole motion ends with the sequence, in the same nanosecond.
+        // The whole motion ends in the same nanosecond as the sequence.
         rows.0.pop_if(|last| last.at >= end);
         rows.push(Row { at: end, value, rate: Drives::default(), acceleration: [0.0; 2] });
         rows
@@ -361,7 +359,7 @@ impl Tool<'_> {
         [value - self.turned, rate]
     }
 
-    /// Records that the wrist turns the payload, and advances the time to the end of the turn.
+    /// Records a turn of the payload by the wrist, and advances the time to its end.
     fn turn(&mut self, leg: &Leg, at: &mut u64) {
         let (Some((turn, seconds)), Some(limits)) = (leg.turn, self.task.wrist) else { return };
         if let Some(joint) = &self.robot.wrist {
@@ -376,7 +374,7 @@ impl Tool<'_> {
         *at += nanoseconds(seconds);
     }
 
-    /// Records that the wrist turns to the value that the step states.
+    /// Records the turn of the wrist to the value that the step states.
     fn wrist_motion(&mut self, leg: &Leg) {
         let (Some(WristMotion { angle, begin, seconds, .. }), Some(limits)) = (leg.wrist, self.task.wrist) else {
             return;
@@ -388,7 +386,7 @@ impl Tool<'_> {
         }
     }
 
-    /// Records that the tool is lowered or raised, and advances the time to the end of the stroke.
+    /// Records a stroke down or up, and advances the time to its end.
     fn stroke(&mut self, stroke: Option<ToolStroke>, up: bool, at: &mut u64) {
         let (Some(stroke), Some(limits)) = (stroke, &self.task.stroke) else { return };
         let ends = if up { [stroke.lowered, stroke.raised] } else { [stroke.raised, stroke.lowered] };
@@ -399,7 +397,7 @@ impl Tool<'_> {
         *at += nanoseconds(stroke.seconds);
     }
 
-    /// Checks that the wrist's joint stays within its range and below its top speed.
+    /// Checks that the wrist's joint is within its range and below its top speed.
     fn check(&self, rows: &Rows) -> Result<(), MessageError> {
         let (Some(joint), Some(limits)) = (&self.robot.wrist, self.task.wrist) else { return Ok(()) };
         let what = |row: &Row| limit_violation(joint, limits, row.value.wrist, row.rate.wrist);
@@ -410,7 +408,7 @@ impl Tool<'_> {
     }
 }
 
-/// Describes the violation if a joint exceeds its speed or range. `None` otherwise.
+/// Describes the violation if a joint exceeds its speed or its range.
 fn limit_violation(joint: &ToolJoint, limits: Wrist, value: f64, rate: f64) -> Option<String> {
     if rate.abs() > limits.velocity * (1.0 + ROUNDING) {
         return Some(format!("turn at {:.3} rad/s, above its top speed of {} rad/s", rate.abs(), limits.velocity));

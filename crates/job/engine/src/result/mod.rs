@@ -20,8 +20,7 @@ use cplan_planners::planner::VisibilityGraph;
 use cplan_solver::{Bound, Planner, Setting, Settings};
 
 impl Plan {
-    /// Returns the reason why there is no motion, or why it is not known whether there is one. `None` if there is a
-    /// motion.
+    /// Returns the reason why there is no motion, or why this is not known. `None` if there is a motion.
     pub fn reason(&self) -> Option<String> {
         match self.task() {
             None => self.motion().and_then(|(_, answer)| answer.reason()),
@@ -29,11 +28,11 @@ impl Plan {
         }
     }
 
-    /// Returns the waypoints of the straight segments that the motion follows, before corners are rounded. For a task,
-    /// returns those of all its motions.
+    /// Returns the waypoints of the motion, between which its path is straight, before corners are rounded. For a task, returns
+    /// those of all motions.
     pub fn waypoints(&self) -> Option<Vec<[f64; 2]>> {
         let mut whole: Vec<[f64; 2]> = Vec::new();
-        // Each motion begins where the one before ends.
+        // Each motion begins where the previous one ends.
         for path in self.found()?.paths {
             let path: Vec<[f64; 2]> = path.waypoints().iter().map(|q| [q[0], q[1]]).collect();
             let shared = usize::from(whole.last() == path.first());
@@ -58,7 +57,7 @@ impl Plan {
         self.found().and_then(|found| finite(found.clearance))
     }
 
-    /// Describes the link and the obstacle that come closest in a single motion.
+    /// Describes the link and the obstacle that come nearest in a single motion.
     pub fn closest(&self) -> Option<String> {
         let (problem, answer) = self.motion()?;
         let nearest = answer.outcome.found()?.timed.curve.nearest()?;
@@ -70,18 +69,18 @@ impl Plan {
         self.motion().and_then(|(_, answer)| answer.bound())
     }
 
-    /// Returns how the motion passes moving obstacles. `None` if there are none.
+    /// Returns how the motion passes moving obstacles. `None` if no obstacle moves.
     pub fn timing(&self) -> Option<&Timing> {
         self.found()?.timing
     }
 
-    /// Returns how the planner searched its grid. For a roadmap, only a search other than the usual one is reported.
+    /// Returns how the planner searched its grid. For a roadmap, reports only an unusual search.
     pub fn search(&self) -> Option<SearchReport> {
         search_used(&self.options().planner)
     }
 }
 
-/// Describes the step that fails and the reason, in a sentence.
+/// Describes the failing step and the reason in a sentence.
 fn reason(task: &Task, FailedStep { step, .. }: &FailedStep, status: Status) -> String {
     let cycle = if step.cycle > 1 { format!(" of cycle {}", step.cycle) } else { String::new() };
     let which = format!("step {}{cycle}, {} ({})", step.number, step.action.describe(&task.objects), step.place);
@@ -93,7 +92,7 @@ fn reason(task: &Task, FailedStep { step, .. }: &FailedStep, status: Status) -> 
     }
 }
 
-/// Returns a value if it is finite, because JSON cannot represent infinity.
+/// Returns a value if it is finite. JSON has no infinity.
 pub(super) fn finite(value: f64) -> Option<f64> {
     value.is_finite().then_some(value)
 }
@@ -109,7 +108,7 @@ fn optimum(bound: Bound) -> LengthOptimality {
     LengthOptimality { metric, weights, length: bound.upper, lower_bound: bound.lower, gap: finite(bound.gap()) }
 }
 
-/// Returns how a planner searches its grid. For a roadmap, only a search other than the usual one is reported.
+/// Returns how a planner searches its grid. For a roadmap, reports only an unusual search.
 fn search_used(planner: &Planner) -> Option<SearchReport> {
     let Settings { grid_search, ties, forward, neighborhood, .. } = planner.settings();
     if planner.method().reads(Setting::GridSearch) {

@@ -19,7 +19,7 @@ fn action_name(action: &Action) -> &'static str {
     }
 }
 
-/// A turn of the wrist. The arm stands still, except in the overlaps.
+/// A turn of the wrist. The arm stands still, except during overlaps.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct TurnReport {
     /// Orientation of the object at the beginning, radians.
@@ -43,25 +43,25 @@ pub struct TurnReport {
     pub clearance: Option<f64>,
 }
 
-/// Returns true for an overlap of no time, which is omitted.
+/// Returns true for an empty overlap, which is omitted.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes references")]
 fn is_zero(seconds: &f64) -> bool {
     *seconds == 0.0
 }
 
-/// The stroke of the tool. The tool is lowered, the gripper acts, and the tool is raised. The arm stands still, except in
-/// the overlaps.
+/// A stroke of the tool: the tool is lowered, the gripper acts, and the tool is raised. The arm stands still, except during
+/// overlaps.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct StrokeReport {
     /// The joint's value while the tool is raised, metres.
     pub raised: f64,
     /// The joint's value while the tool is lowered, in metres.
     pub lowered: f64,
-    /// Duration of lowering, in seconds. Raising takes as long.
+    /// Duration of the stroke down, in seconds. The stroke up takes as long.
     pub seconds: f64,
-    /// Time from the beginning of the lowering to the arrival of the arm, in seconds. 0 if the arm arrives first.
+    /// Time from the beginning of the stroke down to the arrival of the arm, in seconds. 0 if the arm arrives first.
     pub before_arrival: f64,
-    /// Time from the beginning of the next motion to the end of the raising, in seconds. 0 if the arm departs later.
+    /// Time from the beginning of the next motion to the end of the stroke up, in seconds. 0 if the arm departs later.
     pub after_departure: f64,
     /// Proven lower bound on the distance to obstacles while the arm stands still, metres. `None` if no obstacle is
     /// within reach.
@@ -85,7 +85,7 @@ pub struct WristReport {
 /// The motion of the wrist's joint along a line, at the samples of the step.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct WristMotionReport {
-    /// Proven upper bound on the difference between the tool's angle and the angle that the line asks for, radians.
+    /// Proven upper bound on the difference between the tool's angle and that which the line requires, radians.
     pub deviation: f64,
     /// Values of the joint, radians.
     pub position: Vec<f64>,
@@ -102,7 +102,7 @@ impl WristMotionReport {
     }
 }
 
-/// A step of the answer: a motion that begins and ends at rest, and a rest after it.
+/// A step of the answer: a motion from rest to rest, and a rest after it.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct StepReport {
     /// The step's number in the world file, from 1.
@@ -125,10 +125,10 @@ pub struct StepReport {
     pub path: Vec<[f64; 2]>,
     /// Euclidean length of the path in joint space.
     pub length: f64,
-    /// Proven lower bound on the distance between obstacles and the arm with its payload during the step, in metres.
-    /// `None` if no obstacle is within reach.
+    /// Proven lower bound on the distance between obstacles and the arm with its payload during the step, in metres. `None` if no
+    /// obstacle is within reach.
     pub clearance: Option<f64>,
-    /// Description of the link (or payload) and the obstacle that come closest during the motion.
+    /// Description of the link (or payload) and the obstacle that come nearest during the motion.
     pub closest: Option<String>,
     /// How the motion rounds the corners of the path.
     pub blends: BlendReport,
@@ -136,19 +136,18 @@ pub struct StepReport {
     /// line.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub deviation: Option<f64>,
-    /// The motion of the wrist's joint along a line for which the tool has an angle.
+    /// The motion of the wrist's joint along a line that states the tool's angle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wrist_motion: Option<WristMotionReport>,
     /// The turn of the wrist after a pick or before a place.
     pub turn: Option<TurnReport>,
-    /// The stroke with which the step begins, because the tool is lowered there. `None` if it is raised.
+    /// The stroke up with which the step begins if the tool is lowered. `None` if it is raised.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub raising: Option<StrokeReport>,
-    /// The stroke of the tool at the end of the motion. At the end of a move, the tool stays lowered. `None` if the tool
-    /// stays raised.
+    /// The stroke at the end of the motion. After a move, the tool stays lowered. `None` if it stays raised.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stroke: Option<StrokeReport>,
-    /// The turn of the wrist to the value that the step states. `None` if it states none.
+    /// The turn of the wrist to the value that the step states, if it states one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub wrist: Option<WristReport>,
     /// Index of the motion's first sample in the whole trajectory, from 0. `None` if the result has no whole
@@ -290,8 +289,7 @@ pub struct IkSolutionReport {
     pub joints: [f64; 2],
     /// The reason why the arm cannot reach the solution, or is not known to.
     pub reason: String,
-    /// Boxes of colliding configurations that separate the solution from the arm's configuration. `None` if the reason
-    /// is another one.
+    /// Collision boxes that separate the solution from the arm's configuration. `None` if the reason is another one.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub proof: Option<CheckedProof>,
 }
@@ -328,7 +326,7 @@ pub struct FailedStepReport {
 }
 
 impl FailedStepReport {
-    /// Creates the report of the first step of a task that cannot be done, with the reasons.
+    /// Creates the report of the first step of a task that cannot be performed, with the reasons.
     pub fn new(task: &Task, why: &FailedStep) -> Self {
         let FailedStep { step, reasons, scene, from, ik_solutions, .. } = why;
         Self {

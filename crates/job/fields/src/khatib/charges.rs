@@ -1,17 +1,17 @@
-//! The repulsion by all obstacle cells together, computed as two convolutions by the fast Fourier transform.
+//! The repulsion by all obstacle cells together: two convolutions, computed by the fast Fourier transform.
 
 use super::Limits;
 use cplan_interrupt::checkpoint;
 use cplan_planners::cspace::Grid;
 use std::f64::consts::TAU;
 
-/// The effect of all obstacle cells on every cell, as that of charges. It has the sum of `1 / d`, and the sum of the
-/// forces `1 / d^2` away from the obstacle cells. `d` is the distance of the cells' centres, in cells; for continuous
-/// joints, in the shorter direction. If cells are not square, the unit of length is the side of a square with the same
-/// area. With [`Limits::High`], a frame of one cell beyond the limits of intervals also counts as obstacle.
+/// The effect of all obstacle cells on every cell, as if they were charges: the sum of `1 / d`, and the sum of the forces
+/// `1 / d^2` away from obstacle cells. `d` is the distance of the cells' centres, in cells; for continuous joints, in the shorter
+/// direction. If cells are not square, the unit of length is the side of a square with the same area. With [`Limits::High`], a
+/// frame of one cell beyond the limits of intervals also counts as obstacle.
 ///
-/// The sum of `1 / d^2` approximates the integral of area over squared distance, so it hardly depends on the size of
-/// cells. The result equals the direct sums up to rounding. Takes `O(n log n)` for `n` cells.
+/// The sum of `1 / d^2` approximates the integral of area over squared distance, so it hardly depends on the size of cells. The
+/// result equals the direct sums up to rounding. Takes `O(n log n)` for `n` cells.
 #[derive(Debug, Clone)]
 pub(super) struct Charges {
     /// Sum of `1 / d` for each cell.
@@ -38,8 +38,8 @@ impl Charges {
         sources.transform(1.0);
         let step = grid.step();
         let side = (step[0] * step[1]).sqrt();
-        // Displacement along an axis at a place of the padded plane. The second half of the plane stands for negative
-        // displacements. Halfway around a circle, the forces in both directions cancel out.
+        // Displacement along an axis at a place of the padded plane, whose second half stands for negative displacements. Halfway
+        // around a circle, the forces in both directions cancel.
         let along = |k: usize, i: usize| {
             let n = grid.cells[k] as f64;
             let d = if 2 * i < padded[k] { i as f64 } else { i as f64 - padded[k] as f64 };
@@ -70,7 +70,7 @@ impl Charges {
             };
             (0..grid.blocked.len()).map(of).collect::<Vec<_>>()
         };
-        // Store both components of a force as one complex number.
+        // Both components of a force form one complex number.
         let force = sums(&|d, away| away.map(|x| x / (d * d * d)));
         let potential = sums(&|d, _| [1.0 / d, 0.0]).into_iter().map(|[sum, _]| sum).collect();
         Self { potential, force }
@@ -88,8 +88,7 @@ impl Plane {
         Self { cells, values: vec![[0.0; 2]; cells[0] * cells[1]] }
     }
 
-    /// Computes the Fourier transform if `sign` is 1. If it is -1, computes the inverse transform, multiplied by the
-    /// number of cells.
+    /// Computes the Fourier transform if `sign` is 1, or, if it is -1, the inverse transform multiplied by the number of cells.
     fn transform(&mut self, sign: f64) {
         for _ in 0..2 {
             let columns = self.cells[1];

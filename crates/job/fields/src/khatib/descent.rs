@@ -1,19 +1,19 @@
-//! Attraction and repulsion as a guide for a curve that is not bound to the centres of cells.
+//! Attraction and repulsion as a guide for a curve between the centres of cells.
 
 use super::{Escape, ForceField, Trap};
 use cplan_harmonic::follow::Guide;
 use cplan_planners::planner::grid_path::Place;
 use std::collections::BTreeSet;
 
-/// The forces as a [`Guide`] for a curve. The curve descends the potential. Saturated forces have no potential; then
-/// the curve follows the forces, as long as these lead to cells that it has not visited.
+/// The forces as a [`Guide`] for a curve. The curve descends the potential. Saturated forces have no potential; the curve follows
+/// them as long as they lead to new cells.
 pub struct ForceGuide<'a, F> {
     field: &'a ForceField<'a>,
     goals: BTreeSet<usize>,
     visited: BTreeSet<usize>,
     /// Returns the free cell at a place; `None` for cells that are not free, and beyond limits.
     at: F,
-    /// Method of leaving local minima. With `None`, a local minimum ends the path.
+    /// Escape from local minima. With `None`, a local minimum ends the path.
     escape: Option<Escape>,
     escaped: EscapedMinima,
 }
@@ -34,8 +34,7 @@ impl<'a, F: Fn(Place) -> Option<usize>> ForceGuide<'a, F> {
         Self { field, goals, visited: BTreeSet::new(), at, escape: None, escaped: EscapedMinima::default() }
     }
 
-    /// Sets the method of leaving local minima. It has no effect with saturated forces: where they trap the path, the
-    /// path ends.
+    /// Sets the escape from local minima. It has no effect with saturated forces: where they trap the path, the path ends.
     #[must_use]
     pub fn with_escape(self, escape: Option<Escape>) -> Self {
         Self { escape, ..self }

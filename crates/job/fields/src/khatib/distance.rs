@@ -3,12 +3,12 @@
 use super::Limits;
 use cplan_planners::cspace::Grid;
 
-/// Returns, for every cell, the displacement from its centre to the centre of the nearest blocked cell, radians or
-/// metres. For continuous joints, it is in the shorter direction. It is zero for a blocked cell, and infinite if no
-/// cell is blocked. With [`Limits::High`], the cells beyond the limits of intervals are blocked as well.
+/// Returns, for every cell, the displacement from its centre to the centre of the nearest blocked cell, radians or metres; for
+/// continuous joints, in the shorter direction. It is zero for a blocked cell, and infinite if no cell is blocked. With
+/// [`Limits::High`], cells beyond the limits of intervals are also blocked.
 ///
-/// The result is exact up to rounding. It is computed first along rows, then by the lower envelope of parabolas along
-/// columns (Felzenszwalb, Huttenlocher 2012). Takes linear time in the number of cells.
+/// Exact up to rounding. Computed first along rows, then by the lower envelope of parabolas along columns (Felzenszwalb,
+/// Huttenlocher 2012). Linear in the number of cells.
 pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
     let [rows, columns] = grid.cells;
     let step = grid.step();
@@ -26,7 +26,7 @@ pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
             let inside = (0..n).contains(&i) || wraps[0];
             let offset = if inside { along[i.rem_euclid(n) as usize][j] } else { solid[0].then_some(0) };
             if let Some(offset) = offset {
-                // The unit of heights is the square of the step between rows.
+                // Heights are in units of the squared step between rows.
                 let height = offset as f64 * step[1] / step[0];
                 envelope.add(Site { at: i, height: height * height, offset });
             }
@@ -38,8 +38,8 @@ pub fn nearest_obstacles(grid: &Grid, limits: Limits) -> Vec<[f64; 2]> {
     nearest
 }
 
-/// Returns, for each cell of a row, the number of steps to the nearest blocked cell in the row. If two are equally
-/// near, takes the one with the lower index. Returns `None` if no cell of the row is blocked.
+/// Returns, for each cell of a row, the number of steps to the nearest blocked cell in the row; of two equally near ones, that
+/// with the lower index. `None` if no cell of the row is blocked.
 fn steps_in_row(row: &[bool], wraps: bool, solid: bool) -> Vec<Option<i64>> {
     let n = row.len() as i64;
     let blocked = |j: i64| match (0..n).contains(&j) {
@@ -53,7 +53,7 @@ fn steps_in_row(row: &[bool], wraps: bool, solid: bool) -> Vec<Option<i64>> {
         }
     };
     let mut nearest: Vec<Option<i64>> = vec![None; row.len()];
-    // Go over a circle more than once, so that blocked cells across the seam are known.
+    // A circle is scanned more than once, so that blocked cells across the seam are known.
     let (first, last) = if wraps { (-n, 2 * n) } else { (-1, n + 1) };
     let mut pass = |places: &mut dyn Iterator<Item = i64>| {
         let mut seen = None;
@@ -79,11 +79,11 @@ struct Site {
     offset: i64,
 }
 
-/// The lower envelope of parabolas that have the same shape and different positions.
+/// The lower envelope of parabolas of the same shape at different positions.
 #[derive(Default)]
 struct Envelope {
     sites: Vec<Site>,
-    /// For each parabola, the beginning of the range in which it is the lowest.
+    /// For each parabola, the beginning of the range in which it is lowest.
     from: Vec<f64>,
 }
 
@@ -109,7 +109,7 @@ impl Envelope {
         self.from.push(from);
     }
 
-    /// Iterates over the places `0..n`, with the lowest parabola at each. Yields nothing if there are no parabolas.
+    /// Iterates over the places `0..n`, with the lowest parabola at each. Empty if there are no parabolas.
     fn lowest(&self, n: usize) -> impl Iterator<Item = (usize, Site)> + '_ {
         let mut k = 0;
         (0..n).filter_map(move |i| {
@@ -121,7 +121,7 @@ impl Envelope {
     }
 }
 
-/// Returns the place from which on `b`, which is to the right of `a`, is lower than `a`.
+/// Returns the place from which on `b` is lower than `a`. `b` is to the right of `a`.
 fn crossing(a: &Site, b: &Site) -> f64 {
     let (x, y) = (a.at as f64, b.at as f64);
     0.5 * ((b.height - a.height) / (y - x) + (x + y))
@@ -137,7 +137,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(300))]
 
-        /// Compares the distances with the least over all pairs of cells and their copies.
+        /// Compares the distances with the least one over all pairs of cells and their copies.
         #[test]
         fn distances_are_those_to_the_nearest_of_all_blocked_cells(
             (rows, columns, blocked) in (1..9_usize, 1..9_usize).prop_flat_map(|(rows, columns)| {

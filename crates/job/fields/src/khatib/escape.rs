@@ -1,7 +1,7 @@
-//! Methods of leaving a local minimum of attraction and repulsion, which forces alone never leave.
+//! Escapes from local minima of attraction and repulsion, which forces alone never leave.
 //!
-//! Both methods are from Barraquand and Latombe (*Robot motion planning: a distributed representation approach*, 1991):
-//! random walks, and a search that fills the basin of the minimum.
+//! Both methods are from Barraquand and Latombe (*Robot motion planning: a distributed representation approach*, 1991): random
+//! walks, and a search that fills the basin of the minimum.
 
 use super::ForceField;
 use cplan_geometry::OpenList;
@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Method of leaving a local minimum.
+/// Escape from a local minimum.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Escape {
@@ -20,9 +20,8 @@ pub enum Escape {
         /// Seed of the random numbers: the same seed gives the same walks.
         seed: u64,
     },
-    /// A search that fills the basin of the minimum. It always adds the lowest cell at the edge of the filled part,
-    /// until it reaches a cell that is lower than the minimum. It succeeds if free cells connect the minimum with a
-    /// goal.
+    /// A search that fills the basin of the minimum: it repeatedly adds the lowest cell at the edge of the filled part, until it
+    /// reaches a cell lower than the minimum. It succeeds if free cells connect the minimum with a goal.
     Wave,
 }
 
@@ -49,13 +48,13 @@ impl fmt::Display for Escape {
 /// Largest number of random walks from one minimum before the search gives up.
 const MAX_WALKS: usize = 256;
 
-/// Number of steps of the first walk. Each further walk has this many steps more than the one before.
+/// Number of steps of the first walk. Each further walk has this many more steps than the previous one.
 const FIRST_WALK_STEPS: usize = 16;
 
 impl ForceField<'_> {
-    /// Returns the cells from a local minimum to a lower cell or a goal. The minimum comes first, and consecutive cells
-    /// are neighbours. `number` counts the minima of a path, so that each has different random walks. Returns `None` if
-    /// no lower cell is found.
+    /// Returns the cells from a local minimum to a lower cell or a goal. The minimum comes first, and consecutive cells are
+    /// neighbours. `number` counts the minima of a path, so that each has different random walks. `None` if no lower cell is
+    /// found.
     pub(super) fn escape(
         &self,
         minimum: usize,
@@ -74,8 +73,8 @@ impl ForceField<'_> {
         }
     }
 
-    /// Fills the basin around a cell until a cell satisfies `is_out`. Returns the cells to that cell. Takes `O(n log
-    /// n)` for `n` filled cells.
+    /// Fills the basin around a cell until a cell satisfies `is_out`. Returns the cells from the first cell to that one.
+    /// `O(n log n)` for `n` filled cells.
     fn fill(&self, from: usize, is_out: impl Fn(usize) -> bool) -> Option<Vec<usize>> {
         let mut parents = BTreeMap::from([(from, from)]);
         let mut edge = OpenList::default();
@@ -98,8 +97,8 @@ impl ForceField<'_> {
         None
     }
 
-    /// Walks at random for this many steps, and then descends. Returns the cells of the walk without its loops, or
-    /// `None` if it does not leave the basin.
+    /// Walks at random for this many steps, and then descends. Returns the cells of the walk without its loops. `None` if it does
+    /// not leave the basin.
     fn walk(
         &self,
         from: usize,

@@ -1,5 +1,5 @@
-//! Attraction by the goal, and repulsion by the nearest obstacle (Khatib 1986) or by all obstacles (Faria 2006). The
-//! forces are local and cheap to compute, but have many local minima. Harmonic fields have none.
+//! Attraction by the goal, and repulsion by the nearest obstacle (Khatib 1986) or by all obstacles (Faria 2006). The forces are
+//! local and cheap to compute, but, in contrast to harmonic fields, have many local minima.
 
 use super::charges::Charges;
 use super::{Limits, nearest_obstacles};
@@ -45,8 +45,8 @@ pub struct Khatib {
     pub attraction: Attraction,
     /// Repulsion by the obstacles.
     pub repulsion: Repulsion,
-    /// True if each component of both forces is replaced by its tanh before the forces are added, so that no component
-    /// of either exceeds 1 (Gonçalves da Silva). Such a force is not a gradient: it has no potential.
+    /// True if each component of both forces is replaced by its tanh before the forces are added, so that none exceeds 1
+    /// (Gonçalves da Silva). Such a force is not a gradient, so it has no potential.
     pub saturated: bool,
 }
 
@@ -119,10 +119,10 @@ pub struct ForceField<'a> {
     obstacles: Obstacles,
 }
 
-/// The obstacles that repel each cell.
+/// The obstacles that repel a cell.
 #[derive(Debug, Clone)]
 enum Obstacles {
-    /// Only the nearest obstacle repels: its displacement from each cell.
+    /// Only the nearest obstacle repels: displacements from all cells.
     Nearest(Vec<[f64; 2]>),
     /// All obstacle cells repel together.
     Sum(Charges),
@@ -133,14 +133,14 @@ enum Obstacles {
 pub struct Trap {
     /// The cell that cannot be left.
     pub cell: usize,
-    /// Potential of the cell. Saturated forces have no potential; then this is the strength of the force.
+    /// Potential of the cell. For saturated forces, which have no potential, the strength of the force.
     pub value: f64,
-    /// True if the cell is a local minimum of the potential. If false, the forces lead back to a visited cell.
+    /// True if the cell is a local minimum of the potential. False if the forces lead back to a visited cell.
     pub minimum: bool,
 }
 
 impl<'a> ForceField<'a> {
-    /// Builds the field. There must be a goal. Takes `O(n)` for `n` cells, or `O(n log n)` with [`Repulsion::Sum`].
+    /// Creates the field; there must be a goal. `O(n)` for `n` cells, or `O(n log n)` with [`Repulsion::Sum`].
     pub fn new(grid: &'a Grid, laws: Khatib, goals: &[Configuration], limits: Limits) -> Self {
         let obstacles = match laws.repulsion {
             Repulsion::Sum(_) => Obstacles::Sum(Charges::new(grid, limits)),
@@ -151,13 +151,12 @@ impl<'a> ForceField<'a> {
         Self { grid, laws, goals: goals.to_vec(), obstacles }
     }
 
-    /// Returns the potential in a free cell. For saturated forces, returns the potential that they would have without
-    /// saturation.
+    /// Returns the potential in a free cell. For saturated forces, returns that of the forces before saturation.
     pub fn potential(&self, cell: usize) -> f64 {
         let Khatib { attraction, repulsion, .. } = self.laws;
         let push = match &self.obstacles {
             Obstacles::Nearest(nearest) => repulsion.potential(nearest[cell][0].hypot(nearest[cell][1])),
-            // The slope of this potential is the force, for which distances are in cells.
+            // The force, for which distances are in cells, is the slope of this potential.
             Obstacles::Sum(charges) => repulsion.potential(1.0) * charges.potential[cell] * self.side(),
         };
         attraction.potential(self.to_goal(cell).norm()) + push
@@ -196,13 +195,12 @@ impl<'a> ForceField<'a> {
         self.laws.saturated
     }
 
-    /// Moves from cell to cell until it reaches one of `targets`, and returns the cells. Each move leads to that one of
-    /// the eight neighbours that has the lowest potential. With saturated forces, it leads to the neighbour that lies
-    /// most in the direction of the force. Moves do not cut corners of obstacles. There is at most one move per cell.
+    /// Moves from cell to cell until it reaches one of `targets`, and returns the cells. Each move leads to the one of the eight
+    /// neighbours with the lowest potential, or, with saturated forces, to the one nearest to the direction of the force. Moves
+    /// do not cut corners of obstacles. There is at most one move per cell.
     ///
     /// # Errors
-    /// [`Trap`] if no neighbour has a lower potential, or if saturated forces do not lead to a cell that was not
-    /// visited.
+    /// [`Trap`] if no neighbour has a lower potential, or if saturated forces do not lead to a new cell.
     pub fn descend(&self, from: usize, targets: &[usize]) -> Result<Vec<usize>, Trap> {
         let mut visited = vec![false; if self.laws.saturated { self.grid.blocked.len() } else { 0 }];
         let mut cells = vec![from];
@@ -217,7 +215,7 @@ impl<'a> ForceField<'a> {
         Ok(cells)
     }
 
-    /// Returns the cell that follows `at`. With saturated forces, this must be a cell that was not visited.
+    /// Returns the cell after `at`. With saturated forces, it must not have been visited.
     pub(super) fn next(&self, at: usize, visited: impl Fn(usize) -> bool) -> Result<usize, Trap> {
         if self.laws.saturated { self.along_force(at, visited) } else { self.lower(at) }
     }
@@ -249,8 +247,8 @@ impl<'a> ForceField<'a> {
         displacements.min_by(|a, b| a.norm().total_cmp(&b.norm())).unwrap_or_else(Configuration::zeros)
     }
 
-    /// Iterates over the free neighbours that share a side or a corner, with their displacements. A neighbour across a
-    /// corner counts only if both cells beside the corner are free.
+    /// Iterates over the free neighbours with a common side or corner, and their displacements. A neighbour across a corner
+    /// counts only if both cells beside the corner are free.
     pub(super) fn neighbors(&self, at: usize) -> impl Iterator<Item = (usize, [f64; 2])> + '_ {
         const NEIGHBOR_OFFSETS: [[i64; 2]; 8] = [[-1, 0], [1, 0], [0, -1], [0, 1], [-1, -1], [-1, 1], [1, -1], [1, 1]];
         let step = self.grid.step();
@@ -261,7 +259,7 @@ impl<'a> ForceField<'a> {
         })
     }
 
-    /// Returns the cell that is this many rows and columns away. `None` if there is no such cell, or if it is not free.
+    /// Returns the cell that is this many rows and columns away. `None` if there is none, or if it is not free.
     fn free(&self, from: usize, by: [i64; 2]) -> Option<usize> {
         let columns = self.grid.cells[1];
         let place = [(from / columns) as i64 + by[0], (from % columns) as i64 + by[1]];

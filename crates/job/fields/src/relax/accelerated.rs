@@ -1,4 +1,4 @@
-//! Relaxation on a device that a companion brings. Equations become weights for each cell, and are relaxed stage after
+//! Relaxation on a device that a companion crate provides. Equations become weights for each cell, and are relaxed stage by
 //! stage.
 
 use super::stages::{Stages, relax_in_stages};
@@ -11,12 +11,11 @@ pub trait Accelerator: Sync {
     /// Returns the name of the device.
     fn name(&self) -> &str;
 
-    /// Relaxes one stage from the given values, one per cell, until the stopping rule holds. `unknown` is true for the
-    /// cells that have an equation. Beyond [`Boundary::High`](super::Boundary::High), values are those of obstacles.
+    /// Relaxes one stage from the given values, one per cell, until the stopping rule ends it. `unknown` is true for cells with
+    /// an equation. Beyond [`Boundary::High`](super::Boundary::High), values are those of obstacles.
     ///
     /// # Errors
-    /// Equations and orders of updates that the device does not support, and values that grow without bound, without a
-    /// hint.
+    /// Equations and orders of updates that the device does not support, and values that grow without bound, without a hint.
     fn relax(
         &self,
         domain: &Domain,
@@ -37,8 +36,8 @@ pub enum CellEquations {
     /// The value is a weighted mean of the neighbours. The four weights of each cell add up to 1. With negative
     /// weights, relaxation may diverge.
     Weights(Vec<[f64; 4]>),
-    /// The value is the mean of the neighbours plus a multiple of `(|difference of rows| + |difference of columns|) /
-    /// 2`. Each cell has its own factor.
+    /// The value is the mean of the neighbours plus a multiple of `(|difference of rows| + |difference of columns|) / 2`, with a
+    /// factor for each cell.
     Altered(Vec<f64>),
 }
 
@@ -82,7 +81,7 @@ impl Stages for Field<'_> {
 
     fn linear(&mut self, drift: impl Fn(usize) -> [f64; 2], difference: Difference) -> Result<(), RelaxError> {
         let weighted = WeightedMean::new(self.domain, &self.unknowns, drift, difference);
-        // If all cells have the same weights, the device needs no list of them.
+        // If all cells have the same weights, the device needs no list of weights.
         if (0..self.unknowns.len()).all(|k| weighted.at(k) == [0.25; 4]) {
             return self.stage(CellEquations::Mean);
         }
@@ -113,7 +112,7 @@ impl Field<'_> {
         let (values, stage) =
             self.device.relax(self.domain, unknown, start, equations, self.relaxation, self.stopping)?;
         self.stages.push(stage);
-        // Restore fixed values in double precision.
+        // Fixed values are restored to double precision.
         let fixed = |(value, &kind)| self.domain.fixed(kind).unwrap_or(value);
         self.values = values.into_iter().zip(self.domain.kinds()).map(fixed).collect();
         Ok(())

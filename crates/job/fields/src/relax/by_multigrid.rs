@@ -6,30 +6,30 @@ use super::{Boundary, Convergence, Domain, Equation, Measure, RelaxError, Relaxe
 use cplan_interrupt::checkpoint;
 use cplan_multigrid::{Ends, Multigrid, Workspace};
 
-/// Number of steps after which GMRES restarts. It is also the number of vectors that GMRES keeps.
+/// GMRES restarts after this number of steps, and keeps as many vectors.
 const RESTART_STEPS: usize = 16;
 
-/// Relative error to which a step solves the equation without its drift. That solution only gives a direction, so one
-/// digit is enough.
+/// Relative error to which a step solves the equation without its drift. This solution is only a direction, so one digit
+/// suffices.
 const PRECONDITIONER_ERROR: f64 = 0.1;
 
-/// Least relative error to which a step solves an equation without a drift: about what single precision allows.
+/// Least relative error to which a step solves an equation without a drift. Single precision allows little more.
 const MIN_STEP_ERROR: f64 = 1e-6;
 
-/// Fraction of the requested change at which steps stop, according to the estimate of the residual. It is less than 1,
-/// because the residual itself is checked afterwards, and rounding makes it greater than the estimate.
+/// Steps end when the estimated residual is below this fraction of the requested change. It is less than 1, because the residual
+/// itself is checked afterwards, and rounding makes it greater than the estimate.
 const STEP_STOP_FRACTION: f64 = 0.5;
 
-/// Solves a linear equation from `start`, such as the field before obstacles moved slightly. The method is flexible
-/// GMRES (Saad 1993). Its preconditioner is a multigrid solution, to one digit, of the same problem without the drift.
+/// Solves a linear equation from `start`, such as the field before obstacles moved slightly. The method is flexible GMRES (Saad
+/// 1993). Its preconditioner is a multigrid solution, to one digit, of the same problem without the drift.
 ///
-/// A step costs as much as that solution. The number of steps depends on the drift times the width of its region, not
-/// on the number of cells. In the fields of `examples/robot_football`, starting from zero, it is 2 to 14, where
-/// Gauss-Seidel relaxation takes 400 to 1400 sweeps by the same rule. Without a drift, a step is the multigrid solution
-/// itself, as exact as requested, so one step usually suffices.
+/// A step costs as much as that solution. The number of steps depends on the product of the drift and the width of its region,
+/// not on the number of cells. In the fields of `examples/robot_football`, it takes 2 to 14 steps from zero, where Gauss-Seidel
+/// relaxation takes 400 to 1400 sweeps by the same rule. Without a drift, a step is the multigrid solution itself, as exact as
+/// requested, so one step usually suffices.
 ///
-/// [`Convergence::sweeps`] counts steps. [`Convergence::change`] is the sum of squared changes that a Jacobi sweep
-/// would make. If the start already satisfies the stopping rule, there is no step.
+/// [`Convergence::sweeps`] counts steps. [`Convergence::change`] is the sum of squared changes that a Jacobi sweep would make. If
+/// the start already satisfies the stopping rule, there is no step.
 ///
 /// ```
 /// use cplan_fields::*;
@@ -47,9 +47,9 @@ const STEP_STOP_FRACTION: f64 = 0.5;
 /// ```
 ///
 /// # Errors
-/// [`RelaxError::Refused`] for preferences (whose drift depends on a field), for measures other than
-/// [`Measure::SumOfSquares`], and if sizes differ; [`RelaxError::Diverged`] if values become NaN. A solve that does not
-/// end within `stopping.max_sweeps` steps reports that in its [`Convergence`].
+/// [`RelaxError::Refused`] for preferences (whose drift depends on a field), for measures other than [`Measure::SumOfSquares`],
+/// and if sizes differ; [`RelaxError::Diverged`] if values become NaN. A solve that does not end within `stopping.max_sweeps`
+/// steps reports that in its [`Convergence`].
 pub fn by_multigrid(
     domain: &Domain,
     equation: &Equation,
@@ -59,8 +59,7 @@ pub fn by_multigrid(
     by_multigrid_in(domain, equation, stopping, start, &mut Memory::default())
 }
 
-/// Workspace of a solve, reusable on domains of the same shape with the same boundaries. It holds no information about
-/// the field.
+/// Workspace of a solve. It has no information about the field, and can be reused on domains with the same shape and boundaries.
 #[derive(Debug, Clone, Default)]
 pub struct Memory(Option<Workspace>);
 
@@ -70,7 +69,7 @@ impl PartialEq for Memory {
     }
 }
 
-/// Same as [`by_multigrid`], but reuses memory from an earlier solve.
+/// Does the same as [`by_multigrid`], with memory of an earlier solve.
 pub fn by_multigrid_in(
     domain: &Domain,
     equation: &Equation,
@@ -108,7 +107,7 @@ pub fn by_multigrid_in(
             let place = [cell / domain.cells()[1], cell % domain.cells()[1]];
             return Err(RelaxError::Diverged { sweeps: stage.sweeps, cell: place, value: values[cell], hint });
         }
-        // Also stop if the last round made no progress, because of rounding.
+        // Also ends if the last round made no progress, because of rounding.
         if stage.converged || stage.sweeps >= stopping.max_sweeps || stage.change >= before {
             values.pop();
             memory.0 = preconditioner.map(|Preconditioner { workspace, .. }| workspace).or(memory.0.take());
@@ -129,8 +128,8 @@ pub fn by_multigrid_in(
     }
 }
 
-/// The equations of all cells. A vector has one entry per cell, row by row, so that neighbours are at constant offsets.
-/// Cells that are not unknowns have the entry 0.
+/// The equations of all cells. A vector has one entry per cell, row by row, so that neighbours are at constant offsets; entries
+/// of cells that are not unknowns are 0.
 struct System {
     cells: [usize; 2],
     boundaries: [Boundary; 2],
@@ -178,8 +177,8 @@ impl System {
         Self { cells, boundaries, is_unknown, weights, sums, shares }
     }
 
-    /// Returns values with a frame of one cell, which has the boundary values. `values` has one entry per cell, and the
-    /// value beyond high limits last.
+    /// Returns values with a frame of one cell, which has the boundary values. `values` has one entry per cell, and finally the
+    /// value beyond high limits.
     fn framed(&self, values: &[f64]) -> Vec<f64> {
         let ([rows, columns], beyond) = (self.cells, values[values.len() - 1]);
         let stride = columns + 2;
@@ -204,8 +203,8 @@ impl System {
         framed
     }
 
-    /// Returns the difference of each cell from the value that its neighbours imply. `values` has one entry per cell,
-    /// and the boundary value last.
+    /// Returns the difference of each cell from the value that its neighbours imply. `values` has one entry per cell, and finally
+    /// the boundary value.
     fn residual(&self, values: &[f64]) -> Vec<f64> {
         match &self.weights {
             Some(weights) => self.residual_by(values, |cell| weights[cell]),
@@ -234,8 +233,8 @@ impl System {
         residual
     }
 
-    /// Takes up to `most` steps, until the estimated residual is below `below`, and adds their corrections to the
-    /// values. Returns the number of steps.
+    /// Takes up to `most` steps, until the estimated residual is below `below`, and adds the corrections to the values. Returns
+    /// the number of steps.
     fn round(
         &self,
         advice: &mut Preconditioner,
@@ -246,12 +245,12 @@ impl System {
     ) -> usize {
         let mut left = vec![square(&residual).sqrt()];
         let (mut basis, mut corrections) = (vec![scaled(residual, 1.0 / left[0])], Vec::new());
-        // The columns of the triangular matrix of GMRES, and the Givens rotations that made it triangular.
+        // The columns of GMRES's triangular matrix, and the Givens rotations that made it triangular.
         let (mut columns, mut turns): (Vec<Vec<f64>>, Vec<[f64; 2]>) = (Vec::new(), Vec::new());
         while corrections.len() < most {
             checkpoint();
             let correction = advice.correction(self, &basis[basis.len() - 1], PRECONDITIONER_ERROR);
-            // If the correction is added to the values, the residual falls by this.
+            // Adding the correction to the values reduces the residual by this.
             let mut image = scaled(self.residual(&correction), -1.0);
             corrections.push(correction);
             let mut column: Vec<f64> = Vec::with_capacity(basis.len() + 1);
@@ -315,8 +314,8 @@ impl Preconditioner {
         Self { workspace, multigrid, right: vec![0.0; system.is_unknown.len()] }
     }
 
-    /// Returns the correction of the values that would remove `residual`, with the relative error `error`. It has one
-    /// entry per cell, and 0 last for the boundary.
+    /// Returns the correction of the values that would remove `residual`, with the relative error `error`. It has one entry per
+    /// cell, and finally 0 for the boundary.
     fn correction(&mut self, system: &System, residual: &[f64], error: f64) -> Vec<f64> {
         let asked = residual.iter().zip(&system.sums).map(|(residual, sum)| sum * residual);
         self.right.iter_mut().zip(asked).for_each(|(to, asked)| *to = asked);

@@ -16,17 +16,16 @@ pub struct DeadEnd {
     pub flat: bool,
 }
 
-/// Moves from cell to neighbouring cell until it reaches a goal, and returns the cells. Each move leads to the
-/// neighbour whose value is nearest to the goals' level; if several are equal, to the first of them. So the path leads
-/// down if obstacles are high, and up if they are low.
+/// Moves from cell to neighbouring cell until it reaches a goal, and returns the cells. Each move leads to the neighbour whose
+/// value is nearest to the goals' level (the first of equals): down if obstacles are high, up if they are low.
 ///
-/// If no neighbour is better, the path crosses cells of equal value to the nearest better cell, because a field may be
-/// level around a point of symmetry. It does not cross cells that have exactly the level of obstacles or goals, where
-/// the field gives no direction. No cell is visited twice.
+/// If no neighbour is better, the path crosses cells of equal value to the nearest better cell, because a field may be level
+/// around a point of symmetry. It does not cross cells with exactly the level of obstacles or goals, where the field gives no
+/// direction. No cell is visited twice.
 ///
 /// # Errors
-/// [`DeadEnd`] if there is no better cell. Converged fields of monotone equations have such cells only where values
-/// differ by less than the precision of doubles, and where only goals bound a region, so that the field is constant.
+/// [`DeadEnd`] if there is no better cell. Converged fields of monotone equations have such cells only where values differ by
+/// less than the precision of doubles, and where only goals bound a region, so that the field is constant.
 ///
 /// # Panics
 /// If there is not one value per cell, or `from` is not a cell.
@@ -64,15 +63,14 @@ impl Values<'_> {
         self.domain.levels().orientation() * self.values[cell]
     }
 
-    /// Returns the best neighbour of a cell. `None` if it is not better than the cell.
+    /// Returns the best neighbour of a cell, if it is better than the cell.
     fn lowest(&self, cell: usize) -> Option<usize> {
         let lower = |best, next| if self.height(next) < self.height(best) { next } else { best };
         let best = self.neighbors(cell).fold(cell, lower);
         (best != cell).then_some(best)
     }
 
-    /// Returns the cells that follow `from`, all with the same value, up to the nearest cell that has a better
-    /// neighbour.
+    /// Returns the cells after `from`, all with the same value, up to the nearest cell with a better neighbour.
     fn cross_plateau(&self, from: usize) -> Result<Vec<usize>, DeadEnd> {
         let value = self.values[from];
         let is_level = |cell: usize| self.values[cell] == value && self.domain.kinds()[cell] == Cell::Free;
@@ -103,8 +101,8 @@ impl Values<'_> {
     }
 }
 
-/// The values of a field as a [`Guide`] for a curve. The curve leads towards the goals. It follows the gradient of the
-/// logarithm of the difference between the value and the obstacles' level, by central differences.
+/// The values of a field as a [`Guide`] for a curve towards the goals. The curve follows the gradient of the logarithm of the
+/// difference between the value and the obstacles' level, by central differences.
 pub struct ValueGuide<'a, F> {
     values: Values<'a>,
     /// Returns the cell at a place; `None` beyond limits.
@@ -140,10 +138,9 @@ impl<F: Fn(Place) -> Option<usize>> Guide for ValueGuide<'_, F> {
             Neighbor::Limit => 0.0,
             Neighbor::Mirror => here,
         });
-        // If an equation is not monotone, a value may be beyond the obstacles' level. It has no logarithm.
+        // If an equation is not monotone, a value may be beyond the obstacles' level, and have no logarithm.
         let scale = if here > 0.0 { 2.0 * here } else { 1.0 };
-        // Return a displacement in cells. It is steepest in lengths; along axis 2, a cell is shorter by the factor
-        // `beta`.
+        // A displacement in cells, steepest in lengths. Along axis 2, a cell is shorter by the factor `beta`.
         Some([(up - down) / scale, domain.beta() * domain.beta() * (right - left) / scale])
     }
 

@@ -17,13 +17,13 @@ pub enum Device {
     Gpu,
 }
 
-/// Opens the GPU on first use. `Err` is the reason, with a hint, if there is none.
+/// Opens the GPU on first use. `Err` has the reason, with a hint, if there is none.
 pub type OpenGpu = fn() -> Result<&'static dyn Accelerator, String>;
 
 static OPEN_GPU: OnceLock<OpenGpu> = OnceLock::new();
 
 impl Device {
-    /// Brings the GPU of this process. Only the first one counts.
+    /// Provides the GPU of this process. Only the first call has an effect.
     pub fn bring_gpu(open: OpenGpu) {
         let _ = OPEN_GPU.set(open);
     }
@@ -40,7 +40,7 @@ impl Device {
     /// Returns the name of the GPU adapter, or `None` for the CPU.
     ///
     /// # Errors
-    /// Returns the reason, with a hint: there is no driver, or the program was built without the feature `gpu`.
+    /// No driver, or a program without the feature `gpu`, with a hint.
     pub fn adapter(self) -> Result<Option<&'static str>, String> {
         self.accelerator().map(|accelerator| accelerator.map(Accelerator::name))
     }
@@ -58,12 +58,12 @@ impl Device {
 
 const NO_GPU_MESSAGE: &str = "this program was built without GPU; build it with --features gpu, or relax on the CPU";
 
-/// Does the same as [`relax`], on a device. On a GPU, values are rounded to single precision. A stage that cannot
-/// improve in single precision ends before `stopping.max_sweeps`, without convergence.
+/// Does the same as [`relax`] on a device. On a GPU, values are rounded to single precision; a stage that cannot improve in it
+/// ends before `stopping.max_sweeps`, without convergence.
 ///
 /// # Errors
-/// Those of [`relax`]. Also [`RelaxError::Refused`] if there is no GPU, or if the GPU does not support the order of
-/// updates or the number of cells.
+/// Those of [`relax`]. Also [`RelaxError::Refused`] if there is no GPU, or if the GPU does not support the order of updates or
+/// the number of cells.
 pub fn relax_on(
     device: Device,
     domain: &Domain,

@@ -1,11 +1,11 @@
-//! Computes fields by elimination. These are the solutions with which relaxations are compared.
+//! Computes fields by elimination, for comparison with relaxations.
 
 use super::stencil::{Stencil as _, WeightedMean};
 use super::{Domain, Equation, Neighbor};
 use cplan_interrupt::checkpoint;
 
-/// Largest residual of an accepted solution, as a fraction of the greatest value. With central differences and a strong
-/// drift, elimination may lose all digits.
+/// Largest residual of an accepted solution, as a fraction of the greatest value. With central differences and a strong drift,
+/// elimination may lose all digits.
 const MAX_RESIDUAL: f64 = 1e-9;
 
 /// Largest number of entries of the band: 256 MB of memory.
@@ -17,8 +17,8 @@ const MAX_BAND_NUMBERS: usize = 1 << 25;
 /// - if the band would need more than 256 MB of memory,
 /// - if the equation is for another domain.
 ///
-/// The method shares only the weights of neighbours with the sweeps. Rows are numbered alternately from both ends, so
-/// that a circle needs at most twice the bandwidth. Takes `O(cells * columns^2)` time and `O(cells * columns)` memory.
+/// It shares only the weights of neighbours with the sweeps. Rows are numbered alternately from both ends, so that a circle needs
+/// at most twice the bandwidth. Takes `O(cells * columns^2)` time and `O(cells * columns)` memory.
 pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     if equation.refusal(domain).is_some() {
         return None;
@@ -56,7 +56,7 @@ pub fn eliminated(domain: &Domain, equation: &Equation) -> Option<Vec<f64>> {
     satisfies_equations(domain, &unknowns, &weights, &values).then_some(values)
 }
 
-/// Returns the unknown cells row by row. The rows come alternately from the two ends.
+/// Returns the unknown cells row by row. Rows come alternately from both ends.
 fn unknowns_from_both_ends(domain: &Domain) -> Vec<u32> {
     let [rows, columns] = domain.cells();
     let row = |k: usize| if k.is_multiple_of(2) { k / 2 } else { rows - 1 - k / 2 };
@@ -87,7 +87,7 @@ fn satisfies_equations(domain: &Domain, unknowns: &[u32], weights: &WeightedMean
                 Neighbor::Limit => domain.levels().obstacle,
                 Neighbor::Mirror => own,
             });
-            // NaN agrees with nothing.
+            // NaN never agrees.
             (weights.target(k, own, around) - own).abs() <= MAX_RESIDUAL * greatest
         })
 }

@@ -18,12 +18,12 @@ pub enum Cell {
 /// Boundary condition at the first and the last cell of an axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Boundary {
-    /// The axis is a circle: the cells at the other end are neighbours.
+    /// The axis is a circle, so cells at the other end are neighbours.
     Periodic,
     /// Cells beyond the limit have the value of obstacles (Dirichlet).
     High,
-    /// Values beyond the limit are a mirror image: there is no flow through the limit (Neumann). A cell at the limit is
-    /// its own neighbour.
+    /// Values beyond the limit are a mirror image, so nothing flows across the limit (Neumann). A cell at the limit is its own
+    /// neighbour.
     Reflecting,
 }
 
@@ -53,20 +53,19 @@ impl Levels {
     /// The levels of the literature: obstacles have 1, goals 0, and free cells start at 0. Paths descend.
     pub const PUBLISHED: Self = Self { obstacle: 1.0, goal: 0.0, free: 0.0 };
 
-    /// One minus the levels of the literature: a value is the probability that a random walk reaches a goal before an
-    /// obstacle. Paths ascend. Values far from the goal are small, and doubles represent small values with full
-    /// relative precision. Free cells start at the level of obstacles, so that without over-relaxation values only
-    /// rise.
+    /// One minus the levels of the literature: a value is the probability that a random walk reaches a goal before an obstacle.
+    /// Paths ascend. Values far from the goal are small, and doubles represent them with full relative precision. Free cells
+    /// start at the level of obstacles, so that without over-relaxation values only rise.
     pub const PROBABILITY: Self = Self { obstacle: 0.0, goal: 1.0, free: 0.0 };
 
-    /// Returns 1 if obstacles are high, and -1 if they are low. Differences of values times this factor have the sign
-    /// that they have in the literature.
+    /// Returns 1 if obstacles are high, and -1 if they are low. Multiplied by this, differences of values have the sign that they
+    /// have in the literature.
     pub(super) fn orientation(self) -> f64 {
         if self.obstacle < self.goal { -1.0 } else { 1.0 }
     }
 }
 
-/// Initial value of free cells, in the terms of the literature, where obstacles are high and goals low.
+/// Initial value of free cells. As in the literature, obstacles are called high and goals low.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Initial {
@@ -95,16 +94,15 @@ pub enum Neighbor {
     Mirror,
 }
 
-/// States whether an equation takes the shape of cells into account.
+/// Whether an equation takes the shape of cells into account.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Stencil {
     /// All four neighbours have the same weight, whatever the shape of cells.
     #[default]
     Square,
-    /// Neighbours along axis 2 have `beta^2` times the weight of neighbours along axis 1, where `beta` is the width of
-    /// a cell along axis 1 divided by its width along axis 2. This gives Laplace's equation in the lengths of joint
-    /// space.
+    /// Neighbours along axis 2 have `beta^2` times the weight of neighbours along axis 1, where `beta` is the width of a cell
+    /// along axis 1 divided by that along axis 2. This gives Laplace's equation in the lengths of joint space.
     Anisotropic,
 }
 
@@ -121,9 +119,9 @@ impl Stencil {
     }
 }
 
-/// A rectangle of cells, row by row (index `i * cells[1] + j`), with fixed values on obstacles and goals. The unit of
-/// length is the width of a cell along axis 1. Along axis 2, a cell has the width `1 / beta`, where `beta` is 1 unless
-/// [`Domain::with_beta`] changes it.
+/// A rectangle of cells, row by row (index `i * cells[1] + j`), with fixed values on obstacles and goals. The unit of length is
+/// the width of a cell along axis 1. Its width along axis 2 is `1 / beta`, where `beta` is 1 unless [`Domain::with_beta`] changes
+/// it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Domain {
     cells: [usize; 2],
@@ -167,8 +165,8 @@ impl Domain {
         self.beta
     }
 
-    /// Creates the domain of a grid with goals (indices of cells). Free cells that are not connected to a goal count as
-    /// obstacles: their values are not needed, and with reflecting limits they would be undetermined.
+    /// Creates the domain of a grid with goals (indices of cells). Free cells that are not connected with a goal count as
+    /// obstacles: their values are not needed, and would be undetermined with reflecting limits.
     ///
     /// # Panics
     /// If a goal is not a cell, or there are `2^32` cells or more.
@@ -237,14 +235,14 @@ impl Domain {
         Neighbor::Cell(place[0] * self.cells[1] + place[1])
     }
 
-    /// Returns true if the value of a cell is an unknown: the cell is free and has a neighbour other than itself. A
-    /// free cell without such a neighbour keeps its value.
+    /// Returns true if the value of a cell is an unknown: the cell is free, and has a neighbour other than itself. Other free
+    /// cells keep their values.
     pub(super) fn is_unknown(&self, cell: usize) -> bool {
         let has_neighbors = self.kinds.len() > 1 || self.boundaries.contains(&Boundary::High);
         self.kinds[cell] == Cell::Free && has_neighbors
     }
 
-    /// Returns the cell at a place of the unbounded lattice, or `None` beyond the ends of an interval.
+    /// Returns the cell at a place of the unbounded lattice. `None` beyond the ends of an interval.
     pub fn cell_at(&self, place: Place) -> Option<usize> {
         let index = |axis: usize| {
             let (at, n) = (place[axis], self.cells[axis] as i64);

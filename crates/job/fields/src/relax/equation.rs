@@ -1,8 +1,7 @@
 //! The field equations.
 //!
-//! Each equation has the form `lap p + <b, grad p> = 0` with a drift `b = epsilon v`. A random walk with that drift
-//! ends at an obstacle or a goal, and `p` is the expected value of the level there. Lengths are in cells, so `epsilon`
-//! is a number per cell.
+//! Each equation has the form `lap p + <b, grad p> = 0` with a drift `b = epsilon v`. A random walk with that drift ends at an
+//! obstacle or a goal, and `p` is the expected level of that place. Lengths are in cells, so `epsilon` is a number per cell.
 
 use super::Domain;
 use serde::{Deserialize, Serialize};
@@ -12,13 +11,11 @@ use std::fmt;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Difference {
-    /// Central difference `(p_+ - p_-) / 2`, of second order. It is monotone only for `|b_k| < 2` along each axis. With
-    /// a stronger drift, values are no longer means of their neighbours: relaxations may diverge, and fields may have
-    /// local minima.
+    /// Central difference `(p_+ - p_-) / 2`, of second order. Monotone only for `|b_k| < 2` along each axis. With a stronger
+    /// drift, values are no longer means of their neighbours: relaxations may diverge, and fields may have local minima.
     #[default]
     Central,
-    /// One-sided difference with the neighbour in the direction of the drift, of first order. It is monotone for every
-    /// drift.
+    /// One-sided difference with the neighbour in the direction of the drift, of first order. Monotone for every drift.
     Upwind,
 }
 
@@ -31,7 +28,7 @@ impl fmt::Display for Difference {
     }
 }
 
-/// Largest deviation of a direction's length from 1: some roundings.
+/// Largest deviation of a direction's length from 1: a few rounding errors.
 const UNIT_ROUNDING: f64 = 1e-15;
 
 /// A direction in the plane of joint values: a unit vector.
@@ -42,8 +39,7 @@ pub struct Direction([f64; 2]);
 impl TryFrom<[f64; 2]> for Direction {
     type Error = &'static str;
 
-    /// Accepts a vector of length 1 without changing it, so that a direction that was written to a file is read back
-    /// unchanged.
+    /// Accepts a vector of length 1 unchanged, so that a direction is read as it was written to a file.
     fn try_from(vector: [f64; 2]) -> Result<Self, &'static str> {
         let length = vector[0].hypot(vector[1]);
         ((length - 1.0).abs() <= UNIT_ROUNDING)
@@ -53,10 +49,10 @@ impl TryFrom<[f64; 2]> for Direction {
 }
 
 impl Direction {
-    /// Returns the direction of a vector, or `None` if its length is zero or NaN.
+    /// Returns the direction of a vector. `None` if its length is zero or NaN.
     pub fn of(vector: [f64; 2]) -> Option<Self> {
         let greatest = vector[0].abs().max(vector[1].abs());
-        // Scale the vector first, so that its length neither overflows nor vanishes.
+        // Scaling first keeps the length from overflowing or vanishing.
         let scaled = vector.map(|x| x / greatest);
         let length = scaled[0].hypot(scaled[1]);
         (greatest > 0.0 && length.is_finite()).then(|| Self(scaled.map(|x| x / length)))
@@ -73,8 +69,8 @@ impl Direction {
     }
 }
 
-/// An equation for the values of free cells. Arrays have one entry per cell of the domain. Entries of obstacles and
-/// goals have no effect.
+/// An equation for the values of free cells. Arrays have one entry per cell of the domain; entries of obstacles and goals have no
+/// effect.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Equation {
     /// Laplace's equation `lap p = 0` (Connolly, Grupen 1993).
@@ -95,21 +91,21 @@ pub enum Equation {
         /// Discretisation of the drift.
         difference: Difference,
     },
-    /// Preferences (Prestes, Idiart 2009): `v` is the normalised gradient of the harmonic field, towards obstacles, and
-    /// each cell has the `epsilon` of its region. A positive value makes the region less attractive, a negative value
-    /// more. Relaxation has two stages, and the first gives the harmonic field.
+    /// Preferences (Prestes, Idiart 2009): `v` is the normalised gradient of the harmonic field, towards obstacles, and each cell
+    /// has the `epsilon` of its region. A positive `epsilon` makes the region less attractive, a negative one more. Relaxation
+    /// has two stages, of which the first gives the harmonic field.
     Preference {
         /// The strength `epsilon` of each cell.
         epsilon: Vec<f64>,
         /// Discretisation of the drift.
         difference: Difference,
     },
-    /// Altered preferences ("BVP 2" of Deicu 2012): `p = h + epsilon / 4 d`, where `h` is the mean of the four
-    /// neighbours and `d = |p_E - p_W| / 2 + |p_N - p_S| / 2`. This equation is not linear: the drift is along the
-    /// slope of the field itself. It also has two stages.
+    /// Altered preferences ("BVP 2" of Deicu 2012): `p = h + epsilon / 4 d`, where `h` is the mean of the four neighbours and
+    /// `d = |p_E - p_W| / 2 + |p_N - p_S| / 2`. This equation is not linear, because the drift is along the slope of the field
+    /// itself. It also has two stages.
     ///
-    /// The formula holds if obstacles are high. If they are low, `epsilon` has the opposite sign: with `u = 1 - p` the
-    /// mean becomes `1 - h` and `d` stays the same, so `u = h - epsilon / 4 d`.
+    /// This formula is for high obstacles. For low ones, `epsilon` has the opposite sign: with `u = 1 - p`, the mean becomes
+    /// `1 - h` and `d` stays the same, so `u = h - epsilon / 4 d` in terms of the new mean.
     AlteredPreference {
         /// One value per cell.
         epsilon: Vec<f64>,
@@ -127,13 +123,13 @@ pub struct Influence {
     pub drift: [f64; 2],
 }
 
-/// Returns the drift of [`Equation::LocallyOriented`] around robots. Each cell has the drift of the nearest robot, if
-/// it is within that robot's radius. `O(cells * influences)`.
+/// Returns the drift of [`Equation::LocallyOriented`] around robots. Each cell has the drift of the nearest robot, if it is
+/// within that robot's radius, otherwise none. `O(cells * influences)`.
 pub fn drift_around_robots(domain: &Domain, influences: &[Influence]) -> Vec<[f64; 2]> {
     let columns = domain.cells()[1];
     let nearest = |cell: usize| {
         let at = [(cell / columns) as f64, (cell % columns) as f64];
-        // Compare squares: roots would take longer than everything else here.
+        // Squares are compared, because roots would take longer than all the rest.
         let square = |i: &Influence| (at[0] - i.center[0]).powi(2) + (at[1] - i.center[1]).powi(2);
         let nearest = influences.iter().min_by(|a, b| square(a).total_cmp(&square(b)))?;
         (nearest.radius > 0.0 && square(nearest) < nearest.radius.powi(2)).then_some(nearest.drift)
@@ -145,13 +141,13 @@ pub fn drift_around_robots(domain: &Domain, influences: &[Influence]) -> Vec<[f6
 pub(super) type DriftOf<'a> = Box<dyn Fn(usize) -> [f64; 2] + 'a>;
 
 impl Equation {
-    /// Returns true if each cell's value is a mean of its neighbours' values with non-negative weights. Then no value
-    /// leaves the range of the fixed values, and goals are the only minima. Cells count as square.
+    /// Returns true if each cell's value is a mean of its neighbours' values with non-negative weights. Then no value leaves the
+    /// range of the fixed values, and goals are the only minima. Assumes square cells.
     pub fn is_monotone(&self) -> bool {
         self.is_monotone_with(1.0)
     }
 
-    /// Does the same as [`Equation::is_monotone`] for the cells of a domain, which need not be square.
+    /// Does the same as [`Equation::is_monotone`] for a domain, whose cells need not be square.
     pub fn is_monotone_on(&self, domain: &Domain) -> bool {
         self.is_monotone_with(domain.beta())
     }
@@ -177,7 +173,7 @@ impl Equation {
         matches!(self, Self::Preference { .. } | Self::AlteredPreference { .. })
     }
 
-    /// Returns the drift of each cell with its discretisation. Returns `None` if the drift depends on a field.
+    /// Returns the drift of each cell, and its discretisation. `None` if the drift depends on a field.
     pub(super) fn drift(&self) -> Option<(DriftOf<'_>, Difference)> {
         match self {
             Self::Harmonic => Some((Box::new(|_| [0.0; 2]), Difference::Central)),

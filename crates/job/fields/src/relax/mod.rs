@@ -1,10 +1,10 @@
-//! The field equations and their relaxations. [`relax`] takes a [`Domain`], an [`Equation`], a [`Relaxation`] and a
-//! [`Stopping`] rule, which combine freely. [`relax_on`] also takes a device.
+//! The field equations and their relaxations. [`relax`] takes a [`Domain`], an [`Equation`], a [`Relaxation`] and a [`Stopping`]
+//! rule, which combine freely. [`relax_on`] also takes a device.
 //!
-//! An equation becomes a `Stencil` (the value that neighbours imply for a cell), an order becomes a list of passes, and
-//! a measure becomes a `Tally`. The sweeps are compiled for each pair of stencil and tally. To add a linear equation,
-//! state its drift in each cell; any other equation needs a new stencil. Attraction and repulsion ([`super::Khatib`])
-//! are not an equation, because their potential is given in closed form.
+//! An equation becomes a `Stencil` (the value that neighbours imply for a cell), an order a list of passes, and a measure a
+//! `Tally`. The sweeps are compiled for each pair of stencil and tally. To add a linear equation, state its drift in each cell;
+//! any other equation needs a new stencil. Attraction and repulsion ([`super::Khatib`]) need no equation, because their potential
+//! has a closed form.
 
 mod accelerated;
 mod by_multigrid;

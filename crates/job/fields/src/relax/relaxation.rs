@@ -10,8 +10,8 @@ use std::fmt;
 pub struct Relaxation {
     /// Order of the updates, and the relaxation factor.
     pub scheme: Scheme,
-    /// Range to which new values are clamped; `None` for no limits. At the beginning, over-relaxation leaves the range
-    /// of the fixed values.
+    /// Range to which new values are clamped; `None` for no limits. Initially, over-relaxation leaves the range of the fixed
+    /// values.
     pub clamp: Option<[f64; 2]>,
     /// Precision in which new values are stored.
     pub precision: Precision,
@@ -23,15 +23,15 @@ pub struct Relaxation {
     pub relaxes_preferences: bool,
 }
 
-/// Precision in which values are stored between updates. Updates themselves are computed in doubles.
+/// Precision in which values are stored between updates. Updates are computed in doubles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Precision {
     /// Double precision.
     #[default]
     Double,
-    /// Values are rounded to single precision, as in programs that store a `float`. A change of less than half a unit
-    /// in the last place has no effect, so relaxations come to rest earlier.
+    /// Single precision, as in programs that store a `float`. A change of less than half a unit in the last place has no effect,
+    /// so relaxations come to rest earlier.
     Single,
 }
 
@@ -60,10 +60,10 @@ pub enum Scheme {
 pub enum Factor {
     /// This factor.
     Given(f64),
-    /// `4 / (2 + sqrt(4 - c^2))` with `c = cos(pi / m) + cos(pi / n)` for `m x n` cells. This is the best factor for
-    /// Laplace's equation in an empty rectangle of `m` by `n` steps (Young 1954). Between limits that lie one cell
-    /// beyond the first and the last cell, there is one step more along each axis. So the factor is a little less than
-    /// the best, which matters only if there are few cells.
+    /// `4 / (2 + sqrt(4 - c^2))` with `c = cos(pi / m) + cos(pi / n)` for `m x n` cells. This is the best factor for Laplace's
+    /// equation in an empty rectangle of `m` by `n` steps (Young 1954). If limits are one cell beyond the first and the last
+    /// cell, there is one more step along each axis, so the factor is slightly less than the best. This matters only if there are
+    /// few cells.
     Formula,
 }
 
@@ -73,7 +73,7 @@ impl Factor {
         match self {
             Self::Given(factor) => factor,
             Self::Formula => {
-                // A domain of one cell would have c = -2, but needs no over-relaxation.
+                // A domain of one cell has c = -2, and needs no over-relaxation.
                 let c = cells.map(|n| (PI / n as f64).cos()).iter().sum::<f64>().max(0.0);
                 4.0 / (2.0 + (4.0 - c * c).max(0.0).sqrt())
             }
@@ -87,14 +87,14 @@ impl Factor {
 pub enum Order {
     /// Line by line, the same in every sweep.
     Lines(Scan),
-    /// Line by line from another corner in each sweep: `(0, 0)`, then the end of the first line, the beginning of the
-    /// last line, and the end of the last line. Deicu 2012 calls this order "simultaneous", and also counts each sweep.
+    /// Line by line, in each sweep from another corner: `(0, 0)`, then the end of the first line, the beginning of the last line,
+    /// and the end of the last line. Deicu 2012 calls this order "simultaneous", and also counts single sweeps.
     Corners(Lines),
-    /// First all cells whose two indices have an even sum, then the others. On circles of odd length, neighbours across
-    /// the seam have the same colour and are updated one after the other.
+    /// First all cells whose two indices have an even sum, then the others. On circles of odd length, neighbours across the seam
+    /// have the same colour, and one is updated after the other.
     RedBlack,
-    /// First the cells whose row and column are both even, then the other cells with an even row, then the other cells
-    /// with an even column, then the rest. No two cells of one colour share a side or a corner.
+    /// Four classes of cells, one after the other: row and column even, only the row even, only the column even, both odd. No two
+    /// cells of a class share a side or a corner.
     FourColors,
 }
 
@@ -159,17 +159,17 @@ impl Relaxation {
         Self { precision, ..self }
     }
 
-    /// Adapts the relaxation to values that span many orders of magnitude, on the CPU.
+    /// Adapts the relaxation, on the CPU, to values that span many orders of magnitude.
     ///
-    /// Over-relaxation carries the rounding errors of large values to cells with smaller values. There signs flip, and
-    /// relative changes never settle. Therefore:
+    /// Over-relaxation carries the rounding errors of large values to cells with smaller values, where signs change and relative
+    /// changes never settle. Therefore:
     ///
-    /// - A cell that would pass the obstacles' or the goals' value takes the value that its neighbours imply, without
-    ///   the factor. With monotone equations no value then leaves the range of the fixed values. Relaxations with a
-    ///   factor of 2 or more never converge; they have no guard, so that their divergence shows.
-    /// - With [`Measure::GreatestRelativeChange`](super::Measure), the factor becomes 1 when no value changes by more
-    ///   than `1e-13` of the difference between the obstacles' and the goals' value. The rest is relaxed by
-    ///   Gauss-Seidel sweeps, which keep relative errors small.
+    /// - A cell that would leave the range between the obstacles' and the goals' value takes the value that its neighbours imply,
+    ///   without the factor. With monotone equations, no value then leaves the range of the fixed values. Relaxations with a
+    ///   factor of 2 or more never converge, and have no guard, so that they visibly diverge.
+    /// - With [`Measure::GreatestRelativeChange`](super::Measure), the factor becomes 1 when no value changes by more than
+    ///   `1e-13` of the difference between the obstacles' and the goals' value. The rest is relaxed by Gauss-Seidel sweeps, which
+    ///   keep relative errors small.
     #[must_use]
     pub const fn guarded(self) -> Self {
         Self { guarded: true, ..self }
@@ -177,17 +177,16 @@ impl Relaxation {
 
     /// Multiplies preferences by the factor of over-relaxation, like the mean of the neighbours.
     ///
-    /// By default, over-relaxation by a factor `w` adds the term of preferences without `w`, as Deicu 2012 prints it
-    /// (tables 10, 11, 14 and 15): `p + w (h - p) + epsilon d / 8` for [`Preference`](super::Equation::Preference),
-    /// where `h` is the mean of the four neighbours. Its limit satisfies the equation with `epsilon / w`. With the
-    /// factor, the limit satisfies the equation with `epsilon`, as for Gauss-Seidel, but altered preferences often do
-    /// not converge.
+    /// By default, over-relaxation by a factor `w` adds the term of preferences without `w`, as Deicu 2012 prints it (tables 10,
+    /// 11, 14 and 15): `p + w (h - p) + epsilon d / 8` for [`Preference`](super::Equation::Preference), where `h` is the mean of
+    /// the four neighbours. Its limit satisfies the equation with `epsilon / w`. With the factor, the limit satisfies the
+    /// equation with `epsilon`, as with Gauss-Seidel, but altered preferences often do not converge.
     #[must_use]
     pub const fn relaxing_preferences(self) -> Self {
         Self { relaxes_preferences: true, ..self }
     }
 
-    /// Returns the share of `epsilon` that preferences have in the limit, on a domain of this many cells.
+    /// Returns the share of `epsilon` with which the limit satisfies the equation of preferences, on a domain of this many cells.
     pub fn preference_share(&self, cells: [usize; 2]) -> f64 {
         let is_successive = matches!(self.scheme, Scheme::Successive { .. });
         if is_successive && !self.relaxes_preferences { 1.0 / self.factor(cells).max(1.0) } else { 1.0 }
@@ -246,8 +245,8 @@ impl fmt::Display for Order {
 }
 
 impl Order {
-    /// Returns the order of the `unknowns` (ascending indices of cells) in each sweep, as positions among them. The
-    /// list repeats after its last sweep.
+    /// Returns the order of the `unknowns` (ascending indices of cells) in each sweep, as positions in that list. After its last
+    /// entry, the result repeats.
     pub(super) fn passes(self, cells: [usize; 2], unknowns: &[u32]) -> Vec<Vec<u32>> {
         let sorted = |key: &dyn Fn([usize; 2]) -> [usize; 2]| {
             let mut positions: Vec<u32> = (0..unknowns.len() as u32).collect();
@@ -257,7 +256,7 @@ impl Order {
                     if axis == 0 { cell / cells[1] } else { cell % cells[1] }
                 })
             };
-            // The sort is stable, so that cells with the same key keep their order.
+            // The sort is stable, so cells with the same key keep their order.
             positions.sort_by_key(|&k| key(at(k)));
             positions
         };
@@ -268,7 +267,7 @@ impl Order {
             })
         };
         match self {
-            // Do not sort: that takes as long as several sweeps, more than a field needs after a small change.
+            // Sorting would take as long as several sweeps, which is more than a field needs after a small change.
             Self::Lines(Scan::ROWS) => vec![(0..unknowns.len() as u32).collect()],
             Self::Lines(lines) => vec![scan(lines)],
             Self::Corners(lines) => {

@@ -20,8 +20,8 @@ pub(super) trait Stages {
 
 /// Runs all stages of an equation: preferences start with the harmonic field.
 ///
-/// Over-relaxation by a factor `w` that adds a preference without `w` is the same as over-relaxation of the equation
-/// with `epsilon / w`: `p + w (h - p) + epsilon d = p + w (h + epsilon / w d - p)`.
+/// If over-relaxation by a factor `w` adds a preference without `w`, it is over-relaxation of the equation with `epsilon / w`:
+/// `p + w (h - p) + epsilon d = p + w (h + epsilon / w d - p)`.
 pub(super) fn relax_in_stages(
     equation: &Equation,
     domain: &Domain,

@@ -9,7 +9,7 @@ pub(super) trait Stencil {
     fn target(&self, position: usize, own: f64, around: [f64; 4]) -> f64;
 }
 
-/// The mean of the four neighbours. It is wrong at reflecting limits, where [`WeightedMean`] applies.
+/// The mean of the four neighbours. At reflecting limits, [`WeightedMean`] is needed instead.
 pub(super) struct Mean;
 
 impl Stencil for Mean {
@@ -18,8 +18,8 @@ impl Stencil for Mean {
     }
 }
 
-/// A mean with separate weights at each position, which add up to 1. If a neighbour is the cell itself, its weight is 0
-/// and the others are greater, because the equation is solved for the cell's value.
+/// A mean with weights at each position, which add up to 1. A neighbour that is the cell itself has the weight 0, and the others
+/// have greater ones, because the equation is solved for the cell's value.
 pub(super) struct WeightedMean(Vec<[f64; 4]>);
 
 impl WeightedMean {
@@ -46,8 +46,8 @@ impl Stencil for WeightedMean {
     }
 }
 
-/// Returns the weights of a cell's neighbours for a drift: `lap p + <b, grad p>` is the weighted sum of their values,
-/// minus the sum of the weights times the cell's value.
+/// Returns the weights of a cell's neighbours for a drift. `lap p + <b, grad p>` is the weighted sum of their values, minus the
+/// cell's value times the sum of the weights.
 pub(super) fn weights(domain: &Domain, cell: usize, drift: [f64; 2], difference: Difference) -> [f64; 4] {
     let mut weights = sides(domain.beta(), drift, difference);
     for (weight, neighbor) in weights.iter_mut().zip(domain.neighbors(cell)) {
@@ -68,9 +68,9 @@ pub(super) fn sides(beta: f64, drift: [f64; 2], difference: Difference) -> [f64;
     [side(1.0, -drift[0]), side(1.0, drift[0]), side(beta, -drift[1]), side(beta, drift[1])]
 }
 
-/// The value `h + strength d` of altered preferences, where `strength` is `epsilon / 4` with the sign that fits the
-/// levels. Beyond a reflecting limit, the neighbour has the cell's own value. If cells are not square, `h` is the
-/// weighted mean, the slope along axis 2 has the factor `beta`, and the sum of the weights, `2 + 2 beta^2`, replaces 4.
+/// The value `h + strength d` of altered preferences, where `strength` is `epsilon / 4` with the sign that fits the levels.
+/// Beyond a reflecting limit, the neighbour has the cell's own value. If cells are not square, `h` is the weighted mean, the
+/// slope along axis 2 has the factor `beta`, and `2 + 2 beta^2`, the sum of the weights, replaces 4.
 pub(super) struct AlteredMean {
     /// `epsilon / 4` at each position.
     pub strength: Vec<f64>,

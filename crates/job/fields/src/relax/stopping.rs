@@ -10,8 +10,8 @@ pub enum Measure {
     SumOfChange,
     /// Sum of `change^2`.
     SumOfSquares,
-    /// Difference between the sum of `|change|` in this sweep and in the sweep before. The literature uses this
-    /// measure, but it is not a good rule: two equal sums end the relaxation even if they are large.
+    /// Difference between the sums of `|change|` in this sweep and in the previous one. The literature uses this measure, but it
+    /// is a poor one: two equal sums end the relaxation even if they are large.
     DifferenceOfSums,
     /// The greatest `|change|` of any cell.
     GreatestChange,
@@ -32,8 +32,7 @@ impl Measure {
 pub struct Stopping {
     /// The measured quantity.
     pub measure: Measure,
-    /// Bound on the measure. A relaxation has converged when the measure falls below this, or when a sweep changes
-    /// nothing.
+    /// Bound on the measure. A relaxation has converged when the measure is below this, or when a sweep changes nothing.
     pub below: f64,
     /// Largest number of sweeps, after which a relaxation ends without convergence.
     pub max_sweeps: usize,

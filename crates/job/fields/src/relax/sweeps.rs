@@ -13,7 +13,7 @@ use std::fmt;
 pub struct RelaxedField {
     /// One value per cell. Obstacles and goals have their levels.
     pub values: Vec<f64>,
-    /// Result of each stage. With preferences, the first stage is the harmonic field; other equations have one stage.
+    /// Result of each stage. With preferences, the first of two stages is the harmonic field; other equations have one stage.
     pub stages: Vec<Convergence>,
 }
 
@@ -68,14 +68,14 @@ impl fmt::Display for RelaxError {
 
 impl std::error::Error for RelaxError {}
 
-/// Ratio of a value to the greatest initial value above which a relaxation counts as diverged. The ratio is large
-/// because over-relaxation may overshoot and still converge. Against a drift `b` it overshoots by a factor of `exp(b /
-/// 2)` per cell, which may be many orders of magnitude in total.
+/// A relaxation counts as diverged if a value exceeds the greatest initial value by this factor. The factor is large, because
+/// over-relaxation may overshoot and still converge: against a drift `b`, it overshoots by a factor of `exp(b / 2)` per cell,
+/// which may be many orders of magnitude in total.
 const DIVERGENCE_FACTOR: f64 = 1e100;
 
-/// Largest change in a sweep, as a fraction of the difference between the obstacles' and the goals' value, at which a
-/// guarded relaxation continues with factor 1. It is about a hundred roundings of the greatest values; over-relaxation
-/// amplifies roundings by about that much.
+/// A guarded relaxation continues with factor 1 once no change in a sweep exceeds this fraction of the difference between the
+/// obstacles' and the goals' value. It is about a hundred rounding errors of the greatest values, which is how much
+/// over-relaxation amplifies them.
 const OVER_RELAXATION_LIMIT: f64 = 1e-13;
 
 /// Number of sweeps between checks for divergence.
@@ -96,9 +96,9 @@ const DIVERGENCE_CHECK_INTERVAL: usize = 16;
 /// ```
 ///
 /// # Errors
-/// [`RelaxError::Refused`] if equation and domain differ in size, or if a factor is not positive.
-/// [`RelaxError::Diverged`] if values grow without bound. A relaxation that neither diverges nor converges ends after
-/// `stopping.max_sweeps` sweeps of a stage, which its [`Convergence`] reports.
+/// [`RelaxError::Refused`] if equation and domain differ in size, or if a factor is not positive. [`RelaxError::Diverged`] if
+/// values grow without bound. If a stage neither diverges nor converges, it ends after `stopping.max_sweeps` sweeps, as its
+/// [`Convergence`] reports.
 pub fn relax(
     domain: &Domain,
     equation: &Equation,
@@ -108,8 +108,8 @@ pub fn relax(
     relax_from(domain, equation, relaxation, stopping, domain.start())
 }
 
-/// Relaxes an equation from the values `start`, such as those of a field before obstacles moved a little. First sets
-/// obstacles and goals to their levels.
+/// Relaxes an equation from the values `start`, such as those of a field before obstacles moved slightly. First sets obstacles
+/// and goals to their levels.
 ///
 /// # Errors
 /// Those of [`relax`], and if there is not one value per cell.
@@ -165,12 +165,12 @@ pub(super) fn refusal(domain: &Domain, equation: &Equation, relaxation: &Relaxat
     relaxation.refusal(domain.cells()).map(RelaxError::Refused)
 }
 
-/// Returns the free cells that have a neighbour other than themselves, ascending. Other free cells keep their values.
+/// Returns the free cells, ascending, with a neighbour other than themselves. Other free cells keep their values.
 pub(super) fn unknowns(domain: &Domain) -> Vec<u32> {
     (0..domain.kinds().len()).filter(|&cell| domain.is_unknown(cell)).map(|cell| cell as u32).collect()
 }
 
-/// Returns, for each unknown, the indices of its neighbours' values in the list that [`initial_values`] returns.
+/// Returns, for each unknown, the indices of its neighbours' values in the result of [`initial_values`].
 pub(super) fn places_around(domain: &Domain, unknowns: &[u32]) -> Vec<[u32; 4]> {
     let beyond = domain.kinds().len() as u32;
     let around = unknowns.iter().map(|&cell| {
@@ -183,7 +183,7 @@ pub(super) fn places_around(domain: &Domain, unknowns: &[u32]) -> Vec<[u32; 4]> 
     around.collect()
 }
 
-/// Returns the initial values of all cells, with obstacles and goals at their levels, and then the value beyond limits.
+/// Returns the initial values of all cells, with obstacles and goals at their levels, and finally the value beyond limits.
 pub(super) fn initial_values(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64>, RelaxError> {
     if start.len() != domain.kinds().len() {
         return Err(RelaxError::Refused("the initial field must have one value per cell".into()));
@@ -192,7 +192,7 @@ pub(super) fn initial_values(domain: &Domain, start: Vec<f64>) -> Result<Vec<f64
     Ok(fixed.chain([domain.levels().obstacle]).collect())
 }
 
-/// Returns the share of `epsilon / 4` of altered preferences, with the sign that fits the levels, one per cell.
+/// Returns, for each cell, the share of `epsilon / 4` in altered preferences, with the sign that fits the levels.
 pub(super) fn strengths(domain: &Domain, share: f64, epsilon: &[f64]) -> Vec<f64> {
     let quarter = 0.25 * share * domain.levels().orientation();
     epsilon.iter().map(|epsilon| quarter * epsilon).collect()
@@ -213,8 +213,8 @@ pub(super) fn hint(domain: &Domain, equation: &Equation, relaxation: &Relaxation
     }
 }
 
-/// Returns, for each free cell, the unit direction in which values rise towards the value of obstacles, by central
-/// differences. It is 0 where values are level.
+/// Returns, for each free cell, the unit direction in which values approach that of obstacles, by central differences. Zero where
+/// values are level.
 pub(super) fn normalized_gradient(domain: &Domain, values: &[f64]) -> Vec<[f64; 2]> {
     let levels = domain.levels();
     let at = |cell: usize| {
@@ -238,7 +238,7 @@ struct Engine<'a> {
     equation: &'a Equation,
     relaxation: &'a Relaxation,
     stopping: &'a Stopping,
-    /// One value per cell, and then the value of obstacles, for the boundary.
+    /// One value per cell, and finally the value of obstacles, for the boundary.
     values: Vec<f64>,
     /// Greatest absolute value before the first sweep.
     greatest: f64,
@@ -299,7 +299,7 @@ impl<'a> Engine<'a> {
             }
             Measure::SumOfSquares => self.stage(stencil, |sum, old, new| sum + (new - old) * (new - old)),
             Measure::GreatestChange => self.stage(stencil, |most, old, new| most.max((new - old).abs())),
-            // If a value stays 0, the quotient is NaN, which `max` ignores. If it becomes 0, the quotient is infinite.
+            // The quotient is NaN if a value stays 0, which `max` ignores, and infinite if it becomes 0.
             Measure::GreatestRelativeChange => {
                 self.stage(stencil, |most, old, new| most.max((new - old).abs() / new.abs()))
             }
@@ -349,7 +349,7 @@ impl<'a> Engine<'a> {
     }
 
     fn show(&mut self, sweep: usize) {
-        // Omit the last value, which is for the boundary.
+        // Without the last value, which is for the boundary.
         let values = &self.values[..self.values.len() - 1];
         (self.watch)(SweepSnapshot { stage: self.stages.len(), sweep, values });
     }
@@ -426,13 +426,13 @@ struct Step<'a, S> {
 impl<S: Stencil> Step<'_, S> {
     fn new_value(&self, position: usize, old: f64, around: [f64; 4]) -> f64 {
         let asked = self.stencil.target(position, old, around);
-        // With factor 1 take exactly the implied value, without additional rounding.
+        // With factor 1, exactly the implied value, without additional rounding.
         let new = if self.factor == 1.0 { asked } else { old + self.factor * (asked - old) };
         let new = match self.guard {
             Some([low, high]) if new < low || new > high => asked,
             _ => new,
         };
-        // Avoid `clamp`, which would check the bounds for each cell.
+        // In contrast to `clamp`, this does not check the bounds for each cell.
         let new = self.clamp.map_or(new, |[low, high]| new.max(low).min(high));
         match self.precision {
             Precision::Double => new,

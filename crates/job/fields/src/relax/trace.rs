@@ -32,9 +32,9 @@ pub struct Sample {
 /// Measurements of a whole relaxation.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Trace {
-    /// Samples after each of the first hundred sweeps, and then less often: from sample to sample, the number of sweeps
-    /// grows by one percent. There are also samples after the first and the last sweep of each stage. Sweeps whose
-    /// squares or error are not finite are omitted.
+    /// Samples after each of the first hundred sweeps, and then less often: the number of sweeps grows by one percent from one
+    /// sample to the next. The first and the last sweep of each stage also have samples. Sweeps whose squares or error are not
+    /// finite are omitted.
     pub samples: Vec<Sample>,
     /// Number of sweeps of all stages together.
     pub sweeps: usize,
@@ -42,7 +42,7 @@ pub struct Trace {
     pub ending: Ending,
 }
 
-/// The jump of the changes at the beginning of the second stage, where preferences are added to the harmonic field.
+/// The jump of the changes when, at the beginning of the second stage, preferences are added to the harmonic field.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Leap {
     /// Number of sweeps of the first stage.
@@ -55,18 +55,18 @@ pub struct Leap {
     pub more: usize,
 }
 
-/// Distance from a sampled sweep to the next one, as a share of the number of sweeps so far.
+/// Number of sweeps between two samples, as a share of the number of sweeps so far.
 const SAMPLE_SPACING: f64 = 0.01;
 
-/// Fraction of the sweeps, counted from the end, over which [`Trace::rate`] is measured.
+/// [`Trace::rate`] is measured over this last fraction of the sweeps.
 const RATE_WINDOW: f64 = 0.5;
 
-/// Error below which only rounding remains, so that no rate can be measured.
+/// Smaller errors are only rounding errors, from which no rate can be measured.
 const ERROR_FLOOR: f64 = 1e-13;
 
-/// Relaxes from `start` and measures after each sweep. `exact` is the solution, for the error
-/// ([`eliminated`](super::eliminated)). An equation with preferences has two stages and no known error. Measuring takes
-/// about as long as the relaxation.
+/// Relaxes from `start` and measures after each sweep. `exact` is the solution ([`eliminated`](super::eliminated)), with which
+/// errors are measured. An equation with preferences has two stages and no known error. Measuring takes about as long as the
+/// relaxation.
 ///
 /// ```
 /// use cplan_fields::*;
@@ -82,7 +82,7 @@ const ERROR_FLOOR: f64 = 1e-13;
 /// ```
 ///
 /// # Errors
-/// [`RelaxError::Refused`] only. Divergence is not an error, because it may be the subject of the measurement.
+/// Only [`RelaxError::Refused`]. Divergence is no error, because it may be the subject of the measurement.
 pub fn trace(
     domain: &Domain,
     equation: &Equation,
@@ -105,9 +105,8 @@ pub fn trace(
 }
 
 impl Trace {
-    /// Returns the asymptotic factor by which a sweep multiplies the error: the geometric mean over the second half of
-    /// the sweeps, as far as the error exceeds rounding. Returns `None` if the error is unknown or there are too few
-    /// sweeps.
+    /// Returns the factor by which a sweep asymptotically multiplies the error: the geometric mean over the second half of the
+    /// sweeps, as far as errors exceed rounding. `None` if the error is unknown, or if there are too few sweeps.
     pub fn rate(&self) -> Option<f64> {
         let errors: Vec<(usize, f64)> = self
             .samples
@@ -137,7 +136,7 @@ impl Trace {
     }
 }
 
-/// Measures from the values before and after each sweep; it shares no code with the stopping rules.
+/// Measures from the values before and after each sweep, independently of the stopping rules.
 #[derive(Default)]
 struct Observer<'a> {
     exact: Option<&'a [f64]>,
@@ -157,7 +156,7 @@ struct Observer<'a> {
 impl Observer<'_> {
     fn observe(&mut self, seen: &SweepSnapshot) {
         if seen.sweep == 0 {
-            // A new stage begins: keep the last sweep of the stage before it.
+            // A new stage begins, so the last sweep of the previous one is kept.
             self.keep_last_sample();
             (self.earlier, self.before) = (self.sweeps, seen.values.to_vec());
             if seen.stage == 0 {
@@ -182,7 +181,7 @@ impl Observer<'_> {
         self.samples.extend(self.last.take());
     }
 
-    /// Measures a sweep. Returns `None` if a number is not finite.
+    /// Measures a sweep. `None` if a number is not finite.
     fn measure_sweep(&self, seen: &SweepSnapshot) -> Option<Sample> {
         let (mut squares, mut relative) = (0.0, 0.0_f64);
         for (old, new) in self.before.iter().zip(seen.values) {

@@ -1,4 +1,4 @@
-//! The bodies of a motion by name.
+//! The bodies of a motion, with their names.
 
 use cplan_model::{Pair, Scene};
 use serde::Serialize;
@@ -10,7 +10,7 @@ use std::collections::{BTreeMap, BTreeSet};
 pub enum BodyKind {
     /// A static or a moving obstacle.
     Obstacle,
-    /// An object of a task, lying or carried.
+    /// A lying or carried object of a task.
     Object,
     /// A link of the robot.
     Link,
@@ -27,21 +27,20 @@ impl BodyKind {
     }
 }
 
-/// Data that identify the bodies of the scenes of one motion.
+/// Data that identify the bodies in the scenes of a motion.
 #[derive(Debug, Clone, Default)]
 pub struct BodyNames {
-    /// Number of the world's own static obstacles. Those that follow are objects.
+    /// Number of the world's own static obstacles. Those after them are objects.
     pub fixed: usize,
     /// Names of the objects. They are unique among objects and obstacles.
     pub objects: BTreeSet<String>,
 }
 
-/// The bodies in all scenes of one motion, numbered in the order in which they occur.
+/// The bodies in all scenes of a motion, numbered in the order in which they occur.
 #[derive(Debug, Default)]
 pub(super) struct Bodies {
     names: BodyNames,
-    /// The number of a body by its kind, the number of a static obstacle, and its name. Static obstacles may have the same
-    /// name.
+    /// The number of a body, by its kind, the number of a static obstacle, and its name. Static obstacles may share names.
     known: BTreeMap<(BodyKind, usize, String), usize>,
     pub all: Vec<(BodyKind, String)>,
 }
@@ -57,7 +56,7 @@ impl Bodies {
         Self { names, ..Self::default() }
     }
 
-    /// Returns the numbers of a scene's bodies. New bodies get the next numbers.
+    /// Returns the numbers of a scene's bodies, and gives new bodies the next numbers.
     pub fn of(&mut self, scene: &Scene) -> SceneBodies {
         let own = scene.self_obstacles();
         let obstacles = (0..own.end).map(|number| {

@@ -1,8 +1,7 @@
-//! Margins of motions: how far bodies may be displaced, and how wrong the arm's model may be, while a motion stays free.
+//! Margins of motions: displacements of bodies, and errors of the arm's model, for which a motion stays free.
 //!
-//! Each stretch of a motion is examined by the bisection of [`crate::recorded`]. A lower bound is accepted once it is
-//! nearly as large as the least value that was seen for the same body or the same kind of error. So margins are proven,
-//! and tight for each of them.
+//! The bisection of [`crate::recorded`] examines each stretch of a motion. A lower bound is accepted if it is almost as large as
+//! the least value seen for the same body or the same kind of error. So margins are proven and tight.
 
 mod bodies;
 mod report;
@@ -19,11 +18,12 @@ use cplan_model::{Arm, JointType};
 /// A proven lower bound, and the place where the least value was seen.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Margin {
-    /// The bound, metres or radians.
+    /// The bound, in metres or radians.
     pub size: f64,
     /// Configuration of the arm at that place.
     pub at: Configuration,
-    /// Time of that place, seconds: see [`Margins::lacks_times`]. At a corner that the motion rounds, it is about the time at which the motion passes.
+    /// Time of that place, seconds: see [`Margins::lacks_times`]. At a rounded corner, it is approximately the time at which the
+    /// motion passes.
     pub time: f64,
     /// The obstacle there, and the part of the arm or the payload: indices into [`Margins::bodies`].
     pub bodies: [usize; 2],
@@ -36,7 +36,7 @@ pub struct BodyMargin {
     pub name: String,
     /// The kind of body.
     pub kind: BodyKind,
-    /// Bound on its distance from other bodies that it can meet. `None` if it can meet none.
+    /// Bound on its distance from other bodies that it can meet. `None` if it can meet no other body.
     pub margin: Option<Margin>,
 }
 
@@ -54,14 +54,14 @@ pub struct Tolerance {
 pub struct Margins {
     /// All bodies: obstacles, objects, links of the robot.
     pub bodies: Vec<BodyMargin>,
-    /// The largest error of each kind, alone.
+    /// The largest error of each kind, if there are no other errors.
     pub tolerances: Vec<Tolerance>,
-    /// True if the motion has no times. The time of a place is then the index of the waypoint, plus the fraction of the
-    /// segment to the next one.
+    /// True if the motion has no times. The time of a place is then the index of the waypoint, plus the fraction of the segment
+    /// to the next one.
     pub lacks_times: bool,
 }
 
-/// A kind of errors of an arm's model.
+/// A kind of error in an arm's model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ErrorKind {
     /// Displacement of the base in any direction.
@@ -83,12 +83,12 @@ impl ErrorKind {
         all.into_iter().filter(|kind| kind.errors(arm, 1.0) != ArmErrors::default()).collect()
     }
 
-    /// Returns the errors of an arm, each with this size in radians or metres.
+    /// Returns the errors of an arm, each of this size, in radians or metres.
     pub fn errors(self, arm: &Arm, size: f64) -> ArmErrors {
         let has_zero = |revolute: bool| {
             arm.joints.each_ref().map(|joint| if joint.joint_type.is_revolute() == revolute { size } else { 0.0 })
         };
-        // A prismatic joint sets the length of the link before it.
+        // A prismatic joint determines the length of the link before it.
         let has_length = [
             arm.offset.norm() > 0.0 && matches!(arm.joints[1].joint_type, JointType::Revolute { .. }),
             arm.tip.norm() > 0.0,
@@ -103,7 +103,7 @@ impl ErrorKind {
         }
     }
 
-    /// Returns the words for the kind in results.
+    /// Returns the phrase for the kind in results.
     pub fn name(self) -> &'static str {
         match self {
             Self::BasePosition => "base position",

@@ -1,4 +1,4 @@
-//! Margins of a motion as fields of a result, and in one line.
+//! Margins of a motion, as fields of a result and as one line.
 
 use super::{BodyKind, Margin, Margins};
 use cplan_text::{length_down, round_down};
@@ -10,7 +10,7 @@ use serde::ser::{SerializeStruct, Serializer};
 pub struct MarginReport<'a> {
     body: &'a str,
     kind: BodyKind,
-    /// Proven lower bound on its distance from other bodies, metres. `None` if it can meet none.
+    /// Proven lower bound on its distance from other bodies, metres. `None` if it can meet no other body.
     clearance: Option<f64>,
     #[serde(flatten)]
     place: Option<PlaceReport<'a>>,
@@ -30,14 +30,14 @@ pub struct ToleranceReport<'a> {
 /// The place of a margin on the motion.
 #[derive(Serialize)]
 struct PlaceReport<'a> {
-    /// Names of the obstacle, and of the part of the arm or the payload, that are nearest to contact there.
+    /// Names of the obstacle, and of the part of the arm or the payload, that come nearest there.
     between: [&'a str; 2],
     /// Configuration of the arm.
     at: [f64; 2],
-    /// Time of the trajectory, seconds. At a corner that it rounds, it is about the time at which it passes.
+    /// Time of the trajectory, seconds. At a rounded corner, it is approximately the time at which the motion passes.
     #[serde(skip_serializing_if = "Option::is_none")]
     time: Option<f64>,
-    /// Place on a motion without times: the index of the waypoint plus the fraction of the segment to the next one.
+    /// Place on a motion without times: the index of the waypoint, plus the fraction of the segment to the next one.
     #[serde(skip_serializing_if = "Option::is_none")]
     waypoint: Option<f64>,
 }

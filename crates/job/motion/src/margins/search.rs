@@ -8,7 +8,7 @@ use cplan_interrupt::checkpoint;
 use cplan_judge::{ArmErrors, Deviation, Drift, Posture, SeparationBound, SpanPair};
 use cplan_model::{Arm, Pair, Scene};
 
-/// A lower bound is accepted if it is at least this share of the least value seen.
+/// A lower bound is accepted if it is at least this share of the least value that was seen.
 const TIGHTNESS: f64 = 0.96;
 
 /// Number of places that are sampled first.
@@ -20,10 +20,10 @@ const SAMPLES_PER_PIECE: usize = 4;
 /// Number of checks of a pair of shapes on a span after which every bound is accepted. They take some seconds.
 const MAX_CHECKS: usize = 5_000_000;
 
-/// Number of times that the range of an error is halved. It then is known to a hundredth.
+/// Number of times that the range of an error is halved. The error is then known to within a hundredth.
 const ERROR_HALVINGS: u32 = 7;
 
-/// Number of times that an error is halved until it is given up as zero.
+/// Number of times that an error is halved before it is considered zero.
 const MOST_ERROR_HALVINGS: usize = 64;
 
 /// A stretch of a motion in one scene.
@@ -33,11 +33,11 @@ pub struct MotionStretch<'a> {
     pub scene: TimedScene<'a>,
     /// The motion; at least one piece.
     pub pieces: &'a [Piece],
-    /// Time that is added to the times of the pieces, seconds.
+    /// Offset of the pieces' times, seconds.
     pub begin: f64,
-    /// Greatest difference between readings of the motion and these pieces in each joint, radians or metres.
+    /// Greatest difference in each joint between the pieces and other readings of the motion, radians or metres.
     pub beside: f64,
-    /// Distance that is already proven for all pairs, metres; 0 if unknown.
+    /// Distance that is already proven for all pairs, metres; 0 if none is.
     pub known: f64,
 }
 
@@ -56,7 +56,7 @@ impl Limit {
         Self { seen, proven: f64::INFINITY, place: None }
     }
 
-    /// Records a value at a place. Returns true if it is the least one so far.
+    /// Records a value at a place. Returns true if it is the least so far.
     fn see(&mut self, value: f64, place: Margin) -> bool {
         let is_less = value < self.seen;
         if is_less {
@@ -70,27 +70,26 @@ impl Limit {
         self.proven = self.proven.min(bound);
     }
 
-    /// Returns the bound that is accepted.
+    /// Returns the least bound that is accepted.
     fn target(&self) -> f64 {
         TIGHTNESS * self.seen
     }
 
     fn margin(&self) -> Option<Margin> {
-        // Rounding may bring a bound below zero.
+        // A bound may be below zero by a rounding error.
         let size = self.proven.min(self.seen).max(0.0);
         self.place.map(|place| Margin { size, ..place })
     }
 }
 
-/// The questions about a pair of shapes that are still open on a span: a bit for the distance, and one for each kind of
-/// error.
+/// The open questions about a pair of shapes on a span: a bit for the distance, and one for each kind of error.
 #[derive(Clone, Copy)]
 struct OpenPair {
     pair: Pair,
     open: u8,
 }
 
-/// The bit of the distance; those of the kinds of errors follow.
+/// The bit of the distance. The bits of the kinds of errors follow.
 const DISTANCE: u8 = 1;
 
 /// A search for the margins of a motion, stretch by stretch.
@@ -112,28 +111,27 @@ struct Look<'p> {
     during: SpanPair<'p>,
     /// The bodies of the pair: the obstacle, and the part of the arm or the payload.
     bodies: [usize; 2],
-    /// The deviations of the motion from the posture's own place.
+    /// The deviations of the motion from the configuration of the posture.
     beside: Deviation,
     known: f64,
-    /// The place of the posture. `None` if the posture is not on the motion.
+    /// The place of the posture on the motion. `None` if the posture is not on the motion.
     place: Option<Margin>,
 }
 
 impl Look<'_> {
-    /// Returns true if the pair is proven to be apart in the whole span, with these errors.
+    /// Returns true if the pair is proven to be apart in the whole span, despite these errors.
     fn is_apart(&self, errors: &ArmErrors) -> bool {
         self.posture.is_apart_with_errors(self.during, self.deviation, errors, self.known)
     }
 
-    /// Returns true if the pair is proven to be apart in the middle of the span, with these errors.
+    /// Returns true if the pair is proven to be apart in the middle of the span, despite these errors.
     fn is_apart_in_middle(&self, errors: &ArmErrors) -> bool {
         let drift = self.during.drift.map(|drift| Drift { half: 0.0, ..*drift });
         let during = SpanPair { drift: drift.as_ref(), ..self.during };
         self.posture.is_apart_with_errors(during, self.beside, errors, self.known)
     }
 
-    /// Returns a lower bound on the distance over the deviation. If the bound is at least `enough`, it need not be the
-    /// greatest one.
+    /// Returns a lower bound on the distance over the whole deviation. A bound of at least `enough` need not be the greatest.
     fn bound(&self, enough: f64) -> SeparationBound {
         let bound = self.posture.bound_during(self.during, self.deviation, |_| enough);
         SeparationBound { least: bound.least.max(self.known), ..bound }
@@ -148,8 +146,8 @@ impl<'a> MarginSearch<'a> {
         Self { arm, kinds, bodies: Bodies::new(names), distances: Vec::new(), errors, checks: 0 }
     }
 
-    /// Examines a stretch of the motion, with shapes that are not grown. Permitted contacts, such as those of a payload
-    /// with its supports, do not count.
+    /// Examines a stretch of the motion, with shapes that are not grown. Ignores permitted contacts, such as those of a payload
+    /// with its supports.
     pub fn examine(&mut self, stretch: &MotionStretch) {
         let scene = &*stretch.scene.scene.drawn();
         let stretch = &MotionStretch { scene: TimedScene { scene, ..stretch.scene }, ..*stretch };
@@ -182,7 +180,7 @@ impl<'a> MarginSearch<'a> {
         let limits = self.bodies.all.into_iter().zip(&self.distances);
         let mut bodies: Vec<BodyMargin> =
             limits.map(|((kind, name), limit)| BodyMargin { name, kind, margin: limit.margin() }).collect();
-        // Places refer to bodies by their numbers.
+        // Places refer to bodies by number.
         let mut order: Vec<usize> = (0..bodies.len()).collect();
         order.sort_by_key(|&body| bodies[body].kind);
         let mut numbers = vec![0; order.len()];
@@ -195,7 +193,7 @@ impl<'a> MarginSearch<'a> {
         Margins { bodies, tolerances, lacks_times: false }
     }
 
-    /// Samples the distances of pairs at a place. Skips pairs that are farther apart than others of both bodies.
+    /// Samples the distances of pairs at a place. Skips pairs that cannot be nearer than others of both bodies.
     fn sample(&mut self, stretch: &MotionStretch, bodies: &SceneBodies, place: Place, pairs: &[OpenPair]) {
         let posture = Posture::new(stretch.scene.scene, stretch.pieces[place.0].at(place.1));
         let beside = Deviation::Box([stretch.beside; 2]);
@@ -212,8 +210,8 @@ impl<'a> MarginSearch<'a> {
         }
     }
 
-    /// Removes from `pairs` the questions that are decided on a span, and pairs without further questions. If the span is
-    /// the last one, accepts any bound.
+    /// Removes from `pairs` the questions that are decided on a span, and pairs without open questions. If the span is the last
+    /// one, accepts any bound.
     fn judge(
         &mut self,
         stretch: &MotionStretch,
@@ -226,7 +224,7 @@ impl<'a> MarginSearch<'a> {
         let deviation = deviation.widened(stretch.beside);
         let posture = Posture::new(stretch.scene.scene, middle);
         let [from, to] = span.ends();
-        // The middle of the box about several pieces is not on the motion.
+        // The middle of the box around several pieces is not on the motion.
         let place = Some(span.middle()).filter(|_| matches!(span, Span::Part(..)));
         pairs.retain_mut(|OpenPair { pair, open }| {
             self.checks += 1;
@@ -311,7 +309,7 @@ impl<'a> MarginSearch<'a> {
     }
 }
 
-/// Returns a pair on a span of a stretch, with the posture's place if it is on the motion.
+/// Returns a pair on a span of a stretch, with the place of the posture if it is on the motion.
 fn look<'p>(
     stretch: &MotionStretch,
     bodies: &SceneBodies,

@@ -1,8 +1,8 @@
-//! Messages in the bytes that ROS 2 sends.
+//! Messages in the binary form of ROS 2.
 
-/// Writes plain CDR, version 1, little endian (OMG Common Object Request Broker Architecture 3.3, part 2, section 9.3;
-/// OMG DDSI-RTPS 2.5, section 10): a four-byte header, then each value aligned to its own size, counted from the end of
-/// the header. Padding is zero.
+/// Writes plain CDR, version 1, little endian (OMG Common Object Request Broker Architecture 3.3, part 2, section 9.3; OMG
+/// DDSI-RTPS 2.5, section 10): a four-byte header, then values, each aligned to its own size, counted from the end of the header.
+/// Padding is zero.
 #[derive(Debug, Clone)]
 pub struct Cdr {
     bytes: Vec<u8>,
@@ -65,7 +65,7 @@ impl Cdr {
         values.iter().for_each(|value| self.string(value));
     }
 
-    /// Writes a sequence of `float64`. An empty one consists of its length, without padding for elements.
+    /// Writes a sequence of `float64`. If it is empty, writes its length without padding for elements.
     pub fn f64s(&mut self, values: &[f64]) {
         self.length(values.len());
         values.iter().for_each(|value| self.f64(*value));

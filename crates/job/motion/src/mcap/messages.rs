@@ -1,4 +1,4 @@
-//! The ROS 2 messages for motions and their display: definitions and bytes.
+//! The ROS 2 messages for motions and their display: definitions, and contents as bytes.
 
 use super::super::JointMotion;
 use super::super::clock::{NANOSECONDS_PER_SECOND, nanoseconds};
@@ -86,16 +86,15 @@ pub const POINTS: Type = Type {
 };
 
 impl Type {
-    /// Returns the definition in the encoding `ros2msg` (MCAP registry), so that readers can decode messages without
-    /// ROS. It has the type's own fields, then those of every nested type. A line of 80 equals signs and a line with
-    /// the type's name precede each nested type.
+    /// Returns the definition in the encoding `ros2msg` (MCAP registry), with which readers can decode messages without ROS. The
+    /// type's own fields come first, then those of each nested type, after a line of 80 equals signs and a line with its name.
     pub fn definition(&self) -> String {
         let parts = self.parts.iter().map(|(name, fields)| format!("{}\nMSG: {name}\n{fields}", "=".repeat(80)));
         std::iter::once(self.fields.to_owned()).chain(parts).collect()
     }
 }
 
-/// Returns the bytes of a [`JOINT_STATE`] at a time of the recording, nanoseconds. Efforts are unknown and omitted.
+/// Returns the bytes of a [`JOINT_STATE`] at a time of the recording, nanoseconds, without efforts.
 pub fn joint_state(joints: &[String], time: u64, position: &[f64], velocity: &[f64]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     header(&mut cdr, time);
@@ -106,8 +105,7 @@ pub fn joint_state(joints: &[String], time: u64, position: &[f64], velocity: &[f
     cdr.into_bytes()
 }
 
-/// Returns the bytes of a [`JOINT_TRAJECTORY`]. As in [`super::super::ros_yaml`], its time stamp is 0, which means
-/// "begin now".
+/// Returns the bytes of a [`JOINT_TRAJECTORY`]. As in [`super::super::ros_yaml`], its time stamp is 0, which means "begin now".
 pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
     let mut cdr = Cdr::new();
     header(&mut cdr, 0);
@@ -126,7 +124,7 @@ pub fn joint_trajectory(motion: &JointMotion) -> Vec<u8> {
 /// Name of the frame of the robot's root. All other frames are given relative to it.
 const WORLD_FRAME: &str = "world";
 
-/// Returns the bytes of [`TRANSFORMS`]: names of frames, with the poses that they have from `time` on.
+/// Returns the bytes of [`TRANSFORMS`]: names of frames, and their poses from `time` on.
 pub fn transforms(time: u64, frames: &[(&str, (Place, [f64; 4]))]) -> Vec<u8> {
     let mut cdr = Cdr::new();
     cdr.length(frames.len());
@@ -179,7 +177,7 @@ pub fn markers(stage: &Stage) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// Returns the bytes of [`POINTS`]: points on the rims of a body.
+/// Returns the bytes of [`POINTS`]: points along the rims of a body.
 pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
     /// Value of `FLOAT32` in the definition of points, and the size of such a number in bytes.
     const FLOAT32_FIELD: (u8, u32) = (7, 4);
@@ -207,7 +205,7 @@ pub fn points(stage: &Stage, body: &Body) -> Vec<u8> {
     cdr.into_bytes()
 }
 
-/// Writes a header with an empty frame, because joint values have none.
+/// Writes a header with an empty frame, because joint values belong to no frame.
 fn header(cdr: &mut Cdr, time: u64) {
     write_time(cdr, time);
     cdr.string("");
@@ -215,7 +213,7 @@ fn header(cdr: &mut Cdr, time: u64) {
 
 /// Writes a `Time` or a `Duration`.
 fn write_time(cdr: &mut Cdr, nanoseconds: u64) {
-    // The message can hold up to 68 years. Motions last at most eleven days.
+    // The message can express up to 68 years. Motions last at most eleven days.
     cdr.i32(i32::try_from(nanoseconds / NANOSECONDS_PER_SECOND).unwrap_or(i32::MAX));
     cdr.u32((nanoseconds % NANOSECONDS_PER_SECOND) as u32);
 }

@@ -14,24 +14,21 @@ use messages::{JOINT_STATE, JOINT_TRAJECTORY, MARKERS, POINTS, TRANSFORMS, Type}
 use std::collections::BTreeMap;
 use std::io::Cursor;
 
-/// Writes motions as an MCAP file (version 0, profile `ros2`), like a recording of a robot. The topic `/joint_states`
-/// has a `sensor_msgs/msg/JointState` per sample. The topic `/joint_trajectory` has a
-/// `trajectory_msgs/msg/JointTrajectory` per motion, at its beginning. The file includes the definitions of all
-/// messages. Chunks are not compressed.
+/// Writes motions as an MCAP file (version 0, profile `ros2`), as if they were recorded from a robot. The topic `/joint_states`
+/// has a `sensor_msgs/msg/JointState` per sample. The topic `/joint_trajectory` has a `trajectory_msgs/msg/JointTrajectory` per
+/// motion, at its beginning. The file includes the definitions of all messages. Chunks are not compressed.
 ///
 /// With a `stage`, the file also has data for display:
-/// - `/tf` has the poses of bodies whenever they move (`tf2_msgs/msg/TFMessage`, relative to the frame `world`, that of
-///   the robot's root).
+/// - `/tf` has the poses of bodies whenever they move (`tf2_msgs/msg/TFMessage`, relative to the frame `world`, that of the
+///   robot's root).
 /// - `/scene` has their surfaces, once (`visualization_msgs/msg/MarkerArray`, for RViz and Foxglove).
 /// - Topics below `/outlines`, one per body, have points along their rims (`sensor_msgs/msg/PointCloud2`, for Rerun).
 ///
-/// Each motion comes with its start time, in seconds from the beginning of the recording. The caller puts the motions
-/// in order. If a motion begins when the previous one ends, there is only one state for that moment. Times of the log,
-/// the stamps of states and `time_from_start` are the same nanoseconds, and values are the motion's own `f64`. The same
-/// motions give the same bytes.
+/// Each motion comes with its start time, in seconds from the beginning of the recording. Motions must be in order. If a motion
+/// begins when the previous one ends, there is only one state for that moment. Times of the log, stamps of states and
+/// `time_from_start` agree to the nanosecond, and values are the motion's own `f64`. The same motions give the same bytes.
 ///
-/// Time and size are linear in the number of samples: some 250 bytes for each sample, and as many for the poses of an
-/// arm.
+/// Time and size are linear in the number of samples: some 250 bytes per sample, and as many again for the poses of an arm.
 pub fn mcap(motions: &[(&JointMotion, f64)], stage: Option<&Stage>) -> Vec<u8> {
     write(motions, stage).expect("channels with a schema each, and a buffer that takes all")
 }
@@ -73,7 +70,7 @@ struct Recording {
 impl Recording {
     fn channel(&mut self, topic: &str, kind: &Type) -> McapResult<u16> {
         let schema = self.writer.add_schema(kind.name, "ros2msg", kind.definition().as_bytes())?;
-        // The profile requires this key. Empty means the defaults of the player.
+        // The profile requires this key. An empty value means the defaults of the player.
         let metadata = BTreeMap::from([("offered_qos_profiles".to_owned(), String::new())]);
         self.writer.add_channel(schema, topic, "cdr", &metadata)
     }
@@ -94,7 +91,7 @@ impl Recording {
         Ok(())
     }
 
-    /// Adds a message that was sent and received at the same time.
+    /// Adds a message with equal times of sending and receipt.
     fn message(&mut self, channel_id: u16, time: u64, data: &[u8]) -> McapResult<()> {
         let header = MessageHeader { channel_id, sequence: 0, log_time: time, publish_time: time };
         self.writer.write_to_known_channel(&header, data)

@@ -1,4 +1,4 @@
-//! The stage shown while a motion runs: bodies, each with a frame, and the poses of the frames.
+//! What a recording displays: bodies, each with a frame, and the poses of the frames over time.
 
 use super::super::clock::nanoseconds;
 use cplan_geometry::{Convex, Point, Pose, Vector};
@@ -11,21 +11,21 @@ use std::f64::consts::TAU;
 pub struct Stage {
     /// The plane of motion.
     pub plane: Plane,
-    /// The bodies. The first one contains everything static, and does not move.
+    /// The bodies. The first one has everything static, and does not move.
     pub bodies: Vec<Body>,
-    /// Changes of poses in order of time. Each has the time in seconds from the beginning, the index of a body, its
-    /// pose from that time on, and its lift along the plane's normal, metres.
+    /// Changes of poses in order of time. Each has the time in seconds from the beginning, the index of a body, its pose from
+    /// then on, and its lift along the plane's normal, metres.
     pub poses: Vec<(f64, usize, Pose, f64)>,
-    /// Size of the arm, metres, to which the sizes of displayed details are relative.
+    /// Size of the arm, metres. The sizes of displayed details are relative to it.
     pub size: f64,
 }
 
 /// A rigid body.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Body {
-    /// Name of its frame. The frame of the first body is the parent of all others.
+    /// Name of its frame. The frame of the first body is the parent of all other frames.
     pub name: String,
-    /// The body's solids in its frame, whose axes are those of the plane and a normal.
+    /// The solids in the frame, whose axes are those of the plane and its normal.
     pub solids: Vec<Solid>,
 }
 
@@ -43,17 +43,17 @@ pub struct Solid {
 /// A point of space, metres.
 pub type Place = [f64; 3];
 
-/// Number of chords around a full circle. Each chord is nearer than 2 % of the radius to its arc.
+/// Number of chords around a full circle. A chord is within 2 % of the radius of its arc.
 const CHORDS_PER_CIRCLE: f64 = 16.0;
 
-/// Height with which bodies of infinite height are shown if no body has a finite height, as a share of the arm's size.
+/// Height, as a share of the arm's size, of bodies with infinite height if no body has a finite one.
 const THIN_BODY_HEIGHT: f64 = 0.02;
 
 /// Distance between points of outlines, as a share of the arm's size.
 const OUTLINE_SPACING: f64 = 0.01;
 
 impl Stage {
-    /// Returns the heights that are shown for bodies with infinite heights: the range of all finite heights.
+    /// Returns the displayed heights of bodies with infinite heights: the range of all finite heights.
     pub fn heights(&self) -> Heights {
         let pieces = self.bodies.iter().flat_map(|body| &body.solids).flat_map(|solid| &solid.pieces);
         let ends = pieces.flat_map(|(_, heights)| [heights.lower, heights.upper]).filter(|end| end.is_finite());
@@ -65,7 +65,7 @@ impl Stage {
         }
     }
 
-    /// Returns the plane's axes in space as a rotation, whose third axis is the normal or its opposite.
+    /// Returns the plane's axes in space as a rotation. The third axis is the normal or its opposite.
     fn basis(&self) -> Matrix3<f64> {
         let Plane { u, v, .. } = self.plane;
         Matrix3::from_columns(&[u, v, u.cross(&v)])
@@ -85,8 +85,7 @@ impl Stage {
         (at.into(), [turn.i, turn.j, turn.k, turn.w])
     }
 
-    /// Returns the movements of bodies: the time in nanoseconds, the body's index, and its transform. Bodies that never
-    /// move are omitted.
+    /// Returns the movements of bodies: time in nanoseconds, index of the body, and its transform. Omits bodies that never move.
     pub fn moves(&self) -> Vec<(u64, usize, (Place, [f64; 4]))> {
         let mut last = vec![None; self.bodies.len()];
         let moved = |&(time, body, pose, raised): &(f64, usize, Pose, f64)| {
@@ -96,7 +95,7 @@ impl Stage {
         self.poses.iter().filter_map(moved).collect()
     }
 
-    /// Returns the surface of a solid in its frame as triangles. Three consecutive points are the corners of one.
+    /// Returns the surface of a solid in its frame as triangles: each three consecutive points are the corners of one.
     pub fn triangles(&self, solid: &Solid) -> Vec<Place> {
         let mut corners = Vec::new();
         for (piece, heights) in &solid.pieces {
@@ -132,7 +131,7 @@ impl Stage {
         points
     }
 
-    /// Returns the lower and the upper end of a piece along the third axis of its frame.
+    /// Returns the lower and the upper end of a piece along the frame's third axis.
     fn ends(&self, heights: Heights) -> [f64; 2] {
         let usual = self.heights();
         let or = |end: f64, usual: f64| if end.is_finite() { end } else { usual };
@@ -142,7 +141,7 @@ impl Stage {
     }
 }
 
-/// Returns the corners around a piece, counter-clockwise, with chords for its round ends.
+/// Returns the corners of a piece, counter-clockwise, with chords for its round ends.
 fn ring(piece: &Convex) -> Vec<Point> {
     let (core, radius) = (piece.core(), piece.radius().max(0.0));
     if radius == 0.0 {

@@ -6,11 +6,11 @@ use crate::{phase_at, single};
 use cplan_handling::{ArchScene, HeldEffect, HeldJoint, HeldMotion, Recording, Stroke};
 use cplan_model::space::Configuration;
 
-/// Least time between two samples at which a motion and a stroke are joined, seconds. A stroke changes its acceleration
-/// at most this long after a sample, so it deviates from its profile by less than rounding.
+/// Least time between samples at which a motion and a stroke are joined, seconds. A stroke changes its acceleration at most this
+/// long after a sample, so it deviates from its profile by less than rounding errors.
 pub(super) const MIN_GAP: f64 = 1e-7;
 
-/// Number of halvings with which the time of a height is found. Only rounding is left then.
+/// Number of halvings in the search for the time of a height. Only rounding errors remain.
 const RISE_HALVINGS: u32 = 60;
 
 /// A stroke that begins or ends during a motion of the arm.
@@ -20,7 +20,7 @@ pub struct StrokeDuringMotion<'a> {
     pub scene: &'a ArchScene,
     /// The stroke's joint, and its limits.
     pub stroke: &'a Stroke,
-    /// The joint's values at both ends, metres.
+    /// Values of the joint at both ends, metres.
     pub ends: [f64; 2],
     /// Time at which the stroke begins, on the clock of the motion, seconds.
     pub begin: f64,
@@ -41,7 +41,7 @@ impl StrokeDuringMotion<'_> {
         .ok()
     }
 
-    /// Returns the part of a motion during the stroke, and the stroke's joint in the same samples. `None` if they do
+    /// Returns the part of a motion during the stroke, and the stroke's joint at the same samples. `None` if stroke and motion do
     /// not overlap.
     fn overlap(&self, motion: &Recording) -> Option<(Recording, HeldMotion)> {
         let profile = self.profile()?;
@@ -63,21 +63,21 @@ impl StrokeDuringMotion<'_> {
         Some((motion.resampled(&times), HeldMotion { joint, values, lifts_payload: self.scene.lifts_payload }))
     }
 
-    /// Returns true if parts that the stroke lowers are quickly proven to keep at least `clearance` metres during it, at the
-    /// heights of each moment. Also true if the stroke and the motion do not overlap. Pairs of shapes that meet while the
-    /// tool is raised, too, are not checked: their distances do not depend on the stroke.
+    /// Returns true if a quick search proves that the lowered parts keep at least `clearance` metres during the stroke, at their
+    /// height of each moment, or if stroke and motion do not overlap. Does not check pairs of shapes that can also meet while the
+    /// tool is raised, because their distances do not depend on the stroke.
     pub fn keeps(&self, motion: &Recording, clearance: f64) -> bool {
         self.overlap(motion).is_none_or(|(motion, held)| keeps_during_stroke(self.scene, &motion, &held, clearance))
     }
 
-    /// Checks the same pairs of shapes as [`StrokeDuringMotion::keeps`]. `None` if the stroke and the motion do not overlap.
+    /// Checks the same pairs of shapes as [`StrokeDuringMotion::keeps`]. `None` if stroke and motion do not overlap.
     pub fn check(&self, motion: &Recording) -> Option<CollisionCheck> {
         let (motion, held) = self.overlap(motion)?;
         Some(check_stroke(self.scene, &motion, &held, self.scene.raised.workspace().clearance))
     }
 }
 
-/// Returns both ends of a span and the times within it, in ascending order. Times that nearly coincide count once.
+/// Returns both ends of a span and the times within it, ascending. Times that almost coincide count once.
 pub(super) fn times_between<'a>(times: impl Iterator<Item = &'a f64>, [from, to]: [f64; 2]) -> Vec<f64> {
     let mut times: Vec<f64> = times.copied().filter(|time| from < *time && *time < to).collect();
     times.push(from);
@@ -90,9 +90,8 @@ pub(super) fn times_between<'a>(times: impl Iterator<Item = &'a f64>, [from, to]
     times
 }
 
-/// Returns the time, in seconds, in which a stroke of length `depth` rises by `height` from its lowest position, both in
-/// metres. It descends the last `height` metres in the same time. Returns the duration of the whole stroke if it is no
-/// longer than `height`.
+/// Returns the time, in seconds, in which a stroke of length `depth` rises by `height` from its lowest position, both in metres.
+/// Its last descent by `height` takes equally long. Returns the duration of the whole stroke if it is no longer than `height`.
 pub fn seconds_to_rise(stroke: &Stroke, depth: f64, height: f64) -> f64 {
     let samples = single(depth.abs(), &stroke.limits());
     let end = samples.last().map_or(0.0, |[seconds, ..]| *seconds);

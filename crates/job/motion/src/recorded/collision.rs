@@ -1,4 +1,4 @@
-//! Continuous collision check of a recorded motion, with the first place of contact.
+//! Continuous collision check of a recorded motion, which finds the first contact.
 
 use super::encounter::{CollisionCheck, Encounter, Moment, Touch};
 use super::tool::{ToolMotion, TurnedShapes};
@@ -16,39 +16,38 @@ const TIGHTNESS: f64 = 0.9;
 /// Greatest number of checks of a pair of shapes on a span. They take some seconds.
 const MAX_EVALUATIONS: usize = 20_000_000;
 
-/// Greatest number of further checks after the first span that stays undecided. From then on, the motion cannot be
-/// proven free; it can only be found to collide. A motion that slides along an obstacle has very many undecided spans.
+/// Greatest number of checks after the first undecided span. From then on, the motion cannot be proven free, but may still be
+/// found to collide. A motion that slides along an obstacle has very many undecided spans.
 const EVALUATIONS_AFTER_UNDECIDED: usize = 200_000;
 
-/// Number of configurations that are sampled before the search, evenly over the pieces. They show how close the motion
+/// Number of configurations, evenly spread over the pieces, that are sampled before the search. They show how near the motion
 /// comes to obstacles, and thus how finely it must be examined.
 const INITIAL_SAMPLES: usize = 1024;
 
-/// Step, in samples, between those samples that are taken first.
+/// Every so many samples, one is taken in the first pass.
 const COARSE_STRIDE: usize = 32;
 
-/// The set of deviations that contains only the configuration itself.
+/// The deviation of a single configuration from itself.
 const NO_DEVIATION: Deviation = Deviation::Box([0.0; 2]);
 
-/// Checks the whole motion against every pair of shapes that can meet, in order of time. The distance must be positive
-/// and at least `clearance` metres. [`super::limit_violations`] checks joint limits.
+/// Checks the whole motion, in order of time, for all pairs of shapes that can meet. Their distance must be positive and at least
+/// `clearance` metres. For joint limits, see [`super::limit_violations`].
 ///
-/// A span within one piece is enclosed by a tube around its chord. In each joint, a curve deviates from its chord by at
-/// most an eighth of its greatest second derivative times the squared width. A span of several pieces is enclosed by
-/// the box around their control points. If the bound of [`Posture::bound`] does not decide a span, both its halves are
-/// examined. So a motion of many samples costs little if no obstacle is near. After a contact is found, only earlier
-/// spans are examined.
+/// A tube around its chord encloses a span within one piece: in each joint, a curve deviates from its chord by at most an eighth
+/// of its greatest second derivative times the squared width. The box around the control points encloses a span of several
+/// pieces. If [`Posture::bound`] does not decide a span, both halves are examined. So a motion of many samples costs little if no
+/// obstacle is near. After a contact is found, only earlier spans are examined.
 ///
-/// Moving obstacles follow the recording's clock, from its first sample on. If the recording has no times, they are not
-/// checked.
+/// Moving obstacles move by the recording's clock, from its first sample on. Without times, they are not checked.
 pub fn check_collision<'a>(scene: impl Into<TimedScene<'a>>, recording: &Recording, clearance: f64) -> CollisionCheck {
     let scene = scene.into();
     let (pairs, pieces) = (all_pairs(scene, recording), recording.pieces());
     searched(|required| Search::new(scene, &pairs, &pieces, required), clearance)
 }
 
-/// Does the same as [`check_collision`], while other joints move that the scene holds still, such as a tool's. Parts
-/// have the heights and angles that these joints give them at each moment. Carried objects follow only joints that lift them ([`HeldMotion::lifts_payload`]).
+/// Does the same as [`check_collision`] while other joints move that are fixed in the scene, such as a tool's. Parts have the
+/// heights and angles that these joints give them at each moment. Carried objects follow only joints that lift them
+/// ([`HeldMotion::lifts_payload`]).
 pub fn check_collision_with(
     scene: TimedScene,
     recording: &Recording,
@@ -60,8 +59,8 @@ pub fn check_collision_with(
     check_with_tool(scene, recording, (&tool, &pairs), clearance)
 }
 
-/// Checks a motion during a stroke of the tool, as [`check_collision_with`] does. Checks only pairs that do not meet
-/// while the tool is raised.
+/// Does the same as [`check_collision_with`] for a stroke of the tool, but only for pairs that cannot meet while the tool is
+/// raised.
 pub(super) fn check_stroke(
     scene: &ArchScene,
     recording: &Recording,
@@ -83,8 +82,8 @@ fn check_with_tool(
     searched(|required| Search { tool: Some(tool), ..Search::new(scene, pairs, &pieces, required) }, clearance)
 }
 
-/// Returns the verdict of a search with a required clearance. If the motion comes nearer than that, but is not seen to touch
-/// an obstacle, the same search without a clearance decides whether it does.
+/// Returns the verdict of a search with a required clearance. If the motion violates the clearance, but no contact was seen, the
+/// same search without a clearance decides about contact.
 fn searched<'a>(search: impl Fn(f64) -> Search<'a>, clearance: f64) -> CollisionCheck {
     let mut found = search(clearance).of_whole_motion();
     if let CollisionCheck::Collision { deepest, touch: touch @ Touch::Undecided, .. } = &mut found {
@@ -102,8 +101,8 @@ fn searched<'a>(search: impl Fn(f64) -> Search<'a>, clearance: f64) -> Collision
 /// Greatest number of checks of a pair of shapes on a span in [`keeps_during_stroke`]. They take a few milliseconds.
 const TRIAL_EVALUATIONS: usize = 4_000;
 
-/// Returns true if the pairs of [`check_stroke`] are proven to keep a clearance during a stroke of the tool. Gives up
-/// at the first contact, and after few checks, so it is faster than [`check_stroke`].
+/// Returns true if the pairs of [`check_stroke`] are proven to keep a clearance during a stroke of the tool. Faster than
+/// [`check_stroke`], because it gives up at the first contact and after few checks.
 pub(super) fn keeps_during_stroke(scene: &ArchScene, recording: &Recording, held: &HeldMotion, clearance: f64) -> bool {
     let tool = ToolMotion::of_stroke(scene, held);
     let pieces = recording.pieces();
@@ -112,31 +111,30 @@ pub(super) fn keeps_during_stroke(scene: &ArchScene, recording: &Recording, held
     search.trial(TRIAL_EVALUATIONS).is_free()
 }
 
-/// Returns a proven lower bound on the distance of all pairs of a scene along a motion, if it is at least `clearance`
-/// metres and positive. `None` if that is not proven with this number of checks of pairs, or at the first contact.
+/// Returns a proven lower bound, positive and at least `clearance` metres, on the distance of all pairs of a scene along a
+/// motion. `None` at the first contact, or if `budget` checks do not suffice for a proof.
 pub(super) fn proven_clearance(scene: &Scene, recording: &Recording, clearance: f64, budget: usize) -> Option<f64> {
     let pieces = recording.pieces();
     let timed = TimedScene { scene, trajectories: &[] };
     Search::new(timed, scene.pairs(), &pieces, clearance).trial(budget).clearance()
 }
 
-/// Returns the pairs with static obstacles, and if the recording has times, also the pairs with moving obstacles.
+/// Returns the pairs with static obstacles and, if the recording has times, those with moving obstacles.
 fn all_pairs<'a>(scene: TimedScene<'a>, recording: &Recording) -> Cow<'a, [Pair]> {
     let moving = if recording.times().is_some() { scene.moving_pairs() } else { &[] };
     let standing = scene.scene.pairs();
     if moving.is_empty() { standing.into() } else { [standing, moving].concat().into() }
 }
 
-/// Checks a motion against moving obstacles only, on the recording's clock from its first sample on. A
-/// [`crate::CertifiedCurve`] is free of static obstacles. If it also passes this check, the motion is certified in
-/// time.
+/// Checks a motion only for moving obstacles, by the recording's clock from its first sample on. A [`crate::CertifiedCurve`] is
+/// free of static obstacles; if it passes this check, too, the motion is certified in time.
 pub fn certify_in_time(scene: TimedScene, recording: &Recording, clearance: f64) -> CollisionCheck {
     let pieces = recording.pieces();
     Search::new(scene, scene.moving_pairs(), &pieces, clearance).of_whole_motion()
 }
 
-/// Returns the first encounter with a moving obstacle that is too close, or for which this cannot be decided. `None` if
-/// the motion is free. Does not compute the clearance, so it is much faster than [`certify_in_time`].
+/// Returns the first encounter with a moving obstacle that is too close, or may be. `None` if the motion is free. Does not
+/// compute the clearance, so it is much faster than [`certify_in_time`].
 pub fn first_moving_contact(scene: TimedScene, recording: &Recording, clearance: f64) -> Option<Encounter> {
     let pieces = recording.pieces();
     let mut search = Search::new(scene, scene.moving_pairs(), &pieces, clearance);
@@ -164,12 +162,12 @@ struct Search<'a> {
     least: Option<Encounter>,
     /// The earliest contact so far, and its place.
     hit: Option<(Place, Encounter)>,
-    /// The earliest undecided span, and the nearest pair there.
+    /// The earliest undecided span so far, and the nearest pair there.
     open: Option<(Place, Encounter)>,
     evaluations: usize,
     /// Number of checks after which spans are not halved further.
     budget: usize,
-    /// True if the search may end as soon as the motion is not proven free.
+    /// True if the search may end once the motion is not proven free.
     is_trial: bool,
 }
 
@@ -192,13 +190,13 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Samples the whole motion. Skips stretches in which no pair can be in contact, or closer than the closest so far.
+    /// Samples the whole motion. Skips stretches in which no pair can be in contact, or nearer than the nearest so far.
     fn sample_motion(&mut self) {
         let count = self.pieces.len();
         let (stride, shares) = (count.div_ceil(INITIAL_SAMPLES), INITIAL_SAMPLES.div_ceil(count));
         let place = |look: usize| (look / shares * stride, (look % shares) as f64 / shares as f64);
         let looks = count.div_ceil(stride) * shares;
-        // Take some samples first: short distances found early make most others irrelevant.
+        // A few samples come first, because short distances found early make most others irrelevant.
         for look in (0..looks).step_by(COARSE_STRIDE) {
             self.sample_pairs(place(look), self.pairs);
         }
@@ -245,7 +243,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns true if a pair with at least this distance may be in contact, or closer than all pairs before.
+    /// Returns true if a pair with at least this distance may be in contact, or nearer than all pairs before.
     fn may_be_closest(&self, apart: f64) -> bool {
         apart <= 0.0 || apart < self.required || apart < self.least_distance()
     }
@@ -285,7 +283,7 @@ impl<'a> Search<'a> {
     fn record_distance(&mut self, place: Place, contact: Contact) {
         let distance = contact.separation.distance;
         let encounter = Encounter { moment: Moment::new(place.0, &self.pieces[place.0], place.1), contact };
-        // Among equally near places, the earliest counts.
+        // Of equally near places, the earliest counts.
         let rank = |of: &Encounter| (of.contact.separation.distance, of.moment.time);
         let nearer = |than: &Encounter| rank(&encounter) < rank(than);
         if self.least.as_ref().is_none_or(nearer) {
@@ -298,8 +296,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Returns true if a lower bound is good enough. After a contact has been found, any bound that excludes a contact
-    /// is good enough.
+    /// Returns true if a lower bound is good enough. Once a contact has been found, any bound that excludes contact is.
     fn is_good_enough(&self, bound: f64) -> bool {
         let is_tight = self.tightness > 0.0 && self.hit.is_none();
         let target = if is_tight { (self.tightness * self.least_distance()).max(self.required) } else { self.required };
@@ -337,7 +334,7 @@ impl<'a> Search<'a> {
         let (turned, at_middle) = (self.shapes_during(span), self.shapes_at(span.middle()));
         pairs.retain(|&pair| {
             let certainly_meets = self.certainly_meets(pair, span.middle());
-            // A shape that is not exact may be nearer than the true shape, so do not compare it with sampled distances.
+            // An inexact shape may be nearer than the true one, so its distance is not compared with sampled distances.
             let suffices = |search: &Self, bound: f64| match certainly_meets {
                 true => search.is_good_enough(bound),
                 false => bound > 0.0 && bound >= search.required,
@@ -370,7 +367,7 @@ impl<'a> Search<'a> {
         });
     }
 
-    /// Handles a span that is not proven free and cannot be halved. Only its ends are examined.
+    /// Handles a span that is not proven free and cannot be halved, by examining its ends.
     fn leave_open(&mut self, span: Span, pairs: &[Pair]) {
         let mut nearest: Option<Encounter> = None;
         for place in span.ends() {
@@ -395,7 +392,7 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Decides with at most `budget` evaluations, without a tight bound, and stops at the first place that is not free.
+    /// Decides with at most `budget` checks, without a tight bound. Stops at the first place that is not free.
     fn trial(mut self, budget: usize) -> CollisionCheck {
         (self.tightness, self.budget, self.is_trial) = (0.0, budget, true);
         self.run();

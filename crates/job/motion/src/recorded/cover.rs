@@ -3,10 +3,10 @@
 use cplan_geometry::{Convex, Point, Pose, Vector, hull, reach};
 use std::f64::consts::FRAC_PI_2;
 
-/// Relative growth of covers, which allows for rounding.
+/// Relative growth of covers. It exceeds rounding errors.
 const COVER_ROUNDING: f64 = 1e-12;
 
-/// Returns a convex shape that covers all rotations of a shape about the origin, from one angle to another.
+/// Returns a convex shape that covers a shape in all its rotations about the origin, from one angle to another.
 pub(super) fn cover(shape: &Convex, [from, to]: [f64; 2]) -> Convex {
     let farthest = reach(shape.core(), Point::zeros());
     let rounding = COVER_ROUNDING * (farthest + shape.radius());
@@ -18,13 +18,13 @@ pub(super) fn cover(shape: &Convex, [from, to]: [f64; 2]) -> Convex {
     if width == 0.0 {
         return turned(from);
     }
-    // Between both ends, a corner moves along an arc, which leaves its chord by at most the sagitta.
+    // Between both angles, a corner moves along an arc, whose distance from the chord is at most the sagitta.
     let corners: Vec<Point> = [from, to].into_iter().flat_map(|angle| turned(angle).core().to_vec()).collect();
     let sagitta = farthest * (1.0 - (width / 2.0).cos());
     Convex::trusted(hull(&corners), shape.radius() + sagitta + rounding)
 }
 
-/// Returns a convex shape that covers all rotations of a shape about an axis, from one angle to another.
+/// Returns a convex shape that covers a shape in all its rotations about an axis, from one angle to another.
 pub(super) fn cover_about(axis: Point, shape: &Convex, angles: [f64; 2]) -> Convex {
     let [there, back] = [-axis, axis].map(|by: Vector| Pose::translation(by));
     cover(&shape.at(&there), angles).at(&back)
@@ -39,7 +39,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares covers with rotated shapes: in each direction, no rotation reaches farther than the cover.
+        /// Compares covers with rotated shapes: in no direction does a rotated shape extend farther than the cover.
         #[test]
         fn a_cover_has_all_rotations(
             corners in prop::collection::vec((-1.0..1.0_f64, -1.0..1.0_f64), 1..6),

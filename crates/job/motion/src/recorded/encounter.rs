@@ -1,4 +1,4 @@
-//! Results of the continuous check of a motion, and the moments at which shapes meet.
+//! Results of the continuous check of a motion.
 
 use cplan_handling::Piece;
 use cplan_model::Contact;
@@ -7,8 +7,8 @@ use cplan_model::space::Configuration;
 /// A time during a recorded motion, with the configuration at that time.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Moment {
-    /// Time on the recording's clock, seconds. For a recording without times, the index of the waypoint plus the
-    /// fraction of the distance to the next waypoint.
+    /// Time on the recording's clock, seconds. Without times, the index of the waypoint plus the fraction of the distance to the
+    /// next one.
     pub time: f64,
     /// Index of the last sample at or before the moment, from 0.
     pub sample: usize,
@@ -17,9 +17,9 @@ pub struct Moment {
 }
 
 impl Moment {
-    /// Creates the moment at the share `u` of a piece, which leads from the sample `index` to the next one.
+    /// Creates the moment at the share `u` of a piece. The piece leads from the sample `index` to the next one.
     pub fn new(index: usize, piece: &Piece, u: f64) -> Self {
-        // The end of a piece that lasts is the next sample.
+        // The end of a piece is the next sample, unless the piece has no duration.
         let sample = index + usize::from(u == 1.0 && piece.to > piece.from);
         Self { time: piece.time(u), sample, at: piece.at(u) }
     }
@@ -34,7 +34,7 @@ pub struct Encounter {
     pub contact: Contact,
 }
 
-/// Knowledge about contacts of a motion that comes nearer to an obstacle than required.
+/// Whether a motion that comes too near an obstacle also touches it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Touch {
     /// Proven: the motion touches an obstacle.
@@ -50,26 +50,26 @@ pub enum Touch {
 pub enum CollisionCheck {
     /// Proven: the whole motion keeps more than zero and at least the required clearance.
     Free {
-        /// Lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if nothing
-        /// can meet. It is at least 0.9 of the true value, or at least the required clearance.
+        /// Lower bound on the distance between arm and obstacles along the whole motion, metres; infinite if nothing can meet. It
+        /// is at least 0.9 of the true distance, or at least the required clearance.
         clearance: f64,
         /// The nearest place found; `None` if nothing can meet.
         nearest: Option<Encounter>,
     },
-    /// Proven: the motion touches an obstacle, or comes nearer to it than the clearance to keep.
+    /// Proven: the motion touches an obstacle, or comes nearer to it than the required clearance.
     Collision {
         /// The earliest contact found.
         first: Encounter,
-        /// Time before which the motion is proven free, on the same clock. Usually it is a trillionth of a piece before
-        /// `first`. It is earlier if the motion grazes an obstacle earlier.
+        /// Time, on the same clock, before which the motion is proven free. Usually it is a trillionth of a piece before `first`;
+        /// it is earlier if the motion grazes an obstacle before.
         free_until: f64,
-        /// The least signed distance that was seen anywhere on the motion.
+        /// The encounter with the least signed distance that was seen.
         deepest: Encounter,
-        /// Statement about contact with the obstacle.
+        /// Whether the motion touches the obstacle.
         touch: Touch,
     },
-    /// Undecided: this is the first moment at which the distance is too close to the clearance to decide, or at which
-    /// the search reached its limit.
+    /// Undecided: the first moment at which the distance is too near the clearance to decide, or at which the search reached its
+    /// limit.
     Undecided(Encounter),
 }
 
@@ -87,7 +87,7 @@ impl CollisionCheck {
         self.clearance().is_some()
     }
 
-    /// Returns true if the other motion is free, and this one is not or has a smaller clearance.
+    /// Returns true if the other motion is free, and this one is not, or has a smaller clearance.
     pub fn is_worse_than(&self, other: &Self) -> bool {
         other.clearance().is_some_and(|least| self.clearance().is_none_or(|clearance| clearance < least))
     }

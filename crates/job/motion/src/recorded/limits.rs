@@ -1,4 +1,4 @@
-//! The check of joint limits of a recorded motion, also between its samples.
+//! Checks the joint limits of a recorded motion, also between its samples.
 
 use super::encounter::Moment;
 use super::precision::{JointPrecision, Precision};
@@ -8,13 +8,13 @@ use cplan_handling::{Derivative, Piece, Recording};
 use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Arm, Joint, Motors, Scene};
 
-/// Relative excess over a limit that is tolerated. Programs that plan up to a limit exceed it by rounding and by
-/// printing six digits. No drive can distinguish such values.
+/// Tolerated excess over a limit, as a share of it. Programs that plan up to a limit exceed it by rounding and by printing six
+/// digits. No drive can tell the difference.
 const LIMIT_TOLERANCE: f64 = 1e-6;
 
-/// Largest excess over a speed limit between samples, as a share of the limit, that rounded positions and times may
-/// explain. With six decimals at a kilohertz, rounding causes a thousandth of a radian per second. Numbers that are
-/// coarser for their spacing define another motion, and a controller executes that motion.
+/// Largest excess over a speed limit between samples, as a share of the limit, that rounding of positions and times may explain.
+/// With six decimals at a kilohertz, rounding causes a thousandth of a radian per second. Coarser numbers define another motion,
+/// which is the one that a controller executes.
 const MAX_ROUNDING_SHARE: f64 = 0.01;
 
 /// A limit of a joint.
@@ -30,11 +30,11 @@ pub enum Limit {
     Jerk,
     /// The greatest torque or force of the joint's drive.
     Torque,
-    /// The acceleration must not jump, because the jerk is limited.
+    /// A jump of the acceleration, although the jerk is limited.
     AccelerationJump,
-    /// A motion must start at rest.
+    /// A motion that does not start at rest.
     RestAtStart,
-    /// A motion must end at rest.
+    /// A motion that does not end at rest.
     RestAtEnd,
 }
 
@@ -45,8 +45,8 @@ pub struct LimitViolation {
     pub joint: usize,
     /// The violated limit.
     pub limit: Limit,
-    /// The allowed value, in the unit of `value`: the nearer end of the joint's range, or the greatest magnitude; 0 for
-    /// rest and jumps.
+    /// The allowed value, in the unit of `value`: the nearer end of the joint's range, or the greatest magnitude; 0 for rest and
+    /// jumps.
     pub allowed: f64,
     /// The joint's position, velocity, acceleration, jerk or change of acceleration where it exceeds the limit most.
     pub value: f64,
@@ -56,25 +56,24 @@ pub struct LimitViolation {
 
 /// Returns every violated limit of each joint, at the moment of the greatest violation. Takes `O(n)` for `n` samples.
 ///
-/// Position limits apply to every recording, and velocity limits if there are times. Limits of acceleration, and rest
-/// at both ends, apply if there are velocities. Without velocities, the velocity jumps at the samples, so the
-/// accelerations of the intended motion are unknown.
+/// Position limits apply to every recording, and velocity limits if there are times. Limits of acceleration, and rest at both
+/// ends, apply if there are velocities. Without velocities, the velocity jumps at the samples, so the accelerations of the
+/// intended motion are unknown.
 ///
-/// Velocities and accelerations in a file are compared with the limits as stated. Between samples, the extremes of each
-/// piece are compared, with the interpolation by the file's consumer ([`cplan_handling::Interpolation`]). A limit
-/// counts as violated if it is exceeded by more than 1e-6 of it, and by more than rounding of the recording's numbers
-/// explains. Rounding of a stated number is half a unit of its last decimal. Between samples, it is the error that such
-/// rounding causes in a motion within the limits. (With six decimals and samples a millisecond apart, the acceleration
-/// of a cubic is uncertain by some radians per squared second.)
+/// The velocities and accelerations that a file states must be within the limits. Between samples, the extremes of each piece
+/// must be, with the interpolation of the file's consumer ([`cplan_handling::Interpolation`]). A limit counts as violated if the
+/// excess is more than 1e-6 of it, and more than rounding of the recording's numbers explains. For a stated number, rounding
+/// means half a unit of its last decimal; between samples, it means the error that such rounding causes in a motion within the
+/// limits. (With six decimals and samples a millisecond apart, the acceleration of a cubic is uncertain by some radians per
+/// squared second.)
 ///
-/// Rounding may explain an excess on a short piece, but not over a long stretch. So between any two samples, the joint
-/// must not move farther than its top speed allows. Its stated velocity must not change by more than its greatest
-/// acceleration allows.
+/// Rounding may explain an excess on a short piece, but not over a long stretch. So between any two samples, a joint must not
+/// move farther than its top speed allows, and its stated velocity must not change by more than its greatest acceleration allows.
 ///
-/// If a joint has a limit on its jerk and there are velocities, the third derivative of each piece is compared with it.
-/// The acceleration must then be continuous between pieces and at the ends of the motion. This is exact for motions
-/// with constant jerk between samples. The accelerations of cubics through other motions jump at the samples, so a
-/// motion must have samples where its jerk changes.
+/// If a joint has a limit on its jerk and there are velocities, the third derivative of each piece is compared with it. The
+/// acceleration must then be continuous between pieces and at the ends of the motion. This is exact for motions with constant
+/// jerk between samples. The accelerations of cubics through other motions jump at the samples, so a motion must have samples
+/// where its jerk changes.
 pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<LimitViolation> {
     let precision = Precision::of(recording);
     let pieces = recording.pieces();
@@ -85,14 +84,14 @@ pub fn limit_violations(joints: &[Joint; 2], recording: &Recording) -> Vec<Limit
     [0, 1].map(judged).concat()
 }
 
-/// Index in [`LimitViolation::joint`] of the elbow's motor, where it is mounted on the base.
+/// Index in [`LimitViolation::joint`] of the elbow's motor if it is mounted on the base.
 pub const ELBOW_MOTOR: usize = 2;
 
 /// Index in [`LimitViolation::joint`] of the first motor, if its torque differs from the torque of joint 1. The torque
 /// is stated without the motor's gear.
 pub const FIRST_MOTOR: usize = 3;
 
-/// Returns every violated limit of the sum of joint values that the elbow's motor turns, as [`limit_violations`] does.
+/// Returns every violated limit of the sum of joint values that the elbow's motor turns, like [`limit_violations`].
 pub fn motor_violations(arm: &Arm, recording: &Recording) -> Vec<LimitViolation> {
     let Some(motors) = arm.motors else { return Vec::new() };
     let Motors { ratio, range, velocity, acceleration, jerk, .. } = motors;
@@ -107,11 +106,11 @@ pub fn motor_violations(arm: &Arm, recording: &Recording) -> Vec<LimitViolation>
         ..arm.joints[1].clone()
     };
     let precision = Precision::of(recording).of_sum(ratio.abs());
-    // Joint 2 of the converted motion has the sum as its value.
+    // In the converted motion, the value of joint 2 is the sum.
     let converted = recording.mapped(|row| Configuration::new(row[0], motors.joint_sum(*row)));
     let pieces = converted.pieces();
     let mut found = Judge { joint: &joint, k: 1, pieces: &pieces, precision, worst: Vec::new() }.violations(&converted);
-    // The joints' own check reports motions that are not at rest at their ends.
+    // The check of the joints already reports motions that do not begin or end at rest.
     found.retain(|excess| !matches!(excess.limit, Limit::RestAtStart | Limit::RestAtEnd));
     for excess in &mut found {
         excess.joint = ELBOW_MOTOR;
@@ -123,12 +122,12 @@ pub fn motor_violations(arm: &Arm, recording: &Recording) -> Vec<LimitViolation>
 /// Greatest change of a torque between two examined moments, as a share of the joint's effort.
 const TORQUE_TOLERANCE: f64 = 1e-4;
 
-/// Returns, for each joint and the first motor, the moment at which the torque exceeds the effort the most. Returns nothing
-/// if motions of the scene's arm need not respect efforts.
+/// Returns, for each joint and the first motor, the moment with the greatest excess of the torque over the effort. Returns
+/// nothing if motions of the scene's arm need not respect efforts.
 ///
-/// Torques are checked if there are velocities, with the interpolation of the file's consumer, and with the same
-/// allowance for rounding as accelerations. Between the examined moments, a torque may be greater by a ten-thousandth
-/// of the effort. For a recording of a single sample, the torque that holds the arm there is checked.
+/// Torques are checked if there are velocities, with the interpolation of the file's consumer, and with the same allowance for
+/// rounding as accelerations. Between the examined moments, a torque may be greater by a ten-thousandth of the effort. For a
+/// recording of a single sample, the torque that holds the arm there is checked.
 pub fn torque_violations(scene: &Scene, recording: &Recording) -> Vec<LimitViolation> {
     let Some(torques) = Torques::limited(scene).filter(|_| recording.velocities().is_some()) else {
         return Vec::new();
@@ -208,7 +207,7 @@ impl<'a> Judge<'a> {
         self.worst.into_iter().map(|(_, excess)| excess).collect()
     }
 
-    /// Records a value that exceeds its limit by `over` in addition to the tolerance.
+    /// Records a value that exceeds its limit by `over` more than the tolerance.
     fn note(&mut self, over: f64, limit: Limit, allowed: f64, value: f64, moment: Moment) {
         let excess = LimitViolation { joint: self.k, limit, allowed, value, moment };
         match self.worst.iter_mut().find(|(_, known)| known.limit == limit) {
@@ -284,8 +283,7 @@ impl<'a> Judge<'a> {
         self.stretches(Limit::Acceleration, allowed, self.precision.velocity, velocities, times);
     }
 
-    /// Checks the least and the greatest value of a derivative of a piece. `explained` is the part that rounding
-    /// explains.
+    /// Checks the least and the greatest value of a derivative of a piece. `explained` is the excess that rounding explains.
     fn extremes(&mut self, limit: Limit, allowed: f64, explained: f64, index: usize) {
         let piece = &self.pieces[index];
         let of = match limit {
@@ -302,9 +300,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Checks the mean rate of change of values between any two samples. The values have the rounding error `rounded`.
-    /// Let `s` be the value at a sample minus the change that is allowed until then. The rate is too large where `s`
-    /// exceeds the least earlier `s`.
+    /// Checks the mean rate of change of values between any two samples. The values have the rounding error `rounded`. Let `s` be
+    /// a sample's value minus the allowed change up to it. The rate is too high if `s` exceeds the least earlier `s`.
     fn stretches(&mut self, limit: Limit, allowed: f64, rounded: f64, values: &[f64], times: &[f64]) {
         let most = allowed * (1.0 + LIMIT_TOLERANCE);
         let may = 2.0 * rounded + most * 2.0 * self.precision.time;
@@ -325,7 +322,7 @@ impl<'a> Judge<'a> {
 
     /// Checks the jerks of all pieces, and the jumps of the acceleration at their ends.
     fn jerks(&mut self, most: f64) {
-        // A joint at rest has no acceleration and no error.
+        // A joint at rest has neither acceleration nor error.
         let still = (0.0, 0.0);
         let mut before = still;
         for (index, piece) in self.pieces_with_duration() {
@@ -363,15 +360,15 @@ impl<'a> Judge<'a> {
     fn rounding_part(&self, piece: &Piece, of: &Sensitivity) -> f64 {
         let duration = piece.to - piece.from;
         let moved = 2.0 * self.precision.position + 2.0 * self.precision.time * self.speed(piece);
-        // Divided one by one: a power of a short duration is far smaller.
+        // Divides step by step, because powers of short durations are far smaller.
         let over = |value: f64, order: i32| (0..order).fold(value, |value, _| value / duration);
         over(of.position * moved, of.order)
             + over(of.velocity * self.precision.velocity, of.order - 1)
             + over(of.acceleration * self.precision.acceleration, of.order - 2)
     }
 
-    /// Returns the greatest speed at the ends of the piece or between them, limited by the joint's top speed, because
-    /// rounding does not explain faster motion.
+    /// Returns the greatest speed on the piece, but at most the joint's top speed, because rounding does not explain faster
+    /// motion.
     fn speed(&self, piece: &Piece) -> f64 {
         let duration = piece.to - piece.from;
         let mean = if duration > 0.0 { (piece.at(1.0) - piece.at(0.0))[self.k] / duration } else { 0.0 };
@@ -380,8 +377,8 @@ impl<'a> Judge<'a> {
     }
 }
 
-/// Changes of a derivative per unit of change in the positions, velocities or accelerations that define a piece. Time
-/// is in units of the piece's duration.
+/// Changes of a derivative per unit of change in the positions, velocities or accelerations that define a piece. Times are in
+/// units of the piece's duration.
 struct Sensitivity {
     order: i32,
     position: f64,

@@ -1,16 +1,16 @@
-//! The rounding errors of a recording's numbers, by the decimals that they have.
+//! The rounding errors of a recording's numbers, according to their decimals.
 
 use cplan_handling::Recording;
 use cplan_model::space::Configuration;
 
-/// Number of decimals from which a number counts as rounded in its last decimal.
+/// A number with at least this many decimals counts as rounded in its last decimal.
 const MIN_ROUNDED_DECIMALS: i32 = 6;
 
-/// Number of decimals to which numbers with fewer than [`MIN_ROUNDED_DECIMALS`] decimals count as exact: `0.5` is
-/// exactly a half. Nine decimals of a time in seconds are a nanosecond.
+/// A number with fewer than [`MIN_ROUNDED_DECIMALS`] decimals counts as exact to this number of decimals: `0.5` is exactly a
+/// half. In a time in seconds, nine decimals are a nanosecond.
 const EXACT_DECIMALS: i32 = 9;
 
-/// Rounding error of a computed sample and of the piece through it, in units in the last place of a double.
+/// Rounding error of a computed sample, and of the piece through it, in units in the last place of a double.
 const ULPS: f64 = 4.0;
 
 /// Bounds on the rounding errors of a recording's numbers.
@@ -30,7 +30,7 @@ pub(super) struct JointPrecision {
 }
 
 impl Precision {
-    /// Returns the bounds for the numbers of a recording, by the decimals that they have.
+    /// Returns the bounds for the numbers of a recording, according to their decimals.
     pub fn of(recording: &Recording) -> Self {
         let each = |rows: Option<&[Configuration]>| {
             [0, 1].map(|k| rows.map_or(0.0, |rows| rounding(rows.iter().map(|row| row[k]))))
@@ -43,7 +43,7 @@ impl Precision {
         }
     }
 
-    /// Returns the precision of `ratio q1 + q2`, for a ratio that is not negative.
+    /// Returns the precision of `ratio q1 + q2`; `ratio` must not be negative.
     pub fn of_sum(&self, ratio: f64) -> JointPrecision {
         let sum = |[first, second]: [f64; 2]| ratio * first + second;
         let [position, velocity, acceleration] = [self.position, self.velocity, self.acceleration].map(sum);
@@ -61,12 +61,12 @@ impl Precision {
     }
 }
 
-/// Returns half a unit of the last decimal of the numbers, plus the rounding of doubles of their size.
+/// Returns half a unit of the last decimal of the numbers, plus the rounding error of doubles of their size.
 fn rounding(values: impl Iterator<Item = f64>) -> f64 {
     let (mut most, mut largest) = (0, 0.0_f64);
     for value in values {
         largest = largest.max(value.abs());
-        // Doubles have at most 17 digits, so there is nothing finer.
+        // Doubles have at most 17 digits.
         if most < 17 {
             most = most.max(decimals(value));
         }

@@ -1,9 +1,8 @@
-//! Heights and shapes of the arm while joints other than the two planned ones move.
+//! Heights and shapes of the arm while other joints than the two planned ones move.
 //!
-//! During a span of time, a lifted part counts with all its heights from the least to the greatest. This is enough to
-//! prove that a span is free. A contact is reported only if the heights meet at one moment. A part that a wrist turns
-//! counts with all its orientations from the least angle to the greatest. For a contact, it counts with its orientation
-//! at the moment.
+//! To prove that a span of time is free, a lifted part counts with all heights from its least to its greatest, and a part that a
+//! wrist turns counts with all orientations between its least and its greatest angle. A contact is reported only if heights meet,
+//! with the orientation of the part, at one moment.
 
 use super::cover::cover_about;
 use crate::{Place, Span};
@@ -13,13 +12,13 @@ use cplan_judge::Deviation;
 use cplan_model::{Heights, OutlineSource, Pair, Part, Scene};
 use std::borrow::Cow;
 
-/// Greatest distance of the centre of a round part from its axis of rotation, metres. It allows for rounding.
+/// A part is round if its centre is within this distance of its axis of rotation, metres. It covers rounding.
 const AXIS_TOLERANCE: f64 = 1e-9;
 
-/// A joint that moves although the scene holds it still.
+/// A joint that moves although it is fixed in the scene.
 struct MovingJoint {
     pieces: Vec<Piece>,
-    /// The held value of the joint, and the direction of increasing values.
+    /// The fixed value of the joint, and the direction of increasing values.
     rest: f64,
     sign: f64,
 }
@@ -29,7 +28,7 @@ impl MovingJoint {
         Self { pieces: values.pieces(), rest: joint.value, sign }
     }
 
-    /// Returns bounds on the joint's values during a span, relative to the held value.
+    /// Returns bounds on the joint's values during a span, relative to its fixed value.
     fn extent(&self, span: Span) -> [f64; 2] {
         let (middle, deviation) = span.deviation(&self.pieces);
         let half = match deviation {
@@ -60,8 +59,8 @@ impl<'a> Lift<'a> {
     }
 }
 
-/// Returns heights after the lifts by those joints that carry the body. Each joint comes with bounds on its lift, in metres
-/// relative to the held value.
+/// Returns heights after lifts by the joints that carry the body. Each joint comes with bounds on its lift, in metres relative to
+/// its fixed value.
 fn lifted<'l>(
     heights: Heights,
     lifts: impl Iterator<Item = (&'l Lift<'l>, [f64; 2])>,
@@ -70,7 +69,7 @@ fn lifted<'l>(
     lifts.filter(|(lift, _)| carries(lift)).fold(heights, |heights, (_, extent)| heights.lifted(extent))
 }
 
-/// Returns the heights of a bar whose one end moves with the tip, after these lifts.
+/// Returns the heights, after these lifts, of a bar of which one end moves with the tip.
 fn lifted_bar<'l>(heights: Heights, lifts: impl Iterator<Item = (&'l Lift<'l>, [f64; 2])>) -> Heights {
     lifts.fold(heights, |heights, (_, extent)| heights.and(heights.lifted(extent)))
 }
@@ -79,7 +78,7 @@ fn lifted_bar<'l>(heights: Heights, lifts: impl Iterator<Item = (&'l Lift<'l>, [
 struct Turn {
     /// Index of the part.
     part: usize,
-    /// The part's shape while the joint is at its held value.
+    /// The part's shape at the joint's fixed value.
     shape: Convex,
     axis: Point,
     joint: MovingJoint,
@@ -96,16 +95,15 @@ impl TurnedShapes {
     }
 }
 
-/// The arm's scene while joints move that the scene holds still.
+/// A scene in which joints move that were fixed.
 pub(super) struct ToolMotion<'a> {
     lifts: Vec<Lift<'a>>,
-    /// Index among link 2's parts of the bar from joint 2 to the tip, if it has one. One end of a bar moves with the tip.
+    /// Index, among the parts of link 2, of the bar from joint 2 to the tip, if there is one. One end of it moves with the tip.
     bar: Option<usize>,
     turns: Vec<Turn>,
-    /// The scene with parts at the heights of the held joints.
+    /// The scene with parts at the heights of the fixed joints.
     still: Cow<'a, Scene>,
-    /// The scene with parts at all heights that they take during the motion, and with the pairs that meet at some of
-    /// them.
+    /// The scene with parts at all heights that they take during the motion, and with all pairs that meet at some of them.
     swept: Cow<'a, Scene>,
 }
 
@@ -149,7 +147,7 @@ impl<'a> ToolMotion<'a> {
         Self { lifts, bar, turns, still: Cow::Owned(scene.clone()), swept: Cow::Owned(swept) }
     }
 
-    /// Creates a motion of the joint that lowers the tool, in scenes that are already known.
+    /// Creates a motion of the joint that lowers the tool, in known scenes.
     pub fn of_stroke(scene: &'a ArchScene, motion: &'a HeldMotion) -> Self {
         let ArchScene { raised, swept, .. } = scene;
         let sign = if let HeldEffect::Lifts { sign } = motion.joint.effect { sign } else { 0.0 };
@@ -183,7 +181,7 @@ impl<'a> ToolMotion<'a> {
         self.lifts.iter().map(|lift| lift.joint.extent(span)).collect()
     }
 
-    /// Returns the heights of a pair's part with these lifts, and the heights of its obstacle.
+    /// Returns the heights of a pair's part with these lifts, and those of its obstacle.
     fn heights(&self, pair: Pair, extents: &[[f64; 2]]) -> [Heights; 2] {
         let part = &self.still.link(pair).parts[pair.part];
         let is_attached = self.still.is_attached(pair);
@@ -210,7 +208,7 @@ impl<'a> ToolMotion<'a> {
         if self.still.is_attached(pair) { part.object_may_meet(obstacle) } else { part.meet(obstacle) }
     }
 
-    /// Returns true if at a moment the heights of a pair certainly meet, and its part is no bar.
+    /// Returns true if at a moment the heights of a pair certainly meet. False if its part is a bar.
     pub fn certainly_meets(&self, pair: Pair, (piece, share): Place) -> bool {
         let [part, obstacle] = self.heights(pair, &self.extents(Span::Part(piece, share, share)));
         let meet = match self.still.is_attached(pair) {
@@ -222,7 +220,7 @@ impl<'a> ToolMotion<'a> {
     }
 }
 
-/// Returns the scene with the parts of the arm at all heights and angles that other joints give them during a motion.
+/// Returns the scene with the arm's parts at all heights and angles that other joints give them during a motion.
 pub fn swept_by_tool(scene: &Scene, held: &[HeldMotion]) -> Scene {
     let tool = ToolMotion::new(scene, held);
     let turned = tool.shapes(|joint| joint.extent(Span::all(joint.pieces.len())));
@@ -239,7 +237,7 @@ fn bar_of(scene: &Scene) -> Option<usize> {
     scene.own_parts(1).len().checked_sub(1).filter(|_| is_bar)
 }
 
-/// Returns true if a shape is a disc about an axis, unchanged by rotation.
+/// Returns true if a shape is a disc about an axis, so that rotations do not change it.
 fn is_round(shape: &Convex, axis: Point) -> bool {
     shape.core().iter().all(|corner| (corner - axis).norm() <= AXIS_TOLERANCE)
 }

@@ -20,8 +20,8 @@ pub struct TorqueSample {
     pub off: [f64; 2],
 }
 
-/// Samples the torques along a piece, so densely that they change between two samples by at most a share of the
-/// efforts. The number of samples is limited to some thousands.
+/// Samples the torques along a piece so densely that they change by at most a share of the efforts between two samples. Takes at
+/// most some thousands of samples.
 pub fn torque_samples<'a>(
     torques: &Torques<'a>,
     piece: &Piece,

@@ -1,8 +1,8 @@
 //! Turns of a payload by a wrist while the arm moves.
 //!
-//! During a span of time, the payload turns from one angle to another, and the tip carries it along. Its *cover* is a
-//! convex shape around all its orientations between both angles. A span is free if the cover is free all along it. Spans
-//! that are not proven free are halved, so covers get smaller. Nothing is sampled.
+//! During a span of time, the payload turns from one angle to another while the tip carries it along. Its *cover* is a convex
+//! shape around all its orientations between both angles. A span is free if the cover is free all along it. Spans that are not
+//! proven free are halved, so that covers become smaller. Nothing is sampled.
 
 use super::arch::{MIN_GAP, times_between};
 use super::collision::proven_clearance;
@@ -15,24 +15,23 @@ use cplan_interrupt::checkpoint;
 use cplan_judge::Posture;
 use cplan_model::{Arm, AttachedPart, Contact, Grip, Scene};
 
-/// Least angle, in radians, at which a span is halved. The covers of smaller spans hardly differ from the payload.
+/// Spans with less than this angle, in radians, are not halved. Their covers hardly differ from the payload.
 const MIN_ANGLE: f64 = 1e-4;
 
-/// Greatest number of spans that a trial examines, and greatest number of checks of pairs in each of them. They take a
-/// few milliseconds.
+/// Limits of a quick search: greatest number of spans, and greatest number of checks of pairs in each. They take a few
+/// milliseconds.
 const TRIAL: Effort = Effort { spans: 48, evaluations: 1_000 };
 
-/// Greatest number of spans that a proof examines, and greatest number of checks of pairs in each of them.
+/// Limits of a search for a proof.
 const PROOF: Effort = Effort { spans: 4_096, evaluations: 50_000 };
 
-/// Number of times that a sought clearance is halved if it is not proven. After that, only the required clearance is
-/// tried.
+/// Number of times that a desired clearance is halved if it is not proven. After that, only the required clearance is tried.
 const CLEARANCE_HALVINGS: u8 = 3;
 
 /// Number of times that a span is halved to bound the speed of the wrist.
 const LIMIT_HALVINGS: u8 = 5;
 
-/// Relative excess over a limit that is tolerated, as for the arm's own joints.
+/// Tolerated excess over a limit, as a share of it; the same as for the arm's own joints.
 const LIMIT_TOLERANCE: f64 = 1e-6;
 
 /// Limits of a search.
@@ -63,8 +62,8 @@ impl TurnCover {
         Some(Self { scene, parts })
     }
 
-    /// Returns the scene in which the payload has all orientations from one angle to another, in radians, at once. It is
-    /// exact if both are the same.
+    /// Returns the scene with the payload in all orientations from one angle to another, in radians, at once. Exact if both are
+    /// the same.
     fn between(&self, angles: [f64; 2]) -> Scene {
         let covering = |part: &AttachedPart| AttachedPart { shape: cover(&part.shape, angles), ..part.clone() };
         self.scene.with_attachment(|attachment| {
@@ -79,8 +78,8 @@ impl TurnCover {
     }
 }
 
-/// Returns the motion of a wrist that turns by `distance` radians in `seconds`: its fastest motion, stretched evenly in
-/// time. Each entry is an end of a phase of constant jerk: seconds since the beginning, angle so far, and speed.
+/// Returns the motion of a wrist that turns by `distance` radians in `seconds`: its fastest motion, stretched evenly in time.
+/// Each entry is an end of a phase of constant jerk: seconds since the beginning, angle so far, and speed.
 pub fn turn_profile(wrist: &Wrist, distance: f64, seconds: f64) -> Vec<[f64; 3]> {
     let fastest = single(distance, &wrist.limits());
     let least = fastest.last().map_or(0.0, |[end, ..]| *end);
@@ -91,8 +90,8 @@ pub fn turn_profile(wrist: &Wrist, distance: f64, seconds: f64) -> Vec<[f64; 3]>
     fastest.into_iter().map(|[time, angle, speed]| [time * stretch, angle, speed / stretch]).collect()
 }
 
-/// A turn of the payload that begins or ends during a motion of the arm. Before the turn the payload has the
-/// orientation of the turn's beginning, and after the turn that of its end.
+/// A turn of the payload that begins or ends during a motion of the arm. Before and after the turn, the payload has the
+/// orientations `ends`.
 #[derive(Debug, Clone)]
 pub struct TurnDuringMotion<'a> {
     /// The payload and its obstacles.
@@ -105,8 +104,8 @@ pub struct TurnDuringMotion<'a> {
     pub seconds: f64,
     /// Time at which the turn begins, on the clock of the motion, seconds.
     pub begin: f64,
-    /// True for a turn before a place: the payload keeps its last orientation until the end of the motion. False for a
-    /// turn after a pick: the payload has its first orientation from the beginning of the motion.
+    /// True for a turn before a place: the payload keeps its final orientation until the end of the motion. False for a turn
+    /// after a pick: it has its first orientation from the beginning of the motion.
     pub is_before_place: bool,
 }
 
@@ -120,8 +119,8 @@ impl TurnDuringMotion<'_> {
         turn_angle(&self.profile(), self.ends, time - self.begin)
     }
 
-    /// Returns the span of a motion in which the payload's orientation differs from that in the rest of the motion.
-    /// `None` if there is no such span.
+    /// Returns the span of a motion in which the turn changes the payload's orientation from that in the rest of the motion.
+    /// `None` if there is none.
     fn window(&self, motion: &Recording) -> Option<[f64; 2]> {
         let times = motion.times()?;
         let [first, last] = [times[0], times[times.len() - 1]];
@@ -141,8 +140,8 @@ impl TurnDuringMotion<'_> {
         times.windows(2).map(|pair| [pair[0], pair[1]]).collect()
     }
 
-    /// Returns a proven lower bound on the payload's distance to obstacles, if it is at least `clearance` metres and
-    /// positive. Otherwise returns a span that is not proven free.
+    /// Returns a proven lower bound, positive and at least `clearance` metres, on the payload's distance from obstacles.
+    /// Otherwise returns a span that is not proven free as the error.
     fn proven(&self, motion: &Recording, clearance: f64, effort: Effort) -> Result<f64, [f64; 2]> {
         let (Some(window), Some(times)) = (self.window(motion), motion.times()) else { return Ok(f64::INFINITY) };
         if self.cover.is_empty() {
@@ -172,14 +171,14 @@ impl TurnDuringMotion<'_> {
         Ok(least)
     }
 
-    /// Returns true if the payload is quickly proven to keep at least `clearance` metres from obstacles while its
-    /// orientation differs from that in the rest of the motion.
+    /// Returns true if a quick search proves that the payload keeps at least `clearance` metres while its orientation differs
+    /// from that in the rest of the motion.
     pub fn keeps(&self, motion: &Recording, clearance: f64) -> bool {
         self.proven(motion, clearance, TRIAL).is_ok()
     }
 
-    /// Returns a proven lower bound, metres, on the payload's distance to obstacles in the same part of the motion. It
-    /// is at least `clearance`, and as large as `sought` if that can be proven. `None` if the motion is not proven free.
+    /// Returns a proven lower bound, metres, on the payload's distance from obstacles in the same part of the motion. It is at
+    /// least `clearance`, and up to `sought` if that can be proven. `None` if the motion is not proven free.
     pub fn clearance(&self, motion: &Recording, clearance: f64, sought: f64) -> Option<f64> {
         let mut sought = sought;
         for _ in 0..=CLEARANCE_HALVINGS {
@@ -194,8 +193,8 @@ impl TurnDuringMotion<'_> {
         self.proven(motion, clearance, PROOF).ok()
     }
 
-    /// Checks the same part of the motion. Returns the check, and the scene that its pairs belong to. A collision is
-    /// reported if the payload touches an obstacle at an end or in the middle of a span that is not proven free.
+    /// Checks the same part of the motion. Returns the result, and the scene to which its pairs belong. Reports a collision if
+    /// the payload touches an obstacle at an end or in the middle of a span that is not proven free.
     pub fn check(&self, motion: &Recording, clearance: f64, sought: f64) -> (Scene, CollisionCheck) {
         if let Some(clearance) = self.clearance(motion, clearance, sought) {
             return (self.cover.scene.clone(), CollisionCheck::Free { clearance, nearest: None });
@@ -224,8 +223,8 @@ impl TurnDuringMotion<'_> {
         (scene, CollisionCheck::Undecided(first))
     }
 
-    /// Returns true if the wrist is proven to keep its limits in the part of the turn during the motion, while it also
-    /// compensates the rotation of link 2. Both speeds and both accelerations add up.
+    /// Returns true if the wrist is proven to keep its limits in the part of the turn during the motion, in which it also
+    /// compensates the rotation of link 2. Speeds and accelerations of both rotations add up.
     pub fn keeps_limits(&self, arm: &Arm, motion: &Recording) -> bool {
         let weights = arm.joints.each_ref().map(|joint| joint.joint_type.turn());
         let sign = (self.ends[1] - self.ends[0]).signum();
@@ -240,7 +239,7 @@ impl TurnDuringMotion<'_> {
                 if span[1] <= span[0] || end <= begin {
                     return true;
                 }
-                // In a phase, neither the speed nor the acceleration turns back.
+                // Within a phase, speed and acceleration are monotone.
                 let rates = |time: f64| {
                     let [_, speed, acceleration] = phase_at([phase[0], phase[1]], time - self.begin);
                     [sign * speed, sign * acceleration]
@@ -286,7 +285,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares the profile with the integral of its speeds, and checks that it keeps both limits.
+        /// Compares the profile with the integral of its speeds, and checks both limits.
         #[test]
         fn a_stretched_turn_covers_its_angle(
             distance in 0.01..6.0_f64, velocity in 0.5..9.0_f64, acceleration in 1.0..90.0_f64,

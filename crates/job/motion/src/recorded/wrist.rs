@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 pub struct WristTurn {
     /// The payload's orientation at the beginning, radians.
     pub from: f64,
-    /// The payload's orientation at the end, radians. It differs from `from` by less than one turn, with the sign of
+    /// The payload's orientation at the end, radians. It differs from `from` by less than a turn; the sign of the difference is
     /// the direction.
     pub to: f64,
     /// Proven lower bound on the distance between the payload and obstacles other than its supports, metres; infinite
@@ -67,8 +67,8 @@ impl TurnAtRest {
         Self { tip: arm.tip_at(q), pairs, clearance: workspace.clearance, reach: arm.reach() }
     }
 
-    /// Returns a free turn from one orientation to another: in the shorter direction if it is free, otherwise in the
-    /// longer. `None` if neither is.
+    /// Returns a free turn from one orientation to another: in the shorter direction if it is free, otherwise in the longer one.
+    /// `None` if neither is free.
     pub fn free(&self, [from, to]: [f64; 2]) -> Option<WristTurn> {
         let displacement = JointRange::Circle.displacement(from, to);
         let ahead = if displacement < 0.0 { displacement + TAU } else { displacement };
@@ -79,14 +79,14 @@ impl TurnAtRest {
         ends.into_iter().find_map(|end| self.judge([from, end]).ok())
     }
 
-    /// Checks the turn from one orientation to another, in the direction from the first to the second. `O(n m)` for each
-    /// pair of pieces. Exact up to rounding, which is added to the required distance.
+    /// Checks the turn from the first orientation to the second, without wrapping. `O(n m)` for each pair of pieces. Exact up to
+    /// rounding errors, which are added to the required distance.
     ///
     /// # Errors
     /// The first place where the payload touches an obstacle, or comes closer than the workspace's clearance.
     pub fn judge(&self, [from, to]: [f64; 2]) -> Result<WristTurn, TurnContact> {
-        // Shift the turn to the orientations nearest to zero, where contact angles are known. Shifting these instead
-        // would cause more rounding than the margin covers.
+        // Contact angles are known near zero, so the turn is shifted there. Shifting contact angles instead would cause more
+        // rounding than the margin covers.
         let near = JointRange::Circle.wrap(from);
         match self.judge_near([near, near + (to - from)]) {
             Ok(free) => Ok(WristTurn { from, to, ..free }),
@@ -114,7 +114,7 @@ impl TurnAtRest {
         Ok(WristTurn { from, to, clearance: kept })
     }
 
-    /// Iterates over the pairs that come nearer than `distance` somewhere, each with the first such place.
+    /// Iterates over the pairs that come nearer than `distance` somewhere, each with the first place where it does.
     fn contacts(&self, turn: [f64; 2], distance: f64) -> impl Iterator<Item = TurnContact> {
         let mut arcs = Vec::new();
         self.pairs.iter().filter_map(move |(part, piece, obstacle)| {
@@ -132,7 +132,7 @@ impl TurnAtRest {
     }
 }
 
-/// Returns the value at which a turn first meets an arc or a copy of it by whole turns. `None` if it meets none.
+/// Returns the value at which a turn first meets an arc, or a copy of it shifted by whole turns. `None` if it meets none.
 fn entry([start, end]: [f64; 2], [from, to]: [f64; 2]) -> Option<f64> {
     if to < from {
         return entry([-end, -start], [-from, -to]).map(|angle| -angle);
@@ -149,7 +149,7 @@ mod tests {
     proptest! {
         #![proptest_config(cplan_cases::cases(256))]
 
-        /// Compares the result with 4000 sampled angles of the turn, each of which is in the arc or not.
+        /// Compares the result with 4000 sampled angles of the turn.
         #[test]
         fn a_turn_meets_an_arc_where_it_first_is_in_it(
             start in -9.0..9.0_f64, width in 0.01..6.2_f64, from in -9.0..9.0_f64, displacement in -6.2..6.2_f64,
@@ -160,7 +160,7 @@ mod tests {
             let step = displacement.abs() / 4000.0 + 1e-9;
             match (entry([start, start + width], [from, from + displacement]), seen) {
                 (Some(found), Some(seen)) => prop_assert!((found - seen).abs() <= step, "{found} {seen}"),
-                // At the very end, or within an arc that lies between two looks.
+                // At the very end, or within an arc between two samples.
                 (Some(found), None) => {
                     prop_assert!(width <= step || (found - from - displacement).abs() <= step, "{found}");
                 }

@@ -1,5 +1,5 @@
-//! *Closed* configurations, in which shapes are too near. Finds the closed values of joint 1, and the closed values of
-//! joint 2 at one value of joint 1. Proves that straight motions are closed.
+//! *Closed* configurations, in which shapes are too near. Finds the closed values of joint 1, and those of joint 2 at a value of
+//! joint 1. Proves that straight motions are closed.
 
 use crate::slab::{CLOSED_FORM_ERROR, ErodedShape};
 use cplan_geometry::{Convex, Hits, Point, Pose, Vector, common, merge_in_place, perpendicular, separation};
@@ -11,11 +11,11 @@ use std::cmp::Reverse;
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-/// Number of times that a motion is halved. If that does not prove it closed, it counts as not proven.
+/// Largest number of times that a motion is halved. If that does not suffice for a proof, the motion counts as not proven.
 const MAX_MOTION_HALVINGS: usize = 4;
 
-/// An interval of joint 2 in which a pair is too near. For a joint with limits it lies within the domain. For a
-/// continuous joint it may extend beyond the domain, by at most a turn.
+/// An interval of joint 2 in which a pair is too near. It is within the domain of a joint with limits. With a continuous joint,
+/// it may extend beyond the domain by at most a turn.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Wall {
     /// Index of the pair among those of link 2.
@@ -24,19 +24,18 @@ pub(super) struct Wall {
     pub upper: f64,
 }
 
-/// Maximum number of pairs of link 2 that are examined. If pairs are omitted, fewer configurations count as closed, so
-/// the bound stays valid. It hardly gets lower, because among so many pieces the link usually collides with several at
-/// once.
+/// Largest number of pairs of link 2 that are examined. If pairs are omitted, fewer configurations count as closed, so the bound
+/// stays valid. It becomes hardly lower, because the link usually collides with several of so many pieces at once.
 pub(super) const MAX_PAIRS: usize = 4096;
 
-/// Maximum product of the number of slices and the number of pairs. It corresponds to some seconds.
+/// Largest product of the numbers of slices and pairs. It corresponds to some seconds.
 const MAX_SLICE_TESTS: usize = 4_000_000;
 
 /// A pair of link 2, with data to find its walls.
 struct PreparedPair {
     /// Index among all pairs.
     index: usize,
-    /// The eroded shape of the pair. `None` if the shapes are too thin to overlap by more than the rounding error.
+    /// The eroded shape of the pair. `None` if the shapes are too thin to overlap by more than rounding errors.
     eroded: Option<ErodedShape>,
     /// The piece's core as an intersection of half-planes.
     sides: Vec<(Vector, f64)>,
@@ -49,7 +48,7 @@ pub(super) struct SecondLinkWalls<'a> {
     /// For each part of link 2, its core as an intersection of half-planes.
     sides: Vec<Vec<(Vector, f64)>>,
     pairs: Vec<PreparedPair>,
-    /// Position of each pair in `pairs`.
+    /// Index in `pairs` of each pair.
     numbers: BTreeMap<Pair, usize>,
     scratch: Vec<[f64; 2]>,
 }
@@ -85,7 +84,7 @@ impl<'a> SecondLinkWalls<'a> {
         }
     }
 
-    /// Returns the pairs in use, in order: first those of link 1 (none if they are too many), then those of link 2.
+    /// Returns the pairs in use: first those of link 1 (none if there are too many), then those of link 2.
     pub fn pairs(&self) -> Vec<Pair> {
         let first = self.contacts.second_link_pairs().start;
         let few = first <= MAX_PAIRS;
@@ -166,8 +165,8 @@ impl<'a> SecondLinkWalls<'a> {
         }
     }
 
-    /// Returns true if a pair is proven too near along the whole straight motion between two configurations. If it
-    /// returns false, this is unknown.
+    /// Returns true if a pair is proven to be too near along the whole straight motion between two configurations. False means
+    /// unknown.
     pub fn all_along(&self, pair: usize, from: Configuration, to: Configuration) -> bool {
         self.halved(&self.pairs[pair], [from, to], MAX_MOTION_HALVINGS)
     }
@@ -196,14 +195,13 @@ impl<'a> SecondLinkWalls<'a> {
         (self.contacts.moving(pair.index).shape(), self.contacts.static_shape(pair.index).shape())
     }
 
-    /// Returns true if some point that is fixed in one of the two shapes is proven to stay in both along the whole
-    /// motion.
+    /// Returns true if some point of one of the two shapes is proven to stay in both along the whole motion.
     ///
-    /// A point of the part moves smoothly. It deviates from a straight motion between its end positions by at most half
-    /// the bound on its second derivative. The distance from a convex set, negative inside, is a convex function. So
-    /// the point's distance from the piece is at most its greater distance at the two ends, plus that deviation. The
-    /// same holds for a point of the piece as seen from the link. If the point's distances from both cores add up to at
-    /// most `radius`, the distance of the cores is at most `radius`.
+    /// A point of the part deviates from the straight motion between its end positions by at most half the bound on its second
+    /// derivative. The distance from a convex set, negative inside, is a convex function. So along the motion, the point's
+    /// distance from the piece is at most the greater of its distances at the two ends, plus that deviation. The same holds for a
+    /// point of the piece as seen from the link. If the point's distances from both cores add up to at most `radius`, so does the
+    /// distance of the cores.
     fn follows(&self, pair: &PreparedPair, posture: &Posture, ends: [Configuration; 2]) -> bool {
         let (part, piece) = self.shapes(pair);
         let of_part = &self.sides[self.scene().pairs()[pair.index].part];
@@ -235,12 +233,12 @@ impl<'a> SecondLinkWalls<'a> {
     }
 }
 
-/// Returns the indices, ascending, of the pairs of link 2 that can collide in some configuration. If there are too
-/// many, keeps those with the largest pieces. Among pieces of similar size, keeps pairs that are spread over the list.
+/// Returns the indices, ascending, of the pairs of link 2 that can collide in some configuration. If there are too many, keeps
+/// those with the largest pieces; among pieces of similar size, those that are evenly spread over the list.
 fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
     let arm = contacts.scene().arm();
     let in_reach = |index: &usize| {
-        // A prismatic joint can take link 2 anywhere along its axis.
+        // On a prismatic joint, link 2 can reach any place along the axis.
         !arm.joints[0].joint_type.is_revolute()
             || least_distance(contacts.static_shape(*index).shape(), arm.base) <= contacts.reach(*index) + clearance
     };
@@ -253,7 +251,7 @@ fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
             .map(|(number, index)| {
                 let core = contacts.static_shape(index).shape().core();
                 let size = core.iter().map(|p| (p - core[0]).norm()).fold(f64::MIN_POSITIVE, f64::max);
-                // Numbers with reversed bits spread evenly over the list.
+                // Ordering by reversed bits spreads the choice evenly over the list.
                 (Reverse(size.log2().floor() as i32), number.reverse_bits() >> (usize::BITS - bits), index)
             })
             .collect();
@@ -264,15 +262,15 @@ fn chosen(contacts: &Contacts, clearance: f64) -> Vec<usize> {
     pairs
 }
 
-/// Returns a lower bound on the distance of a shape from a point.
+/// Returns a lower bound on the distance between a shape and a point.
 fn least_distance(shape: &Convex, from: Point) -> f64 {
     let core = shape.core();
     let extent = core.iter().map(|p| (p - core[0]).norm()).fold(0.0, f64::max);
     (core[0] - from).norm() - extent - shape.radius()
 }
 
-/// Returns a point in the middle of the intersection of the two cores, with the part at `pose`, if they intersect. For
-/// two segments it is the intersection of their lines, which need not lie on either segment.
+/// Returns a point in the middle of the intersection of the two cores, with the part at `pose`. `None` if they do not intersect.
+/// For two segments, it is the intersection of their lines, which may lie on neither segment.
 fn middle_point(part: &Convex, piece: &Convex, pose: &Pose) -> Option<Point> {
     let part: Vec<Point> = part.core().iter().map(|&a| pose.point(a)).collect();
     let piece = piece.core();
@@ -301,8 +299,7 @@ fn half_planes(core: &[Point]) -> Vec<(Vector, f64)> {
         .collect()
 }
 
-/// Returns the greatest distance of a point from the half-planes. The result is negative if the point is inside all of
-/// them.
+/// Returns the greatest distance of a point from the half-planes; negative if the point is inside all of them.
 fn outside(p: Point, sides: &[(Vector, f64)]) -> f64 {
     sides.iter().map(|(normal, offset)| normal.dot(&p) - offset).fold(f64::NEG_INFINITY, f64::max)
 }
@@ -317,7 +314,7 @@ fn signed_distance(p: Point, core: &[Point], sides: &[(Vector, f64)]) -> f64 {
     (0..n).map(|i| to_segment(p, core[i], core[(i + 1) % n])).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns true if [`signed_distance`] is at most `allowed`. This is often cheaper than computing the distance.
+/// Returns true if [`signed_distance`] is at most `allowed`. Often cheaper than the distance itself.
 fn is_nearer_than(p: Point, core: &[Point], sides: &[(Vector, f64)], allowed: f64) -> bool {
     let at_least = if sides.is_empty() { 0.0 } else { outside(p, sides) };
     at_least <= allowed && (at_least < 0.0 || signed_distance(p, core, sides) <= allowed)

@@ -7,12 +7,11 @@ use cplan_geometry::Point;
 use cplan_model::Pair;
 use std::f64::consts::TAU;
 
-/// Least share of a wall's change over a strip that occurs in one half of the strip if the wall jumps there. At a
-/// smooth tip, the share is smaller.
+/// A wall jumps if at least this share of its change over a strip occurs in one half of the strip. At a smooth tip, the share is
+/// smaller.
 const MIN_JUMP_SHARE: f64 = 0.85;
 
-/// Returns how much walls change from one slice to another: the sum of the changes of their ends. Infinite if the
-/// numbers of walls differ.
+/// Returns the change of walls between two slices: the sum of the changes of their ends. Infinite if the numbers of walls differ.
 fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
     if there.len() != beyond.len() {
         return f64::INFINITY;
@@ -22,9 +21,8 @@ fn change(there: &[[f64; 2]], beyond: &[[f64; 2]]) -> f64 {
 }
 
 impl Strips<'_> {
-    /// Returns values of joint 1, ascending, that approach a place where a wall jumps. The place lies between `closed`,
-    /// where the pair makes the wall, and `until`. Bisection locates it to within `width`. Returns nothing if the wall
-    /// changes smoothly.
+    /// Returns values of joint 1, ascending, that approach a place where a wall jumps. The place is between `closed`, where the
+    /// pair makes the wall, and `until`. Bisection locates it up to `width`. Returns nothing if the wall changes smoothly.
     fn towards_jump(&mut self, number: usize, [closed, until]: [f64; 2], wall: [f64; 2], width: f64) -> Vec<f64> {
         let (mut with, mut without) = (closed, until);
         let (mut there, mut beyond) = (vec![wall], self.walls_about(number, until, wall));
@@ -35,7 +33,7 @@ impl Strips<'_> {
             let (near, far) = (change(&there, &between), change(&between, &beyond));
             let greater = f64::max(near, far);
             if greater.is_finite() && greater <= MIN_JUMP_SHARE * (near + far) {
-                // There is no jump, or it is already so near that the rest is smooth.
+                // There is no jump, or it is so near that the rest counts as smooth.
                 break;
             }
             cuts.push(middle);
@@ -57,8 +55,8 @@ impl Strips<'_> {
         walls.iter().map(near).filter(|at| at[0] <= wall[1] && wall[0] <= at[1]).collect()
     }
 
-    /// Returns the values of joint 1 at which a strip must be cut because a path enters a wall of a pair in it. The
-    /// values approach the jumps of the wall on either side.
+    /// Returns the values of joint 1 at which to cut a strip because a path in it enters a wall of a pair. They approach the
+    /// jumps of the wall on either side.
     pub fn towards_jumps(&mut self, index: usize, pair: Pair, at: Point, width: f64) -> Vec<f64> {
         let Some(number) = self.closed.number(pair) else { return Vec::new() };
         let walls = self.walls_about(number, at.x, [at.y; 2]);
@@ -69,9 +67,8 @@ impl Strips<'_> {
         cuts
     }
 
-    /// Returns the values of joint 1 at which a strip must be cut because a wall ends in it. The wall contains `q2` on
-    /// the slice after the strip, or before it if `after` is false. Returns nothing if the wall continues through the
-    /// strip.
+    /// Returns the values of joint 1 at which to cut a strip because a wall ends in it. The wall contains `q2` on the slice after
+    /// the strip, or before it if `after` is false. Returns nothing if the wall continues through the strip.
     pub fn towards_tip(&mut self, index: usize, after: bool, q2: f64, width: f64) -> Vec<f64> {
         let [from, to] = self.ends(index);
         let (with, without) = if after { (to, from) } else { (from, to) };

@@ -20,53 +20,53 @@ use search::{Search, SearchResult};
 use std::f64::consts::TAU;
 use strips::Strips;
 
-/// Margin, as a share of a shortest length, for rounding and for the tie-break between equal travel times.
+/// Margin for rounding, and for the tie-break between equal travel times, as a share of a shortest length.
 const ROUNDING: f64 = 1e-9;
 
-/// Rounding error of the ends of a path, as a share of their coordinates. Far from zero, doubles lie far apart, and a
-/// short path has fewer correct digits.
+/// Rounding error of the ends of a path, as a share of their coordinates. Far from zero, doubles are sparse, so a short path has
+/// fewer correct digits.
 const COORDINATE_ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
 /// Maximum number of refinements of the strips.
 const MAX_REFINEMENTS: usize = 64;
 
-/// Number of searches before a path may instead be found by pulling the previous one taut. While strips are wide, paths
-/// often lead through passages that do not exist.
+/// From this number of searches on, a path may be found by pulling the previous one taut. As long as strips are wide, paths often
+/// lead through passages that do not exist.
 const MIN_SEARCHED_PATHS: usize = 2;
 
-/// Maximum number of paths, whether found by a search or by pulling taut. Most paths follow a refused certificate.
+/// Largest number of paths, from searches or pulled taut. Most of them follow a refused certificate.
 const MAX_PATHS: usize = 128;
 
-/// Maximum product of the number of searches and the number of pairs. It corresponds to about a second.
+/// Largest product of the numbers of searches and pairs. It corresponds to about a second.
 const MAX_SEARCH_WORK: usize = 80_000;
 
-/// Growth of the path's length from one round to the next, as a share, below which the path is certified.
+/// The path is certified once its length grows from one round to the next by less than this share.
 const SETTLED_GROWTH: f64 = 1e-6;
 
-/// Maximum product of the number of refused certificates and the number of pairs. It corresponds to some seconds.
+/// Largest product of the numbers of refused certificates and pairs. It corresponds to some seconds.
 const MAX_REFUSAL_WORK: usize = 500_000;
 
-/// Number of pairs that are added where a path collides with a pair that was not used so far.
+/// Number of pairs that are added where a path collides with a pair not in use.
 const PAIRS_PER_COLLISION: usize = 256;
 
-/// Number of consecutive rounds with hardly any improvement after which the search ends.
+/// The search ends after this number of consecutive rounds with hardly any improvement.
 const MAX_IDLE_ROUNDS: usize = 3;
 
-/// Fraction of the extra clearance `kept` by which paths may enter the grown obstacles within strips. The rest suffices
-/// for a certificate. With a greater fraction, fewer slices are needed.
+/// Fraction of the extra clearance `kept` by which paths may enter grown obstacles within strips. The rest suffices for a
+/// certificate. The greater the fraction, the fewer slices are needed.
 const STRIP_CLEARANCE_SHARE: f64 = 0.9;
 
-/// Number of pairs up to which [`STRIP_CLEARANCE_SHARE`] applies. Among more pairs, a path passes many small pieces,
-/// and certificates need more space.
+/// Largest number of pairs for which [`STRIP_CLEARANCE_SHARE`] applies. Among more pairs, a path passes many small pieces, and
+/// certificates need more space.
 const FEW_PAIRS: usize = 1000;
 
-/// Value that replaces [`STRIP_CLEARANCE_SHARE`] among more than [`FEW_PAIRS`] pairs.
+/// Replaces [`STRIP_CLEARANCE_SHARE`] among more than [`FEW_PAIRS`] pairs.
 const STRIP_CLEARANCE_SHARE_OF_MANY: f64 = 0.5;
 
-/// Gap that a single strip may leave without being halved, as a share of the requested gap.
+/// Strips that contribute less than this share of the requested gap are not halved.
 const MAX_STRIP_GAP_SHARE: f64 = 1e-3;
 
-/// Least initial limit on the length of paths in a search, as a share of the final limit.
+/// Least initial limit on the lengths of paths in a search, as a share of the final limit.
 const MIN_LIMIT_SHARE: f64 = 1.0 / 64.0;
 
 /// The requested motions, and the metric of their lengths.
@@ -76,7 +76,7 @@ pub struct MotionQuery<'a> {
     pub scene: &'a Scene,
     /// Start configuration.
     pub start: Configuration,
-    /// Goals, on any turns.
+    /// Goals, with any number of whole turns.
     pub goals: &'a GoalSet,
     /// Required distance from every obstacle, metres. If 0, the distance must still be positive.
     pub clearance: f64,
@@ -84,28 +84,26 @@ pub struct MotionQuery<'a> {
     pub metric: Metric,
 }
 
-/// Returns a lower bound on the length of all `motions`. It is at most `limit`, which must be finite and should be the
-/// length of some motion. The bound is improved until it is within the share `gap` of the limit, or until it cannot be
-/// improved.
+/// Returns a lower bound on the length of all `motions`. It is at most `limit`, which must be finite and should be the length of
+/// some motion. The bound is improved until it is within the share `gap` of the limit, or until it cannot be improved.
 ///
-/// *Slices* cut joint 1's domain into strips. On a slice, contact angles give exactly the values of joint 2 that are
-/// closed: *walls*. If a pair makes walls on both slices of a strip, a straight *barrier* between them is proven to be
-/// closed along its whole length. No motion crosses walls or barriers, so no motion is shorter than the shortest path
-/// around them.
+/// *Slices* cut joint 1's domain into strips. On a slice, contact angles give exactly the values of joint 2 that are closed:
+/// *walls*. Between walls of one pair on both sides of a strip, a straight *barrier* may be proven to be closed along its whole
+/// length. No motion crosses walls or barriers, so no motion is shorter than the shortest path around them.
 ///
-/// Between two slices, this path may cut into closed regions. The error is of second order in the strip's width for a
-/// smooth boundary. Strips are cut where the path does this, so the bound needs only some dozens of slices, most of
-/// them where the path touches obstacles. `slices` are values of joint 1 that are slices from the beginning.
+/// Between two slices, this path may enter closed regions. For a smooth boundary, the error is of second order in the strip's
+/// width. Strips are cut only there, so some dozens of slices suffice, most of them where the path touches obstacles. `slices`
+/// are the initial slices.
 ///
-/// The search for the path is complete up to the rounding of coordinates, for which a share of 1e-9 is subtracted.
-/// Walls are made of slightly eroded shapes, so every passage is some nanometres wider than in reality. Pairs of two
-/// shapes without area make no walls, which lowers the bound.
+/// The search for the path is complete up to the rounding of coordinates, for which a share of 1e-9 is subtracted. Walls are made
+/// of slightly eroded shapes, so every passage is some nanometres wider than in reality. Pairs of two shapes without area make no
+/// walls, which lowers the bound.
 pub fn least_length(motions: &MotionQuery, limit: f64, gap: f64, slices: &[f64]) -> f64 {
     bounded(&MotionQuery { scene: &motions.scene.inner(), ..*motions }, limit, gap, slices, &mut |_| ()).0
 }
 
-/// Returns evidence for a checker: the walls and barriers that close all paths shorter than the bound that
-/// [`least_length`] finds without given slices.
+/// Returns evidence for a checker: walls and barriers that close all paths shorter than the bound that [`least_length`] finds
+/// without initial slices.
 pub fn bound_evidence(motions: &MotionQuery, limit: f64, gap: f64) -> BoundEvidence {
     let scene = &*motions.scene.inner();
     let (_, search) = bounded(&MotionQuery { scene, ..*motions }, limit, gap, &[], &mut |_| ());
@@ -115,17 +113,17 @@ pub fn bound_evidence(motions: &MotionQuery, limit: f64, gap: f64) -> BoundEvide
 /// A round of the search for a lower bound.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BoundRound {
-    /// The bound that is proven after the round.
+    /// The bound after the round.
     pub lower: f64,
-    /// The shortest path around everything that is known to be closed. It may cross regions that are closed, as long as
-    /// this is not known. Empty if all paths are longer than the limit.
+    /// The shortest path around all that is known to be closed so far. It may still cross closed regions. Empty if all paths are
+    /// longer than the limit.
     pub path: Vec<Configuration>,
     /// Values of joint 1 at the slices, ascending.
     pub slices: Vec<f64>,
 }
 
-/// Returns the rounds in which [`least_length`] improves the bound if it knows no slices. The bounds never fall. The
-/// first round knows no walls.
+/// Returns the rounds in which [`least_length`], without initial slices, improves the bound. The bounds never fall. The first
+/// round knows no walls.
 pub fn bound_rounds(motions: &MotionQuery, limit: f64, gap: f64) -> Vec<BoundRound> {
     let mut rounds = Vec::new();
     bounded(&MotionQuery { scene: &motions.scene.inner(), ..*motions }, limit, gap, &[], &mut |round| {
@@ -168,18 +166,16 @@ fn bounded<'a>(
     (search.rounded(best.min(limit)), search)
 }
 
-/// Finds a certified motion that is about the shortest of the `motions`, and shorter than `limit`. Returns `None` if it
-/// finds none, for example because a passage is too narrow for `kept`.
+/// Finds a certified motion that is about the shortest of `motions`, and shorter than `limit`. Returns `None` if it finds none,
+/// for example if a passage is too narrow for `kept`.
 ///
-/// `judge` receives a [`ProposedPath`], and certifies that path or a path derived from it. The path keeps the
-/// clearance, plus a part of the extra clearance `kept`, metres. It is longer than the shortest motion by the cost of
-/// this extra clearance.
+/// `judge` receives a [`ProposedPath`], and certifies it or a path derived from it. The proposed path keeps the clearance and a
+/// part of the extra clearance `kept`, metres, so it is slightly longer than the shortest motion.
 ///
-/// The proposed path is the shortest path of [`least_length`] among obstacles grown by `kept`. Strips are cut in two
-/// cases: where the path enters the grown obstacles by more than a share of `kept` (0.9, or 0.5 among many pairs), and
-/// where the judge refuses it. Among the finer strips, the path is pulled taut through its portals, which is much
-/// faster than a search. If the judge finds such a path too long, or refuses the same path twice, all later paths are
-/// found by a search.
+/// The proposed path is the shortest path of [`least_length`] among obstacles grown by `kept`. Strips are cut where the path
+/// enters the grown obstacles by more than a share of `kept` (0.9, or 0.5 among many pairs), and where the judge refuses it.
+/// Among the finer strips, the path is pulled taut through its portals, which is much faster than a search. If the judge finds
+/// such a path too long, or refuses the same path twice, all later paths come from searches.
 pub fn short_motion(
     motions: &MotionQuery,
     kept: f64,
@@ -203,7 +199,7 @@ pub fn short_motion(
         if corners.is_empty() {
             return None;
         }
-        // Among thousands of adjacent pieces, each path meets another piece to go around. Its length hardly changes.
+        // Among thousands of adjacent pieces, each path meets another piece, although its length hardly changes.
         let is_settled = length - before <= SETTLED_GROWTH * length;
         before = length;
         if !is_settled && search.refine(&corners, allowed) {
@@ -227,7 +223,7 @@ pub fn short_motion(
         if !is_finer || refused * scene.pairs().len() > MAX_REFUSAL_WORK {
             return None;
         }
-        // Finer strips do not reveal the obstacle on the path, so the next path is searched.
+        // Finer strips did not reveal the obstacle on the path, so the next path comes from a search.
         is_pulled &= corners != last;
         last = corners;
     }
@@ -249,9 +245,9 @@ pub struct ProposedPath {
 /// The reason why a proposed path is refused.
 #[derive(Debug, Clone)]
 pub enum RefusalReason {
-    /// The path cannot be certified, for this reason.
+    /// The path cannot be certified.
     By(Rejection),
-    /// There may be a shorter path. This reason is not valid if [`ProposedPath::is_shortest`] is true.
+    /// There may be a shorter path. Not allowed if [`ProposedPath::is_shortest`] is true.
     TooLong,
 }
 
@@ -260,12 +256,12 @@ pub enum RefusalReason {
 pub struct NearShortestMotion {
     /// The certified path of the motion.
     pub path: CertifiedPath,
-    /// Free stretches of slices through which the path leads, in order. Each is given by its ends with the least and
-    /// the greatest value of joint 2.
+    /// Free stretches of slices that the path crosses, in order. Each is given by the configurations with the least and the
+    /// greatest value of joint 2.
     pub free: Vec<[Configuration; 2]>,
 }
 
-/// The search for the shortest path around walls and barriers, with finer and finer strips.
+/// The search for the shortest path around walls and barriers, among ever finer strips.
 struct ShortestPathSearch<'a> {
     motions: MotionQuery<'a>,
     vicinity: Vicinity<'a>,
@@ -275,12 +271,12 @@ struct ShortestPathSearch<'a> {
     /// Copies of the goals on all turns.
     goals: Vec<Segment>,
     limit: f64,
-    /// Length below which paths are searched first. Longer paths could reach goals and portals on more turns, which
-    /// costs time.
+    /// Paths shorter than this are searched first. Longer paths could reach goals and portals with more whole turns, which costs
+    /// time.
     near: f64,
     /// Greatest absolute coordinate of start and goals.
     largest: f64,
-    /// Pieces of paths that are known to need no refinement. All refinements must use the same [`PathTolerance`].
+    /// Pieces of paths that need no refinement. All refinements must use the same [`PathTolerance`].
     fine: RefinedPieces,
 }
 
@@ -288,7 +284,7 @@ impl<'a> ShortestPathSearch<'a> {
     fn new(motions: MotionQuery<'a>, limit: f64, slices: &[f64]) -> Self {
         let MotionQuery { scene, start, goals, clearance, metric } = motions;
         let mut strips = Strips::new(scene, clearance, slices);
-        // Wrap the start, because doubles are densest near zero. All turns are equivalent.
+        // The start is wrapped, because doubles are densest near zero, and turns are equivalent.
         let start = strips.topology().wrap(start);
         let goals: Vec<Segment> = goals.wrapped(strips.topology()).collect();
         let largest = goals.iter().flat_map(Segment::ends).map(|q| q.amax()).fold(start.amax(), f64::max);
@@ -298,13 +294,13 @@ impl<'a> ShortestPathSearch<'a> {
         let straight = |goals: &Segment| goals.distance(measure, start);
         goals.retain(|copy| straight(copy) < limit);
         let nearest = goals.iter().map(straight).fold(limit, f64::min);
-        // A caller that knows the slices also knows about the shortest length.
+        // A caller that knows slices also knows about the shortest length.
         let near = if slices.is_empty() { f64::max(1.5 * nearest, limit * MIN_LIMIT_SHARE).min(limit) } else { limit };
         let vicinity = Vicinity::of(scene, strips.pairs().into());
         Self { motions, vicinity, strips, measure, start, goals, limit, near, largest, fine: RefinedPieces::default() }
     }
 
-    /// Returns the round before any slice is known: no motion is shorter than the straight line to the nearest goal.
+    /// Returns the round before any slice: no motion is shorter than the straight line to the nearest goal.
     fn straight_round(&self) -> BoundRound {
         let distance = |goals: &&Segment| OrderedF64(goals.distance(self.measure, self.start));
         let nearest = self.goals.iter().min_by_key(distance).map(|goals| goals.nearest(self.measure, self.start));
@@ -314,12 +310,12 @@ impl<'a> ShortestPathSearch<'a> {
         BoundRound { lower: self.rounded(lower.min(self.limit)), path, slices: Vec::new() }
     }
 
-    /// Returns the length and the corners of the shortest path around the known walls and barriers. If all paths are
-    /// longer than the limit, there are no corners.
+    /// Returns length and corners of the shortest path around all known walls and barriers. No corners if all paths are longer
+    /// than the limit.
     fn shortest(&mut self) -> (f64, Vec<Point>) {
         let straight = |goals: &Segment| goals.distance(self.measure, self.start);
         if self.strips.count() == 0 {
-            // Joint 1 cannot move, and walls on joint 2's path are not examined.
+            // Joint 1 cannot move, and walls on the path of joint 2 are not examined.
             return (self.goals.iter().map(straight).fold(self.limit, f64::min), Vec::new());
         }
         loop {
@@ -334,11 +330,11 @@ impl<'a> ShortestPathSearch<'a> {
         }
     }
 
-    /// Returns the length and the corners of the shortest path through the portals that another path passes. Returns
-    /// `None` if it is not shorter than the limit, or if those portals are not known.
+    /// Returns length and corners of the shortest path through the portals of another path. `None` if it is not shorter than the
+    /// limit, or if the portals are not known.
     fn taut(&mut self, corners: &[Point]) -> Option<(f64, Vec<Point>)> {
         let (&start, &goal) = (corners.first()?, corners.last()?);
-        // If goals are segments, another point of a goal may be nearest.
+        // If a goal is a segment, another point of it may be nearest.
         let sleeve = self.goals.iter().all(Segment::is_point).then(|| self.strips.sleeve(corners)).flatten()?;
         let corners = funnel_path(start, goal, &sleeve);
         let length = corners.windows(2).map(|ends| self.measure.norm(ends[1] - ends[0])).sum();
@@ -355,7 +351,7 @@ impl<'a> ShortestPathSearch<'a> {
         !passed.is_empty() && self.strips.cut(&passed)
     }
 
-    /// If not all pairs are in use, adds pairs that are near in a configuration. Returns true if any pair was added.
+    /// Adds pairs that are near in a configuration, if not all are in use. Returns true if it added any.
     fn add_nearby_pairs(&mut self, q: Configuration) -> bool {
         let scene = self.motions.scene;
         if scene.pairs().len() <= MAX_PAIRS {
@@ -385,18 +381,18 @@ impl<'a> ShortestPathSearch<'a> {
         !self.strips.are_too_many() && self.strips.halve(&which)
     }
 
-    /// Returns a length, reduced by the rounding error.
+    /// Subtracts the rounding error from a length.
     fn rounded(&self, length: f64) -> f64 {
         (length - f64::max(length * ROUNDING, self.largest * COORDINATE_ROUNDING)).max(0.0)
     }
 
-    /// Returns the path with these corners, shifted to the turns of the start's own joint values.
+    /// Returns the path with these corners, shifted by the whole turns between the wrapped start and `start`.
     fn path(&self, start: Configuration, corners: &[Point]) -> Path {
         let lift = start - self.start;
         Path::new(std::iter::once(start).chain(corners[1..].iter().map(|corner| corner + lift)).collect())
     }
 
-    /// Returns the portals through which a path passes, shifted to the turns of the start's own joint values.
+    /// Returns the portals that a path passes, shifted by the whole turns between the wrapped start and `start`.
     fn portals_on_path(&mut self, start: Configuration, corners: &[Point]) -> Vec<[Configuration; 2]> {
         let lift = start - self.start;
         let mut passed = Vec::new();
@@ -417,7 +413,7 @@ impl<'a> ShortestPathSearch<'a> {
     }
 }
 
-/// Returns the copies of the goals, on all turns, that may be nearer than the limit.
+/// Returns all copies of the goals, shifted by whole turns, that may be nearer than the limit.
 fn copies(topology: &Topology, metric: Metric, start: Point, goals: &[Segment], limit: f64) -> Vec<Segment> {
     let turns = |k: usize, goals: &Segment| {
         let far = limit / metric.least(k);

@@ -3,18 +3,17 @@
 use cplan_model::space::JointRange;
 use std::f64::consts::TAU;
 
-/// An interval of joint 2 that is not closed on a slice. Its ends are infinite if nothing is closed.
+/// An interval of joint 2 on a slice that is not closed. Its ends are infinite if nothing is closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Portal {
     pub lower: f64,
     pub upper: f64,
-    /// For the lower and the upper end: true if it is the end of a closed interval, false if it is the end of the
-    /// domain.
+    /// For the lower and the upper end, true if a closed interval ends there; false if the domain does.
     pub tips: [bool; 2],
 }
 
 impl Portal {
-    /// Returns the portal shifted by turns of joint 2.
+    /// Shifts the portal by whole turns of joint 2.
     pub fn turned(self, turns: f64) -> Self {
         Self { lower: self.lower + turns * TAU, upper: self.upper + turns * TAU, ..self }
     }

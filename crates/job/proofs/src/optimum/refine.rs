@@ -1,4 +1,4 @@
-//! Finds strips that are too wide: a shortest path enters a closed region within them.
+//! Finds strips that are too wide, in which a shortest path enters a closed region.
 
 use super::MotionQuery;
 use super::search::MixingHasher;
@@ -12,28 +12,28 @@ use std::collections::{BTreeMap, HashSet};
 use std::convert::Infallible;
 use std::hash::BuildHasherDefault;
 
-/// Distance between the configurations at which a path is tested for obstacles thinner than a strip, radians or metres.
+/// Distance between configurations at which a path is tested for obstacles thinner than a strip, radians or metres.
 const TEST_STEP: f64 = 0.01;
 
-/// Factor by which the distance from the end of a path's piece decreases from one tested configuration to the next. The
-/// tested configurations approach the end.
+/// Tested configurations approach the ends of a path's piece: their distance from the end falls by this factor from one to the
+/// next.
 const TEST_STEP_RATIO: f64 = 0.1;
 
-/// Distance from the tip of a wall down to which a strip is cut at once, as a multiple of the detour that a strip may
-/// leave open. A path around the tip is longer by at most twice this distance.
+/// A strip is cut at once until its distance from the tip of a wall is this multiple of the detour that a strip may leave open. A
+/// path around the tip is longer by at most twice the distance.
 const CUT_DISTANCE_RATIO: f64 = 16.0;
 
-/// Number of cuts towards a jump below which a strip is also cut into equal parts. So few cuts mean that the strip is
-/// narrow. The path may then go around many small obstacles side by side.
+/// If fewer cuts lead towards a jump, the strip is also cut into equal parts. The strip is then narrow, and the path may have to
+/// go around many small obstacles side by side.
 const FEW_CUTS: usize = 4;
 
-/// Resolution of positions along a piece of a path, as a share of its length, in double precision.
+/// Resolution of positions along a piece of a path in double precision, as a share of the piece's length.
 const POSITION_RESOLUTION: f64 = 1e-15;
 
-/// The error that is allowed for paths that lead through closed regions.
+/// The allowed error of paths through closed regions.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum PathTolerance {
-    /// The path may be shorter than one around the region by at most this, in units of the metric.
+    /// The path may be shorter than one around the region by this, in units of the metric.
     Detour(f64),
     /// The path may enter the region up to this depth, metres.
     Depth(f64),
@@ -43,7 +43,7 @@ pub(super) enum PathTolerance {
 struct Crossing {
     /// Index of the strip.
     index: usize,
-    /// Value of joint 1 on the path minus the value in the strip: a multiple of a turn, radians.
+    /// Value of joint 1 on the path minus its value in the strip: whole turns, radians.
     turns: f64,
     /// The points where the path enters and leaves the strip, ordered by joint 1.
     ends: [Point; 2],
@@ -51,9 +51,8 @@ struct Crossing {
     middle: Option<Point>,
 }
 
-/// Returns the parts of a path within the strips. A part along a slice lies in no strip. For such a part, the strips
-/// next to it are added to `beside`, with the values of joint 1 at which to cut them. The values approach the tip that
-/// the path may go around.
+/// Returns the parts of a path within strips. A part along a slice is in no strip. For such a part, adds to `beside` the strips
+/// next to it, with the values of joint 1 at which to cut them. These values approach the tip that the path may go around.
 fn crossings(
     strips: &mut Strips,
     corners: &[Point],
@@ -86,8 +85,8 @@ fn crossings(
     crossings
 }
 
-/// Returns the strips next to a part of a path along a slice, with the values of joint 1 at which to cut them. The
-/// values approach the tip that the path goes around. Returns nothing if there is no such tip, or if it is near enough.
+/// Returns the strips next to a part of a path along a slice, with the values of joint 1 at which to cut them. These values
+/// approach the tip that the path goes around. Returns nothing if there is no such tip, or if it is near enough.
 fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, Vec<f64>)> {
     let q1 = ends[0].x;
     let mut cuts = Vec::new();
@@ -106,13 +105,12 @@ fn around_tip(strips: &mut Strips, ends: &[Point], finest: f64) -> Vec<(usize, V
     cuts
 }
 
-/// Straight pieces of paths within a strip that are known to need no refinement. The key has the ends of the piece and
-/// of the strip. Most pieces of a path are the same as in the path before.
+/// Straight pieces of paths within a strip that need no refinement. The key has the ends of the piece and of the strip. Most
+/// pieces of a path are the same as in the previous path.
 pub(super) type RefinedPieces = HashSet<[u64; 6], BuildHasherDefault<MixingHasher>>;
 
-/// Returns the strips, by index, in which a path enters a closed region by more than the tolerance. Each has the values
-/// of joint 1 at which to cut it. If this function overlooks a strip, the bound is lower, but never wrong. Pieces in
-/// `fine` are skipped.
+/// Returns the strips, by index, in which a path enters a closed region by more than the tolerance, with the values of joint 1 at
+/// which to cut them. If it overlooks a strip, the bound is lower, but not wrong. Skips pieces in `fine`.
 pub(super) fn crossed_strips(
     motions: &MotionQuery,
     vicinity: &Vicinity,
@@ -123,7 +121,7 @@ pub(super) fn crossed_strips(
 ) -> Vec<(usize, Vec<f64>)> {
     let MotionQuery { scene, clearance, metric, .. } = *motions;
     let measure = Measure::from(metric);
-    // The surroundings of a path along a slice are not known well enough.
+    // The surroundings of a part along a slice are not known well enough.
     let mut passed = BTreeMap::new();
     let finest = match allowed {
         PathTolerance::Detour(worth) => worth * CUT_DISTANCE_RATIO,
@@ -141,7 +139,7 @@ pub(super) fn crossed_strips(
             let via = (left + right) * 0.5 + Vector::new(0.0, by);
             measure.norm(via - left) + measure.norm(right - via) - measure.norm(right - left)
         };
-        // A collision that the tested places miss may show halfway through the strip, where the next slice would be.
+        // Tests may miss a collision that is visible halfway through the strip, where the next slice would be.
         let is_barred_halfway = |strips: &mut Strips, worth: f64| {
             let way_out = middle.and_then(|middle| strips.distances_out_of_middle(index, middle.y));
             way_out.is_some_and(|ways| ways.map(detour).into_iter().all(|detour| detour > worth))
@@ -175,9 +173,8 @@ struct DeepestPlace {
     pair: Pair,
 }
 
-/// Finds the place where a straight motion is deepest inside a closed region. `None` if the motion stays within the
-/// tolerance. Tests sampled configurations: at regular distances, and ever closer towards the ends, where a path may
-/// turn at a closed region.
+/// Finds the place where a straight motion is deepest inside a closed region. `None` if it stays within the tolerance. Tests
+/// configurations at regular distances, and ever closer ones towards the ends, where a path may turn at a closed region.
 fn deepest(
     scene: &Scene,
     vicinity: &Vicinity,
@@ -193,7 +190,7 @@ fn deepest(
     let near = std::iter::successors(Some(TEST_STEP_RATIO), |share| Some(share * TEST_STEP_RATIO));
     let towards_ends = near.take_while(|share| share * length > finest).flat_map(|share| [share, 1.0 - share]);
     let mut shares: Vec<f64> = regular.chain(towards_ends).collect();
-    // The shares are nearly sorted already.
+    // The shares are almost sorted already.
     shares.sort_by(f64::total_cmp);
 
     // Walls are made of shapes that are eroded by this length.
@@ -207,12 +204,12 @@ fn deepest(
         PathTolerance::Detour(worth) => scene.arm().reach() * (worth * length * share.min(1.0 - share)).sqrt(),
         PathTolerance::Depth(depth) => depth,
     };
-    // Depth beyond the allowed depth.
+    // Depth in excess of the allowed depth.
     let beyond = |pair: Pair, share: f64| least - here(pair, &pose(pair, share)).distance - depth(share);
     let mut deepest: Option<(f64, Pair, usize)> = None;
     let examined_paths: Result<(), Infallible> = vicinity.near(&posture, along, least.max(0.0), |pair| {
         if may_meet(pair) {
-            // Skip the places before which no shape can have moved far enough to be too near.
+            // Skips places up to which no shape can have moved far enough to be too near.
             let speed = 2.0 * posture.farthest_motion(pair, along);
             let mut next = 0.0;
             let mut direction = None;
@@ -222,7 +219,7 @@ fn deepest(
                 }
                 let pose = pose(pair, share);
                 let most = depth(share) + deepest.map_or(0.0, |(by, ..)| by);
-                // The direction of the distance at the last place often shows that this place is no deeper.
+                // The direction of the distance at the last place often shows that this one is no deeper.
                 let along = |n: Vector| least - gap_along(scene.part(pair), &pose, scene.piece(pair), n);
                 let near = direction.map(along).filter(|near| *near <= most).unwrap_or_else(|| {
                     let here = here(pair, &pose);
@@ -251,8 +248,8 @@ fn deepest(
     Some(DeepestPlace { by: beyond(pair, share), share, pair })
 }
 
-/// Returns the number of parts into which to cut a strip in which a path is too deep inside a closed region. The error
-/// along a smooth boundary falls with the square of a strip's width.
+/// Returns the number of parts into which to cut a strip. Along a smooth boundary, the error falls with the square of the strip's
+/// width.
 fn pieces(by: f64, allowed: PathTolerance) -> usize {
     match allowed {
         PathTolerance::Depth(depth) => (1.1 * ((by.max(0.0) + depth) / depth).sqrt()).ceil().min(16.0) as usize,

@@ -1,7 +1,6 @@
 //! The shortest path around walls and barriers.
 //!
-//! petgraph does not fit here: nodes appear as they become visible, and the search may end at a bound instead of a
-//! goal.
+//! petgraph does not fit: nodes appear when they become visible, and the search may end at a bound instead of a goal.
 
 use super::portals::Portal;
 use super::strips::{Cell, Strips};
@@ -12,9 +11,8 @@ use std::collections::HashMap;
 use std::f64::consts::TAU;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// Maximum number of entries that the search takes from the open list. It is a thousand times the usual number, or half
-/// a second. The search then ends with the bound so far. Along an arc, the number of entries grows with the square of
-/// the number of slices.
+/// Largest number of entries that the search takes from the open list: a thousand times the usual number, or half a second. Then
+/// it ends with the bound so far. Along an arc, the number grows with the square of the number of slices.
 const MAX_ENTRIES: usize = 1_000_000;
 
 /// Initial capacity of the lists of the search.
@@ -23,9 +21,8 @@ const USUAL_ENTRIES: usize = 1024;
 /// Relative difference of costs that rounding alone can cause.
 const COST_TOLERANCE: f64 = 1e-12;
 
-/// Margin by which a cone of sight extends past the end of a portal, as a share of the coordinates. It is greater than
-/// rounding errors. Without it, a portal's end that is in line with two others, as on a straight side, could lie in a
-/// gap between two cones.
+/// Margin by which a cone of sight extends beyond the end of a portal, as a share of the coordinates. It exceeds rounding errors.
+/// Without it, a portal's end in line with two others, as on a straight side, could be in a gap between two cones.
 const SIGHT_MARGIN: f64 = 4.0 * f64::EPSILON;
 
 /// Result of the search.
@@ -36,8 +33,7 @@ pub(super) enum SearchResult {
     NoneBelow(f64),
 }
 
-/// A hasher that mixes a few numbers in a few operations. It does not resist attacks; all numbers come from the search
-/// itself.
+/// A fast hasher for a few numbers. It does not resist attacks, but all numbers come from the search itself.
 #[derive(Default)]
 pub(super) struct MixingHasher(u64);
 
@@ -69,12 +65,12 @@ struct Root {
 
 #[derive(Clone, Copy)]
 enum Entry {
-    /// The part of a slice that a root sees. Through it, the root sees the strip beyond.
+    /// The part of a slice through which a root sees the strip beyond.
     Cone(Cone),
     /// A goal, by its node, with its point nearest to the root that sees it.
     Goal(u32, Point),
-    /// A root on the edge of a strip, by the root's index and the strip's number. It sees the whole cell of the strip
-    /// that it touches.
+    /// A root on the edge of a strip: the root's index and the strip's number. It sees the whole cell of the strip that it
+    /// touches.
     Root(u32, i64),
 }
 
@@ -99,14 +95,14 @@ impl Cone {
     }
 }
 
-/// A search by A* whose open list holds cones of sight, similar to Polyanya (Cui, Harabor, Grastien 2017). It covers
-/// the cells of the strips and all their copies on other turns. Cells are convex, so only walls on slices obstruct
-/// sight, and paths turn only at the ends of portals. At such an end a path continues in one of two ways: beyond the
-/// slice, towards the wall whose end it passes, or along the slice to the next portal, which leads back.
+/// A search by A* whose open list holds cones of sight, similar to Polyanya (Cui, Harabor, Grastien 2017). It covers the cells of
+/// the strips and all their copies, shifted by whole turns. Cells are convex, so only walls on slices obstruct sight, and paths
+/// turn only at the ends of portals. From such an end, a path continues either beyond the slice, towards the wall whose end it
+/// passes, or along the slice to the next portal, which leads back.
 ///
-/// The search finds the shortest path, on any turns. Of all paths that reach the end of a portal, only the shortest is
-/// followed. This is enough. Suppose that a longer path could continue taut where the shortest could not; then cutting
-/// the corner of the shortest would make it shorter still.
+/// The search finds the shortest path, with any number of turns. Of all paths to the end of a portal, it follows only the
+/// shortest. This suffices: if a longer path could continue taut where the shortest could not, cutting the corner of the shortest
+/// would make it even shorter.
 pub(super) struct Search<'s, 'a> {
     strips: &'s mut Strips<'a>,
     measure: Measure,
@@ -118,8 +114,8 @@ pub(super) struct Search<'s, 'a> {
     /// Range of joint 2 for paths shorter than the limit.
     range: [f64; 2],
     roots: Vec<Root>,
-    /// Least cost so far at each end of a portal. The key has the slice and whether joint 1 grows from there (first
-    /// number), and the value of joint 2 (second number).
+    /// Least cost so far at each end of a portal. The first number of the key has the slice, and whether joint 1 grows from
+    /// there; the second has the value of joint 2.
     least: HashMap<(i64, u64), f64, BuildHasherDefault<MixingHasher>>,
     open: OpenList<usize>,
     entries: Vec<Entry>,
@@ -188,14 +184,14 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// Adds the goal nearest to a root among some goals, all of which the root must see.
+    /// Adds the goal that is nearest to a root, which must see all `goals`.
     fn push_goal(&mut self, root: u32, goals: &Segment, parent: f64) {
         let Root { at, cost, .. } = self.roots[root as usize];
         let goal = goals.nearest(self.measure, at);
         self.push((cost + self.measure.norm(goal - at)).max(parent), Entry::Goal(root, goal));
     }
 
-    /// Adds a cone through the part of `portal` between `from` and `to`, if there is one.
+    /// Adds a cone through the part of `portal` between `from` and `to`, unless it is empty.
     fn push_cone(&mut self, root: u32, slice: i64, ahead: bool, portal: &Portal, [from, to]: [f64; 2], parent: f64) {
         let (from, to) = (from.max(self.range[0]), to.min(self.range[1]));
         let (lower, upper) = (portal.lower.max(from), portal.upper.min(to));
@@ -215,9 +211,9 @@ impl<'s, 'a> Search<'s, 'a> {
         self.push(bound.max(parent), Entry::Cone(Cone { root, slice, ahead, seen }));
     }
 
-    /// Adds a root at the end of a portal, reached straight from another root. Paths continue from there with joint 1
-    /// growing if `ahead` is true, and falling otherwise. Returns `None` if a path that is as short or shorter has
-    /// reached the same end and continues in the same direction.
+    /// Adds a root at the end of a portal that is reached straight from another root. From there, joint 1 grows if `ahead` is
+    /// true, otherwise it falls. Returns `None` if another path, as short or shorter, has reached the same end and continues in
+    /// the same direction.
     fn turn(&mut self, from: u32, slice: i64, at: Point, ahead: bool) -> Option<u32> {
         let Root { at: before, cost, .. } = self.roots[from as usize];
         let cost = cost + self.measure.norm(at - before);
@@ -231,8 +227,8 @@ impl<'s, 'a> Search<'s, 'a> {
         u32::try_from(self.roots.len() - 1).ok()
     }
 
-    /// Returns the portals of a slice that meet a range of joint 2, with all their copies. Omits portals that no path
-    /// shorter than the limit can reach. The caller returns the list to `unused_lists`.
+    /// Returns the portals of a slice, with all their copies, that meet a range of joint 2. Omits portals that no path shorter
+    /// than the limit can reach. The caller returns the list to `unused_lists`.
     fn portals(&mut self, slice: i64, [lower, upper]: [f64; 2]) -> Vec<Portal> {
         let (lower, upper) = (lower.max(self.range[0]), upper.min(self.range[1]));
         let mut portals = self.unused_lists.pop().unwrap_or_default();
@@ -259,7 +255,7 @@ impl<'s, 'a> Search<'s, 'a> {
         portals
     }
 
-    /// Returns the goals in a cell of a strip. A segment is cut to the part in the cell.
+    /// Returns the goals in a cell of a strip. Segments are cut to their part in the cell.
     fn goals(&self, strip: i64, cell: Cell) -> impl Iterator<Item = Segment> + use<'s> {
         let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
         // Most strips contain no goals.
@@ -284,7 +280,7 @@ impl<'s, 'a> Search<'s, 'a> {
         })
     }
 
-    /// Adds everything that a root in a strip or on its edge sees in the strip.
+    /// Adds all that a root in a strip or on its edge sees in the strip.
     fn add_visible(&mut self, root: u32, strip: i64, parent: f64) {
         let at = self.roots[root as usize].at;
         let (from, to) = (self.strips.q1(strip), self.strips.q1(strip + 1));
@@ -306,8 +302,8 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// Follows paths along a slice, from a root on it to other portals of that slice. Through these portals, paths lead
-    /// to the strip on the other side. `ahead` is true if the strip from which the paths come lies after the slice.
+    /// Follows paths along a slice from a root on it to other portals of that slice, through which they lead to the strip on the
+    /// other side. `ahead` is true if paths come from the strip after the slice.
     fn follow_slice<'p>(
         &mut self,
         root: u32,
@@ -334,7 +330,7 @@ impl<'s, 'a> Search<'s, 'a> {
         }
     }
 
-    /// Adds everything that is seen through a cone, and everything that a path reaches by turning at the cone's ends.
+    /// Adds all that is seen through a cone, and all that paths reach by turning at the cone's ends.
     fn expand(&mut self, cone: &Cone, bound: f64) {
         let Cone { root, slice, ahead, seen } = *cone;
         let x = self.strips.q1(slice);
@@ -345,7 +341,7 @@ impl<'s, 'a> Search<'s, 'a> {
         let above = if seen.tips[1] { self.turn(root, slice, Point::new(x, seen.upper), ahead) } else { None };
         let hair = [seen.lower, seen.upper].map(|y| SIGHT_MARGIN * (1.0 + from.y.abs() + y.abs()));
         for goals in self.goals(cone.strip(), cell) {
-            // Distance above the line from the root through a value on the slice.
+            // The distance above the line from the root through a value on the slice.
             let above_line = |goals: &Segment, at: f64| {
                 let slope = (at - from.y) / (x - from.x);
                 goals.ends().map(|goal| goal[1] - from.y - slope * (goal[0] - from.x))

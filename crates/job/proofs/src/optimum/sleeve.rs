@@ -4,20 +4,17 @@ use super::strips::{Cell, Strips};
 use cplan_geometry::Point;
 use cplan_model::space::Portal;
 
-/// Returns a free interval of joint 2 on a slice as a portal. `ahead` is true if paths pass it with joint 1 growing,
-/// false if falling.
+/// Returns a free interval of joint 2 on a slice as a portal. `ahead` is true if joint 1 grows along the path there.
 fn portal(slice: f64, [lower, upper]: [f64; 2], ahead: bool) -> Portal {
     let (left, right) = if ahead { (upper, lower) } else { (lower, upper) };
     Portal { left: Point::new(slice, left), right: Point::new(slice, right) }
 }
 
 impl Strips<'_> {
-    /// Returns the portals that a path passes, in order. On each slice that is new since then, chooses the portal
-    /// nearest to the path among those that the cell before it reaches. Returns `None` if these portals do not lead to
-    /// the path's end.
+    /// Returns the portals that a path passes, in order. On a new slice, chooses the portal nearest to the path among those that
+    /// the previous cell reaches. Returns `None` if these portals do not lead to the path's end.
     ///
-    /// Where the path turns back along a slice, around the end of a wall, the portals follow the wall to its current
-    /// end.
+    /// Where the path turns back around the end of a wall, the portals follow the wall to its current end.
     pub fn sleeve(&mut self, corners: &[Point]) -> Option<Vec<Portal>> {
         let goal = *corners.last()?;
         let (mut at, mut ahead, mut sleeve) = (corners[0], None, Vec::new());
@@ -51,9 +48,9 @@ impl Strips<'_> {
         (from <= goal.x && goal.x <= to && lower <= goal.y && goal.y <= upper).then_some(sleeve)
     }
 
-    /// Adds the portals of a path that goes around the end of a wall, between two places on a slice. They lead along
-    /// one side of the wall to its end, and back along the other. Returns the place where the path is then. Returns
-    /// `None` if the wall has no end, because it goes all around a continuous joint.
+    /// Adds the portals of a path between two places on a slice that goes around the end of a wall. They lead along one side of
+    /// the wall to its end, and back along the other. Returns the place where the path is then. `None` if the wall has no end,
+    /// because it extends around a whole turn of a joint.
     fn around_end(&mut self, from: Point, to: Point, ahead: bool, sleeve: &mut Vec<Portal>) -> Option<Point> {
         let slice = self.strips_at(to.x).last().copied().filter(|slice| self.q1(*slice) == to.x && from.x == to.x)?;
         let mut sides = [from, to];
@@ -80,7 +77,7 @@ impl Strips<'_> {
         Some(to)
     }
 
-    /// Returns the next slice of a path that continues from a place, and the cell in between.
+    /// Returns the next slice of a path from a place, and the cell in between.
     fn next(&mut self, from: Point, ahead: bool) -> Option<(i64, Cell)> {
         let around = self.strips_at(from.x);
         let strip = *if ahead { around.last() } else { around.first() }?;
@@ -89,7 +86,7 @@ impl Strips<'_> {
         Some((if ahead { strip + 1 } else { strip }, cell))
     }
 
-    /// Returns the free interval nearest to `q2` on the slice where a path leaves a cell.
+    /// Returns the free interval nearest to `q2` on the slice through which a path leaves a cell.
     fn free_in(&mut self, slice: i64, q2: f64, cell: Cell, ahead: bool) -> Option<[f64; 2]> {
         let [lower, upper] = cell.at(if ahead { 1.0 } else { 0.0 });
         self.nearest_free(slice, q2, |portal| lower <= portal.lower && portal.upper <= upper)

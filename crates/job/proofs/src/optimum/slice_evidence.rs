@@ -9,8 +9,8 @@ use cplan_model::space::Configuration;
 use cplan_model::{Pair, Scene};
 
 impl Strips<'_> {
-    /// Returns all slices that were examined, with their walls and barriers. If link 1 collides throughout a strip,
-    /// walls close the slices on both sides of the strip entirely.
+    /// Returns all examined slices, with their walls and barriers. If link 1 collides throughout a strip, walls close both of its
+    /// slices completely.
     pub fn evidence(&self, scene: &Scene) -> Vec<Slice> {
         let pairs = self.closed.by_number();
         let (bottom, top) = self.topology().ranges[1].domain();

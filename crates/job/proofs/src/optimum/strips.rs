@@ -7,8 +7,8 @@ use cplan_model::space::{Configuration, JointRange, Segment, Topology};
 use cplan_model::{Pair, Scene};
 use std::f64::consts::{PI, TAU};
 
-/// Number of initial strips over the domain. Strips beside values of joint 1 at which link 1 collides are narrower. The
-/// number must be at least three, so that no strip is its own neighbour across a seam.
+/// Number of initial strips over the domain. Next to values of joint 1 at which link 1 collides, strips are narrower. There must
+/// be at least three, so that no strip is its own neighbour across a seam.
 const INITIAL_STRIPS: usize = 64;
 
 /// Maximum number of strips.
@@ -17,21 +17,21 @@ const MAX_STRIPS: usize = 100_000;
 /// Maximum number of barriers that are tried in a strip.
 const MAX_BARRIERS: usize = 512;
 
-/// Least width of a strip that is halved, radians or metres: about the rounding error.
+/// Strips of at most this width are not halved, radians or metres. It is about the rounding error.
 pub(super) const MIN_STRIP_WIDTH: f64 = 1e-9;
 
-/// Tolerance for a path that passes a portal, radians or metres. Paths turn at the ends of portals, where rounding may
-/// put them slightly outside.
+/// Tolerance for paths through a portal, radians or metres. They turn at the ends of portals, and rounding may put them slightly
+/// outside.
 pub(super) const PORTAL_TOLERANCE: f64 = 1e-9;
 
-/// Least distance between slices, radians or metres. It ensures that slices also differ on other turns. For reaches up
-/// to a kilometre, it moves shapes by less than their erosion.
+/// Least distance between slices, radians or metres. With it, slices also differ after shifts by whole turns. For reaches up to a
+/// kilometre, it moves shapes by less than their erosion.
 const MIN_SLICE_DISTANCE: f64 = 1e-12;
 
-/// A straight closed line across a strip: its values of joint 2 on the slice before and the slice after.
+/// A straight closed line across a strip: its values of joint 2 on the slices before and after the strip.
 type Barrier = [f64; 2];
 
-/// A part of a strip between two barriers: a trapezium. Ends are infinite if there is no barrier.
+/// A part of a strip between two barriers: a trapezium. Its ends are infinite if there is no barrier.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Cell {
     pub lower: Barrier,
@@ -39,10 +39,10 @@ pub(super) struct Cell {
 }
 
 impl Cell {
-    /// Returns the least and the greatest value of joint 2 at a position within the strip: `share` is 0 on the slice
-    /// before it and 1 on the slice after it.
+    /// Returns the least and the greatest value of joint 2 within the strip at `share`: 0 is the slice before it, 1 the slice
+    /// after it.
     pub fn at(&self, share: f64) -> [f64; 2] {
-        // Infinite ends must stay infinite.
+        // Infinite ends stay infinite.
         [self.lower, self.upper].map(|[before, after]| match share {
             0.0 => before,
             1.0 => after,
@@ -62,11 +62,11 @@ pub(super) struct Strip {
     pub(super) to: f64,
     /// True if link 1 collides in the whole strip.
     pub(super) closed: bool,
-    /// Barriers, ascending on both slices, each with the number of its pair. `None` until they are needed.
+    /// Barriers, ascending on both slices, each with the number of its pair. `None` until needed.
     pub(super) barriers: Option<Vec<(Barrier, usize)>>,
-    /// Walls halfway through the strip. `None` until they are needed.
+    /// Walls halfway through the strip. `None` until needed.
     middle: Option<Vec<Wall>>,
-    /// Walls on the slice at `from`, and in the next field the portals between them. `None` until they are needed.
+    /// Walls on the slice at `from`, and then the portals between them. `None` until needed.
     pub(super) walls: Option<Vec<Wall>>,
     portals: Option<Vec<Portal>>,
 }
@@ -76,14 +76,14 @@ impl Strip {
         Self { from, to, closed, barriers: None, middle: None, walls: None, portals: None }
     }
 
-    /// Returns the walls on the slice at `from`, as far as they have been computed.
+    /// Returns the walls on the slice at `from`, if they have been computed.
     fn known_walls(&self) -> &[Wall] {
         self.walls.as_deref().unwrap_or_default()
     }
 }
 
-/// The strips, computed on demand. On a revolute joint 1 without limits, the numbers of strips continue over all turns.
-/// Strip `k` lies between slices `k` and `k + 1`.
+/// The strips, computed on demand. With a continuous joint 1, the numbers of strips continue over all turns. Strip `k` is between
+/// slices `k` and `k + 1`.
 pub(super) struct Strips<'a> {
     topology: Topology,
     pub(super) closed: SecondLinkWalls<'a>,
@@ -93,7 +93,7 @@ pub(super) struct Strips<'a> {
 }
 
 impl<'a> Strips<'a> {
-    /// Makes strips with slices at these values of joint 1 in addition to the usual ones.
+    /// Creates the usual strips, cut at further values of joint 1.
     pub fn new(scene: &'a Scene, clearance: f64, slices: &[f64]) -> Self {
         let topology = scene.arm().topology();
         let (lower, upper) = topology.ranges[0].domain();
@@ -147,32 +147,30 @@ impl<'a> Strips<'a> {
         self.strips.iter().map(|strip| strip.from).collect()
     }
 
-    /// Returns true if the largest number of strips is reached, so that no more are made.
+    /// Returns true if no more strips may be added.
     pub fn are_too_many(&self) -> bool {
         self.strips.len() > MAX_STRIPS.min(self.closed.max_slices())
     }
 
     fn place(&self, number: i64) -> (usize, f64) {
         let n = self.strips.len() as i64;
-        // Most numbers are on the first turn. A division would cost more than everything else.
+        // Most numbers are on the first turn. A division would cost more than all the rest.
         if (0..n).contains(&number) {
             return (number as usize, 0.0);
         }
         (number.rem_euclid(n) as usize, number.div_euclid(n) as f64 * TAU)
     }
 
-    /// Returns the index of a strip among [`Strips::count`].
     pub fn index(&self, number: i64) -> usize {
         self.place(number).0
     }
 
-    /// Returns the shift of joint 1, in radians, from a strip's own values to those on the turn that its number
-    /// implies.
+    /// Returns the shift of joint 1, in radians, from a strip's own values to those on the turn that its number means.
     pub fn turns(&self, number: i64) -> f64 {
         self.place(number).1
     }
 
-    /// Returns the values of joint 1 between which a strip lies, by its index.
+    /// Returns the two values of joint 1 that bound a strip, by its index.
     pub fn ends(&self, index: usize) -> [f64; 2] {
         [self.strips[index].from, self.strips[index].to]
     }
@@ -192,8 +190,8 @@ impl<'a> Strips<'a> {
         self.topology.ranges[0].is_circle() || 0 < slice && slice < self.strips.len() as i64
     }
 
-    /// Returns the strip that contains a value of joint 1, up to the rounding of whole turns. If the value is at a
-    /// slice, returns the strip before it.
+    /// Returns the strip that contains a value of joint 1, up to the rounding of whole turns. A value at a slice counts for the
+    /// strip before it.
     pub fn locate(&self, q1: f64) -> i64 {
         let last = self.strips.len() - 1;
         let (value, turns) = match self.topology.ranges[0] {
@@ -207,8 +205,8 @@ impl<'a> Strips<'a> {
         index as i64 + turns * self.strips.len() as i64
     }
 
-    /// Returns the strips that contain a value of joint 1: two if a slice between them has that value. It compares with
-    /// the slices on that turn, which may differ from [`Strips::locate`] by rounding.
+    /// Returns the strips that contain a value of joint 1, which are two at a slice. Compares with the slices on that turn, so
+    /// the result may differ from [`Strips::locate`] by rounding.
     pub fn strips_at(&self, q1: f64) -> Vec<i64> {
         let near = self.locate(q1);
         let exists = |strip: i64| self.topology.ranges[0].is_circle() || (0..self.strips.len() as i64).contains(&strip);
@@ -216,8 +214,8 @@ impl<'a> Strips<'a> {
         (near - 1..=near + 1).filter(holds).collect()
     }
 
-    /// Returns the cell of a strip that contains `q2`. `share` is the position within the strip: 0 on the slice before
-    /// it and 1 on the slice after it. Returns `None` if the strip is closed.
+    /// Returns the cell of a strip that contains `q2` at `share`: 0 is the slice before the strip, 1 the slice after it. `None`
+    /// if the strip is closed.
     pub fn cell(&mut self, strip: i64, share: f64, q2: f64) -> Option<Cell> {
         let index = self.index(strip);
         self.find_barriers(index);
@@ -245,7 +243,7 @@ impl<'a> Strips<'a> {
         Some(cell.turned(turns))
     }
 
-    /// Returns the portals of an inner slice. Every portal lies within one cell of each adjacent strip.
+    /// Returns the portals of an inner slice. Each of them is within one cell of either adjacent strip.
     pub fn portals(&mut self, slice: i64) -> &[Portal] {
         let (before, after) = (self.index(slice - 1), self.index(slice));
         if self.strips[after].portals.is_none() {
@@ -268,8 +266,8 @@ impl<'a> Strips<'a> {
         self.strips[after].portals.as_deref().unwrap_or(&[])
     }
 
-    /// Returns the free interval that contains a value of joint 2 on a slice, up to [`PORTAL_TOLERANCE`]. `None` if the
-    /// value is closed. For a continuous joint, the interval is cut at half a turn to either side of the value.
+    /// Returns the free interval that contains a value of joint 2 on a slice, up to [`PORTAL_TOLERANCE`]. `None` if the value is
+    /// closed. With a continuous joint, the interval ends at half a turn on either side of the value.
     pub fn free_around(&mut self, slice: i64, q2: f64) -> Option<[f64; 2]> {
         self.nearest_free(slice, q2, |portal| {
             portal.lower - PORTAL_TOLERANCE <= q2 && q2 <= portal.upper + PORTAL_TOLERANCE
@@ -294,12 +292,12 @@ impl<'a> Strips<'a> {
         let off = |portal: &Portal| f64::max(portal.lower - q2, q2 - portal.upper).max(0.0);
         let nearest = portals.filter(|portal| condition(portal)).min_by(|a, b| off(a).total_cmp(&off(b)));
         let within = nearest.map(|portal| [portal.lower.max(bottom), portal.upper.min(top)]);
-        // The nearest interval that satisfies the condition may be more than half a turn away.
+        // The nearest suitable interval may be more than half a turn away.
         within.filter(|[lower, upper]| lower <= upper)
     }
 
-    /// Returns the parts of a goal segment that are not closed, if joint 1 is constant on the segment. Otherwise
-    /// returns the whole segment; the search then excludes the parts in closed strips.
+    /// Returns the parts of a goal segment that are not closed, if joint 1 is constant along it. Otherwise returns the whole
+    /// segment; the search excludes the parts in closed strips.
     pub fn open_goals(&mut self, piece: &Segment) -> Vec<Segment> {
         let [from, to] = piece.ends();
         let axis = self.topology.ranges[1];
@@ -328,7 +326,7 @@ impl<'a> Strips<'a> {
         self.strips[index].walls.get_or_insert_with(|| self.closed.walls(from))
     }
 
-    /// Finds the barriers of a strip: lines between walls of the same pair on both slices of the strip.
+    /// Finds the barriers of a strip: lines between walls of one pair on both slices.
     fn find_barriers(&mut self, index: usize) {
         if self.strips[index].barriers.is_some() {
             return;
@@ -348,7 +346,7 @@ impl<'a> Strips<'a> {
                 barriers.extend(self.barrier([from, to], left, right).map(|barrier| (barrier, left.pair)));
             }
             barriers.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
-            // Drop barriers that cross others: cells must be convex.
+            // Omits barriers that cross others: cells must be convex.
             barriers.dedup_by(|(next, _), (kept, _)| next[0] <= kept[0] || next[1] <= kept[1]);
             if self.topology.ranges[1].is_circle() {
                 while let [(first, _), .., (last, _)] = barriers.as_slice()
@@ -361,8 +359,8 @@ impl<'a> Strips<'a> {
         self.strips[index].barriers = Some(barriers);
     }
 
-    /// Returns a line between two walls of a pair along which the pair is proven too near. If both walls share a value
-    /// of joint 2, the line is at that value; otherwise it connects the middles of the walls. Lines at one value do not
+    /// Returns a line between two walls of a pair along which the pair is proven to be too near. The line is at a value of joint
+    /// 2 that both walls contain, if there is one; otherwise it connects the middles of the walls. Lines at one value do not
     /// cross where walls split and merge.
     fn barrier(&self, slices: [f64; 2], left: &Wall, right: &Wall) -> Option<Barrier> {
         let circle = self.topology.ranges[1].is_circle();
@@ -380,8 +378,8 @@ impl<'a> Strips<'a> {
         Some(if circle { barrier.map(|q2| q2 + back) } else { barrier })
     }
 
-    /// Returns the distances, downwards and upwards, from `q2` to the ends of the wall that contains it halfway through
-    /// a strip. Returns `None` if no wall contains it.
+    /// Returns the distances, downwards and upwards, from `q2` to the ends of the wall that contains it halfway through a strip.
+    /// `None` if no wall does.
     pub fn distances_out_of_middle(&mut self, index: usize, q2: f64) -> Option<[f64; 2]> {
         let strip = &mut self.strips[index];
         let walls = strip.middle.get_or_insert_with(|| self.closed.walls(f64::midpoint(strip.from, strip.to)));
@@ -394,15 +392,14 @@ impl<'a> Strips<'a> {
         wall.map(|wall| [wall[0] - value, wall[1] - value])
     }
 
-    /// Halves the given strips, ascending and without repetition, except those of the least width. Returns true if any
-    /// strip was halved.
+    /// Halves the given strips (ascending, each once) except those of the least width. Returns true if it halved any.
     pub fn halve(&mut self, which: &[usize]) -> bool {
         let cuts: Vec<(usize, Vec<f64>)> = which.iter().map(|&index| (index, Vec::new())).collect();
         self.cut(&cuts)
     }
 
-    /// Cuts the given strips, ascending and without repetition, except those of the least width. Each is cut at the
-    /// given values of joint 1, ascending, or in half if there are none. Returns true if any strip was cut.
+    /// Cuts the given strips (ascending, each once) except those of the least width. A strip is cut at the given values of joint
+    /// 1 (ascending), or in half if there are none. Returns true if it cut any.
     pub fn cut(&mut self, which: &[(usize, Vec<f64>)]) -> bool {
         let before = std::mem::take(&mut self.strips);
         let count = before.len();
@@ -445,8 +442,8 @@ impl<'a> Strips<'a> {
     }
 }
 
-/// Returns pairs of walls on two slices that belong to the same pair of shapes. The walls of both slices must be in the
-/// order of pairs.
+/// Returns pairs of walls on two slices that belong to the same pair of shapes. Both lists must be in the order of the pairs of
+/// shapes.
 fn of_the_same_pairs<'w>(before: &'w [Wall], after: &'w [Wall]) -> Vec<(&'w Wall, &'w Wall)> {
     let mut both = Vec::new();
     let mut rest = after;
@@ -459,8 +456,8 @@ fn of_the_same_pairs<'w>(before: &'w [Wall], after: &'w [Wall]) -> Vec<(&'w Wall
     both
 }
 
-/// Returns all candidates for barriers. If there are too many, sorts them by the middles of their first walls, and
-/// returns some that are spread over that list.
+/// Returns the candidates for barriers. If there are too many, sorts them by the middles of their first walls, and returns some
+/// that are spread evenly.
 fn limit_candidates<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w Wall, &'w Wall)> {
     if candidates.len() > MAX_BARRIERS {
         candidates.sort_by(|a, b| (a.0.lower + a.0.upper).total_cmp(&(b.0.lower + b.0.upper)));
@@ -470,8 +467,8 @@ fn limit_candidates<'w>(mut candidates: Vec<(&'w Wall, &'w Wall)>) -> Vec<(&'w W
     candidates
 }
 
-/// Adjusts bands, ascending, so that none is narrower than [`MIN_SLICE_DISTANCE`], or nearer than that to another band
-/// or to an end of the domain.
+/// Adjusts ascending bands so that each is at least [`MIN_SLICE_DISTANCE`] wide, and at least as far from other bands and from
+/// the ends of the domain.
 fn spread_bands(bands: Vec<[f64; 2]>, [lower, upper]: [f64; 2]) -> Vec<[f64; 2]> {
     let mut bands: Vec<[f64; 2]> = bands
         .into_iter()

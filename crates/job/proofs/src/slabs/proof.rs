@@ -1,4 +1,4 @@
-//! Makes proofs of collision boxes from slabs that leave no connection.
+//! Creates proofs by collision boxes from slabs without a connection.
 
 use super::{LEVEL_TOLERANCE, Slab, Slabs, Span, half_of_level, index};
 use crate::chain::{Mosaic, ends};
@@ -9,7 +9,7 @@ use cplan_judge::{CollisionBox, Disconnection};
 use cplan_model::space::{Configuration, GoalSet, Segment};
 
 impl Slabs<'_> {
-    /// Returns, for each span, whether it is connected with any of the places through free and undecided spans.
+    /// Returns for each span whether free and undecided spans connect it with any of the places.
     fn reachable_spans(&self, places: &GoalSet) -> Vec<bool> {
         let mut reached = vec![false; self.spans.len()];
         let mut waiting: Vec<u32> = ends(self, places).into_iter().map(|end| end.0).collect();
@@ -24,10 +24,9 @@ impl Slabs<'_> {
         reached
     }
 
-    /// Returns the proof that start and goals are not connected. Spans that may be free must not connect them. The
-    /// proof consists of the collision boxes around the region that is reachable from the start, or of those around the
-    /// region reachable from the goals, whichever are fewer. Returns `None` if there are more than `most` boxes, or if
-    /// the check of a proof would refuse one of them.
+    /// Returns the proof that start and goals are not connected, given that spans that may be free do not connect them. It has
+    /// the collision boxes around the region that is reachable from the start, or from the goals, whichever are fewer. Returns
+    /// `None` if there are more than `most` boxes, or if the check of a proof would refuse one.
     pub(super) fn disconnection(
         &mut self,
         start: Configuration,
@@ -43,9 +42,8 @@ impl Slabs<'_> {
         boxes.map(Disconnection::new)
     }
 
-    /// Returns the collision boxes beside the region that is reachable from the places, and the collision boxes that
-    /// contain places. Returns `None` if there are more than `most` boxes, or if the check of a proof would refuse one
-    /// of them.
+    /// Returns the collision boxes beside the region that is reachable from the places, and those that contain places. `None` if
+    /// there are more than `most` boxes, or if the check of a proof would refuse one.
     fn collision_boxes_around(&mut self, places: &GoalSet, most: usize) -> Option<Vec<CollisionBox>> {
         let reached = self.reachable_spans(places);
         let places: Vec<Segment> = places.wrapped(&self.topology).collect();

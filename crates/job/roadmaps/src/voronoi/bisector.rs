@@ -1,26 +1,25 @@
-//! Bisectors of two sites, as functions of the parameter of one site's rays.
+//! Bisectors of two sites: functions of the parameter of one site's rays.
 
 use super::site::{CONTACT_DISTANCE, Site};
 use cplan_geometry::cross;
 use std::f64::consts::PI;
 
-/// Sine of the angle between two sides below which they count as parallel. Such sides follow each other on a line, so
-/// they have no bisector.
+/// Sides count as parallel if the sine of their angle is smaller. Such sides lie on one line, one after the other, and have no
+/// bisector.
 const PARALLEL_SINE: f64 = 1e-9;
 
-/// The points at which a site and another site are equally near, given as a height on each ray of the site. The height
-/// is the distance along the ray.
+/// The points that are equally near to a site and another one, given by their heights on the rays of the site. The height is the
+/// distance along the ray.
 ///
-/// For each parameter `t` of a ray, a quadratic polynomial is stored that increases with the height `h`. For a side it
-/// is the height itself, for a corner `-(1 + t^2) / h`. The sign of the difference of two such polynomials shows which
-/// of two other sites is nearer.
+/// A quadratic polynomial in the rays' parameter `t` has values that increase with the height `h`: `h` itself for a side,
+/// `-(1 + t^2) / h` for a corner. The sign of the difference of two such polynomials shows which of two other sites is nearer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Bisector {
     /// Coefficients of `1, t, t^2`.
     coefficients: [f64; 3],
     on_side: bool,
-    /// The ends of the range of parameters to which the bisector applies. There, the nearest point of the other site
-    /// is not one of its ends.
+    /// The ends of the range of parameters for which the nearest point of the other site is not one of its ends. Elsewhere, the
+    /// bisector does not apply.
     pub from: f64,
     pub to: f64,
     /// Index of the other site.
@@ -28,8 +27,8 @@ pub(super) struct Bisector {
 }
 
 impl Bisector {
-    /// Returns the bisectors of a site with another site, whose index is `other`. There are two if the site is a corner
-    /// and both ends of a side are nearer to it than the side's middle.
+    /// Returns the bisectors of a site with the other site `with`, whose index is `other`. There are two if the site is a corner
+    /// that is nearer to both ends of a side than to its middle.
     pub fn between(site: &Site, with: &Site, other: usize) -> impl Iterator<Item = Self> + use<> {
         let (parts, on_side) = match (site.is_side, with.is_side) {
             (true, true) => ([side_and_side(site, with), None, None], true),
@@ -51,7 +50,7 @@ impl Bisector {
         a + t * (b + t * c)
     }
 
-    /// Returns the polynomial's slope.
+    /// Returns the slope of the polynomial.
     pub fn slope(&self, t: f64) -> f64 {
         let [_, b, c] = self.coefficients;
         b + 2.0 * t * c
@@ -67,21 +66,19 @@ impl Bisector {
         }
     }
 
-    /// Returns the distance of a chord from the parabola over a side, for two parameters that differ by `step`. Zero
-    /// for corners.
+    /// Returns the distance between the parabola over a side and a chord, for parameters that differ by `step`. Zero for corners.
     pub fn sag(&self, step: f64) -> f64 {
         if self.on_side { self.coefficients[2] * step * step / 4.0 } else { 0.0 }
     }
 
-    /// Returns the parameter at which the value falls below that of `other`. There is at most one such parameter.
-    /// `None` if there is none.
+    /// Returns the only parameter at which the value falls below that of `other`. `None` if it never does.
     pub fn falls_below(&self, other: &Self) -> Option<f64> {
         let [c, b, a] = [0, 1, 2].map(|k| self.coefficients[k] - other.coefficients[k]);
         let square = b * b - 4.0 * a * c;
         if square <= 0.0 {
             return None;
         }
-        // Use the zero with a falling slope, computed without cancellation.
+        // The zero with a falling slope, computed without cancellation.
         let root = square.sqrt();
         let at = if b > 0.0 { (-b - root) / (2.0 * a) } else { 2.0 * c / (root - b) };
         at.is_finite().then_some(at)
@@ -104,8 +101,8 @@ fn side_and_point(site: &Site, point: &Site) -> Option<Part> {
 }
 
 fn side_and_side(site: &Site, side: &Site) -> Option<Part> {
-    // The height is the distance of the ray's foot from the other side, divided by the difference of the rates at
-    // which the two distances change.
+    // The height is the distance of the ray's foot from the other side, divided by the difference of the rates at which the
+    // distances from both sides change.
     let turned = site.normal() - side.normal();
     let apart = turned.norm_squared() / 2.0;
     if turned.norm() < PARALLEL_SINE {
@@ -146,9 +143,8 @@ fn point_and_side(site: &Site, side: &Site) -> [Option<Part>; 3] {
         return [None; 3];
     }
     let wave = [-1.0 / away, side.normal().dot(&site.along) / away, side.normal().dot(&site.normal()) / away];
-    // Half of the angles from the middle ray to the rays whose foot is at either end of the side. The tangent of the
-    // angle from the ray perpendicular to the side is the foot's distance along the side divided by the distance
-    // from it.
+    // Half the angle from the middle ray to the ray through an end of the side. From the ray perpendicular to the side, the
+    // tangent of the angle is the distance along the side divided by the distance from it.
     let straight = -side.normal();
     let begin = 0.5 * cross(site.along, straight).atan2(site.along.dot(&straight));
     let foot = there.dot(&side.along);

@@ -1,16 +1,16 @@
-//! The cell of a site: on each of its rays, the other site that is equally near first.
+//! The cell of a site: on each of the site's rays, the first point that is equally near to another site.
 
 use super::bisector::Bisector;
 use super::site::Site;
 use cplan_interrupt::checkpoint;
 
-/// Difference below which two parameters count as equal. It covers the rounding of points where bisectors meet.
+/// Parameters closer than this count as equal. It covers the rounding of points where bisectors meet.
 const PARAMETER_TOLERANCE: f64 = 1e-11;
 
-/// Relative difference below which two values count as equal when a bisector is chosen.
+/// Values count as equal, when a bisector is chosen, if their relative difference is smaller.
 const VALUE_TOLERANCE: f64 = 1e-10;
 
-/// Number of times that a range of parameters is halved: enough to reach the last bits.
+/// Number of halvings of a range of parameters. It reaches the last bits.
 const PARAMETER_HALVINGS: usize = 60;
 
 /// A piece of a cell's border, on one bisector.
@@ -23,14 +23,14 @@ pub(super) struct Arc {
 }
 
 impl Arc {
-    /// Returns the greatest height on the arc. It is at one of the ends, since no bisector has a maximum in between.
+    /// Returns the greatest height on the arc. It is at an end, because no bisector has a maximum in between.
     pub fn greatest(&self) -> f64 {
         self.bisector.height(self.from).max(self.bisector.height(self.to))
     }
 }
 
-/// Returns the lower envelope of a site's bisectors with others, in order. The envelope has gaps where there is no
-/// bisector. `O(k m)` for `k` arcs and `m` bisectors.
+/// Returns the lower envelope of a site's bisectors, in order, with gaps where there is no bisector. `O(k m)` for `k` arcs and
+/// `m` bisectors.
 pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Vec<Arc> {
     checkpoint();
     let [first, last] = site.range;
@@ -39,7 +39,7 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
     let mut arcs = Vec::new();
     let mut at = first;
     let mut current = envelope.lowest(at);
-    // Each bisector falls below another one at most twice.
+    // A bisector falls below another one at most twice.
     for _ in 0..8 * bisectors.len() + 8 {
         let Some(now) = current else {
             at = envelope.next_start(at);
@@ -63,17 +63,17 @@ pub(super) fn border(site: &Site, others: &[Site], bisectors: &[Bisector]) -> Ve
     arcs
 }
 
-/// The bisectors of a site with others, whose lower envelope is followed.
+/// The bisectors of a site, and their lower envelope.
 struct Envelope<'a> {
     others: &'a [Site],
     bisectors: &'a [Bisector],
-    /// Difference below which two parameters count as equal.
+    /// Parameters closer than this count as equal.
     slack: f64,
 }
 
 impl<'a> Envelope<'a> {
-    /// Returns the bisector of least value right after a parameter. If several have the least value, returns the one
-    /// with the least slope. Returns `None` if there is no bisector.
+    /// Returns the bisector of least value right after a parameter; among equal ones, that of least slope. `None` if there is no
+    /// bisector.
     fn lowest(&self, at: f64) -> Option<&'a Bisector> {
         let here = || self.bisectors.iter().filter(|b| self.is_after(b, at));
         let least = here().map(|b| b.value(at)).fold(f64::INFINITY, f64::min);
@@ -86,7 +86,7 @@ impl<'a> Envelope<'a> {
         b.from <= at + self.slack && b.to > at + self.slack
     }
 
-    /// Returns the parameter at which the next bisector begins, after a gap; infinity if there is none.
+    /// Returns the parameter after a gap at which the next bisector begins. Infinite if there is none.
     fn next_start(&self, at: f64) -> f64 {
         self.bisectors.iter().map(|b| b.from).filter(|from| *from > at + self.slack).fold(f64::INFINITY, f64::min)
     }
@@ -101,8 +101,8 @@ impl<'a> Envelope<'a> {
         a.is_side != b.is_side && [(a, b), (b, a)].iter().any(|(x, y)| x.is_side && (x.at == y.at || x.to == y.at))
     }
 
-    /// If `now` is the bisector with an end of a side, returns the bisector with that side. Otherwise returns `now`.
-    /// Where a side has a bisector, the side is nearer than its ends.
+    /// If `now` is the bisector with an end of a side, returns that with the side, otherwise `now`. Where a side has a bisector,
+    /// the side is nearer than its ends.
     fn side_of(&self, now: &'a Bisector, at: f64) -> &'a Bisector {
         if self.is_of_side(now) {
             return now;
@@ -111,8 +111,8 @@ impl<'a> Envelope<'a> {
         self.bisectors.iter().find(is_seen).unwrap_or(now)
     }
 
-    /// Returns the parameter at which the envelope leaves a bisector that it follows from `at` on. Also returns the
-    /// next bisector, if it is known.
+    /// Returns the parameter at which the envelope leaves a bisector that it follows from `at` on, and the next bisector if it is
+    /// known.
     fn end(&self, now: &Bisector, at: f64) -> (f64, Option<&'a Bisector>) {
         let (mut end, mut next) = (now.to, None);
         for b in self.bisectors {
@@ -126,7 +126,7 @@ impl<'a> Envelope<'a> {
         self.takeover_hidden_by_rounding(now, at, end).unwrap_or((end, next))
     }
 
-    /// Returns the parameter at which another bisector becomes the lowest within a range; `None` if it does not.
+    /// Returns the parameter in a range at which another bisector becomes the lowest. `None` if it does not.
     fn crossing(&self, b: &Bisector, now: &Bisector, [at, end]: [f64; 2]) -> Option<f64> {
         let event = if self.touching(b, now) {
             (self.is_of_side(b) && b.from > at).then_some(b.from)
@@ -139,8 +139,8 @@ impl<'a> Envelope<'a> {
         event.filter(|t| *t < end)
     }
 
-    /// Returns a change of the lowest bisector that rounding has hidden: the parameter and the lower bisector. For this
-    /// it tests whether another bisector is lower in the middle of the range.
+    /// Returns a change of the lowest bisector that rounding has hidden: the parameter, and the bisector that is lower in the
+    /// middle of the range.
     fn takeover_hidden_by_rounding(&self, now: &Bisector, at: f64, end: f64) -> Option<(f64, Option<&'a Bisector>)> {
         let is_below = |b: &Bisector, t: f64| {
             b.from <= t

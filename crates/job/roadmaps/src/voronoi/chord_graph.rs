@@ -10,15 +10,15 @@ use cplan_planners::planner::terminals::Terminals;
 use petgraph::graph::NodeIndex;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// Distance below which ends of arcs become one node, radians or metres. Where bisectors meet at a small angle, the
-/// error of their intersection is the square root of the rounding error of coordinates.
+/// Ends of arcs closer than this become one node, radians or metres. Where bisectors meet at a small angle, the error of their
+/// intersection is the square root of the rounding error of coordinates.
 const JOIN_DISTANCE: f64 = 1e-7;
 
-/// Distance from the boundary below which chords are not used, radians or metres. Such chords lead into corners of the
-/// boundary, or between obstacles that touch.
+/// Chords closer than this to the boundary are not used, radians or metres. They lead into corners of the boundary, or between
+/// obstacles that touch.
 pub(super) const MIN_CHORD_CLEARANCE: f64 = JOIN_DISTANCE;
 
-/// Number of nearest chords, and of nearest nodes, to which the planner tries to join a configuration.
+/// Number of nearest chords, and of nearest nodes, to which a configuration may be joined.
 const MAX_TRIED_CONNECTIONS: usize = 12;
 
 /// The chords in a window as a graph.
@@ -51,7 +51,7 @@ impl ChordGraph {
         graph
     }
 
-    /// Returns the node at a point, up to [`JOIN_DISTANCE`]. Adds a node if there is none.
+    /// Returns the node at a point, up to [`JOIN_DISTANCE`], and adds it if necessary.
     fn node(&mut self, places: &mut BTreeMap<[i64; 2], Vec<NodeIndex>>, at: Point) -> NodeIndex {
         let cell = [at.x, at.y].map(|value| (value / JOIN_DISTANCE).floor() as i64);
         let around = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [cell[0] + i, cell[1] + j]));
@@ -73,11 +73,11 @@ impl ChordGraph {
         ends.extend(terminals.places(mesh).map(|at| query_graph.goal(at)));
         ends.sort_unstable();
         ends.dedup();
-        // For each chord that an end is joined to: the positions along the chord, and the nodes there.
+        // For each chord to which an end is joined, positions along the chord and the nodes there.
         let mut met: BTreeMap<usize, Vec<(OrderedF64, NodeIndex)>> = BTreeMap::new();
         for &end in &ends {
             checkpoint();
-            // Without obstacles, or with start and goal at the same place, the two can be joined directly.
+            // Without obstacles, or if start and goal coincide, both can be joined directly.
             let is_there = self.chords.is_empty() || (query_graph.at(end) - terminals.start).norm() < JOIN_DISTANCE;
             if end != start && is_there && mesh.is_clear(terminals.start, query_graph.at(end)) {
                 query_graph.join(start, end);
@@ -98,8 +98,7 @@ impl ChordGraph {
         query_graph
     }
 
-    /// Joins an end to the diagram: to the chord that the line away from the boundary meets, otherwise to nearby
-    /// nodes.
+    /// Joins an end to the chord that the line away from the boundary meets; otherwise to nearby nodes.
     fn retract(
         &self,
         mesh: &Mesh,
@@ -136,8 +135,7 @@ impl ChordGraph {
     }
 }
 
-/// Returns the indices of the nearest of `count` items, nearest first. At most [`MAX_TRIED_CONNECTIONS`] are
-/// returned.
+/// Returns the indices of the nearest of `count` items, nearest first, at most [`MAX_TRIED_CONNECTIONS`].
 fn nearest(count: usize, distance: impl Fn(usize) -> f64) -> Vec<usize> {
     let mut order: Vec<(OrderedF64, usize)> = (0..count).map(|k| (OrderedF64(distance(k)), k)).collect();
     if count > MAX_TRIED_CONNECTIONS {

@@ -11,38 +11,37 @@ use cplan_planners::cspace::Regions;
 use cplan_planners::planner::mesh::Mesh;
 use std::f64::consts::{PI, TAU};
 
-/// Greatest distance of a chord from its parabola, radians or metres.
+/// Greatest distance between a chord and its parabola, radians or metres.
 const MAX_SAG: f64 = 1e-3;
 
-/// Greatest distance of a chord from its parabola, as a fraction of the distance from the boundary. It keeps chords
-/// away from the boundary.
+/// Greatest distance between a chord and its parabola, as a fraction of the distance from the boundary. It keeps chords off the
+/// boundary.
 const MAX_SAG_SHARE: f64 = 0.01;
 
 /// A straight piece of the diagram, or a chord of a parabola.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Chord {
     pub ends: Segment,
-    /// Least distance from the two sites of the chord.
+    /// Distance of the chord from its two sites, at its nearest point.
     pub width: f64,
 }
 
-/// The diagram over whole intervals, and over one turn of each circle, since all turns are equal.
+/// The diagram over all of an interval, and over one turn of a circle, since all turns are alike.
 #[derive(Debug, Clone)]
 pub(super) struct Diagram {
-    /// The sites within that range, with sides cut at its ends, followed by copies of sites around it.
+    /// The sites in this range, with sides cut at its ends, then copies of sites around it.
     sites: Vec<Site>,
-    /// For each site, the index of the original site, and the whole turns of each joint by which it is moved.
+    /// For each site, the index of its original, and the whole turns of both joints by which it is moved.
     originals: Vec<(usize, [i32; 2])>,
     lower: [f64; 2],
     ranges: [JointRange; 2],
-    /// A distance from the boundary that no configuration exceeds.
+    /// Upper bound on the distance of a configuration from the boundary.
     most: f64,
     pub chords: Vec<Chord>,
 }
 
 impl Diagram {
-    /// Builds the diagram. `O(n m)` for `n` sites with `m` others near each of them: within twice the greatest
-    /// distance from the boundary.
+    /// Builds the diagram. `O(n m)` for `n` sites, each with `m` others within twice the greatest distance from the boundary.
     pub fn new(space: &Regions, mesh: &Mesh) -> Self {
         let ranges = space.topology.ranges;
         let part = [0, 1].map(|k| {
@@ -87,8 +86,8 @@ impl Diagram {
             let site = &self.sites[number];
             for arc in self.cell(&tree, number, bounds(site)) {
                 let (other, turns) = self.originals[arc.bisector.other];
-                // Prefer a side to a corner, since its parabolas are polynomials; of two equal kinds take the one
-                // with the lower number.
+                // Of two sites, a side is preferred to a corner, because its parabolas are polynomials; otherwise the lower
+                // number is.
                 if number < other || (number == other && turns > [0; 2]) {
                     chord(site, &self.sites[arc.bisector.other], &arc, [arc.from, arc.to], &mut chords);
                 }
@@ -97,8 +96,7 @@ impl Diagram {
         chords
     }
 
-    /// Returns the border of a site's cell. Uses only nearby sites, after a proof that those farther away have no
-    /// effect.
+    /// Returns the border of a site's cell. Uses only nearby sites, after proving that the others have no effect.
     fn cell(&self, tree: &BoxTree, number: usize, bounds: Bounds) -> Vec<Arc> {
         let most = self.most;
         let site = &self.sites[number];
@@ -129,15 +127,15 @@ impl Diagram {
         (moved(p, turns.map(|turn| -turn)), turns)
     }
 
-    /// Returns the point at which the straight line from `p`, away from the nearest site, meets the diagram
-    /// (O'Dunlaing, Yap 1985). Linear in the number of sites.
+    /// Returns the point where the line from `p`, away from the nearest site, meets the diagram (O'Dunlaing, Yap 1985). Linear in
+    /// the number of sites.
     pub fn retracted(&self, p: Point) -> Option<Point> {
         let (home, turns) = self.at_home(p);
         let distance = |site: &Site| (home - site.nearest(home)).norm();
         let nearest = self.sites.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         let from = nearest.nearest(home);
         let displacement = home - from;
-        // On the boundary, use any ray of the site.
+        // On the boundary, any ray of the site serves.
         let ray = if displacement.norm() > CONTACT_DISTANCE {
             (from, displacement.normalize())
         } else {
@@ -148,11 +146,9 @@ impl Diagram {
         height.is_finite().then(|| moved(ray.0 + ray.1 * height, turns))
     }
 
-    /// Returns the distance of a free segment from the boundary. Linear in the number of sites, and in the segment's
-    /// length.
+    /// Returns the distance of a free segment from the boundary. Linear in the number of sites and in the segment's length.
     pub fn clearance(&self, a: Point, b: Point) -> f64 {
-        // Copies of sites are present only up to twice the greatest distance around the range, so long segments are
-        // halved.
+        // Long segments are halved, because copies of sites exist only within twice the greatest distance around the range.
         if (b - a).norm() > self.most {
             let middle = a + (b - a) / 2.0;
             return self.clearance(a, middle).min(self.clearance(middle, b));
@@ -185,8 +181,8 @@ impl Diagram {
     }
 }
 
-/// Returns a distance from the boundary that no configuration exceeds. On an interval, a limit is nearer than that. On
-/// two circles, a copy of any site is.
+/// Returns an upper bound on the distance of a configuration from the boundary: on an interval, a limit is nearer; on two
+/// circles, a copy of any site is.
 fn farthest(space: &Regions) -> f64 {
     let extents = [0, 1].map(|k| space.window[k].1 - space.window[k].0);
     let circles = space.topology.ranges.map(JointRange::is_circle);
@@ -204,13 +200,13 @@ fn moved(p: Point, turns: [f64; 2]) -> Point {
     Segment::point(p).turned(turns).ends()[0]
 }
 
-/// Appends chords of an arc, which is halved until they are fine enough.
+/// Appends chords of an arc, which is halved until they are accurate enough.
 fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mut Vec<Chord>) {
     let heights = [from, to].map(|t| arc.bisector.height(t));
     if !(heights[0] + heights[1]).is_finite() {
         return;
     }
-    // Passages narrower than this are not used. Where a corner almost touches a side, rounding dominates heights.
+    // Narrower passages are not used. Where a corner almost touches a side, rounding errors dominate heights.
     if arc.bisector.sag(to - from) > MAX_SAG.min(MAX_SAG_SHARE * heights[0].min(heights[1])).max(MIN_CHORD_CLEARANCE) {
         checkpoint();
         let middle = 0.5 * (from + to);
@@ -220,7 +216,7 @@ fn chord(site: &Site, other: &Site, arc: &Arc, [from, to]: [f64; 2], chords: &mu
         }
     }
     let place = |t: f64, height: f64| match site.end(t) {
-        // Corners of free space stay exact, because rounded ones may lie outside free space.
+        // Corners of free space stay exact, because rounded ones may be outside free space.
         Some(corner) if height < CONTACT_DISTANCE => corner,
         _ => {
             let (at, direction) = site.ray(t);

@@ -1,8 +1,8 @@
 //! Paths of greatest clearance along the Voronoi diagram of free space.
 //!
-//! `site` has the sides and corners of the boundary, `bisector` the points equally near to two sites, `cell` the
-//! border of the region nearest to one site, and `diagram` all these borders. The borders are lower envelopes of
-//! closed forms, so only their ends are rounded. Sites that touch or coincide need no special case.
+//! `site` has the sides and corners of the boundary, `bisector` the points that are equally near to two sites, `cell` the border
+//! of the region nearest to one site, and `diagram` all these borders. The borders are lower envelopes of closed forms, so only
+//! their ends are rounded. Sites that touch or coincide need no special case.
 
 mod bisector;
 mod cell;
@@ -20,20 +20,19 @@ use cplan_planners::planner::terminals::Terminals;
 use cplan_planners::planner::{GraphKind, PathKind, Planner, Proposal, Query, Run};
 use diagram::Diagram;
 
-/// The *generalised Voronoi diagram* of C-obstacles and joint limits, also called the medial axis of free space. The
-/// planner finds a path with the greatest distance from both, in joint space.
+/// The *generalised Voronoi diagram* of C-obstacles and joint limits, also called the medial axis of free space. The planner
+/// finds a path with the greatest distance, in joint space, from C-obstacles and limits.
 ///
-/// Sites are the open sides of free space's boundary, and its corners. At each point of the diagram, two sites are
-/// equally near (O'Dunlaing, Yap, *A "retraction" method for planning the motion of a disc*, 1985). Start and goals
-/// are joined to the diagram along the straight line away from the nearest site. The limits of joints are walls; on
-/// circles sites repeat across the seam.
+/// Sites are the corners and the open sides of free space's boundary. Each point of the diagram is equally near to two sites
+/// (O'Dunlaing, Yap, *A "retraction" method for planning the motion of a disc*, 1985). Start and goals are joined to the diagram
+/// along the straight line away from the nearest site. The limits of joints are walls; on circles, sites repeat across the seam.
 ///
-/// The search uses only edges that are as wide as the narrowest edge of the widest route. Among the paths on these
-/// edges, the default search finds the shortest.
+/// The search uses only edges at least as wide as the narrowest edge of the widest route. Among the paths on these edges, the
+/// default search finds the shortest.
 ///
-/// Straight arcs are exact. Parabolas are replaced by chords within 1e-3 rad or m of them, and within a hundredth of
-/// their distance from the boundary. Borders of cells are closed forms in floating point. Triangulated free space
-/// decides exactly whether a motion is free. `O(n m)` for `n` sites with `m` others near each of them.
+/// Straight arcs are exact. Parabolas are replaced by chords within 1e-3 rad or m of them, and within a hundredth of their
+/// distance from the boundary. Borders of cells are closed forms in floating point. Triangulated free space decides exactly
+/// whether a motion is free. `O(n m)` for `n` sites with `m` others near each of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Voronoi {
     /// The kind of path. [`PathKind::Own`] follows the diagram. [`PathKind::Taut`] is pulled taut through the

@@ -9,10 +9,9 @@ pub(super) const CONTACT_DISTANCE: f64 = 1e-12;
 
 /// A side of the boundary without its ends, or a convex corner of an obstacle.
 ///
-/// The points that are nearer to a site than to all others lie on the site's *rays*. The rays of a side leave it at
-/// right angles. Those of a corner lie between the normals of its two sides. A parameter identifies a ray: the
-/// length along the side, or the tangent of half the angle to the corner's middle ray, which turns sines and cosines
-/// into polynomials.
+/// The points that are nearer to a site than to all others lie on the site's *rays*. The rays of a side are perpendicular to it;
+/// those of a corner lie between the normals of its two sides. The parameter of a ray is the length along the side, or the
+/// tangent of half the angle to the corner's middle ray, which turns sines and cosines into polynomials.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Site {
     /// The corner, or the start of the side.
@@ -23,7 +22,7 @@ pub(super) struct Site {
     pub along: Vector,
     /// Least and greatest parameter of the rays.
     pub range: [f64; 2],
-    /// True for a side, even if both its ends are rounded to the same point.
+    /// True for a side, even if rounding makes its ends coincide.
     pub is_side: bool,
 }
 
@@ -59,7 +58,7 @@ impl Site {
         Self { at, to, ..*self }
     }
 
-    /// Returns the normal into free space; for a corner, the unit vector perpendicular to the middle ray.
+    /// Returns the normal into free space. For a corner, returns the unit vector perpendicular to the middle ray.
     pub fn normal(&self) -> Vector {
         perpendicular(self.along)
     }
@@ -74,7 +73,7 @@ impl Site {
         }
     }
 
-    /// Returns the end of a side at which the ray of a parameter starts, up to rounding; `None` if there is none.
+    /// Returns the end of a side at which the ray of a parameter starts, up to rounding. `None` if the ray starts elsewhere.
     pub fn end(&self, parameter: f64) -> Option<Point> {
         let ends = [(self.range[0], self.at), (self.range[1], self.to)];
         ends.into_iter().find(|(end, _)| self.is_side && (parameter - end).abs() < CONTACT_DISTANCE).map(|(_, p)| p)
@@ -100,8 +99,8 @@ impl Site {
         of_ends.into_iter().chain(of_site).fold(f64::INFINITY, f64::min)
     }
 
-    /// Returns the length up to which the points of a ray are nearer to the ray's start than to this site. Infinite if
-    /// all its points are, or if the ray starts on this site.
+    /// Returns the length up to which the points of a ray are nearer to the ray's start than to this site. Infinite if all its
+    /// points are, or if the ray starts on this site.
     pub fn limit(&self, (from, direction): Ray) -> f64 {
         if (from - self.nearest(from)).norm() < CONTACT_DISTANCE {
             return f64::INFINITY;

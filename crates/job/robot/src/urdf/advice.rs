@@ -1,4 +1,4 @@
-//! Warnings about properties that are probably unintended, with hints: wrong units, placeholders, missing axes.
+//! Warnings, with hints, about properties that are probably unintended: wrong units, placeholders, missing axes.
 
 use super::limits::key;
 use super::reduction::Reduction;
@@ -8,20 +8,20 @@ use cplan_model::space::JointRange;
 use cplan_model::{Arm, Joint};
 use cplan_text::{counted, short};
 
-/// Greatest plausible top speed of a revolute joint, in rad/s. The fastest axes of robots turn at 45 rad/s.
+/// Greatest plausible top speed of a revolute joint, in rad/s. The fastest axes of robots reach 45 rad/s.
 const MAX_PLAUSIBLE_TURN_SPEED: f64 = 60.0;
 
 /// Greatest plausible top speed of a prismatic joint, in m/s.
 const MAX_PLAUSIBLE_SLIDE_SPEED: f64 = 20.0;
 
-/// Greatest plausible length of arms, slides and shapes, in metres. Only cranes are longer.
+/// Greatest plausible length of arms, strokes and shapes, in metres. Only cranes are longer.
 const MAX_PLAUSIBLE_LENGTH: f64 = 50.0;
 
 /// Greatest plausible distance of an arm's shapes from its joints, as a multiple of the arm's length.
 const MAX_PLAUSIBLE_OUTREACH: f64 = 20.0;
 
-/// Distance from the joints, in metres, within which shapes are not compared with the arm's length. The joints may be
-/// almost at the same place.
+/// Shapes within this distance of the joints, in metres, are not compared with the arm's length, because the joints may almost
+/// coincide.
 const MIN_COMPARED_OUTREACH: f64 = 5.0;
 
 /// Returns warnings about an arm, one per line.

@@ -7,8 +7,7 @@ use crate::source::Source;
 use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use roxmltree::Node;
 
-/// Attributes of links, joints and their elements whose values are numbers. Those in [`UNLIMITED_ATTRIBUTES`] are
-/// numbers as well.
+/// Numeric attributes of links, joints and their elements, except those in [`UNLIMITED_ATTRIBUTES`].
 const NUMERIC_ATTRIBUTES: [&str; 22] = [
     "xyz",
     "rpy",
@@ -34,7 +33,7 @@ const NUMERIC_ATTRIBUTES: [&str; 22] = [
     "izz",
 ];
 
-/// Attributes whose values are numbers. In these, an infinity means that there is no limit.
+/// Numeric attributes in which an infinity means that there is no limit.
 const UNLIMITED_ATTRIBUTES: [&str; 9] = [
     "lower",
     "upper",
@@ -47,14 +46,13 @@ const UNLIMITED_ATTRIBUTES: [&str; 9] = [
     "soft_upper_limit",
 ];
 
-/// Joint types of the URDF specification.
 const JOINT_TYPES: [&str; 7] = ["revolute", "continuous", "prismatic", "fixed", "floating", "planar", "spherical"];
 
 /// Reads attributes of a link or joint and collects their defects.
 pub(super) struct Attributes<'a> {
     pub source: &'a Source,
     pub diagnostics: &'a mut Vec<Diagnostic>,
-    /// The name of the link or joint, with which every message begins.
+    /// Name of the link or joint. Every message begins with it.
     pub what: &'a str,
 }
 
@@ -65,9 +63,9 @@ pub(super) fn children<'a, 'i>(node: Node<'a, 'i>, name: &'a str) -> impl Iterat
     })
 }
 
-/// Returns roll, pitch and yaw of a quaternion (x, y, z, w) of any length. `None` if its length is zero. The angles are
-/// extracted one after the other, so that they reproduce the rotation even if the pitch is a right angle and the other
-/// two turn about the same axis. (There, `urdf-rs` is off by 5e-3.)
+/// Returns roll, pitch and yaw of a quaternion (x, y, z, w) of any length. `None` if its length is zero. The angles are extracted
+/// one after the other, so that they reproduce the rotation even if the pitch is a right angle and the other two angles turn
+/// about the same axis. (There, `urdf-rs` is wrong by up to 5e-3.)
 fn roll_pitch_yaw(quaternion: &[f64]) -> Option<[f64; 3]> {
     let &[x, y, z, w] = quaternion else { return None };
     let quaternion = Quaternion::new(w, x, y, z);
@@ -87,8 +85,8 @@ impl Attributes<'_> {
         self.diagnostics.push(diagnostic.help(help));
     }
 
-    /// Refuses NaN in all numeric attributes below `node`, even in unused ones. Refuses infinities, unless they mean
-    /// that there is no limit. A file with such values was not written correctly.
+    /// Refuses NaN in all numeric attributes below `node`, used or not, because the file was not written correctly. Also refuses
+    /// infinities, unless they mean that there is no limit.
     pub fn finite_everywhere(&mut self, node: Node) {
         for element in node.descendants().filter(Node::is_element) {
             for attribute in element.attributes() {
@@ -107,7 +105,7 @@ impl Attributes<'_> {
         }
     }
 
-    /// Returns the only child element with a name. `None` if it is optional and absent, or invalid.
+    /// Returns the only child element with a name. `None` if it is invalid, or optional and absent.
     pub fn only<'a, 'i>(&mut self, node: Node<'a, 'i>, name: &'a str, required: bool) -> Option<Node<'a, 'i>> {
         let mut found = children(node, name);
         let first = found.next();
@@ -120,7 +118,7 @@ impl Attributes<'_> {
         first
     }
 
-    /// Returns a text attribute, which must exist.
+    /// Returns the text of a required attribute.
     pub fn text<'a>(&mut self, node: Node<'a, '_>, name: &str) -> Option<&'a str> {
         let value = node.attribute(name).filter(|v| !v.trim().is_empty());
         if value.is_none() {
@@ -130,8 +128,8 @@ impl Attributes<'_> {
         value
     }
 
-    /// Returns the `count` finite numbers of an attribute. `None` if it is absent or invalid. Another check reports
-    /// numbers that are not finite.
+    /// Returns the `count` numbers of an attribute. `None` if it is absent or invalid. Another check reports numbers that are not
+    /// finite.
     fn numbers(&mut self, node: Node, name: &str, count: usize) -> Option<Vec<f64>> {
         let text = node.attribute(name)?;
         let values: Result<Vec<f64>, _> = text.split_whitespace().map(str::parse).collect();
@@ -171,7 +169,7 @@ impl Attributes<'_> {
         self.numbers(node, name, 1).map(|v| v[0])
     }
 
-    /// Returns the text of `<origin>` for the copy of the document. Returns an empty text if the element is missing.
+    /// Returns the text of `<origin>` for the copy of the document; empty if the element is missing.
     pub fn origin(&mut self, node: Node) -> String {
         let Some(origin) = self.only(node, "origin", false) else { return String::new() };
         let mut copy = "<origin".to_owned();
@@ -200,7 +198,7 @@ impl Attributes<'_> {
         copy + "/>"
     }
 
-    /// Returns true if an axis is valid: three numbers that are not all zero.
+    /// Returns true if an axis is valid: three numbers, not all zero.
     pub fn direction(&mut self, axis: Node) -> bool {
         let Some(xyz) = self.numbers(axis, "xyz", 3) else {
             if !axis.has_attribute("xyz") {
@@ -214,7 +212,7 @@ impl Attributes<'_> {
             return false;
         };
         let length = xyz.iter().fold(0.0, |l, x| f64::hypot(l, *x));
-        // A shorter axis has too few significant digits for a direction.
+        // A shorter axis has too few significant digits to define a direction.
         if length < 1e-9 {
             let help = "give the axis a direction, such as xyz=\"0 0 1\"; a joint that does not move is of type fixed";
             self.diagnostic(
@@ -239,9 +237,9 @@ impl Attributes<'_> {
         None
     }
 
-    /// Returns lower, upper, velocity and acceleration of a `<limit>`. `absent` has the defaults of lower and upper.
-    /// Lower may exceed upper only if the joint type ignores both. If `ranged`, the joint type does not ignore them:
-    /// this is reported, and both are swapped so that further checks work.
+    /// Returns lower, upper, velocity and acceleration of a `<limit>`. `absent` has the defaults of lower and upper. If `ranged`,
+    /// lower must not exceed upper: an excess is reported, and both are swapped so that further checks work. Other joint types
+    /// ignore both.
     pub fn limit(&mut self, limit: Node, absent: [f64; 2], ranged: bool) -> [Option<f64>; 4] {
         let mut values = ["lower", "upper", "velocity", "acceleration"].map(|name| self.number(limit, name));
         for (value, name) in values.iter_mut().zip(["lower", "upper"]) {
@@ -270,8 +268,8 @@ impl Attributes<'_> {
         values
     }
 
-    /// Returns the soft limits. A limit that is not given is 0. Returns `None` if both are 0, because exporters write 0
-    /// for missing limits.
+    /// Returns the soft limits, which are 0 if they are missing. Returns `None` if both are 0: exporters write 0 for missing
+    /// limits.
     pub fn soft_limits(&mut self, safety: Node) -> Option<[f64; 2]> {
         let [lower, upper] = ["soft_lower_limit", "soft_upper_limit"].map(|name| self.number(safety, name));
         let [lower, upper] = [lower, upper].map(|limit| limit.unwrap_or(0.0));
@@ -282,8 +280,7 @@ impl Attributes<'_> {
         (lower != 0.0 || upper != 0.0).then_some([lower.min(upper), lower.max(upper)])
     }
 
-    /// Returns the shape in a `<geometry>`. Its sizes must be positive, or all zero: exporters write that for a missing
-    /// shape.
+    /// Returns the shape in a `<geometry>`. Its sizes must be positive, or all zero, as exporters write for a missing shape.
     pub fn geometry<'a, 'i>(&mut self, geometry: Node<'a, 'i>) -> Option<Node<'a, 'i>> {
         let mut shapes = geometry.children().filter(Node::is_element);
         let (first, second) = (shapes.next(), shapes.next());
@@ -342,7 +339,7 @@ impl Attributes<'_> {
 mod tests {
     use super::*;
 
-    /// Checks that the angles reproduce the rotation, even with a pitch at or near a right angle.
+    /// Checks that the angles reproduce the rotation, also with a pitch at or near a right angle.
     #[test]
     fn angles_of_quaternions() {
         let half = std::f64::consts::FRAC_PI_2;

@@ -15,10 +15,9 @@ use cplan_text::counted;
 use nalgebra::Isometry3;
 use std::collections::BTreeSet;
 
-/// Largest number of corners of an outline that remains a single shape. The time of queries grows with the number.
+/// Largest number of corners of an outline that remains a single shape. The time of queries grows with this number.
 const MAX_CORNERS: usize = 1024;
 
-/// The data from which outlines are made.
 pub(super) struct Bodies<'a> {
     pub document: &'a Document,
     pub tree: &'a Tree,
@@ -29,8 +28,8 @@ pub(super) struct Bodies<'a> {
     pub poses: &'a [Isometry3<f64>],
 }
 
-/// Returns a region that contains the shape at every orientation about a point. Also returns a region that the shape
-/// contains at every orientation, if there is one. `certain` is a region that certainly lies within the shape.
+/// Returns a region that contains the shape whatever its orientation about a point. Also returns a region that the shape contains
+/// in every orientation, if there is one. `certain` is a region that certainly lies within the shape.
 fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, Option<Convex>)> {
     let is_disc = |convex: &Convex| convex.core().len() == 1 && (convex.core()[0] - axis).norm() <= AXIS_TOLERANCE;
     if is_disc(shape) && is_disc(certain) {
@@ -41,8 +40,8 @@ fn all_round(axis: Point, shape: &Convex, certain: &Convex) -> Option<(Convex, O
     (within > 0.0).then(|| (disc(shape.reach_from(axis)), Some(disc(within))))
 }
 
-/// Tolerance for a shape that counts as a disc about an axis. For a disc, it is the distance of the centre from the
-/// axis, in metres. For other shapes, it is relative.
+/// Tolerance for shapes that count as discs about an axis. For a disc, it limits the distance of the centre from the axis, in
+/// metres; for other shapes, it is relative.
 const AXIS_TOLERANCE: f64 = 1e-9;
 
 /// The outlines of both links, the robot's links that are obstacles, and notes for the user.
@@ -56,13 +55,12 @@ pub(super) struct Outlines {
     pub warnings: Vec<String>,
 }
 
-/// Returns the message that a link has no outline because its mesh cannot be read.
 fn describe_unread_mesh(unread: &Diagnostic) -> String {
     format!("{}; this link is ignored in planning, so it may collide with the arm", unread.message)
 }
 
-/// Names the URDF links of an arm link whose visual geometry is used although others have collision geometry. `None` if
-/// there are none.
+/// Names those URDF links of an arm link whose visual geometry is used, although others have collision geometry. `None` if there
+/// are none.
 fn visual_links(link: &Link) -> Option<String> {
     let mut names: Vec<&str> = link.parts.iter().filter(|part| part.is_visual).map(|part| part.body.as_str()).collect();
     names.dedup();
@@ -72,12 +70,12 @@ fn visual_links(link: &Link) -> Option<String> {
 }
 
 impl Bodies<'_> {
-    /// Returns the outlines of both links in their frames, whose origins are at the joints, and the fixed links as
-    /// obstacles for them.
+    /// Returns the outlines of both links in their frames, whose origins are at the joints, and the fixed links as obstacles for
+    /// them.
     ///
     /// # Errors
-    /// A mesh that cannot be used although the world does not request a bar instead; two links without outlines; names
-    /// of links in the world that the robot does not have.
+    /// A mesh that cannot be used, unless the world requests a bar instead; two links without outlines; unknown names of links in
+    /// the world.
     pub fn outlines(&self) -> Result<Outlines, InputError> {
         let bar = self.bar()?;
         let (mut notes, mut sizeless, mut warnings) = (Vec::new(), Vec::new(), Vec::new());
@@ -136,13 +134,13 @@ impl Bodies<'_> {
         &self.tree.links[self.tree.child[self.chain.joints[index]]]
     }
 
-    /// Names the bodies of a link that have shapes of size zero. `None` if there are none.
+    /// Names those bodies of a link that have shapes of size zero. `None` if there are none.
     fn sizeless(&self, index: usize, bodies: &[String]) -> Option<String> {
         let (link, name, bodies) = (index + 1, self.name(index), bodies.join(", "));
         (!bodies.is_empty()).then(|| format!("link {link} \"{name}\": shapes of size zero are ignored (in {bodies})"))
     }
 
-    /// Creates an arm link from these parts. Shapes that could not be read are missing among them.
+    /// Creates an arm link from these parts, which lack the shapes that could not be read.
     fn link(
         &self,
         index: usize,
@@ -227,11 +225,11 @@ impl Bodies<'_> {
         (0..self.document.robot.links.len()).filter(is_fixed)
     }
 
-    /// Returns a shape as parts of arm link `index`, in the link's frame. There is one part for each layer between the
-    /// heights `cuts`.
+    /// Returns a shape as parts of arm link `index`, in the link's frame. There is one part for each layer between the heights
+    /// `cuts`.
     ///
     /// # Errors
-    /// A shape that turns with the wrist and covers a different region at each angle.
+    /// A shape that turns with the wrist and does not cover the same region at all angles.
     fn parts(&self, index: usize, shape: &PlacedShape, cuts: &[f64]) -> Result<Vec<Part>, Diagnostic> {
         let PlacedShape { link, number, is_visual, solid, pose, .. } = shape;
         let joint = self.joint_at(index).0;
@@ -274,8 +272,7 @@ impl Bodies<'_> {
         }
     }
 
-    /// Returns the position in the plane of the wrist's axis, if a link turns about it during motions. Otherwise returns
-    /// `None`.
+    /// Returns the position of the wrist's axis in the plane, if the link `body` turns about it during motions.
     fn wrist_axis(&self, body: usize) -> Option<Point> {
         let name = self.settings.table.wrist_joint().filter(|_| self.settings.wrist_turns)?;
         let joint = self.document.robot.joints.iter().position(|joint| joint.name == *name.get_ref())?;

@@ -9,26 +9,25 @@ use crate::error::{Diagnostic, InputError, quoted};
 use crate::settings::RobotSettings;
 use urdf_rs::JointType;
 
-/// The choices that reduce a robot to a two-joint arm. Links and joints are given by their indices in the file.
+/// The choices that reduce a robot to a two-joint arm, as indices of links and joints in the file.
 #[derive(Debug)]
 pub(super) struct Chain {
     /// The two arm joints, base to tip.
     pub joints: [usize; 2],
     /// The link whose origin is the tip.
     pub tip: usize,
-    /// Value of every joint, with 0 for the two arm joints.
+    /// Value of every joint; 0 for the two arm joints.
     pub values: Vec<f64>,
-    /// The other movable joints whose values affect the arm. They are held still.
+    /// The other movable joints whose values matter to the arm. They are kept fixed.
     pub held: Vec<usize>,
-    /// Notes about the held joints.
+    /// Notes about these joints.
     pub notes: Vec<String>,
 }
 
 /// Chooses joints, values and tip.
 ///
 /// # Errors
-/// It is not clear which two joints are meant, the first one does not carry the second, or other joints would have to
-/// move with them.
+/// Ambiguous joints, a first joint that does not carry the second, and other joints that would have to move with them.
 pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) -> Result<Chain, InputError> {
     let chooser = Chooser { document, tree, settings };
     chooser.names_exist()?;
@@ -43,10 +42,10 @@ pub(super) fn choose(document: &Document, tree: &Tree, settings: RobotSettings) 
     Ok(chain)
 }
 
-/// Returns the chain of these two joints, of which the first carries the second.
+/// Returns the chain of two joints, the first of which carries the second.
 ///
 /// # Errors
-/// Other joints would have to move with them, or the world's tip or fixed values do not fit them.
+/// Other joints that would have to move with them, and a tip or fixed values of the world that do not fit them.
 pub(super) fn with_joints(
     document: &Document,
     tree: &Tree,
@@ -60,7 +59,7 @@ pub(super) fn with_joints(
     Ok(Chain { joints, tip, values, held, notes })
 }
 
-/// Returns true if the other entries of the world's `[robot]` table fit these two joints.
+/// Returns true if the rest of the world's `[robot]` table fits these two joints.
 pub(super) fn admits(document: &Document, tree: &Tree, settings: RobotSettings, joints: [usize; 2]) -> bool {
     Chooser { document, tree, settings }.names_exist().is_ok() && with_joints(document, tree, settings, joints).is_ok()
 }
@@ -87,7 +86,7 @@ pub(super) struct Chooser<'a> {
     pub settings: RobotSettings<'a>,
 }
 
-/// Returns true if a joint has a single value, and the value can change.
+/// Returns true if a joint has a single value that can change.
 pub(super) fn is_movable(joint: &urdf_rs::Joint) -> bool {
     matches!(joint.joint_type, JointType::Revolute | JointType::Continuous | JointType::Prismatic)
 }
@@ -140,8 +139,8 @@ impl Chooser<'_> {
         InputError::check(diagnostics)
     }
 
-    /// Returns the two joints, and the reason for choosing them. The reason is empty if the world names them, or if no
-    /// others can move.
+    /// Returns the two joints, and the reason for choosing them. The reason is empty if the world names them, or if no other
+    /// joints can move.
     fn joints(&self) -> Result<ImpliedPair, Diagnostic> {
         let implied = |joints: [usize; 2]| ImpliedPair { joints, reason: String::new() };
         let ImpliedPair { joints: pair, reason } = match &self.settings.table.joints {
@@ -249,9 +248,10 @@ impl Chooser<'_> {
         Err(self.document.source.diagnostic(message).help(help))
     }
 
-    /// Checks that the two joints are independent: neither mimics another joint, no joint that carries the arm, belongs
-    /// to it or moves shapes mimics one of them, and no joint with several degrees of freedom is in the arm or carries
-    /// it.
+    /// Checks that the two joints are independent:
+    /// - Neither mimics another joint.
+    /// - No joint that carries the arm, belongs to it or moves shapes mimics one of them.
+    /// - No joint with several degrees of freedom is in the arm or carries it.
     fn independent(&self, chosen: [usize; 2]) -> Result<(), Diagnostic> {
         let reason = "an arm with coupled joints (a parallelogram or other linkage) is no serial two-joint arm";
         for j in chosen {
@@ -272,7 +272,7 @@ impl Chooser<'_> {
                     .joint_diagnostic(j, &message)
                     .help("make this joint fixed, or choose joints above it"));
             }
-            // A joint outside the arm matters if it moves links that could collide.
+            // A joint outside the arm matters if it moves links that can collide.
             let matters = || carried || self.tree.carries(j, self.tree.child[chosen[0]]) || self.has_shapes(j);
             if joint.mimic.is_none() || !matters() {
                 continue;
@@ -320,7 +320,7 @@ impl Chooser<'_> {
                 }
             };
         }
-        // Returns the deepest link below joint 2, the first in the file among equals.
+        // The deepest link below joint 2; among equals, the first one in the file.
         let depth = |l: &usize| (self.tree.depth(*l), std::cmp::Reverse(*l));
         Ok(below.into_iter().max_by_key(depth).unwrap_or(self.tree.child[joints[1]]))
     }

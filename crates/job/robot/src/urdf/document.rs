@@ -1,8 +1,8 @@
-//! The URDF as a document: read by `roxmltree` for places and diagnostics, and by `urdf-rs` for its contents.
+//! The URDF as a document. `roxmltree` reads it for positions and diagnostics, `urdf-rs` for its contents.
 //!
-//! `urdf-rs` has no line numbers, accepts `NaN` and invalid vectors, and rejects files because of irrelevant elements
-//! (an `<inertial>` without inertia, a `<limit>` without velocity, stray text). So every relevant element is checked
-//! first, with its place, and `urdf-rs` reads a copy of the document with only these elements.
+//! `urdf-rs` has no line numbers, accepts `NaN` and invalid vectors, and rejects files because of irrelevant elements (an
+//! `<inertial>` without inertia, a `<limit>` without velocity, stray text). So all relevant elements are checked first, and
+//! `urdf-rs` reads a copy of the document with only these elements.
 
 use super::attributes::{Attributes, children};
 use super::foreign;
@@ -15,8 +15,8 @@ use std::fmt::Write;
 use std::ops::Range;
 use std::path::PathBuf;
 
-/// The valid part of a URDF: all numbers are finite, every element has its attributes, and names are unique. Invalid
-/// elements are omitted, each with a diagnostic.
+/// The valid part of a URDF: all numbers are finite, every element has its attributes, and names are unique. Each invalid element
+/// is omitted, with a diagnostic.
 #[derive(Debug)]
 pub(super) struct Document {
     pub source: Source,
@@ -29,9 +29,9 @@ pub(super) struct Document {
     pub joints: Vec<JointPlace>,
     /// Number of elements other than links and joints, by name.
     pub others: BTreeMap<String, usize>,
-    /// Defects of single elements. A robot with defects can be inspected, but not planned for.
+    /// Defects of single elements. A robot with defects can be inspected, but planning refuses it.
     pub diagnostics: Vec<Diagnostic>,
-    /// True if no defect concerns joints or names. Then the kinematics are those of the file.
+    /// True if no defect concerns joints or names, so that the kinematics are those of the file.
     pub tree_is_sound: bool,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct LinkPlace {
     pub collision: Vec<Range<usize>>,
 }
 
-/// Positions of a joint and its parts in the file, and which of its limits are stated.
+/// Positions of a joint and its parts in the file, and the stated limits.
 #[derive(Debug)]
 pub(super) struct JointPlace {
     pub at: Range<usize>,
@@ -57,8 +57,8 @@ pub(super) struct JointPlace {
     pub soft_limits: Option<Range<usize>>,
     /// True if the limit gives a `velocity`.
     pub has_velocity: bool,
-    /// The `acceleration` of the limit. It is part of URDF 1.2. This reader also reads it in older files, where
-    /// `urdf-rs` ignores it.
+    /// The `acceleration` of the limit. It belongs to URDF 1.2. This reader also accepts it in older files, where `urdf-rs`
+    /// ignores it.
     pub acceleration: Option<f64>,
 }
 
@@ -66,8 +66,8 @@ impl Document {
     /// Reads a URDF.
     ///
     /// # Errors
-    /// A file that is not XML, is xacro or SDF, or has no valid content. [`Document::diagnostics`] collects all other
-    /// defects that can be found without the tree of links.
+    /// A file that is not XML, is xacro or SDF, or has no valid content. Other defects that can be found without the tree of
+    /// links are in [`Document::diagnostics`].
     pub fn read(source: Source) -> Result<Self, InputError> {
         foreign::without_entities(&source)?;
         let options = roxmltree::ParsingOptions { allow_dtd: true, ..roxmltree::ParsingOptions::default() };
@@ -104,7 +104,7 @@ impl Document {
         }
     }
 
-    /// Returns the paths of the files that were read so far, which are those of the text and the meshes.
+    /// Returns the paths of the files that were read so far, including meshes.
     pub fn files(&self) -> Vec<PathBuf> {
         self.source.files().into_iter().chain(self.meshes.borrow().iter().cloned()).collect()
     }
@@ -125,8 +125,8 @@ impl Document {
     }
 }
 
-/// Returns the text of an `<inertial>` element for `urdf-rs`. `None` if the element is incomplete, which is frequent;
-/// only torques need it.
+/// Returns the text of an `<inertial>` element for `urdf-rs`. `None` if the element is incomplete, as is common; only torques
+/// need it.
 fn inertial(node: Node) -> Option<String> {
     const INERTIA_ATTRIBUTES: [&str; 6] = ["ixx", "ixy", "ixz", "iyy", "iyz", "izz"];
     let mass = numbers(children(node, "mass").next()?, "value", 1)?;
@@ -165,8 +165,8 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn robot(&mut self, root: Node) -> (Vec<LinkPlace>, Vec<JointPlace>) {
-        // `urdf-rs` validates only from version 1.2 on, and reports no positions. The checks here apply to all
-        // versions. Version 1.1 is the first that knows `quat_xyzw`.
+        // `urdf-rs` validates only from version 1.2 on, without positions. These checks apply to all versions. `quat_xyzw` exists
+        // from version 1.1 on.
         let unlimited = version(root) >= (1, 2);
         let _ = write!(
             self.copy,
@@ -175,7 +175,7 @@ impl Reader<'_> {
         );
         let mut links = Vec::new();
         let mut joints = Vec::new();
-        // The position of the first element with each name.
+        // Position of the first element with each name.
         let mut names: HashMap<(&str, &str), usize> = HashMap::new();
         for node in root.children().filter(|n| is_urdf_element(*n, root)) {
             let kind = node.tag_name().name();
@@ -258,7 +258,7 @@ impl Reader<'_> {
         let moves = kind.is_some_and(|k| k != "fixed" && k != "floating");
         let axis = attributes.only(joint, "axis", false).filter(|axis| moves && attributes.direction(*axis));
         let limit = attributes.only(joint, "limit", false);
-        // From URDF 1.2 on, a missing limit means that there is no limit. Before, it means 0.
+        // In URDF 1.2, a missing limit means that there is no limit; in older versions, it means 0.
         let [low, high] = if unlimited { [f64::NEG_INFINITY, f64::INFINITY] } else { [0.0; 2] };
         let [lower, upper, velocity, acceleration] = match limit {
             Some(limit) => attributes.limit(limit, [low, high], matches!(kind, Some("revolute" | "prismatic"))),
@@ -329,7 +329,7 @@ impl Reader<'_> {
     }
 }
 
-/// Returns the position of the first line of the opening tag, where messages put the caret.
+/// Returns the position of the first line of the opening tag, below which messages put the caret.
 pub(super) fn tag(node: Node) -> Range<usize> {
     let range = node.range();
     let text = &node.document().input_text()[range.clone()];

@@ -1,4 +1,4 @@
-//! Motors of the joints: their limits as limits of joints, and of the sum of both joint values.
+//! Motors of the joints. Their limits become limits of joints, and of the sum of both joint values.
 
 use super::limits::MissingRates;
 use super::reduction::{Bounds, Reduction};
@@ -13,10 +13,10 @@ use std::ops::Range;
 const EXAMPLE: &str =
     "drives = { elbow = \"base\", motors = { velocity = [3.0, 4.0] } }, or drives = \"standard_scara\"";
 
-/// Greatest magnitude of angles, gears and rates.
+/// Greatest absolute value of angles, gears and rates.
 const LARGEST: f64 = 1e6;
 
-/// Limits that one motor imposes on joint 1, joint 2, or their sum.
+/// The limits that one motor imposes on joint 1, joint 2, or their sum.
 #[derive(Debug, Clone, Copy, Default)]
 struct MotorLimits {
     range: Option<[f64; 2]>,
@@ -39,7 +39,7 @@ impl Reduction<'_> {
         Ok(Some(Motors { range, velocity, acceleration, jerk, effort: first.effort, ..motors }))
     }
 
-    /// Returns the efforts of both joints that follow from the efforts of the motors.
+    /// Returns the efforts of both joints according to the efforts of the motors.
     pub(super) fn motor_efforts(&self) -> Result<[Option<f64>; 2], Diagnostic> {
         let Some(given) = &self.settings.table.drives else { return Ok([None; 2]) };
         let (motors, limits) = self.read_drives(given)?;
@@ -67,14 +67,14 @@ impl Reduction<'_> {
                 let turned = [motors.ratio * low, motors.ratio * high];
                 [lower - turned[0].max(turned[1]), upper - turned[0].min(turned[1])]
             }
-            // The limits of motors come in pairs, so that joint 1 has limits, too.
+            // Motors have both limits or none, so joint 1 has limits if the motors do.
             (Some(_), JointRange::Circle) => return Err(refuse("joint 1 needs limits".into())),
         };
         if elbow.range.is_some() {
             two.limit(MotorLimits { range: Some([low, high]), ..MotorLimits::default() })
                 .ok_or_else(|| empty(names[1]))?;
         }
-        // The limits of the motors replace the defaults of joint 2.
+        // Limits of motors replace the defaults of joint 2.
         let together = |a: Option<f64>, b: f64| a.map(|limit| limit + motors.ratio.abs() * b);
         let assumed = two.rates.assumed;
         if let Some(velocity) = together(elbow.velocity, one.rates.velocity).filter(|_| assumed.velocity) {
@@ -106,7 +106,7 @@ impl Reduction<'_> {
         self.settings.source.diagnostic_at(at, format!("[robot] drives: {}", message.as_ref()))
     }
 
-    /// Reads the motors without the limits of the sum, and the limits of what both motors turn.
+    /// Reads the motors without the limits of the sum, and the limits of what each motor turns.
     fn read_drives(&self, given: &Spanned<DrivesValue>) -> Result<(Motors, [MotorLimits; 2]), Diagnostic> {
         if let Some(axis) = self.axes().into_iter().find(|axis| !axis.revolute) {
             let message = format!("joint \"{}\" slides, but both joints must turn", axis.name);
@@ -203,7 +203,7 @@ impl Reduction<'_> {
                 velocity: driven(velocity),
                 acceleration: driven(acceleration),
                 jerk: driven(jerk),
-                // A gear that slows down strengthens.
+                // A gear that reduces speed multiplies torque.
                 effort: effort.map(|effort| effort[k] * gear),
             }
         }))
@@ -238,7 +238,7 @@ impl Reduction<'_> {
 }
 
 impl Bounds {
-    /// Applies the limits of the joint's motor. `None` if the joint has no values left.
+    /// Applies the limits of the joint's motor. `None` if no joint value remains.
     fn limit(&mut self, motor: MotorLimits) -> Option<()> {
         if let Some([least, greatest]) = motor.range {
             let (lower, upper) = match self.range {

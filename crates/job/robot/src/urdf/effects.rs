@@ -1,4 +1,4 @@
-//! Effects of moving the held joints.
+//! Effects of motions of the fixed joints.
 
 use super::chain::{Chooser, is_movable};
 use super::plane::project;
@@ -10,7 +10,7 @@ use cplan_model::Plane;
 use urdf_rs::JointType;
 
 impl Reduction<'_> {
-    /// Returns the held joints whose values matter to the arm, with the effects of their motion.
+    /// Returns the fixed joints whose values matter to the arm, with the effects of their motion.
     pub fn held_joints(&self, plane: &Plane) -> Vec<HeldJoint> {
         let below = |joint: usize| (0..self.tree.links.len()).filter(move |&link| self.tree.carries(joint, link));
         let held = |&index: &usize| HeldJoint {

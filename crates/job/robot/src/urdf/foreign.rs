@@ -1,4 +1,4 @@
-//! Detection of files that are not plain URDF: xacro, SDF, other XML, and broken XML.
+//! Recognises files that are not plain URDF: xacro, SDF, other XML, and damaged XML.
 
 use super::document::tag;
 use crate::error::Diagnostic;
@@ -8,7 +8,7 @@ use roxmltree::{Document, Error, Node};
 /// Namespace of xacro.
 const XACRO_NAMESPACE: &str = "ros.org/wiki/xacro";
 
-/// Adds the hint that xacro must be expanded before it is read here.
+/// Adds the hint that xacro must be expanded first.
 fn xacro(diagnostic: Diagnostic) -> Diagnostic {
     diagnostic.help(
         "save this text as a .xacro file, which cplan expands: `cplan robot.urdf.xacro world.toml`; `cplan inspect robot.urdf.xacro --expanded robot.urdf` writes the plain URDF",
@@ -43,7 +43,7 @@ pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
     let in_line: usize = source.text()[line_start..].chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
     let offset = line_start + in_line;
     let mut message = error.to_string();
-    // The message would repeat the position that is shown before it.
+    // The parser's message repeats the position, which is already shown before it.
     if let Some(cut) = message.rfind(&format!(" at {}:{}", at.row, at.col)) {
         message.truncate(cut);
     }
@@ -52,7 +52,7 @@ pub(super) fn malformed(source: &Source, error: &Error) -> Diagnostic {
         .help("the URDF comes first, then the world file; an XML editor shows where a tag is not closed")
 }
 
-/// Refuses documents that are not URDF. Accepts URDF that declares the namespace of xacro but does not use it.
+/// Refuses documents that are not URDF. Accepts URDF that only declares the namespace of xacro.
 pub(super) fn recognize(source: &Source, root: Node) -> Result<(), Diagnostic> {
     let at = |node: Node, message: &str| source.diagnostic_at(tag(node), message);
     match root.tag_name().name() {
@@ -74,8 +74,8 @@ pub(super) fn recognize(source: &Source, root: Node) -> Result<(), Diagnostic> {
     }
 }
 
-/// Returns the first element that only xacro understands. `None` if there is none. A file that just declares the
-/// namespace of xacro is a plain URDF.
+/// Returns the first element that only xacro understands. `None` if there is none, as in a file that only declares the namespace
+/// of xacro.
 fn xacro_trace<'a, 'i>(document: &'a Document<'i>) -> Option<Node<'a, 'i>> {
     document.descendants().filter(Node::is_element).find(|node| {
         let tag = document.input_text()[node.range()].trim_start_matches('<');

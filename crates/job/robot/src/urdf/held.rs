@@ -1,4 +1,4 @@
-//! Values of the joints that do not move: the world states them, they are at rest, or a mimic rule determines them.
+//! Values of the joints that do not move: stated by the world, determined by a mimic rule, or else the default.
 
 use super::chain::{Chooser, is_movable, unit};
 use super::limits::{Limits, Range};
@@ -34,8 +34,7 @@ impl Chooser<'_> {
         Err(self.mimic_diagnostic(joint, "mimics itself, through a cycle of <mimic> elements"))
     }
 
-    /// Returns the joint that a joint follows, with factor and offset. Without a mimic rule, returns the joint itself,
-    /// with 1 and 0.
+    /// Returns the joint that a joint follows, with factor and offset. A joint without a mimic rule follows itself, with 1 and 0.
     pub(super) fn rule(&self, joint: usize) -> Result<(usize, f64, f64), Diagnostic> {
         let leader = self.leader(joint)?;
         let mut value = Affine { factor: 1.0, offset: 0.0 };
@@ -94,8 +93,7 @@ impl Chooser<'_> {
         Ok(HeldValues { values, held, notes })
     }
 
-    /// Returns the value at which a joint is held. It is the world's value. If the world states none, it is 0, or the
-    /// limit nearest to 0.
+    /// Returns the value of a joint that does not move: that in the world, or else 0, or the limit nearest to 0.
     fn held_at(&self, index: usize) -> Result<f64, Diagnostic> {
         let joint = &self.all()[index];
         let range = Limits { document: self.document, settings: self.settings }.range(index)?;
@@ -128,14 +126,14 @@ impl Chooser<'_> {
     }
 }
 
-/// The map `factor * x + offset`, composed along a chain of mimic rules.
+/// The map `x -> factor * x + offset`, composed along a chain of mimic rules.
 struct Affine {
     factor: f64,
     offset: f64,
 }
 
 impl Affine {
-    /// Returns the composition with the map of a mimic rule, which is applied first.
+    /// Composes this map with that of a mimic rule, which is applied first.
     fn compose_mimic(self, mimic: &Mimic) -> Self {
         let (multiplier, offset) = (mimic.multiplier.unwrap_or(1.0), mimic.offset.unwrap_or(0.0));
         Affine { factor: self.factor * multiplier, offset: self.factor * offset + self.offset }

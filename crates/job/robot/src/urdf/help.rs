@@ -4,8 +4,8 @@ use super::limits::{Limits, key};
 use super::reduction::Reduction;
 use cplan_model::Plane;
 
-/// Returns the entries of `[robot]` that make these two joints usable, one per line. They name the joints, and have
-/// placeholders for missing or invalid ranges and for unusable geometry. Returns `None` if no entry is needed.
+/// Returns the entries of `[robot]` that make these two joints usable, one per line: the names of the joints, and placeholders
+/// for missing or invalid ranges and unusable geometry. `None` if no entry is needed.
 pub(super) fn entries(reduction: &Reduction, plane: &Plane) -> Option<String> {
     let &Reduction { document, settings, chain, .. } = reduction;
     let joints = &document.robot.joints;

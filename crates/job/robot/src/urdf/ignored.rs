@@ -16,7 +16,7 @@ pub(super) fn elements(document: &Document) -> Vec<String> {
     vec![format!("elements other than links and joints: {}", names.join(", "))]
 }
 
-/// Lists links that do not move, and joints whose values do not affect the arm.
+/// Lists links that do not move, and joints whose values do not matter to the arm.
 pub(super) fn beside_the_arm(reduction: &Reduction) -> Vec<String> {
     let Reduction { document, tree, chain, .. } = reduction;
     let mut ignored = Vec::new();
@@ -68,7 +68,7 @@ pub(super) fn visuals(reduction: &Reduction, links: &[Link; 2]) -> Vec<String> {
     ignored
 }
 
-/// Returns true if a joint is one of the two arm joints, or carries them, or is carried by them.
+/// Returns true if a joint is in the arm, carries it, or is carried by it.
 pub(super) fn concerns_the_arm(reduction: &Reduction, joint: usize) -> bool {
     let Reduction { tree, chain, .. } = reduction;
     tree.carries(joint, tree.child[chain.joints[1]]) || tree.carries(chain.joints[0], tree.child[joint])

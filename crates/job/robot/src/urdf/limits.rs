@@ -10,23 +10,21 @@ use cplan_model::{DEFAULT_SLIDING_SPEED, DEFAULT_TURNING_SPEED, MAX_TURN_RANGE, 
 use std::f64::consts::{PI, TAU};
 use urdf_rs::JointType;
 
-/// Longest range of a prismatic joint, in metres. It spans all coordinates that a world may have, so a longer range
-/// would be of no use.
+/// Longest range of a prismatic joint, in metres. It spans all coordinates that a world may have.
 const MAX_SLIDE: f64 = 2.0 * MAX_LENGTH;
 
-/// Magnitude in radians from which limits of a revolute joint mean that there is no limit. Both limits must reach it.
-/// Simulators write 1e16 for no limit, and exporters 1e9 or infinity. No valid start is that far out.
+/// If both limits of a revolute joint have at least this absolute value, in radians, there is no limit. Simulators write 1e16 for
+/// this, and exporters 1e9 or infinity. No valid start is that far out.
 const UNLIMITED_TURN: f64 = MAX_LENGTH;
 
-/// Magnitude from which limits of a revolute joint may be degrees: four turns in radians. The upper end is
-/// [`MAX_LIMIT_LIKE_DEGREES`].
+/// Limits of a revolute joint between this value (four turns in radians) and [`MAX_LIMIT_LIKE_DEGREES`] may be degrees.
 const MIN_LIMIT_LIKE_DEGREES: f64 = 4.0 * TAU;
 
-/// Two turns in degrees. No joint has a larger range, whether in radians or in degrees.
+/// Two turns in degrees. No joint has a larger range, in radians or in degrees.
 const MAX_LIMIT_LIKE_DEGREES: f64 = 720.0;
 
-/// Largest difference in radians between a limit and a multiple of half a turn to which it is rounded. It covers the
-/// rounding to three decimals.
+/// A limit within this distance, in radians, of a multiple of half a turn is rounded to it. It covers the rounding to three
+/// decimals.
 const HALF_TURN_ROUNDING: f64 = 1e-3;
 
 /// What is known about the range of a joint.
@@ -44,7 +42,7 @@ pub(super) struct Rates {
     pub velocity: f64,
     pub acceleration: f64,
     pub jerk: Option<f64>,
-    /// The limits that were assumed because they are missing.
+    /// The assumed limits, which the files lack.
     pub assumed: MissingRates,
 }
 
@@ -62,7 +60,7 @@ pub(super) struct Limits<'a> {
 }
 
 impl Limits<'_> {
-    /// Returns the range of a movable joint. The world's range overrides that of the URDF, which soft limits narrow.
+    /// Returns the range of a movable joint: the world's, or else the URDF's, narrowed by soft limits.
     pub fn range(&self, index: usize) -> Result<Range, Diagnostic> {
         let joint = &self.document.robot.joints[index];
         if let Some(limits) = find(&self.settings.table.limits, &joint.name) {
@@ -131,8 +129,8 @@ impl Limits<'_> {
         }
     }
 
-    /// Returns an example range for the world file, for a joint that has no usable one. If the URDF's range looks like
-    /// degrees, the example is that range in degrees; otherwise it is a placeholder.
+    /// Returns an example range for the world file, for a joint without a usable one. If the URDF's range looks like degrees, it
+    /// is that range in degrees; otherwise it is a placeholder.
     pub fn example(&self, index: usize) -> String {
         match self.degrees(index) {
             Some([lower, upper]) => format!("[\"{lower}deg\", \"{upper}deg\"]"),
@@ -233,9 +231,8 @@ impl Limits<'_> {
     }
 }
 
-/// Returns true if limits of a revolute joint look like degrees. Three conditions must hold. They exceed the range of
-/// any drive with end stops. They would be at most two turns in degrees. They are not multiples of half a turn in
-/// radians.
+/// Returns true if limits of a revolute joint look like degrees. They must exceed the range of any drive with end stops, be at
+/// most two turns in degrees, and not be multiples of half a turn in radians.
 fn are_degrees(lower: f64, upper: f64) -> bool {
     let is_half_turns = |limit: f64| ((limit / PI).round() * PI - limit).abs() < HALF_TURN_ROUNDING;
     let farthest = lower.abs().max(upper.abs());

@@ -12,15 +12,14 @@ use cplan_geometry::Vector;
 use cplan_model::{Arm, Body, Dynamics};
 use nalgebra::{Matrix3, Vector3};
 
-/// Default acceleration of free fall in the root frame, whose z axis points up, in m/s2.
+/// Default acceleration of free fall, in m/s2, in the root frame, whose z axis points up.
 const GRAVITY: [f64; 3] = [0.0, 0.0, -9.81];
 
-/// Share below which a number counts as rounding error. A joint moves no mass if the determinant of an inertia matrix
-/// is below this share of the product of its diagonal. An effort counts as zero if it is below this share of the effort
-/// for the greatest inertia.
+/// Relative size of rounding errors. A joint moves no mass if the determinant of an inertia matrix is below this share of the
+/// product of its diagonal. An effort counts as zero if it is below this share of the effort for the greatest inertia.
 const NEGLIGIBLE_SHARE: f64 = 1e-12;
 
-/// Checks the world's values for efforts and gravity, even if they are not used.
+/// Checks the world's efforts and gravity, even if they are not used.
 ///
 /// # Errors
 /// The first invalid value.
@@ -43,11 +42,10 @@ pub(super) fn check(settings: RobotSettings) -> Result<(), Diagnostic> {
 }
 
 impl Bodies<'_> {
-    /// Returns masses and efforts of an arm. `motors` are the efforts of the joints that follow from the efforts of the
-    /// motors.
+    /// Returns masses and efforts of an arm. `motors` has the efforts of the joints according to those of the motors.
     ///
     /// # Errors
-    /// Links without mass, joints without effort, and numbers that no rigid body can have.
+    /// Links without mass, joints without effort, and values that are impossible for a rigid body.
     pub fn dynamics(&self, arm: &Arm, assumed: [bool; 2], motors: [Option<f64>; 2]) -> Result<Dynamics, Diagnostic> {
         check(self.settings)?;
         let effort = |k: usize| match (self.effort(k), motors[k]) {

@@ -1,7 +1,7 @@
 //! Reduces a URDF to a planar two-joint arm.
 //!
-//! The joints' axes and all link frames are computed in the root frame at the zero configuration (the two joints at 0,
-//! the others at their values in `[robot] fixed`). Then they are projected on the common plane of motion.
+//! The joints' axes and all link frames are computed in the root frame at the zero configuration: the two joints are at 0, the
+//! others at their values in `[robot] fixed`. Then they are projected onto the common plane of motion.
 //!
 //! ```text
 //! Document (valid elements, diagnostics) -> Tree -> Chain (two joints, tip) -> Reduction -> Plane, Bounds, Outlines
@@ -47,7 +47,7 @@ use std::collections::BTreeSet;
 use std::path::Path;
 use tree::Tree;
 
-/// Returns the meshes that can be found from a robot's file, but not from the file `other` with the same text.
+/// Returns the meshes that can be found from a robot's file but not from the file `other`, which has the same text.
 pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
     let (Ok(here), Ok(xml)) = (robot.anchor(), roxmltree::Document::parse(robot.text())) else { return Vec::new() };
     let named =
@@ -61,8 +61,7 @@ pub fn meshes_elsewhere(robot: &Source, other: &Path) -> Vec<String> {
 /// Reads a URDF and reduces it to the arm that the settings choose.
 ///
 /// # Errors
-/// Files that are damaged or not URDF, robots that have no planar two-joint arm, limits that are not set, and meshes
-/// that cannot be read.
+/// Files that are damaged or not URDF, robots without a planar two-joint arm, missing limits, and meshes that cannot be read.
 pub fn load(source: Source, settings: RobotSettings) -> Result<(Arm, RobotReport), InputError> {
     let document = Document::read(source)?;
     InputError::check(document.diagnostics.clone())?;

@@ -14,7 +14,7 @@ use urdf_rs::JointType;
 /// Largest number of pairs that a message lists.
 const MAX_LISTED_PAIRS: usize = 6;
 
-/// Largest number of movable joints with which pairs are tried. The number of pairs grows with its square.
+/// Largest number of movable joints for which pairs are tried. The number of pairs grows with its square.
 pub(super) const MAX_TRIED_JOINTS: usize = 40;
 
 /// Two joints that form a planar arm.
@@ -27,7 +27,7 @@ pub(super) struct PlanarPair {
 /// A pair of joints that is chosen although the world names none.
 pub(super) struct ImpliedPair {
     pub joints: [usize; 2],
-    /// The reason for this pair, as a clause that follows the names of the joints.
+    /// The reason for this pair, as a clause after the names of the joints.
     pub reason: String,
 }
 
@@ -41,12 +41,12 @@ pub(super) fn planar(document: &Document, tree: &Tree, settings: RobotSettings) 
     pairs.filter_map(|joints| Some(PlanarPair { joints, plane: plane(joints)? })).collect()
 }
 
-/// Returns the pair of joints that is evidently meant; `None` if there is none. Movable joints between the two joints
-/// of a pair speak against it.
+/// Returns the pair of joints that is evidently meant, if there is one. Movable joints between the two joints of a pair are
+/// evidence against it.
 ///
 /// - If there is only one planar pair, it is chosen unless a revolute joint lies between its joints.
-/// - Otherwise only planar pairs without movable joints between their joints are considered. If there is one, it is
-///   chosen. If there are several that share a plane along one chain, the first one is chosen.
+/// - Otherwise, only planar pairs without movable joints in between count. If there is one, it is chosen. If several share a
+///   plane along one chain, the first one is chosen.
 pub(super) fn implied_pair(document: &Document, tree: &Tree, planar: &[PlanarPair]) -> Option<ImpliedPair> {
     let between = |pair: &PlanarPair| -> Vec<&urdf_rs::Joint> {
         let [a, b] = &pair.joints;
@@ -84,7 +84,7 @@ pub(super) fn choices(document: &Document, pairs: &[PlanarPair]) -> String {
     shown.join(", or ") + more
 }
 
-/// Returns the table without the entries for joints, tip and held values.
+/// Returns the table without the entries for joints, tip and fixed values.
 pub(super) fn without_joints(table: &RobotTable) -> RobotTable {
     RobotTable { joints: None, tip: None, fixed: PerJoint::new(), ..table.clone() }
 }

@@ -4,9 +4,9 @@ use cplan_geometry::{Point, Vector};
 use cplan_model::{JointType, Plane};
 use nalgebra::Vector3;
 
-/// Largest angle, in radians, between directions that count as parallel. Also the largest difference from a right angle
-/// of directions that count as perpendicular. Exported files have axes like `-1.19e-5 0 0.9999` and angles like 1.57.
-/// Over a length of a metre, the angle is a deviation of a millimetre.
+/// Largest angle, in radians, between directions that count as parallel, and largest deviation from a right angle of directions
+/// that count as perpendicular. Exported files have axes like `-1.19e-5 0 0.9999` and angles like 1.57. Over a metre, this angle
+/// is a deviation of a millimetre.
 pub(super) const ALIGNMENT_TOLERANCE: f64 = 1e-3;
 
 /// A joint's axis in the root frame.
@@ -20,15 +20,15 @@ pub(super) struct SpatialAxis<'a> {
 
 /// Returns the common plane of motion of two joints.
 ///
-/// Its normal is the axis of the revolute joints, or the cross product of two prismatic axes. A normal within 1e-3 rad
-/// of a root axis becomes that axis. About z the plane coordinates are the root's `(x, y)`, about y `(x, z)`, about x
-/// `(y, z)`, and heights increase along the positive axis.
+/// Its normal is the axis of the revolute joints, or the cross product of two prismatic axes. A normal within 1e-3 rad of a root
+/// axis is replaced by that axis. The plane coordinates are then the root's `(x, y)` for z, `(x, z)` for y and `(y, z)` for x,
+/// and heights increase along the positive axis.
 ///
-/// Any other plane has the first revolute axis `n` as its normal. Its `u` is the root's x projected on the plane, or y
-/// if x is close to `n`, and `v = n x u`.
+/// Any other plane has the first revolute axis `n` as its normal. Its `u` is the root's x projected on the plane, or y if x is
+/// close to `n`, and `v = n x u`.
 ///
 /// # Errors
-/// If the joints do not move in one plane, with the directions of the axes.
+/// Joints that do not move in one plane. The message has the directions of their axes.
 pub(super) fn common_plane(axes: [SpatialAxis; 2]) -> Result<Plane, String> {
     let [a, b] = axes;
     let cross = a.direction.cross(&b.direction).norm();
@@ -48,10 +48,10 @@ pub(super) fn common_plane(axes: [SpatialAxis; 2]) -> Result<Plane, String> {
     Ok(basis(normal))
 }
 
-/// Describes how much revolute axes deviate from the plane's normal, or prismatic axes from the plane. `None` if the
-/// deviation is negligible.
+/// Describes the deviation of revolute axes from the plane's normal, or of prismatic axes from the plane. `None` if it is
+/// negligible.
 pub(super) fn deviation(plane: &Plane, axes: [SpatialAxis; 2]) -> Option<String> {
-    /// Least deviation that is reported, in radians: a micrometre over a metre.
+    /// Least deviation that is reported, in radians. It amounts to a micrometre over a metre.
     const NOTICED_DEVIATION: f64 = 1e-6;
     let off = |axis: &SpatialAxis| {
         let [across, along] = [axis.direction.cross(&plane.normal).norm(), axis.direction.dot(&plane.normal).abs()];
@@ -81,7 +81,7 @@ fn refusal(axes: [SpatialAxis; 2], reason: &str) -> String {
 
 /// Formats a direction for messages.
 pub(super) fn vector(d: Vector3<f64>) -> String {
-    // Adding 0 turns -0, which rounding may produce, into 0.
+    // Adding 0 turns -0, a possible result of rounding, into 0.
     let [x, y, z] = [d.x, d.y, d.z].map(|c| (c * 1e4).round() / 1e4 + 0.0);
     format!("({x}, {y}, {z})")
 }
@@ -112,7 +112,7 @@ pub(super) fn joint_type_in(plane: &Plane, axis: SpatialAxis) -> JointType {
     JointType::Prismatic { direction: clean(project(plane, &axis.direction).normalize()) }
 }
 
-/// Returns a unit direction without rounding errors. A direction within 1e-12 of an axis becomes that axis.
+/// Removes rounding errors from a unit direction: within 1e-12 of an axis, it becomes the axis.
 fn clean(direction: Vector) -> Vector {
     const ROUNDING: f64 = 1e-12;
     let snapped = direction.map(|c| if c.abs() < ROUNDING { 0.0 } else { c });

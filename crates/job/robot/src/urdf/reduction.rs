@@ -1,4 +1,4 @@
-//! The planar reduction: from a chain of joints in space to an arm in the plane, in stages that can fail one by one.
+//! The planar reduction from a chain of joints in space to an arm in the plane. Each of its stages can fail on its own.
 
 use super::advice;
 use super::bodies::{Bodies, Outlines};
@@ -24,7 +24,7 @@ pub(super) struct Reduction<'a> {
     pub tree: &'a Tree,
     pub settings: RobotSettings<'a>,
     pub chain: &'a Chain,
-    /// Poses of all links in the root frame, with the two arm joints at 0 and the others at their held values.
+    /// Poses of all links in the root frame, with the two arm joints at 0 and the others at their constant values.
     pub poses: Vec<Isometry3<f64>>,
 }
 
@@ -68,7 +68,7 @@ impl<'a> Reduction<'a> {
         })
     }
 
-    /// Returns the plane of motion. Unlike [`Reduction::plane`], fails with the reason alone.
+    /// Returns the plane of motion. In contrast to [`Reduction::plane`], the error is only the reason.
     pub fn common_plane(&self) -> Result<Plane, String> {
         plane::common_plane(self.axes())
     }
@@ -111,7 +111,7 @@ impl<'a> Reduction<'a> {
         Bodies { document, tree, chain, settings, plane: &arm.plane, poses }.dynamics(arm, assumed, efforts)
     }
 
-    /// Assembles the arm. If masses and efforts are unknown, also returns the reason.
+    /// Assembles the arm. Also returns the reason if masses and efforts are unknown.
     pub fn arm(&self, plane: Plane, bounds: [Bounds; 2], outlines: Outlines) -> (Arm, RobotReport, Option<Diagnostic>) {
         let mut report = RobotReport {
             geometry: vec![plane::describe(&plane, &self.tree.links[self.tree.root])],
@@ -135,7 +135,7 @@ impl<'a> Reduction<'a> {
             if bounds.rates.assumed.velocity {
                 report.assumed.velocity.insert(name.clone(), bounds.rates.velocity);
             }
-            // With efforts, acceleration limits are not needed.
+            // Acceleration limits are not needed if efforts limit the motion.
             if bounds.rates.assumed.acceleration && !self.settings.table.dynamics {
                 report.assumed.acceleration.insert(name.clone(), bounds.rates.acceleration);
             }

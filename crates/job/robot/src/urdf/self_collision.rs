@@ -1,7 +1,7 @@
-//! Self-collision: the pairs of links that the planner keeps apart, and the layers in which it cuts their meshes.
+//! Self-collision: the pairs of links that the planner keeps apart, and the layers into which it cuts their meshes.
 //!
-//! A link is an obstacle for the links that a joint further along the chain moves. Exceptions are links that the world
-//! allows to meet it, and single shapes that are proven to meet in every configuration, as neighbours do at their joint.
+//! A link is an obstacle for all links that a joint further along the chain moves. There are two exceptions: links that the world
+//! allows to touch it, and single shapes that provably meet in every configuration, such as neighbours at their joint.
 
 use super::bodies::Bodies;
 use super::chain::Chain;
@@ -16,7 +16,7 @@ use cplan_model::{Arm, Carrier, Growth, Obstacle, Pair, Part, Scene, SelfObstacl
 use std::collections::{BTreeMap, BTreeSet};
 use urdf_rs::JointType;
 
-/// The part of the robot to which a link belongs. The last joint that moves the link determines it.
+/// The part of the robot to which a link belongs, determined by the last joint that moves it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Group {
     /// Links that neither arm joint moves.
@@ -79,8 +79,8 @@ impl<'a> SelfCollision<'a> {
         is_enabled && are_apart && !self.allowed.contains(&(a, b))
     }
 
-    /// Returns the heights at which a link's meshes are cut into layers, in ascending order. They are the lower and
-    /// upper ends of the shapes from which the planner keeps the link apart.
+    /// Returns the heights, ascending, at which a link's meshes are cut into layers: the lower and upper ends of the shapes from
+    /// which the planner keeps the link apart.
     pub fn cuts(&self, link: usize, all: &[PlacedShape]) -> Vec<f64> {
         let others = all.iter().filter(|other| self.keeps_apart(link, other.link));
         let mut cuts: Vec<f64> = others.flat_map(|other| [other.heights.lower, other.heights.upper]).collect();
@@ -89,8 +89,8 @@ impl<'a> SelfCollision<'a> {
         cuts
     }
 
-    /// Lists the robot's own links as obstacles for the links further along the chain: one obstacle per layer of a mesh.
-    /// Each names the links that may touch it.
+    /// Lists the robot's own links as obstacles for links further along the chain. Each layer of a mesh is an obstacle, and names
+    /// the links that may touch it.
     pub fn obstacles(&self, all: &[PlacedShape]) -> Vec<SelfObstacle> {
         if !self.bodies.settings.table.own_body_is_obstacle() {
             return Vec::new();
@@ -130,8 +130,8 @@ impl<'a> SelfCollision<'a> {
     }
 }
 
-/// Ignores the contact of shapes that meet in every configuration, and names them. A mesh is one shape here, with all
-/// its layers: meshes of neighbours enclose the axis of their joint, but not in each layer.
+/// Ignores contact between shapes that meet in every configuration, and names these shapes. Here, a mesh with all its layers is
+/// one shape: meshes of neighbours enclose the axis of their joint, but single layers may not.
 pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     if arm.self_obstacles.is_empty() {
         return None;
@@ -150,17 +150,17 @@ pub(super) fn ignore_permanent_contact(arm: &mut Arm) -> Option<String> {
     (!named.is_empty()).then(note)
 }
 
-/// For each uncut shape, the numbers of its layers.
+/// The numbers of the layers of each uncut shape.
 type Layers = Vec<Vec<usize>>;
 
-/// Returns the arm with the layers of each mesh joined to the mesh's convex hull again. Also returns the layers of the
-/// parts of each link, and those of the self obstacles.
+/// Returns the arm in which convex hulls of whole meshes replace their layers. Also returns the layers of each part of each link,
+/// and those of the self obstacles.
 fn uncut(arm: &Arm) -> (Arm, [Layers; 2], Layers) {
     let mut whole = arm.clone();
     let parts_of = whole.links.each_mut().map(|link| {
         let mut layers = Layers::new();
         for (number, part) in std::mem::take(&mut link.parts).into_iter().enumerate() {
-            // A bar has the number of the link's first shape, but is round. Layers of meshes are polygons.
+            // A bar has the same number as the link's first shape. Bars are round; layers of meshes are polygons.
             let is_polygon = |shape: &Convex| shape.radius() == 0.0;
             let is_same = |known: &&mut Part| {
                 let is_named_alike = (&known.body, known.number) == (&part.body, part.number);
@@ -205,7 +205,7 @@ fn joined(a: &Convex, b: &Convex) -> Convex {
     Convex::trusted(hull(&corners), a.radius().max(b.radius()))
 }
 
-/// Names the links to which pairs of shapes belong. If only some shapes of two links are in the pairs, names the shapes.
+/// Names the links of pairs of shapes, or the shapes if only some shapes of two links are in the pairs.
 fn named(scene: &Scene, permanent: &[Pair]) -> Vec<String> {
     let links = |pair: &Pair| (scene.obstacle_name(*pair), scene.link(*pair).parts[pair.part].body.as_str());
     let mut by_links: BTreeMap<_, Vec<&Pair>> = BTreeMap::new();
@@ -228,7 +228,7 @@ fn named(scene: &Scene, permanent: &[Pair]) -> Vec<String> {
     names
 }
 
-/// Returns the group of a URDF link. `None` if the last joint that moves it is outside the arm.
+/// Returns the group of a URDF link. `None` if the last joint that moves it is not in the arm.
 pub(super) fn group(document: &Document, tree: &Tree, chain: &Chain, link: usize) -> Option<Group> {
     let [first, second] = chain.joints;
     if tree.carries(second, link) {

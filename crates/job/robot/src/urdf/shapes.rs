@@ -1,4 +1,4 @@
-//! The shapes of URDF links at their poses. They are collision geometry, or visual geometry of links without that.
+//! The shapes of URDF links at their poses: collision geometry, or visual geometry of links without any.
 
 use super::bodies::Bodies;
 use super::mesh;
@@ -14,7 +14,7 @@ use urdf_rs::Geometry;
 pub(super) struct PlacedShape {
     /// The URDF link.
     pub link: usize,
-    /// Index among those shapes of the link that are of the same kind and have a size.
+    /// Index among the link's shapes of the same kind that have a size.
     pub number: usize,
     /// True for visual geometry.
     pub is_visual: bool,
@@ -34,7 +34,7 @@ pub(super) struct GatheredShapes {
     pub empty: Vec<String>,
     /// Collision meshes that cannot be used.
     pub unread: Vec<Diagnostic>,
-    /// Visual meshes that cannot be used, of links without collision geometry.
+    /// Visual meshes, of links without collision geometry, that cannot be used.
     pub unseen: Vec<Diagnostic>,
 }
 
@@ -45,8 +45,7 @@ enum Kind {
 }
 
 impl Bodies<'_> {
-    /// Collects the shapes of these URDF links. A link without collision geometry is represented by its visual
-    /// geometry.
+    /// Collects the shapes of these URDF links. Visual geometry represents a link without collision geometry.
     pub fn gather(&self, links: impl IntoIterator<Item = usize>) -> GatheredShapes {
         let mut gathered = GatheredShapes::default();
         for link in links {

@@ -1,4 +1,4 @@
-//! Solids in space, and their projections on a plane.
+//! Solids in space, and their projections onto a plane.
 
 use super::mesh::Mesh;
 use super::plane::project;
@@ -25,30 +25,30 @@ pub(super) enum Solid {
     Sphere {
         radius: f64,
     },
-    /// A mesh. Its convex hull represents it, or the convex hull of each of its layers; see [`Solid::layers`].
+    /// A mesh. Its convex hull, or that of each of its layers, represents it; see [`Solid::layers`].
     Mesh(Mesh),
 }
 
-/// Distance in metres from the corner before, within which a corner is removed. Such corners come from the rounding of
-/// rotations. Removing them moves the outline inwards by at most this distance.
+/// A corner within this distance, in metres, of the previous one is removed. Such corners are due to the rounding of rotations.
+/// Their removal moves the outline inwards by at most this distance.
 const CORNER_ROUNDING: f64 = 1e-9;
 
-/// Greatest excess of an oblique cylinder's outline over its exact projection, as a fraction of its radius.
+/// Greatest excess of an oblique cylinder's outline over its exact projection, as a fraction of the radius.
 const MAX_OUTLINE_EXCESS: f64 = 0.005;
 
-/// Number of sides of the polygon around the end of an oblique cylinder. Since the polygon is circumscribed, it must
-/// satisfy `1 / cos(pi / n) - 1 <= MAX_OUTLINE_EXCESS`.
+/// Number of sides of the polygon that circumscribes the end of an oblique cylinder. It must satisfy
+/// `1 / cos(pi / n) - 1 <= MAX_OUTLINE_EXCESS`.
 const ELLIPSE_SIDES: usize = 32;
 
-/// Number of steps along half of the ellipse within the end of an oblique cylinder. The corners of that polygon are the
-/// points where the sides of the circumscribed polygon touch the ellipse.
+/// Number of steps along half of the ellipse at the end of an oblique cylinder. The corners of the inscribed polygon are the
+/// points where the circumscribed one touches the ellipse.
 const ELLIPSE_STEPS: usize = ELLIPSE_SIDES / 2;
 
 /// Least thickness of a mesh's layers, in metres. It is far above the rounding of heights.
 pub(super) const MIN_LAYER_THICKNESS: f64 = 1e-6;
 
-/// Largest difference from 0 (or 1) of the cosine of the angle between a cylinder's axis and the normal. Within it, the
-/// cylinder counts as perpendicular (or parallel) to the normal.
+/// Largest deviation from 0 (or 1) of the cosine of the angle between a cylinder's axis and the normal for which the cylinder
+/// counts as perpendicular (or parallel) to the normal.
 const EXACT_ALIGNMENT: f64 = 1e-13;
 
 impl Solid {
@@ -62,11 +62,10 @@ impl Solid {
         }
     }
 
-    /// Returns the projection on the plane, in plane coordinates, of the solid at `pose` in the root frame.
+    /// Returns the projection of the solid onto the plane, in plane coordinates. `pose` is in the root frame.
     ///
-    /// Exact for boxes, spheres, capsules, meshes (their convex hull), and cylinders that are parallel or perpendicular
-    /// to the normal. An oblique cylinder has an outline around the exact one, larger by at most 0.5 % of its radius;
-    /// see [`Solid::inner`].
+    /// Exact for boxes, spheres, capsules, meshes (their convex hull), and cylinders that are parallel or perpendicular to the
+    /// normal. The outline of an oblique cylinder exceeds the exact one by at most 0.5 % of the radius; see [`Solid::inner`].
     pub fn outline(&self, pose: &Isometry3<f64>, plane: &Plane) -> Convex {
         let at = |p: &Point3<f64>| project(plane, &(pose * p).coords);
         let center = at(&Point3::origin());
@@ -89,12 +88,11 @@ impl Solid {
         }
     }
 
-    /// Returns the outlines of the layers between consecutive `cuts`, which are ascending, with the least and greatest
-    /// height of each. Only meshes are cut. If the solid is not a mesh, or no cut goes through it, returns the whole
-    /// outline.
+    /// Returns the outlines of a mesh's layers between consecutive `cuts`, which are ascending, with the heights of each. Returns
+    /// the whole outline if no cut goes through the mesh, or if the solid is no mesh.
     ///
-    /// A layer's outline is the convex hull of the part of the mesh's surface within the layer. This is the hull of two
-    /// sets of points: the vertices in the layer, and the points where edges cross its two boundary heights.
+    /// A layer's outline is the convex hull of the mesh's surface within the layer. Its points are the vertices in the layer, and
+    /// the points where edges cross the layer's upper and lower height.
     pub fn layers(&self, pose: &Isometry3<f64>, plane: &Plane, cuts: &[f64]) -> Vec<(Convex, Heights)> {
         let heights = self.heights(pose, plane);
         let is_within =
@@ -121,8 +119,8 @@ impl Solid {
         ends().zip(ends().skip(1)).filter_map(layer).collect()
     }
 
-    /// Returns a shape within the exact projection, if the outline exceeds that. This applies only to oblique
-    /// cylinders. The shape is smaller than the outline by at most a hundredth of the radius.
+    /// Returns a shape within the exact projection if the outline exceeds it, which is the case only for oblique cylinders. The
+    /// shape is smaller than the outline by at most a hundredth of the radius.
     pub fn inner(&self, pose: &Isometry3<f64>, plane: &Plane) -> Option<Convex> {
         let Solid::Cylinder { radius, half } = self else { return None };
         let center = project(plane, &(pose * Point3::origin()).coords);
@@ -155,7 +153,7 @@ impl Solid {
     }
 }
 
-/// Returns a capsule, or a disc if its ends coincide.
+/// Returns the capsule with two ends, or a disc if they coincide.
 pub(super) fn capsule(a: Point, b: Point, radius: f64) -> Convex {
     let apart = (b - a).norm();
     if apart <= CORNER_ROUNDING {
@@ -164,7 +162,7 @@ pub(super) fn capsule(a: Point, b: Point, radius: f64) -> Convex {
     Convex::trusted(vec![a, b], radius)
 }
 
-/// Returns the convex hull of the points, without corners that come from rounding.
+/// Returns the convex hull of points, without corners that are due to rounding.
 fn polygon(points: Vec<Point>) -> Convex {
     let mut corners: Vec<Point> = Vec::new();
     for corner in hull(&points) {
@@ -178,12 +176,12 @@ fn polygon(points: Vec<Point>) -> Convex {
     Convex::trusted(corners, 0.0)
 }
 
-/// Returns the outline of a cylinder. Its axis projects to `along`, whose length is the sine of the angle between axis
-/// and normal; `tilt` is the cosine. The exact projection is the hull of two ellipses, which are the ends. Their
-/// half-axes are `radius` across the axis and `radius * |tilt|` along it.
+/// Returns the outline of a cylinder. `along` is the projection of its axis, whose length is the sine of the angle between axis
+/// and normal; `tilt` is the cosine. The exact projection is the hull of two ellipses, the ends, with half-axes `radius` across
+/// the axis and `radius * |tilt|` along it.
 fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> Convex {
     if 1.0 - tilt.abs() <= MAX_OUTLINE_EXCESS {
-        // If the axis is close to the normal, the ends are discs, up to a factor of `tilt` in one direction.
+        // If the axis is almost parallel to the normal, the ends are discs, up to a factor of `tilt` in one direction.
         return capsule(center - along * half, center + along * half, radius);
     }
     let direction = along.normalize();
@@ -191,8 +189,7 @@ fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> 
     let bulge = direction * (radius * tilt.abs());
     let end = along * half;
     if tilt.abs() <= MAX_OUTLINE_EXCESS {
-        // If the axis is in the plane, or nearly so, the outline is a rectangle, lengthened by the half-axes of the
-        // ellipses.
+        // If the axis is almost in the plane, the outline is a rectangle, lengthened by the half-axes of the ellipses.
         let end = end + bulge;
         return polygon(vec![
             center - end - across,
@@ -204,7 +201,7 @@ fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> 
     let step = std::f64::consts::TAU / ELLIPSE_SIDES as f64;
     let grown = 1.0 / (step / 2.0).cos();
     let rim = (0..ELLIPSE_SIDES).flat_map(|i| {
-        // Offset by half a step, so that the ends of the axes are on sides instead of corners, and the width is exact.
+        // Half a step of offset puts the ends of the axes on sides instead of corners, so that the width is exact.
         let (sine, cosine) = ((i as f64 + 0.5) * step).sin_cos();
         let offset = (bulge * cosine + across * sine) * grown;
         [center - end + offset, center + end + offset]
@@ -212,9 +209,8 @@ fn cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> 
     polygon(rim.collect())
 }
 
-/// Returns a region that an oblique cylinder certainly covers. `None` if [`cylinder`] is exact. Each end contributes a
-/// disc if it is almost circular; otherwise it contributes a polygon whose corners are on the outer half of the
-/// ellipse.
+/// Returns a region that an oblique cylinder certainly covers. `None` if [`cylinder`] is exact. An almost circular end
+/// contributes a disc; otherwise an end contributes a polygon with corners on the outer half of its ellipse.
 fn within_cylinder(center: Point, along: Vector, tilt: f64, radius: f64, half: f64) -> Option<Convex> {
     if tilt <= EXACT_ALIGNMENT || 1.0 - tilt <= EXACT_ALIGNMENT {
         return None;

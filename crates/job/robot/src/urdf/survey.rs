@@ -1,4 +1,4 @@
-//! A robot examined stage by stage, as far as possible.
+//! Examines a robot stage by stage, as far as possible.
 
 use super::advice;
 use super::bodies::Outlines;
@@ -23,8 +23,7 @@ use cplan_model::{Arm, Carrier, Link, OutlineSource, Plane, Scene, SelfObstacle,
 use nalgebra::Vector3;
 use urdf_rs::JointType;
 
-/// Examines a robot. Does not stop at the first defect. The report's scene contains only the arm, where the URDF places
-/// it.
+/// Examines a robot, beyond its first defect. The report's scene contains only the arm, as placed by the URDF.
 pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
     let mut report = Inspection { urdf: robot.path.display().to_string(), ..Inspection::default() };
     report.files.push(robot.path.clone());
@@ -43,7 +42,7 @@ pub fn survey(robot: &RobotFile, settings: RobotSettings) -> Inspection {
     report.joints = (0..document.robot.joints.len()).map(|j| joint(&limits, j)).collect();
     match Tree::build(&document) {
         Ok(tree) => in_tree(&mut report, &document, &tree, settings),
-        // If elements were left out, the tree may have defects only because of that. They are not reported.
+        // If elements were omitted, defects of the tree may be due to that, and are not reported.
         Err(error) if document.tree_is_sound => report.errors.push(error),
         Err(_) => {}
     }
@@ -65,7 +64,7 @@ fn in_tree(report: &mut Inspection, document: &Document, tree: &Tree, settings: 
     report.pairs = pairs.iter().map(|p| pair(document, tree, settings, *p)).collect();
     let planar: Vec<[usize; 2]> =
         pairs.iter().zip(&report.pairs).filter(|(_, entry)| entry.planar).map(|(p, _)| *p).collect();
-    // If the choice of joints fails, entries that choose a planar pair are still useful.
+    // If no joints can be chosen, entries that choose a planar pair are still useful.
     let named = chain::joints(document, tree, settings);
     let likely = named.filter(|p| planar.contains(p)).or(planar.first().copied());
     let trial = |p: [usize; 2]| {
@@ -113,7 +112,7 @@ fn examine_pair(report: &mut Inspection, reduction: &Reduction) {
     report.ignored.extend(ignored::beside_the_arm(reduction));
     let plane = reduction.plane();
     let bounds = reduction.bounds();
-    // A shape that was left out because of a defect would make the outline wrong.
+    // The outline would be wrong if a shape was omitted because of a defect.
     let sound = document.diagnostics.is_empty();
     let outlines = plane.as_ref().ok().filter(|_| sound).map(|plane| reduction.outlines(plane));
     report.errors.extend(plane.as_ref().err().cloned());
@@ -297,7 +296,7 @@ fn reach(arm: &Arm) -> ReachEntry {
     }
 }
 
-/// Returns the frames of the links that the joints carry, named after the joints, and of the tip's link.
+/// Returns the frames of the links that the joints move, with the names of the joints, and the frame of the tip's link.
 fn frames(reduction: &Reduction, plane: &Plane) -> Vec<Frame> {
     let Reduction { document, tree, chain, poses, .. } = reduction;
     let frame = |name: &str, link: usize| {
@@ -315,7 +314,7 @@ fn frames(reduction: &Reduction, plane: &Plane) -> Vec<Frame> {
     joints.into_iter().chain([frame(&tree.links[chain.tip], chain.tip)]).collect()
 }
 
-/// Returns links without outlines, for the picture of an arm whose outlines cannot be made.
+/// Returns links without outlines, for pictures of arms that have none.
 fn links_without_outlines(reduction: &Reduction) -> Outlines {
     let Reduction { tree, chain, .. } = reduction;
     let links = chain.joints.map(|j| Link {
@@ -333,8 +332,7 @@ fn links_without_outlines(reduction: &Reduction) -> Outlines {
     }
 }
 
-/// Returns ranges for the picture of an arm. A range that is unknown becomes a whole turn, or zero for a prismatic
-/// joint.
+/// Returns ranges for the picture of an arm. An unknown range becomes a whole turn, or zero for a prismatic joint.
 fn unbounded(reduction: &Reduction) -> [Bounds; 2] {
     let Chain { joints, .. } = reduction.chain;
     let limits = Limits { document: reduction.document, settings: reduction.settings };

@@ -1,4 +1,4 @@
-//! The joints of the tool: one that lowers it, and the wrist.
+//! The joints of the tool: the wrist, and the joint that lowers the tool.
 
 use super::chain::{Chooser, is_movable};
 use super::limits::Limits;
@@ -14,14 +14,14 @@ use cplan_model::{Plane, assumed_acceleration};
 use nalgebra::Vector3;
 use urdf_rs::JointType;
 
-/// Largest difference between 1 and the cosine of the angle between an axis and the plane's normal, for which the two
-/// count as parallel. It covers rounding.
+/// An axis counts as parallel to the plane's normal if the cosine of their angle differs from 1 by at most this. It covers
+/// rounding.
 pub(super) const PARALLEL_TOLERANCE: f64 = 1e-9;
 
-/// Largest distance in metres from the wrist's axis at which the tip counts as on the axis. It covers rounding.
+/// The tip counts as on the wrist's axis within this distance, in metres. It covers rounding.
 const AXIS_TOLERANCE: f64 = 1e-6;
 
-/// A frame's x axis gives the direction of the tool if the projection of the axis into the plane is longer than this.
+/// A frame's x axis gives the direction of the tool if the axis's projection onto the plane is longer than this.
 const LEAST_PROJECTION: f64 = 1e-3;
 
 /// The function of a tool's joint.
@@ -51,7 +51,7 @@ impl Reduction<'_> {
     pub fn robot_joints(&self, plane: &Plane) -> Result<RobotJoints, Diagnostic> {
         let chooser = Chooser { document: self.document, tree: self.tree, settings: self.settings };
         let robot = &self.settings.table;
-        // A switch also says whether the wrist turns during motions.
+        // As a switch, `arch` also states whether the wrist turns during motions.
         let is_needless = |arch: &&Spanned<ArchValue>| {
             let is_switch = matches!(arch.get_ref(), ArchValue::Switch(_));
             robot.stroke.is_none() && !(is_switch && robot.wrist.is_some())
@@ -113,7 +113,7 @@ impl Reduction<'_> {
         Ok(Stroke { joint, travel, velocity, acceleration, jerk: jerk.or(rates.jerk), bodies, arch })
     }
 
-    /// Returns the least heights for overlaps of strokes with motions. `None` if the arm is at rest during strokes.
+    /// Returns the least heights at which strokes may overlap with motions. `None` if the arm is at rest during strokes.
     fn arch(&self) -> Result<Option<Arch>, Diagnostic> {
         let height = |number: &Option<Length>, what: &str| match number {
             None => Ok(0.0),
@@ -135,8 +135,8 @@ impl Reduction<'_> {
         })
     }
 
-    /// Returns the name of a joint that follows a joint of the tool by a mimic rule, and moves the tip or a link that
-    /// can collide. `None` if there is none.
+    /// Returns the name of a joint that mimics a joint of the tool and moves the tip or a link that can collide. `None` if there
+    /// is none.
     fn follower_with_shapes(&self, chooser: &Chooser, leader: usize) -> Result<Option<String>, Diagnostic> {
         for (index, joint) in chooser.all().iter().enumerate().filter(|(_, joint)| joint.mimic.is_some()) {
             let counts = chooser.has_shapes(index) || self.tree.carries(index, self.chain.tip);

@@ -7,13 +7,13 @@ use std::collections::HashMap;
 use std::ops::Range;
 use urdf_rs::JointType;
 
-/// The links of a URDF as a tree. Links and joints are given by indices into the file's lists. In Drake's files, the
-/// root may be a link `world` that the file does not declare. Its index then follows those of the other links.
+/// The links of a URDF as a tree. Links and joints are given by their indices in the file. In Drake's files, the root may be a
+/// link `world` that the file does not declare; its index follows those of the other links.
 #[derive(Debug)]
 pub(super) struct Tree {
     /// Names of the links, in the order of the file.
     pub links: Vec<String>,
-    /// For each joint, the link above it (`parent`) and the link below it (`child`).
+    /// For each joint, the link that carries it (`parent`) and the link that it carries (`child`).
     pub parent: Vec<usize>,
     pub child: Vec<usize>,
     /// The joint above each link. `None` for the root.
@@ -22,7 +22,7 @@ pub(super) struct Tree {
     pub root: usize,
     /// True if the root is a link `world` that the file does not declare.
     pub implicit_world: bool,
-    /// Links from the root downwards. The descendants of a link follow it directly.
+    /// Links from the root downwards; all descendants of a link come directly after it.
     order: Vec<usize>,
     /// For each link, the range of `order` that contains the link and its descendants.
     stretch: Vec<Range<usize>>,
@@ -80,7 +80,7 @@ impl Tree {
         self.depth[link]
     }
 
-    /// Returns a link, its parent, and so on up to the root.
+    /// Returns a link and all its ancestors up to the root.
     pub fn ancestors(&self, link: usize) -> Vec<usize> {
         std::iter::successors(Some(link), |&link| self.above[link].map(|joint| self.parent[joint])).collect()
     }
@@ -123,7 +123,7 @@ fn motion(joint: &urdf_rs::Joint, value: f64) -> Isometry3<f64> {
         JointType::Prismatic => {
             Isometry3::from_parts((axis(joint).into_inner() * value).into(), UnitQuaternion::identity())
         }
-        // These joints are held at the origins of their frames. Arms that move with one of them are refused elsewhere.
+        // These joints stay at the origins of their frames. Arms that would move with one of them are refused elsewhere.
         JointType::Fixed | JointType::Floating | JointType::Planar | JointType::Spherical => Isometry3::identity(),
     }
 }
@@ -183,7 +183,7 @@ fn joints_above(document: &Document, links: &[String], child: &[usize]) -> Resul
     Ok(above)
 }
 
-/// Returns the links in the order from the roots downwards: each link comes before its descendants.
+/// Returns the links from the roots downwards: each link comes before its descendants.
 fn downwards(roots: &[usize], links: usize, parent: &[usize], child: &[usize]) -> Vec<usize> {
     let mut below = vec![Vec::new(); links];
     for (&parent, &child) in parent.iter().zip(child) {
@@ -199,7 +199,7 @@ fn downwards(roots: &[usize], links: usize, parent: &[usize], child: &[usize]) -
 }
 
 fn cycle(document: &Document, stray: usize, above: &[Option<usize>], parent: &[usize]) -> Diagnostic {
-    // The path upwards from a link that no root reaches must enter a cycle.
+    // From a link that no root reaches, the way upwards must enter a cycle.
     let mut seen = Vec::new();
     let mut passed = vec![false; parent.len()];
     let mut joint = above[stray];

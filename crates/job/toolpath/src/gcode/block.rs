@@ -1,19 +1,19 @@
-//! Sorts the words of a block by their purpose.
+//! Sorts the words of one line of a program by their purpose.
 
 use super::meaning::{self, Meaning, SLOTS, Slot};
 use super::remarks::{self, Remarks};
 use super::words::Word;
 use crate::Error;
 
-/// The words of a line that take part in the line to draw, by their purpose.
+/// The words of a line that affect the tip's line, by purpose.
 pub(super) struct Block<'w> {
     slots: [Option<&'w Word>; SLOTS],
     words: &'w [Word],
 }
 
 impl<'w> Block<'w> {
-    /// Sorts words, and adds those without an effect to the remarks. Returns `None` if a word is refused, or leads to a place
-    /// of the machine.
+    /// Sorts words, and notes those without an effect. Returns `None` if a word is refused, or moves the tip to a position of the
+    /// machine.
     ///
     /// # Errors
     /// If words contradict each other, or if a word has no number.
@@ -47,12 +47,11 @@ impl<'w> Block<'w> {
         Ok(Some(block))
     }
 
-    /// Returns the word with a purpose.
     pub fn get(&self, slot: Slot) -> Option<&'w Word> {
         self.slots[slot as usize]
     }
 
-    /// Returns the number of the word with a purpose.
+    /// Returns the number of the word for a purpose.
     pub fn value(&self, slot: Slot) -> Option<f64> {
         self.get(slot)?.value
     }
@@ -63,10 +62,10 @@ impl<'w> Block<'w> {
     }
 }
 
-/// Adds the words that cplan cannot follow to the remarks. Returns true if it finds such a word.
+/// Records the words that cplan cannot follow, and moves to positions of the machine. Returns true if there are any.
 fn refuse(words: &[Word], meanings: &[Meaning], remarks: &mut Remarks) -> bool {
     let refused = words.iter().zip(meanings).filter(|(_, meaning)| matches!(meaning, Meaning::Refused(_)));
-    // Other words of the block are parameters of a refused command.
+    // The other words of a line with a refused command are parameters of the command.
     let is_command = |word: &Word| "GM".contains(word.letter);
     let has_command = refused.clone().any(|(word, _)| is_command(word));
     for (word, meaning) in refused.clone().filter(|(word, _)| is_command(word) || !has_command) {
@@ -84,7 +83,7 @@ fn refuse(words: &[Word], meanings: &[Meaning], remarks: &mut Remarks) -> bool {
     home.is_some() || refused.count() > 0
 }
 
-/// Returns true if a word that refers to places of the machine (G28, G30, G53) moves the tip in the plane. Heights do not.
+/// Returns true if a word for a position of the machine (G28, G30, G53) moves the tip in the plane, not only in height.
 fn leaves_place(word: &Word, words: &[Word]) -> bool {
     let has = |letters: &str| words.iter().any(|other| letters.contains(other.letter));
     has("XY") || !(has("Z") || word.is('G', &[53.0]))

@@ -17,7 +17,7 @@ use cplan_text::Unit;
 const INCH: f64 = 0.0254;
 const SECONDS_PER_MINUTE: f64 = 60.0;
 
-/// The command of Grbl and its descendants that leads to a place of the machine.
+/// The command of Grbl and its descendants that moves the tip to the machine's home.
 const HOMING: &str = "$H";
 
 /// The kinds of moves.
@@ -45,7 +45,7 @@ pub(super) struct Machine {
     /// Metres per second.
     speed: Option<f64>,
     origin: Origin,
-    /// Number of the system of coordinates, 54 for G54.
+    /// Number of the coordinate system: 54 for G54.
     system: f64,
     /// Seconds per unit of P in dwells; `None` before the first one.
     dwell_unit: Option<f64>,
@@ -55,13 +55,13 @@ pub(super) struct Machine {
     dwells: f64,
     has_begun: bool,
     pieces: Vec<Piece>,
-    /// For each piece, how its line states it.
+    /// For each piece, the modes of the line that states it.
     modes: Vec<Modes>,
     /// Height of the tool, metres; `None` if the program has not stated it.
     height: Option<f64>,
-    /// The place of the tip after homing, if it is known.
+    /// Position of the tip after homing. `None` if it is unknown.
     home: Option<Point>,
-    /// Moves from places that the program does not state.
+    /// Moves whose beginning the program does not state.
     unstated: Vec<Source>,
     remarks: Remarks,
     /// Notes for the user about assumptions.
@@ -69,14 +69,14 @@ pub(super) struct Machine {
 }
 
 impl Machine {
-    /// Creates a machine that refuses moves to its own places.
+    /// Creates a machine that refuses moves to positions of the machine.
     pub fn new(placement: Placement) -> Self {
         let unit = placement.unit.unwrap_or(Unit::MILLIMETER).metres();
         Self { placement, unit, system: 54.0, ..Self::default() }
     }
 
-    /// Allows moves to places of the machine. They lead to `home`, where the program also begins. If `home` is `None`,
-    /// they lead to an unknown place.
+    /// Allows moves to positions of the machine, such as G28. They lead to `home`, where the program also begins; if `home` is
+    /// `None`, they lead to an unknown position.
     pub fn with_homing(mut self, home: Option<Point>) -> Self {
         (self.home, self.remarks.allows_homes) = (home, true);
         self.go_home();
@@ -88,7 +88,7 @@ impl Machine {
         self.home.into_iter().for_each(|home| self.origin.advance(home));
     }
 
-    /// Runs a line. Returns true if the program ends there. Words that cannot be followed are collected.
+    /// Runs a line. Returns true if it ends the program. Records words that cannot be followed.
     ///
     /// # Errors
     /// If a word has no number, or if words contradict each other or describe no move.
@@ -119,8 +119,8 @@ impl Machine {
         Ok(false)
     }
 
-    /// Returns an error if lines follow the end of the program, because some machines run them. It is only for machines
-    /// that know their own places. `end` is the number of the line with the end.
+    /// Returns an error if lines follow the end of the program, because some machines run such lines. Only for machines with
+    /// allowed homing. `end` is the number of the line that ends the program.
     pub fn after_end<'l>(
         &self,
         end: usize,
@@ -151,7 +151,7 @@ impl Machine {
         }
     }
 
-    /// Applies the words that hold until another one.
+    /// Applies words that stay in force.
     fn set_modes(&mut self, block: &Block) -> Result<(), Error> {
         if let Some(value) = block.value(Slot::Unit) {
             self.says_unit = true;
@@ -222,7 +222,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Sets the height of the tool, and returns by how much it rises, if that is known.
+    /// Sets the height of the tool. Returns by how much the tool rises, if that is known.
     fn lift(&mut self, block: &Block) -> Option<f64> {
         if block.get(Slot::Home).is_some() {
             self.height = None;
@@ -235,7 +235,7 @@ impl Machine {
         rise
     }
 
-    /// Adds the move of a block. `first` is its first coordinate, and the tool rises by `rise`.
+    /// Adds the move of a line. `first` is the line's first coordinate; the tool rises by `rise`.
     fn draw(&mut self, block: &Block, first: &Word, rise: Option<f64>) -> Result<(), Error> {
         let Some(motion) = self.motion else {
             return Err(first.error("has no kind of move", "write G0, G1, G2 or G3 before it"));
@@ -272,7 +272,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Runs the first move, whose beginning the program does not state. The line begins at the end of this move.
+    /// Runs the first move, whose beginning the program does not state. The tip's line begins where this move ends.
     fn begin(&mut self, block: &Block, first: &Word, motion: Move, to: Point) -> Result<(), Error> {
         let word = block.get(Slot::Motion).unwrap_or(first);
         if matches!(motion, Move::Arc { .. }) {

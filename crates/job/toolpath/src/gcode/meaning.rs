@@ -1,21 +1,21 @@
-//! Effects of words on the line.
+//! The effect of words on the line.
 
 use super::words::Word;
 
 /// The effect of a word.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Meaning {
-    /// It takes part in the line.
+    /// It affects the tip's line.
     Follow(Slot),
-    /// It commands the machine, or repeats what cplan does anyway.
+    /// It commands the machine, or repeats what cplan does anyway. It is only listed.
     Listed,
-    /// It would make another line, which cplan cannot follow.
+    /// It would change the line in a way that cplan cannot follow.
     Refused(Reason),
-    /// It is the number of its line, which means nothing.
+    /// It is the number of its line, which has no effect.
     Number,
 }
 
-/// The purposes of words that take part in the line. A block has one word for each at most.
+/// The purposes of words that affect the tip's line. A program's line has at most one word for each.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Slot {
     /// G0 to G3.
@@ -46,7 +46,6 @@ pub(super) enum Slot {
     Y,
 }
 
-/// Number of the purposes.
 pub(super) const SLOTS: usize = Slot::Y as usize + 1;
 
 /// The reason why cplan cannot follow a word.

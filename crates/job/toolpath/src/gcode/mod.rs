@@ -14,20 +14,20 @@ pub use program::{Modes, Program, ProgramMove};
 use machine::Machine;
 use words::{Line, Word};
 
-/// The least number of an M word that only the firmware of printers and plotters has, apart from calls of programs.
+/// M words from this number on belong to the firmware of printers and plotters, except calls of programs.
 const FIRMWARE: f64 = 80.0;
 
 /// Reads a program up to M2, M30, a second % or its end.
 ///
 /// # Errors
-/// If the program has words that cannot be followed: one error lists all of them. Otherwise the first defect, with its line
-/// and column; or if the program has no line.
+/// One error with all words that cannot be followed, if there are any; otherwise the first defect, with its line and column; a
+/// program without a line.
 pub(crate) fn read(text: &str, placement: &Placement) -> Result<Toolpath, Error> {
     run(text, Machine::new(*placement))?.finish()
 }
 
-/// Reads a program as [`read`], move by move, for a machine that knows its own places. `home` is the place of the tip at the
-/// beginning and after homing, metres, if it is known.
+/// Does the same as [`read`] for the single moves of a program, which may include homing. `home` is the position of the tip,
+/// metres, at the beginning and after homing, if it is known.
 ///
 /// # Errors
 /// Same as for [`read`].
@@ -35,7 +35,6 @@ pub(crate) fn program(text: &str, home: Option<Point>) -> Result<Program, Error>
     run(text, Machine::new(Placement::default()).with_homing(home))?.program()
 }
 
-/// Runs a program on a machine.
 fn run(text: &str, mut machine: Machine) -> Result<Machine, Error> {
     let lines: Vec<Result<Line, Error>> =
         text.lines().zip(1..).map(|(line, number)| words::line(line, number)).collect();
@@ -58,7 +57,7 @@ fn run(text: &str, mut machine: Machine) -> Result<Machine, Error> {
     }
 }
 
-/// Returns true if a line is for the firmware of printers and plotters. There the P of a dwell counts milliseconds.
+/// Returns true if only firmware of printers and plotters has this line. In such programs, the P of a dwell is in milliseconds.
 fn is_firmware(line: &Line) -> bool {
     let is_own = |word: &Word| {
         let is_call = word.is('M', &[97.0, 98.0, 99.0]);

@@ -1,19 +1,18 @@
-//! The place of the tip, and the origin of coordinates that G92 moves.
+//! The position of the tip, and the coordinate origin that G92 moves.
 
 use crate::Point;
 
-/// The place of the tip and the origin of coordinates, metres. Places are in the coordinates with which the program begins.
+/// The tip's position and the coordinate origin, metres, both in the program's initial coordinates.
 #[derive(Default)]
 pub(super) struct Origin {
-    /// The place of the tip.
     pub at: Point,
-    /// Place of the origin, as G92 moved it.
+    /// Position of the current origin.
     shift: Point,
     /// The last origin that G92 stated, for G92.3.
     stored: Point,
     /// For each coordinate of the tip: true if the program has stated it.
     pub is_known: [bool; 2],
-    /// True if G92 replaced coordinates that the program has not stated.
+    /// True if G92 replaced coordinates although the program had not stated them.
     is_unstated: bool,
 }
 
@@ -23,12 +22,12 @@ impl Origin {
         self.is_known == [true; 2]
     }
 
-    /// Returns true if the program has stated a coordinate of the tip, or moved it.
+    /// Returns true if the program has moved the tip, or has stated one of its coordinates.
     pub fn has_begun(&self) -> bool {
         self.is_known != [false; 2]
     }
 
-    /// Returns the place with these coordinates.
+    /// Returns the position with these coordinates.
     pub fn place(&self, coordinates: Point) -> Point {
         [0, 1].map(|k| self.shift[k] + coordinates[k])
     }
@@ -52,8 +51,8 @@ impl Origin {
         self.stored = self.shift;
     }
 
-    /// Moves the origin back to where it was before G92, and forgets the moved origin unless `is_kept`. Returns false
-    /// if the program has not stated where that is.
+    /// Moves the origin back to where it was before G92. The moved origin can be restored later if `is_kept`. Returns false if
+    /// the program has not stated the earlier origin.
     pub fn reset(&mut self, is_kept: bool) -> bool {
         self.shift = [0.0; 2];
         if !is_kept {
@@ -62,7 +61,7 @@ impl Origin {
         !self.is_unstated
     }
 
-    /// Moves the origin to where the last G92 moved it (G92.3).
+    /// Moves the origin to where the last G92 had moved it (G92.3).
     pub fn restore(&mut self) {
         self.shift = self.stored;
     }

@@ -1,4 +1,4 @@
-//! A program move by move, for programs that write it again.
+//! A program as single moves, for code that rewrites programs.
 
 use crate::{Piece, Point, Source};
 use std::ops::Range;
@@ -6,9 +6,9 @@ use std::ops::Range;
 /// The moves of a program in the plane. Travels before the first and after the last line are included.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Program {
-    /// All moves with a length, in order. Each begins where the one before ends, except after a move in [`Self::unstated`].
+    /// All moves with a length, in order. Each begins where the previous one ends, except after a move in [`Self::unstated`].
     pub moves: Vec<ProgramMove>,
-    /// Moves from places that the program does not state: the first ones, and the first ones after homing.
+    /// Moves whose beginning the program does not state: the first ones, and the first ones after homing.
     pub unstated: Vec<Source>,
     /// Notes for the user about assumptions, and about words without an effect in the plane.
     pub notes: Vec<String>,
@@ -17,9 +17,9 @@ pub struct Program {
 /// A move of a program.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ProgramMove {
-    /// The move in the coordinates with which the program begins.
+    /// The move, in the program's initial coordinates.
     pub piece: Piece,
-    /// The form in which the line of the file states it.
+    /// The modes in which the program states it.
     pub modes: Modes,
 }
 
@@ -34,10 +34,10 @@ pub struct Modes {
     pub is_relative: bool,
     /// Place of the origin of coordinates, metres.
     pub origin: Point,
-    /// The words X, Y and Z as ranges of characters of the line; `None` for a word that the line does not have.
+    /// The words X, Y and Z as ranges of characters in the line. `None` for a missing word.
     pub words: [Option<Range<usize>>; 3],
-    /// Speed of the last F up to this line, metres per second; `None` if the program has stated none. It also holds for G0.
+    /// Speed of the last F up to this line, metres per second. `None` if the program has stated none. G0 has it, too.
     pub feed: Option<f64>,
-    /// Difference of the tool's height by the word Z, metres; `None` if it is unknown or there is no such word.
+    /// Rise of the tool by the word Z, metres. `None` if it is unknown, or without such a word.
     pub rise: Option<f64>,
 }

@@ -5,23 +5,23 @@ use super::words::Word;
 use crate::{Error, Source};
 use std::collections::BTreeMap;
 
-/// Greatest number of line numbers that an error lists for a word. Further ones are only counted.
+/// Greatest number of line numbers that an error lists for a word; it only counts further ones.
 const MAX_LISTED_LINES: usize = 8;
 
 /// The remarks about a program.
 #[derive(Default)]
 pub(super) struct Remarks {
-    /// Numbers of the words without an effect on the line, by name.
+    /// For each word without an effect, how often it occurs.
     listed: BTreeMap<String, usize>,
     /// Refused words by name, in the order of the file.
     refused: Vec<Refused>,
-    /// Moves to places of the machine, and for each the number of drawn pieces before it.
+    /// Refused moves to positions of the machine, each with the number of drawn pieces before it.
     homes: Vec<(String, Source, usize)>,
     /// Number of drawn pieces so far.
     pub drawn: usize,
-    /// True if moves to places of the machine are allowed. Then they are listed.
+    /// True if moves to positions of the machine are allowed. They are then listed.
     pub allows_homes: bool,
-    /// True if the last line was a move to a place of the machine.
+    /// True if the last line moved the tip to a position of the machine.
     pub is_home: bool,
 }
 
@@ -55,7 +55,7 @@ impl Remarks {
         }
     }
 
-    /// Adds a move to a place of the machine.
+    /// Records a move to a position of the machine.
     pub fn add_home(&mut self, word: &Word) {
         if self.allows_homes {
             self.is_home = true;
@@ -65,7 +65,7 @@ impl Remarks {
         }
     }
 
-    /// Returns true if the line since the last call leads to a place of the machine, and that is allowed.
+    /// Returns true if, since the last call, an allowed move to a position of the machine has occurred.
     pub fn takes_home(&mut self) -> bool {
         std::mem::take(&mut self.is_home) && self.allows_homes
     }
@@ -103,7 +103,7 @@ impl Remarks {
     }
 }
 
-/// Returns the line numbers of places: `line 3`, `lines 3, 5 and 7 more`.
+/// Formats the line numbers of places: `line 3`, `lines 3, 5 and 7 more`.
 fn lines(places: &[Source]) -> String {
     let mut numbers: Vec<usize> = places.iter().map(|source| source.line).collect();
     numbers.dedup();

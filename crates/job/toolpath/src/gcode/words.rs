@@ -1,8 +1,8 @@
-//! Splits lines of G-code into words.
+//! Splits lines of a program into words.
 
 use crate::{Error, Source};
 
-/// A letter with its number.
+/// A letter and its number.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Word {
     /// The letter, in upper case; `#` for parameters, `O` for keywords such as `WHILE`.
@@ -11,11 +11,11 @@ pub(super) struct Word {
     pub value: Option<f64>,
     /// True if the number is an expression or a parameter.
     pub is_computed: bool,
-    /// The word as the file has it.
+    /// The word as written in the file.
     pub text: String,
     /// Place of the word's first character.
     pub source: Source,
-    /// Number of characters of its line up to its end.
+    /// Index of the character after the word in its line.
     pub end: usize,
 }
 
@@ -24,19 +24,19 @@ pub(super) struct Word {
 pub(super) enum Line {
     /// Words, perhaps none.
     Words(Vec<Word>),
-    /// A sign for the beginning or the end of the program (%).
+    /// The mark at the beginning or the end of a program (%).
     Percent,
-    /// A line that the machine's operator may leave out (/).
+    /// A line that the operator may skip (/).
     Optional(Source),
     /// A command of a firmware, such as `SET_VELOCITY_LIMIT ACCEL=500` or `$H`, by its name.
     Command(String, Source),
 }
 
-/// Keywords by which programs repeat, skip or call lines.
+/// Keywords with which programs repeat, skip or call lines.
 const KEYWORDS: [&str; 6] = ["IF", "WHILE", "GOTO", "END", "DO", "THEN"];
 
 impl Word {
-    /// Returns an error about the word, which follows its name.
+    /// Returns an error about the word. `message` follows the word's name.
     pub fn error(&self, message: &str, hint: impl Into<String>) -> Error {
         Error::new(self.source.line, self.source.column, format!("{} {message}", self.text), hint)
     }
@@ -46,15 +46,15 @@ impl Word {
         self.letter == letter && self.value.is_some_and(|value| values.contains(&value))
     }
 
-    /// Returns true if the word is a command that takes the rest of its line, such as the text after M117. Commands of
-    /// machine tools share lines with moves.
+    /// Returns true if the rest of the line belongs to this command, such as the text after M117. The commands of machine tools,
+    /// in contrast, share lines with moves.
     fn takes_rest(&self) -> bool {
         let shares = |value: f64| value < 16.0 || value == 30.0 || (40.0..61.0).contains(&value);
         self.letter == 'M' && self.value.is_some_and(|value| !shares(value))
     }
 }
 
-/// Returns a line in parts, without comments and checksum.
+/// Splits a line into its parts, without comments and checksum.
 ///
 /// # Errors
 /// If a comment is not closed, or if something is not a word.
@@ -139,7 +139,7 @@ fn word(letters: &[char], at: usize, source: Source) -> Result<(Word, usize), Er
     let end = number_end(letters, at + 1);
     let digits: String = letters[at + 1..end].iter().filter(|c| !c.is_whitespace()).collect();
     let next = letters[at + 1..].iter().find(|c| !c.is_whitespace());
-    // A program number is alone on its line, and subroutines are not.
+    // A program number is alone on its line; the number of a subroutine is not.
     let calls = letter == 'O' && letters[end..].iter().find(|c| !c.is_whitespace()).is_some_and(|c| !";(".contains(*c));
     if calls || (digits.is_empty() && next.is_some_and(|c| "#[".contains(*c))) {
         return Ok((computed(letter, &letter.to_string(), source), letters.len()));
@@ -158,8 +158,8 @@ fn word(letters: &[char], at: usize, source: Source) -> Result<(Word, usize), Er
     Ok((Word { letter, value, is_computed: false, text, source, end }, end))
 }
 
-/// Returns true if a text directly after a number is an exponent, as in 1e-05. A capital E is the word for an extruder,
-/// unless a sign and whole digits follow it.
+/// Returns true if the text directly after a number is an exponent, as in 1e-05. A capital E is an exponent only before a sign
+/// and whole digits; otherwise it is the word of an extruder.
 fn has_exponent(rest: &[char]) -> bool {
     let digits = |from: usize| rest[from.min(rest.len())..].iter().take_while(|c| c.is_ascii_digit()).count();
     let is_signed =
@@ -171,8 +171,8 @@ fn has_exponent(rest: &[char]) -> bool {
     }
 }
 
-/// Returns the length of the comment with which a text begins. The comment ends with the parenthesis that closes the
-/// first one. If there is none, it ends with the first closing parenthesis.
+/// Returns the length of the comment at the beginning of a text. It ends with the parenthesis that closes its first one. If that
+/// is missing, it ends with the first closing parenthesis.
 fn comment_end(text: &[char]) -> Option<usize> {
     let mut depth = 0_usize;
     let closes = |c: &char| {
@@ -193,7 +193,7 @@ fn is_checksum(rest: &[char]) -> bool {
     rest.next().is_none_or(|c| *c == ';')
 }
 
-/// Returns the index after a number that may follow spaces: a sign, digits and a point.
+/// Returns the index after a number, which may follow spaces: sign, digits and point.
 fn number_end(letters: &[char], from: usize) -> usize {
     let spaces = letters[from..].iter().take_while(|c| c.is_whitespace()).count();
     let number = letters[from + spaces..].iter().enumerate();

@@ -15,28 +15,28 @@ use cplan_geometry::Point;
 use cplan_model::space::Configuration;
 use cplan_theme::{GHOST, GRAY, INFEASIBLE, INK, PALE, WHITE};
 
-/// Width of the line below the path of the tip, and of that path, in pixels.
+/// Width of a followed line below the path of the tip, and width of that path, in pixels.
 const WIDTH: f64 = 7.0;
 const TRACE_WIDTH: f64 = 3.0;
 
-/// Pens of the images of the line under an IK solution.
+/// Pens of the images of the line in joint space.
 const FREE_PEN: Pen = Pen { color: GRAY, width: 2.2, dash: &[] };
 const EXCLUDED_PEN: Pen = Pen { color: INFEASIBLE, width: 2.2, dash: &[5.0, 3.0] };
 
-/// Greatest number of points of a path between two that are drawn.
+/// Greatest number of consecutive points of a path that a drawing may skip.
 const MAX_SKIPPED: usize = 200;
 
-/// Size of the smallest visible detail of a path, in pixels.
+/// Largest detail of a path that may be lost in a drawing, in pixels.
 const MAX_CHORD: f64 = 1.0;
 
-/// Half the width of the square that marks the place of the lens, in pixels.
+/// Half the width of the square that marks what the lens shows, in pixels.
 const LENS_MARK: f64 = 7.0;
 
-/// Size of the overview as a share of the workspace's panel, and its distance from the sides, in pixels.
+/// Size of the overview as a share of the workspace's panel, and its distance from the panel's sides in pixels.
 const OVERVIEW_SHARE: f64 = 0.3;
 const OVERVIEW_GAP: f64 = 10.0;
 
-/// Returns the width of the line: it is wide if the path of the tip lies on it.
+/// Returns the width of the line, which is wide if the path of the tip lies on it.
 fn width(line: &LineView) -> f64 {
     if line.marked.is_some() { TRACE_WIDTH } else { WIDTH }
 }
@@ -51,8 +51,8 @@ pub fn in_workspace(line: &LineView, frame: &Frame) -> Vec<Item> {
     strokes.chain(marked).collect()
 }
 
-/// Returns the path of a point that moves with the arm, cut into stretches: each has the colour of the limit that the
-/// motion reaches on it.
+/// Returns the path of a point that moves with the arm, in stretches. Each stretch has the colour of the limit that the motion
+/// reaches there.
 fn by_limit(line: &LineView, place: impl Fn(&[Configuration]) -> Vec<Step>) -> Vec<(Vec<Step>, Pen)> {
     let Some((motion, _)) = &line.motion else { return Vec::new() };
     let path = |from: f64, to: f64| place(&motion.played.between(from, to));
@@ -60,7 +60,8 @@ fn by_limit(line: &LineView, place: impl Fn(&[Configuration]) -> Vec<Step>) -> V
     motion.stretches.iter().map(|stretch| (path(stretch.from, stretch.to), pen(stretch.limit))).collect()
 }
 
-/// Draws the path of the tip, coloured by the limits that the motion reaches, its stops, and the place of the lens.
+/// Draws the path of the tip in the colours of the limits that the motion reaches, the stops of the motion, and the square around
+/// the lens.
 pub fn tip_path(line: &LineView, view: &View, frame: &Frame) -> Vec<Item> {
     let spot = |q: &Configuration| {
         let tip = view.arm.tip_at(*q);
@@ -76,13 +77,13 @@ pub fn tip_path(line: &LineView, view: &View, frame: &Frame) -> Vec<Item> {
     items
 }
 
-/// Returns the outline of a path on the page without the points that nobody would miss.
+/// Returns the outline of a path on the page, without invisible details.
 fn straightened(spots: impl Iterator<Item = [f64; 2]>) -> Vec<Step> {
     let spots: Vec<Configuration> = spots.map(Configuration::from).collect();
     chain(thinned(&spots, 1.0).into_iter().map(Into::into), false)
 }
 
-/// Leaves out points that are within a tenth of `unit` of the line between their neighbours.
+/// Omits points within a tenth of `unit` of the line between their neighbours.
 fn thinned(points: &[Configuration], unit: f64) -> Vec<Configuration> {
     let mut kept: Vec<Configuration> = points.first().copied().into_iter().collect();
     let mut from = 0;
@@ -99,13 +100,13 @@ fn thinned(points: &[Configuration], unit: f64) -> Vec<Configuration> {
     kept
 }
 
-/// Draws the place where no motion is possible. It is above everything else.
+/// Draws, above everything else, the place where no motion is possible.
 pub fn place(line: &LineView, frame: &Frame) -> Vec<Item> {
     line.place.map_or_else(Vec::new, |at| cross(frame.at(at.x, at.y)))
 }
 
-/// Returns the arms to draw: the arm at the place that is farthest from the line, and the other IK solution there. If
-/// no motion is possible, returns the excluded IK solutions.
+/// Returns the arms to draw: the arm where the tip is farthest from the line, and the other IK solution there. If no motion is
+/// possible, returns the excluded IK solutions.
 pub fn arms(line: &LineView, view: &View, frame: &Frame) -> Vec<Item> {
     let payload = view.first_world().payload.as_ref();
     let excluded = line.excluded.iter().flat_map(|&q| arm::items(frame, &view.arm, payload, q, &UNREACHED_LOOK));
@@ -120,7 +121,7 @@ pub fn arms(line: &LineView, view: &View, frame: &Frame) -> Vec<Item> {
     items
 }
 
-/// Draws the whole workspace in a corner of a magnified one: the arm, and the magnified part. Returns its place, too.
+/// Draws the whole workspace, with the arm and the magnified part, in a corner of a magnified workspace. Also returns its place.
 pub fn overview(line: &LineView, view: &View, panel: &Frame) -> Option<(Rect, Vec<Item>)> {
     let focus = line.focus?;
     let size = OVERVIEW_SHARE * panel.rect.width.min(panel.rect.height);
@@ -167,7 +168,7 @@ pub fn in_cspace(line: &LineView, chart: &Chart) -> Vec<Item> {
     items
 }
 
-/// Returns the names of the IK solutions, with the places of their images in the configuration space.
+/// Returns the names of the IK solutions, at the images of the line in the configuration space.
 pub fn solution_names(line: &LineView, chart: &Chart) -> Vec<Named> {
     (0..2)
         .filter_map(|solution| {

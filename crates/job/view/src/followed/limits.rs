@@ -1,10 +1,10 @@
-//! The limits that keep a motion from being faster.
+//! The limits that determine the speed of a motion.
 
 use cplan_handling::{Derivative, Piece};
 use cplan_model::Arm;
 use cplan_motion::Trajectory;
 
-/// Share of a limit from which it counts as reached: within two per cent.
+/// A limit counts as reached from this share of it.
 pub const REACHED_SHARE: f64 = 0.98;
 
 /// Speed of a joint at rest, as a share of its limit.
@@ -25,11 +25,11 @@ pub enum ActiveLimit {
     WristSpeed,
     /// The acceleration of the wrist.
     WristAcceleration,
-    /// No limit within two per cent.
+    /// No limit.
     None,
 }
 
-/// A stretch of time with one limit.
+/// A stretch of time during which the motion reaches one limit.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Stretch {
     /// Its beginning, seconds.
@@ -40,18 +40,17 @@ pub struct Stretch {
     pub limit: ActiveLimit,
 }
 
-/// Returns the limit that each piece of a motion reaches: the greatest value on the piece is within two per cent of the
-/// bound. `tip_limits` has the greatest speed of the tip on each piece, metres per second; `None` if there is no such limit.
+/// Returns the limit that each piece of a motion reaches: the greatest value on the piece is within two per cent of the bound.
+/// `tip_limits` has the greatest speed of the tip on each piece, in metres per second; `None` if it is not limited.
 ///
-/// A piece that reaches several limits counts for the first of them in this order: speeds, accelerations, jerks. Among
-/// limits of one kind, it counts for the one with the greatest share. (A joint at top speed cannot be faster with any
-/// acceleration.)
+/// If a piece reaches several limits, speeds take precedence over accelerations, and accelerations over jerks: at top speed, a
+/// higher acceleration would not help. Among limits of one kind, the one with the greatest share counts.
 pub fn active_limits(arm: &Arm, pieces: &[Piece], tip_limits: &[Option<f64>]) -> Vec<ActiveLimit> {
     pieces.iter().zip(tip_limits).map(|(piece, tip)| active_limit(arm, piece, *tip)).collect()
 }
 
-/// Returns the limits of a motion with those of a wrist, whose values are the first components of its pieces. `most` has its
-/// top speed and its greatest acceleration. The order is that of [`active_limits`], with the wrist after the joints.
+/// Adds the limits of a wrist to those of a motion. The wrist's values are the first components of the pieces `wrist`; `most` has
+/// its top speed and greatest acceleration. Limits have the order of [`active_limits`], with the wrist after the joints.
 pub fn with_wrist(limits: Vec<ActiveLimit>, wrist: &[Piece], most: [f64; 2]) -> Vec<ActiveLimit> {
     let reaches = |piece: &Piece, of: Derivative, most: f64| {
         piece.critical(of, 0).any(|u| piece.derivative(of, u)[0].abs() >= REACHED_SHARE * most)
@@ -91,15 +90,15 @@ fn active_limit(arm: &Arm, piece: &Piece, tip_limit: Option<f64>) -> ActiveLimit
     kinds.iter().find_map(reached).unwrap_or(ActiveLimit::None)
 }
 
-/// Returns the speed of the tip at a share `u` of a piece, metres per second.
+/// Returns the speed of the tip at the parameter `u` (0 to 1) of a piece, metres per second.
 pub fn tip_speed(arm: &Arm, piece: &Piece, u: f64) -> f64 {
     let velocity = piece.derivative(Derivative::Velocity, u);
     let [first, second] = arm.jacobian(1, arm.tip, piece.at(u));
     (first * velocity[0] + second * velocity[1]).norm()
 }
 
-/// Joins neighbouring pieces with the same limit. A stretch shorter than `shortest` seconds gets the limit of the stretch
-/// before it, or of the one after it at the beginning.
+/// Joins neighbouring pieces that reach the same limit. A stretch shorter than `shortest` seconds gets the limit of the stretch
+/// before it, and the first one that of the stretch after it.
 pub fn stretches(pieces: &[Piece], limits: &[ActiveLimit], shortest: f64) -> Vec<Stretch> {
     let mut joined: Vec<Stretch> = Vec::new();
     for (piece, &limit) in pieces.iter().zip(limits) {
@@ -120,7 +119,7 @@ pub fn stretches(pieces: &[Piece], limits: &[ActiveLimit], shortest: f64) -> Vec
     visible
 }
 
-/// Returns the times at which both joints rest, seconds: the ends of the motion, and stops on the way.
+/// Returns the times, in seconds, at which both joints rest: the ends of the motion, and stops in between.
 pub fn stops(trajectory: &Trajectory) -> Vec<f64> {
     let rests = |velocity: &[f64; 2]| velocity.iter().all(|speed| speed.abs() <= REST_SHARE);
     let at_rest = trajectory.time.iter().zip(&trajectory.velocity).filter(|(_, velocity)| rests(velocity));

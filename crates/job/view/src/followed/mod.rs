@@ -1,6 +1,5 @@
-//! A motion along a line in pictures and pages: the distance of the tip from the line, the limit that keeps the motion from
-//! being faster, and the IK solutions. Everything is computed from the samples of the motion, as a
-//! controller interpolates them.
+//! A motion along a line, for pictures and pages: the distance of the tip from the line, the limits that determine the speed, and
+//! the IK solutions. Everything is computed from the samples of the motion, interpolated as controllers do.
 
 mod drawing;
 mod feet;
@@ -25,16 +24,16 @@ use cplan_model::Arm;
 use cplan_motion::Trajectory;
 use cplan_toolpath::Toolpath;
 
-/// Number of places between two samples at which the distance from the line is measured.
+/// Number of times between two samples at which the distance from the line is measured.
 const PLACES_PER_SPAN: u32 = 4;
 
-/// Number of equal intervals of time. Pictures show the least and the greatest distance in each of them.
+/// Number of equal intervals of time for which pictures show the least and the greatest distance.
 const DEVIATION_BINS: usize = 480;
 
 /// Number of points along a motion at which pictures show the speed of the tip.
 const SPEED_POINTS: usize = 1200;
 
-/// Duration of the shortest stretches that pictures show, as a share of the motion's duration.
+/// Shortest duration of the stretches that pictures show, as a share of the motion's duration.
 const SHORTEST_STRETCH: f64 = 1.0 / 1000.0;
 
 /// The settings of a motion along a line.
@@ -42,13 +41,13 @@ const SHORTEST_STRETCH: f64 = 1.0 / 1000.0;
 pub struct LineSettings {
     /// Greatest distance of the tip from the line, metres.
     pub tolerance: f64,
-    /// Greatest speed of the tip, metres per second, instead of the speeds of the line.
+    /// Greatest speed of the tip, metres per second. It replaces the speeds of the line.
     pub speed: Option<f64>,
     /// Top speed and greatest acceleration of a wrist that turns the tool, radians and seconds.
     pub wrist: Option<[f64; 2]>,
 }
 
-/// A place at which the tip is farthest from the line.
+/// The position at which the tip is farthest from the line.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Farthest {
     /// Time, seconds.
@@ -68,7 +67,7 @@ pub struct FollowedMotion {
     pub stops: Vec<f64>,
     /// The place at which the tip is farthest from the line, among those measured.
     pub farthest: Farthest,
-    /// Least and greatest distance to the left of the line in equal intervals of time, metres.
+    /// Least and greatest distance from the line in equal intervals of time, metres: positive to the left.
     pub deviations: Vec<[f64; 2]>,
     /// Times in seconds and speeds of the tip in metres per second.
     pub speeds: Vec<[f64; 2]>,
@@ -77,7 +76,6 @@ pub struct FollowedMotion {
 }
 
 impl FollowedMotion {
-    /// Measures a motion along a line. It takes `O(n)` for `n` samples.
     pub fn new(arm: &Arm, line: &Toolpath, trajectory: &Trajectory, settings: LineSettings) -> Self {
         let played = Played::new(arm, trajectory);
         let pieces = &played.pieces;
@@ -121,7 +119,7 @@ impl FollowedMotion {
     }
 }
 
-/// Fills intervals without a measurement with the value before, or else with that after.
+/// Fills intervals without a measurement with the value before them, or, at the beginning, with the first value.
 fn filled(measured: Vec<Option<[f64; 2]>>) -> Vec<[f64; 2]> {
     let mut last = measured.iter().flatten().next().copied().unwrap_or_default();
     let filled = measured.into_iter().map(|value| {
@@ -131,8 +129,8 @@ fn filled(measured: Vec<Option<[f64; 2]>>) -> Vec<[f64; 2]> {
     filled.collect()
 }
 
-/// Returns the speed of the tip at both ends of pieces. If there are many pieces, divides the motion evenly into
-/// groups, and returns the least and the greatest speed of each group, so that no stop is lost.
+/// Returns the speed of the tip at both ends of each piece. Many pieces are divided evenly into groups, each with its least and
+/// greatest speed, so that no stop is lost.
 fn speeds(arm: &Arm, pieces: &[Piece]) -> Vec<[f64; 2]> {
     let ends = pieces.iter().map(|piece| (piece, 1.0));
     let first = pieces.first().map(|piece| (piece, 0.0));

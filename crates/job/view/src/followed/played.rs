@@ -1,11 +1,11 @@
-//! The motion between the samples, as controllers interpolate them.
+//! The motion between the samples, interpolated as controllers do.
 
 use cplan_handling::Piece;
 use cplan_model::Arm;
 use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
 
-/// Number of parts of a piece whose ends a path shows.
+/// A path shows the ends of this number of parts of each piece.
 const PARTS: u32 = 2;
 
 /// A motion in pieces, in order of time.
@@ -21,8 +21,8 @@ pub fn is_smooth(arm: &Arm) -> bool {
 }
 
 impl Played {
-    /// Interpolates samples: by cubics through positions and velocities, or by polynomials of degree five through the
-    /// accelerations too if the jerk of a joint is limited.
+    /// Interpolates samples by cubics through positions and velocities. If the jerk of a joint is limited, the polynomials have
+    /// degree five and also match the accelerations.
     pub fn new(arm: &Arm, trajectory: &Trajectory) -> Self {
         let state = |i: usize| {
             [trajectory.position[i].into(), trajectory.velocity[i].into(), trajectory.acceleration[i].into()]
@@ -53,7 +53,7 @@ impl Played {
         piece.at(((time - piece.from) / (piece.to - piece.from).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0))
     }
 
-    /// Returns the configurations between two times: both ends, and the ends of the pieces and of their parts.
+    /// Returns the configurations at two times, and between them at the ends of pieces and of their parts.
     pub fn between(&self, from: f64, to: f64) -> Vec<Configuration> {
         let parts = |piece: &'_ Piece| {
             let piece = *piece;
@@ -64,14 +64,14 @@ impl Played {
         std::iter::once(self.at(from)).chain(inner.map(|(_, q)| q)).chain([self.at(to)]).collect()
     }
 
-    /// Returns configurations after a time, in steps of a piece's `parts`-th part.
+    /// Iterates over configurations after a time. A step is a piece's duration divided by `parts`.
     pub fn after(&self, time: f64, parts: u32) -> impl Iterator<Item = Configuration> + '_ {
         let pieces = self.pieces[self.index(time)..].iter();
         let places = pieces.flat_map(move |piece| (0..=parts).map(move |k| (piece, f64::from(k) / f64::from(parts))));
         places.filter(move |(piece, u)| piece.time(*u) > time).map(|(piece, u)| piece.at(u))
     }
 
-    /// Returns configurations before a time, the last one first, in steps of a piece's `parts`-th part.
+    /// Iterates over configurations before a time, from late to early. A step is a piece's duration divided by `parts`.
     pub fn before(&self, time: f64, parts: u32) -> impl Iterator<Item = Configuration> + '_ {
         let pieces = self.pieces[..=self.index(time)].iter().rev();
         let shares = move || (0..=parts).rev().map(move |k| f64::from(k) / f64::from(parts));

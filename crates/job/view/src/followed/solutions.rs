@@ -8,24 +8,24 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 /// Number of places along the line at which the IK solutions are computed.
 const PLACES: f64 = 400.0;
 
-/// Difference of joint values of the same IK solution, radians or metres.
+/// Joint values closer than this belong to the same IK solution, radians or metres.
 const SAME_SOLUTION: f64 = 1e-3;
 
-/// Values beyond a limit by at most this, radians or metres, are within it: such an excess is rounding.
+/// A value that exceeds a limit by at most this, radians or metres, is within it: such an excess is rounding.
 const LIMIT_ROUNDING: f64 = 1e-9;
 
-/// A part of a line's image under one IK solution.
+/// A part of the image of a line under one IK solution.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SolutionPart {
     /// Number of the IK solution, 0 or 1.
     pub solution: usize,
-    /// True if the arm cannot be there: outside the limits of a joint, in collision, or nearer than the clearance.
+    /// True if the arm cannot be there, because it is outside a joint's limits, in collision, or nearer than the clearance.
     pub is_excluded: bool,
     /// The configurations.
     pub points: Vec<Configuration>,
 }
 
-/// Returns the image of a line under each IK solution, divided where a solution becomes free or excluded, and where the
+/// Returns the image of a line under each IK solution. It is divided where a solution becomes free or excluded, and where the
 /// line is out of reach. The places are samples and prove nothing.
 pub fn solutions(scene: &Scene, line: &Toolpath) -> Vec<SolutionPart> {
     let (places, arm) = (places(line), scene.arm());
@@ -57,8 +57,7 @@ pub fn solutions(scene: &Scene, line: &Toolpath) -> Vec<SolutionPart> {
     parts
 }
 
-/// Returns the other IK solution for the tip's place in a configuration, and true if it is excluded. `None` if there is no
-/// other.
+/// Returns the other IK solution for the tip's position in `q`, and true if it is excluded. `None` if there is no other.
 pub fn other_solution(scene: &Scene, q: Configuration) -> Option<(Configuration, bool)> {
     let arm = scene.arm();
     let apart = |other: &Configuration| {
@@ -72,7 +71,7 @@ pub fn other_solution(scene: &Scene, q: Configuration) -> Option<(Configuration,
     (apart(&other) > SAME_SOLUTION).then(|| (placed, !is_free(scene, placed)))
 }
 
-/// Returns points along the line, evenly on each piece, with all ends of pieces.
+/// Returns points on the line, evenly spaced on each piece, with the ends of all pieces.
 fn places(line: &Toolpath) -> Vec<[f64; 2]> {
     let step = line.length() / PLACES;
     let mut places = vec![line.start()];
@@ -83,8 +82,8 @@ fn places(line: &Toolpath) -> Vec<[f64; 2]> {
     places
 }
 
-/// Returns the configuration with whole turns added: near the configuration `last`, or else near the
-/// middle of the limits.
+/// Adds whole turns to a configuration, so that it is near the configuration `last`, or without one near the middle of the
+/// limits.
 fn near(arm: &Arm, q: Configuration, last: Option<Configuration>) -> Configuration {
     Configuration::from_fn(|k, _| {
         let joint = &arm.joints[k];

@@ -1,5 +1,5 @@
-//! The strip below the picture of a motion along a line: a lens on the place where the tip is farthest from the line, the
-//! speed of the tip against time, and its distance from the line.
+//! The strip below the picture of a motion along a line. A lens shows the place where the tip is farthest from the line. Two
+//! plots show the speed of the tip and its distance from the line against time.
 
 use super::view::{LENS_TOLERANCES, color};
 use super::{FollowedMotion, LineView};
@@ -12,25 +12,25 @@ use cplan_toolpath::Curve;
 
 /// Height of the strip with its headings and its axes, in pixels.
 pub const HEIGHT: f64 = 318.0;
-/// Room above the parts for their headings, in pixels.
+/// Room for headings above the parts, in pixels.
 const HEADING: f64 = 28.0;
 /// Width and height of the lens, in pixels.
 const LENS: f64 = 224.0;
-/// Room for the values and titles of the axes to the left of the plots, in pixels.
+/// Room to the left of the plots for values and titles of the axes, in pixels.
 const LEFT: f64 = 104.0;
 /// Heights of the plots of speed and distance, and the room between them, in pixels.
 const SPEED: f64 = 118.0;
 const BETWEEN: f64 = 18.0;
 const DISTANCE: f64 = 88.0;
-/// Room above the greatest value of a plot, as a share of it.
+/// Room above the greatest value of a plot, as a share of this value.
 const ROOM: f64 = 0.12;
-/// Number of chords that draw the part of a curve in the lens, and of points between two samples of the motion.
+/// Number of chords for a curve in the lens, and number of points between two samples of the motion.
 const LENS_CHORDS: u32 = 32;
 const LENS_POINTS: u32 = 12;
-/// Greatest number of points that the lens shows on each side of its place.
+/// Greatest number of points of the path that the lens shows on each side of its middle.
 const MAX_LENS_POINTS: usize = 20_000;
 
-/// Draws the strip from the top of an area downwards. Empty without a motion.
+/// Draws the strip at the top of an area. Draws nothing without a motion.
 pub fn items(line: &LineView, view: &View, area: Rect) -> Vec<Item> {
     let Some((motion, _)) = &line.motion else { return Vec::new() };
     let top = area.y + HEADING;
@@ -72,7 +72,7 @@ fn speed_plot(motion: &FollowedMotion, rect: Rect) -> Vec<Item> {
     items
 }
 
-/// Returns the points of a plot between two times, with interpolated ends.
+/// Returns the points of a plot between two times. Both ends are interpolated.
 fn within(points: &[[f64; 2]], from: f64, to: f64) -> Vec<[f64; 2]> {
     let value = |time: f64| {
         let next = points.partition_point(|point| point[0] < time).clamp(1, points.len().max(2) - 1);
@@ -106,7 +106,7 @@ fn distance_plot(motion: &FollowedMotion, tolerance: f64, rect: Rect) -> Vec<Ite
     items
 }
 
-/// Draws the lens: the line, the tube of the tolerance around it, and the path of the tip.
+/// Draws the lens: the line, a tube around it whose radius is the tolerance, and the path of the tip.
 fn lens(line: &LineView, motion: &FollowedMotion, view: &View, rect: Rect) -> Vec<Item> {
     let radius = LENS_TOLERANCES * line.tolerance;
     let center = motion.farthest.tip;
@@ -138,7 +138,7 @@ fn lens(line: &LineView, motion: &FollowedMotion, view: &View, rect: Rect) -> Ve
     ]
 }
 
-/// Draws a bar of a round length with that length.
+/// Draws a scale bar and its length, which is a round number.
 fn scale_bar(frame: &Frame) -> Vec<Item> {
     let room = 0.4 * (frame.x.1 - frame.x.0);
     let power = 10_f64.powf(room.log10().floor());
@@ -156,7 +156,7 @@ fn scale_bar(frame: &Frame) -> Vec<Item> {
     ]
 }
 
-/// Returns the part of a curve within a distance of a point, as chords. `None` if the curve is farther away.
+/// Returns the part of a curve within `distance` of a point, as chords. `None` if the curve is farther away.
 fn near_part(curve: &Curve, center: [f64; 2], distance: f64) -> Option<Vec<[f64; 2]>> {
     let foot = curve.nearest(center, 0.0);
     let at = curve.at(foot);
@@ -169,7 +169,7 @@ fn near_part(curve: &Curve, center: [f64; 2], distance: f64) -> Option<Vec<[f64;
     Some((0..=LENS_CHORDS).map(point).collect())
 }
 
-/// Returns the path of the tip around a time, as far as it stays within a distance of its place then.
+/// Returns the path of the tip before and after a time, as long as it is within `distance` of its position at that time.
 fn tip_near(line: &LineView, view: &View, time: f64, distance: f64) -> Vec<[f64; 2]> {
     let Some((motion, _)) = &line.motion else { return Vec::new() };
     let tip = |q| -> [f64; 2] { view.arm.tip_at(q).into() };

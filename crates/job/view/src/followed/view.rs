@@ -16,37 +16,37 @@ use cplan_toolpath::{Curve, Toolpath};
 use serde::Serialize;
 use std::f64::consts::TAU;
 
-/// Greatest distance between the line and its chords in pictures, metres, as a share of the arm's reach.
+/// Greatest distance between the line and its chords in pictures, as a share of the arm's reach.
 const DRAWN_TOLERANCE: f64 = 2e-5;
 
-/// Greatest error of the tip's place on a page, as a share of the tolerance. A lens magnifies it to half a pixel.
+/// Greatest error of the tip's position on a page, as a share of the tolerance. The lens magnifies it to half a pixel.
 const LENS_ERROR_SHARE: f64 = 0.005;
 
-/// Greatest number of pieces of a line for which pages have the exact curves, which a lens needs.
+/// Greatest number of pieces of a line whose exact curves pages get. The lens needs exact curves.
 const MAX_EXACT_PIECES: usize = 4000;
 
-/// Room around the line in a magnified workspace, as a share of the line's extent, and the greatest share of the whole
-/// workspace that is magnified.
+/// Room around the line in a magnified workspace, as a share of the line's extent; and the greatest share of the workspace that
+/// is still worth magnifying.
 const FOCUS_MARGIN: f64 = 0.22;
 const MAX_FOCUS_SHARE: f64 = 0.7;
 
-/// Room for the overview beside the line, and the greatest share of the magnified part that the line fills along the
-/// same axis.
+/// Room for the overview beside the line; and the greatest share of the magnified part that the line may fill along the same
+/// axis.
 const OVERVIEW_ROOM: f64 = 0.36;
 const MAX_LINE_SHARE: f64 = 0.58;
 
-/// Radius in which the distance from the line is magnified, as a multiple of the tolerance.
+/// Radius of the part that the lens shows, as a multiple of the tolerance.
 pub const LENS_TOLERANCES: f64 = 8.0;
 
-/// Greatest difference of joint values that belong to the same IK solution, radians or metres.
+/// Joint values closer than this belong to the same IK solution, radians or metres.
 const SAME_SOLUTION: f64 = 1e-3;
 
 /// A line that the tip should follow.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LineView {
-    /// Points of the line, metres. Each inner list is a stretch without a travel.
+    /// Points of the line, metres. A travel separates one inner list from the next.
     pub(crate) strokes: Vec<Vec<Point>>,
-    /// The exact curves, with travels.
+    /// The exact curves, including travels.
     pub(crate) curves: Vec<Curve>,
     /// Greatest distance of the tip from the line, metres.
     pub(crate) tolerance: f64,
@@ -56,19 +56,19 @@ pub struct LineView {
     pub(crate) excluded: Vec<Configuration>,
     /// The images of the line in joint space.
     pub(crate) solutions: Vec<SolutionPart>,
-    /// The number of the only IK solution that the motion uses; `None` without a motion, or if it changes.
+    /// Number of the IK solution that the motion uses. `None` without a motion, or if the solution changes.
     pub(crate) used: Option<usize>,
     /// The motion along the line, and the proven bound on its distance from the line, metres.
     pub(crate) motion: Option<(FollowedMotion, f64)>,
     /// The motion in time, as precise as the lens needs it.
     pub(crate) clock: Option<Clock>,
-    /// The joints' configuration where the tip is farthest from the line.
+    /// The arm's configuration where the tip is farthest from the line.
     pub(crate) pose: Option<Configuration>,
     /// The other IK solution there, and true if it is excluded.
     pub(crate) other: Option<(Configuration, bool)>,
-    /// The magnified part of the workspace; `None` if the line fills most of the workspace.
+    /// The magnified part of the workspace. `None` if nothing is magnified.
     pub(crate) focus: Option<Focus>,
-    /// The marked moves of a program; `None` for a line that is followed.
+    /// The marked moves of a program. `None` unless the line is a program for a machine.
     pub(crate) marked: Option<Vec<(MoveMark, Vec<Point>)>>,
     is_smooth: bool,
     names: [String; 2],
@@ -77,16 +77,16 @@ pub struct LineView {
 /// The part of the workspace around a line.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct Focus {
-    /// Least and greatest of both coordinates, metres.
+    /// Least and greatest value of each coordinate, metres.
     pub ranges: [[f64; 2]; 2],
-    /// The corner farthest from the arm, which has room for an overview: -1 or 1 for left or right, below or above.
+    /// The corner farthest from the arm, with room for an overview: for each axis -1 (left, below) or 1 (right, above).
     pub corner: [f64; 2],
 }
 
-/// The kinds of moves of a program that pictures distinguish from drawing moves.
+/// The kinds of moves of a program that pictures mark.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum MoveMark {
-    /// A travel that was replaced, at its new place.
+    /// A travel that was replaced, at its new position.
     Replaced,
     /// A move that the machine cannot play, or that is not proven.
     Failed,
@@ -105,7 +105,7 @@ impl MoveMark {
 }
 
 impl LineView {
-    /// Returns the view of a program for a machine, with these moves marked by their points.
+    /// Marks these moves of a program for a machine, given by their points.
     #[must_use]
     pub fn with_marked_moves(mut self, marked: Vec<(MoveMark, Vec<Point>)>) -> Self {
         self.marked = Some(marked);
@@ -134,15 +134,15 @@ impl LineView {
         }
     }
 
-    /// Returns the view with the place where no motion is possible, and the IK solutions that are excluded.
+    /// Adds the place where no motion is possible, and the IK solutions that are excluded there.
     #[must_use]
     pub fn infeasible_at(mut self, place: Point, excluded: Vec<Configuration>) -> Self {
         (self.place, self.excluded) = (Some(place), excluded);
         self
     }
 
-    /// Returns the view with a motion. `deviation` is the proven bound on its distance from the line, metres; `changes` is
-    /// true if it changes the IK solution.
+    /// Adds a motion. `deviation` is the proven bound on its distance from the line, metres; `changes` is true if the IK solution
+    /// changes.
     #[must_use]
     pub fn with_motion(
         mut self,
@@ -165,19 +165,19 @@ impl LineView {
         self
     }
 
-    /// Returns the number of the IK solution that begins with a configuration.
+    /// Returns the number of the IK solution whose image begins with a configuration.
     fn solution_of(&self, q: Configuration) -> Option<usize> {
         let apart = |a: f64, b: f64| (a - b).abs().min((a - b - ((a - b) / TAU).round() * TAU).abs());
         let is_same = |part: &&SolutionPart| (0..2).all(|k| apart(part.points[0][k], q[k]) < SAME_SOLUTION);
         self.solutions.iter().find(is_same).map(|part| part.solution)
     }
 
-    /// Sets the magnified part of a workspace with this visible part. Without a motion, nothing is magnified.
+    /// Determines the magnified part of a workspace whose visible part is `frame`. Without a motion, nothing is magnified.
     pub(crate) fn focus_within(&mut self, frame: [[f64; 2]; 2], arm: &Arm) {
         let Some(pose) = self.pose else { return };
         let ranges = [0, 1].map(|k| <[f64; 2]>::from(span(self.strokes.iter().flatten().map(|p| p[k]))));
         let extents = ranges.map(|[low, high]: [f64; 2]| high - low);
-        // The axis along which there is more room.
+        // The axis along which the line leaves more room.
         let free = usize::from(extents[1] < extents[0]);
         let size = ((1.0 + 2.0 * FOCUS_MARGIN) * extents[1 - free]).max(extents[free] / MAX_LINE_SHARE);
         let whole = (frame[0][1] - frame[0][0]).min(frame[1][1] - frame[1][0]);
@@ -185,7 +185,7 @@ impl LineView {
             return;
         }
         let middle = Point::new((ranges[0][0] + ranges[0][1]) / 2.0, (ranges[1][0] + ranges[1][1]) / 2.0);
-        // Where the arm comes from.
+        // The directions from which the arm reaches the line.
         let arms = [arm.base, arm.elbow_at(pose[0])].map(|p| (p - middle).normalize());
         let nearness = |corner: &[f64; 2]| {
             arms.iter().map(|arm| arm.x * corner[0] + arm.y * corner[1]).fold(f64::NEG_INFINITY, f64::max)
@@ -195,7 +195,7 @@ impl LineView {
         self.focus = corner.map(|corner| {
             let magnified = |k: usize| {
                 let room = size - extents[k];
-                // The overview lies beside the line.
+                // Along this axis, the overview lies beside the line.
                 let beside = if k == free { (OVERVIEW_ROOM * size).max(room / 2.0) } else { room / 2.0 };
                 let low = ranges[k][0] - if corner[k] > 0.0 { room - beside } else { beside };
                 [low, low + size]
@@ -204,7 +204,7 @@ impl LineView {
         });
     }
 
-    /// Returns the limits that the motion reaches, in the order of the legend, each with its name and its colour.
+    /// Returns the limits that the motion reaches, in the order of the legend, with names and colours.
     pub(crate) fn limits(&self) -> Vec<(ActiveLimit, String, Rgb)> {
         let Some((motion, _)) = &self.motion else { return Vec::new() };
         let mut limits: Vec<ActiveLimit> = motion.stretches.iter().map(|stretch| stretch.limit).collect();
@@ -256,13 +256,13 @@ pub fn color(limit: ActiveLimit) -> Rgb {
     }
 }
 
-/// Rounds to nanometres, or to nanoseconds.
+/// Rounds to nanometres or nanoseconds.
 fn fine(value: f64) -> f64 {
     (value * 1e9).round() / 1e9 + 0.0
 }
 
-/// Returns the line for pages. `curves` has the exact curves: two ends; centre, radius, direction and angle; or four control
-/// points. `lens` is the radius of the lens, and `smooth` is true if the motion between samples has degree five.
+/// Returns the line for pages. `curves` has the exact curves: each as two ends; as centre, radius, direction and angle; or as
+/// four control points. `lens` is the radius of the lens. `smooth` is true if polynomials of degree five join the samples.
 pub fn document(line: &LineView, grain: RoundingSteps) -> Object {
     let flat = |curve: &Curve| -> Vec<f64> {
         match *curve {
@@ -297,10 +297,11 @@ pub fn document(line: &LineView, grain: RoundingSteps) -> Object {
     )
 }
 
-/// Returns the motion for pages: `deviation` is the proven bound on its distance from the line, `farthest` has time and
-/// distance of the place that is farthest from the line, `stretches` has their ends, each with the index of its limit, and
-/// `deviations` the least and greatest distance to the left of the line in equal intervals of time, in thousandths of the
-/// tolerance.
+/// Returns the motion for pages:
+/// - `deviation`: the proven bound on the distance from the line.
+/// - `farthest`: time and distance of the position that is farthest from the line.
+/// - `stretches`: the ends of each stretch, and the index of its limit.
+/// - `deviations`: least and greatest distance in equal intervals of time, positive to the left, in thousandths of the tolerance.
 fn motion_document(line: &LineView, motion: &FollowedMotion, deviation: f64) -> Object {
     let limits = line.limits();
     let index = |limit: ActiveLimit| limits.iter().position(|(known, ..)| *known == limit).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! The words for a checked configuration: the answer in a sentence, and key figures.
+//! A checked configuration in words: the answer in a sentence, and key figures.
 
 use super::names::{joint_name, obstacle_name, part_of_pair};
 use cplan_engine::findings::ConfigurationFindings;
@@ -6,7 +6,7 @@ use cplan_model::Scene;
 use cplan_model::space::{Configuration, JointRange};
 use cplan_text::{length, length_unlike};
 
-/// Returns a distance with three significant digits, or with more if it would look like the required one.
+/// Returns a distance with three significant digits, or with more if it would otherwise look equal to the required one.
 pub fn distance(metres: f64, required: f64) -> String {
     let [rounded, required_text] = [metres, required].map(three_digits);
     if metres != required && rounded == required_text { length_unlike(metres, required) } else { rounded }
@@ -19,7 +19,7 @@ fn three_digits(metres: f64) -> String {
     if value != 0.0 && text.parse() == Ok(0.0) { length(metres) } else { format!("{text} {unit}") }
 }
 
-/// Returns the answer in a sentence, without its full stop: `Free: 72.0 mm from the shelf`.
+/// Returns the answer as a sentence without full stop: `Free: 72.0 mm from the shelf`.
 pub fn title(scene: &Scene, findings: &ConfigurationFindings) -> String {
     let answer = if findings.free { "Free" } else { "Not free" };
     let beyond = (0..2).find(|&k| !findings.within_limits[k]);

@@ -1,7 +1,7 @@
 //! Output of a plan: files, pictures, a page, and a summary for people.
 //!
-//! [`PlanOutput`] adds all of it to [`Plan`]: `bytes` and `save` for files, `svg` and `html` for pictures,
-//! `summary` for a terminal; `cspaces` has the configuration space as data.
+//! [`PlanOutput`] adds them to [`Plan`]: `bytes` and `save` write files, `svg` and `html` draw pictures, `summary` is for a
+//! terminal, and `cspaces` returns the configuration space as data.
 
 mod cspace;
 pub mod checked_words;
@@ -37,8 +37,8 @@ pub trait PlanOutput {
     /// picture.
     fn cspaces(&self) -> CSpaces;
 
-    /// Returns the plan as a file of this format. Returns `None` if the format contains only a trajectory or a grid,
-    /// and the plan has neither. All formats except MCAP, PNG and GIF are text in UTF-8.
+    /// Returns the plan as a file of this format. Returns `None` if the format contains only a trajectory or only a grid, which
+    /// the plan lacks. All formats except MCAP, PNG and GIF are text in UTF-8.
     ///
     /// # Errors
     /// A picture that cannot be rendered.
@@ -57,7 +57,7 @@ pub trait PlanOutput {
     /// Returns the view with a replay of the planner, for formats that can show it.
     fn view_with_replay(&self) -> View;
 
-    /// Returns an SVG document with workspace and configuration space side by side, and with the steps of a task.
+    /// Returns an SVG document with workspace and configuration space side by side, and the steps of a task.
     fn svg(&self) -> String;
 
     /// Returns a self-contained page that plays the motion and in which the arm can be moved.
@@ -105,7 +105,7 @@ impl PlanOutput for Plan {
             view.title.insert(0, format!("No path: {}", names::blame_in_words(problem.scene(), &set)));
         }
         if let Some(headline) = picture::headline(self) {
-            // The names come second, on one line with the numbers.
+            // The names are the second line, together with the numbers.
             let rest = view.title.drain(..view.title.len().min(2)).collect::<Vec<_>>().join(" \u{b7} ");
             view.title.splice(0..0, [headline, rest]);
         }

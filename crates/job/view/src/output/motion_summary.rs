@@ -62,7 +62,7 @@ fn motion_lines(problem: &MotionProblem, answer: &Answer<Motion>, motion: &Motio
     lines
 }
 
-/// Returns a line with the number of cells. `None` if the planner used the number that was requested.
+/// Returns a line with the number of cells. `None` if the planner used the requested number.
 fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Grid(grid) = &answer.space else { return None };
     let asked = plan.options().planner.cells().filter(|asked| asked.0 != grid.cells)?;
@@ -70,8 +70,8 @@ fn cells(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     Some(("cells", format!("{used}, because {asked} cells show no certified path")))
 }
 
-/// Describes the planner's cells if they are from the second attempt, in which the centres decide about cells. `None`
-/// if the cells are as requested.
+/// Describes the planner's cells if they are from its second attempt, in which the centre of a cell decides whether the cell is
+/// free. `None` if the cells are as requested.
 pub(super) fn second_attempt(plan: &Plan, answer: &Answer<Motion>) -> Option<String> {
     let is_second =
         |grid: &Grid| grid.proves == Proves::Sampled && plan.options().planner.space() == Some(GridSpace::Rows);
@@ -82,7 +82,7 @@ pub(super) fn second_attempt(plan: &Plan, answer: &Answer<Motion>) -> Option<Str
     })
 }
 
-/// Returns a line about planning among exact polygons. `None` if the planner does not use them, or no path was found.
+/// Returns a line about planning among exact polygons. `None` if the planner uses none, or found no path.
 fn exact(plan: &Plan, answer: &Answer<Motion>) -> Option<Line> {
     let Space::Regions(_) = &answer.space else { return None };
     let is_found = matches!(answer.outcome, Outcome::Found(_));
@@ -107,15 +107,15 @@ const BOXES_PER_DECISION: usize = 500;
 /// take seconds.
 const MAX_PAIRS: usize = 1000;
 
-/// Returns the obstacles that block the motion, if there is no motion and they can be found within milliseconds. `cplan
-/// explain` reports more.
+/// Returns the obstacles that block the motion, if there is no motion and the search takes milliseconds. `cplan explain` reports
+/// more.
 pub(super) fn blocked_by(problem: &MotionProblem, answer: &Answer<Motion>) -> Option<Line> {
     answer.outcome.infeasible()?;
     let summary_lines = blocking(problem, answer).map(|set| set.describe(problem.scene()));
     Some(("blocked", summary_lines.unwrap_or_else(|| "unknown; `cplan explain` takes more time to find out".into())))
 }
 
-/// Returns the elements that block the motion, if there is no motion and they can be found within milliseconds.
+/// Returns the elements that block the motion, if there is no motion and the search takes milliseconds.
 pub(super) fn blocking(problem: &MotionProblem, answer: &Answer<Motion>) -> Option<BlockingSet> {
     let (proof, scene) = (answer.outcome.infeasible()?, problem.scene());
     let is_small = scene.pairs().len() <= MAX_PAIRS;
@@ -137,7 +137,7 @@ fn clearance(scene: &Scene, curve: &CertifiedCurve) -> String {
     }
 }
 
-/// Describes how the motion avoids moving obstacles. `plane` has the reasons of its waits.
+/// Describes how the motion avoids moving obstacles. `plane` has the reasons for its waits.
 pub(super) fn among_movers(arm: &Arm, timing: &Timing, plane: Option<&PlaceTime>) -> Vec<Line> {
     let Timing { obstacles, ways, waits, clearance, free_until } = timing;
     let kept =
@@ -178,8 +178,7 @@ fn least_time(fastest: &DurationOptimality) -> String {
     format!("every motion takes at least {} s (proven){longer}", round_down(lower_bound, 3))
 }
 
-/// Describes how near the path is to the optimum. The bound ignores moving obstacles, so that it says little about a path
-/// among them.
+/// Describes how near the path is to the optimum. Among moving obstacles, the bound says little, because it ignores them.
 fn optimum(arm: &Arm, bound: &Bound, is_among_movers: bool) -> String {
     let Bound { metric, lower, upper } = *bound;
     let measure = match metric {

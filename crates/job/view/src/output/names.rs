@@ -1,13 +1,13 @@
-//! Names of obstacles, links, joints and limits in sentences, and the sentence about those in the way.
+//! Names of obstacles, links, joints and limits in sentences, and the sentence about what is in the way.
 
 use cplan_blockers::{BlockingSet, Element, Side};
 use cplan_model::{Arm, Joint, Obstruction, Pair, Scene};
 use cplan_text::{chosen_length, joined};
 
-/// Largest number of obstacles that a sentence names. More are only counted.
+/// Largest number of obstacles that a sentence names. If there are more, it states their number.
 pub const MAX_NAMED: usize = 3;
 
-/// Says that the elements of a set are in the way, as a part of a sentence: `the front wall is in the way`.
+/// Says that the elements of a set are in the way, as part of a sentence: `the front wall is in the way`.
 pub fn blame_in_words(scene: &Scene, set: &BlockingSet) -> String {
     let elements = set.elements();
     let obstacles: Vec<String> = elements
@@ -39,7 +39,7 @@ pub fn blame_in_words(scene: &Scene, set: &BlockingSet) -> String {
     }
 }
 
-/// Says that these joints end too early.
+/// Says that the ranges of these joints are too small.
 fn short_joints(arm: &Arm, joints: &[usize]) -> Option<String> {
     let names: Vec<String> = joints.iter().map(|&joint| joint_name(&arm.joints[joint])).collect();
     let all_turn = joints.iter().all(|&joint| arm.joints[joint].joint_type.is_revolute());
@@ -68,7 +68,7 @@ pub fn subject(scene: &Scene, element: Element) -> String {
     }
 }
 
-/// Names an obstacle, or a link of the robot that others can hit.
+/// Names an obstacle, or a link of the robot that other links can hit.
 pub fn obstacle_name(scene: &Scene, number: usize) -> String {
     let kind = if scene.self_obstacles().contains(&number) { "link" } else { "obstacle" };
     noun(kind, &scene.obstacle(number).name)
@@ -90,13 +90,13 @@ pub fn part_of_pair(scene: &Scene, pair: Pair) -> String {
     if scene.is_attached(pair) { noun("payload", &link.parts[pair.part].body) } else { noun("link", &link.name) }
 }
 
-/// Names the body of the robot to which the part of a pair belongs, or the payload.
+/// Names the body of the robot that has the part of a pair, or the payload.
 pub fn body_name(scene: &Scene, pair: Pair) -> String {
     noun(if scene.is_attached(pair) { "payload" } else { "link" }, &scene.link(pair).parts[pair.part].body)
 }
 
-/// Returns a name with an article if it consists of ordinary words, and otherwise in quotation marks after its kind:
-/// `the front wall`, `obstacle "o1"`.
+/// Returns a name in a sentence. If the name consists of ordinary words, it has an article, otherwise quotation marks and the
+/// kind: `the front wall`, `obstacle "o1"`.
 pub fn noun(kind: &str, name: &str) -> String {
     let is_word =
         |word: &str| !word.is_empty() && word.chars().all(|letter| letter.is_alphabetic() && letter.is_lowercase());
@@ -112,7 +112,7 @@ pub fn capitalized(text: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// Returns the verb for a number of subjects.
+/// Returns the verb that fits a number of subjects.
 pub fn is_or_are(count: usize) -> &'static str {
     if count == 1 { "is" } else { "are" }
 }

@@ -29,7 +29,7 @@ pub enum PictureFormat {
     Html,
 }
 
-/// The reason why no picture format follows from a file's name.
+/// The reason why a file's name does not determine a picture format.
 #[derive(Debug, Clone, PartialEq, Eq, Error)]
 pub enum PictureFormatError {
     /// The extension is unknown.
@@ -54,7 +54,7 @@ const PNG_SCALE: f64 = 2.0;
 #[cfg(feature = "png")]
 const GIF_WIDTH: f64 = 960.0;
 
-/// Largest deviation of contours of C-obstacles in pictures, as a fraction of the arm's reach. It is less than a pixel.
+/// Largest deviation of C-obstacles' contours in pictures, as a fraction of the arm's reach. It is less than a pixel.
 pub(super) const PICTURE_TOLERANCE: f64 = 1e-3;
 
 impl PictureFormat {
@@ -78,7 +78,7 @@ impl PictureFormat {
         }
     }
 
-    /// Returns true if the format can show how the planner found its answer. A view for it should have a replay
+    /// Returns true if the format can show how the planner found its answer. Its view should have a replay
     /// (`PlanOutput::view_with_replay`).
     pub fn is_animated(self) -> bool {
         #[cfg(feature = "png")]
@@ -110,8 +110,7 @@ impl PictureFormat {
         }
     }
 
-    /// Returns the content of a file that shows anything for which there are a figure and a page. A GIF has a single
-    /// picture.
+    /// Returns the content of a file: `page` as HTML, or `figure` in any other format. A GIF has a single picture.
     ///
     /// # Errors
     /// A picture that cannot be rendered.
@@ -131,13 +130,13 @@ impl PictureFormat {
     }
 }
 
-/// Clearance, in metres, below which no machine keeps its arm free of collision.
+/// Clearance, in metres, that is too small for a machine to keep its arm free of collisions.
 const LEAST_CLEARANCE: f64 = 1e-3;
 
-/// Clearance, in metres, that is planned as an alternative to less than [`LEAST_CLEARANCE`].
+/// Clearance, in metres, that is planned in addition if the motion keeps less than [`LEAST_CLEARANCE`].
 const USUAL_CLEARANCE: f64 = 0.01;
 
-/// Largest number of pairs of shapes with which the alternative is planned. With more, planning takes seconds.
+/// Largest number of pairs of shapes for which a path with [`USUAL_CLEARANCE`] is planned. With more, planning takes seconds.
 const MAX_PAIRS: usize = 1000;
 
 /// Returns true if a motion keeps less than [`LEAST_CLEARANCE`], because no clearance was required.
@@ -146,8 +145,8 @@ pub(super) fn is_tight(plan: &Plan) -> bool {
     plan.status() == Status::Found && is_less && plan.problem().scene().workspace().clearance == 0.0
 }
 
-/// Returns [`USUAL_CLEARANCE`] and the length of the path that keeps it, for a motion that [`is_tight`]. `None` if no such
-/// path is found.
+/// Returns [`USUAL_CLEARANCE`] and the length of a path that keeps it, if the plan's motion [`is_tight`]. `None` if no such path
+/// is found.
 pub(super) fn with_usual_clearance(plan: &Plan) -> Option<[f64; 2]> {
     let (problem, _) = plan.motion().filter(|_| is_tight(plan))?;
     let scene = problem.scene();
@@ -160,7 +159,7 @@ pub(super) fn with_usual_clearance(plan: &Plan) -> Option<[f64; 2]> {
     answer.path().map(|path| [USUAL_CLEARANCE, path.length()])
 }
 
-/// Adds a replay of the planner to a view, and the length of a path with a usual clearance.
+/// Adds a replay of the planner, and the length of a path with a usual clearance.
 pub fn replayed(plan: &Plan, mut view: View) -> View {
     view.figures.with_clearance = with_usual_clearance(plan);
     let view = if let Some(replay) = plan.replay() { view.with_replay(&replay) } else { view };
@@ -180,8 +179,8 @@ pub fn view_with(plan: &Plan, contours: impl FnOnce(&Scene) -> Vec<CObstacle>) -
     }
 }
 
-/// Returns the key figures of a plan; none unless a motion was found. Among moving obstacles, there is no useful bound on
-/// the optimum.
+/// Returns the key figures of a plan; none unless a motion was found. Among moving obstacles, the bound on the optimum says too
+/// little to be a key figure.
 fn key_figures(plan: &Plan) -> KeyFigures {
     if plan.status() != Status::Found {
         return KeyFigures::default();
@@ -228,7 +227,7 @@ fn motion_view(plan: &Plan, problem: &MotionProblem, answer: &Answer<Motion>, co
     })
 }
 
-/// Returns the data for a picture of a task.
+/// Returns the content of a task's picture.
 fn task_picture<'a>(
     plan: &'a Plan,
     task: &'a Task,
@@ -258,7 +257,7 @@ fn task_picture<'a>(
     }
 }
 
-/// Returns the result of a plan that was found in a sentence. `None` without a motion.
+/// Returns the result of a successful plan as a sentence. `None` without a motion.
 pub fn headline(plan: &Plan) -> Option<String> {
     let seconds = format!("{:.2} s", plan.duration()?);
     if plan.status() != Status::Found {
@@ -307,12 +306,12 @@ pub fn title_of(scene: &Scene) -> String {
     }
 }
 
-/// Largest number of times during a motion for which C-obstacles of moving obstacles are computed. For each time, this
-/// takes as long as a picture of a static world.
+/// Largest number of times during a motion for which C-obstacles of moving obstacles are computed. Each time costs as much as a
+/// picture of a static world.
 const MAX_MOMENTS: usize = 60;
 
-/// Returns the C-obstacles of moving obstacles between `from` and `to`, both included, 20 times per second. If these
-/// are more than `most + 1` times, uses `most + 1` evenly spaced ones instead.
+/// Returns the C-obstacles of moving obstacles from `from` to `to`, 20 times per second, or at `most + 1` evenly spaced times if
+/// that is fewer.
 fn contours_in_time(TimedScene { scene, trajectories }: TimedScene, [from, to]: [f64; 2], most: usize) -> Moments {
     if trajectories.is_empty() {
         return Vec::new();
@@ -331,12 +330,12 @@ fn contours_in_time(TimedScene { scene, trajectories }: TimedScene, [from, to]: 
     (0..=count as usize).map(|k| moment(k as f64)).collect()
 }
 
-/// Returns the function that traces the C-obstacles of a plan for its pictures.
+/// Returns the function that computes the C-obstacles in a plan's pictures.
 pub(super) fn contours_of(options: &Options) -> fn(&Scene) -> Vec<CObstacle> {
     if options.planner.is_exact() { exact_contours } else { contours }
 }
 
-/// Returns the exact C-obstacles for pictures if the arm has exact ones. Otherwise does the same as [`contours`].
+/// Returns the exact C-obstacles for pictures if the arm has them. Otherwise does the same as [`contours`].
 fn exact_contours(scene: &Scene) -> Vec<CObstacle> {
     exact_c_obstacles(scene).unwrap_or_else(|| contours(scene))
 }

@@ -1,4 +1,4 @@
-//! The scene of a recording: the arm's links, obstacles and objects, and their places over time.
+//! The scene of a recording: the arm's links, obstacles and objects, and their poses over time.
 
 use cplan_engine::Plan;
 use cplan_geometry::Pose;
@@ -9,16 +9,16 @@ use cplan_model::{Grip, Obstacle, Part};
 use cplan_motion::{Body, Solid, Stage};
 use cplan_theme::{GRAY, INK, Rgb, obstacle as obstacle_color};
 
-/// Index of the first link among the bodies of the recording. The workspace has index 0.
+/// Index of the arm's first link among the bodies of the recording. Index 0 is the workspace.
 const FIRST_LINK: usize = 1;
 /// Index of the first object among the bodies of the recording.
 const FIRST_OBJECT: usize = 3;
 
-/// Returns the bodies and their poses during the motion; `None` if there is no motion.
+/// Returns the bodies and their poses during the motion. `None` without a motion.
 pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     let (arm, trajectory) = (plan.arm(), plan.trajectory()?);
     let TimedScene { scene, trajectories } = plan.problem().timed();
-    // Objects are bodies of their own.
+    // Objects are separate bodies.
     let task = plan.problem().task();
     let [objects, movers] = task.map_or([0, usize::MAX], |task| [task.objects.len(), task.workspace.movers.len()]);
     let obstacles = &scene.workspace().obstacles;
@@ -33,7 +33,7 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
         size: arm.reach(),
     };
     for (number, link) in arm.links.iter().enumerate() {
-        // A payload is a body of its own, so it is not among the parts of the arm.
+        // A payload is a separate body, not a part of the arm.
         stage.bodies.push(of_link(&link.name, scene.own_parts(number)));
     }
     for (&time, &q) in trajectory.time.iter().zip(&trajectory.position) {
@@ -55,8 +55,8 @@ pub(super) fn stage(plan: &Plan) -> Option<Stage> {
     Some(stage)
 }
 
-/// Adds the objects with their poses over time. They are at their initial places or on their trajectories, then
-/// carried, then at the places where they are released.
+/// Adds the objects with their poses over time. An object is at its initial place or on its trajectory, then carried, then at the
+/// place where it is released.
 fn with_objects(stage: &mut Stage, task: &Task, answer: &TaskAnswer, times: &[f64]) {
     for (number, object) in task.objects.iter().enumerate() {
         let of_all = task.obstacle_number(number);

@@ -1,25 +1,25 @@
-//! The steps of a task for people, one line per step.
+//! The steps of a task as lines of a summary.
 
 use cplan_text::{SECOND_COLUMN, counted, wrapped};
 
-/// Width of a line, in characters. Together with the first column of the summary, it fits a terminal of 80 characters.
+/// Width of a line, in characters. With the first column of the summary, it fits a terminal of 80 characters.
 const LINE_WIDTH: usize = 80 - SECOND_COLUMN;
 
-/// Number of repetitions of a step that are listed. Later repetitions are only counted.
+/// Number of repetitions of a step that are listed. Later ones are only counted.
 const MAX_SHOWN_CYCLES: usize = 3;
 
 /// A step of a task, as a line of the summary.
 pub struct StepLine {
     /// Number of the repetition, from 1.
     pub cycle: usize,
-    /// True if the step is listed even in late repetitions.
+    /// True if the step is listed even if it is a late repetition.
     pub is_listed: bool,
     /// Texts of the columns: number, action, payload and motion.
     pub columns: [String; 4],
 }
 
-/// Returns the lines of the steps. Consecutive steps that are only counted share one line. If the columns do not fit in
-/// one line, payload and motion are in the line below the action.
+/// Returns the lines of the steps. Consecutive unlisted steps share one line, which counts them. If the columns do not fit in one
+/// line, payload and motion are below the action.
 pub fn step_lines(steps: &[StepLine]) -> Vec<String> {
     let shown = |step: &StepLine| step.is_listed || step.cycle <= MAX_SHOWN_CYCLES;
     let width = |k: usize| {

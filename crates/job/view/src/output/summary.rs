@@ -16,8 +16,7 @@ pub fn configuration(arm: &Arm, q: Configuration) -> String {
     format!("{} {}, {} {}", a.name, a.format_value(q[0]), b.name, b.format_value(q[1]))
 }
 
-/// Returns the values of both joints along a segment by name. For a joint that moves along the segment, returns the
-/// values at both ends.
+/// Returns the values of both joints by name along a segment. A joint that moves along the segment has its values at both ends.
 pub fn segment(arm: &Arm, segment: &Segment) -> String {
     let [from, to] = segment.ends();
     let shown = |k: usize| {
@@ -32,7 +31,7 @@ pub fn segment(arm: &Arm, segment: &Segment) -> String {
     format!("{}, {}", shown(0), shown(1))
 }
 
-/// Returns a line for each of the first few goals, and a line with the number of the others.
+/// Returns a line for each of the first few goals, and a line with the number of further goals.
 pub fn goal_lines(arm: &Arm, goals: &GoalSet) -> Vec<Line> {
     let lines = goals.pieces().iter().map(|goal| segment(arm, goal)).collect();
     first_lines(lines, |more| format!("and {more} more")).into_iter().map(|line| ("goal", line)).collect()
@@ -48,15 +47,15 @@ pub fn range(joint: &Joint) -> String {
     }
 }
 
-/// Keys of the lines about the planner's work.
+/// Keys of lines about the planner's work.
 const DETAIL_KEYS: [&str; 5] = ["planner", "cells", "exact", "field", "nodes"];
 
 /// Largest number of waits that the short summary lists.
 const MAX_WAITS: usize = 3;
 
-/// Returns the result in a few lines for people, the verdict first. It includes the written files, and notes about
-/// assumed values. If `is_verbose`, it also describes the planner's work, the times of all stages (those `after` planning
-/// included) in milliseconds, the problem, the arm, and how the robot was read.
+/// Returns the result in a few lines for people, the verdict first, with the written files and notes about assumed values. If
+/// `is_verbose`, it also describes the planner's work, the problem, the arm, how the robot was read, and the times of all stages
+/// in milliseconds, including those `after` planning.
 pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Duration)], is_verbose: bool) -> String {
     let SummaryLines { found: mut lines, asked } = summary_lines(plan);
     add_margin(plan, &mut lines);
@@ -85,7 +84,7 @@ pub fn summary_with(plan: &Plan, files: &[String], after: &[(&'static str, Durat
     format_columns(&lines)
 }
 
-/// Leaves out waits after the first few, and states their number.
+/// Omits waits after the first few, and states their number.
 fn shorten_waits(lines: &mut Vec<Line>) {
     let is_wait = |line: &Line| line.0 == "waits";
     let count = lines.iter().filter(|line| is_wait(line)).count();
@@ -120,7 +119,7 @@ pub(super) fn facts(plan: &Plan) -> Vec<[String; 2]> {
     lines.map(|(key, text)| [key.to_owned(), text]).collect()
 }
 
-/// Adds a line about a clearance that no machine keeps, with the length of a path that keeps a usual one.
+/// Adds a line about a clearance that no machine can keep, with the length of a path that keeps a usual one.
 fn add_warning(plan: &Plan, lines: &mut Vec<Line>) {
     let Some(clearance) = plan.clearance().filter(|_| is_tight(plan)) else { return };
     let other = with_usual_clearance(plan).map_or_else(
@@ -139,7 +138,7 @@ fn add_warning(plan: &Plan, lines: &mut Vec<Line>) {
     lines.insert(at, ("warning", text));
 }
 
-/// Adds the line about margins after the clearance.
+/// Adds the line about margins below that of the clearance.
 fn add_margin(plan: &Plan, lines: &mut Vec<Line>) {
     let at = lines.iter().position(|(key, _)| *key == "clearance").filter(|_| plan.trajectory().is_some());
     let Some(at) = at else { return };
@@ -180,7 +179,7 @@ fn summary_lines(plan: &Plan) -> SummaryLines {
     SummaryLines { found, asked }
 }
 
-/// Describes the errors for which the motion must be free, and the claims of the answer about them.
+/// Describes the errors for which the motion must be free, and what the answer claims about them.
 fn errors_line(plan: &Plan) -> Option<Line> {
     let AllowedErrors { robot, obstacles, .. } = plan.problem().errors()?;
     let angle = |radians: f64| format!("{} deg", short(radians.to_degrees()));
@@ -207,7 +206,7 @@ fn errors_line(plan: &Plan) -> Option<Line> {
     Some(("errors", format!("{claim}: {}{drawn}", stated.join(", "))))
 }
 
-/// The lines of a summary that are about the result or the problem.
+/// The lines of a summary about the result or the problem.
 struct SummaryLines {
     /// Lines about the result, which pages show as well. The verdict comes first.
     found: Vec<Line>,
@@ -225,7 +224,7 @@ fn arm_lines(arm: &Arm) -> Vec<Line> {
     for (k, joint) in arm.joints.iter().enumerate() {
         let unit = joint.unit();
         let mut speeds = format!("at most {} {unit}/s", joint.velocity);
-        // A default acceleration is marked, because the user did not choose it.
+        // Default accelerations are marked, because the user did not choose them.
         if dynamics.is_none_or(|dynamics| !dynamics.assumed[k]) {
             speeds += &format!(", {} {unit}/s2", joint.acceleration);
         }

@@ -47,7 +47,7 @@ fn row(task: &Task, leg: &Leg, repeated: bool) -> [String; 4] {
     [number, leg.step.action.describe(objects), carried, format!("{seconds:.3} s{turn}, {clearance}")]
 }
 
-/// Describes the strokes with which a motion begins and ends, if the tool is lowered there.
+/// Describes the strokes at the beginning and the end of a motion, if the tool is lowered there.
 fn strokes(leg: &Leg) -> String {
     let raising = leg.raising.map(|stroke| format!(", tool raised from {} m", short(stroke.lowered)));
     let lowered = leg.stroke.filter(|_| leg.event.is_none());
@@ -64,7 +64,7 @@ fn failure_lines(plan: &Plan, answer: &TaskAnswer, failed: &FailedStep) -> Vec<L
     lines
 }
 
-/// Returns the lines about the whole motion, with its proven duration and clearance.
+/// Returns the lines about the whole motion, with its duration and proven clearance.
 fn motion_lines(task: &Task, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Line> {
     let count = counted(answer.legs.len(), "step");
     let trajectory = &motion.sequence.trajectory;
@@ -96,8 +96,8 @@ fn motion_lines(task: &Task, answer: &TaskAnswer, motion: &TaskMotion) -> Vec<Li
     lines
 }
 
-/// Describes the motions for which the bound holds, unless it holds for all. A tool that is lowered at both ends of the
-/// first motion is raised in between, by the rules of tasks.
+/// Describes the motions for which the bound holds, unless it holds for all. If the tool is lowered at both ends of the first
+/// motion, the rules of tasks raise it in between; the bound holds only for such motions.
 fn bounded_motions(leg: &Leg) -> Option<String> {
     let (first, last) = leg.raising.zip(leg.stroke)?;
     let is_same_side = (first.lowered - first.raised) * (last.lowered - last.raised) > 0.0;
@@ -110,7 +110,7 @@ fn clearance(answer: &TaskAnswer) -> Option<Line> {
     let least = answer.legs.iter().min_by(|a, b| a.clearance().total_cmp(&b.clearance()))?;
     let (step, cycle) = (least.step.number, least.step.cycle);
     let cycle = if cycle > 1 { format!(" of cycle {cycle}") } else { String::new() };
-    // Pictures number steps in the order of their execution.
+    // Pictures number the steps in the order of execution.
     let is_in_order = answer.legs.is_sorted_by_key(|leg| (leg.step.cycle, leg.step.number));
     let file = if is_in_order { "" } else { " of the file" };
     let curve = &least.timed.curve;

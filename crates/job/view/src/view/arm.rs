@@ -1,4 +1,4 @@
-//! The arm in the document: all data needed to place it in any configuration.
+//! The arm as pages get it: all data that place it in any configuration.
 
 use super::numbers::{RoundingSteps, with_shape};
 use crate::{Object, chart, object};
@@ -18,9 +18,8 @@ pub fn empty_handed(scene: &Scene, grain: RoundingSteps) -> Arm {
     arm
 }
 
-/// Serialises an arm for pages. Of a joint, `sign` is +1 or -1 if it is revolute, and `direction` is that of a prismatic
-/// one; `torque` is its effort limit, if motions respect it. Its numbers are not rounded, because pages multiply and add
-/// them.
+/// Serialises an arm for pages. `sign` of a revolute joint is +1 or -1; `direction` is that of a prismatic joint. `torque` is the
+/// effort limit, if motions respect it. Numbers are not rounded, because pages multiply and add them.
 pub fn document<S: Serializer>(arm: &Arm, serializer: S) -> Result<S::Ok, S::Error> {
     let part = |part: &Part| with_shape(object!("body": part.body), &part.shape);
     let link = |k: usize| {
@@ -54,14 +53,14 @@ pub fn document<S: Serializer>(arm: &Arm, serializer: S) -> Result<S::Ok, S::Err
         "base": arm.base,
         "offset": arm.offset,
         "tip": arm.tip,
-        // The region that the tip can never leave.
+        // The region that the tip cannot leave.
         "reach": with_shape(Object::default(), &reach_shape(arm)),
         "plane": titles(&arm.plane),
     );
     document.serialize(serializer)
 }
 
-/// Returns the names of the plane's coordinates: those of the root frame's axes if they are parallel to them.
+/// Returns the names of the plane's coordinates: those of the root frame's axes, if they are parallel to them.
 pub fn titles(plane: &Plane) -> [String; 2] {
     const NEARLY_PARALLEL_COSINE: f64 = 0.9999;
     let name = |v: Vector3<f64>, other: &str| {
@@ -71,9 +70,9 @@ pub fn titles(plane: &Plane) -> [String; 2] {
     [name(plane.u, "u"), name(plane.v, "v")]
 }
 
-/// Returns a region that the tip can never leave. If joint 1 is revolute, it is the disc of the tip's greatest distance
-/// from the base. Otherwise it is the set of places that the prismatic joints reach, grown by the reach of a revolute
-/// second link.
+/// Returns a region that the tip can never leave. If joint 1 is revolute, it is a disc about the base with the tip's greatest
+/// distance as its radius. Otherwise, it contains the places that prismatic joints reach, grown by the reach of link 2 if joint 2
+/// is revolute.
 pub fn reach_shape(arm: &Arm) -> Convex {
     let topology = arm.topology();
     let [first, second] = topology.ranges.map(|axis| axis.domain());

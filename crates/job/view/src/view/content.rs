@@ -22,8 +22,8 @@ use cplan_model::{Arm, Status};
 use cplan_motion::Trajectory;
 use serde::{Serialize, Serializer};
 
-/// Serialises the outcome, from which pages choose colours and symbols. A view without a query (a comparison, or a
-/// single configuration) has the outcome `shown`.
+/// Serialises the outcome, which determines colours and symbols of pages. A view without a query (a comparison, or a single
+/// configuration) has the outcome `shown`.
 fn ending<S: Serializer>(status: &Option<Status>, serializer: S) -> Result<S::Ok, S::Error> {
     serializer.serialize_str(status.map_or("shown", Status::name))
 }
@@ -37,14 +37,14 @@ pub struct KeyFigures {
     /// Proven upper bound on how much longer the motion is than the optimum, as a fraction. `None` if nothing is proven.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gap: Option<f64>,
-    /// True if the optimum is the fastest motion, false if it is the shortest path.
+    /// True if the optimum is the fastest motion; false if it is the shortest path.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub fastest: bool,
     /// Proven lower bound on the distance between arm and obstacles, in metres.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clearance: Option<f64>,
-    /// For a motion that no machine can keep free of collision, because no clearance was required: a usual clearance, in
-    /// metres, and the length of the path that keeps it.
+    /// Only if the motion keeps too little clearance for any machine, because none was required: a usual clearance, in metres,
+    /// and the length of the path that keeps it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub with_clearance: Option<[f64; 2]>,
 }
@@ -56,27 +56,27 @@ impl KeyFigures {
     }
 }
 
-/// The content of a picture or a page. Lengths are in metres, angles in radians, and times in seconds. Numbers are
-/// rounded to the visible resolution.
+/// The content of a picture or a page. Lengths are in metres, angles in radians, times in seconds. Numbers are rounded to the
+/// visible resolution.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct View {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
     /// The outcome, in a word or two.
     pub status: String,
-    /// The outcome, from which colours and symbols follow: for a checked configuration, `Found` if it is free. `None` for
-    /// a view without a query.
+    /// The outcome, which determines colours and symbols. `Found` for a checked configuration that is free. `None` for a view
+    /// without a query.
     #[serde(serialize_with = "ending")]
     pub ending: Option<Status>,
     /// Facts about the result: names and values, such as `length` and `4.4963 rad`.
     pub facts: Vec<[String; 2]>,
-    /// Key figures of a result. They are empty without one.
+    /// Key figures of a result; empty without one.
     #[serde(skip_serializing_if = "KeyFigures::is_empty")]
     pub figures: KeyFigures,
     /// The arm without a payload.
     #[serde(serialize_with = "arm::document")]
     pub(crate) arm: Arm,
-    /// The visible part of the workspace: least and greatest of both coordinates.
+    /// The visible part of the workspace: least and greatest value of each coordinate.
     pub(crate) frame: [[f64; 2]; 2],
     pub(crate) start: [f64; 2],
     pub(crate) goals: Vec<[f64; 2]>,
@@ -91,10 +91,10 @@ pub struct View {
     /// The strip of progress against time. `None` unless obstacles move.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) strip: Option<StripView>,
-    /// The strip of the tool's height. `None` unless the tool is lowered.
+    /// The strip of the tool's height against time. `None` unless the tool is lowered.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) height: Option<Object>,
-    /// The strip of the wrist's turns. `None` unless it turns.
+    /// The strip of the wrist's turns against time. `None` unless the wrist turns.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) turns: Option<TurnsView>,
     /// The strip of the tool's angle along lines. `None` unless a wrist turns the tool there.
@@ -110,7 +110,7 @@ pub struct View {
     pub(crate) still: StillContent,
 }
 
-/// A frame that is drawn by its axes: see [`AxesFrame`].
+/// A coordinate frame, see [`AxesFrame`].
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub(crate) struct FrameView {
     pub name: String,
@@ -118,7 +118,7 @@ pub(crate) struct FrameView {
     pub axes: [[f64; 3]; 3],
 }
 
-/// Content that a picture shows all at once. Pages show it over time or not at all.
+/// Content of pictures. Pages show it over time, or not at all.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub(crate) struct StillContent {
     /// The configuration spaces; empty for the view of an arm alone.
@@ -131,8 +131,7 @@ pub(crate) struct StillContent {
     pub sections: Vec<Section>,
     /// The line that the tip should follow.
     pub line: Option<LineView>,
-    /// During an animation of the motion: the arm's configuration, and the index of the current world. `None` in a
-    /// still picture.
+    /// During an animation, the arm's configuration and the index of the current world. `None` in a still picture.
     pub now: Option<([f64; 2], usize)>,
     /// The time of `now`, in seconds since the start of the motion.
     pub time: f64,
@@ -163,7 +162,7 @@ pub(crate) struct PanelView {
     pub worlds: Vec<usize>,
     /// Indices of the paths to draw. If a path is repeated, only one is listed.
     pub paths: Vec<usize>,
-    /// The arm's configurations at the beginnings of its motions that do not begin where another one ends.
+    /// Configurations at which motions of the arm begin and no other motion ends.
     pub starts: Vec<[f64; 2]>,
     /// The number of the failed step, if it is in this space.
     pub fails: Option<usize>,
@@ -175,7 +174,7 @@ impl View {
         !self.still.steps.is_empty()
     }
 
-    /// Returns true for the view of a motion or a query, and false for that of a single configuration.
+    /// Returns true for the view of a motion or a query, false for that of a single configuration.
     pub(crate) fn moves(&self) -> bool {
         let has_goal = !self.goals.is_empty() || !self.goal_lines.is_empty() || self.unreached().next().is_some();
         has_goal || !self.paths.is_empty() || self.is_task()
@@ -186,7 +185,7 @@ impl View {
         self.replays.iter().filter_map(|replay| replay.trace.as_ref())
     }
 
-    /// Returns the view with these field lines for pictures. (On a page, the user shows and hides them.)
+    /// Returns the view with these field lines, for pictures. On pages, the user shows and hides them.
     #[must_use]
     pub fn with_field_lines(mut self, lines: FieldLines) -> Self {
         self.still.field_lines = lines;
@@ -209,14 +208,14 @@ impl View {
         self
     }
 
-    /// Returns the view with a section of a companion.
+    /// Adds a section of a companion crate.
     #[must_use]
     pub fn with_section(mut self, section: Section) -> Self {
         self.still.sections.push(section);
         self
     }
 
-    /// Returns the visible part of the workspace: least and greatest coordinate along x and along y.
+    /// Returns the visible part of the workspace: least and greatest value along x and along y.
     pub fn frame(&self) -> [[f64; 2]; 2] {
         self.frame
     }
@@ -230,19 +229,19 @@ impl View {
         self
     }
 
-    /// Returns the view with the angle of a tool that this joint turns during a motion.
+    /// Adds the angle of the tool, which this joint turns during a motion.
     #[must_use]
     pub fn with_tool(mut self, arm: &Arm, joint: &WristJoint, trajectory: &Trajectory) -> Self {
         self.tool = tool_angle::of_line(arm, joint, trajectory);
         self
     }
 
-    /// Returns the duration of the motion, seconds; `None` if nothing moves.
+    /// Returns the duration of the motion in seconds. `None` if nothing moves.
     pub(crate) fn duration(&self) -> Option<f64> {
         self.clock.as_ref().map(Clock::duration)
     }
 
-    /// Returns the view with the arm at this time of the motion.
+    /// Returns the view at this time of the motion.
     pub(crate) fn moving(&self, time: f64) -> Self {
         let mut view = self.clone();
         let world =
@@ -256,19 +255,19 @@ impl View {
         view
     }
 
-    /// Returns the current world during an animation, otherwise the initial world.
+    /// Returns the current world of an animation, or the initial world of a still picture.
     pub(crate) fn world_now(&self) -> &WorldView {
         &self.worlds[self.still.now.map_or(0, |(_, world)| world)]
     }
 
-    /// Returns the view with the obstacles that block a motion, and the place where it gets stuck.
+    /// Adds the obstacles that block a motion, and the place where the arm gets stuck.
     #[must_use]
     pub fn with_blocking(mut self, stuck: BlockingView) -> Self {
         self.still.stuck = Some(stuck);
         self
     }
 
-    /// Returns the view for pictures with a dark background, or a light one. Pages follow the reader's system.
+    /// Returns the view for pictures on a dark or light background. Pages follow the setting of the reader's system.
     #[must_use]
     pub fn on_background(mut self, is_dark: bool) -> Self {
         self.still.is_dark = is_dark;
@@ -288,15 +287,15 @@ impl View {
         &self.worlds[0]
     }
 
-    /// Returns the goals that no motion reaches, each with the index of its world.
+    /// Returns the goals that no motion reaches, each with its world's index.
     pub(crate) fn unreached(&self) -> impl Iterator<Item = (usize, Configuration)> {
         let worlds = self.worlds.iter().enumerate();
         worlds.flat_map(|(index, world)| world.unreached.iter().map(move |&q| (index, q.into())))
     }
 
-    /// Returns the ends of the motions in a panel, whether found or intended. Each has the configuration, the number of
-    /// the step (0 for a goal of the whole query), and a flag that is true if its marker is filled. The marker of a
-    /// goal that no motion reached is hollow. If the panel has no path, the goals of the query are filled.
+    /// Returns the ends of the motions in a panel, found or intended. Each item has the configuration, the number of the step (0
+    /// for a goal of the query), and true if the marker is filled. The marker of a goal that no motion reaches is hollow. Without
+    /// paths, the goals of the query are filled.
     pub(crate) fn ends(&self, panel: &PanelView) -> Vec<(Configuration, usize, bool)> {
         let paths = panel.paths.iter().map(|&index| &self.paths[index]).filter(|path| !path.grows);
         let is_alone = paths.clone().next().is_none();

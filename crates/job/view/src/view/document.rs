@@ -1,4 +1,4 @@
-//! The document of a view for the page's code.
+//! The document of a view, which the page's code reads.
 
 use super::content::{StillContent, View};
 use super::numbers::RoundingSteps;

@@ -5,11 +5,10 @@ use cplan_geometry::{Convex, Point, Pose};
 use cplan_model::Scene;
 use cplan_model::space::Configuration;
 
-/// Number of samples along each axis from which the extent of the arm's motion is computed.
+/// Number of samples along each axis that determine the extent of the arm's motion.
 const SAMPLES_PER_AXIS: usize = 17;
 
-/// Returns the least and greatest coordinates of all that the arm can sweep, and of obstacles that are not much farther
-/// away.
+/// Returns the least and greatest coordinates of what the arm can sweep, and of obstacles not much farther away.
 pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     /// Fraction of the swept extent by which the panel may grow to include obstacles.
     const MAX_GROWTH: f64 = 0.25;
@@ -28,7 +27,7 @@ pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     sides.map(|(lower, upper)| (lower - MARGIN_SHARE * size, upper + MARGIN_SHARE * size))
 }
 
-/// Returns the box around the arm in many of its configurations. They are enough for a picture.
+/// Returns the box around the arm in many of its configurations, which is accurate enough for a picture.
 fn reach_box(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     let arm = scene.arm();
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
@@ -58,7 +57,7 @@ fn reach_box(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
     bounds
 }
 
-/// Returns the box around shapes. For an empty list, its lower ends are above its upper ends.
+/// Returns the box around shapes. If there are none, its lower ends are above its upper ends.
 pub fn bounding_box<'a>(shapes: impl IntoIterator<Item = &'a Convex>) -> [Range; 2] {
     let mut bounds = [(f64::INFINITY, f64::NEG_INFINITY); 2];
     for shape in shapes {

@@ -1,4 +1,4 @@
-//! Lines of steepest ascent through a field, from starting points all over it.
+//! Lines of steepest ascent through a field. They begin at points all over it.
 
 use super::isolines::Samples;
 use cplan_model::space::Topology;
@@ -7,16 +7,15 @@ use cplan_model::space::Topology;
 const STARTS_PER_AXIS: usize = 16;
 /// Length of a step, in cells.
 const STEP_LENGTH: f64 = 0.5;
-/// Length of the shortest step, in cells. On a ridge, a long step would cross to the other side; short steps follow the
-/// ridge.
+/// Length of the shortest step, in cells. On a ridge, a long step would cross to the other side; short ones follow it.
 const MIN_STEP_LENGTH: f64 = 0.03;
-/// Greatest length of a line, in widths of the grid. A longer line winds around and makes the picture no clearer.
+/// Greatest length of a line, in widths of the grid. Longer lines wind around and do not make the picture clearer.
 const MAX_LINE_LENGTH: f64 = 4.0;
-/// Number of consecutive points of a line, of which only one is kept.
+/// One of this number of consecutive points of a line is kept.
 const POINTS_PER_KEPT_POINT: usize = 4;
 
-/// Returns lines of steepest ascent, as polylines. A line ends at the goal, at a local maximum, or where the field has
-/// no value. On a circle, a line ends when it leaves the domain, at most a cell beyond the seam.
+/// Returns lines of steepest ascent, as polylines. A line ends at the goal, at a local maximum, where the field has no value, or,
+/// on a circle, where it leaves the domain, at most a cell beyond the seam.
 pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     let size = [samples.x.len(), samples.y.len()];
     if size.iter().any(|&n| n < 2) {
@@ -34,7 +33,7 @@ pub fn lines(samples: &Samples, topology: &Topology) -> Vec<Vec<[f64; 2]>> {
     lines.filter(|line| line.len() > 2).map(|line| line.into_iter().map(clamp).collect()).collect()
 }
 
-/// Returns the first and the last index along each axis with a value; `None` if there are no values.
+/// Returns the first and the last index with a value along each axis. `None` without values.
 fn extent(samples: &Samples) -> Option<[[usize; 2]; 2]> {
     let columns = samples.y.len();
     let known = || samples.values.iter().enumerate().filter(|(_, value)| value.is_finite()).map(|(at, _)| at);
@@ -54,7 +53,7 @@ fn line(samples: &Samples, begin: [f64; 2]) -> Vec<[f64; 2]> {
         if taken % POINTS_PER_KEPT_POINT == 0 {
             points.push(place(samples, at));
         }
-        // On a plateau or at a maximum, no step leads up.
+        // At a maximum or on a plateau, no step leads up.
         let Some(next) = (loop {
             let middle = [0, 1].map(|k| at[k] + length / 2.0 * direction[k]);
             let along = slope(samples, middle).map_or(direction, |(_, middle)| middle);
@@ -73,8 +72,8 @@ fn line(samples: &Samples, begin: [f64; 2]) -> Vec<[f64; 2]> {
     points
 }
 
-/// Returns the value and the direction of ascent of the bilinear interpolation; `None` outside, at walls and where the
-/// field is flat.
+/// Returns the value and the direction of ascent of the bilinear interpolation. `None` outside, at walls, and where the field is
+/// flat.
 fn slope(samples: &Samples, at: [f64; 2]) -> Option<(f64, [f64; 2])> {
     let [(i, u), (j, v)] = [(at[0], samples.x.len()), (at[1], samples.y.len())].map(|(x, n)| {
         let below = x.floor().clamp(0.0, (n - 2) as f64);
@@ -93,7 +92,6 @@ fn slope(samples: &Samples, at: [f64; 2]) -> Option<(f64, [f64; 2])> {
     (length > 0.0).then(|| (here, along.map(|x| x / length)))
 }
 
-/// Returns the coordinates of a spot.
 fn place(samples: &Samples, at: [f64; 2]) -> [f64; 2] {
     let along = |axis: &[f64], x: f64| {
         let below = (x.floor().max(0.0) as usize).min(axis.len() - 2);
@@ -117,7 +115,7 @@ mod tests {
         Samples { x: axis.clone(), y: axis, values }
     }
 
-    /// Tests that near a maximum the lines are rays: the angle about the maximum stays constant.
+    /// Checks that lines are rays near a maximum: their angle about the maximum stays constant.
     #[test]
     fn lines_run_straight_to_a_peak() {
         let peak = [0.3, -0.2];

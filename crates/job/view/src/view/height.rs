@@ -9,11 +9,11 @@ use cplan_motion::recorded::{turn_angle, turn_profile};
 use cplan_motion::{phase_at, single};
 use serde::Serialize;
 
-/// Number of lines that show a phase of constant jerk.
+/// Number of straight lines that approximate a phase of constant jerk.
 const LINES_PER_PHASE: u32 = 8;
 
-/// Returns times that divide each phase of constant jerk into equal parts, with the ends of their phase. `first` is 0 to
-/// include the beginning of each phase, otherwise 1.
+/// Returns times that divide each phase of constant jerk into equal parts, each with the two ends of its phase. Includes the
+/// beginning of a phase if `first` is 0, but not if it is 1.
 fn divided(phases: &[[f64; 3]], first: u32) -> impl Iterator<Item = (f64, [[f64; 3]; 2])> {
     phases.windows(2).flat_map(move |phase| {
         let ends @ [[since, ..], [until, ..]] = [phase[0], phase[1]];
@@ -46,12 +46,12 @@ pub fn height(task: &Task, legs: &[Leg]) -> Option<Object> {
 pub struct TurnsView {
     /// Duration of the task, in seconds.
     pub duration: f64,
-    /// Times in seconds, and angles in degrees by which the carried object is turned since its pick.
+    /// Times in seconds, and angles in degrees by which the carried object has turned since its pick.
     pub motion: Chain,
-    /// For each turn, times in seconds and orientations of the object in radians. During these times it does not have
-    /// the orientation in its world.
+    /// For each turn, times in seconds and orientations of the object in radians. During a turn, they replace the orientation in
+    /// the world.
     pub turns: Vec<Chain>,
-    /// True if the gripper is empty. Then the angles are values of the wrist's joint.
+    /// True if the gripper is empty. Then angles are values of the wrist's joint.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub is_empty: bool,
 }
@@ -84,7 +84,7 @@ impl TurnsView {
         (!all.is_empty()).then(|| Self { duration: number(duration), motion, turns, is_empty: false })
     }
 
-    /// Creates the strip of the turn to a value of the wrist's joint. `None` if there is no such turn.
+    /// Creates the strip of a turn of the empty gripper to a value of the wrist's joint. `None` if there is no such turn.
     fn of_empty_gripper(task: &Task, legs: &[Leg], duration: f64) -> Option<Self> {
         let turn = legs.iter().find_map(|leg| leg.wrist).filter(|turn| turn.angle != 0.0)?;
         let (from, wrist) = (task.start_tool.wrist?, task.wrist?);
@@ -100,8 +100,8 @@ impl TurnsView {
 }
 
 impl TurnsView {
-    /// Returns the orientation of the carried object at a time during a turn, in radians. Between two corners it
-    /// interpolates linearly. `None` at other times.
+    /// Returns the orientation of the carried object during a turn, in radians, interpolated linearly between two corners. `None`
+    /// at other times.
     pub fn angle_at(&self, time: f64) -> Option<f64> {
         let lasts = |turn: &&Chain| turn.0[0][0] <= time && time <= turn.0[turn.0.len() - 1][0];
         let Chain(corners) = self.turns.iter().find(lasts)?;
@@ -112,7 +112,7 @@ impl TurnsView {
     }
 }
 
-/// Returns times rounded to a tenth of a millisecond, with values rounded to the inverse of `steps`.
+/// Rounds times to a tenth of a millisecond, and values to multiples of `1 / steps`.
 fn rounded(corners: &[[f64; 2]], steps: f64) -> Chain {
     let round =
         |[time, value]: &[f64; 2]| Configuration::new((time * 1e4).round() / 1e4, (value * steps).round() / steps);

@@ -5,7 +5,7 @@ use cplan_text::markup;
 
 const STYLE: &str = include_str!("assets/view.css");
 
-/// Code that draws a view. Each script needs only the scripts before it.
+/// Code that draws a view. A script needs only the scripts before it.
 const SCRIPTS: [&str; 40] = [
     include_str!("assets/element.js"),
     include_str!("assets/icons.js"),
@@ -49,7 +49,7 @@ const SCRIPTS: [&str; 40] = [
     include_str!("assets/view.js"),
 ];
 
-/// Code of a line that the tip follows, for the pages that have one.
+/// Code for a line that the tip follows, for pages with one.
 const LINE_SCRIPTS: [&str; 2] = [include_str!("assets/lens.js"), include_str!("assets/follow.js")];
 
 /// Code that shows the view in the page.
@@ -85,19 +85,19 @@ pub fn drawing() -> String {
     )
 }
 
-/// Returns a self-contained page. It loads nothing, and the browser does not allow it to load anything. The element
-/// `id` contains `json`, which `code` reads.
+/// Returns a self-contained page. It loads nothing, and forbids the browser to load anything. The element `id` contains `json`,
+/// which `code` reads.
 pub fn sealed(title: &str, style: &str, id: &str, json: &str, code: &str) -> String {
     let policy =
         "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; font-src data:";
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n");
-    // Only a less-than sign could end the script.
+    // Without a less-than sign, nothing in the data can end the script.
     let data = json.replace('<', "\\u003c");
     shell(title, &policy, style, &format!("<script id=\"{id}\" type=\"application/json\">{data}</script>\n"), code)
 }
 
-/// Returns a page on which code draws within the element `main`. `head` has further elements for the page's head,
-/// `style` its own styles, and `before` the elements that precede the code.
+/// Returns a page whose code draws within the element `main`. `head` has further elements of the page's head, `style` its styles,
+/// and `before` the elements before the code.
 pub fn shell(title: &str, head: &str, style: &str, before: &str, code: &str) -> String {
     let title = markup(title);
     let tokens = cplan_theme::css();

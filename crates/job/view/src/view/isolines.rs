@@ -9,7 +9,7 @@ pub struct Samples {
     pub x: Vec<f64>,
     /// Second coordinates, ascending.
     pub y: Vec<f64>,
-    /// Values, ordered by `x` and then by `y`. A value is not finite if the field has none there.
+    /// Values, ordered by `x`, then by `y`; not finite where the field has no value.
     pub values: Vec<f64>,
 }
 
@@ -18,9 +18,9 @@ impl Samples {
         self.values[i * self.y.len() + j]
     }
 
-    /// Returns the polylines on which the linearly interpolated values equal `level` (marching squares: Lorensen and
-    /// Cline 1987, in two dimensions). A closed line ends at its first point. A square with a corner without a value
-    /// contains no line. `O(n log n)` for `n` squares.
+    /// Returns the polylines on which the linearly interpolated values equal `level` (marching squares: Lorensen and Cline 1987,
+    /// in two dimensions). A closed line ends at its first point. No line crosses a square with a missing value at a corner.
+    /// `O(n log n)` for `n` squares.
     pub fn isolines(&self, level: f64) -> Vec<Vec<[f64; 2]>> {
         let mut next: BTreeMap<Side, Vec<Side>> = BTreeMap::new();
         for i in 0..self.x.len().saturating_sub(1) {
@@ -32,7 +32,7 @@ impl Samples {
             }
         }
         let mut lines = Vec::new();
-        // Open lines first, each from an end. The remaining lines are then loops.
+        // Follows open lines first, each from an end. Only loops remain.
         let ends: Vec<Side> = next.iter().filter(|(_, to)| to.len() == 1).map(|(side, _)| *side).collect();
         for begin in ends {
             lines.extend(self.walk(begin, &mut next, level));
@@ -44,7 +44,7 @@ impl Samples {
         lines
     }
 
-    /// Follows a line from `begin` to its end, and removes it from `next`.
+    /// Follows a line from `begin` to its end, and removes its sides from `next`.
     fn walk(&self, begin: Side, next: &mut BTreeMap<Side, Vec<Side>>, level: f64) -> Option<Vec<[f64; 2]>> {
         let mut line = vec![self.crossing(begin, level)];
         let mut at = begin;
@@ -60,8 +60,8 @@ impl Samples {
         (line.len() > 1).then_some(line)
     }
 
-    /// Returns the pairs of sides of square `(i, j)` that lines connect. In a saddle, the mean of the corners decides
-    /// which corners belong together.
+    /// Returns the pairs of sides of square `(i, j)` that lines connect. In a saddle, the mean of the corners decides which
+    /// corners are connected.
     fn crossings(&self, i: usize, j: usize, level: f64) -> Vec<(Side, Side)> {
         let corners = [self.value(i, j), self.value(i + 1, j), self.value(i + 1, j + 1), self.value(i, j + 1)];
         if !corners.iter().all(|v| v.is_finite()) {
@@ -88,7 +88,7 @@ impl Samples {
     }
 }
 
-/// A side of a square that starts at crossing `(i, j)`: upwards if the third value is true, otherwise to the right.
+/// A side of a square, which starts at crossing `(i, j)` and leads upwards if the third value is true, otherwise to the right.
 type Side = (usize, usize, bool);
 
 #[cfg(test)]
@@ -133,7 +133,7 @@ mod tests {
         assert!(Samples { x: vec![], y: vec![], values: vec![] }.isolines(0.0).is_empty());
     }
 
-    /// Tests that all lines together visit each side that the level crosses once (twice where a loop begins and ends).
+    /// Checks that lines visit each side that the level crosses once, except for the begin of a loop, which they visit twice.
     #[test]
     fn every_crossing_is_used_once() {
         let field = samples(40, |x, y| (5.0 * x).sin() * (7.0 * y).cos() + 0.3 * x);

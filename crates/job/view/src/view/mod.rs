@@ -5,11 +5,10 @@
 //!                             \-> JSON -> page
 //! ```
 //!
-//! A [`View`] contains the arm, the worlds that it moves in with their C-obstacles, paths with their colours, and the
-//! motions in time. There is one world for a single motion, and one for each payload state of a task. Numbers are
-//! rounded to visible precision. In pages, the page's code computes kinematics, contacts and layers, so that a user can
-//! place the arm anywhere. A page is one file that needs no network. The same view always gives the same file, byte for
-//! byte.
+//! A [`View`] contains the arm, its worlds with their C-obstacles, coloured paths, and the motions over time. A single motion has
+//! one world, and a task has one for each payload state. Numbers are rounded to visible precision. The code of a page computes
+//! kinematics, contacts and layers itself, so that users can place the arm anywhere. A page is one file that needs no network.
+//! The same view always gives the same file, byte for byte.
 
 mod arm;
 mod content;

@@ -1,4 +1,4 @@
-//! Paths, and motions in time.
+//! Paths, and motions over time.
 
 use super::numbers::{Chain, RoundingSteps};
 use crate::figure::Pen;
@@ -7,14 +7,14 @@ use cplan_motion::Trajectory;
 use cplan_theme::{ACCENT, GRAY, INK, PlannerPen, Rgb, role_or_hex};
 use serde::{Serialize, Serializer};
 
-/// Number of poses of the arm that are shown between the ends of a path.
+/// Number of the arm's poses that are shown between the ends of a path.
 const GHOST_POSES: usize = 5;
 /// Width of a highlighted path, in pixels.
 const HIGHLIGHTED_WIDTH: f64 = 2.4;
 /// Width of a path that is not highlighted, in pixels.
 const LINE_WIDTH: f64 = 1.6;
 
-/// Lengths of dashes and gaps in turn, in pixels, of the line of a lower bound.
+/// Dashes and gaps, in pixels, of the line of a lower bound.
 const BOUND_DASH: [f64; 2] = [7.0, 4.0];
 
 /// A path in a world.
@@ -24,7 +24,7 @@ pub struct PathView {
     pub name: String,
     /// Index of the world in which it is planned.
     pub world: usize,
-    /// Colour of the line. `None` for [`cplan_theme::INK`].
+    /// Colour of the line; `None` for [`cplan_theme::INK`].
     #[serde(skip_serializing_if = "Option::is_none", serialize_with = "color_name")]
     color: Option<Rgb>,
     /// Width of the line, in pixels.
@@ -33,17 +33,17 @@ pub struct PathView {
     dash: &'static [f64],
     /// Unwrapped configurations.
     pub points: Chain,
-    /// Configurations between start and goal whose poses are shown. They divide the path into equal parts.
+    /// Configurations whose poses are shown between start and goal. They divide the path into equal parts.
     pub ghosts: Chain,
     /// Number of the step in a task, from 1; 0 for a single motion.
     #[serde(skip_serializing_if = "is_none")]
     pub step: usize,
-    /// True if an animation is drawing the path and has not reached its goal.
+    /// True while an animation draws the path and has not reached its goal.
     #[serde(skip)]
     pub grows: bool,
 }
 
-/// Serialises the colour by its name, if it has one, because it is another colour on a dark background.
+/// Serialises the colour by its name, if it has one, because the page shows another colour on a dark background.
 fn color_name<S: Serializer>(color: &Option<Rgb>, serializer: S) -> Result<S::Ok, S::Error> {
     color.map(role_or_hex).serialize(serializer)
 }
@@ -57,7 +57,7 @@ fn is_none(step: &usize) -> bool {
 }
 
 impl PathView {
-    /// Creates path `index` out of `count`. A single path has the colour of ink.
+    /// Creates path `index` of `count`. The only path has the colour of ink.
     pub fn of_several(name: &str, path: &Path, [index, count]: [usize; 2], grain: RoundingSteps) -> Self {
         let (color, dash) = cplan_theme::path(index);
         let (color, dash) = if count > 1 { (Some(color), dash) } else { (None, &[][..]) };
@@ -93,8 +93,7 @@ impl PathView {
         Self { name, world, color, width, step, ..Self::of_several("", path, [0, 1], grain) }
     }
 
-    /// Returns the part of this line that an animation has drawn so far, through `points`. It has no poses between its
-    /// ends.
+    /// Returns the part of this line that an animation has drawn so far, through `points`, without poses in between.
     pub fn drawn_through(&self, points: Chain) -> Self {
         Self { points, ghosts: Chain::default(), grows: true, ..self.clone() }
     }
@@ -109,12 +108,12 @@ impl PathView {
         }
     }
 
-    /// Returns the first certified path as a line beside this one.
+    /// Returns the first certified path as a line that is drawn beside this one.
     pub fn first_line(&self, points: Chain) -> Self {
         Self { name: "first path".to_owned(), ..self.grey_line(points) }
     }
 
-    /// Returns the line of a lower bound beside this path.
+    /// Returns the line of a lower bound that is drawn beside this path.
     pub fn bound_line(&self, points: Chain) -> Self {
         Self {
             name: "no motion is shorter".to_owned(),
@@ -161,7 +160,7 @@ fn intermediate_configurations(path: &Path, count: usize) -> Vec<Configuration> 
     found
 }
 
-/// A motion from rest to rest.
+/// A motion between two moments of rest.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct MotionView {
     pub world: usize,
@@ -171,7 +170,7 @@ pub struct MotionView {
     pub from: f64,
     /// Description of the motion.
     pub label: String,
-    /// Number of the step's repetition, from 1. Pages show it if there are several.
+    /// Number of the step's repetition, from 1. Pages show it if the step is repeated.
     #[serde(skip_serializing_if = "is_one")]
     pub round: usize,
     /// Proven lower bound on the distance between arm and obstacles, metres. `None` for the world after the last motion.
@@ -218,8 +217,7 @@ impl Clock {
         self.time.last().copied().unwrap_or(0.0)
     }
 
-    /// Returns the configuration at a time. It interpolates linearly between two samples; the error is too small to be
-    /// seen.
+    /// Returns the configuration at a time, interpolated linearly between two samples. The error is invisible.
     pub fn at(&self, time: f64) -> Configuration {
         let positions = &self.position.0;
         if let [only] = positions[..] {

@@ -1,5 +1,4 @@
-//! Numbers rounded to visible precision, and their form in a document, where a list of places is a flat list of
-//! coordinates.
+//! Numbers rounded to visible precision, and their form in documents, where a list of places is a flat list of coordinates.
 
 use crate::Object;
 use cplan_geometry::{Convex, Point};
@@ -7,12 +6,12 @@ use cplan_model::space::Configuration;
 use cplan_model::{Arm, Shape};
 use serde::{Serialize, Serializer};
 
-/// Number of decimal digits of a length after the first digit of the arm's reach. On a picture as wide as a screen, the
-/// last one is a hundredth of a pixel.
+/// Number of decimal digits of lengths, counted from the first digit of the arm's reach. In a picture as wide as a screen, the
+/// last digit is a hundredth of a pixel.
 const LENGTH_DIGITS: i32 = 5;
 
-/// Numbers of rounding steps per unit, for lengths and for joint values. Each is a power of ten, so that rounded
-/// numbers have few decimals.
+/// Numbers of rounding steps per unit, for lengths and for joint values. They are powers of ten, so that rounded numbers have few
+/// decimals.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoundingSteps {
     lengths: f64,
@@ -35,20 +34,20 @@ pub fn number(value: f64) -> f64 {
 }
 
 impl RoundingSteps {
-    /// Returns the rounding steps of an arm. Those of lengths follow from its reach. Those of joint values follow from
-    /// a radian if the joint is revolute, and from its stroke if it is prismatic.
+    /// Returns the rounding steps of an arm. For lengths, they follow from its reach; for a revolute joint, from a radian; for a
+    /// prismatic joint, from its stroke.
     pub fn of(arm: &Arm) -> Self {
         let stroke = |k: usize| arm.joints[k].range.extent().max(f64::MIN_POSITIVE);
         let joints = [0, 1].map(|k| grains(if arm.joints[k].joint_type.is_revolute() { 1.0 } else { stroke(k) }));
         Self { lengths: grains(arm.reach()), joints }
     }
 
-    /// Returns the rounding steps for content within a box of this size. It is for pictures without an arm.
+    /// Returns the rounding steps for content in a box of this size, for pictures without an arm.
     pub fn within(size: f64) -> Self {
         Self { lengths: grains(size), joints: [grains(1.0); 2] }
     }
 
-    /// Returns these rounding steps, with finer ones for joint values: each at most `step` radians or metres.
+    /// Makes the rounding steps of joint values finer: at most `step` radians or metres.
     #[must_use]
     pub fn finer(self, step: f64) -> Self {
         let least = 10_f64.powi((-step.log10()).ceil().clamp(0.0, 12.0) as i32);

@@ -15,11 +15,11 @@ pub struct MotionReplayView {
     pub phases: Vec<PhaseView>,
 }
 
-/// A phase of the planner's run. If `shows` contains no data, the phase shows a part of the trace.
+/// A phase of the planner's run. Unless `shows` contains data, the phase shows a part of the trace.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PhaseView {
     pub caption: String,
-    /// Number of items that the phase shows one after the other.
+    /// Number of items that the phase shows one by one.
     pub events: usize,
     /// Duration of the phase, in seconds.
     pub seconds: f64,
@@ -61,7 +61,7 @@ pub enum ShowsView {
     Slices,
     Wave,
     Levels,
-    /// Boxes of the trace. `order` has their indices in the order of display. Free boxes are counted first, then
+    /// Boxes of the trace. `order` has their indices in the order of display. In it, free boxes have the lowest indices, then
     /// colliding ones, then undecided ones.
     Boxes {
         order: Vec<usize>,
@@ -73,7 +73,7 @@ pub enum ShowsView {
         mixed: Chain,
         order: Vec<usize>,
     },
-    /// A field during its relaxation. For some sweeps, it has the number of the sweep and the values as levels.
+    /// A field during its relaxation. Each frame has the number of a sweep, and the values after it as levels.
     Sweeps {
         frames: Vec<(usize, Waves)>,
     },

@@ -1,4 +1,4 @@
-//! The content of a picture of a scene: with one motion, with several to compare, or with none.
+//! The content of a picture of a scene: with one motion, with several motions to compare, or with none.
 
 use super::arm;
 use super::content::{FrameView, KeyFigures, PanelView, StillContent, View};
@@ -19,8 +19,8 @@ use cplan_planners::planner::Trace;
 use cplan_theme::PlannerPen;
 use nalgebra::Vector3;
 
-/// The content of a picture of a scene. With one path, a picture shows the arm's poses along it. With several paths, it
-/// compares them in different colours and dashes. Without a path, it shows the problem.
+/// The content of a picture of a scene. With one path, the picture shows the arm's poses along it. Several paths are compared in
+/// different colours and dashes. Without a path, the picture shows the problem.
 #[derive(Debug, Clone)]
 pub struct Picture<'a> {
     /// The first line is the title; the others follow in smaller type.
@@ -35,16 +35,16 @@ pub struct Picture<'a> {
     pub scene: TimedScene<'a>,
     /// Start configuration.
     pub start: Configuration,
-    /// Goals: single configurations and segments. Without a path, a picture shows the arm at the first goal. If that is
-    /// a segment, it shows the configuration on the segment that is nearest to the start.
+    /// Goals: single configurations and segments. Without a path, the picture shows the arm at the first goal; on a segment, in
+    /// the configuration nearest to the start.
     pub goals: &'a [Segment],
     /// Paths with their names, in unwrapped values.
     pub paths: Vec<(String, &'a Path)>,
-    /// Colours and dashes of the paths, if planners are compared; otherwise empty.
+    /// Colours and dashes of the paths if planners are compared, otherwise empty.
     pub pens: &'a [PlannerPen],
     /// The motion along the only path.
     pub trajectory: Option<&'a Trajectory>,
-    /// The times at which moving obstacles block places on that motion. `None` if nothing else moves.
+    /// The times at which moving obstacles block places on that motion. `None` if no obstacle moves.
     pub plane: Option<&'a PlaceTime>,
     /// Waits of that motion for moving obstacles.
     pub waits: &'a [Wait],
@@ -54,19 +54,19 @@ pub struct Picture<'a> {
     pub proof: Option<&'a CheckedProof>,
     /// Contours of the C-obstacles in joint space.
     pub c_obstacles: &'a [CObstacle],
-    /// C-obstacles of moving obstacles at some times in ascending order, in seconds. Their `obstacle` is the index of
-    /// the moving obstacle.
+    /// C-obstacles of moving obstacles at several times, ascending, in seconds. Their `obstacle` is the index of the moving
+    /// obstacle.
     pub moments: &'a [(f64, Vec<CObstacle>)],
 }
 
-/// A frame that is drawn by its axes.
+/// A coordinate frame that is drawn as three axes.
 #[derive(Debug, Clone, PartialEq)]
 pub struct AxesFrame {
     /// Text beside the frame.
     pub name: String,
     /// Origin, in plane coordinates.
     pub at: Point,
-    /// Directions of x, y and z: their components along the plane's two coordinates and along its normal.
+    /// Directions of the axes x, y and z, each by its components along the plane's coordinates and along its normal.
     pub axes: [Vector3<f64>; 3],
 }
 
@@ -98,8 +98,8 @@ impl<'a> Picture<'a> {
         Some(StripView::new(self.plane?, self.trajectory?.duration(), self.waits, std::slice::from_ref(world)))
     }
 
-    /// Returns the goals that are single configurations. If there is no path, also returns the place nearest to the
-    /// start on each segment.
+    /// Returns the goals that are single configurations. Without a path, also returns the place nearest to the start on each
+    /// segment.
     fn single_goals(&self) -> Vec<Configuration> {
         let shown = self.goals.iter().filter(|goal| goal.is_point() || self.paths.is_empty());
         shown.map(|goal| goal.nearest(Measure::from(Metric::Euclidean), self.start)).collect()
@@ -166,7 +166,7 @@ impl View {
         }
     }
 
-    /// Returns the view of an arm in one configuration with frames, without its configuration space.
+    /// Returns the view of an arm in one configuration, with coordinate frames but without its configuration space.
     pub fn of_arm(picture: &Picture, frames: &[AxesFrame]) -> Self {
         let grain = RoundingSteps::of(picture.scene.scene.arm());
         let frame = |frame: &AxesFrame| FrameView {

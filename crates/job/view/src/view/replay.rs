@@ -1,4 +1,4 @@
-//! The replay: animated phases of the planner's run.
+//! The replay: animated phases of the planner's search.
 
 use super::content::View;
 use super::numbers::{Chain, RoundingSteps};
@@ -10,25 +10,25 @@ use cplan_legs::TaskReplay;
 use cplan_model::space::{Configuration, Topology};
 use cplan_solver::{Phase, Replay, Shows, SlabBoxes, Sweeps};
 
-/// Shortest and longest duration of a phase, in seconds. Between these, the duration is `SECONDS_PER_ROOT` times the
-/// square root of the number of events.
+/// Shortest and longest duration of a phase, in seconds. Between them, the duration is `SECONDS_PER_ROOT` times the square root
+/// of the number of events.
 const PHASE_SECONDS: [f64; 2] = [1.2, 2.2];
 const SECONDS_PER_ROOT: f64 = 0.1;
 
-/// Duration of the phases of a search that proves a bound, in seconds: usually, and while the bound rises.
+/// Duration, in seconds, of a phase in which a search proves a bound: usually, and while the bound rises.
 const PROOF_SECONDS: [f64; 2] = [4.0, 6.0];
 
-/// Longest duration of all phases together, in seconds. Nobody would watch a longer replay.
+/// Longest duration of all phases together, in seconds. Few people would watch for longer.
 const MAX_REPLAY_SECONDS: f64 = 6.0;
 
-/// Largest size of all replays of a task on a page together, in bytes. The motions after that have no replay.
+/// Largest size of all replays of a task on a page, in bytes. Motions beyond this size have no replay.
 const MAX_REPLAY_BYTES: usize = 200_000;
 
-/// Largest number of slab boxes, for all motions of a task together.
+/// Largest number of slab boxes in all motions of a task together.
 const MAX_BOXES: usize = 5_000;
 
-/// Fractions of a joint's range for the case that there are more boxes than `MAX_BOXES`. The replay then omits boxes
-/// narrower than the first of these fractions that suffices.
+/// Widths of boxes as fractions of a joint's range. If there are more than `MAX_BOXES` boxes, the replay omits those narrower
+/// than the first of these widths that suffices.
 const BOX_WIDTH_LIMITS: [f64; 4] = [1.0 / 512.0, 1.0 / 256.0, 1.0 / 128.0, 1.0 / 64.0];
 
 impl PhaseView {
@@ -37,7 +37,7 @@ impl PhaseView {
         let seconds =
             |phase: &Phase| (SECONDS_PER_ROOT * (phase.events as f64).sqrt()).clamp(PHASE_SECONDS[0], PHASE_SECONDS[1]);
         let time_scale = (MAX_REPLAY_SECONDS / replay.phases.iter().map(seconds).sum::<f64>()).min(1.0);
-        // The phases of a proof have whole sentences to read.
+        // The captions of a proof's phases are whole sentences to read.
         let is_proof = replay.phases.iter().any(|phase| matches!(phase.shows, Shows::Bound { .. }));
         let read = |phase: &Phase| match phase.shows {
             Shows::Bound { .. } => PROOF_SECONDS[1],
@@ -87,7 +87,7 @@ impl PhaseView {
             }
             Shows::Slabs(SlabBoxes { free, stuck, mixed }) => {
                 let [free, stuck, mixed] = [free, stuck, mixed].map(|boxes| corners(boxes));
-                // All boxes of a slab have the slab's level.
+                // The size counts only the slab's width, so all boxes of a slab appear together.
                 let order = coarse_to_fine([&free, &stuck, &mixed], topology, [1.0, 0.0]);
                 ShowsView::Slabs { free, stuck, mixed, order }
             }
@@ -100,8 +100,8 @@ impl PhaseView {
     }
 }
 
-/// Returns the replay without its narrowest boxes of slabs. It has at most `most` boxes, if one of the widths in
-/// [`BOX_WIDTH_LIMITS`] suffices for that.
+/// Returns the replay without its narrowest slab boxes. It has at most `most` boxes, if one of the widths in [`BOX_WIDTH_LIMITS`]
+/// suffices.
 fn with_fewer_boxes(replay: &Replay, topology: &Topology, most: usize) -> Replay {
     let extents = topology.ranges.map(|axis| axis.extent());
     let mut replay = replay.clone();
@@ -121,8 +121,8 @@ fn with_fewer_boxes(replay: &Replay, topology: &Topology, most: usize) -> Replay
     replay
 }
 
-/// Returns the indices of the boxes in the order of display: from large to small, and boxes of one size from left to
-/// right. The size is how often the sides were halved, weighted by axis.
+/// Returns the indices of the boxes in the order of display: from large to small, and boxes of one size from left to right. The
+/// size is the number of halvings of the sides, weighted by axis.
 fn coarse_to_fine(kinds: [&Chain; 3], topology: &Topology, weights: [f64; 2]) -> Vec<usize> {
     let extents = topology.ranges.map(|axis| axis.extent());
     let level = |[lower, upper]: [Configuration; 2]| {
@@ -139,7 +139,7 @@ fn coarse_to_fine(kinds: [&Chain; 3], topology: &Topology, weights: [f64; 2]) ->
     order
 }
 
-/// Converts values to levels. The levels divide the range between the greatest and the least value of the last frame.
+/// Converts values to levels, which divide the range between the least and the greatest value of the last frame.
 fn frames(sweeps: &Sweeps) -> Vec<(usize, Waves)> {
     let finite = |values: &[f64]| values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::min);
     let least = sweeps.frames.last().map_or(0.0, |(_, values)| finite(values)).min(-f64::MIN_POSITIVE);
@@ -149,7 +149,7 @@ fn frames(sweeps: &Sweeps) -> Vec<(usize, Waves)> {
 }
 
 impl View {
-    /// Adds the phases of the planner's run for each motion of a task, until the limit of size is reached.
+    /// Adds the phases of the planner's search for each motion of a task, as long as their size is allowed.
     #[must_use]
     pub fn with_task_replay(mut self, replay: &TaskReplay) -> Self {
         let (grain, topology) = (RoundingSteps::of(&self.arm), self.arm.topology());
@@ -161,7 +161,7 @@ impl View {
                 PhaseView::all(&with_fewer_boxes(&replayed.replay, &topology, most), &topology, trace.as_ref(), grain);
             let scale = trace.as_ref().and_then(TraceView::scale);
             let view = MotionReplayView { trace, scale, phases };
-            // Serialisation cannot fail: there are only numbers and strings.
+            // Numbers and strings can always be serialised.
             let bytes = serde_json::to_string(&view).map_or(usize::MAX, |json| json.len());
             let Some(room) = left.checked_sub(bytes) else { break };
             left = room;
@@ -181,7 +181,7 @@ impl View {
         self
     }
 
-    /// Returns the view at a moment of the replay: `part` of the phase has been shown, from 0 to 1.
+    /// Returns the view at a moment of the replay: the fraction `part` of the phase has been shown.
     pub fn at_replay_moment(&self, phase: usize, part: f64) -> Self {
         let mut view = self.clone();
         let now = &self.replay[phase];
@@ -190,7 +190,7 @@ impl View {
             Some(at) if at > phase => 0.0,
             _ => 1.0,
         };
-        // The title keeps its number of lines, so that nothing moves when the motion begins.
+        // The number of lines in the title does not change, so nothing moves when the motion begins.
         view.title.rotate_right(1);
         view.title[0].clone_from(&now.caption);
         view.status.clear();
@@ -201,7 +201,7 @@ impl View {
             ShowsView::Own { points } => vec![self.paths[0].grey_line(beginning_of(points, part))],
             ShowsView::First { points } => vec![self.paths[0].first_line(beginning_of(points, part))],
             ShowsView::Bound { rounds, .. } => {
-                // In the first half of each round its line grows.
+                // In the first half of a round, its line grows.
                 let shown = part * rounds.len() as f64;
                 let number = (shown as usize).min(rounds.len() - 1);
                 let points = &rounds[number].points;
@@ -225,7 +225,7 @@ impl View {
     }
 }
 
-/// Reduces the trace of a world to the part that has been shown so far.
+/// Reduces the trace of a world to what has been shown so far.
 fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn(&ShowsView) -> bool) -> f64) {
     let edges = || shown(|shows| *shows == ShowsView::Edges);
     let expanded_part = || shown(|shows| *shows == ShowsView::Expanded);
@@ -241,7 +241,7 @@ fn restrict(world: &mut WorldView, now: &PhaseView, part: f64, shown: &dyn Fn(fn
         (_, TraceView::Roadmap { edges: all, .. }) => *all = shown_items(all, 2, edges()),
         (_, TraceView::Slices { free }) => *free = shown_items(free, 2, shown(|shows| *shows == ShowsView::Slices)),
         (_, TraceView::Channel { cells, channel, centers, middles, expanded, sweep }) => {
-            // Cells that appear later keep their places in the list, but have no corners yet.
+            // Later cells keep their places in the list, but have no corners yet.
             let count = count(cells.len(), shown(|shows| matches!(shows, ShowsView::Cells { .. })));
             cells[count..].iter_mut().for_each(|cell| cell.0.clear());
             *sweep = match now.shows {
@@ -278,17 +278,17 @@ fn least_first_value(cell: &Chain) -> f64 {
     cell.0.iter().map(|corner| corner[0]).fold(f64::INFINITY, f64::min)
 }
 
-/// Returns how many of `all` items are visible when `part` of the phase has been shown.
+/// Returns how many of `all` items are visible after the fraction `part` of the phase.
 fn count(all: usize, part: f64) -> usize {
     ((all as f64 * part).round() as usize).min(all)
 }
 
-/// Returns the items that are visible. Each item consists of `each` configurations.
+/// Returns the visible items. Each item consists of `each` configurations.
 fn shown_items(chain: &Chain, each: usize, part: f64) -> Chain {
     Chain(chain.0[..each * count(chain.0.len() / each, part)].to_vec())
 }
 
-/// Returns all boxes after the fraction `part` of the replay. Boxes that are decided later are drawn as undecided.
+/// Returns all boxes after the fraction `part` of the replay. Boxes that are decided later count as undecided.
 fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
     let boxes: Vec<[Configuration; 2]> = kinds.iter().flat_map(|chain| chain.pairs()).collect();
     let ends = [kinds[0].0.len() / 2, (kinds[0].0.len() + kinds[1].0.len()) / 2];
@@ -302,12 +302,12 @@ fn cut(kinds: [&Chain; 3], order: &[usize], part: f64) -> TraceView {
     TraceView::Boxes { free, stuck, mixed, rest }
 }
 
-/// Does the same as [`beginning_of`]. `None` without points.
+/// Does the same as [`beginning_of`]; `None` without points.
 fn beginning_of_any(points: &Chain, part: f64) -> Option<Chain> {
     (!points.0.is_empty()).then(|| beginning_of(points, part))
 }
 
-/// Returns the beginning of a path, with the fraction `part` of its length.
+/// Returns the beginning of a path: the fraction `part` of its length.
 fn beginning_of(points: &Chain, part: f64) -> Chain {
     let lengths = || points.0.windows(2).map(|ends| (ends[1] - ends[0]).norm());
     let mut left = part * lengths().sum::<f64>();

@@ -1,4 +1,4 @@
-//! Fields that paths follow upwards, and the values of their equipotentials.
+//! Fields whose values increase along paths, and the values of their equipotentials.
 
 use super::isolines::Samples;
 use cplan_model::space::Topology;
@@ -7,13 +7,13 @@ use std::borrow::Cow;
 
 /// Number of equipotentials that are drawn.
 const EQUIPOTENTIALS: usize = 20;
-/// Fraction of the cells that may have values below the lowest equipotential. In dead ends the field falls far below
-/// its other values. If these ends were included, few lines would remain for the rest.
+/// Fraction of the cells that may have values below the lowest equipotential. In dead ends, values are far lower than elsewhere;
+/// equipotentials down to them would leave few lines for the rest of the field.
 const IGNORED_SHARE: f64 = 0.02;
-/// Fraction of the cells that replaces [`IGNORED_SHARE`] for potentials that grow without bound towards obstacles.
+/// Replaces [`IGNORED_SHARE`] for potentials that are unbounded near obstacles.
 const IGNORED_SHARE_OF_UNBOUNDED: f64 = 0.15;
 
-/// A field that paths follow upwards, sampled coarsely enough to be drawn.
+/// A field whose values increase along paths, in a coarse grid for drawing.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Slope {
     /// Values at the points of a coarse grid.
@@ -27,7 +27,7 @@ impl Slope {
     pub fn new(trace: &Trace, topology: &Topology) -> Option<Self> {
         let Trace::Field { cells, quantity, values } = trace else { return None };
         let (values, tail): (Cow<[f64]>, f64) = match quantity {
-            // Heights fall towards the goal, so their negatives rise towards it.
+            // Heights decrease towards the goal, so their negatives increase.
             FieldQuantity::Height => (values.iter().map(|height| -height).collect(), IGNORED_SHARE_OF_UNBOUNDED),
             FieldQuantity::Logarithm | FieldQuantity::EstimatedLogarithm => (Cow::Borrowed(values), IGNORED_SHARE),
         };
@@ -37,8 +37,8 @@ impl Slope {
         Some(Self { span: span(&values, tail)?, samples: samples(*cells, &values, topology) })
     }
 
-    /// Iterates over equipotentials at equal steps of the value. Each comes with its place in the span of values, from
-    /// 0 at the goal to 1 at the far end.
+    /// Iterates over equipotentials at equal steps of the value. Each has its position between the value at the goal (0) and that
+    /// at the far end (1).
     pub fn equipotentials(&self) -> impl Iterator<Item = (f64, Vec<Vec<[f64; 2]>>)> + '_ {
         let (low, high) = self.span;
         let part = |k: usize| (k as f64 + 0.5) / EQUIPOTENTIALS as f64;
@@ -46,7 +46,7 @@ impl Slope {
     }
 }
 
-/// Returns the span of the equipotentials; `tail` is the fraction of the cells below it.
+/// Returns the least and greatest value of the equipotentials; `tail` is the fraction of the cells below them.
 fn span(potential: &[f64], tail: f64) -> Option<(f64, f64)> {
     let mut known: Vec<f64> = potential.iter().copied().filter(|v| v.is_finite()).collect();
     known.sort_by(f64::total_cmp);
@@ -54,8 +54,8 @@ fn span(potential: &[f64], tail: f64) -> Option<(f64, f64)> {
     Some((low, *known.last()?))
 }
 
-/// Returns the potential at the centres of all cells, or of some cells if the grid is fine. On a circle, one more
-/// sample lies beyond each seam, so that lines continue across it.
+/// Returns the potential at the centres of all cells, or of some if the grid is fine. On a circle, each seam has another sample
+/// beyond it, so that lines continue across it.
 fn samples(cells: [usize; 2], potential: &[f64], topology: &Topology) -> Samples {
     const MAX_SAMPLES: usize = 256;
     let [x, y] = [0, 1].map(|k| {

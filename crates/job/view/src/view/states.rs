@@ -1,4 +1,4 @@
-//! Payload states: the motions with one payload state and the same C-obstacles share a panel.
+//! Payload states: motions with one payload state and the same C-obstacles share a panel.
 
 use super::steps::Order;
 use cplan_legs::Leg;
@@ -6,20 +6,20 @@ use cplan_model::space::{Configuration, Topology};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
-/// Distance, in radians or metres, below which two configurations count as equal. It covers rounding.
+/// Configurations count as equal within this distance, in radians or metres. It covers rounding.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
 /// Consecutive motions with the same payload in the same world.
 #[derive(Debug, Clone)]
 pub struct PayloadState<'a> {
-    /// Motions, each with its index among all motions of the task. If motions are repeated, only one is listed.
+    /// Motions, with their indices among all motions of the task. Repeated motions are listed once.
     pub motions: Vec<(usize, &'a Leg)>,
     /// Number of times that the motions are executed.
     pub times: usize,
 }
 
-/// Returns the payload states in the order of their first occurrence. Repetitions that look the same are merged. Takes
-/// `O(n^2)` for `n` motions in the worst case, and `O(n)` if the repetitions of a step look the same.
+/// Returns the payload states in the order of their first occurrence. Repetitions that look the same are merged. `O(n)` for `n`
+/// motions if all repetitions of a step look the same, otherwise up to `O(n^2)`.
 pub fn payload_states<'a>(legs: &'a [Leg], topology: &Topology) -> Vec<PayloadState<'a>> {
     let mut states: Vec<PayloadState> = Vec::new();
     let numbered: Vec<(usize, &Leg)> = legs.iter().enumerate().collect();
@@ -59,7 +59,7 @@ fn same_motion(a: &Leg, b: &Leg, topology: &Topology) -> bool {
     a.step.number == b.step.number && (Arc::ptr_eq(&a.timed, &b.timed) || same())
 }
 
-/// Returns groups of payload states that are alike, in the order of their first states.
+/// Groups payload states that are alike, in the order of each group's first state.
 pub fn grouped<'a>(
     states: Vec<PayloadState<'a>>,
     is_alike: impl Fn(&PayloadState, &PayloadState) -> bool,
@@ -73,8 +73,8 @@ pub fn grouped<'a>(
     }
     groups
 }
-/// Returns a title with the payload, such as `Carrying part`, and one with steps and repetitions, such as `steps 1–2, 5`
-/// or `step 3 (×100)`. In a task of several `rounds`, the second can also be `step 4, round 2`.
+/// Returns two titles: the payload, such as `Carrying part`, and steps with repetitions, such as `steps 1–2, 5` or
+/// `step 3 (×100)`. If the task has several `rounds`, the second can be `step 4, round 2`.
 pub fn titles(group: &[PayloadState], rounds: usize, order: &Order) -> [String; 2] {
     let mut payloads: Vec<&str> = Vec::new();
     // The number of executions of each step.
@@ -96,7 +96,7 @@ pub fn titles(group: &[PayloadState], rounds: usize, order: &Order) -> [String; 
     [hand(&payloads), steps + &repeated]
 }
 
-/// Returns the state of the hand in words, as a title. `payloads` are the names of the objects that it carries in turn.
+/// Describes the hand, as a title. `payloads` are the names of the objects that it carries in turn.
 pub fn hand(payloads: &[&str]) -> String {
     match payloads {
         [] => "Empty hand".to_owned(),
@@ -111,7 +111,7 @@ pub fn describe(object: Option<&str>) -> String {
     object.map_or("empty-handed".to_owned(), |object| format!("carrying \"{object}\""))
 }
 
-/// Formats numbers. Consecutive ones become a range: `1–3, 5`.
+/// Formats numbers, with ranges for consecutive ones: `1–3, 5`.
 pub fn ranges(numbers: &[usize]) -> String {
     let runs = numbers.chunk_by(|a, b| a + 1 == *b).map(|run| match run {
         [one] => one.to_string(),

@@ -6,7 +6,7 @@ use cplan_legs::{Leg, TaskAnswer};
 use cplan_model::Outcome;
 use cplan_theme::{GRAY, INFEASIBLE, INK, Rgb};
 
-/// Largest number of rows that are shown.
+/// Largest number of rows that a list shows.
 const MAX_ROWS: usize = 26;
 /// Largest number of lines with reasons why a step fails.
 const MAX_REASONS: usize = 4;
@@ -18,7 +18,7 @@ pub struct Row {
     pub text: String,
     pub time: String,
     pub color: Rgb,
-    /// Number of the step in the file, if it is another one.
+    /// Number of the step in the file, if it differs.
     pub file_number: Option<usize>,
 }
 
@@ -34,7 +34,7 @@ impl Row {
     }
 }
 
-/// Numbers of steps in pictures. They have the order of first execution, which can differ from the order in the file.
+/// Numbers of steps in pictures, in the order of first execution. The order in the file can differ.
 pub struct Order(Vec<usize>);
 
 impl Order {
@@ -54,7 +54,7 @@ impl Order {
         self.0.iter().position(|&number| number == step.number).map_or(step.number, |place| place + 1)
     }
 
-    /// Describes the action of a step. If the step has a different number in the file, adds that number.
+    /// Describes the action of a step, with the step's number in the file if it differs.
     pub fn describe(&self, step: &Step, objects: &[Object]) -> String {
         let what = step.action.describe(objects);
         if self.number(step) == step.number { what } else { format!("{what} ({} in the file)", step.number) }

@@ -1,4 +1,4 @@
-//! The strip of place on the motion against time, with the times at which moving obstacles block the places.
+//! The strip of progress along the motion against time, with the regions that moving obstacles block.
 
 use super::numbers::{Chain, number};
 use super::world::WorldView;
@@ -8,7 +8,7 @@ use cplan_motion::{PlaceTime, Wait, WaitReason};
 use cplan_theme::{GRAY, Rgb};
 use serde::Serialize;
 
-/// Deviation of an outline that nobody sees, as a fraction of the strip's width.
+/// Invisible deviation of an outline, as a fraction of the strip's width.
 const OUTLINE_TOLERANCE: f64 = 2e-3;
 
 /// A strip of progress against time.
@@ -18,7 +18,7 @@ pub struct StripView {
     pub duration: f64,
     /// The moving obstacles, each with the regions that it blocks.
     pub obstacles: Vec<BlockedRegions>,
-    /// Time in seconds and progress from 0 to 1 along the motion.
+    /// Times in seconds, and progress along the motion from 0 to 1.
     pub motion: Chain,
     /// Waits of the motion.
     pub waits: Vec<WaitView>,
@@ -49,7 +49,7 @@ pub struct WaitView {
 }
 
 impl StripView {
-    /// Creates the strip of a motion of some seconds. Obstacles have their colours in the worlds.
+    /// Creates the strip of a motion of `duration` seconds. Obstacles have the same colours as in the worlds.
     pub fn new(plane: &PlaceTime, duration: f64, waits: &[Wait], worlds: &[WorldView]) -> Self {
         let color = |name: &String| {
             let known = worlds.iter().flat_map(|world| &world.movers).find(|mover| mover.obstacle.name == *name);
@@ -79,8 +79,8 @@ impl StripView {
     }
 }
 
-/// Returns the regions that an obstacle blocks until `duration`. An interval of time at one place and the first one that
-/// overlaps it at the next place belong to the same region.
+/// Returns the regions that an obstacle blocks until `duration`. An interval of time at one place, and the first overlapping one
+/// at the next place, belong to the same region.
 fn regions(plane: &PlaceTime, obstacle: usize, duration: f64) -> Vec<Chain> {
     let mut done: Vec<Run> = Vec::new();
     let mut open: Vec<Run> = Vec::new();
@@ -103,7 +103,7 @@ fn regions(plane: &PlaceTime, obstacle: usize, duration: f64) -> Vec<Chain> {
     done.into_iter().map(|run| run.outline(duration)).collect()
 }
 
-/// Returns the progress at both sides of the row of a place: halfway to its neighbours.
+/// Returns the progress at both sides of a place's row: halfway to the neighbouring places.
 fn sides(plane: &PlaceTime, row: usize) -> [f64; 2] {
     let at = |row: usize| plane.places[row].progress;
     let low = if row == 0 { 0.0 } else { f64::midpoint(at(row - 1), at(row)) };
@@ -118,7 +118,7 @@ fn within([from, to]: Interval, duration: f64) -> Option<Interval> {
 
 /// Overlapping intervals of time at consecutive places.
 struct Run {
-    /// Corners with the beginnings of the intervals, and with their ends.
+    /// Corners at the beginnings of the intervals, and corners at their ends.
     edges: [Vec<Configuration>; 2],
     last: Interval,
     /// Progress at the far side of the last place.
@@ -149,7 +149,7 @@ impl Run {
     }
 }
 
-/// Leaves out corners that lie nearly on the line between their neighbours.
+/// Omits corners that lie nearly on the line between their neighbours.
 fn thinned(corners: Vec<Configuration>, duration: f64) -> Vec<Configuration> {
     let mut kept: Vec<Configuration> = Vec::new();
     let mut skipped: Vec<Configuration> = Vec::new();
@@ -186,7 +186,7 @@ mod tests {
     use super::*;
     use cplan_motion::TimedPlace;
 
-    /// An obstacle that blocks a slanted stripe, which a motion with one wait passes.
+    /// The obstacle blocks a slanted stripe, which a motion with one wait passes.
     #[test]
     fn a_stripe_is_one_region_with_few_corners() {
         let place = |k: u32| {

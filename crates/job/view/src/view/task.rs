@@ -1,4 +1,4 @@
-//! A task: its worlds, the times of its events, and the motions that a still picture shows together.
+//! A task: its worlds, the times of its events, and the motions that a still picture shows.
 
 use super::content::{PanelView, StillContent, View};
 use super::extent;
@@ -19,21 +19,21 @@ use cplan_model::space::Configuration;
 use cplan_model::{Additions, Obstacle, Outcome, Scene};
 use std::sync::Arc;
 
-/// Distance, in metres or radians, below which two poses count as equal. It covers rounding.
+/// Poses count as equal within this distance, in metres or radians. It covers rounding.
 const EQUALITY_TOLERANCE: f64 = 1e-6;
 
-/// Largest number of times at which C-obstacles of moving obstacles are computed, for all worlds together.
+/// Largest number of times, in all worlds together, at which C-obstacles of moving obstacles are computed.
 const MAX_MOMENTS: usize = 120;
 
 impl View {
-    /// Returns the view of a task. It has one world for each set of motions that have the same scene.
+    /// Returns the view of a task. Motions with the same scene share a world.
     pub fn of_task(picture: &TaskPicture) -> Self {
         let (task, legs) = (picture.task, &picture.answer.legs);
         let (grain, order) = (RoundingSteps::of(&task.arm), Order::of(picture.answer));
         let mut worlds = Worlds { picture, grain, scenes: Vec::new(), views: Vec::new() };
         let (mut paths, mut motions) = (Vec::new(), Vec::new());
         let mut from = 0.0;
-        // The interval of time during which each world is the current one.
+        // For each world, the interval of time during which it is the current one.
         let mut spans: Vec<[f64; 2]> = Vec::new();
         for leg in legs {
             let name = order.named(&leg.step, &task.objects);
@@ -79,7 +79,7 @@ impl View {
         let still = StillContent {
             panels: panels(picture, &order, (&paths, &worlds.views), world, grain),
             placed: placed.collect(),
-            // An object that the last motion releases lies at its place in the final picture.
+            // In the final picture, an object that the last motion releases lies at its place.
             end: last
                 .zip(paths.last())
                 .map(|((leg, world), path)| (path.goal().into(), if leg.event.is_some() { 0 } else { world })),
@@ -115,7 +115,7 @@ fn strip(picture: &TaskPicture, worlds: &[WorldView]) -> Option<StripView> {
     Some(StripView::new(plane, picture.answer.duration(), waits, worlds))
 }
 
-/// Returns a configuration space for each payload state with its C-obstacles, then one for the failed step, whose world is
+/// Returns a configuration space for each payload state with its C-obstacles, and finally one for the failed step, whose world is
 /// `last`.
 fn panels(
     picture: &TaskPicture,
@@ -162,7 +162,7 @@ fn panels(
     panels
 }
 
-/// Returns the starts of paths at which no other path ends, each once.
+/// Returns the starts of paths at which no other path ends. Each is listed once.
 fn free_starts<'a>(paths: impl Iterator<Item = &'a PathView> + Clone) -> Vec<[f64; 2]> {
     let mut starts: Vec<[f64; 2]> = Vec::new();
     for start in paths.clone().map(PathView::start) {
@@ -176,17 +176,17 @@ fn free_starts<'a>(paths: impl Iterator<Item = &'a PathView> + Clone) -> Vec<[f6
     if starts.is_empty() { paths.take(1).map(|path| path.start().into()).collect() } else { starts }
 }
 
-/// The content of a configuration space that follows from payload and obstacles.
+/// The content of a configuration space that depends on payload and obstacles.
 #[derive(PartialEq)]
 struct Effect<'a> {
     carries: bool,
     is_static: bool,
-    /// C-obstacles of each obstacle, and those that it would have if link 2 must not reach into it.
+    /// C-obstacles of each obstacle, and those that it would have if link 2 had to keep out of it.
     obstacles: Vec<[Vec<&'a ContourView>; 2]>,
 }
 
 impl<'a> Effect<'a> {
-    /// Returns the effect in worlds that differ only in the obstacles that link 2 may reach into.
+    /// Returns the content for worlds that differ only in the obstacles into which link 2 may reach.
     fn of(worlds: &'a [WorldView], indices: &[usize]) -> Self {
         let first = &worlds[indices[0]];
         let of = |number: usize| {
@@ -201,7 +201,7 @@ impl<'a> Effect<'a> {
         }
     }
 
-    /// Returns true if both look the same. Configuration spaces with moving obstacles never do.
+    /// Returns true if both look the same. This is never the case with moving obstacles.
     fn is_same_as(&self, other: &Self) -> bool {
         self.is_static && self == other
     }
@@ -218,7 +218,7 @@ struct Worlds<'a> {
 
 impl Worlds<'_> {
     /// Returns the index of the world with this scene, in which the objects `moving` move. Adds the world if it is new.
-    /// Repetitions of a step often share one scene, or have equal ones.
+    /// Repetitions of a step often share a scene, or have equal ones.
     fn of(&mut self, scene: &Arc<Scene>, moving: &[usize]) -> usize {
         let known = |(other, _): &(Arc<Scene>, Vec<ObstacleTrajectory>)| Arc::ptr_eq(other, scene) || other == scene;
         self.scenes.iter().position(known).unwrap_or_else(|| self.add(scene, moving))
@@ -235,7 +235,7 @@ impl Worlds<'_> {
         self.views.len() - 1
     }
 
-    /// Adds the C-obstacles of moving obstacles to the worlds, for the interval of time of each world.
+    /// Adds the C-obstacles of moving obstacles to each world, for the time during which the world is current.
     fn add_moving_obstacles(&mut self, spans: &[[f64; 2]]) {
         let legs = &self.picture.answer.legs;
         let picked = |name: &str| {
@@ -251,8 +251,7 @@ impl Worlds<'_> {
         }
     }
 
-    /// Returns the C-obstacles that obstacles would have if link 2 must not reach into them. Omits obstacles that it
-    /// must not reach into anyway.
+    /// Returns the C-obstacles of those obstacles into which link 2 may reach, as if it had to keep out of them.
     fn open(&self, scene: &Scene) -> Vec<ContourView> {
         let mut workspace = scene.workspace().clone();
         let whole = |workspace| {
@@ -276,7 +275,7 @@ impl Worlds<'_> {
         contours(all.iter().filter(|c| c.link == 1), self.grain)
     }
 
-    /// Adds the world of the failed step, with the proofs that it fails, and returns the index of the world.
+    /// Adds the world of the failed step, with the proofs of its failure, and returns the world's index.
     fn add_failed_step(&mut self, fails: &FailedStep) -> usize {
         let world = self.add(&fails.scene, &fails.moving);
         let proofs = fails.ik_solutions.iter().filter_map(|to| to.proof.as_ref());
@@ -286,7 +285,7 @@ impl Worlds<'_> {
     }
 }
 
-/// Returns the poses of the objects after all steps, and the objects that still move. A carried object has no pose.
+/// Returns the poses of the objects after all steps (`None` for a carried object), and the objects that still move.
 fn at_the_end(task: &Task, legs: &[Leg]) -> (Vec<Option<Placement>>, Vec<usize>) {
     let mut poses: Vec<Option<Placement>> = task.objects.iter().map(Object::initial_static_pose).collect();
     let mut moving: Vec<usize> = task.initially_moving().collect();
@@ -300,7 +299,7 @@ fn at_the_end(task: &Task, legs: &[Leg]) -> (Vec<Option<Placement>>, Vec<usize>)
     (poses, moving)
 }
 
-/// Returns placed objects with their indices. Each place occurs once. Initial places are not included.
+/// Returns objects at their new places, with their indices. Each place occurs once.
 fn placed(task: &Task, legs: &[Leg]) -> Vec<(usize, Obstacle)> {
     let mut seen: Vec<(usize, Pose)> = task.objects.iter().map(|object| object.at).enumerate().collect();
     let first = seen.len();

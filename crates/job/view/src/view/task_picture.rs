@@ -9,14 +9,14 @@ use cplan_planners::cspace::CObstacle;
 /// C-obstacles of moving obstacles at several times, in seconds.
 pub type Moments = Vec<(f64, Vec<CObstacle>)>;
 
-/// The content of a task's picture. Objects count as obstacles and are numbered after the static ones. So an object has
-/// the same colour at every place and in every world.
+/// The content of a task's picture. Objects count as obstacles, and their numbers follow those of static obstacles. So an object
+/// has the same colour at every place and in every world.
 #[derive(Debug, Clone)]
 pub struct TaskPicture<'a> {
     /// The first line is the title; the others follow in smaller type.
     pub title: Vec<String>,
-    /// The outcome, in a word or two. If a step fails, the status begins with the step's number, and the lines below
-    /// the title have the reason.
+    /// The outcome, in a word or two. If a step fails, the status begins with the step's number, and lines below the title state
+    /// the reason.
     pub status: String,
     /// The outcome, for colours and symbols.
     pub ending: Option<Status>,
@@ -26,12 +26,12 @@ pub struct TaskPicture<'a> {
     pub task: &'a Task,
     /// The answer.
     pub answer: &'a TaskAnswer,
-    /// The times at which moving obstacles block places on the motion. `None` if nothing else moves.
+    /// The times at which moving obstacles block places on the motion. `None` if no obstacle moves.
     pub plane: Option<&'a PlaceTime>,
-    /// Function that computes contours of a scene's C-obstacles in joint space. It is called for each world, and once
-    /// more if link 2 may reach into an object.
+    /// Computes contours of a scene's C-obstacles in joint space. It is called for each world, and once more if link 2 may reach
+    /// into an object.
     pub c_obstacles: fn(&Scene) -> Vec<CObstacle>,
-    /// Function that computes C-obstacles of moving obstacles at times between the two given ones. The last argument
-    /// limits the number of times.
+    /// Computes C-obstacles of moving obstacles at times between the two given ones. The last argument limits the number of
+    /// times.
     pub in_time: fn(TimedScene, [f64; 2], usize) -> Moments,
 }

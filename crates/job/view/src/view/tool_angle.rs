@@ -8,11 +8,11 @@ use cplan_model::Arm;
 use cplan_model::space::Configuration;
 use cplan_motion::Trajectory;
 
-/// Number of points of a line's strip. Points at which the tool turns at rest do not count.
+/// Number of points of a line's strip, in addition to those at which the tool turns at rest.
 const POINTS: f64 = 1000.0;
 
-/// Returns the angle of the tool in a motion along a line against time, for pages: times in seconds and angles in degrees
-/// from the x axis, of all lines together and of each line by itself. `None` if no wrist turns the tool.
+/// Returns the angle of the tool against time, in a motion along a line, for pages: times in seconds and angles in degrees from
+/// the x axis, for all lines together and for each line. `None` if no wrist turns the tool.
 pub fn of_line(arm: &Arm, joint: &WristJoint, trajectory: &Trajectory) -> Option<Object> {
     of_lines(arm, joint, trajectory.duration(), [(0.0, trajectory)].into_iter())
 }
@@ -36,7 +36,7 @@ fn of_lines<'a>(
     (!lines.is_empty()).then(|| object!("duration": number(duration), "motion": motion, "lines": lines))
 }
 
-/// Returns times and angles in degrees, at samples about evenly spaced in time and at all samples at rest.
+/// Returns times, and angles in degrees, at samples that are about evenly spaced in time, and at all samples at rest.
 fn angles(arm: &Arm, joint: &WristJoint, begin: f64, trajectory: &Trajectory) -> Chain {
     let (time, q) = (&trajectory.time, &trajectory.position);
     let step = trajectory.duration() / POINTS;

@@ -11,7 +11,7 @@ use serde::Serialize;
 /// Lines on which a field has one value.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct LevelView {
-    /// Position of the value, from 0 (the value at the goal) to 1 (that at the far end).
+    /// Position of the value between that at the goal (0) and that at the far end (1).
     pub part: f64,
     pub lines: Vec<Chain>,
 }
@@ -21,7 +21,7 @@ pub struct LevelView {
 pub struct ScaleView {
     pub title: &'static str,
     pub ends: [String; 2],
-    /// True if the colours fill surfaces with lines on them. They are then paler, so that the lines stay legible.
+    /// True if the colours fill surfaces that have lines on them. Such colours are paler, so that the lines stay legible.
     pub soft: bool,
 }
 
@@ -46,7 +46,7 @@ pub enum TraceView {
         /// Places that the search expanded, in order.
         #[serde(skip_serializing_if = "Chain::is_empty")]
         expanded: Chain,
-        /// Value of joint 1 at which the sweep line is, during the replay.
+        /// Position of the sweep line (a value of joint 1) during the replay.
         #[serde(skip)]
         sweep: Option<f64>,
     },
@@ -54,7 +54,7 @@ pub enum TraceView {
     Roads {
         edges: Chain,
         expanded: Chain,
-        /// Kind of the visibility graph. `None` for other roadmaps.
+        /// Kind of the visibility graph; `None` for other roadmaps.
         #[serde(skip_serializing_if = "Option::is_none")]
         visibility: Option<&'static str>,
     },
@@ -63,13 +63,13 @@ pub enum TraceView {
         free: Chain,
         stuck: Chain,
         mixed: Chain,
-        /// During the replay, the boxes that are undecided so far. They are drawn without sides.
+        /// During the replay, the boxes that are not decided yet. They are drawn without sides.
         #[serde(skip)]
         rest: Chain,
     },
     /// Distances to the goal.
     Wavefront(Waves),
-    /// A field, with its equipotentials and its lines of steepest ascent.
+    /// A field, with equipotentials and lines of steepest ascent.
     Field {
         levels: Vec<LevelView>,
         flow: Vec<Chain>,
@@ -77,14 +77,14 @@ pub enum TraceView {
         logarithmic: bool,
         /// Values at the far end and at the goal.
         span: [f64; 2],
-        /// During the replay, the values after the current sweep.
+        /// Values after the current sweep, during the replay.
         #[serde(skip)]
         values: Option<Waves>,
     },
 }
 
 impl TraceView {
-    /// Returns the scale of the colours, if there is one.
+    /// Returns the scale of the colours. `None` if there are no colours.
     pub fn scale(&self) -> Option<ScaleView> {
         let whole = |value: f64| format!("{value:.0}").replace('-', "\u{2212}").replace("\u{2212}0", "0");
         let (title, ends, soft) = match self {
@@ -111,7 +111,7 @@ impl TraceView {
         let pairs = |pairs: &[[Configuration; 2]]| grain.configurations(pairs.iter().flatten());
         Some(match trace {
             Trace::Roadmap { edges, whole } => Self::Roadmap { edges: pairs(edges), whole: *whole },
-            // The planner found no path, so there are no slices that a path passes.
+            // If no path was found, there are no slices to show.
             Trace::Slices { free } if free.is_empty() => return None,
             Trace::Slices { free } => Self::Slices { free: pairs(free) },
             Trace::Channel { cells, channel, points, expanded, .. } => Self::Channel {

@@ -1,10 +1,10 @@
-//! Wavefronts, coarse enough to be drawn and short enough to be sent to a page.
+//! Wavefronts, coarse enough for drawings and short enough for pages.
 
 use serde::{Serialize, Serializer};
 
-/// Largest number of blocks of cells along an axis. A block is then nearly one and a half pixels wide.
+/// Largest number of blocks of cells along an axis. At this number, a block is almost one and a half pixels wide.
 const MAX_BLOCKS: usize = 192;
-/// Letters for the levels, one letter per block of cells. `NO_LEVEL` is the letter of a block without a level.
+/// Letters for the levels. `NO_LEVEL` is the letter of a block without a level.
 const LEVEL_LETTERS: &[u8; LEVELS] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
 const NO_LEVEL: char = '.';
 
@@ -14,17 +14,17 @@ const MAX_NUMBERED_CELLS: usize = 32;
 /// Number of levels. Each stands for an interval of distances to the goal.
 pub const LEVELS: usize = 64;
 
-/// Distances to the goal, one per block of cells, in columns of joint 1 from the least value of joint 2 upwards.
+/// Distances to the goal, one per block of cells: column by column along joint 1, and upwards along joint 2 in each column.
 #[derive(Debug, Clone, Default, PartialEq, Serialize)]
 pub struct Waves {
     /// Number of blocks of cells along each axis.
     pub blocks: [usize; 2],
-    /// Fraction of each axis that the blocks cover. It exceeds 1 if the last blocks extend beyond the last cell.
+    /// Share of each axis that the blocks cover. It exceeds 1 if the last blocks extend beyond the last cell.
     pub extent: [f64; 2],
-    /// One letter per block: its level. The level is the least label in the block, as a fraction of the greatest label.
-    /// The letter is `NO_LEVEL` if the wave did not reach the block.
+    /// A letter per block for its level: the least label in the block, as a fraction of the greatest label of all. `NO_LEVEL` if
+    /// the wave did not reach the block.
     levels: String,
-    /// One letter per block for the position of its first cell in the order of expansion. Empty if there is no order.
+    /// A letter per block: the position of its first cell in the order of expansion. Empty without an order.
     #[serde(skip_serializing_if = "String::is_empty")]
     order: String,
     /// Greatest label of a cell.
@@ -32,20 +32,17 @@ pub struct Waves {
     /// True if distances are measured from the start.
     #[serde(skip)]
     pub from_start: bool,
-    /// Label of each cell, `None` (-1 in JSON) if the wave did not reach it. Empty if the grid is too fine for readable
-    /// labels.
+    /// Label of each cell; `None` (-1 in JSON) if the wave did not reach it. Empty if the grid is too fine for legible labels.
     #[serde(skip_serializing_if = "Vec::is_empty", serialize_with = "labels_or_minus_one")]
     pub numbers: Vec<Option<u32>>,
 }
 
-/// Serialises labels, with -1 for `None`.
 fn labels_or_minus_one<S: Serializer>(numbers: &[Option<u32>], serializer: S) -> Result<S::Ok, S::Error> {
     serializer.collect_seq(numbers.iter().map(|number| number.map_or(-1, i64::from)))
 }
 
 impl Waves {
-    /// Returns the wavefront with these labels, and cells in the order of their expansion; `None` if there are no
-    /// labels.
+    /// Returns the wavefront with these labels, and with cells in the order of expansion. `None` without labels.
     pub fn new(cells: [usize; 2], labels: &[u32], expanded: &[u32]) -> Option<Self> {
         if labels.is_empty() || labels.len() != cells[0] * cells[1] {
             return None;
@@ -78,13 +75,13 @@ impl Waves {
         })
     }
 
-    /// Returns blocks with these levels, written as letters, over the whole of both axes.
+    /// Returns blocks with these levels, written as letters, which cover both axes exactly.
     pub fn of_levels(blocks: [usize; 2], levels: String) -> Self {
         Self { blocks, extent: [1.0; 2], levels, ..Self::default() }
     }
 
-    /// Returns the wavefront at the time when the fraction `part` (0 to 1) of the cells have been expanded. If there is
-    /// no order of expansion, returns the blocks up to that fraction of the levels.
+    /// Returns the wavefront after the expansion of the fraction `part` of the cells. Without an order of expansion, returns the
+    /// blocks up to that fraction of the levels.
     pub fn up_to(&self, part: f64) -> Self {
         let last = (part * LEVELS as f64).floor() as usize;
         let order = if self.order.is_empty() { &self.levels } else { &self.order };
@@ -95,13 +92,13 @@ impl Waves {
         Self { levels: levels.collect(), numbers: numbers.collect(), ..self.clone() }
     }
 
-    /// Returns the level of each block, below [`LEVELS`]; `None` if the wave did not reach it.
+    /// Iterates over the levels of the blocks, all below [`LEVELS`]; `None` if the wave did not reach the block.
     pub fn levels(&self) -> impl Iterator<Item = Option<usize>> + '_ {
         self.levels.bytes().map(|letter| LEVEL_LETTERS.iter().position(|&l| l == letter))
     }
 }
 
-/// Returns the letter of the level of a value from 0 to 1; `NO_LEVEL` for `None`.
+/// Returns the letter of the level for a value from 0 to 1; `NO_LEVEL` for `None`.
 pub fn letter(part: Option<f64>) -> char {
     part.map_or(NO_LEVEL, |part| char::from(LEVEL_LETTERS[(part * (LEVELS - 1) as f64).round() as usize]))
 }

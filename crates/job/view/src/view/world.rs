@@ -1,4 +1,4 @@
-//! A world that the arm moves in: obstacles, payload, pairs of shapes that can meet, and the C-obstacles.
+//! A world in which the arm moves: obstacles, payload, pairs of shapes that can meet, and C-obstacles.
 
 use super::numbers::{Chain, RoundingSteps, ShapeView, number, outline};
 use super::trace::{ScaleView, TraceView};
@@ -11,7 +11,7 @@ use cplan_planners::cspace::{CObstacle, beyond_sum};
 use cplan_theme::Rgb;
 use serde::{Serialize, Serializer};
 
-/// Largest number of obstacles with names; if there are more, they are numbered.
+/// Largest number of obstacles that are named. If there are more, all are numbered.
 pub const MAX_NAMED_OBSTACLES: usize = 16;
 
 /// An obstacle.
@@ -24,15 +24,15 @@ pub struct ObstacleView {
     /// Shape in the world file. If the file has none, it is the union of the pieces.
     #[serde(serialize_with = "outline")]
     pub outline: Shape,
-    /// Number of pieces that form the obstacle itself. The pieces after them are used for collisions with a payload
-    /// instead. For a level payload they are its Minkowski differences with the obstacle, which the tip must not enter.
-    /// For supports, they are shapes to which the payload may be nearer than the clearance.
+    /// Number of pieces of the obstacle itself. Further pieces replace these in collisions with a payload. For a level payload,
+    /// they are its Minkowski differences with the obstacle, which the tip must not enter. For supports, they are shapes that the
+    /// payload may approach more closely than the clearance.
     own: usize,
     pieces: Vec<ShapeView>,
 }
 
 impl ObstacleView {
-    /// Creates the view of obstacle `number` of its world.
+    /// Creates the view of obstacle `number` of a world.
     pub fn new(obstacle: &Obstacle, number: usize, grain: RoundingSteps) -> Self {
         Self {
             name: obstacle.name.clone(),
@@ -43,23 +43,23 @@ impl ObstacleView {
         }
     }
 
-    /// Returns the obstacle in the colour of the robot's own links.
+    /// Gives the obstacle the colour of the robot's links.
     fn of_robot(self) -> Self {
         Self { color: cplan_theme::ROBOT, ..self }
     }
 
-    /// Creates the view of the limits of the elbow's motor, which are an obstacle in the configuration space alone.
+    /// Creates the view of the limits of the elbow's motor, which are an obstacle only in the configuration space.
     fn of_motor() -> Self {
         let (outline, pieces) = (Shape::Pieces, Vec::new());
         Self { name: "elbow motor".into(), color: cplan_theme::ROBOT, outline, own: 0, pieces }
     }
 
-    /// Returns the pieces that form the obstacle itself. Empty for an object that is carried.
+    /// Returns the pieces of the obstacle itself. Empty for a carried object.
     pub fn own(&self) -> impl Iterator<Item = &Convex> {
         self.pieces[..self.own].iter().map(|piece| &piece.0)
     }
 
-    /// Returns true if the obstacle is at a place. Returns false for an object that is carried.
+    /// Returns true if the obstacle has a place, and false for a carried object.
     pub fn lies(&self) -> bool {
         self.own > 0
     }
@@ -71,7 +71,7 @@ pub struct MovingObstacleView {
     /// Shape in its own frame.
     #[serde(flatten)]
     pub obstacle: ObstacleView,
-    /// Time, both coordinates and angle of the frame at each stop.
+    /// Stops: time, both coordinates and angle of the frame.
     stops: Vec<[f64; 4]>,
     /// Velocity after the last stop, in m/s.
     velocity: [f64; 2],
@@ -106,8 +106,8 @@ impl MovingObstacleView {
         ObstacleView { name: name.clone(), color: *color, outline: outline.at(&pose), own: *own, pieces }
     }
 
-    /// Returns the times at which the trajectory of the obstacle changes. The last one is the end of the motion, or the
-    /// time of the pick if that is earlier.
+    /// Returns the times at which the trajectory changes. The last one is the end of the motion, or of the pick if that is
+    /// earlier.
     pub fn moments(&self, duration: f64) -> Vec<f64> {
         let duration = duration.min(self.until.unwrap_or(f64::INFINITY));
         let stops = self.trajectory.stops().iter().map(|stop| stop.time).filter(|&time| 0.0 < time && time < duration);
@@ -124,19 +124,18 @@ impl MovingObstacleView {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct PayloadView {
     pub object: String,
-    /// Colour that the object has while it lies somewhere. An object that never lies anywhere has the next colour after
-    /// those of all obstacles.
+    /// Colour of the object while it lies. An object that never lies has the next colour after those of all obstacles.
     pub color: Rgb,
     /// Shapes in its own frame.
     pub pieces: Vec<ShapeView>,
     #[serde(serialize_with = "grip")]
     pub grip: Grip,
-    /// Shapes in the frame of link 2. They are numbered after the link's own parts.
+    /// Shapes in the frame of link 2. Their numbers follow those of the link's parts.
     parts: Vec<ShapeView>,
 }
 
 impl PayloadView {
-    /// Turns a level payload to an angle, in radians. Does nothing to a rigid one.
+    /// Turns a level payload to an angle, in radians. Does nothing to a rigid payload.
     pub fn turn_to(&mut self, turned: f64) {
         if let Grip::Level { angle, .. } = &mut self.grip {
             *angle = turned;
@@ -144,7 +143,7 @@ impl PayloadView {
     }
 }
 
-/// Serialises a grip. A rigid grip has the payload's coordinates and angle in the frame of link 2. A level grip has the
+/// Serialises a grip. For a rigid grip, it has coordinates and angle of the payload in the frame of link 2; for a level grip, the
 /// payload's angle in the plane, and the point of the payload at the tip.
 fn grip<S: Serializer>(grip: &Grip, serializer: S) -> Result<S::Ok, S::Error> {
     let (index, name, numbers) = match *grip {
@@ -173,12 +172,12 @@ pub struct MomentView {
     pub c_obstacles: Vec<ContourView>,
 }
 
-/// A region that fields prefer (negative `epsilon`) or avoid.
+/// A region that fields seek (if `epsilon` is negative) or avoid.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct RegionView {
     name: String,
     pub epsilon: f64,
-    /// True if the corners are configurations, false if they are places of the tip.
+    /// True if the corners are configurations, false if they are positions of the tip.
     pub joints: bool,
     pub corners: Chain,
 }
@@ -194,15 +193,14 @@ pub struct WorldView {
     pub movers: Vec<MovingObstacleView>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub payload: Option<PayloadView>,
-    /// Runs of pairs of shapes that can meet. Each has the link, its part, the obstacle, the obstacle's first piece,
-    /// and the piece after its last.
+    /// Runs of pairs of shapes that can meet: the link, its part, the obstacle, and the range of the obstacle's pieces.
     pub pairs: Vec<[usize; 5]>,
     pub c_obstacles: Vec<ContourView>,
     /// C-obstacles of moving obstacles at some times.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub moments: Vec<MomentView>,
-    /// C-obstacles that obstacles would have if link 2 must not reach into them. Pages do not need these, because they
-    /// show one world at a time.
+    /// C-obstacles of obstacles into which link 2 may reach, as if it had to keep out of them. Pages do not need them, because
+    /// they show one world at a time.
     #[serde(skip)]
     pub open: Vec<ContourView>,
     pub regions: Vec<RegionView>,
@@ -249,14 +247,14 @@ impl WorldView {
         }
     }
 
-    /// Adds the C-obstacles of moving obstacles at some times. `obstacle` is the number of the moving obstacle.
+    /// Adds the C-obstacles of moving obstacles at several times. Their `obstacle` is the index of the moving obstacle.
     pub fn timed(self, moments: &[(f64, Vec<CObstacle>)], grain: RoundingSteps) -> Self {
         let moment =
             |(time, all): &(f64, Vec<CObstacle>)| MomentView { time: number(*time), c_obstacles: contours(all, grain) };
         Self { moments: moments.iter().map(moment).collect(), ..self }
     }
 
-    /// Returns the last moment up to this time. `None` if there is none.
+    /// Returns the last moment up to this time, if there is one.
     pub fn moment(&self, time: f64) -> Option<&MomentView> {
         let next = self.moments.partition_point(|moment| moment.time <= time);
         self.moments.get(next.saturating_sub(1))
@@ -268,7 +266,7 @@ impl WorldView {
         Self { trace, scale, ..self }
     }
 
-    /// Returns the name of an obstacle, or its number if there are many.
+    /// Returns the name of an obstacle, or its number if there are many obstacles.
     pub fn called(&self, obstacle: usize) -> String {
         if self.obstacles.len() > MAX_NAMED_OBSTACLES {
             (obstacle + 1).to_string()
@@ -298,14 +296,13 @@ pub fn listed_number(scene: &Scene, number: usize) -> usize {
     shown_number(scene, &scene.listed_self_obstacles(), number)
 }
 
-/// Returns the index of an obstacle in the view's list. In that list, links of the robot follow the obstacles of the
-/// workspace. Moving obstacles have a list of their own.
+/// Returns the index of an obstacle in the view's list, in which the robot's links follow the obstacles of the workspace. Moving
+/// obstacles have their own list.
 fn shown_number(scene: &Scene, links: &[usize], number: usize) -> usize {
     links.binary_search(&number).map_or(number, |k| scene.workspace().obstacles.len() + k)
 }
 
-/// Creates the view of an obstacle from its index in the scene and its index in the view. An obstacle that joint 1
-/// carries has no fixed place.
+/// Creates the view of an obstacle from its indices in the scene and in the view. An obstacle on link 1 has no fixed place.
 fn obstacle(scene: &Scene, number: usize, shown: usize, grain: RoundingSteps) -> ObstacleView {
     let mut view = ObstacleView::new(scene.obstacle(number), shown, grain);
     if scene.self_obstacle(number).is_some_and(|own| own.carrier == Carrier::FirstJoint) {
@@ -318,8 +315,8 @@ fn obstacle(scene: &Scene, number: usize, shown: usize, grain: RoundingSteps) ->
     view
 }
 
-/// Returns the moving obstacles. Their colours follow those of the static obstacles. A moving object keeps the colour
-/// that it has when it lies.
+/// Returns the moving obstacles. Their colours follow those of static obstacles; a moving object keeps the colour that it has
+/// when it lies.
 fn movers(TimedScene { scene, trajectories }: TimedScene, grain: RoundingSteps) -> Vec<MovingObstacleView> {
     let obstacles = &scene.workspace().obstacles;
     let view =
@@ -344,7 +341,7 @@ fn payload(scene: &Scene, grain: RoundingSteps) -> Option<PayloadView> {
     })
 }
 
-/// Merges pairs that consist of the same part and consecutive pieces of one obstacle.
+/// Merges consecutive pairs of the same part with consecutive pieces of one obstacle.
 fn ranges(scene: &Scene, links: &[usize]) -> Vec<[usize; 5]> {
     let mut ranges: Vec<[usize; 5]> = Vec::new();
     for pair in scene.pairs() {

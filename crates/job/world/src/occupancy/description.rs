@@ -1,4 +1,4 @@
-//! The YAML file that describes a picture.
+//! The YAML file that describes a map's picture.
 
 use super::picture::{Occupancy, Shade};
 use crate::parsers::yaml_diagnostic;
@@ -20,15 +20,14 @@ struct File {
     mode: Option<Spanned<String>>,
 }
 
-/// The keys that this reader uses. Other programs add keys of their own.
+/// The keys that this reader uses. Other programs add more keys.
 const READ_KEYS: [&str; 7] = ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh", "mode"];
 
-/// Darkness, from 0 to 255, of cells that nobody has seen in pictures of ROS's map savers: the shade 205. The map
-/// savers write it whatever `free_thresh` is. With `free_thresh: 0.25`, which they usually write, such a cell would
-/// count as free.
+/// Darkness (0 to 255) of unseen cells in pictures that ROS's map savers write: the shade 205, whatever `free_thresh` is. With
+/// their usual `free_thresh: 0.25`, such a cell would otherwise count as free.
 const UNSEEN_DARKNESS: f64 = 50.0;
 
-/// The key `negate`. ROS writes 0 or 1, and people also write false or true.
+/// The key `negate`. ROS writes 0 or 1; people also write false or true.
 #[derive(Deserialize)]
 #[serde(untagged)]
 enum Negate {
@@ -45,7 +44,7 @@ pub(super) struct Description {
     negate: bool,
     occupied: f64,
     free: f64,
-    /// Keys of the file that are not read.
+    /// Keys of the file that this reader ignores.
     unused: Vec<String>,
 }
 
@@ -109,18 +108,18 @@ impl Description {
         Ok(Self { image: file.image, resolution, origin, negate, occupied, free, unused })
     }
 
-    /// Returns the darkness of a shade: 0 for white, and `white` for black; reversed with `negate`.
+    /// Returns the darkness of a shade: 0 for white and `white` for black, or the reverse if `negate` is set.
     fn dark(&self, Shade { value, white }: Shade) -> f64 {
         if self.negate { value } else { white - value }
     }
 
-    /// Returns true if a shade is that of cells that nobody has seen. Computes with integers, so nothing is rounded.
+    /// Returns true for the shade of unseen cells. Computes with integers, so nothing is rounded.
     fn is_unseen(&self, shade: Shade) -> bool {
         self.dark(shade) * 255.0 == UNSEEN_DARKNESS * shade.white
     }
 
-    /// Returns the occupancy of a cell, given its shade. A transparent pixel has no shade. Quotient and thresholds are
-    /// rounded alike, so a quotient that equals a threshold also compares as equal.
+    /// Returns the occupancy of a cell, given its shade; `None` for a transparent pixel. A quotient that should equal a threshold
+    /// also does so in floating point, because both are rounded alike.
     pub fn judge(&self, shade: Option<Shade>) -> Occupancy {
         match shade.map(|shade| (self.dark(shade) / shade.white, self.is_unseen(shade))) {
             Some((p, _)) if p > self.occupied => Occupancy::Occupied,
@@ -129,7 +128,7 @@ impl Description {
         }
     }
 
-    /// Returns notes for the user about the map. `has_unknown` is true if it has unknown cells.
+    /// Returns notes for the user about the map. `has_unknown` is true if the map has unknown cells.
     pub fn notes(&self, has_unknown: bool) -> Vec<String> {
         let mut notes = Vec::new();
         if !self.unused.is_empty() {
@@ -146,7 +145,6 @@ impl Description {
     }
 }
 
-/// Creates a diagnostic at the position of the value.
 fn diagnostic<T>(source: &Source, value: &Spanned<T>, message: impl Into<String>) -> Diagnostic {
     source.diagnostic_at_position(value.referenced.line() as usize, value.referenced.column() as usize, message)
 }

@@ -44,17 +44,17 @@ pub struct OccupancyMap {
 impl OccupancyMap {
     /// Reads a description and the picture that it names, relative to itself: PGM (P2, P5; 8 or 16 bits) or PNG.
     ///
-    /// Let `p = 1 - shade` (`p = shade` with `negate`), where black is 0 and white is 1. A cell is occupied if `p >
-    /// occupied_thresh`, free if `p < free_thresh`, and unknown otherwise. The modes `trinary` and `scale` give the
-    /// same obstacles.
+    /// Let `p = 1 - shade` (`p = shade` with `negate`), where black is 0 and white is 1. A cell is occupied if
+    /// `p > occupied_thresh`, free if `p < free_thresh`, and unknown otherwise. The modes `trinary` and `scale` give the same
+    /// obstacles.
     ///
-    /// There is one exception: the shade 205 of 255 (50 with `negate`). ROS's map savers use it for unknown cells, so
-    /// it is unknown even where `free_thresh` is above its `p` of 0.196. The mode `raw` is refused, because its values
-    /// are costs. Colours are averaged. Pixels that are not opaque are unknown.
+    /// The shade 205 of 255 (50 with `negate`) is an exception: ROS's map savers use it for unknown cells, so it means unknown
+    /// even if `free_thresh` exceeds its `p` of 0.196. Colours are averaged. Pixels that are not opaque are unknown. The mode
+    /// `raw` is refused, because its values are costs.
     ///
     /// # Errors
-    /// An invalid description; a picture that is damaged, of another format or of more than [`MAX_CELLS`]; and a place
-    /// too far away for the program's arithmetic.
+    /// An invalid description; a picture that is damaged, of another format or of more than [`MAX_CELLS`]; and a place too far
+    /// away for the program's arithmetic.
     pub fn read(yaml: &Path) -> Result<Self, InputError> {
         let source = Source::read(yaml)?;
         let description = Description::read(&source)?;
@@ -101,9 +101,9 @@ impl OccupancyMap {
         Some(self.cells[(height - 1 - cell.y as usize) * width + cell.x as usize])
     }
 
-    /// Returns the solid cells as rectangles with disjoint interiors. Occupied cells are solid. Unknown cells are solid
-    /// as well, unless `unknown_is_free`. Returns `None` if there are more than `most` rectangles; see [`rectangles`].
-    /// Corners that rectangles share are exactly equal.
+    /// Returns the solid cells as rectangles with disjoint interiors: occupied cells and, unless `unknown_is_free`, unknown
+    /// cells. `None` if there are more than `most` rectangles; see [`rectangles`]. Corners that rectangles share are exactly
+    /// equal.
     pub fn pieces(&self, unknown_is_free: bool, most: usize) -> Option<Vec<Convex>> {
         let is_solid = |cell: usize| match self.cells[cell] {
             Occupancy::Free => false,
@@ -113,8 +113,7 @@ impl OccupancyMap {
         self.rectangles_of(is_solid, most)
     }
 
-    /// Returns the cells for which `is_among` is true as rectangles with disjoint interiors, like
-    /// [`OccupancyMap::pieces`].
+    /// Does the same as [`OccupancyMap::pieces`], for the cells for which `is_among` is true.
     pub fn rectangles_of(&self, is_among: impl Fn(usize) -> bool, most: usize) -> Option<Vec<Convex>> {
         let [width, height] = self.size;
         let corner = |x: usize, y: usize| {
@@ -131,7 +130,7 @@ impl OccupancyMap {
     }
 }
 
-/// Reads a picture. Its first bytes determine the format.
+/// Reads a picture, whose first bytes determine the format.
 fn picture(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePicture> {
     const FORMAT_HINT: &str = "save it as PGM or PNG";
     match bytes {

@@ -1,4 +1,4 @@
-//! Greymaps: PGM in text (P2) or bytes (P5), of 8 or 16 bits.
+//! Grey pictures in the format PGM: as text (P2) or bytes (P5), with 8 or 16 bits.
 //!
 //! Format: <https://netpbm.sourceforge.net/doc/pgm.html>. A `#` in the header begins a comment up to the end of the line.
 
@@ -7,7 +7,6 @@ use super::picture::{Judge, Picture, Shade, UnusablePicture, checked_size};
 /// The hint of most diagnostics.
 const SAVE_HINT: &str = "save the picture again";
 
-/// Reads a greymap in the format PGM.
 pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePicture> {
     let in_text = bytes[1] == b'2';
     let mut header = Words { bytes, at: 2 };
@@ -17,7 +16,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     if !(1..=65535).contains(&most) {
         return Err(UnusablePicture::new(format!("maxval is {most}, but must be from 1 to 65535"), SAVE_HINT));
     }
-    // Computed once for every shade instead of for every pixel.
+    // Computes each shade once, instead of once per pixel.
     let shade = |value: usize| Shade { value: value as f64, white: most as f64 };
     let occupancies: Vec<_> = (0..=most).map(|value| judge(Some(shade(value)))).collect();
     let checked = |value: usize, index: usize| {
@@ -36,7 +35,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
         check_end_of_file(header.at, bytes)?;
         cells
     } else {
-        // A single white space ends the header. It may be the end of a comment's line.
+        // A single white space ends the header; it may be the end of a comment's line.
         header.skip_comment();
         let start = header.at + 1;
         let raster = bytes.get(start..).unwrap_or_default();
@@ -57,7 +56,6 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     Ok(Picture { width, height, cells })
 }
 
-/// Checks that byte `at` is the end of the file, apart from white space.
 fn check_end_of_file(at: usize, bytes: &[u8]) -> Result<(), UnusablePicture> {
     if at >= bytes.len() {
         return Ok(());
@@ -69,14 +67,13 @@ fn check_end_of_file(at: usize, bytes: &[u8]) -> Result<(), UnusablePicture> {
     ))
 }
 
-/// A reader of a file that consists of white space, comments and whole numbers.
+/// Reads words from a file that consists of white space, comments and whole numbers.
 struct Words<'a> {
     bytes: &'a [u8],
     at: usize,
 }
 
 impl Words<'_> {
-    /// Skips white space and comments.
     fn skip(&mut self) {
         loop {
             self.skip_comment();
@@ -87,7 +84,7 @@ impl Words<'_> {
         }
     }
 
-    /// Skips a comment to the end of its line, if one begins here.
+    /// Skips the rest of the line if a comment begins here.
     fn skip_comment(&mut self) {
         let rest = &self.bytes[self.at..];
         if rest.first() == Some(&b'#') {
@@ -112,7 +109,7 @@ impl Words<'_> {
                 Ok(value)
             }
             _ => {
-                // This many characters are enough to recognise the word.
+                // The beginning of a long word suffices for the message.
                 let shown: String = String::from_utf8_lossy(word).chars().take(20).collect();
                 Err(UnusablePicture::new(
                     format!("{what}: {shown:?} is not a whole number (byte {})", self.at + 1),

@@ -35,17 +35,17 @@ impl UnusablePicture {
     }
 }
 
-/// Brightness of a pixel as a whole number, from 0 for black to `white`.
+/// Brightness of a pixel: 0 for black, `white` for white.
 #[derive(Clone, Copy)]
 pub(super) struct Shade {
     pub value: f64,
     pub white: f64,
 }
 
-/// Converts a shade to the state of a cell. A pixel that is not opaque has no shade.
+/// Converts a shade to the state of a cell; `None` stands for a pixel that is not opaque.
 pub(super) type Judge<'a> = &'a dyn Fn(Option<Shade>) -> Occupancy;
 
-/// Returns the number of pixels, before memory is allocated for them.
+/// Returns the number of pixels. To be called before memory is allocated for them.
 ///
 /// # Errors
 /// No pixels, or more than [`MAX_CELLS`].

@@ -4,12 +4,11 @@ use super::picture::{Judge, Picture, Shade, UnusablePicture, checked_size};
 use ::png::{BitDepth, ColorType, Decoder, DecodingError, Transformations};
 use std::io::Cursor;
 
-/// Reads a PNG.
 pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePicture> {
     let broken =
         |error: DecodingError| UnusablePicture::new(format!("is a broken PNG: {error}"), "save the picture again");
     let mut decoder = Decoder::new(Cursor::new(bytes));
-    // The decoder converts palettes to colours, fewer than eight bits to eight, and a transparent colour to an opacity.
+    // The decoder converts palettes to colours, expands pixels to eight bits, and makes a transparent colour an opacity.
     decoder.set_transformations(Transformations::EXPAND);
     let header = decoder.read_header_info().map_err(broken)?;
     let (width, height) = (header.width as usize, header.height as usize);
@@ -25,7 +24,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     let mut samples = vec![0; size];
     let frame = reader.next_frame(&mut samples).map_err(broken)?;
     let channels = frame.color_type.samples();
-    // A pixel has one channel for grey or three for a colour. An opacity follows if there is one.
+    // A pixel has one channel for grey or three for a colour, and another one for its opacity if the picture has it.
     let (shades, has_opacity) = (if channels < 3 { 1 } else { 3 }, channels % 2 == 0);
     let (bytes_each, most) = if frame.bit_depth == BitDepth::Sixteen { (2, 65535.0) } else { (1, 255.0) };
     let value = |sample: &[u8]| sample.iter().fold(0.0, |value, byte| 256.0 * value + f64::from(*byte));
@@ -42,7 +41,7 @@ pub(super) fn read(bytes: &[u8], judge: Judge) -> Result<Picture, UnusablePictur
     Ok(Picture { width, height, cells })
 }
 
-/// Returns true if the palette lacks the colour of a pixel. The decoder would make the pixel black.
+/// Returns true if a pixel's colour is missing in the palette. The decoder would make this pixel black.
 fn lacks_colors(bytes: &[u8]) -> Result<bool, DecodingError> {
     let mut reader = Decoder::new(Cursor::new(bytes)).read_info()?;
     let info = reader.info();

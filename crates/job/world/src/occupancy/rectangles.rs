@@ -1,6 +1,6 @@
 //! Divides pixels into few rectangles.
 
-/// A rectangle of pixels. Columns and rows are each given by the first index inside and the first index beyond.
+/// A rectangle of pixels. `columns` and `rows` are half-open ranges of indices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct PixelRectangle {
     /// Columns, from left to right.
@@ -9,16 +9,16 @@ pub struct PixelRectangle {
     pub rows: [usize; 2],
 }
 
-/// Divides the solid pixels of a picture of `[width, height]` into rectangles with disjoint interiors. Linear in the
-/// number of pixels. Returns `None` if there are more than `most` rectangles.
+/// Divides the solid pixels of a picture of `[width, height]` into rectangles with disjoint interiors. Linear in the number of
+/// pixels. Returns `None` if there are more than `most` rectangles.
 ///
-/// Rows are cut into runs of solid pixels, and equal runs in successive rows form one rectangle. The same is done with
-/// columns, and the smaller result is returned.
+/// Rows are cut into runs of solid pixels, and equal runs in successive rows form one rectangle. The same is done with columns,
+/// and the smaller result is returned.
 ///
-/// Each result cuts along one line through every concave corner of the outline. A minimal partition needs at least one
-/// cut for every two concave corners. So the result has at most twice the minimal number of rectangles for an outline
-/// without holes, and at most three times with holes. Computing the minimal number would require a matching of the
-/// lines that join two concave corners (Lipski et al. 1979, Ohtsuki 1982).
+/// Each of the two results has one cut through every concave corner of the outline, while a minimal partition has at least one
+/// cut per two concave corners. So the result has at most twice the minimal number of rectangles if the outline has no holes, and
+/// at most three times with holes. A minimal partition would require a matching of the lines that join two concave corners
+/// (Lipski et al. 1979, Ohtsuki 1982).
 pub fn rectangles(size: [usize; 2], solid: impl Fn(usize, usize) -> bool, most: usize) -> Option<Vec<PixelRectangle>> {
     let [width, height] = size;
     let by_rows = merged_runs([height, width], |y, x| solid(x, y), most)
@@ -37,8 +37,8 @@ struct Open {
     since: usize,
 }
 
-/// Returns rectangles in the order in which they end, given by ranges of lines and of positions in the line. Returns
-/// `None` if there are more than `most`.
+/// Returns rectangles in the order in which they end: each as a range of lines and a range of positions within a line. `None` if
+/// there are more than `most`.
 fn merged_runs(
     [lines, length]: [usize; 2],
     solid: impl Fn(usize, usize) -> bool,

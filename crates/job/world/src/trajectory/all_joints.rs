@@ -1,4 +1,4 @@
-//! The motion of all joints that a result of cplan states beside the motion of the arm's two joints.
+//! The motion of all joints of the robot, which a result of cplan states in addition to that of the arm's two joints.
 
 use super::document;
 use super::other_joints::values;
@@ -8,7 +8,7 @@ use cplan_handling::RecordedJoints;
 use cplan_robot::{InputError, Source};
 
 impl Names<'_> {
-    /// Reads the motion of all joints. `None` if the file states none.
+    /// Reads the motion of all joints; `None` if the file has none.
     ///
     /// # Errors
     /// A motion without the arm's joints, and samples that are no motion.
@@ -25,7 +25,7 @@ impl Names<'_> {
         Ok(Some(AllJoints { joints: RecordedJoints { arm, others }, held }))
     }
 
-    /// Reads the motion of all joints as a table with the same columns would be read. `None` if the file states none.
+    /// Reads the motion of all joints like a table with the same columns; `None` if the file has none.
     ///
     /// # Errors
     /// The same as for such a table.

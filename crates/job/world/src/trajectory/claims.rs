@@ -9,10 +9,9 @@ use serde::{Deserialize, Deserializer};
 /// Largest valid number. A larger one must be a mistake.
 const MAX_NUMBER: f64 = 1e12;
 
-/// Members that are no claims. They are read elsewhere, or state how to read others.
+/// Members that claim nothing. Other code reads them, or they state how to read other members.
 const OTHER_MEMBERS: [&str; 6] = ["joints", "trajectory", "interpolation", "steps", "events", "all_joints"];
 
-/// The members that make claims.
 #[derive(Deserialize)]
 struct Document {
     status: Option<String>,
@@ -65,13 +64,13 @@ struct TurnMember {
     clearance: Option<Option<f64>>,
 }
 
-/// Deserialises a member that may be null. So a member that is null differs from one that is missing.
+/// Deserialises a member that may be null, and distinguishes null from a missing member.
 fn nullable<'de, D: Deserializer<'de>, T: Deserialize<'de>>(deserializer: D) -> Result<Option<Option<T>>, D::Error> {
     Option::deserialize(deserializer).map(Some)
 }
 
-/// Reads the claims that a result makes about its samples. Returns `None` if the file is not a result of cplan, because
-/// it has no status.
+/// Reads the claims that a result makes about its samples. Returns `None` if the file has no status and is thus no result of
+/// cplan.
 ///
 /// # Errors
 /// Members of a wrong type, with too large numbers, or with paths of other joints.

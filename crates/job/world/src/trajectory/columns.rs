@@ -15,14 +15,14 @@ pub(super) enum Quantity {
     Position,
     Velocity,
     Acceleration,
-    /// Torque or force. It is not read, because it follows from the other quantities.
+    /// Torque or force. Torques follow from the other quantities, so they are not read.
     Torque,
 }
 
 /// Names of columns with times, in lower case.
 const TIME_COLUMNS: [&str; 5] = ["time", "t", "time_from_start", "time_s", "__time"];
 
-/// Words that may precede or follow a joint's name, with their quantities.
+/// Words that may stand before or after a joint's name, and the quantities that they denote.
 const QUANTITY_WORDS: [(Quantity, &[&str]); 4] = [
     (Quantity::Position, &["position", "positions", "pos"]),
     (Quantity::Velocity, &["velocity", "velocities", "vel"]),
@@ -30,8 +30,8 @@ const QUANTITY_WORDS: [(Quantity, &[&str]); 4] = [
     (Quantity::Torque, &["torque", "torques"]),
 ];
 
-/// Returns all possible meanings of a column's name. A joint's quantity has a name such as `elbow`, `elbow_velocity`,
-/// `elbow.velocity` or `velocities_elbow`, possibly after a topic (`/joint_states/elbow/position`). Other names denote
+/// Returns the possible meanings of a column's name. Names such as `elbow`, `elbow_velocity`, `elbow.velocity` or
+/// `velocities_elbow`, possibly after a topic (`/joint_states/elbow/position`), denote a quantity of a joint; some others denote
 /// times. The caller must refuse names with several meanings.
 pub(super) fn meanings(column: &str, joints: &[&str]) -> Vec<Meaning> {
     let mut found = Vec::new();

@@ -1,5 +1,5 @@
-//! Joint values as a table: a header with names, then one sample per line. Commas, semicolons or tabs separate values,
-//! as in the header. Lines that begin with `#` are comments, except for the header.
+//! Joint values as a table: a header with the names of columns, then one sample per line. Commas, semicolons or tabs separate
+//! values. Lines that begin with `#` are comments, except for the header.
 
 use super::columns::{Meaning, Quantity, meanings};
 use super::records::{Field, Records};
@@ -7,11 +7,11 @@ use super::samples::{Names, Samples, Series};
 use super::units::{self, Dimension, Unit};
 use cplan_robot::{Diagnostic, InputError, Source, quoted};
 
-/// Reads a table. [`super::load_recording`] describes the names of columns.
+/// Reads a table. For the names of columns, see [`super::load_recording`].
 pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError> {
     let separator = separator(source.text(), names);
     let mut records = Records::new(source.text(), separator);
-    // The header may look like a comment.
+    // The header may begin with `#`, too.
     let header = records.find(|record| !is_comment(record) || names_joints(record, names));
     let header = header.ok_or_else(|| {
         source
@@ -36,7 +36,7 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
         }
         let sample = (0..columns.used.len()).map(|k| columns.value(source, &header, k, &record));
         let sample = sample.collect::<Result<Vec<f64>, Diagnostic>>()?;
-        // A line that equals the one before, including its time, repeats a sample.
+        // A line that is equal to the one before, including its time, repeats a sample.
         if columns.has_time()
             && !sample.is_empty()
             && values.iter().map(|column| column.last()).eq(sample.iter().map(Some))
@@ -63,8 +63,7 @@ pub(super) fn read(source: &Source, names: &Names) -> Result<Samples, InputError
     Ok(samples)
 }
 
-/// Returns the separator of a table: comma, semicolon or tab. It is the first of these with which some line names a
-/// joint.
+/// Returns the separator of a table: the first of comma, semicolon and tab with which some line names a joint.
 fn separator(text: &str, names: &Names) -> char {
     let names_some = |separator: &char| {
         let mut heads = Records::new(text, *separator).take(MAX_HEADER_LINES);
@@ -73,7 +72,7 @@ fn separator(text: &str, names: &Names) -> char {
     [',', ';', '\t'].into_iter().find(names_some).unwrap_or(',')
 }
 
-/// Number of lines at the beginning among which the header is sought.
+/// The header is sought among this number of lines at the beginning.
 const MAX_HEADER_LINES: usize = 64;
 
 fn is_comment(record: &[Field]) -> bool {
@@ -119,10 +118,8 @@ struct Column {
 struct Columns {
     /// Names of the joints, in the order of the indices in meanings.
     joints: Vec<String>,
-    /// The columns that are read, in the order of the file.
     used: Vec<Column>,
-    /// Whole seconds of the first time, if times are dates. They are subtracted from all times. `None` if times are not
-    /// dates.
+    /// Whole seconds of the first time if times are dates; they are subtracted from all times. `None` if times are not dates.
     epoch: Option<i64>,
     notes: Vec<String>,
 }
@@ -158,7 +155,7 @@ impl Columns {
             return Err(source.diagnostic_at(record_range(header), "there is no header").help(help));
         }
         let has = |index: usize| used.iter().any(|column| column.meaning == Meaning::Of(index, Quantity::Position));
-        // The first indices are those of the arm's joints.
+        // The arm's joints have the first indices.
         if let Some(missing) = (0..names.arm.len()).find(|index| !has(*index)) {
             let columns = quoted(header.iter().map(|field| &field.text));
             let message = format!("holds no positions of joint \"{}\"; the columns are {columns}", names.arm[missing]);
@@ -181,8 +178,7 @@ impl Columns {
         self.used.iter().any(|column| column.meaning == Meaning::Time)
     }
 
-    /// Returns true if a record has no joint values. Such lines occur in tables of several sources that log at
-    /// different times.
+    /// Returns true if a record has no joint values. Tables with several sources that log at different times have such lines.
     fn is_blank(&self, record: &[Field]) -> bool {
         let mut joints = self.used.iter().filter(|column| column.meaning != Meaning::Time);
         joints.all(|column| record[column.index].text.is_empty())
@@ -199,7 +195,7 @@ impl Columns {
         if meaning != Meaning::Time {
             return Ok(value);
         }
-        // A double that holds a date resolves only a quarter of a microsecond, so the decimals are read separately.
+        // As a double, a date would resolve only a quarter of a microsecond, so the decimals are read separately.
         let parts = field.text.split_once('.').unwrap_or((&field.text, "0"));
         let Ok(seconds) = parts.0.parse::<i64>() else { return Ok(value) };
         if self.epoch.is_none() {
@@ -212,7 +208,6 @@ impl Columns {
         Ok(rest.and_then(|rest| format!("{rest}.{}", parts.1).parse().ok()).unwrap_or(value))
     }
 
-    /// Moves the values of all columns to the samples.
     fn fill(self, samples: &mut Samples, values: Vec<Vec<f64>>) {
         let mut series: Vec<[Option<Vec<f64>>; 4]> = self.joints.iter().map(|_| Default::default()).collect();
         for (column, values) in self.used.into_iter().zip(values) {
@@ -231,7 +226,7 @@ impl Columns {
     }
 }
 
-/// Largest time that counts as relative to a start, in seconds (eleven days). Larger times count as dates.
+/// Largest time, in seconds, that counts as relative to a start: eleven days. Larger times are dates.
 const MAX_RELATIVE_TIME: f64 = 1e6;
 
 /// Returns the possible meanings of a column, and the unit after its name if there is one.
@@ -242,7 +237,7 @@ fn column_meanings<'a>(name: &'a str, joints: &[&str]) -> (Vec<Meaning>, Option<
     }
 }
 
-/// Returns the unit of a column. `None` for torques, which are not read.
+/// Returns the unit of a column; `None` for torques, which are not read.
 ///
 /// # Errors
 /// Units that are unknown, or do not fit the joint.

@@ -10,14 +10,14 @@ use serde::de::IgnoredAny;
 /// The members that are read. Other members are ignored.
 #[derive(Deserialize)]
 struct Document {
-    /// The status. Only results of cplan have one.
+    /// The status, which only results of cplan have.
     status: Option<String>,
     joints: Option<Vec<String>>,
     path: Option<Vec<Vec<f64>>>,
     interpolation: Option<String>,
     trajectory: Option<Inner>,
     all_joints: Option<AllJoints>,
-    /// The joints of a ROS message, which is the whole document or a member of it.
+    /// The joints of a ROS message, unless the message is a member of the document.
     joint_names: Option<Vec<String>>,
     points: Option<Vec<Point>>,
     joint_trajectory: Option<Inner>,
@@ -56,7 +56,7 @@ struct Point {
     time_from_start: Option<Stamp>,
 }
 
-/// A duration: a `builtin_interfaces/msg/Duration`, the same with ROS 1's names of members, or a number of seconds.
+/// A duration: a `builtin_interfaces/msg/Duration`, the same with ROS 1's member names, or a number of seconds.
 #[derive(Deserialize)]
 #[serde(
     untagged,
@@ -74,8 +74,7 @@ enum Stamp {
 }
 
 impl Stamp {
-    /// Returns the duration in seconds, correctly rounded. Its shortest decimal has at most nine digits after the
-    /// point.
+    /// Returns the duration in seconds, correctly rounded, so that its shortest decimal has at most nine digits after the point.
     fn seconds(&self) -> f64 {
         match *self {
             Stamp::Parts { sec, nanosec } => (sec as f64 * 1e9 + f64::from(nanosec)) / 1e9,
@@ -89,7 +88,7 @@ pub(super) fn json(source: &Source) -> Result<Samples, InputError> {
     Ok(samples(source, document(source)?)?)
 }
 
-/// Reads the motion of all joints that a result of cplan states beside that of the arm. `None` if it states none.
+/// Reads the motion of all joints, which a result of cplan may state in addition to the arm's motion. `None` if it does not.
 pub(super) fn all_joints(source: &Source) -> Result<Option<Samples>, InputError> {
     let Some(AllJoints { joints, time, position, velocity }) = document(source)?.all_joints else { return Ok(None) };
     let what = "all_joints.position";
@@ -101,7 +100,7 @@ pub(super) fn all_joints(source: &Source) -> Result<Option<Samples>, InputError>
 
 fn document(source: &Source) -> Result<Document, InputError> {
     let help = "write a result with cplan --output NAME.json, or a JointTrajectory; all numbers must be finite";
-    // Serde would take the elements of a list for the members of an object in their order.
+    // Serde would read a list as the members of an object in their order.
     let begins = source.text().len() - source.text().trim_start().len();
     if source.text()[begins..].starts_with('[') {
         let message = "is a list, but must be an object { ... }";
@@ -113,7 +112,7 @@ fn document(source: &Source) -> Result<Document, InputError> {
 /// Reads a JointTrajectory as ROS 2 prints it in YAML.
 pub(super) fn yaml(source: &Source) -> Result<Samples, InputError> {
     let mut options = serde_saphyr::Options::default();
-    // The parser needs no budget: the file is in memory, and its bounded size bounds the number of nodes.
+    // The parser needs no budget, because the size of the file already bounds the number of nodes.
     if let Some(budget) = &mut options.budget {
         budget.max_events = source.text().len().max(budget.max_events);
         budget.max_nodes = source.text().len().max(budget.max_nodes);
@@ -165,7 +164,7 @@ fn samples(source: &Source, document: Document) -> Result<Samples, Diagnostic> {
     })
 }
 
-/// Returns the interpolation that the member `interpolation` of a cplan result states.
+/// Returns the interpolation that the member `interpolation` of a result of cplan states.
 fn own_rule(stated: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolation> {
     match stated {
         Some(INTERPOLATION) => Some(Interpolation::Quartic),
@@ -179,7 +178,7 @@ fn own_rule(stated: Option<&str>, notes: &mut Vec<String>) -> Option<Interpolati
 }
 
 impl Samples {
-    /// Adds rows of velocities or accelerations to the joints, if there are any.
+    /// Adds rows of velocities or accelerations, if there are any, to the joints.
     fn add(
         &mut self,
         source: &Source,
@@ -228,7 +227,7 @@ fn message(source: &Source, names: Option<Vec<String>>, points: Vec<Point>) -> R
             .help(format!("give all points their {what}, or none")));
     }
     let mut samples = Samples { what: "points".into(), joined: Some(Interpolation::Quintic), ..Samples::default() };
-    // The controller moves to the first point from any configuration, so there is no motion before that point.
+    // The controller moves to the first point from any configuration, so the motion is known only from this point on.
     if let Some(first) = time.first().filter(|first| **first > 0.0) {
         samples
             .notes

@@ -1,8 +1,7 @@
-//! Joint paths and trajectories from files: cplan's own JSON and CSV, anyone's CSV, and ROS 2 messages in YAML.
+//! Joint paths and trajectories from files: cplan's JSON and CSV, other programs' CSV, and ROS 2 messages.
 //!
-//! Names, not the order, decide which column belongs to which joint. Every reader returns [`Samples`]. This module
-//! checks their common conditions: the arm's joints are present, the motion of held joints can be judged, and times
-//! increase.
+//! The name of a column, not its place, determines its joint. The reader of each format returns [`Samples`]. This module then
+//! checks that the arm's joints are present, that motions of held joints can be judged, and that times increase.
 
 mod all_joints;
 mod claims;
@@ -34,13 +33,13 @@ const STATED_ACCELERATIONS_NOTE: &str =
 pub struct LoadedRecording {
     /// The motion of the arm's two joints, base to tip.
     pub recording: Recording,
-    /// Motions of joints that the world holds, if they move in the recording.
+    /// Motions of joints that are fixed in the world but move in the recording.
     pub held: Vec<HeldMotion>,
-    /// Reasons why motions of joints during the steps of a task cannot be judged without these steps.
+    /// Reasons why the motion of some joints cannot be judged if the file does not state a task's steps.
     pub unjudged: Vec<String>,
     /// The steps of a task. `None` unless the file is cplan's result for a world with steps.
     pub steps: Option<Vec<RecordedStep>>,
-    /// The motion of all joints that a result of cplan for a task states.
+    /// The motion of all joints of the robot, which cplan's result of a task states.
     pub all_joints: Option<AllJoints>,
     /// The claims that a cplan result makes about the samples.
     pub claims: Option<Claims>,
@@ -55,27 +54,26 @@ pub struct LoadedRecording {
 pub struct AllJoints {
     /// The motion.
     pub joints: RecordedJoints,
-    /// Motions of joints that the world holds. `None` if a motion of these joints cannot be judged.
+    /// Motions of joints that are fixed in the world. `None` if they cannot be judged.
     pub held: Option<Vec<HeldMotion>>,
 }
 
-/// Reads a recorded motion: a joint path or a trajectory. The file's extension determines the format: `.json`, `.csv`,
-/// `.txt` (read like `.csv`), `.yaml`, `.yml` or `.mcap`.
+/// Reads a recorded motion: a joint path or a trajectory. The file's extension determines the format: `.json`, `.csv`, `.txt`
+/// (read like `.csv`), `.yaml`, `.yml` or `.mcap`.
 ///
-/// - JSON: a result of cplan, or a ROS 2 message. Of a result, the trajectory is read, or the path if there is none. If
-///   it and the world have steps, these are read as well.
-/// - CSV: a header with names of columns, then one line per sample. A column has a joint's positions if its name is
-///   that of the joint, possibly with `position` before or after it. The same holds for velocities. `time`, `t`,
-///   `time_from_start` and `__time` are seconds. A unit may follow in brackets: `elbow [deg]`.
+/// - JSON: a result of cplan, or a ROS 2 message. From a result, cplan reads the trajectory, or the path if there is no
+///   trajectory. It also reads the steps if both result and world have steps.
+/// - CSV: a header with names of columns, then one line per sample. A joint's positions have the name of the joint, possibly with
+///   `position` before or after it, and its velocities the name with `velocity`. `time`, `t`, `time_from_start` and `__time` are
+///   seconds. A unit may follow in brackets: `elbow [deg]`.
 /// - MCAP (a feature of the crate): a recording of ROS 2. It must have exactly one topic of type
 ///   `trajectory_msgs/msg/JointTrajectory` with both of the arm's joints, or otherwise exactly one of type
 ///   `sensor_msgs/msg/JointState`. See [`load_topic`] for recordings with several topics.
 /// - YAML: a `trajectory_msgs/msg/JointTrajectory`, which may be a member `joint_trajectory` or `trajectory`.
 ///
 /// # Errors
-/// Files that cannot be read or have another format, invalid steps, a missing joint, and samples that are not a motion.
-/// A held joint whose motion is neither along the plane's normal nor about it. Each error has the place in the file and
-/// a hint.
+/// Files that cannot be read or have another format, invalid steps, a missing joint, and samples that are not a motion. A held
+/// joint whose motion is neither along the plane's normal nor about it. Each error has the place in the file and a hint.
 pub fn load_recording(path: &Path, scene: &LoadedScene) -> Result<LoadedRecording, InputError> {
     load(path, None, scene)
 }
@@ -111,7 +109,7 @@ fn load(path: &Path, topic: Option<&str>, scene: &LoadedScene) -> Result<LoadedR
     read_recording(&Source::read_recording(path)?, scene)
 }
 
-/// Reads a recording from a text. The extension of its name determines the format, by default JSON.
+/// Reads a recording from a text. The extension of its name determines the format; without one, it is JSON.
 ///
 /// # Errors
 /// The errors of [`load_recording`].
@@ -125,7 +123,7 @@ pub fn read_recording(source: &Source, scene: &LoadedScene) -> Result<LoadedReco
     }
 }
 
-/// Reads a JSON file. Without steps, a motion of all joints counts instead of the motion of the arm's two joints.
+/// Reads a JSON file. If no steps are read, the motion of all joints takes precedence over that of the arm's two joints.
 fn read_json(source: &Source, scene: &LoadedScene, names: &Names) -> Result<LoadedRecording, InputError> {
     let samples = document::json(source)?;
     let steps = if scene.is_task() { steps::json(source, &samples)? } else { None };
@@ -138,7 +136,6 @@ fn read_json(source: &Source, scene: &LoadedScene, names: &Names) -> Result<Load
     Ok(LoadedRecording { steps, all_joints, claims, ..names.recording(source, samples)? })
 }
 
-/// Reads an MCAP file: the given topic, or the only suitable one.
 #[cfg(feature = "mcap")]
 fn recorded(path: &Path, topic: Option<&str>, names: &Names) -> Result<LoadedRecording, InputError> {
     let bytes = cplan_robot::read_recorded(path)?;
@@ -146,7 +143,7 @@ fn recorded(path: &Path, topic: Option<&str>, names: &Names) -> Result<LoadedRec
     Ok(names.recording(&source, mcap::read(&source, &bytes, topic, names)?)?)
 }
 
-/// Refuses MCAP files, because this build of the program cannot read them.
+/// Refuses MCAP files, which this build of the program cannot read.
 #[cfg(not(feature = "mcap"))]
 fn recorded(path: &Path, _: Option<&str>, _: &Names) -> Result<LoadedRecording, InputError> {
     let diagnostic = Diagnostic::new(path.display().to_string(), "this program was built without MCAP");
@@ -223,7 +220,7 @@ impl<'a> Names<'a> {
     }
 }
 
-/// Describes how the samples are joined, in words.
+/// Describes the interpolation of the samples.
 fn rule(recording: &Recording) -> &'static str {
     match (recording.interpolation(), recording.times()) {
         (Interpolation::Cubic, _) => "between samples: the cubic that follows from positions and velocities",

@@ -6,12 +6,11 @@ use cplan_model::space::Configuration;
 use cplan_model::{OutlineSource, Scene};
 use cplan_robot::{Diagnostic, Source};
 
-/// Largest deviation of recorded values from the value at which the world holds a joint, in radians or metres, with
-/// which the joint counts as still. It exceeds a controller's jitter and the rounding to six digits. It is too small to
-/// cause a collision.
+/// A joint that the world keeps fixed counts as still within this distance of its value, in radians or metres. It exceeds a
+/// controller's jitter and the rounding to six digits, and is too small to cause a collision.
 const HELD_TOLERANCE: f64 = 1e-4;
 
-/// Returns the reason why motions of held joints cannot be checked in a scene. `None` if they can.
+/// Returns the reason why motions of fixed joints cannot be checked in a scene. `None` if they can.
 pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
     if scene.attachment().is_some() {
         return Some("would move the object that the tool carries");
@@ -21,8 +20,8 @@ pub(super) fn rigid(scene: &Scene) -> Option<&'static str> {
 }
 
 impl Names<'_> {
-    /// Returns the motions of held joints that move, and notes about all other joints. Reasons why the motions of
-    /// others cannot be judged during the steps of a task are added to `unjudged`.
+    /// Returns the motions of held joints that move, and adds notes about other joints. If the motion of a joint cannot be judged
+    /// during the steps of a task, adds the reason to `unjudged`.
     ///
     /// # Errors
     /// Joints whose motion cannot be checked.
@@ -68,7 +67,7 @@ impl Names<'_> {
         Ok(moved)
     }
 
-    /// Returns the reason why the motion of a joint cannot be checked, as a clause. `None` if it can.
+    /// Returns the reason, as a clause, why the motion of a joint cannot be checked. `None` if it can.
     fn unjudgeable_reason(&self, joint: &HeldJoint, at_samples: bool, moved: &[HeldMotion]) -> Option<String> {
         let turns = |joint: &HeldJoint| matches!(joint.effect, HeldEffect::Turns { .. });
         let also_turns = |other: &&HeldMotion| {
@@ -101,7 +100,7 @@ fn describe_motion(joint: &HeldJoint, series: &Series) -> String {
     }
 }
 
-/// Returns the values of a joint at the samples of a recording, with the recording's interpolation.
+/// Returns the motion of a single joint: its values at the samples, interpolated like the recording.
 pub(super) fn values(series: &Series, recording: &Recording, samples: &Samples) -> Result<Recording, RecordingError> {
     let single = |values: &Vec<f64>| values.iter().map(|value| Configuration::new(*value, 0.0)).collect::<Vec<_>>();
     let velocity = series.velocity.as_ref().filter(|_| recording.velocities().is_some());

@@ -4,15 +4,15 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-/// A field of a record, and its position in the text, quotes included.
+/// A field of a record, and its position in the text, including quotation marks.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Field<'a> {
     pub text: Cow<'a, str>,
     pub range: Range<usize>,
 }
 
-/// An iterator over the records of a text, without blank lines. A quote that is never closed makes the rest of the text
-/// one field. That field is then refused because it is not a number.
+/// An iterator over the records of a text, without blank lines. A quotation that is never closed extends to the end of the text,
+/// and is later refused because it is not a number.
 pub(super) struct Records<'a> {
     text: &'a str,
     at: usize,
@@ -46,8 +46,7 @@ impl<'a> Records<'a> {
     }
 }
 
-/// Returns the position after the quote that closes the quote at the beginning of the text. Returns the end of the text
-/// if there is none.
+/// Returns the position after the quotation that begins the text, or the end of the text if the quotation is never closed.
 fn closing_quote(text: &str) -> usize {
     let mut from = 1;
     while let Some(i) = text[from..].find('"') {

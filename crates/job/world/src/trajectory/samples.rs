@@ -14,12 +14,12 @@ pub(super) struct Series {
     pub acceleration: Option<Vec<f64>>,
 }
 
-/// The samples of a file, and the file's description of them.
+/// The samples of a file, and what the file states about them.
 #[derive(Debug, Default)]
 pub(super) struct Samples {
     pub time: Option<Vec<f64>>,
     pub joints: Vec<Series>,
-    /// Positions of joints at other times than those of the samples.
+    /// Positions of joints at other times than those of `time`.
     pub other_series: Vec<Series>,
     /// Interpolation of samples with accelerations. `None` if accelerations do not determine the motion between
     /// samples.
@@ -27,7 +27,7 @@ pub(super) struct Samples {
     /// Indices of samples after which the arm stands still until the next sample.
     pub rests: Vec<usize>,
     pub has_torques: bool,
-    /// The word that the file uses for a sample. In messages, the sample's index follows in brackets.
+    /// The file's word for a sample. In messages, the sample's index in brackets follows it.
     pub what: Cow<'static, str>,
     /// Position of each sample in the text. Empty if the reader does not know the positions.
     pub places: Vec<Range<usize>>,
@@ -40,9 +40,9 @@ pub(super) struct Names<'a> {
     /// For each of the arm's joints, true if it is revolute.
     pub turns: [bool; 2],
     pub held: &'a [HeldJoint],
-    /// The reason why no motion of held joints can be checked. `None` if it can.
+    /// The reason why motions of held joints cannot be checked. `None` if they can.
     pub rigid: Option<&'static str>,
-    /// True if the world has steps, during which a wrist turns and the tool's joint moves up and down.
+    /// True if the world has steps. During steps, a wrist turns, and the tool's joint moves up and down.
     pub has_steps: bool,
 }
 
@@ -62,7 +62,7 @@ impl Samples {
     }
 }
 
-/// Converts an error of a recording to a diagnostic at the sample that it concerns.
+/// Converts the error of a recording to a diagnostic at the sample in question.
 pub(super) fn misplaced(source: &Source, samples: &Samples, diagnostic: &RecordingError) -> Diagnostic {
     let message = diagnostic.to_string();
     let placed = match diagnostic.sample() {

@@ -6,7 +6,7 @@ use cplan_handling::{RecordedOverlap, RecordedStep, RecordedTurn, RecordedWrist}
 use cplan_robot::{Diagnostic, InputError, Source};
 use serde::Deserialize;
 
-/// Largest valid angle (radians) or time (seconds), as in recordings. Up to it, doubles resolve a nanoradian.
+/// Largest valid angle (radians) or time (seconds), as in recordings. Below it, doubles resolve a nanoradian.
 const MAX_NUMBER: f64 = 1e6;
 
 /// Largest valid velocity or acceleration of a wrist, radians and seconds.
@@ -62,8 +62,8 @@ struct TurnMember {
 /// Reads the steps of a JSON file. `None` if it has none.
 ///
 /// # Errors
-/// Missing members, values that are not numbers, samples that the file does not have, and steps together with samples
-/// that lack times or velocities.
+/// Missing members, values that are not numbers, and samples that the file does not have. Also steps, if the samples lack times
+/// or velocities.
 pub(super) fn json(source: &Source, samples: &Samples) -> Result<Option<Vec<RecordedStep>>, InputError> {
     let document: Document = serde_json::from_str(source.text()).map_err(|error| {
         let help = "write steps as in a task's result of cplan: step, cycle, first_sample and last_sample";

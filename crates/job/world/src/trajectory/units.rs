@@ -10,8 +10,8 @@ pub(super) enum Dimension {
     Time,
 }
 
-/// A unit as a multiple of radians, metres or seconds. The factor is a quotient of two numbers, so that a decimal
-/// factor is rounded only once.
+/// A unit as a multiple of radians, metres or seconds. The factor is the quotient of two numbers, so that a conversion rounds
+/// decimal factors only once.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Unit {
     pub dimension: Dimension,
@@ -19,7 +19,7 @@ pub(super) struct Unit {
     divisor: f64,
 }
 
-/// Names of units, with their dimension and their factor as a quotient of two numbers.
+/// Names of units, with the dimension and the two numbers of the factor.
 const KNOWN_UNITS: [(&[&str], Dimension, f64, f64); 8] = [
     (&["rad", "radian", "radians"], Dimension::Angle, 1.0, 1.0),
     (&["deg", "degree", "degrees", "\u{b0}"], Dimension::Angle, std::f64::consts::PI, 180.0),
@@ -40,13 +40,13 @@ pub(super) fn split(column: &str) -> Option<(&str, &str)> {
     let closed = [('[', ']'), ('(', ')')];
     closed.into_iter().find_map(|(open, close)| {
         let (name, unit) = column.trim_end().strip_suffix(close)?.rsplit_once(open)?;
-        // A number in brackets is an index of an array, not a unit.
+        // A number in brackets is an index, not a unit.
         let is_index = unit.trim().bytes().all(|byte| byte.is_ascii_digit());
         (!is_index).then(|| (name.trim_end(), unit.trim()))
     })
 }
 
-/// Returns the unit with this name for a column. A velocity has units such as `deg/s`, and an acceleration `deg/s^2`.
+/// Returns the unit that a column's name states. Velocities have units such as `deg/s`, accelerations `deg/s^2`.
 pub(super) fn unit(name: &str, meaning: Meaning) -> Option<Unit> {
     let suffixes: &[&str] = match meaning {
         Meaning::Of(_, Quantity::Velocity) => &["/s"],
@@ -61,7 +61,7 @@ pub(super) fn unit(name: &str, meaning: Meaning) -> Option<Unit> {
 }
 
 impl Unit {
-    /// Returns true unless the unit is radians, metres or seconds.
+    /// Returns false for radians, metres and seconds.
     pub fn is_converted(&self) -> bool {
         (self.multiple, self.divisor) != (1.0, 1.0)
     }

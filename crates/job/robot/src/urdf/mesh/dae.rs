@@ -1,15 +1,15 @@
 //! Collada: geometries, and the scene of nodes that place them, in the unit of the file.
 //!
-//! As in RViz and MoveIt, coordinates are those of the file, for any axis that it declares as up.
+//! As in RViz and MoveIt, the axis that the file declares as up does not matter: coordinates are those of the file.
 
 use nalgebra::{Matrix4, Point3, Rotation3, Unit, Vector3};
 use roxmltree::{Document, Node, ParsingOptions};
 use std::collections::HashMap;
 
-/// Largest depth of nested nodes (`MAX_NODE_DEPTH`), and largest number of nodes of the scene.
+/// Largest depth of nested nodes (`MAX_NODE_DEPTH`), and largest number of nodes in the scene.
 const MAX_NODE_DEPTH: usize = 64;
 const MAX_NODES: usize = 1 << 16;
-/// Largest number of vertices of all instances of geometries together.
+/// Largest number of vertices in all instances of geometries together.
 const MAX_POINTS: usize = 1 << 24;
 
 /// Reads the vertices of all geometries of the scene, in metres.
@@ -39,7 +39,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     if let Some(shown) = shown {
         scene.children(shown, &pose, 0)?;
     }
-    // Some programs write geometries without a scene. Their coordinates are then used as they are.
+    // Some programs write geometries without a scene. Then the coordinates of the geometries are used as they are.
     if scene.points.is_empty() {
         descendants_named(root, "geometry").try_for_each(|geometry| scene.geometry(geometry, &pose))?;
     }
@@ -49,8 +49,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<Point3<f64>>, String> {
     Ok(scene.points)
 }
 
-/// Returns the text from its XML declaration on, if only comments precede the declaration. XML does not allow comments
-/// there, but some programs write them.
+/// Returns the text from its XML declaration on, if only comments precede it. XML forbids these comments, but some programs write
+/// them.
 fn from_declaration(text: &str) -> &str {
     let text = text.trim_start_matches('\u{feff}');
     let mut rest = text.trim_start();
@@ -139,8 +139,8 @@ fn numbers(node: Node) -> Result<Vec<f64>, String> {
     words.map(|word| word.parse().map_err(|_| format!("\"{word}\" is not a number"))).collect()
 }
 
-/// Returns the map from a node's coordinates to those of its parent. It is the product of the node's transformations,
-/// of which the last one is applied first.
+/// Returns the map from a node's coordinates to those of its parent: the product of the node's transformations. The last one is
+/// applied first.
 fn transform(node: Node) -> Result<Matrix4<f64>, String> {
     let mut all = Matrix4::identity();
     for part in node.children() {

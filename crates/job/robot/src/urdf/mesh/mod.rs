@@ -1,4 +1,4 @@
-//! Mesh files: where they are sought, and how their vertices and edges are read.
+//! Mesh files: the search for them, and their vertices and edges.
 
 mod dae;
 mod obj;
@@ -16,8 +16,8 @@ use std::path::{Path, PathBuf};
 pub(super) struct Mesh {
     /// Vertices of its faces.
     pub points: Vec<Point3<f64>>,
-    /// Edges of the faces, as pairs of indices into `points`. An edge can occur more than once. Empty if the format's
-    /// reader does not read faces.
+    /// Edges of the faces, as pairs of indices into `points`. An edge may occur more than once. Empty if the reader of the format
+    /// ignores faces.
     pub edges: Vec<[u32; 2]>,
 }
 
@@ -45,12 +45,11 @@ impl From<String> for UnreadableMesh {
 
 /// Reads a mesh, scaled, in the geometry's frame.
 ///
-/// `filename` is as in the URDF: `package://name/rest` (with the `name` in `package.xml`), `file://path`, absolute, or
-/// relative to the URDF's folder.
+/// `filename` is as in the URDF: `package://name/rest` (with the `name` in `package.xml`), `file://path`, absolute, or relative
+/// to the URDF's folder.
 ///
 /// # Errors
-/// The reason with the searched places: the file is missing, the URDF is not a file, or the mesh has an unknown format,
-/// is damaged, or is too large.
+/// The reason, with the searched places: a missing file, a URDF in memory, or a mesh of an unknown format, damaged or too large.
 pub(super) fn read(filename: &str, scale: [f64; 3], document: &Document) -> Result<Mesh, UnreadableMesh> {
     let extension = Path::new(filename).extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
     if !["stl", "dae", "obj"].contains(&extension.as_str()) {
@@ -74,7 +73,7 @@ pub(super) fn read(filename: &str, scale: [f64; 3], document: &Document) -> Resu
     }
 }
 
-/// Returns the error about a vertex that is not finite after scaling, or is too far away for any arm.
+/// Returns the error about a vertex that is not finite after scaling, or too far away for any arm.
 fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> UnreadableMesh {
     let [x, y, z] = vertex.coords.into();
     let [a, b, c] = scale;
@@ -91,7 +90,7 @@ fn too_far(vertex: &Point3<f64>, scale: [f64; 3], path: &Path) -> UnreadableMesh
 /// Finds the file of a mesh.
 ///
 /// # Errors
-/// A message with the places where it was sought.
+/// A message with the searched places.
 pub fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
     if let Some(path) = candidates(filename, urdf).find(|path| path.is_file()) {
         return Ok(path);
@@ -104,7 +103,7 @@ pub fn find(filename: &str, urdf: &Path) -> Result<PathBuf, String> {
     })
 }
 
-/// Iterates over the possible paths of a mesh, the likeliest first.
+/// Iterates over the possible paths of a mesh, the most likely first.
 fn candidates<'f>(filename: &'f str, urdf: &Path) -> Box<dyn Iterator<Item = PathBuf> + 'f> {
     let folder = urdf.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
     if let Some(path) = filename.strip_prefix("file://") {

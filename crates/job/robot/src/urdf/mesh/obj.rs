@@ -1,9 +1,8 @@
-//! Wavefront OBJ: lines with vertices, and lines with faces, which consist of numbers of vertices.
+//! Wavefront OBJ: lines that state vertices, and lines that state faces by the numbers of their vertices.
 
 use super::Mesh;
 use nalgebra::Point3;
 
-/// Reads the faces.
 pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
     let (mut vertices, mut mesh) = (Vec::new(), Mesh::default());
     let mut lines = bytes.split(|&byte| byte == b'\n').zip(1..);
@@ -16,7 +15,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
             piece = lines.next().map_or(&[], |(next, _)| next);
         }
         line.extend_from_slice(piece);
-        // Names may be in any encoding, but the parts that are read are ASCII.
+        // Names may be in any encoding; all other words are ASCII.
         let line = String::from_utf8_lossy(&line);
         let mut words = line.split_whitespace();
         match words.next() {
@@ -28,7 +27,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
             Some("f") => {
                 let first = mesh.points.len();
                 for word in words {
-                    // Numbers of textures and normals follow after slashes. Negative numbers count from the end.
+                    // The number of a vertex may be followed by slashes and the numbers of textures and normals. Negative numbers
+                    // count from the end.
                     let vertex = word.split('/').next().and_then(|word| word.parse::<i64>().ok());
                     let index =
                         vertex.and_then(|k| if k < 0 { vertices.len() as i64 + k } else { k - 1 }.try_into().ok());
@@ -47,8 +47,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<Mesh, String> {
     Ok(mesh)
 }
 
-/// Returns the content of a line that continues on the next line, because it ends in a backslash. Returns `None` for
-/// other lines. Comments do not continue, because they may contain Windows paths.
+/// Returns the content of a line that ends in a backslash and thus continues on the next line; `None` for other lines. Comments
+/// do not continue, because they may contain Windows paths.
 fn without_continuation_mark(line: &[u8]) -> Option<&[u8]> {
     line.trim_ascii_end().strip_suffix(b"\\").filter(|begun| !begun.trim_ascii_start().starts_with(b"#"))
 }

@@ -4,18 +4,17 @@ use super::Mesh;
 use nalgebra::Point3;
 use std::io::Cursor;
 
-/// Number of bytes before the triangles of a binary STL (`HEADER_BYTES`), and of each triangle.
+/// Number of bytes before the triangles of a binary STL (`HEADER_BYTES`), and number of bytes of a triangle.
 const HEADER_BYTES: usize = 84;
 const TRIANGLE_BYTES: usize = 50;
 
-/// Reads the triangles.
 pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     let count = bytes.get(80..HEADER_BYTES).and_then(|c| c.try_into().ok()).map(u32::from_le_bytes);
     let binary =
         count.is_some_and(|n| bytes.len() as u64 == HEADER_BYTES as u64 + TRIANGLE_BYTES as u64 * u64::from(n));
     let mesh = if binary {
-        // Some exporters begin the header of a binary file with "solid". Readers take this for text. The header has no
-        // other meaning, so the word is removed.
+        // The headers of some binary files begin with "solid", which readers take as a sign of text. The header has no other
+        // meaning, so the word is removed.
         bytes[..5].fill(0);
         let mesh = stl_io::read_stl(&mut Cursor::new(bytes)).map_err(|e| format!("the STL is broken: {e}"))?;
         let points =
@@ -30,13 +29,12 @@ pub(super) fn read(mut bytes: Vec<u8>) -> Result<Mesh, String> {
     if mesh.points.is_empty() { Err("the mesh has no triangle".into()) } else { Ok(mesh) }
 }
 
-/// Reads the triangles of a text STL, which may contain several solids, each from `solid` to `endsolid`. (`stl_io`
-/// reads only the first solid.)
+/// Reads the triangles of a text STL, which may contain several solids. (`stl_io` reads only the first one.)
 fn text(text: &str) -> Result<Mesh, String> {
     /// The lines of a triangle, by their first words.
     const FACET_LINES: [&str; 7] = ["facet normal", "outer loop", "vertex", "vertex", "vertex", "endloop", "endfacet"];
     let mut mesh = Mesh::default();
-    // Index of the expected line of a triangle. `None` outside of solids.
+    // Index of the expected line of a triangle. `None` outside solids.
     let mut next: Option<usize> = None;
     for (number, line) in text.lines().enumerate() {
         let words: Vec<&str> = line.split_whitespace().collect();

@@ -7,10 +7,10 @@ use crate::gcode::words::Word;
 use crate::{Curve, Error, Point, arc};
 
 impl Machine {
-    /// Returns the arc from the place of the tip to a point. `first` is the first coordinate of the block.
+    /// Returns the arc from the tip's position to a point. `first` is the first coordinate on the program's line.
     ///
     /// # Errors
-    /// If the block gives no arc that ends there.
+    /// If the line does not describe an arc to that point.
     pub(super) fn arc(&self, block: &Block, first: &Word, to: Point, is_left: bool) -> Result<Curve, Error> {
         let (at, word) = (self.origin.at, block.get(Slot::Motion).unwrap_or(first));
         let value = |slot: Slot| block.value(slot).map(|value| value * self.unit);
@@ -39,7 +39,6 @@ impl Machine {
         }
     }
 
-    /// Returns the arc about a centre.
     fn about(&self, word: &Word, to: Point, center: Point, is_left: bool) -> Result<Curve, Error> {
         arc::about(self.origin.at, to, center, is_left).map_err(|[first, last]| {
             let message = format!(
@@ -55,7 +54,7 @@ impl Machine {
         })
     }
 
-    /// Returns a length in the unit of the file.
+    /// Formats a length in the unit of the file.
     fn shown(&self, length: f64) -> String {
         let unit = match self.placement.unit {
             Some(unit) => unit.to_string(),

@@ -8,10 +8,10 @@ use cplan_text::counted;
 
 const SECONDS_PER_MILLISECOND: f64 = 1e-3;
 
-/// Longest dwell, seconds: a day. A longer one is probably in another unit.
+/// Longest dwell, seconds: a day. A longer one is probably written in another unit.
 const MAX_DWELL: f64 = 86_400.0;
 
-/// Least sum of dwells that counts as more than rounding, seconds.
+/// A smaller sum of dwells is rounding, seconds.
 const MIN_DWELL: f64 = 1e-9;
 
 impl Machine {
@@ -46,7 +46,6 @@ impl Machine {
         Ok(())
     }
 
-    /// Returns the note about dwells.
     pub(super) fn dwell_note(&self, path: &Toolpath) -> Option<String> {
         let inner = path.pieces().split_last().map_or(&[][..], |(_, inner)| inner);
         let rests: Vec<f64> = inner.iter().filter_map(|piece| piece.dwell).collect();

@@ -13,7 +13,7 @@ impl Machine {
     /// If the program has no line.
     pub fn finish(self) -> Result<Toolpath, Error> {
         let placed = |piece: &Piece| Piece { curve: self.placement.place(&piece.curve), ..*piece };
-        // Where a travel leads to nothing, the tip would only leave the line.
+        // A travel with nothing drawn before or after it would only lead away from the line.
         let is_drawn = |piece: &Piece| !piece.is_travel;
         let before = self.pieces.iter().position(is_drawn).unwrap_or(self.pieces.len());
         let after = self.pieces.len() - self.pieces.iter().rposition(is_drawn).map_or(before, |last| last + 1);
@@ -33,10 +33,6 @@ impl Machine {
         Ok(path.with_notes(notes))
     }
 
-    /// Returns the moves.
-    ///
-    /// # Errors
-    /// If the program has no move with a length, or too many, or if a coordinate is too large.
     pub fn program(self) -> Result<Program, Error> {
         let notes = self.notes_with(Vec::new());
         let moves = self.pieces.into_iter().zip(self.modes).map(|(piece, modes)| ProgramMove { piece, modes });
@@ -57,7 +53,7 @@ impl Machine {
         Ok(Program { moves, unstated: self.unstated, notes })
     }
 
-    /// Returns all notes, with further ones before those about words without an effect.
+    /// Returns all notes: `own` ones, then those about words without an effect.
     fn notes_with(&self, own: Vec<String>) -> Vec<String> {
         let mut notes = self.notes.clone();
         if !self.says_unit && self.placement.unit.is_none() {

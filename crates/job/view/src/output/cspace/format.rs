@@ -1,4 +1,4 @@
-//! Formats of the configuration space, by file name.
+//! Formats of configuration spaces, chosen by file name.
 
 use super::{CSpaces, FieldGrid, geojson};
 use cplan_motion::field_per_line;
@@ -20,9 +20,9 @@ pub enum CSpaceFormat {
 }
 
 impl CSpaceFormat {
-    /// Returns the format for a file name, in upper or lower case. `cspace.json`, and names that end in `.cspace.json`,
-    /// mean JSON. In the same way, `cspace.csv`, `potential.csv` and `heuristic.csv` mean matrices. Names that end in
-    /// `.geojson` mean GeoJSON. Returns `None` for other names.
+    /// Returns the format for a file name, in upper or lower case. `cspace.json`, and names that end in `.cspace.json`, mean
+    /// JSON; `cspace.csv`, `potential.csv` and `heuristic.csv` likewise mean matrices; `.geojson` means GeoJSON. Returns `None`
+    /// for other names.
     pub fn from_path(path: &Path) -> Option<Self> {
         let name = path.file_name()?.to_string_lossy().to_ascii_lowercase();
         let is = |end: &str| name.strip_suffix(end).is_some_and(|before| before.is_empty() || before.ends_with('.'));
@@ -39,7 +39,7 @@ impl CSpaceFormat {
         }
     }
 
-    /// Returns the text of the file. `None` for a matrix if there is no grid with such values.
+    /// Returns the text of the file. `None` for a matrix if no grid has such values.
     pub fn text(self, spaces: &CSpaces) -> Option<String> {
         let grid = || spaces.spaces.iter().find_map(|space| space.grid.as_ref());
         match self {

@@ -4,8 +4,8 @@ use super::{CSpace, CSpaces, Values};
 use cplan_motion::field_per_line;
 use serde_json::{Value, json};
 
-/// Returns a `FeatureCollection`. The property `kind` is the kind of a feature, and `space` the index of its
-/// configuration space. Grids are not included.
+/// Returns a `FeatureCollection` without the grids. A feature's properties are its `kind` and `space`, the index of its
+/// configuration space.
 pub fn text(spaces: &CSpaces) -> String {
     let CSpaces { name, planner, status, axes, spaces } = spaces;
     let features: Vec<Value> = spaces.iter().enumerate().flat_map(|(number, space)| features(number, space)).collect();

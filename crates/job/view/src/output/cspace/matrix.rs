@@ -3,9 +3,8 @@
 use super::FieldGrid;
 
 impl FieldGrid {
-    /// Returns the values as lines of text, arranged as in a picture and separated by commas. Joint 1 increases from
-    /// left to right, and joint 2 from the last line to the first. Blocked cells have `inf`, free ones without a value
-    /// `nan`.
+    /// Returns the values as lines of text, arranged as in a picture and separated by commas. Joint 1 increases from left to
+    /// right, and joint 2 from the last line to the first. Blocked cells have `inf`, and free cells without a value have `nan`.
     pub(super) fn matrix(&self) -> String {
         self.arranged(|cell| match self.values.get(cell) {
             _ if self.blocked[cell] => "inf".to_owned(),
@@ -14,7 +13,7 @@ impl FieldGrid {
         })
     }
 
-    /// Returns the potential in the same arrangement: 0 at the goals, 1 at obstacles and in cells that no goal reaches.
+    /// Returns the potential in the same arrangement: 0 at goals, 1 at obstacles and in cells from which no goal is reached.
     /// `None` if the values are not logarithms of a potential.
     pub(super) fn potential_matrix(&self) -> Option<String> {
         let is_potential = self.quantity == "ln_potential" && !self.values.is_empty();
@@ -23,8 +22,8 @@ impl FieldGrid {
         is_potential.then(|| self.arranged(|cell| potential(cell).to_string()))
     }
 
-    /// Returns the estimates of the search in the same arrangement, with `inf` in blocked cells. `None` if it uses
-    /// none.
+    /// Returns the estimates of the search in the same arrangement, with `inf` in blocked cells. `None` if the search has no
+    /// estimates.
     pub(super) fn estimate_matrix(&self) -> Option<String> {
         let estimate = |cell: usize| if self.blocked[cell] { f64::INFINITY } else { self.heuristic[cell] };
         (!self.heuristic.is_empty()).then(|| self.arranged(|cell| estimate(cell).to_string()))

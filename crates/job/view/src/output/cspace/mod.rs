@@ -1,4 +1,4 @@
-//! The configuration space as data: the planner's data of a plan, for programs that draw or study it.
+//! The configuration space as data, for programs that draw or study it.
 
 mod format;
 mod geojson;
@@ -298,8 +298,8 @@ fn estimated_costs(estimates: &Estimates, space: &Space) -> Vec<f64> {
     (0..grid.blocked.len()).map(|cell| estimates.of(&free, cell).value()).collect()
 }
 
-/// Largest growth of obstacles, as a multiple of the tolerance of pictures. It is the sum of the margin itself, twice
-/// the flattening error, and two more margins around shapes with many corners (see [`cspace::c_obstacles`]).
+/// Largest growth of obstacles, as a multiple of the tolerance of pictures: the margin itself, twice the flattening error, and
+/// two more margins around shapes with many corners (see [`cspace::c_obstacles`]).
 const MAX_GROWTH: f64 = 5.0;
 
 impl PathData {
@@ -309,7 +309,7 @@ impl PathData {
     }
 }
 
-/// Returns a space for each world, in the order of the arm's motion. The space of a failed step comes last.
+/// Returns a space for each world, in the order of the arm's motion, and last that of a failed step.
 fn spaces_of_task(task: &Task, answer: &TaskAnswer, is_exact: bool) -> Vec<CSpace> {
     let mut scenes: Vec<&Arc<Scene>> = Vec::new();
     let mut spaces: Vec<CSpace> = Vec::new();

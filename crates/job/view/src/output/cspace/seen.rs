@@ -1,4 +1,4 @@
-//! Data of planners in a configuration space: roadmaps, cells, boxes and grids.
+//! The planners' data in a configuration space: roadmaps, cells, boxes and grids.
 
 use super::Values;
 use cplan_model::space::Configuration;
@@ -88,7 +88,7 @@ fn bits<S: Serializer>(flags: &[bool], serializer: S) -> Result<S::Ok, S::Error>
 }
 
 impl Roadmap {
-    /// Creates a roadmap. Vertices are in the order in which edges name them first.
+    /// Creates a roadmap. Its vertices are in the order in which the edges first name them.
     pub(super) fn of(edges: &[[Configuration; 2]], whole: bool, visibility: Option<&'static str>) -> Self {
         let mut numbers: HashMap<[u64; 2], usize> = HashMap::new();
         let mut vertices = Vec::new();
@@ -104,7 +104,7 @@ impl Roadmap {
 }
 
 impl FieldGrid {
-    /// Returns the planner's grid with values for all of its cells, or for none.
+    /// Returns the planner's grid. It needs a value for each cell, or no values.
     pub(super) fn of(space: &Space, quantity: &'static str, values: &[f64]) -> Option<Self> {
         let Space::Grid(grid) = space else { return None };
         let has_values = values.len() == grid.blocked.len();
@@ -126,7 +126,7 @@ impl FieldGrid {
         Self { heuristic, ..self }
     }
 
-    /// Adds a number to the values if they are steps.
+    /// Adds a number to the labels of steps; other values stay the same.
     pub(super) fn shift_labels(&mut self, by: u32) {
         if self.quantity.starts_with("steps") {
             self.values.iter_mut().for_each(|value| *value += f64::from(by));

@@ -1,9 +1,8 @@
-//! Messages in the binary form that ROS 2 sends: plain CDR, little endian (OMG DDSI-RTPS 2.5, section 10).
+//! Messages as ROS 2 sends them: binary, in plain CDR, little endian (OMG DDSI-RTPS 2.5, section 10).
 
-/// A reader of values in sequence. Each value is aligned to its own size, counted from the end of the four-byte header.
-/// Methods return `None` if the bytes end before the value does.
+/// Reads values in sequence. Each value is aligned to its own size, counted from the end of the four-byte header. Methods return
+/// `None` if the bytes end before the value does.
 pub(super) struct Cdr<'a> {
-    /// The bytes after the header.
     content: &'a [u8],
     at: usize,
 }

@@ -6,8 +6,8 @@ use mcap::{Channel, McapError, McapResult};
 use std::borrow::Cow;
 use std::io::Read;
 
-/// Largest number of bytes of a decompressed chunk. Recorders begin a new chunk after some megabytes. The limit refuses
-/// files that claim more than fits into memory.
+/// Largest number of bytes of a decompressed chunk. Recorders begin a new chunk after a few megabytes. The limit refuses files
+/// whose stated size exceeds the memory.
 const MAX_CHUNK_BYTES: u64 = 256 << 20;
 
 /// Calls `visit` with the channel, the log time in nanoseconds and the content of each message, in the order of the
@@ -33,7 +33,7 @@ pub(super) fn each_message(bytes: &[u8], mut visit: impl FnMut(&Channel, u64, &[
     let mut is_summary = false;
     for record in LinearReader::new(bytes)? {
         match record? {
-            // The summary repeats schemas and channels. It is still read, so that a file that ends early is noticed.
+            // The summary repeats schemas and channels. Reading it shows whether the file ends early.
             Record::DataEnd(_) => is_summary = true,
             _ if is_summary => {}
             Record::Chunk { header, data } => {
@@ -48,7 +48,7 @@ pub(super) fn each_message(bytes: &[u8], mut visit: impl FnMut(&Channel, u64, &[
     Ok(())
 }
 
-/// Returns the decompressed records of a chunk, with a header that fits them.
+/// Returns the decompressed records of a chunk, and a matching header.
 fn decompressed(header: ChunkHeader, data: &[u8]) -> McapResult<(ChunkHeader, Cow<'_, [u8]>)> {
     let wrong = |why: String| McapError::DecompressionError(why);
     let size = header.uncompressed_size;

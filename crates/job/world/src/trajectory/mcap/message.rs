@@ -23,25 +23,24 @@ impl Kind {
     }
 }
 
-/// A sample: its time in nanoseconds, and the positions, velocities and accelerations of all joints. Velocities and
-/// accelerations may be empty.
+/// A sample: its time in nanoseconds, and the positions, velocities and accelerations of all joints. The last two may be empty.
 pub(super) struct Row {
     pub nanoseconds: i64,
     pub values: [Vec<f64>; 3],
 }
 
-/// A message: its time stamp and the time of its recording in nanoseconds, the names of the joints, and its samples.
+/// A message: its time stamp and the time at which it was recorded in nanoseconds, the names of the joints, and its samples.
 pub(super) struct Message {
     /// Time stamp of the message, nanoseconds; 0 if it has none.
     pub stamp: i64,
     pub logged: i64,
     pub joints: Rc<[String]>,
-    /// The samples. The times of a trajectory count from the message's own time. The sample of a state has time 0.
+    /// The samples. A trajectory's times count from the message's time; the single sample of a state has time 0.
     pub rows: Vec<Row>,
 }
 
 impl Message {
-    /// Reads a message in CDR. `None` if it is not of this kind.
+    /// Reads a message in CDR; `None` if it is not of this kind.
     pub fn read(kind: Kind, bytes: &[u8], logged: i64) -> Option<Self> {
         let mut cdr = Cdr::new(bytes)?;
         let stamp = cdr.header()?;

@@ -11,12 +11,12 @@ use cplan_robot::{Diagnostic, InputError, Source, quoted};
 use message::{Kind, Message, Row};
 use topics::Topic;
 
-/// Reads a recording. It consists of consecutive motions, between which the arm stands still, or of states. If the
-/// topic `asked` is given, it is read; otherwise [`topics::choose`] chooses one.
+/// Reads a recording. It consists of states, or of consecutive motions between which the arm stands still. Reads the topic
+/// `asked`; if it is `None`, [`topics::choose`] chooses one.
 ///
 /// # Errors
-/// Files that are not MCAP, no topic or several topics with the arm's joints, invalid messages, and motions that do not
-/// fit together.
+/// Files that are not MCAP, no topic or several topics with the arm's joints, invalid messages, and motions that do not fit
+/// together.
 pub(super) fn read(source: &Source, bytes: &[u8], asked: Option<&str>, names: &Names) -> Result<Samples, InputError> {
     let topics = topics::all(bytes).map_err(|error| topics::unreadable(source, &error))?;
     let (topic, notes) = topics::choose(source, topics, asked, names.arm)?;
@@ -28,10 +28,9 @@ pub(super) fn read(source: &Source, bytes: &[u8], asked: Option<&str>, names: &N
     Ok(samples)
 }
 
-/// Returns the messages that have both of the arm's joints, sorted by time, and the other messages. Each of the former
-/// comes with its time.
+/// Returns the messages with both of the arm's joints, each with its time and sorted by it, and the other messages.
 ///
-/// The time of a message is its stamp. If any message lacks a stamp, it is the time of recording for all of them.
+/// The time of a message is its stamp. If any of the messages lacks a stamp, the times of recording are used instead.
 fn messages_by_time(topic: &mut Topic, arm: [&str; 2]) -> (Vec<(i64, Message)>, Vec<Message>) {
     let (messages, others): (Vec<Message>, Vec<Message>) = std::mem::take(&mut topic.messages)
         .into_iter()
@@ -76,7 +75,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
         table.add(message, begin)?;
         let [end, first] = match table.rows.get(from.saturating_sub(1)..from + 1) {
             Some([end, first]) => [end, first],
-            // The first motion, or a motion without points.
+            // This is the first motion, or it has no points.
             _ => {
                 count += usize::from(table.rows.len() > from);
                 continue;
@@ -89,7 +88,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
             let help = "record one motion after the other, or verify the recorded states instead: --topic NAME";
             return Err(source.diagnostic(what).help(help));
         }
-        // Times of samples must differ. The least difference that messages can express is a nanosecond.
+        // Times of samples must differ, by a nanosecond at least, which is the unit of messages.
         let earliest = end.nanoseconds + 1;
         let differing = table.joints.iter().enumerate().find(|(k, _)| end.values[0][*k] != first.values[0][*k]);
         if let Some((_, joint)) = differing {
@@ -100,7 +99,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
                 let help = "record all motions, or verify the recorded states instead: --topic NAME";
                 return Err(source.diagnostic(what).help(help));
             }
-            // The controller moves the arm from its current configuration to the first point.
+            // The controller moves the arm from where it is to the first point.
             let still = |k: usize| end.values[k].iter().map(|_| 0.0).collect();
             let start = Row { nanoseconds: begin.max(earliest), values: [end.values[0].clone(), still(1), still(2)] };
             table.rows.insert(from, start);
@@ -117,7 +116,7 @@ fn motions(source: &Source, mut topic: Topic, names: &Names) -> Result<Samples, 
     Ok(Samples { what: format!("point on {name}").into(), joined: Some(Interpolation::Quintic), rests, ..samples })
 }
 
-/// Rows of values of some joints, collected from messages.
+/// Values of some joints, collected from messages.
 struct Table<'a> {
     source: &'a Source,
     topic: &'a str,
@@ -127,7 +126,7 @@ struct Table<'a> {
     others: Vec<String>,
     /// Values in the order of `joints`.
     rows: Vec<Row>,
-    /// All values of the other joints, with no regard to times.
+    /// Values of the other joints, without their times.
     other_series: Vec<(String, Vec<f64>)>,
 }
 
@@ -220,7 +219,7 @@ impl<'a> Table<'a> {
         }
         let begin = rows.first().map_or(0, |row| row.nanoseconds);
         let column = |k: usize, joint: usize| rows.iter().map(|row| row.values[k][joint]).collect::<Vec<f64>>();
-        // Broadcasters publish NaN for quantities of a joint that are not measured.
+        // Broadcasters publish NaN for quantities that a joint does not measure.
         let measured = |k: usize, joint: usize| {
             given[k - 1].then(|| column(k, joint)).filter(|values| !values.iter().all(|value| value.is_nan()))
         };

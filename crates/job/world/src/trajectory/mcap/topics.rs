@@ -1,4 +1,4 @@
-//! The topics of a recording, and the choice of the one that is judged.
+//! The topics of a recording, and the choice of the topic to read.
 
 use super::file::each_message;
 use super::message::{Kind, Message};
@@ -7,8 +7,7 @@ use mcap::{McapError, McapResult};
 use std::collections::BTreeMap;
 use std::rc::Rc;
 
-/// Message types that display a motion and do not state joint values. Recordings that cplan writes have topics of these
-/// types.
+/// Types of messages that display a motion but state no joint values. Recordings that cplan writes have topics of these types.
 const DISPLAY_TYPES: [&str; 3] =
     ["tf2_msgs/msg/TFMessage", "visualization_msgs/msg/MarkerArray", "sensor_msgs/msg/PointCloud2"];
 
@@ -21,7 +20,7 @@ pub(super) struct Topic {
     pub kind: Option<Kind>,
     /// Messages of a known kind that have positions, in the order of the file.
     pub messages: Vec<Message>,
-    /// Time of recording, in nanoseconds, of the first message that does not fit the type. `None` if all messages fit.
+    /// Time of recording, in nanoseconds, of the first message that does not fit the topic's type. `None` if all messages fit.
     broken: Option<u64>,
 }
 
@@ -31,7 +30,7 @@ impl Topic {
         self.messages.iter().any(|message| arm.iter().all(|joint| message.names(joint)))
     }
 
-    /// Formats name, type and joints of the topic for a list in a message.
+    /// Describes the topic by name, type and joints, for lists in messages.
     fn describe(&self) -> String {
         let schema = if self.schema.is_empty() { "no type" } else { &self.schema };
         let mut joints: Vec<&String> = Vec::new();
@@ -64,7 +63,7 @@ pub(super) fn all(bytes: &[u8]) -> McapResult<Vec<Topic>> {
             None => _ = topic.broken.get_or_insert(logged),
             Some(message) if message.rows.iter().all(|row| row.values[0].is_empty()) => {}
             Some(mut message) => {
-                // Consecutive messages mostly have the same names, which are stored once.
+                // Consecutive messages mostly have the same joints, whose names are stored only once.
                 if let Some(last) = topic.messages.last().filter(|last| last.joints == message.joints) {
                     message.joints = Rc::clone(&last.joints);
                 }
@@ -75,13 +74,11 @@ pub(super) fn all(bytes: &[u8]) -> McapResult<Vec<Topic>> {
     Ok(topics.into_values().collect())
 }
 
-/// Chooses the topic to read, and returns notes about the others. A requested topic is chosen. Otherwise, the only
-/// motion topic with both of the arm's joints is chosen. If there is no such topic, the only state topic with both
-/// joints is chosen.
+/// Chooses the topic to read, and returns notes about the others. A requested topic takes precedence, then the only motion topic
+/// with both of the arm's joints, then the only such state topic.
 ///
 /// # Errors
-/// No topic or several topics qualify, or a message of the topic is damaged. The error lists all topics with their
-/// types.
+/// No topic qualifies, or several do, or a message of the topic is damaged. The error lists all topics with their types.
 pub(super) fn choose(
     source: &Source,
     mut topics: Vec<Topic>,
@@ -141,7 +138,7 @@ fn not_judged(other: &Topic, judged: &Topic) -> String {
         _ => "is judged",
     };
     let name = other.name.rsplit('/').next().unwrap_or_default();
-    // The word "states" is a plural.
+    // "states" is a plural.
     let verb = if name.ends_with('s') { "are" } else { "is" };
     format!("{} {verb} not judged: {} {why}", other.name, judged.name)
 }
