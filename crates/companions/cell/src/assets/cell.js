@@ -50,7 +50,7 @@ class ScheduleTool {
 class CellView extends View {
   /** Number of times among which the nearest place of the schedule is sought, and of places of a tip that are drawn. */
   static PLACES = 600;
-  /** Arms that are nearer than this share of the picture have a line between them. */
+  /** Arms that are nearer than this share of the picture's smaller side have a line between them. */
   static NEAR = 0.12;
 
   /** Formats a time with milliseconds. */
@@ -92,7 +92,6 @@ class CellView extends View {
     super.update(model);
     this.parts.transport.hidden = !this.duration;
     this.parts.modes.hidden = true;
-    // Three decimals, because cycles are short.
     this.panels.cspace.titles = this.cell.arms.map(({ name }) => `${name}: time on its path (s)`);
     this.ready();
   }
@@ -322,8 +321,8 @@ class CellView extends View {
         context.stroke();
       }
     }
-    const [[left, right]] = panel.whole;
-    if (found && found.distance > 0 && found.distance < CellView.NEAR * (right - left)) {
+    const size = Math.min(...panel.whole.map(([low, high]) => high - low));
+    if (found && found.distance > 0 && found.distance < CellView.NEAR * size) {
       Workspace.distance(context, panel, { ends: found.ends, text: Numbers.length(found.distance) });
     }
     if (!this.shows('names')) return;

@@ -51,11 +51,15 @@ const CellDiagram = (() => {
     const look = { width: motions.certified ? 2.4 : 1.4, dash: motions.certified ? [] : [6, 4] };
     pathLine(context, theme, look, () => line(context, route));
     Labels.blockLine(panel, route);
-    const spots = motions.signals.map((signal) => {
+    const spots = [];
+    for (const signal of motions.signals) {
       const times = [signal.at, signal.at];
       times[1 - signal.waits] = signal.set;
-      return panel.at(times.map((time, arm) => view.moved(arm, time)));
-    });
+      const spot = panel.at(times.map((time, arm) => view.moved(arm, time)));
+      // Discs at one place stand side by side.
+      while (spots.some(([x, y]) => Math.hypot(x - spot[0], y - spot[1]) < 2 * DISC)) spot[0] += 1;
+      spots.push(spot);
+    }
     motions.signals.forEach(({ waits }, k) => {
       dot(context, spots[k], DISC, theme[arms[waits].color], theme.paper);
       Labels.blockSpot(panel, spots[k], DISC);
@@ -64,7 +68,13 @@ const CellDiagram = (() => {
     });
     const text = (first) => (arms[first] ? `${arms[first].name} first` : 'too near');
     const named = outlines.map((path, first) => ({ text: text(first), paint: (painter) => painter.fill(path) }));
-    Labels.beside(context, panel, [['start', Labels.spotted(route[0], 7)], ['goals', Labels.spotted(route[PLACES], 7)]]);
+    const waits = arms.flatMap(({ name, color, waits: spans }) => spans.map((times) => {
+      const ends = times.map((time) => panel.at([0, 1].map((arm) => view.moved(arm, time))));
+      [context.strokeStyle, context.lineWidth] = [theme[color], 5];
+      line(context, ends);
+      return [`${name} waits`, { rect: Labels.about(ends[0].map((x, k) => (x + ends[1][k]) / 2), 3) }];
+    }));
+    Labels.beside(context, panel, [['start', Labels.spotted(route[0], 7)], ['goals', Labels.spotted(route[PLACES], 7)], ...waits]);
     Labels.onRegions(context, panel, named);
   }
 

@@ -1,13 +1,17 @@
 // Rows of time below the pictures of a cell: when each arm moves and waits, and a row for each signal. They move the time.
 
 class CellRows {
+  /** Length of the axis and distance of its values, in pixels, for a narrow page. */
+  static AXIS = 260;
+  static SPACING = 52;
+
   /** @param {CellView} view */
   constructor(view) {
     this.view = view;
     const { arms, motions } = view.cell;
     this.cursor = element('div', { class: 'cursor', 'aria-hidden': 'true' });
     const lanes = [...arms.map((arm) => this.motionRow(arm)), ...motions.signals.map((signal, k) => this.signalRow(signal, k + 1))];
-    this.rows = element('ol', { class: 'rows' }, ...lanes);
+    this.rows = element('ol', { class: 'rows' }, ...lanes, this.axis());
     this.root = element('section', { class: 'gantt', 'aria-label': 'Motions, waits and signals over time' }, this.rows, this.cursor);
     this.rows.addEventListener('pointerdown', (event) => this.scrub(event));
     this.rows.addEventListener('pointermove', (event) => event.buttons && this.scrub(event));
@@ -61,6 +65,17 @@ class CellRows {
     const text = `Signal ${number}: ${waiting.name} waits at ${CellView.seconds(at)} until ${setting.name} has passed ${CellView.seconds(set)}`;
     const line = element('button', { type: 'button', class: 'signal', title: text, 'aria-label': text, style: `--sets:var(--${setting.color});--waits:var(--${waiting.color})`, onclick: () => this.view.seek(at) });
     return CellRows.row([`signal ${number}`], this.place(element('li', {}, line), set, at));
+  }
+
+  /** Returns the row with the values of time. */
+  axis() {
+    const { duration } = this.view.cell.motions;
+    // A value at the end would stick out of the row.
+    const marks = ticks(0, duration, false, CellRows.AXIS, CellRows.SPACING).filter(({ value }) => value < 0.95 * duration);
+    const row = CellRows.row(['time (s)'], ...marks.map(({ value, text }) => this.place(element('li', {}, text), value, value)));
+    row.classList.add('axis');
+    row.setAttribute('aria-hidden', 'true');
+    return row;
   }
 
   /** Shows the current time. */

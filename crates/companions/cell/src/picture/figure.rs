@@ -6,7 +6,9 @@ use crate::between::Between;
 use cplan_geometry::{Convex, Point};
 use cplan_model::space::Configuration;
 use cplan_theme::{FAINT, GHOST, GRAY, INFEASIBLE, INK, ROBOT, Rgb, UNDECIDED, WHITE};
-use cplan_view::figure::{Anchor, Figure, Item, Pen, Rect, Step, Style, bold, chain, label, lines, rectangle, text_width};
+use cplan_view::figure::{
+    Anchor, Figure, Item, Pen, Rect, Step, Style, bold, chain, label, lines, rectangle, text_width,
+};
 use cplan_view::{Frame, Unit, heading, shapes, titles, verdict};
 
 /// Width of the picture, pixels.
@@ -22,13 +24,17 @@ const DIAGRAM: Rect = Rect { x: 790.0, ..WORKSPACE };
 const AXES_HEIGHT: f64 = 62.0;
 
 /// Place of the rows of time. Their height depends on the number of signals.
-const ROWS: Rect = Rect { x: 150.0, y: WORKSPACE.y + WORKSPACE.height + AXES_HEIGHT + 34.0, width: 1210.0, height: 0.0 };
+const ROWS: Rect =
+    Rect { x: 150.0, y: WORKSPACE.y + WORKSPACE.height + AXES_HEIGHT + 34.0, width: 1210.0, height: 0.0 };
 
 /// Heights of the row of an arm and of that of a signal, pixels.
 const ROW_HEIGHTS: [f64; 2] = [30.0, 22.0];
 
 /// Size of the text of signs and rows, pixels.
 const TEXT: f64 = 14.0;
+
+/// Radius of the disc of a signal in the diagram, pixels.
+const DISC: f64 = 8.0;
 
 /// Number of places of the tip, and of the schedule, that are drawn.
 const PLACES: usize = 400;
@@ -64,7 +70,10 @@ impl Answer<'_> {
 
     fn signs_of_regions(&self, motions: &ShownMotions) -> Vec<(Rgb, String)> {
         if !motions.are_certified {
-            return vec![(UNDECIDED, "too near to each other".to_owned())];
+            return vec![(
+                UNDECIDED,
+                "too near to each other; dashed: both take their fastest paths at once".to_owned(),
+            )];
         }
         let names = self.names();
         [0, 1].map(|arm| (region_color(arm), format!("too near; {} passes first", names[arm]))).to_vec()
@@ -98,7 +107,8 @@ impl Answer<'_> {
             items.extend(hit.map(|(_, pair)| union(&parts[pair[arm]..=pair[arm]], struck)));
         }
         let traces = motions.into_iter().flat_map(|motions| [(0, motions), (1, motions)]).map(|(arm, motions)| {
-            let tips: Vec<Point> = moments(motions).map(|time| scenes[arm].arm().tip_at(motions.place(arm, time))).collect();
+            let tips: Vec<Point> =
+                moments(motions).map(|time| scenes[arm].arm().tip_at(motions.place(arm, time))).collect();
             let steps = chain(tips.iter().map(|tip| frame.at(tip.x, tip.y)), false);
             (steps, Pen { color: ARM_COLORS[arm], width: 2.0, dash: &[] })
         });
@@ -142,11 +152,17 @@ impl Answer<'_> {
         } else {
             items.extend(lines([(route(0.0), beside)]));
         }
+        let mut discs: Vec<[f64; 2]> = Vec::new();
         for (number, signal) in motions.signals.iter().enumerate() {
             let mut times = [signal.at; 2];
             times[1 - signal.waits] = signal.set;
-            let [x, y] = frame.at(motions.moved(0, times[0]), motions.moved(1, times[1]));
-            items.push(Item::Disc([x, y], 8.0, Style::fill(ARM_COLORS[signal.waits])));
+            let [mut x, y] = frame.at(motions.moved(0, times[0]), motions.moved(1, times[1]));
+            // Discs at one place stand side by side.
+            while discs.iter().any(|disc| (disc[0] - x).hypot(disc[1] - y) < 2.0 * DISC) {
+                x += 1.0;
+            }
+            discs.push([x, y]);
+            items.push(Item::Disc([x, y], DISC, Style::fill(ARM_COLORS[signal.waits])));
             items.push(bold([x, y + 4.0], (number + 1).to_string(), 11.0, Anchor::Middle, WHITE));
         }
         let at = motions.collides.map(|time| frame.at(motions.moved(0, time), motions.moved(1, time)));
@@ -166,7 +182,9 @@ impl Answer<'_> {
             let [arm, signal] = ROW_HEIGHTS;
             rect.y + if row < 2 { arm * (row as f64 + 0.5) } else { 2.0 * arm + signal * (row as f64 - 1.5) }
         };
-        let name = |row: usize, text: &str, color: Rgb| label([rect.x - 12.0, middle(row) + 5.0], text, TEXT, Anchor::End, color);
+        let name = |row: usize, text: &str, color: Rgb| {
+            label([rect.x - 12.0, middle(row) + 5.0], text, TEXT, Anchor::End, color)
+        };
         let mut items = Vec::new();
         for (arm, color) in ARM_COLORS.into_iter().enumerate() {
             let bar = |from: f64, to: f64| {

@@ -87,6 +87,13 @@ impl<'a> ShownMotions<'a> {
         regions.map(|sides| merged(merged(sides, 0), 1))
     }
 
+    /// Returns the first time at which the arms are too near to each other, and the parts that are nearest then.
+    pub fn first_contact(&self, between: &Between) -> Option<(f64, [usize; 2])> {
+        let time = self.collides?;
+        let (_, pair) = met(between, [0, 1].map(|arm| self.place(arm, time)))?;
+        Some((time, pair))
+    }
+
     fn first_collision(&self, between: &Between) -> Option<f64> {
         let times = (0..=COLLISION_TIMES).map(|k| self.duration * k as f64 / COLLISION_TIMES as f64);
         times.into_iter().find(|time| is_too_near(between, [0, 1].map(|arm| self.place(arm, *time))))

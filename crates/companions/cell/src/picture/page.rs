@@ -93,7 +93,8 @@ fn motion(motions: &ShownMotions) -> Value {
         let corners = sides.iter().flat_map(|[x, y]| [x[0], y[0], x[1], y[1]]);
         corners.map(short).collect::<Vec<_>>()
     });
-    let signals = motions.signals.iter().map(|signal| json!({ "waits": signal.waits, "at": signal.at, "set": signal.set }));
+    let signals =
+        motions.signals.iter().map(|signal| json!({ "waits": signal.waits, "at": signal.at, "set": signal.set }));
     json!({
         "duration": motions.duration,
         "certified": motions.are_certified,

@@ -1,7 +1,7 @@
 //! The answer in a sentence, and its key figures.
 
 use super::Answer;
-use super::motions::{alone, between, met};
+use super::motions::{ShownMotions, alone, between, met};
 use crate::{Coordination, Refutation};
 use cplan_model::Outcome;
 use cplan_text::{counted, length_down, percent};
@@ -81,14 +81,13 @@ impl Answer<'_> {
 
     fn cards_without_motions(&self) -> Vec<Card> {
         let names = self.names();
-        let mut cards = Vec::new();
+        let (mut cards, between) = (Vec::new(), between(self.cell));
         match &self.plan.outcome {
             Outcome::Infeasible(Refutation::Boxes(boxes)) => {
                 let note = "of colliding configurations, in the space of all four joints";
                 cards.push(card("proof", counted(boxes.examined, "box"), note));
             }
             Outcome::Infeasible(Refutation::Starts(_)) => {
-                let between = between(self.cell);
                 if let Some((distance, pair)) = met(&between, self.starts()) {
                     let what = between.describe(pair, names).replace('"', "");
                     let (name, value) = match distance {
@@ -99,6 +98,12 @@ impl Answer<'_> {
                 }
             }
             _ => {}
+        }
+        if let Some((time, pair)) = ShownMotions::of(self, &between).and_then(|motions| motions.first_contact(&between))
+        {
+            let what = between.describe(pair, names).replace('"', "");
+            let note = format!("{what}, if both take their fastest paths at once");
+            cards.push(card("first collision", format!("at {time:.3} s"), &note));
         }
         for (arm, motion) in alone(self.plan).into_iter().enumerate() {
             if let Some(motion) = motion {
