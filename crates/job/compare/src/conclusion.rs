@@ -200,7 +200,10 @@ mod tests {
             study(vec![comparison]).headline()
         };
         let rows = [("a", Some(1.25), 0.1), ("b", Some(1.5), 0.1)];
-        assert_eq!(headline(&rows, &[1.0, 2.0]), "`a` is within 25.00 % of the optimum, proven, and has the quickest answer");
+        assert_eq!(
+            headline(&rows, &[1.0, 2.0]),
+            "`a` is within 25.00 % of the optimum, proven, and has the quickest answer"
+        );
         assert_eq!(
             headline(&rows, &[2.0, 1.0]),
             "`a` is within 25.00 % of the optimum, proven; the quickest answer, by `b`, is 20.00 % longer"

@@ -224,6 +224,7 @@ class CellView extends View {
     const { probe } = this.parts;
     const at = this.cell.motions ? this.valued(this.probe?.q ?? this.q) : 'both arms at their starts';
     probe.textContent = `${at}: ${this.touched()}`;
+    probe.setAttribute('aria-live', this.playing ? 'off' : 'polite');
     probe.classList.toggle('tried', Boolean(this.probe));
     probe.dataset.free = String(!this.isTooNear);
   }

@@ -9,8 +9,11 @@ use cplan_text::{counted, length_down, percent};
 /// Least total wait, seconds, that the sentence states.
 const MIN_STATED_WAIT: f64 = 0.005;
 
-/// A key figure: name, value and meaning.
-pub type Card = [String; 3];
+/// Clearance, metres, below which no machine keeps two arms apart.
+const TIGHT_CLEARANCE: f64 = 1e-3;
+
+/// A key figure: name, value, meaning, and `warning` or nothing.
+pub type Card = [String; 4];
 
 impl Answer<'_> {
     /// Returns the answer in one sentence.
@@ -67,8 +70,16 @@ impl Answer<'_> {
             distance if distance.is_finite() => format!("at least {}", length_down(distance)),
             _ => "any distance".to_owned(),
         };
-        let note = if found.clearance.is_finite() { "proven, for all skews" } else { "no links of both can meet" };
-        cards.push(card("between the arms", kept, note));
+        let is_required = self.scenes()[0].workspace().clearance > 0.0;
+        cards.push(match found.clearance {
+            distance if distance < TIGHT_CLEARANCE && !is_required => {
+                let [name, value, note, _] =
+                    card("between the arms", kept, "because none was required; --clearance requires more");
+                [name, value, note, "warning".to_owned()]
+            }
+            distance if distance.is_finite() => card("between the arms", kept, "proven, for clocks within the skew"),
+            _ => card("between the arms", kept, "no links of both can meet"),
+        });
         cards.push(card("skew", format!("{} ms", (1e3 * self.skew).round()), "by which the two clocks may differ"));
         let (value, note) = match &found.interlocks {
             None => ("none found".to_owned(), "the motions are safe for clocks within the skew"),
@@ -116,5 +127,5 @@ impl Answer<'_> {
 }
 
 fn card(name: &str, value: String, note: &str) -> Card {
-    [name.to_owned(), value, note.to_owned()]
+    [name.to_owned(), value, note.to_owned(), String::new()]
 }
