@@ -46,14 +46,13 @@ impl Exploration {
         match &self.ending {
             Ending::Reached => {
                 let ratio = self.known_length.filter(|&known| known > 0.0).map(|known| self.length / known);
-                let longer =
-                    ratio.map(|ratio| format!("; its path is {ratio:.2} times as long as in the fully known world"));
+                let longer = ratio.map(|ratio| format!(", {ratio:.2} times as far as in a known world"));
                 format!("The arm reached its goal after {readings}{}", longer.unwrap_or_default())
             }
             Ending::Explored { .. } => {
                 let [free, occupied, unknown] = self.survey.counts();
                 let seen = 100.0 * (free + occupied) as f64 / (free + occupied + unknown) as f64;
-                format!("The arm has seen {seen:.1} % of the map after {readings}, and cannot see more")
+                format!("The arm has seen {seen:.1} % of the map, all that it can see, after {readings}")
             }
             Ending::Unreachable(_) => format!("No path leads to the goal, proven after {readings}"),
             Ending::Unknown(why) => format!("Not known after {readings}: {why}"),
