@@ -41,7 +41,8 @@ fn extent(pieces: &[Convex]) -> Vec<i64> {
 #[test]
 fn no_world_repeats_the_base_of_its_robot() {
     let mut bases = 0;
-    for world in ["", "arch", "explore", "tasks"].into_iter().flat_map(shipped::worlds) {
+    let worlds = ["", "arch", "tasks"].into_iter().flat_map(shipped::worlds);
+    for world in worlds.chain([shipped::world("explore/packing_cell")]) {
         let problem = world.problem();
         let scene = problem.scene();
         let fixed = scene.arm().self_obstacles.iter().filter(|own| own.carrier == Carrier::Base);
