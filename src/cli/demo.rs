@@ -34,7 +34,7 @@ const FOLLOW_FILES: [[&str; 2]; 3] = [
 /// The built-in worlds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum DemoKind {
-    /// A motion in a cell with six obstacles.
+    /// A motion in a cell with five obstacles.
     Scara,
     /// Pick and place with arch motions: 25 mm up, 305 mm across, 25 mm down.
     Arch,

@@ -244,10 +244,7 @@ fn view(world: &LoadedProblem, done: &Exploration, trajectory: Option<&Trajector
         Status::Infeasible => format!("{}: {}", status.name(), done.ending.name()),
     };
     View::of_picture(&Picture {
-        title: vec![
-            title_of(scene),
-            format!("{} after {}", done.ending.name(), counted(done.readings.len(), "reading")),
-        ],
+        title: vec![done.headline(), title_of(scene)],
         status: verdict,
         ending: Some(status),
         facts: facts(scene.arm(), done).into_iter().map(|(name, value)| [name.to_owned(), value]).collect(),

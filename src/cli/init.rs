@@ -72,7 +72,7 @@ pub enum Kind {
     /// A gantry: two sliding joints; gantry is the same.
     #[value(alias = "gantry")]
     Pp,
-    /// The cell of `cplan demo`, a SCARA among six obstacles; with numbers of a data sheet, a SCARA of these numbers
+    /// The cell of `cplan demo`, a SCARA among five obstacles; with numbers of a data sheet, a SCARA of these numbers
     /// among two obstacles.
     Scara,
     /// The pick-and-place cycle of `cplan demo --kind arch`.

@@ -28,12 +28,15 @@ def test_the_page_opens_at_the_end_with_its_figures(rooms, show_file):
     page, result = rooms
     seen = show_file(page)
     count = len(result["readings"])
+    assert seen.page.locator("h1").inner_text() == seen.page.title()
+    known = result["map"]["free"] + result["map"]["occupied"]
+    seen_share = 100 * known / (known + result["map"]["unknown"])
+    assert seen.page.title() == f"The arm has seen {seen_share:.1f} % of the map, all that it can see, after {count} readings"
     assert (readings(seen), current(seen)) == (count, count - 1)
     play = seen.page.get_by_role("button", name="Replay", exact=True)
     assert play.inner_text().strip() == "Replay" and play.locator("svg").count() == 1
     cards = seen.page.locator(".card")
     texts = dict(zip(cards.locator("dt").all_inner_texts(), cards.locator("dd").all_inner_texts()))
-    known = result["map"]["free"] + result["map"]["occupied"]
     assert texts["coverage"].split("\n")[1] == f"{known} of {known + result['map']['unknown']} cells of the map"
     assert texts["readings"].startswith(str(count))
     assert float(texts["path length"].split(" ")[0]) == pytest.approx(result["length"], rel=5e-3)

@@ -299,6 +299,22 @@ def test_an_address_says_what_is_looked_at_first(program, show):
     seen.until("cplan.learn.lesson === 'graph'")
 
 
+def test_the_heading_is_that_of_the_course_until_it_is_left(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    heading, result = seen.page.locator("h1"), seen.page.locator("h1").inner_text()
+    learn(seen, "sweep")
+    assert heading.inner_text() == "Learn: C-obstacles" and not seen.page.locator(".status").is_visible()
+    assert "short lessons with questions" in seen.page.locator(".lines").inner_text()
+    # The button that checks the answer is the prominent one.
+    next_ = seen.page.get_by_role("button", name="Next", exact=True)
+    assert "primary" not in next_.get_attribute("class")
+    seen.do("cplan.learn.solve()")
+    assert "primary" in next_.get_attribute("class") and "1 solved" in seen.page.locator(".lines").inner_text()
+    seen.page.get_by_role("button", name="Motion", exact=True).click()
+    assert heading.inner_text() == result and seen.page.locator(".status").is_visible()
+
+
 def test_the_legend_names_what_lessons_draw(program, show_file):
     page, _ = program.plan("planar_2r", "workbench", "--planner", "visibility")
     seen = show_file(page)

@@ -55,6 +55,8 @@ def test_the_answer_comes_first(made, show_file):
     signed = lambda value: f"{value:g}".replace("-", "−")
     assert seen.page.locator(".answer h2").inner_text() == f"Put the base at x = {signed(x)} mm, y = {signed(y)} mm"
     fitting = sorted(float(row["duration"]) for row in rows if row["outcome"] == "found")
+    title = f"{len(fitting)} of {len(rows)} layouts have a motion; the best, base x {signed(x)} mm, base y {signed(y)} mm, has duration {fitting[0]:.2f} s"
+    assert seen.page.locator("h1").inner_text() == seen.page.title() == title
     better = 1 - best["measured"]["duration"] / fitting[len(fitting) // 2]
     assert f"{best['measured']['duration']:.2f} s duration: {100 * better:.0f} % better" in seen.page.locator(".figure").inner_text()
     counts = seen.page.locator(".counts").inner_text()

@@ -6,7 +6,8 @@
 
 use cplan::Outcome;
 use cplan::engine::{Method, solve};
-use cplan::model::MotionProblem;
+use cplan::geometry::Convex;
+use cplan::model::{Carrier, MotionProblem};
 use cplan_testkit::shipped;
 
 struct Shipped {
@@ -24,6 +25,34 @@ fn shipped() -> Vec<Shipped> {
         Shipped { problem: world.motion(), name: world.name, expect: world.expect, unknown }
     };
     shipped::worlds("").into_iter().map(shipped).collect()
+}
+
+/// Returns the least and greatest coordinates of shapes, rounded to micrometres.
+fn extent(pieces: &[Convex]) -> Vec<i64> {
+    let far = |axis: usize, sign: f64| {
+        let reach =
+            |piece: &Convex| piece.core().iter().map(|p| sign * p[axis]).fold(f64::MIN, f64::max) + piece.radius();
+        (1e6 * pieces.iter().map(reach).fold(f64::MIN, f64::max)).round() as i64
+    };
+    [(0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)].map(|(axis, sign)| far(axis, sign)).to_vec()
+}
+
+/// Pictures would name such an obstacle beside the link.
+#[test]
+fn no_world_repeats_the_base_of_its_robot() {
+    let mut bases = 0;
+    let worlds = ["", "arch", "tasks"].into_iter().flat_map(shipped::worlds);
+    for world in worlds.chain([shipped::world("explore/packing_cell")]) {
+        let problem = world.problem();
+        let scene = problem.scene();
+        let fixed = scene.arm().self_obstacles.iter().filter(|own| own.carrier == Carrier::Base);
+        for base in fixed.map(|own| extent(&own.obstacle.pieces)) {
+            bases += 1;
+            let twin = scene.workspace().obstacles.iter().find(|obstacle| extent(&obstacle.pieces) == base);
+            assert!(twin.is_none(), "{}: {twin:?} is the base of the robot", world.name);
+        }
+    }
+    assert!(bases > 3, "{bases}");
 }
 
 /// Returns the least distance at configurations no farther apart than `step` in joint space.

@@ -17,7 +17,7 @@ use crate::model::Outcome;
 use crate::motion::{Format, field_per_line};
 use crate::options::number_in;
 use clap::{Args, ValueHint};
-use cplan_cell::{Cell, CellPlan, Settings, plan_cell};
+use cplan_cell::{Answer, Cell, CellPlan, Settings, plan_cell};
 use std::path::{Path, PathBuf};
 
 /// Coordinate two arms in one cell, on one clock.
@@ -104,8 +104,9 @@ pub fn run(args: &CellArgs) -> Result<u8, Failure> {
             }
         },
         |format| {
-            let figure = || cplan_cell::figure(&cell, &plan, args.skew).on_background(args.theme.is_dark());
-            Ok(format.bytes_of(figure, || cplan_cell::page(&cell, &plan, args.skew))?)
+            let facts = answered.facts();
+            let answer = Answer { cell: &cell, plan: &plan, skew: args.skew, facts: &facts };
+            Ok(format.bytes_of(|| answer.figure().on_background(args.theme.is_dark()), || answer.page())?)
         },
     )?;
     let code = code_of(plan.status());

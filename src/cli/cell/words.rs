@@ -13,6 +13,11 @@ const MAX_SHOWN: usize = 8;
 impl Answered<'_> {
     /// Returns the summary.
     pub fn summary(&self) -> String {
+        format!("{}\n{}", self.cell.name, format_columns(&self.facts()))
+    }
+
+    /// Returns the facts: the result, figures of the motions or attempts, and notes.
+    pub fn facts(&self) -> Vec<(&'static str, String)> {
         let Self { args, cell, plan } = self;
         let mut lines = vec![("result", self.result())];
         if let Some(found) = plan.outcome.found() {
@@ -55,7 +60,7 @@ impl Answered<'_> {
             let own = notes.iter().filter(|note| !of_both(note));
             lines.extend(own.map(|note| ("note", format!("{}: {note}", arm.name))));
         }
-        format!("{}\n{}", cell.name, format_columns(&lines))
+        lines
     }
 
     /// Returns the answer in one line.

@@ -54,7 +54,7 @@ fn rooms_are_explored_and_the_map_is_a_world() {
     let data = page.split("<script id=\"exploration\" type=\"application/json\">").nth(1).unwrap();
     let data = json(data.split("</script>").next().unwrap());
     assert!(data["frames"].as_array().unwrap().len() > 10 && data["opened"].as_array().unwrap().len() > 10);
-    assert!(place.read("rooms.svg").contains("explored after"));
+    assert!(place.read("rooms.svg").contains("all that it can see, after"));
     // The recorded map is a world in which one can plan, from room to room.
     place.write(
         "seen.toml",

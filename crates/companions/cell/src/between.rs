@@ -106,6 +106,12 @@ impl<'a> Between<'a> {
         Self { scenes, is_definite: is_definite.collect(), bodies, pairs, clearance }
     }
 
+    /// Returns the pairs of parts that can meet, one of each arm. Parts are numbered as in the list of those of the first link,
+    /// followed by those of the second.
+    pub fn pairs(&self) -> &[[usize; 2]] {
+        &self.pairs
+    }
+
     /// Places the links of an arm at a configuration, with bounds on their motion for a set of deviations from there.
     pub fn placed(&self, side: usize, at: Configuration, deviation: Deviation) -> Placed {
         let posture = Posture::new(self.scenes[side], at);

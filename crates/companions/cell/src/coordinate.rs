@@ -126,7 +126,8 @@ pub(crate) struct Coordinator<'a> {
 }
 
 impl Coordinator<'_> {
-    fn resolution(&self) -> f64 {
+    /// Returns the motion of the links, metres, up to which a rectangle of the diagram is divided.
+    pub fn resolution(&self) -> f64 {
         RESOLUTION * self.between.scenes.map(|scene| scene.arm().reach()).into_iter().fold(0.0, f64::max)
     }
 

@@ -40,6 +40,6 @@ pub use coordinate::Coordination;
 pub use file::{Cell, CellArm};
 pub use interlock::Interlock;
 pub use judged::NearestPlace;
-pub use picture::{figure, page};
+pub use picture::Answer;
 pub use plan::{CellPlan, Refutation, Settings, plan_cell};
 pub use refutation::Boxes;

@@ -369,5 +369,5 @@ class ExplorationView extends View {
     ...view.legend.filter(({ sign }) => sign === 'start' || sign === 'swatch' || (sign === 'goal' && view.goals.length)),
     map('paper', 'free'), map('channel', 'new with this reading'), map('ink', 'occupied'), map('pale', 'unknown, counts as solid'),
   ];
-  window.cplan = new ExplorationView(document.querySelector('main'), { ...view, title: [view.title[0], exploration.text], paths: [], legend, exploration, survey: new Survey(exploration) });
+  window.cplan = new ExplorationView(document.querySelector('main'), { ...view, title: [view.title[0], `${view.title[1]} \u00b7 ${exploration.text}`], paths: [], legend, exploration, survey: new Survey(exploration) });
 }

@@ -4,6 +4,7 @@ use super::settings::Strategy;
 use super::survey::Survey;
 use cplan_model::space::Configuration;
 use cplan_motion::{CertifiedCurve, Trajectory};
+use cplan_text::counted;
 use std::time::Duration;
 
 /// Reason for which an exploration ended.
@@ -34,6 +35,27 @@ impl Ending {
             Self::Explored { .. } => "explored",
             Self::Unreachable(_) => "unreachable",
             Self::Unknown(_) => "unknown",
+        }
+    }
+}
+
+impl Exploration {
+    /// Returns the outcome in one sentence.
+    pub fn headline(&self) -> String {
+        let readings = counted(self.readings.len(), "reading");
+        match &self.ending {
+            Ending::Reached => {
+                let ratio = self.known_length.filter(|&known| known > 0.0).map(|known| self.length / known);
+                let longer = ratio.map(|ratio| format!(", {ratio:.2} times as far as in a known world"));
+                format!("The arm reached its goal after {readings}{}", longer.unwrap_or_default())
+            }
+            Ending::Explored { .. } => {
+                let [free, occupied, unknown] = self.survey.counts();
+                let seen = 100.0 * (free + occupied) as f64 / (free + occupied + unknown) as f64;
+                format!("The arm has seen {seen:.1} % of the map, all that it can see, after {readings}")
+            }
+            Ending::Unreachable(_) => format!("No path leads to the goal, proven after {readings}"),
+            Ending::Unknown(why) => format!("Not known after {readings}: {why}"),
         }
     }
 }

@@ -8,7 +8,7 @@ use super::pictures::inline;
 use super::row::{Ending, Row};
 use super::summary::{Summary, format_value};
 use cplan_compare::Picture;
-use cplan_text::{for_a_shell, length, length_down, markup, percent};
+use cplan_text::{counted, for_a_shell, length, length_down, markup, percent};
 
 /// Formats a value with its unit for readers: millimetres below a metre, degrees instead of radians, at most five
 /// significant digits.
@@ -107,6 +107,23 @@ pub fn section(study: &Study, summary: &Summary, rows: &[Row], picture: Option<&
         format!("<figure class=\"picture\" tabindex=\"0\">{drawing}</figure>\n")
     });
     format!("<section class=\"answer card\" aria-label=\"Answer\">\n{text}{shown}</section>\n")
+}
+
+/// Returns the title of the page: how many layouts have a motion, and the best value of the objective with its layout.
+pub fn title(study: &Study, summary: &Summary, rows: &[Row]) -> String {
+    let [found, ..] = summary.tally();
+    let all = counted(rows.len(), "layout");
+    let fits = rows.iter().filter(|row| row.fits).count();
+    let count = match fits {
+        _ if found == 0 => format!("None of {all} has a motion"),
+        _ if fits < found => format!("{found} of {all} have a motion, and {fits} meet the conditions"),
+        _ => format!("{found} of {all} have a motion"),
+    };
+    let Some((best, objective)) = summary.best().zip(study.objective) else { return count };
+    let value = measured(objective.measure, objective.cost(study.cost(best)));
+    let values = best.values.iter().zip(&study.parameters);
+    let place: Vec<String> = values.map(|(x, p)| format!("{} {}", p.name, with_unit(*x, p.unit.as_deref()))).collect();
+    format!("{count}; the best, {}, has {} {value}", place.join(", "), label(objective.measure))
 }
 
 /// Returns the answer in one sentence.

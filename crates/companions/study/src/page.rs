@@ -31,9 +31,9 @@ impl Study {
     pub fn html(&self, rows: &[Row], pictures: &[Picture]) -> String {
         let summary = Summary::new(self, rows);
         let names: Vec<&str> = self.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-        let subtitle = format!("{} over {}", counted(rows.len(), "layout"), names.join(", "));
+        let subtitle = format!("{} \u{b7} {} over {}", self.name, counted(rows.len(), "layout"), names.join(", "));
         let mut linked = BTreeSet::new();
-        let mut html = head(&self.name, &subtitle, STYLE, true);
+        let mut html = head(&answer::title(self, &summary, rows), &subtitle, STYLE, true);
         let is_best = |picture: &&Picture| picture.title.starts_with("best: ") && summary.best().is_some();
         let best = pictures.first().filter(is_best);
         html += &answer::section(self, &summary, rows, best);

@@ -21,6 +21,21 @@ impl Study {
         }
     }
 
+    /// Returns the answer in a short sentence, for the title of a page. Names of planners are between backticks.
+    pub fn headline(&self) -> String {
+        if let [only] = &self.comparisons[..] {
+            return only.headline();
+        }
+        let ([found, ..], all) = (self.outcome_counts(), counted(self.comparisons.len(), "problem"));
+        match self.most_recommended(Purpose::Shortest) {
+            Some((planner, wins)) => {
+                let name = self.planners()[planner];
+                format!("{found} of {all} have a certified path; `{name}` has the shortest in {wins}")
+            }
+            None => format!("None of {all} has a certified path"),
+        }
+    }
+
     fn conclusion_of_many(&self) -> String {
         let [found, infeasible, open] = self.outcome_counts();
         let all = counted(self.comparisons.len(), "problem");
@@ -62,6 +77,28 @@ impl Study {
 }
 
 impl Comparison {
+    /// Returns the answer in a short sentence: how near the shortest path is to the optimum, and how long the path is that
+    /// was found first.
+    fn headline(&self) -> String {
+        let best = |purpose| self.recommended(purpose).map(|row| &self.rows[row]);
+        let Some(shortest) = best(Purpose::Shortest) else { return self.conclusion() };
+        let name = &shortest.planner;
+        let near = self.over_optimum(shortest).map_or_else(
+            || format!("`{name}` has the shortest path"),
+            |ratio| format!("`{name}` is within {} of the optimum, proven", percent(ratio - 1.0)),
+        );
+        let Some(quickest) = best(Purpose::Quickest) else { return near };
+        if std::ptr::eq(quickest, shortest) {
+            return format!("{near}, and has the quickest answer");
+        }
+        let longer = self.ratio(quickest).map_or(0.0, |ratio| ratio - 1.0);
+        let length = match longer > EQUALITY_TOLERANCE {
+            true => format!("{} longer", percent(longer)),
+            false => "as short".to_owned(),
+        };
+        format!("{near}; the quickest answer, by `{}`, is {length}", quickest.planner)
+    }
+
     /// Returns the conclusion in one sentence, with names of planners between backticks.
     pub fn conclusion(&self) -> String {
         let count = |outcome| self.rows.iter().filter(|row| row.outcome == outcome).count();
@@ -146,6 +183,41 @@ mod tests {
             one.conclusion(),
             "`a` found a path, which is within 25.00 % of the optimum and keeps 120.0 mm from obstacles."
         );
+    }
+
+    #[test]
+    fn titles_state_the_answer() {
+        let study = |comparisons| Study {
+            title: String::new(),
+            sampling: None,
+            comparisons,
+            left_out: Vec::new(),
+            refused: Vec::new(),
+        };
+        let headline = |rows: &[(&str, Option<f64>, f64)], totals: &[f64]| {
+            let mut comparison = comparison(rows);
+            comparison.rows.iter_mut().zip(totals).for_each(|(row, total)| row.total = Some(*total));
+            study(vec![comparison]).headline()
+        };
+        let rows = [("a", Some(1.25), 0.1), ("b", Some(1.5), 0.1)];
+        assert_eq!(
+            headline(&rows, &[1.0, 2.0]),
+            "`a` is within 25.00 % of the optimum, proven, and has the quickest answer"
+        );
+        assert_eq!(
+            headline(&rows, &[2.0, 1.0]),
+            "`a` is within 25.00 % of the optimum, proven; the quickest answer, by `b`, is 20.00 % longer"
+        );
+        let equal = [("a", Some(1.25), 0.1), ("b", Some(1.25), 0.1)];
+        assert_eq!(
+            headline(&equal, &[2.0, 1.0]),
+            "`a` is within 25.00 % of the optimum, proven; the quickest answer, by `b`, is as short"
+        );
+        let none = comparison(&[("a", None, 0.0)]);
+        assert_eq!(study(vec![none.clone()]).headline(), none.conclusion());
+        let many = study(vec![comparison(&rows), none.clone()]);
+        assert_eq!(many.headline(), "1 of 2 problems have a certified path; `a` has the shortest in 1");
+        assert_eq!(study(vec![none.clone(), none]).headline(), "None of 2 problems has a certified path");
     }
 
     #[test]

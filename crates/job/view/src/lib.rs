@@ -68,6 +68,7 @@ pub use flow::FieldLines;
 pub use followed::{LineSettings, LineView, MoveMark};
 pub use object::Object;
 pub use obstacles::{extent, obstacles, still_page};
+pub use page::{heading, titles, verdict};
 pub use polygon_pair::{PolygonPair, polygon_pair};
 pub use section::{CellLayer, Section};
 pub use view::{

@@ -49,7 +49,7 @@ pub fn compose(view: &View) -> Figure {
 /// Composes the page with the given legend. All pictures of an animation have the same legend, so that nothing else moves when
 /// the content changes.
 pub fn explained(view: &View, keys: Vec<Key>) -> Figure {
-    let mut items = titles(&view.title, verdict(view), PAGE_WIDTH);
+    let mut items = titles(&view.title, verdict(view.ending, &view.status), PAGE_WIDTH);
     let lines = 18.0 * view.title.len().max(1) as f64;
     let keys = legend::layout(keys, PAGE_WIDTH - 2.0 * PAGE_MARGIN);
     let height = match &view.still.panels[..] {
@@ -205,22 +205,23 @@ fn layout(top: f64, grid: f64, rows: usize) -> Layout {
     Layout { workspace, lists, height: top + height + AXES_HEIGHT }
 }
 
-fn heading(column: Rect, y: f64, text: &str) -> Item {
+/// Draws the title of a panel above the middle of its column.
+pub fn heading(column: Rect, y: f64, text: &str) -> Item {
     bold([column.x + column.width / 2.0, y], text, 16.0, Anchor::Middle, INK)
 }
 
-/// Returns the status with the sign and the colour of the outcome: green with a tick, or red with a cross.
-fn verdict(view: &View) -> (String, Rgb) {
-    let (sign, color) = match view.ending {
+/// Returns the words of a status with the sign and the colour of the outcome: green with a tick, or red with a cross.
+pub fn verdict(ending: Option<Status>, words: &str) -> (String, Rgb) {
+    let (sign, color) = match ending {
         Some(Status::Found) => ("\u{2713} ", FOUND),
         Some(Status::Infeasible) => ("\u{2717} ", INFEASIBLE),
         Some(Status::Unknown) | None => ("", INK),
     };
-    (format!("{sign}{}", view.status), color)
+    (format!("{sign}{words}"), color)
 }
 
-/// Draws title and further lines on the left, and the status on the right.
-fn titles(lines: &[String], (status, color): (String, Rgb), width: f64) -> Vec<Item> {
+/// Draws the title and the lines below it on the left, and the status on the right.
+pub fn titles(lines: &[String], (status, color): (String, Rgb), width: f64) -> Vec<Item> {
     let mut items = Vec::new();
     let status_width = bold_text_width(&status, 18.0);
     items.push(bold([width - PAGE_MARGIN, 36.0], status, 18.0, Anchor::End, color));

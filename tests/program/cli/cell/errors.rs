@@ -1,7 +1,7 @@
 //! Errors in cell files, and cells without motions.
 
 use super::super::{Done, Place};
-use super::{answer, read, shipped};
+use super::{answer, read, shipped, title};
 
 /// Two arms with bars at one height, far from each other.
 const FREE: &str = r#"
@@ -23,13 +23,30 @@ goal = { joints = [-0.5, -0.5] }
 /// Runs `cplan cell` with a file that differs from [`FREE`] in these places.
 #[track_caller]
 fn with(changes: &[(&str, &str)], options: &[&str]) -> Done {
+    in_place(changes, options).1
+}
+
+/// Does the same, and also returns the place of the files.
+#[track_caller]
+fn in_place(changes: &[(&str, &str)], options: &[&str]) -> (Place, Done) {
     let mut text = FREE.to_owned();
     for (from, to) in changes {
         assert!(text.contains(from), "{from}");
         text = text.replacen(from, to, 1);
     }
     let place = Place::new().with("planar_2r.urdf", read(shipped("robots/planar_2r.urdf"))).with("cell.toml", text);
-    place.run(&[&["cell", "cell.toml", "--quiet"], options].concat(), "")
+    let done = place.run(&[&["cell", "cell.toml", "--quiet"], options].concat(), "");
+    (place, done)
+}
+
+/// Returns the title of the page that [`with`] these changes writes.
+#[track_caller]
+fn page_title(changes: &[(&str, &str)]) -> String {
+    let (place, done) = in_place(changes, &["--picture", "cell.html", "--picture", "cell.svg"]);
+    let page = place.read("cell.html");
+    let title = title(&page).to_owned();
+    assert!(done.code == 3 && place.read("cell.svg").contains(&title), "{}: {title}", done.code);
+    title
 }
 
 #[test]
@@ -99,10 +116,12 @@ fn bases_must_not_overlap() {
 
 #[test]
 fn starts_that_collide_are_infeasible() {
-    let done =
-        with(&[("at = [2.0, 0.0]", "at = [-0.4, 0.0]"), ("joints = [0.5, 0.5]", "joints = [0.0, 0.0]")], &["--json"]);
+    let changes = [("at = [2.0, 0.0]", "at = [-0.4, 0.0]"), ("joints = [0.5, 0.5]", "joints = [0.0, 0.0]")];
+    let done = with(&changes, &["--json"]);
     let answer = answer(&done);
     assert_eq!((done.code, &answer["proof"]["kind"]), (3, &"starts".into()), "{answer}");
+    let contact = answer["proof"]["contact"].as_str().unwrap().replace('"', "");
+    assert_eq!(page_title(&changes), format!("No motions: at the starts, {contact}"));
 }
 
 #[test]
@@ -115,6 +134,7 @@ fn goals_that_collide_are_infeasible() {
     let done = with(&changes, &["--json"]);
     let answer = answer(&done);
     assert_eq!((done.code, &answer["proof"]["kind"]), (3, &"goals".into()), "{answer}");
+    assert_eq!(page_title(&changes), "No motions: the arms collide at every pair of goals");
 }
 
 #[test]
@@ -123,13 +143,15 @@ fn an_arm_without_a_way_makes_the_cell_infeasible() {
     let fence = "[[obstacle]]\nname = \"fence\"\npolyline = [[-2.0, -2.5], [-0.15, -2.5], [-0.15, 2.5], [-2.0, 2.5], [-2.0, 0.2]]\n";
     let wall = "[[obstacle]]\nname = \"wall\"\npolygon = [[-1.6, -0.06], [-0.2, -0.06], [-0.2, 0.06], [-1.6, 0.06]]\n";
     let text = format!("{fence}{wall}[[arm]]\nname = \"right\"");
-    let done = with(&[("[[arm]]\nname = \"right\"", &text), ("at = [2.0, 0.0]", "at = [4.0, 0.0]")], &["--json"]);
+    let changes = [("[[arm]]\nname = \"right\"", text.as_str()), ("at = [2.0, 0.0]", "at = [4.0, 0.0]")];
+    let done = with(&changes, &["--json"]);
     let answer = answer(&done);
     assert_eq!(
         (done.code, &answer["proof"]["kind"], &answer["proof"]["arm"]),
         (3, &"alone".into(), &"left".into()),
         "{answer}"
     );
+    assert_eq!(page_title(&changes), "No motions: left cannot reach its goal, even without right");
 }
 
 #[test]

@@ -250,7 +250,27 @@ fn files_have_the_motions_of_both_arms() {
     assert!(left.contains("- \"axis_1\"\n- \"axis_2\"\n- \"axis_3\"\n- \"axis_4\"\n"), "{left:.300}");
     assert!(place.read("both.yaml").contains("- \"left/axis_1\"\n- \"left/axis_2\"\n- \"right/axis_1\""));
     assert!(place.read("right.yaml").contains("points:"));
-    assert!(place.read("cell.svg").contains("<svg") && place.read("cell.html").contains("waits for signal 1, which"));
+    assert!(place.read("cell.svg").contains("waits for signal 1, which"));
+}
+
+/// Returns the title of a page.
+fn title(page: &str) -> &str {
+    let (_, rest) = page.split_once("<title>").expect("a title");
+    rest.split_once("</title>").expect("its end").0
+}
+
+#[test]
+fn titles_state_the_cycle_and_the_gap() {
+    let place = Place::new();
+    let done = place
+        .run(&["cell", &shipped("workspaces/cells/relay.toml")], "--json --quiet --picture a.html --picture a.svg");
+    let (answer, page) = (answer(&done), place.read("a.html"));
+    let [duration, bound] = ["duration", "lower_bound"].map(|key| number(&answer[key]));
+    let title = title(&page);
+    let gap = title.strip_prefix(&format!("Both arms arrive after {duration:.3} s, proven within ")).expect(title);
+    let gap: f64 = gap.strip_suffix(" % of the least time").expect(title).parse().unwrap();
+    assert!(duration <= bound * (1.0 + gap / 100.0) && duration > bound * (1.0 + (gap - 0.011) / 100.0), "{title}");
+    assert!(place.read("a.svg").contains(title), "{title}");
 }
 
 #[test]

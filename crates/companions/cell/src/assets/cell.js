@@ -1,107 +1,362 @@
-// Names stay within this function.
-(() => {
-    /** Data of the page: the picture, and places at times in equal steps. */
-    const cell = JSON.parse(document.getElementById("cell").textContent);
+// The page of two arms in one cell. The right picture is the plane of both times: a point of it is a pair of times, as a
+// point of a configuration space is a pair of joint values.
 
-    const main = document.querySelector("main");
-    main.innerHTML = `<header><h1></h1><p class="status"></p></header><figure>${cell.svg}</figure>`;
-    main.querySelector("h1").textContent = cell.name;
-    const status = /** @type {HTMLElement} */ (main.querySelector(".status"));
-    status.textContent = cell.result;
-    status.dataset.ending = cell.ending;
+/**
+ * An arm with its motion: `waits` and `end` are in seconds, `arm`, `clock` and `start` are those of its view.
+ * @typedef {{ name: string, color: string, waits: [number, number][], end: number, arm: ArmModel, clock: ClockModel | null,
+ *   start: Point, goals: Point[] }} CellArm
+ */
 
-    /** Draws the arms at a time, and lets the reader choose the time. */
-    function play() {
-        const { duration, places, arms } = cell.motion;
-        const svg = main.querySelector("svg");
-        svg.setAttribute("role", "img");
-        svg.setAttribute("aria-label", "Both arms in the cell, the diagram of their times, and a row of time for each arm");
-        const element = (name, attributes, parent) => {
-            const made = document.createElementNS("http://www.w3.org/2000/svg", name);
-            for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
-            return parent.appendChild(made);
-        };
-        const links = arms.map(({ color, links }) => links.map((paths) => {
-            const group = element("g", { fill: `var(--${color})`, stroke: `var(--${color})`, opacity: 0.85, "stroke-linejoin": "round", "stroke-linecap": "round" }, svg);
-            for (const { d, width } of paths) element("path", { d, "stroke-width": width }, group);
-            return group;
-        }));
-        const line = element("path", { stroke: "var(--ink)", "stroke-width": 1.5 }, svg);
-        const dot = element("circle", { r: 7, fill: "var(--ink)", stroke: "var(--paper)", "stroke-width": 2 }, svg);
-        const clock = document.createElement("div");
-        clock.className = "clock";
-        clock.innerHTML = `<button type="button" class="button">Play</button>
-            <input type="range" min="0" max="${places.length - 1}" value="0" aria-label="Time of both arms">
-            <output></output>`;
-        main.append(clock);
-        const [button, , output] = clock.children;
-        const slider = clock.querySelector("input");
-        const show = () => {
-            const place = places[slider.value];
-            const time = (duration * +slider.value) / (places.length - 1);
-            links.forEach((own, arm) => own.forEach((group, link) => group.setAttribute("transform", `matrix(${place.links[arm][link]})`)));
-            dot.setAttribute("cx", place.diagram[0]);
-            dot.setAttribute("cy", place.diagram[1]);
-            line.setAttribute("d", `M${place.row[0]},${place.row[1]}V${place.row[2]}`);
-            output.textContent = `${time.toFixed(3)} s`;
-            slider.setAttribute("aria-valuetext", output.textContent);
-        };
-        let begun = null;
-        const stop = () => {
-            begun = null;
-            button.textContent = "Play";
-        };
-        const step = (now) => {
-            if (begun === null) return;
-            const index = Math.round(((now - begun) / 1000 / duration) * (places.length - 1));
-            slider.value = String(Math.min(Math.max(index, 0), places.length - 1));
-            show();
-            if (index >= places.length - 1) stop();
-            else requestAnimationFrame(step);
-        };
-        button.addEventListener("click", () => {
-            if (begun !== null) return stop();
-            const from = +slider.value === places.length - 1 ? 0 : +slider.value;
-            begun = performance.now() - (from / (places.length - 1)) * duration * 1000;
-            button.textContent = "Pause";
-            requestAnimationFrame(step);
-        });
-        slider.addEventListener("input", () => {
-            stop();
-            show();
-        });
-        // In the diagram and in the rows, the nearest place of the schedule follows the pointer.
-        const [left, top, right, bottom] = cell.motion.frame;
-        const [from, to] = [places[0].row[0], places[places.length - 1].row[0]];
-        const chosen = (event) => {
-            const view = svg.viewBox.baseVal;
-            const shown = svg.getBoundingClientRect();
-            const x = ((event.clientX - shown.left) / shown.width) * view.width;
-            const y = ((event.clientY - shown.top) / shown.height) * view.height;
-            if (x >= left && x <= right && y >= top && y <= bottom) {
-                const far = places.map(({ diagram: [a, b] }) => Math.hypot(a - x, b - y));
-                return far.indexOf(Math.min(...far));
-            }
-            const [, above, below] = places[0].row;
-            return y >= above && y <= below && x >= from && x <= to ? Math.round(((x - from) / (to - from)) * (places.length - 1)) : null;
-        };
-        let isDown = false;
-        const move = (event) => {
-            const index = chosen(event);
-            svg.classList.toggle("drag", index !== null);
-            if (!isDown || index === null) return;
-            stop();
-            slider.value = String(index);
-            show();
-        };
-        svg.addEventListener("pointerdown", (event) => {
-            isDown = true;
-            move(event);
-        });
-        svg.addEventListener("pointermove", move);
-        addEventListener("pointerup", () => (isDown = false));
-        show();
+/** Takes the dot of the schedule in the diagram. */
+class ScheduleTool {
+  /** @param {CellView} view */
+  constructor(view) {
+    this.view = view;
+    this.holds = false;
+  }
+
+  /** Returns true if a pointer is at the dot, and no other place is kept. */
+  grasps(panel, value, event) {
+    const { view } = this;
+    if (panel !== view.panels.cspace || view.pinned) return false;
+    const [[x, y], [u, v]] = [panel.at(value), panel.at(view.q)];
+    return Math.hypot(x - u, y - v) < (event.pointerType === 'mouse' ? NEAR_MOUSE : NEAR);
+  }
+
+  down(panel, value, event) {
+    this.holds = this.grasps(panel, value, event);
+    if (this.holds) {
+      this.view.pause();
+      this.view.examine(null);
     }
+    return this.holds;
+  }
 
-    if (cell.motion) play();
-})();
+  move(panel, value, event) {
+    if (this.holds) this.view.seek(this.view.nearestTime(value));
+    panel.canvas.style.cursor = this.holds ? 'grabbing' : this.grasps(panel, value, event) ? 'grab' : '';
+    return this.holds;
+  }
+
+  up() {
+    const held = this.holds;
+    this.holds = false;
+    return held;
+  }
+
+  tap() {}
+}
+
+class CellView extends View {
+  /** Number of times among which the nearest place of the schedule is sought, and of places of a tip that are drawn. */
+  static PLACES = 600;
+  /** Arms that are nearer than this share of the picture's smaller side have a line between them. */
+  static NEAR = 0.12;
+
+  /** Formats a time with milliseconds. */
+  static seconds(value) {
+    return `${value.toFixed(3)} s`;
+  }
+
+  constructor(root, model) {
+    super(root, model);
+    root.classList.add('cell');
+    const { workspace, cspace } = this.panels;
+    workspace.still = (context, panel) => this.drawStill(context, panel);
+    workspace.moving = (context, panel) => this.drawArms(context, panel);
+    const { motions } = this.cell;
+    cspace.still = (context, panel) => motions && CellDiagram.still(context, panel, this);
+    cspace.moving = (context, panel) => motions && CellDiagram.moving(context, panel, this);
+    cspace.beside = null;
+    if (motions) {
+      this.tool = new ScheduleTool(this);
+      this.rows = new CellRows(this);
+      this.parts.transport.after(this.rows.root);
+    } else {
+      root.classList.add('one-picture');
+      cspace.canvas.parentElement.hidden = true;
+    }
+    workspace.canvas.setAttribute('aria-label', 'Workspace with both arms');
+    this.recolor();
+    this.seek(motions?.collides ?? 0);
+  }
+
+  /** @returns {{ arms: CellArm[], motions: any, cards: string[][], pairs: [number, number][], clearance: number, skew: number, paleness: number }} */
+  get cell() {
+    return this.model.cell;
+  }
+
+  // Content.
+
+  update(model) {
+    super.update(model);
+    this.parts.transport.hidden = !this.duration;
+    this.parts.modes.hidden = true;
+    this.panels.cspace.titles = this.cell.arms.map(({ name }) => `${name}: time on its path (s)`);
+    this.ready();
+  }
+
+  cards() {
+    return this.cell.cards;
+  }
+
+  get space() {
+    return 'Times of both arms';
+  }
+
+  get pointerHelp() {
+    return [
+      ['drag the dot of the diagram, or the rows of time', 'moves both arms along the schedule'],
+      ['point into the diagram', 'shows both arms at those times; arms that are too near are red'],
+      ['click, tap', 'keeps the arms there, or releases them'],
+      ['arrow keys in the diagram', 'move one arm alone in small steps (with Shift in larger ones)'],
+    ];
+  }
+
+  get hasModes() {
+    return false;
+  }
+
+  /** Both arms move, although the page has no path. */
+  get isMotion() {
+    return true;
+  }
+
+  pathsHere() {
+    return [];
+  }
+
+  get duration() {
+    return this.cell.motions?.duration ?? 0;
+  }
+
+  // Times.
+
+  /** Returns the time for which an arm has moved until a time on the clock, without its waits. */
+  moved(arm, time) {
+    const { waits, end } = this.cell.arms[arm];
+    return Math.min(time, end) - waits.reduce((sum, [from, to]) => sum + Math.max(0, Math.min(time, to) - from), 0);
+  }
+
+  /** Returns the time on the clock at which an arm has moved for some time. */
+  onClock(arm, moved) {
+    let time = moved;
+    for (const [from, to] of this.cell.arms[arm].waits) if (from < time) time += to - from;
+    return time;
+  }
+
+  /** Returns the place on the schedule. */
+  get q() {
+    return [0, 1].map((arm) => (this.cell.motions ? this.moved(arm, this.time) : 0));
+  }
+
+  /** Returns the time at which the schedule is nearest to a place of the diagram. */
+  nearestTime(place) {
+    const { cspace } = this.panels;
+    const [x, y] = cspace.at(place);
+    let [best, least] = [0, Infinity];
+    for (let k = 0; k <= CellView.PLACES; k += 1) {
+      const time = (this.duration * k) / CellView.PLACES;
+      const [u, v] = cspace.at([0, 1].map((arm) => this.moved(arm, time)));
+      const apart = Math.hypot(u - x, v - y);
+      if (apart < least) [best, least] = [time, apart];
+    }
+    return best;
+  }
+
+  /** Returns the configuration of an arm at a time on the clock. */
+  placed(arm, time) {
+    const { clock, start } = this.cell.arms[arm];
+    return clock ? Geometry.moving(clock, time).position : start;
+  }
+
+  /** Returns the shown configuration of each arm: the examined ones, or those of the current time. */
+  get shown() {
+    const times = this.probe ? this.probe.q.map((moved, arm) => this.onClock(arm, moved)) : [this.time, this.time];
+    return times.map((time, arm) => this.placed(arm, time));
+  }
+
+  /** Returns the nearest parts of both arms: { distance, pair, ends }. `null` if no links can meet. */
+  nearest() {
+    const { arms, pairs } = this.cell;
+    const shapes = this.shown.map((q, k) => Geometry.armShapes(arms[k].arm, undefined, q));
+    let found = null;
+    for (const pair of pairs) {
+      const [one, two] = pair.map((part, k) => shapes[k][part]);
+      const distance = Geometry.separation(one, two);
+      if (!found || distance < found.distance) found = { distance, pair, one, two };
+    }
+    return found && { ...found, ends: Geometry.nearest(found.one, found.two).ends };
+  }
+
+  /** Returns true if the shown arms touch, or are nearer than their clearance. */
+  get isTooNear() {
+    const found = this.nearest();
+    return Boolean(found) && (found.distance <= 0 || found.distance < this.cell.clearance);
+  }
+
+  // Texts.
+
+  headings() {
+    super.headings();
+    document.title = this.model.title[0];
+  }
+
+  valued(q) {
+    return this.cell.arms.map(({ name }, k) => `${name} at ${CellView.seconds(q[k])}`).join(', ');
+  }
+
+  /** Describes the distance between the shown arms. */
+  touched() {
+    const found = this.nearest();
+    if (!found) return 'no links of the arms can meet';
+    const parts = found.pair.map((part, k) => {
+      const { arm, name } = this.cell.arms[k];
+      return `${arm.links.flatMap((link) => link.parts)[part].body} of ${name}`;
+    });
+    const { distance } = found;
+    const words = distance <= 0 ? `overlap by ${Numbers.length(-distance)}` : `are ${Numbers.length(distance)} apart`;
+    const needed = distance > 0 && this.isTooNear ? `, less than the clearance of ${Numbers.length(this.cell.clearance)}` : '';
+    return `${parts[0]} and ${parts[1]} ${words}${needed}`;
+  }
+
+  report() {
+    const { probe } = this.parts;
+    const at = this.cell.motions ? this.valued(this.probe?.q ?? this.q) : 'both arms at their starts';
+    probe.textContent = `${at}: ${this.touched()}`;
+    probe.setAttribute('aria-live', this.playing ? 'off' : 'polite');
+    probe.classList.toggle('tried', Boolean(this.probe));
+    probe.dataset.free = String(!this.isTooNear);
+  }
+
+  describe() {
+    if (this.playing) return;
+    this.parts.description.textContent = `${this.model.title[0]}. ${this.valued(this.q)}. ${this.touched()}.`;
+  }
+
+  get tourSteps() {
+    const { parts, layers, panels, rows } = this;
+    const { here, there, isNarrow } = Tour.sides(panels.workspace.canvas, panels.cspace.canvas);
+    const workspace = panels.workspace.canvas.parentElement;
+    if (!rows) return [['Two arms', 'The picture shows both arms at their starts. Parts that are too near to each other are red.', workspace]];
+    return [
+      ['Two arms, two times', `${here}, both arms. ${there}, how far each arm is on its path. In the coloured regions, the arms would be too near to each other.`, isNarrow ? workspace : parts.panels],
+      ['Take the dot', 'Drag the dot along the schedule, or point anywhere else to see both arms at other times.', panels.cspace.canvas.parentElement],
+      ['Who waits for whom', 'Each arm has a row. Hatched parts are waits; each signal has a row of its own.', rows.root],
+      ['Choose what is drawn', 'Each layer has its sign and a checkbox.', layers.root],
+    ];
+  }
+
+  // Time.
+
+  seek(time) {
+    super.seek(time);
+    this.parts.clock.textContent = `${this.time.toFixed(3)} / ${CellView.seconds(this.duration)}`;
+    this.rows?.follow();
+    this.report();
+  }
+
+  /** Keeps a pair of times. */
+  place(q) {
+    this.pinned = true;
+    this.examine(this.model.arm.joints.map(({ domain: [low, high] }, k) => Math.min(high, Math.max(low, q[k]))));
+  }
+
+  /** The tips cannot be taken: the arms move along their paths. */
+  isAtTip() {
+    return false;
+  }
+
+  // Drawings.
+
+  /** Draws the obstacles, the arms at their starts and goals, and the paths of their tips. */
+  drawStill(context, panel) {
+    const { theme } = panel;
+    for (const obstacle of this.world.obstacles.filter(({ name }) => !this.hidden.has(name))) {
+      const { fill, line: edge } = theme.obstacle(obstacle.color);
+      Workspace.outline(context, panel, obstacle);
+      [context.fillStyle, context.strokeStyle, context.lineWidth] = [fill, edge, 1.4];
+      context.fill();
+      context.stroke();
+    }
+    const { arms, motions } = this.cell;
+    arms.forEach((own, k) => {
+      const { color, start, end } = own;
+      const look = (paleness, alpha) => ({ fill: Theme.mixed(theme[color], theme.paper, paleness), line: Theme.mixed(theme[color], theme.paper, 0.35), width: 0.8, alpha });
+      if (this.shows('poses') && motions) {
+        this.drawArm(context, panel, own, start, look(0.92, 0.75));
+        this.drawArm(context, panel, own, this.placed(k, end), look(0.72, 0.75));
+      }
+    });
+    arms.forEach(({ color, arm, end }, k) => {
+      if (!this.shows('path') || !motions) return;
+      const spots = Array.from({ length: CellView.PLACES / 3 + 1 }, (_, i) => panel.at(Geometry.tipAt(arm, this.placed(k, (3 * end * i) / CellView.PLACES))));
+      pathLine(context, theme, { color, width: 2, dash: [] }, () => line(context, spots));
+      Labels.blockLine(panel, spots);
+    });
+  }
+
+  /** Draws an arm. */
+  drawArm(context, panel, { arm }, q, look) {
+    Workspace.arm(context, panel, /** @type {any} */ ({ model: { arm } }), /** @type {any} */ ({}), q, look);
+  }
+
+  /** Draws both arms, the parts that are too near, and the line between the arms if it is short. */
+  drawArms(context, panel) {
+    const { theme } = panel;
+    const { arms, clearance } = this.cell;
+    const [found, { shown }] = [this.nearest(), this];
+    const isTooNear = found && (found.distance <= 0 || found.distance < clearance);
+    arms.forEach((own, k) => {
+      const fill = Theme.mixed(theme[own.color], theme.paper, 0.45);
+      this.drawArm(context, panel, own, shown[k], { fill, line: theme[own.color], width: 1.5, alpha: 0.92, joints: true, blocks: true });
+    });
+    if (isTooNear) {
+      for (const shape of [found.one, found.two]) {
+        context.beginPath();
+        rounded(context, panel, shape);
+        [context.fillStyle, context.strokeStyle, context.lineWidth] = [Theme.mixed(theme.infeasible, theme.paper, 0.4), theme.infeasible, 2.5];
+        context.globalAlpha = 0.8;
+        context.fill();
+        context.globalAlpha = 1;
+        context.stroke();
+      }
+    }
+    const size = Math.min(...panel.whole.map(([low, high]) => high - low));
+    if (found && found.distance > 0 && found.distance < CellView.NEAR * size) {
+      Workspace.distance(context, panel, { ends: found.ends, text: Numbers.length(found.distance) });
+    }
+    if (!this.shows('names')) return;
+    const names = arms.map(({ name, arm }, k) => {
+      const q = shown[k];
+      const box = Labels.beyond(context, panel, name, panel.at(Geometry.tipAt(arm, q)), panel.at(Geometry.elbowAt(arm, q)));
+      return [name, Labels.shaped(panel, box, Geometry.armShapes(arm, undefined, q))];
+    });
+    const obstacles = this.world.obstacles.filter(({ name }) => !this.hidden.has(name));
+    Labels.beside(context, panel, [...names, ...obstacles.map((obstacle) => [obstacle.name, Workspace.named(panel, obstacle)])]);
+  }
+}
+
+{
+  const data = JSON.parse(document.getElementById('cell').textContent);
+  const { views, title, status, ending, facts, frame, obstacles, clearance, motions } = data;
+  /** @type {CellArm[]} */
+  const arms = data.arms.map((own, k) => ({ ...own, arm: views[k].arm, clock: views[k].clock, start: views[k].start, goals: views[k].goals }));
+  // The coordinates of the right picture are the times of both arms.
+  const ends = arms.map(({ end, waits }) => (end ?? 1) - waits.reduce((sum, [from, to]) => sum + to - from, 0));
+  const joints = arms.map(({ name }, k) => ({ name, unit: 's', direction: [1, 0], domain: [0, Math.max(ends[k], 1e-3)], circle: false }));
+  const ratio = Math.max(...ends) / Math.min(...ends);
+  const swatch = (color, text, more = {}) => ({ sign: 'swatch', color, text, ...more });
+  const region = (arm) => swatch(arms[arm].color, `too near; ${arms[arm].name} passes first`, { pale: data.paleness });
+  const schedule = motions?.certified
+    ? [region(0), region(1), { sign: 'line', color: 'ink', width: 2.4, text: 'schedule of both arms' }, { sign: 'line', color: 'ink', width: 1, dash: [4, 3], text: `clocks that differ by ${Math.round(1000 * data.skew)} ms` }]
+    : [swatch('undecided', 'too near to each other'), { sign: 'line', color: 'ink', width: 1.4, dash: [6, 4], text: 'both arms at once, not coordinated' }];
+  const layers = [{ sign: 'path', text: 'paths of the tips', layers: ['path'] }, { sign: 'poses', text: 'arms at start (pale) and goal', layers: ['poses'] }];
+  const legend = [...arms.map(({ name, color }) => swatch(color, name)), ...(motions ? [...schedule, ...layers] : [])];
+  const cell = { ...data, arms };
+  const arm = { ...views[0].arm, joints, one_scale: ratio < 3 };
+  const world = { label: '', clearance, obstacles, pairs: [], c_obstacles: [], regions: [], proof: [], unreached: [] };
+  const model = { title, status, ending, facts, arm, frame, start: [0, 0], goals: [], goal_lines: [], worlds: [world], paths: [], motions: [], clock: null, frames: [], legend, cell };
+  window.cplan = new CellView(document.querySelector('main'), model);
+  cplan.tour.offer();
+}

@@ -54,7 +54,7 @@ impl Page<'_> {
     pub fn html(&self) -> String {
         let study = self.study;
         let style = format!("{COMPARISON_STYLE}{}", paths::colors(self.pictures));
-        let mut html = head(&study.title, &self.subtitle(), &style, true);
+        let mut html = head(&study.headline(), &format!("{} \u{b7} {}", study.title, self.subtitle()), &style, true);
         for alarm in study.alarms() {
             html +=
                 &format!("<p class=\"alarm\" role=\"alert\"><strong>Contradiction.</strong> {}</p>\n", markup(&alarm));
@@ -166,8 +166,8 @@ fn script() -> String {
     format!("<script>\n//<![CDATA[\n{SCRIPT}//]]>\n</script>")
 }
 
-/// Returns the beginning of a page, up to its title. `style` is added to the style sheet. `has_script` is true if the page has
-/// scripts.
+/// Returns the beginning of a page, up to its title. Names between backticks in the title become code. `style` is added to the
+/// style sheet. `has_script` is true if the page has scripts.
 pub fn head(title: &str, subtitle: &str, style: &str, has_script: bool) -> String {
     let scripts = if has_script { "; script-src 'unsafe-inline'" } else { "" };
     format!(
@@ -175,12 +175,13 @@ pub fn head(title: &str, subtitle: &str, style: &str, has_script: bool) -> Strin
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <meta name=\"color-scheme\" content=\"light dark\"/>\n\
          <meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; font-src data:; style-src 'unsafe-inline'{3}\"/>\n\
-         <title>{0}</title>\n<style>\n{2}{STYLE}{4}</style>\n</head>\n<body>\n<main>\n<header><h1>{0}</h1>\n<p class=\"sub\">{1}</p></header>\n",
-        markup(title),
+         <title>{0}</title>\n<style>\n{2}{STYLE}{4}</style>\n</head>\n<body>\n<main>\n<header><h1>{5}</h1>\n<p class=\"sub\">{1}</p></header>\n",
+        markup(&title.replace('`', "")),
         markup(subtitle),
         cplan_theme::css(),
         scripts,
-        style
+        style,
+        with_names(title)
     )
 }
 

@@ -97,11 +97,7 @@ class Keys {
 /** Returns the part of the page that explains keys and pointer. */
 function help(view) {
   const rows = [
-    ['drag the tip of the arm', 'the arm follows; contacts are red'],
-    ['Enter in the workspace, then arrow keys', 'the same by keys (with Shift in larger steps)'],
-    ['point into the configuration space', 'shows the arm in that configuration, and its contacts'],
-    ['click, tap', 'keeps the arm there, or releases it'],
-    ['arrow keys in the configuration space', 'move the cross by a degree (with Shift by ten)'],
+    ...view.pointerHelp,
     ['Space or k', 'play, pause'],
     ['arrow keys elsewhere', 'back and forth in time (with Shift further); while How it was found plays, from phase to phase'],
     ['Home, End', 'to the start, to the end'],

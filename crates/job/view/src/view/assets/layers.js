@@ -43,15 +43,15 @@ class Layers {
   }
 
   /** Returns the names of the layers that a model has. */
-  static of({ worlds, replays = [], paths, reach, frames, exploration, line: given }) {
+  static of({ worlds, replays = [], paths, reach, frames, exploration, cell, line: given }) {
     const traces = [...worlds, ...replays].map(({ trace }) => trace);
     const kinds = new Set(traces.map((trace) => trace?.kind));
     const any = (key) => worlds.some((world) => world[key]?.length > 0);
     const exists = {
-      path: paths.length > 0 || Boolean(exploration ?? given), solutions: Boolean(given?.solutions.length), 'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(reach), proof: any('proof'), regions: any('regions'),
+      path: paths.length > 0 || Boolean(exploration ?? cell?.motions ?? given), solutions: Boolean(given?.solutions.length), 'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(reach), proof: any('proof'), regions: any('regions'),
       roadmap: kinds.has('roadmap'), roads: kinds.has('roads'), rows: kinds.has('rows'), channel: kinds.has('channel'), cells: kinds.has('channel'),
       expanded: traces.some((trace) => trace?.expanded?.length > 0), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'), flow: kinds.has('field'),
-      boxes: kinds.has('boxes'), poses: paths.length > 0, map: Boolean(exploration), sensor: Boolean(exploration), known: Boolean(exploration),
+      boxes: kinds.has('boxes'), poses: paths.length > 0 || Boolean(cell?.motions), map: Boolean(exploration), sensor: Boolean(exploration), known: Boolean(exploration),
       names: any('obstacles') || any('movers'), frames: frames.length > 0,
     };
     return LAYERS.map(([name]) => name).filter((name) => exists[name]);

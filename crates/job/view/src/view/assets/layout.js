@@ -7,7 +7,7 @@ const WIDE = '(min-width: 77.5rem)';
 /** Creates the elements of the page, its panels and everything in them, as properties of the view. */
 function buildPage(view) {
   const canvas = (label) => element('canvas', { tabindex: '0', role: 'img', 'aria-label': label, 'aria-describedby': 'description' });
-  const [left, right] = [canvas('Workspace'), canvas('Configuration space')];
+  const [left, right] = [canvas('Workspace'), canvas(view.space)];
   const parts = {
     title: element('h1'),
     lines: element('div', { class: 'lines' }),
@@ -24,7 +24,7 @@ function buildPage(view) {
       oninput: (event) => view.seek(Number(event.target.value)),
     }),
     clock: element('span', { class: 'clock' }),
-    spaceTitle: element('figcaption', {}, 'Configuration space'),
+    spaceTitle: element('figcaption', {}, view.space),
     step: element('p', { class: 'step', 'aria-live': 'polite' }),
     key: element('ul', { class: 'key', 'aria-label': 'Colours', hidden: true }),
     plots: element('section', { class: 'plots', 'aria-label': 'Motion over time' }),
@@ -46,7 +46,7 @@ function buildPage(view) {
     'section',
     { class: 'panels' },
     element('figure', {}, element('figcaption', {}, 'Workspace'), left, zoom('workspace', 'Workspace')),
-    element('figure', {}, parts.spaceTitle, right, zoom('cspace', 'Configuration space')),
+    element('figure', {}, parts.spaceTitle, right, zoom('cspace', view.space)),
     view.sideView.root,
     parts.probe,
   );

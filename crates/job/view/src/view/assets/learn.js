@@ -41,15 +41,14 @@ class Learn {
     this.parts = {
       chapter: element('select', { 'aria-label': 'chapter', onchange: (event) => this.open(event.target.value) }),
       progress: element('ol', { class: 'progress', 'aria-label': 'Lessons of this chapter' }),
-      count: element('span', { class: 'count' }),
       title: element('h2'),
       text: element('p', { class: 'text' }),
       back: step(-1, 'Back', 'back'),
-      next: step(1, 'Next', 'next primary'),
+      next: step(1, 'Next', 'next'),
       tables: element('div', { class: 'lesson' }),
     };
     const { parts } = this;
-    this.head = element('section', { class: 'course-head', 'aria-label': 'Lesson', hidden: true }, element('div', { class: 'course-place' }, parts.chapter, parts.progress, parts.count), parts.title, parts.text);
+    this.head = element('section', { class: 'course-head', 'aria-label': 'Lesson', hidden: true }, element('div', { class: 'course-place' }, parts.chapter, parts.progress), parts.title, parts.text);
     this.foot = element('section', { class: 'course-foot', 'aria-label': 'Question', hidden: true }, this.question.root);
     this.steps = element('p', { class: 'course-steps', hidden: true }, parts.back, parts.next);
     this.details = element('section', { class: 'course-details', 'aria-label': 'Numbers of the figure', hidden: true }, this.pair.choice, parts.tables);
@@ -200,10 +199,12 @@ class Learn {
       const button = element('button', { type: 'button', 'aria-label': label, title: lesson.title(this.view.model), 'aria-current': k === this.at ? 'step' : undefined, class: done ? 'solved' : undefined, onclick: () => this.enter(this.chapter, k) }, done ? icon('found') : String(k + 1));
       return element('li', {}, button);
     }));
-    parts.count.textContent = `${this.at + 1} of ${lessons.length}`;
     parts.back.disabled = this.chapter === 0 && this.at === 0;
+    // Until the question is solved, the button that checks the answer is the prominent one.
+    parts.next.classList.toggle('primary', isSolved(this.chapter)(this.current));
     const isLast = this.at === lessons.length - 1;
     const next = this.chapters[this.chapter + 1];
+    this.showHeading();
     parts.next.textContent = isLast && next ? `Next: ${next.title}` : 'Next';
     parts.next.disabled = isLast && !next;
   }
@@ -214,17 +215,29 @@ class Learn {
   show() {
     const { view, current, parts } = this;
     const isActive = view.mode === 'learn' && Boolean(current);
+    const wasActive = view.root.classList.contains('learning');
     view.root.classList.toggle('learning', isActive);
     view.root.dataset.figure = isActive ? this.figure : '';
     this.head.hidden = this.foot.hidden = this.steps.hidden = !isActive;
     this.details.hidden = !isActive || !this.own;
     this.pair.root.hidden = !isActive || this.figure !== 'pair';
     this.pair.choice.hidden = this.figure !== 'pair';
+    if (wasActive && !isActive) view.headings();
     if (!isActive) return;
     parts.title.textContent = current.title(view.model);
     parts.text.textContent = current.text(view);
     this.showProgress();
     if (this.figure === 'pair') this.pair.show();
+  }
+
+  /** Shows what the course is about, instead of the result. A live page keeps its own heading. */
+  showHeading() {
+    const { parts, recall } = this.view;
+    if (recall) return;
+    const lessons = this.chapters.flatMap(({ lessons: own }, k) => own.map((lesson) => this.key(k, lesson)));
+    const solved = lessons.filter((lesson) => this.solved.has(lesson)).length;
+    parts.title.textContent = `Learn: ${this.chapters[this.chapter].title}`;
+    parts.lines.replaceChildren(element('p', {}, `${lessons.length} short lessons with questions, about this arm among its obstacles; ${solved} solved`));
   }
 
   /** Updates what depends on the figure. */

@@ -11,7 +11,9 @@ const Legend = (() => {
     goal: () => diamond('ink'),
     unreached: () => diamond('paper'),
     line: (theme, { color, width, dash = [] }) => `<path d="M0 8h26" stroke="${theme.stroke(color)}" stroke-width="${width}" stroke-dasharray="${dash.join(' ')}"/>`,
-    swatch: (theme, { color }) => {
+    /** `pale` is the share of the background in the colour. */
+    swatch: (theme, { color, pale = 0 }) => {
+      if (pale) return `<path ${SQUARE} fill="${Theme.mixed(theme[color], theme.paper, pale)}" stroke="${theme.grey}"/>`;
       const { fill, line: edge } = theme[color] ? { fill: theme[color], line: theme.grey } : theme.obstacle(color);
       return `<path ${SQUARE} fill="${fill}" stroke="${edge}"/>`;
     },

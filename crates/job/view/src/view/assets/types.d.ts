@@ -209,6 +209,8 @@ interface Model {
   /** The data of an exploration, and the knowledge over time. */
   exploration?: any;
   survey?: any;
+  /** The data of two arms in one cell. */
+  cell?: any;
 }
 
 /** The pair of an arm's part and an obstacle that is in contact or nearest. */

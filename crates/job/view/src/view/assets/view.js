@@ -225,6 +225,22 @@ class View {
     return true;
   }
 
+  /** Returns the title of the right picture. */
+  get space() {
+    return 'Configuration space';
+  }
+
+  /** Returns what a pointer and keys do in the pictures: pairs of an action and its effect. */
+  get pointerHelp() {
+    return [
+      ['drag the tip of the arm', 'the arm follows; contacts are red'],
+      ['Enter in the workspace, then arrow keys', 'the same by keys (with Shift in larger steps)'],
+      ['point into the configuration space', 'shows the arm in that configuration, and its contacts'],
+      ['click, tap', 'keeps the arm there, or releases it'],
+      ['arrow keys in the configuration space', 'move the cross by a degree (with Shift by ten)'],
+    ];
+  }
+
   /** Returns what the pictures show: 'move', 'think', 'slice', or 'pair' for the two polygons of a lesson. */
   get drawn() {
     return this.mode === 'learn' ? this.learn.figure : this.mode;
@@ -439,7 +455,7 @@ class View {
       return element(tag, shown === text ? {} : { title: text }, shown);
     };
     parts.title.textContent = title[0] ?? '';
-    parts.spaceTitle.textContent = this.isTask ? 'Configuration space of this step' : 'Configuration space';
+    parts.spaceTitle.textContent = this.isTask ? `${this.space} of this step` : this.space;
     parts.lines.replaceChildren(...title.slice(1).map((text) => readable(text)));
     if (!this.judged) this.say(ending, status);
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), readable(text, 'dd')]));

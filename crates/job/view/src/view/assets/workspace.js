@@ -497,7 +497,7 @@ const Workspace = (() => {
     return [x + width / 2, y + height / 2];
   }
 
-  return { still, moving, found, arm, struck, outline, tipTrace, outlines, middle, distance };
+  return { still, moving, found, arm, struck, outline, tipTrace, outlines, named, middle, distance };
 })();
 
 /** Draws a path or trace in its colour, over a broad pale line that makes it visible on any ground. */

@@ -1,0 +1,131 @@
+//! The answer in a sentence, and its key figures.
+
+use super::Answer;
+use super::motions::{ShownMotions, alone, between, met};
+use crate::{Coordination, Refutation};
+use cplan_model::Outcome;
+use cplan_text::{counted, length_down, percent};
+
+/// Least total wait, seconds, that the sentence states.
+const MIN_STATED_WAIT: f64 = 0.005;
+
+/// Clearance, metres, below which no machine keeps two arms apart.
+const TIGHT_CLEARANCE: f64 = 1e-3;
+
+/// A key figure: name, value, meaning, and `warning` or nothing.
+pub type Card = [String; 4];
+
+impl Answer<'_> {
+    /// Returns the answer in one sentence.
+    pub fn headline(&self) -> String {
+        let names = self.names();
+        match &self.plan.outcome {
+            Outcome::Found(found) => {
+                let proven = match self.gap(found) {
+                    Some(gap) => format!("proven within {} of the least time", percent(gap)),
+                    None => "certified".to_owned(),
+                };
+                format!("Both arms arrive after {:.3} s, {proven}{}", found.duration, self.waits_in_words(found))
+            }
+            Outcome::Infeasible(Refutation::Alone { arm, .. }) => {
+                format!("No motions: {} cannot reach its goal, even without {}", names[*arm], names[1 - *arm])
+            }
+            Outcome::Infeasible(Refutation::Starts(what)) => {
+                format!("No motions: at the starts, {}", what.replace('"', ""))
+            }
+            Outcome::Infeasible(Refutation::Goals(_)) => {
+                "No motions: the arms collide at every pair of goals".to_owned()
+            }
+            Outcome::Infeasible(Refutation::Boxes(_)) => {
+                "No motions: on every route to their goals, the arms collide".to_owned()
+            }
+            Outcome::Unknown(why) => format!("Not known: {why}"),
+        }
+    }
+
+    /// Returns the proven upper bound on how much longer the cycle is than the least possible one, as a fraction.
+    fn gap(&self, found: &Coordination) -> Option<f64> {
+        let bound = self.plan.lower_bound.filter(|bound| *bound > 0.0)?;
+        Some((found.duration / bound - 1.0).max(0.0))
+    }
+
+    /// States which arm waits for which, and for how long: `; right waits 0.20 s for left`.
+    fn waits_in_words(&self, found: &Coordination) -> String {
+        let names = self.names();
+        let total = |arm: usize| found.waits[arm].iter().map(|wait| wait.to - wait.from).sum::<f64>();
+        let waiting = (0..2).filter(|arm| total(*arm) >= MIN_STATED_WAIT);
+        waiting.map(|arm| format!("; {} waits {:.2} s for {}", names[arm], total(arm), names[1 - arm])).collect()
+    }
+
+    /// Returns the key figures.
+    pub fn cards(&self) -> Vec<Card> {
+        let Outcome::Found(found) = &self.plan.outcome else { return self.cards_without_motions() };
+        let mut cards = vec![card("cycle", format!("{:.3} s", found.duration), "until both arms are at their goals")];
+        if let Some((gap, bound)) = self.gap(found).zip(self.plan.lower_bound) {
+            let bound = (1e3 * bound).floor() / 1e3;
+            let note = format!("proven: no motions of both take less than {bound:.3} s");
+            cards.push(card("over the least time", format!("at most {}", percent(gap)), &note));
+        }
+        let kept = match found.clearance {
+            distance if distance.is_finite() => format!("at least {}", length_down(distance)),
+            _ => "any distance".to_owned(),
+        };
+        let is_required = self.scenes()[0].workspace().clearance > 0.0;
+        cards.push(match found.clearance {
+            distance if distance < TIGHT_CLEARANCE && !is_required => {
+                let [name, value, note, _] =
+                    card("between the arms", kept, "because none was required; --clearance requires more");
+                [name, value, note, "warning".to_owned()]
+            }
+            distance if distance.is_finite() => card("between the arms", kept, "proven, for clocks within the skew"),
+            _ => card("between the arms", kept, "no links of both can meet"),
+        });
+        cards.push(card("skew", format!("{} ms", (1e3 * self.skew).round()), "by which the two clocks may differ"));
+        let (value, note) = match &found.interlocks {
+            None => ("none found".to_owned(), "the motions are safe for clocks within the skew"),
+            Some(signals) if signals.is_empty() => ("none".to_owned(), "needed: the motions are safe for all clocks"),
+            Some(signals) => (signals.len().to_string(), "make the motions safe for all clocks"),
+        };
+        cards.push(card("signals", value, note));
+        cards
+    }
+
+    fn cards_without_motions(&self) -> Vec<Card> {
+        let names = self.names();
+        let (mut cards, between) = (Vec::new(), between(self.cell));
+        match &self.plan.outcome {
+            Outcome::Infeasible(Refutation::Boxes(boxes)) => {
+                let note = "of colliding configurations, in the space of all four joints";
+                cards.push(card("proof", counted(boxes.examined, "box"), note));
+            }
+            Outcome::Infeasible(Refutation::Starts(_)) => {
+                if let Some((distance, pair)) = met(&between, self.starts()) {
+                    let what = between.describe(pair, names).replace('"', "");
+                    let (name, value) = match distance {
+                        depth if depth <= 0.0 => ("overlap", length_down(-depth)),
+                        _ => ("distance", length_down(distance)),
+                    };
+                    cards.push(card(name, value, &format!("at the starts: {what}")));
+                }
+            }
+            _ => {}
+        }
+        if let Some((time, pair)) = ShownMotions::of(self, &between).and_then(|motions| motions.first_contact(&between))
+        {
+            let what = between.describe(pair, names).replace('"', "");
+            let note = format!("{what}, if both take their fastest paths at once");
+            cards.push(card("first collision", format!("at {time:.3} s"), &note));
+        }
+        for (arm, motion) in alone(self.plan).into_iter().enumerate() {
+            if let Some(motion) = motion {
+                let note = format!("its fastest motion without {}", names[1 - arm]);
+                cards.push(card(&format!("{} alone", names[arm]), format!("{:.3} s", motion.duration()), &note));
+            }
+        }
+        cards
+    }
+}
+
+fn card(name: &str, value: String, note: &str) -> Card {
+    [name.to_owned(), value, note.to_owned(), String::new()]
+}
