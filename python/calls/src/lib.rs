@@ -1,4 +1,4 @@
-//! What the Python package does, on plain types: problems, findings, predicates and tables of studies.
+//! Functions of the Python package on plain types: problems, findings, predicates and tables of studies.
 //!
 //! The package has two back ends, which share these functions: the extension module (PyO3), and the WebAssembly module
 //! for Pythons without one. This crate decides nothing. [`cplan::input`] reads the texts of arms and worlds, options are

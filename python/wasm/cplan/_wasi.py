@@ -2,7 +2,6 @@
 
 import errno
 import os
-import random
 import stat
 import sys
 import time
@@ -129,7 +128,7 @@ class System:
             buffer += len(variable)
 
     def random_get(self, at: int, count: int) -> None:
-        self.memory.write(at & 0xFFFFFFFF, random.SystemRandom().randbytes(count))
+        self.memory.write(at & 0xFFFFFFFF, os.urandom(count))
 
     def sched_yield(self) -> None:
         time.sleep(0)

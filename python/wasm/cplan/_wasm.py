@@ -302,7 +302,7 @@ class Handle:
     @property
     def number(self) -> int:
         """The number in the present instance."""
-        # Begun anew after an exception, it has no objects.
+        # After an exception, the next instance has no objects.
         if self._generation != PLANNER.generation or PLANNER.instance is None:
             self._make()
         number: int = self.answer["id"]

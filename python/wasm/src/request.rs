@@ -12,7 +12,7 @@ pub type Id = u64;
 /// Corners of a polygon. A missing number is not a number.
 pub type Corners = Vec<[Option<f64>; 2]>;
 
-/// A request, with what it needs from the system.
+/// A request, with the working folder and the objects to release.
 #[derive(Deserialize)]
 pub struct Envelope {
     /// The working folder, to which paths are relative.

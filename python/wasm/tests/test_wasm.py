@@ -142,7 +142,8 @@ def test_the_program_reads_and_writes_files(tmp_path: Path) -> None:
 
 def test_a_batch_is_that_of_the_program() -> None:
     lines = "".join(json.dumps({"urdf": str(ROBOT), "world": str(SHELF), "options": {"goal": [goal, -0.35]}}) + "\n" for goal in (1.5, 1.3, 9.0))
-    words = ["batch", "--fields", "status,planner"]
+    # There are no threads.
+    words = ["batch", "--fields", "status,planner", "--jobs=2"]
     own = run(*words, stdin=lines)
     theirs = subprocess.run([PROGRAM, *words], capture_output=True, text=True, input=lines)
     assert (own.returncode, own.stdout) == (theirs.returncode, theirs.stdout) and own.stdout.count("found") == 2
