@@ -26,11 +26,7 @@ pub fn array(py: Python<'_>, rows: Vec<[f64; 2]>) -> PyResult<Py<PyArray2<f64>>>
 ///
 /// Corners are arrays of shape (n, 2), counter-clockwise.
 #[pyfunction]
-pub fn penetration_depth(
-    py: Python<'_>,
-    a: PyReadonlyArray2<'_, f64>,
-    b: PyReadonlyArray2<'_, f64>,
-) -> PyResult<f64> {
+pub fn penetration_depth(py: Python<'_>, a: PyReadonlyArray2<'_, f64>, b: PyReadonlyArray2<'_, f64>) -> PyResult<f64> {
     cplan_calls::penetration_depth(&corners("a", &a)?, &corners("b", &b)?).map_err(|refusal| raised(py, refusal))
 }
 

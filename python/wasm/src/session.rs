@@ -126,9 +126,7 @@ impl Session {
         match request {
             Request::ReadStudy { path } => self.keep_study(cplan_calls::read_study(path)?),
             Request::StudyOfSources { sources } => self.keep_study(cplan_calls::study_of_sources(&sources)?),
-            Request::StudySources { text, arm, world } => {
-                Answer::text(cplan_calls::study_sources(text, &arm, &world)?)
-            }
+            Request::StudySources { text, arm, world } => Answer::text(cplan_calls::study_sources(text, &arm, &world)?),
             Request::StudyStored { study } => Answer::json(&held(&self.studies, study)?.sources()),
             Request::Values { study, layout } => {
                 Answer::json(&cplan_calls::layout_values(held(&self.studies, study)?, layout)?)
@@ -147,12 +145,14 @@ impl Session {
                 collected(|each| study.search(&known, &done, 1, each))
             }
             Request::Table { study, rows, content } => table(held(&self.studies, study)?, &rows, &content),
-            Request::OpenJournal { study, path, fresh } => {
-                self.open_journal(study, &path, fresh)
-            }
+            Request::OpenJournal { study, path, fresh } => self.open_journal(study, &path, fresh),
             Request::AddRows { journal, rows } => {
-                let journal = self.journals.get_mut(&journal).ok_or_else(|| Refusal::value("the journal is removed"))?;
-                rows.iter().try_for_each(|row| journal.add(row)).and_then(|()| journal.flush()).map_err(Refusal::system)?;
+                let journal =
+                    self.journals.get_mut(&journal).ok_or_else(|| Refusal::value("the journal is removed"))?;
+                rows.iter()
+                    .try_for_each(|row| journal.add(row))
+                    .and_then(|()| journal.flush())
+                    .map_err(Refusal::system)?;
                 Answer::json(&())
             }
             Request::RemoveJournal { journal } => {
