@@ -36,6 +36,11 @@ gpu:
 python:
     .ci/python
 
+# The Python package without an extension module, as WebAssembly: wheel, tests, in CPython and in Pyodide
+wheel:
+    cargo build --locked
+    .ci/wheel
+
 # Licences, bans and duplicates of dependencies (needs cargo-deny)
 deny:
     cargo deny --locked check

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import importlib
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
+# Only arrays need numpy, so a plan can be made before it is loaded.
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -78,6 +80,13 @@ class PolygonTest:
 
     def __repr__(self) -> str:
         return f"<cplan.PolygonTest: {', '.join(f'{name}={value}' for name, value in vars(self).items())}>"
+
+
+def listed(rows: Any) -> Any:
+    """Returns rows of numbers as nested lists."""
+    import numpy as np
+
+    return np.asarray(rows, float).tolist()
 
 
 def pandas(columns: dict[str, Any]) -> Any:

@@ -4,14 +4,17 @@ Members have the names of `cspace.json`. Data that a planner does not make is No
 tip, in radians or metres. Arrays are read-only.
 """
 
+from __future__ import annotations
+
 import json
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import numpy as np
-from numpy.typing import NDArray
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+    _Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -43,8 +46,8 @@ class Polygon:
     at the end.
     """
 
-    outer: Array
-    holes: tuple[Array, ...]
+    outer: _Array
+    holes: tuple[_Array, ...]
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +65,7 @@ class Free:
     """
 
     proves: Proves
-    window: Array
+    window: _Array
     polygons: tuple[Polygon, ...]
 
 
@@ -71,8 +74,8 @@ class Way:
     """A path: its waypoints, shape (n, 2), and the path with rounded corners as short segments, shape (m, 2)."""
 
     name: str
-    waypoints: Array
-    outline: Array
+    waypoints: _Array
+    outline: _Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -84,7 +87,7 @@ class Roadmap:
     graphs.
     """
 
-    vertices: Array
+    vertices: _Array
     edges: NDArray[np.int64]
     whole: bool
     visibility: str | None = None
@@ -98,19 +101,19 @@ class Cells:
     shape (n, 2).
     """
 
-    corners: tuple[Array, ...]
+    corners: tuple[_Array, ...]
     channel: NDArray[np.int64]
-    centers: Array
-    middles: Array
+    centers: _Array
+    middles: _Array
 
 
 @dataclass(frozen=True, eq=False)
 class Boxes:
     """Boxes of a subdivision, least and greatest values, shape (n, 2, 2): proven free, proven colliding, undecided."""
 
-    free: Array
-    stuck: Array
-    mixed: Array
+    free: _Array
+    stuck: _Array
+    mixed: _Array
 
 
 @dataclass(frozen=True, eq=False)
@@ -123,13 +126,13 @@ class Grid:
     `values` is None.
     """
 
-    lower: Array
-    size: Array
+    lower: _Array
+    size: _Array
     proves: Proves
     free: str
     blocked: NDArray[np.bool_]
     quantity: str
-    values: Array | None
+    values: _Array | None
 
     @property
     def extent(self) -> tuple[float, float, float, float]:
@@ -152,18 +155,18 @@ class CSpace:
     payload: str
     proves: Proves
     c_obstacles: tuple[Region, ...]
-    start: Array
-    goals: Array
+    start: _Array
+    goals: _Array
     paths: tuple[Way, ...]
     free: Free | None
     roadmap: Roadmap | None
     cells: Cells | None
-    expanded: Array
-    rows: Array
+    expanded: _Array
+    rows: _Array
     boxes: Boxes | None
     failed_attempts: tuple[str, ...]
     grid: Grid | None
-    proof: Array
+    proof: _Array
 
 
 def read(text: str) -> list[CSpace]:
@@ -204,7 +207,7 @@ def _grid(data: dict[str, Any]) -> Grid:
         size=_array(data["size"]),
         proves=_proves(data["proves"]),
         free=data["free"],
-        blocked=_fixed(np.array(data["blocked"], bool).reshape(shape)),
+        blocked=_fixed(data["blocked"], bool).reshape(shape),
         quantity=data["quantity"],
         values=_array(data["values"], shape[1]) if data["values"] else None,
     )
@@ -219,15 +222,18 @@ def _polygons(data: list[Any]) -> tuple[Polygon, ...]:
     return tuple(Polygon(outer, tuple(holes)) for outer, *holes in rings)
 
 
-def _array(data: list[Any], *inner: int) -> Array:
+def _array(data: list[Any], *inner: int) -> _Array:
     """Returns a read-only array, for pairs of shape (n, 2). Null becomes NaN."""
-    return _fixed(np.array(data, float).reshape(-1, *inner))
+    return _fixed(data, float).reshape(-1, *inner)
 
 
 def _numbers(data: list[Any], *inner: int) -> NDArray[np.int64]:
-    return _fixed(np.array(data, np.int64).reshape(-1, *inner))
+    return _fixed(data, "int64").reshape(-1, *inner)
 
 
-def _fixed(array: NDArray[Any]) -> NDArray[Any]:
+def _fixed(data: list[Any], kind: Any) -> NDArray[Any]:
+    import numpy as np
+
+    array = np.array(data, kind)
     array.flags.writeable = False
     return array

@@ -4,6 +4,8 @@ Results have the members of the program's JSON as attributes; missing ones are N
 JSON itself.
 """
 
+from __future__ import annotations
+
 import csv
 import io
 import json
@@ -13,10 +15,7 @@ from os import PathLike
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import UnionType
-from typing import Any, TypeVar, get_args, get_origin, get_type_hints, overload
-
-import numpy as np
-from numpy.typing import ArrayLike
+from typing import TYPE_CHECKING, Any, TypeVar, get_args, get_origin, get_type_hints, overload
 
 from cplan import _frames
 from cplan._cplan import Arm, Plan, Problem, World
@@ -24,8 +23,14 @@ from cplan._cplan import check as _check
 from cplan._cplan import compare as _compare
 from cplan._cplan import compared_problems as _compared_problems
 from cplan._cplan import verify as _verify
-from cplan._frames import Trajectory
+from cplan._frames import Trajectory, listed
 from cplan.planning import options, words
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+else:
+    # Only arrays need numpy, so findings are made before it is loaded.
+    ArrayLike = Any
 
 Pair = tuple[float, float]
 Vector = tuple[float, float, float]
@@ -446,12 +451,12 @@ def _motion(arm: Arm, world: World, motion: Any) -> str:
     joints = arm.joints(world)
     if isinstance(motion, tuple):
         return _document(joints, motion, None)
-    return json.dumps({"joints": joints, "path": np.asarray(motion, float).tolist()})
+    return json.dumps({"joints": joints, "path": listed(motion)})
 
 
 def _document(joints: list[str], rows: Sequence[Any], interpolation: str | None) -> str:
     names = ["time", "position", "velocity", "acceleration"]
-    samples = {name: np.asarray(row, float).tolist() for name, row in zip(names, rows)}
+    samples = {name: listed(row) for name, row in zip(names, rows)}
     return json.dumps({"joints": joints, "interpolation": interpolation, "trajectory": samples})
 
 

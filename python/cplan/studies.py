@@ -1,15 +1,14 @@
 """Studies of many layouts, on this machine or on a Ray cluster."""
 
+from __future__ import annotations
+
 import importlib
 import json
 import os
 from collections.abc import Callable, Iterator
 from functools import cached_property
 from pathlib import Path
-from typing import Any, Literal
-
-import numpy as np
-from numpy.typing import NDArray
+from typing import TYPE_CHECKING, Any, Literal
 
 from cplan import _frames
 from cplan._cplan import Arm, Found, Infeasible, Options, Problem, Rows, Unknown, World
@@ -17,6 +16,10 @@ from cplan._cplan import Journal as _Journal
 from cplan._cplan import Study as _Study
 from cplan._cplan import plan
 from cplan.planning import words
+
+if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
 
 # Number of layouts per Ray task, large enough that the work takes longer than the overhead of the cluster.
 BATCH = 1000
@@ -33,7 +36,7 @@ class Study(_Study):
     """
 
     @classmethod
-    def from_text(cls, text: str, arm: Arm, world: World) -> "Study":
+    def from_text(cls, text: str, arm: Arm, world: World) -> Study:
         """Creates a study from a text (TOML, which need not name robot and world), a robot in URDF and a world."""
         return cls("", cls.sources(text, arm, world))
 
@@ -46,7 +49,7 @@ class Study(_Study):
         fresh: bool = False,
         batch: int = BATCH,
         progress: Progress | None = None,
-    ) -> "Results":
+    ) -> Results:
         """Plans all layouts, then runs the search if the study has one.
 
         It runs on this machine with `jobs` threads (by default one for each core), or with `engine="ray"` on the
@@ -174,6 +177,8 @@ class Results:
 
     def column(self, name: str) -> NDArray[np.float64]:
         """Returns a column of numbers."""
+        import numpy as np
+
         return np.asarray(self.to_columns()[name], dtype=np.float64)
 
     def layout(self, row: int) -> tuple[Arm, World]:

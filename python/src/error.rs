@@ -1,8 +1,9 @@
-//! Errors in input as Python exceptions.
+//! Refused calls as Python exceptions.
 
 use cplan::input;
+use cplan_calls::Refusal;
 use pyo3::create_exception;
-use pyo3::exceptions::PyValueError;
+use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
 
 create_exception!(
@@ -12,8 +13,16 @@ create_exception!(
     "Invalid input. The text of the exception states each problem with file, line and hint. `diagnostics` lists them as dictionaries with `file`, `line`, `column`, `message` and `help`; `line` and `column` are None if unknown."
 );
 
-/// Returns an input error as a Python exception.
-pub fn raised(py: Python<'_>, error: &input::InputError) -> PyErr {
+/// Returns a refusal as a Python exception.
+pub fn raised(py: Python<'_>, refusal: Refusal) -> PyErr {
+    match refusal {
+        Refusal::Input(error) => invalid_input(py, &error),
+        Refusal::Value(why) => PyValueError::new_err(why),
+        Refusal::System(why) => PyOSError::new_err(why),
+    }
+}
+
+fn invalid_input(py: Python<'_>, error: &input::InputError) -> PyErr {
     let raised = InputError::new_err(error.to_string());
     let diagnostics = error.diagnostics().iter().map(|diagnostic| {
         let entry = pyo3::types::PyDict::new(py);

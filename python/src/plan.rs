@@ -1,8 +1,8 @@
 //! The answer to a problem.
 
-use crate::error::refused;
+use crate::error::{raised, refused};
 use crate::geometry::array;
-use crate::problem::{Options, Problem, noted};
+use crate::problem::{Options, Problem};
 use crate::signals::interruptible;
 use cplan::output::CSpaceFormat;
 use cplan::{PlanOutput as _, Status};
@@ -37,16 +37,15 @@ pub struct Unknown;
 
 /// Returns the motion of a plan as a `cplan.Trajectory`.
 fn trajectory(py: Python<'_>, plan: &cplan::Plan) -> PyResult<Option<Py<PyAny>>> {
-    let Some(motion) = plan.trajectory().cloned() else { return Ok(None) };
-    let joints = &plan.arm().joints;
+    let Some(motion) = cplan_calls::trajectory(plan) else { return Ok(None) };
     let parts = (
         PyArray1::from_vec(py, motion.time),
         array(py, motion.position)?,
         array(py, motion.velocity)?,
         array(py, motion.acceleration)?,
-        joints.each_ref().map(|joint| joint.name.clone()),
-        joints.each_ref().map(|joint| joint.unit()),
-        cplan::motion::interpolation(plan.arm()),
+        motion.joints,
+        motion.units,
+        motion.interpolation,
     );
     Ok(Some(py.import("cplan._frames")?.call_method1("Trajectory", parts)?.unbind()))
 }
@@ -71,7 +70,6 @@ pub fn plan(
     options: Option<&Options>,
     progress: Option<Py<PyAny>>,
 ) -> PyResult<Py<PyAny>> {
-    let options = options.map_or_else(cplan::Options::default, |options| options.options);
     let made = interruptible(py, |raised| {
         let mut say = |text: &str| {
             if let Some(progress) = progress.as_ref().filter(|_| !raised.is_any())
@@ -80,16 +78,16 @@ pub fn plan(
                 raised.put(error);
             }
         };
-        cplan::engine::plan_with(&problem.problem, &options, &mut say)
+        cplan_calls::plan(&problem.problem, Options::given(options), &mut say)
     })?;
-    outcome(py, made.map_err(refused)?)
+    outcome(py, made.map_err(|refusal| raised(py, refusal))?)
 }
 
 /// Returns the average time of `count` plans in seconds, without Python. The overhead of `plan` is measured against it.
 #[pyfunction]
 #[pyo3(signature = (problem, options = None, count = 1))]
 pub fn seconds_in_rust(py: Python<'_>, problem: &Problem, options: Option<&Options>, count: u32) -> PyResult<f64> {
-    let options = options.map_or_else(cplan::Options::default, |options| options.options);
+    let options = Options::given(options).options;
     py.detach(|| {
         let begun = Instant::now();
         for _ in 0..count {
@@ -102,11 +100,8 @@ pub fn seconds_in_rust(py: Python<'_>, problem: &Problem, options: Option<&Optio
 /// Restores a pickled plan: it plans again, and raises if the result differs.
 #[pyfunction]
 pub fn restored(py: Python<'_>, data: &[u8]) -> PyResult<Py<PyAny>> {
-    let plan = interruptible(py, |_| {
-        let stored = serde_json::from_slice(data).map_err(cplan::engine::StoredPlanError::from)?;
-        cplan::engine::restored(&stored)
-    })?;
-    outcome(py, plan.map_err(refused)?)
+    let plan = interruptible(py, |_| cplan_calls::restored(data))?;
+    outcome(py, plan.map_err(|refusal| raised(py, refusal))?)
 }
 
 #[pymethods]
@@ -132,7 +127,7 @@ impl Plan {
     /// Notes on the problem for the user, line by line.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        noted(self.plan.problem())
+        cplan_calls::notes(self.plan.problem())
     }
 
     /// Returns a summary of some ten lines for people.

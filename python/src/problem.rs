@@ -2,16 +2,15 @@
 
 use crate::error::{raised, refused};
 use crate::geometry::array;
-use cplan::Joint;
-use cplan::cli::scara_urdf;
-use cplan::input::{self, InputError, LoadedScene, Overrides, RobotFile, Source, scene_from, scene_of};
+use cplan_calls::ArmNumbers;
 use numpy::PyArray2;
 use pyo3::PyClass;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
-use serde::{Deserialize, Serialize};
+use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
+use std::sync::LazyLock;
 
 /// A planar two-joint arm: a robot in URDF, or one that is made in code.
 ///
@@ -19,25 +18,7 @@ use std::path::PathBuf;
 /// leaves open.
 #[pyclass(frozen, module = "cplan", eq)]
 #[derive(Clone, PartialEq)]
-pub struct Arm(ArmSource);
-
-#[derive(Clone, PartialEq, Serialize, Deserialize)]
-enum ArmSource {
-    Urdf(Source),
-    Made(Box<cplan::Arm>),
-}
-
-impl Arm {
-    /// Creates an arm from a URDF.
-    pub fn of(urdf: Source) -> Self {
-        Self(ArmSource::Urdf(urdf))
-    }
-
-    /// Returns the URDF; `None` for an arm that is made in code.
-    pub fn source(&self) -> Option<&Source> {
-        if let ArmSource::Urdf(source) = &self.0 { Some(source) } else { None }
-    }
-}
+pub struct Arm(pub cplan_calls::Arm);
 
 #[pymethods]
 impl Arm {
@@ -45,18 +26,15 @@ impl Arm {
     #[staticmethod]
     #[pyo3(signature = (path, *, xacro_args = None))]
     fn from_urdf(py: Python<'_>, path: PathBuf, xacro_args: Option<BTreeMap<String, String>>) -> PyResult<Self> {
-        let arguments = xacro_args.unwrap_or_default().into_iter().collect();
-        RobotFile { arguments, ..input::robot(absolute(path)?) }
-            .read()
-            .map(|source| Self(ArmSource::Urdf(source)))
-            .map_err(|error| raised(py, &error))
+        let arm = cplan_calls::Arm::read(absolute(path)?, xacro_args.unwrap_or_default());
+        arm.map(Self).map_err(|refusal| raised(py, refusal))
     }
 
     /// Reads a URDF text. `name` appears in messages.
     #[staticmethod]
     #[pyo3(signature = (text, name = "arm.urdf"))]
     fn from_text(text: String, name: &str) -> Self {
-        Self(ArmSource::Urdf(Source::in_memory(name, text)))
+        Self(cplan_calls::Arm::of_text(text, name))
     }
 
     /// Creates an arm of two bars with round ends, of these lengths and this width in metres. The joints "joint 1" and
@@ -65,22 +43,15 @@ impl Arm {
     #[staticmethod]
     #[pyo3(signature = (lengths, width, *, limits = None, velocity = None, acceleration = None))]
     fn rr(
+        py: Python<'_>,
         lengths: [f64; 2],
         width: f64,
         limits: Option<[(f64, f64); 2]>,
         velocity: Option<[f64; 2]>,
         acceleration: Option<[f64; 2]>,
     ) -> PyResult<Self> {
-        let mut arm = cplan::Arm::rr(lengths, width).map_err(refused)?;
-        for (k, joint) in arm.joints.iter_mut().enumerate() {
-            if let Some((lower, upper)) = limits.map(|limits| limits[k]) {
-                *joint = Joint::turning(&joint.name, lower, upper);
-            }
-            let speed = velocity.map_or(joint.velocity, |velocity| velocity[k]);
-            let rise = acceleration.map_or(joint.acceleration * speed / joint.velocity, |acceleration| acceleration[k]);
-            *joint = joint.clone().at_most(speed, rise);
-        }
-        Ok(Self(ArmSource::Made(Box::new(arm))))
+        let arm = cplan_calls::Arm::rr(lengths, width, &ArmNumbers { limits, velocity, acceleration });
+        arm.map(Self).map_err(|refusal| raised(py, refusal))
     }
 
     /// Creates a SCARA by the numbers of its data sheet, as `cplan init --kind scara` does: lengths of both links and travel
@@ -90,32 +61,29 @@ impl Arm {
     #[staticmethod]
     #[pyo3(signature = (links = None, stroke = None, *, limits = None, velocity = None))]
     fn scara(
+        py: Python<'_>,
         links: Option<[f64; 2]>,
         stroke: Option<f64>,
         limits: Option<[(f64, f64); 2]>,
         velocity: Option<[f64; 2]>,
     ) -> PyResult<Self> {
-        let urdf = scara_urdf(links, stroke, limits, velocity).map_err(refused)?;
-        Ok(Self(ArmSource::Urdf(Source::in_memory("arm.urdf", urdf))))
+        let numbers = ArmNumbers { limits, velocity, acceleration: None };
+        cplan_calls::Arm::scara(links, stroke, &numbers).map(Self).map_err(|refusal| raised(py, refusal))
     }
 
     /// The text of the URDF; None for an arm that is made in code.
     #[getter]
     fn urdf(&self) -> Option<&str> {
-        if let ArmSource::Urdf(source) = &self.0 { Some(source.text()) } else { None }
+        self.0.source().map(|source| source.text())
     }
 
     /// Returns the names of the two joints that are planned in a world, base to tip.
     fn joints(&self, py: Python<'_>, world: &World) -> PyResult<[String; 2]> {
-        let loaded = py.detach(|| self.among(world)).map_err(|error| raised(py, &error))?;
-        Ok(loaded.scene.arm().joints.each_ref().map(|joint| joint.name.clone()))
+        py.detach(|| self.0.joints(&world.0)).map_err(|refusal| raised(py, refusal))
     }
 
     fn __repr__(&self) -> String {
-        match &self.0 {
-            ArmSource::Urdf(source) => format!("<cplan.Arm: URDF of {} characters>", source.text().len()),
-            ArmSource::Made(arm) => format!("<cplan.Arm: {} with a reach of {} m>", arm.kind(), arm.reach()),
-        }
+        self.0.description()
     }
 
     /// Restores a pickled arm.
@@ -129,49 +97,24 @@ impl Arm {
     }
 }
 
-impl Arm {
-    /// Reads the arm together with its world.
-    pub fn among(&self, world: &World) -> Result<LoadedScene, InputError> {
-        let world = world.source.clone();
-        match &self.0 {
-            ArmSource::Urdf(source) => scene_from(source.clone(), world),
-            ArmSource::Made(arm) => scene_of(*arm.clone(), world),
-        }
-    }
-}
-
 /// A polygonal workspace, with start and goal or steps: the text of a world file (TOML).
 #[pyclass(frozen, module = "cplan", eq)]
 #[derive(PartialEq)]
-pub struct World {
-    source: Source,
-}
-
-impl World {
-    /// Creates a world from a world file.
-    pub fn of(source: Source) -> Self {
-        Self { source }
-    }
-
-    /// Returns the world file.
-    pub fn source(&self) -> &Source {
-        &self.source
-    }
-}
+pub struct World(pub cplan_calls::World);
 
 #[pymethods]
 impl World {
     /// Reads a world file (TOML).
     #[staticmethod]
     fn from_toml(py: Python<'_>, path: PathBuf) -> PyResult<Self> {
-        Source::read(&absolute(path)?).map(|source| Self { source }).map_err(|error| raised(py, &error))
+        cplan_calls::World::read(absolute(path)?).map(Self).map_err(|refusal| raised(py, refusal))
     }
 
     /// Reads the text of a world file. `name` appears in messages.
     #[staticmethod]
     #[pyo3(signature = (text, name = "world.toml"))]
     fn from_text(text: String, name: &str) -> Self {
-        Self { source: Source::in_memory(name, text) }
+        Self(cplan_calls::World::of_text(text, name))
     }
 
     /// Creates a world from obstacles, given one after the other, and the other keys of a world file by name.
@@ -179,29 +122,27 @@ impl World {
     #[pyo3(signature = (*obstacles, **keys))]
     fn new(py: Python<'_>, obstacles: &Bound<'_, PyTuple>, keys: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
         let json = py.import("cplan._world")?.call_method1("document", (obstacles, keys))?;
-        let keys: serde_json::Value = serde_json::from_str(json.extract::<&str>()?).map_err(refused)?;
-        let text = toml::to_string(&keys).map_err(refused)?;
-        Ok(Self { source: Source::in_memory("World(...)", text) })
+        cplan_calls::World::of_keys(json.extract()?).map(Self).map_err(|refusal| raised(py, refusal))
     }
 
     /// The text of the world file.
     #[getter]
     fn toml(&self) -> &str {
-        self.source.text()
+        self.0.source().text()
     }
 
     fn __repr__(&self) -> String {
-        format!("<cplan.World: TOML of {} lines>", self.source.text().lines().count())
+        self.0.description()
     }
 
     /// Restores a pickled world.
     #[staticmethod]
     fn restored(data: &str) -> PyResult<Self> {
-        serde_json::from_str(data).map(|source| Self { source }).map_err(refused)
+        serde_json::from_str(data).map(Self).map_err(refused)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
-        pickled(slf, &slf.get().source)
+        pickled(slf, &slf.get().0)
     }
 }
 
@@ -222,10 +163,14 @@ fn pickled<'py, T: PyClass>(thing: &Bound<'py, T>, data: &impl Serialize) -> PyR
 /// line.
 #[pyclass(frozen, module = "cplan", eq)]
 #[derive(PartialEq)]
-pub struct Options {
-    words: Vec<String>,
-    pub options: cplan::Options,
-    pub overrides: Overrides,
+pub struct Options(cplan_calls::Options);
+
+impl Options {
+    /// Returns the options of a call, which are optional.
+    pub fn given(options: Option<&Self>) -> &cplan_calls::Options {
+        static NONE: LazyLock<cplan_calls::Options> = LazyLock::new(cplan_calls::Options::default);
+        options.map_or(&NONE, |options| &options.0)
+    }
 }
 
 #[pymethods]
@@ -233,19 +178,15 @@ impl Options {
     /// Parses words such as `--planner=harmonic`.
     #[new]
     fn new(words: Vec<String>) -> PyResult<Self> {
-        if words.is_empty() {
-            return Ok(Self { words, options: cplan::Options::default(), overrides: Overrides::default() });
-        }
-        let (options, overrides) = cplan::cli::read_words(&words).map_err(refused)?;
-        Ok(Self { words, options, overrides })
+        cplan_calls::Options::parse(words).map(Self).map_err(refused)
     }
 
     fn __repr__(&self) -> String {
-        format!("<cplan.Options: {}>", self.words.join(" "))
+        format!("<cplan.Options: {}>", self.0.words().join(" "))
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Vec<String>,))> {
-        Ok((slf.get_type().into_any(), (slf.get().words.clone(),)))
+        Ok((slf.get_type().into_any(), (slf.get().0.words().to_vec(),)))
     }
 }
 
@@ -261,15 +202,14 @@ impl Problem {
     #[new]
     #[pyo3(signature = (arm, world, options = None))]
     fn new(py: Python<'_>, arm: &Arm, world: &World, options: Option<&Options>) -> PyResult<Self> {
-        let overrides = options.map_or_else(Overrides::default, |options| options.overrides.clone());
-        let problem = py.detach(|| cplan::Problem::of_scene(arm.among(world)?, &overrides));
-        problem.map(|problem| Self { problem }).map_err(|error| raised(py, &error))
+        let problem = py.detach(|| cplan_calls::problem(&arm.0, &world.0, Options::given(options)));
+        problem.map(|problem| Self { problem }).map_err(|refusal| raised(py, refusal))
     }
 
     /// Notes on the files for the user, line by line.
     #[getter]
     fn notes(&self) -> Vec<String> {
-        noted(&self.problem)
+        cplan_calls::notes(&self.problem)
     }
 
     /// Names of the two joints, base to tip.
@@ -315,11 +255,4 @@ impl Problem {
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (String,))> {
         pickled(slf, &slf.get().problem)
     }
-}
-
-/// Returns the notes of a problem for the user, line by line.
-pub fn noted(problem: &cplan::Problem) -> Vec<String> {
-    let robot = problem.robot();
-    let assumptions = robot.assumptions(problem.scene().arm());
-    robot.warnings.iter().chain(problem.notes()).cloned().chain(assumptions).collect()
 }

@@ -3,8 +3,8 @@
 use crate::error::{raised, refused};
 use crate::problem::{Arm, World};
 use crate::signals::interruptible;
-use cplan::input::Source;
 use cplan::study::{self, Row, Summary};
+use cplan_calls::Column;
 use numpy::PyArray1;
 use pyo3::exceptions::{PyOSError, PyValueError};
 use pyo3::prelude::*;
@@ -18,10 +18,6 @@ pub struct Study {
     study: study::Study,
 }
 
-fn words(words: &[String]) -> Result<(cplan::Options, cplan::input::Overrides), String> {
-    cplan::cli::read_words(words)
-}
-
 #[pymethods]
 impl Study {
     /// Reads a study file (TOML), and the robot and world that it names. `sources` are the texts of a pickled study,
@@ -30,23 +26,20 @@ impl Study {
     #[pyo3(signature = (path, sources = None))]
     fn new(py: Python<'_>, path: PathBuf, sources: Option<&str>) -> PyResult<Self> {
         let study = match sources {
-            Some(sources) => study::Study::from_sources(serde_json::from_str(sources).map_err(refused)?, &words),
+            Some(sources) => cplan_calls::study_of_sources(sources),
             // Absolute, so that a pickled study finds maps and meshes elsewhere.
             None => {
                 let path = std::path::absolute(&path)?;
-                py.detach(|| study::Study::load(path, &words, &cplan::input::robot))
+                py.detach(|| cplan_calls::read_study(path))
             }
         };
-        study.map(|study| Self { study }).map_err(|error| raised(py, &error))
+        study.map(|study| Self { study }).map_err(|refusal| raised(py, refusal))
     }
 
     /// Returns `sources` for a study with this text, a robot that was read from a URDF, and a world.
     #[staticmethod]
-    fn sources(text: String, arm: &Arm, world: &World) -> PyResult<String> {
-        let urdf = arm
-            .source()
-            .ok_or_else(|| PyValueError::new_err("a study needs a robot in URDF, but this arm was made in code"))?;
-        serde_json::to_string(&(Source::in_memory("study.toml", text), urdf, world.source())).map_err(refused)
+    fn sources(py: Python<'_>, text: String, arm: &Arm, world: &World) -> PyResult<String> {
+        cplan_calls::study_sources(text, &arm.0, &world.0).map_err(|refusal| raised(py, refusal))
     }
 
     /// The title of the study.
@@ -58,7 +51,7 @@ impl Study {
     /// Names of the parameters.
     #[getter]
     fn parameters(&self) -> Vec<String> {
-        self.study.parameters.iter().map(|parameter| parameter.name.clone()).collect()
+        cplan_calls::parameter_names(&self.study)
     }
 
     /// Number of layouts that the search may try, in addition to the listed and drawn ones.
@@ -80,26 +73,18 @@ impl Study {
 
     /// Returns the values of a layout, by the names of the parameters.
     fn values<'py>(&self, py: Python<'py>, layout: usize) -> PyResult<Bound<'py, PyDict>> {
-        if layout >= self.study.count() {
-            return Err(PyValueError::new_err(format!(
-                "the study has {} layouts, numbered from 0",
-                self.study.count()
-            )));
-        }
+        let numbers = cplan_calls::layout_values(&self.study, layout).map_err(|refusal| raised(py, refusal))?;
         let values = PyDict::new(py);
-        for (parameter, value) in self.study.parameters.iter().zip(self.study.values(layout)) {
+        for (parameter, value) in self.study.parameters.iter().zip(numbers) {
             values.set_item(&parameter.name, value)?;
         }
         Ok(values)
     }
 
     /// Returns robot and world with the values of a row.
-    fn layout(&self, values: Vec<f64>) -> PyResult<(Arm, World)> {
-        if values.len() != self.study.parameters.len() {
-            return Err(PyValueError::new_err(format!("expected {} values", self.study.parameters.len())));
-        }
-        let [world, urdf] = self.study.layout(&values);
-        Ok((Arm::of(urdf), World::of(world)))
+    fn layout(&self, py: Python<'_>, values: Vec<f64>) -> PyResult<(Arm, World)> {
+        let (arm, world) = cplan_calls::layout(&self.study, &values).map_err(|refusal| raised(py, refusal))?;
+        Ok((Arm(arm), World(world)))
     }
 
     /// Plans in the layouts from `first` to before `last` with `jobs` threads, and returns their rows.
@@ -144,24 +129,23 @@ impl Study {
 
     /// Returns the columns of rows by name: numbers and flags as arrays, words as lists with None.
     fn columns<'py>(&self, py: Python<'py>, rows: &Rows) -> PyResult<Bound<'py, PyDict>> {
-        let (columns, rows) = (PyDict::new(py), &rows.rows);
-        let nan = |value: Option<f64>| value.unwrap_or(f64::NAN);
-        columns.set_item("layout", PyArray1::from_iter(py, rows.iter().map(|row| row.layout as i64)))?;
-        for (k, parameter) in self.study.parameters.iter().enumerate() {
-            columns.set_item(&parameter.name, PyArray1::from_iter(py, rows.iter().map(|row| row.values[k])))?;
+        let columns = PyDict::new(py);
+        for (name, column) in cplan_calls::table(&self.study, &rows.rows) {
+            match column {
+                Column::Counts(counts) => columns.set_item(name, PyArray1::from_vec(py, counts))?,
+                Column::Numbers(numbers) => {
+                    let numbers = numbers.into_iter().map(|number| number.unwrap_or(f64::NAN));
+                    columns.set_item(name, PyArray1::from_iter(py, numbers))?;
+                }
+                Column::Flags(flags) => columns.set_item(name, PyArray1::from_vec(py, flags))?,
+                Column::Words(words) => columns.set_item(name, words)?,
+            }
         }
-        columns.set_item("outcome", rows.iter().map(|row| row.ending.name()).collect::<Vec<_>>())?;
-        columns.set_item("reason", rows.iter().map(|row| row.reason.as_deref()).collect::<Vec<_>>())?;
-        for (k, measure) in self.study.measures.iter().enumerate() {
-            columns.set_item(measure.name(), PyArray1::from_iter(py, rows.iter().map(|row| nan(row.measured[k]))))?;
-        }
-        columns.set_item("fits", PyArray1::from_iter(py, rows.iter().map(|row| row.fits)))?;
         Ok(columns)
     }
 
     fn __repr__(&self) -> String {
-        let names: Vec<&str> = self.study.parameters.iter().map(|parameter| parameter.name.as_str()).collect();
-        format!("<cplan.Study \"{}\": {} layouts over {}>", self.study.name, self.study.count(), names.join(", "))
+        cplan_calls::study_description(&self.study)
     }
 
     fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (&'static str, String))> {

@@ -43,7 +43,10 @@ mod result_files;
 mod schema;
 #[cfg(feature = "serve")]
 mod serve;
-#[cfg(any(feature = "serve", feature = "study"))]
+#[cfg(all(not(target_family = "wasm"), any(feature = "serve", feature = "study")))]
+mod signals;
+#[cfg(all(target_family = "wasm", feature = "study"))]
+#[path = "no_signals.rs"]
 mod signals;
 mod sinks;
 #[cfg(feature = "study")]

@@ -6,7 +6,9 @@ use anstream::{AutoStream, ColorChoice};
 use clap::builder::styling::{AnsiColor, Style};
 use std::io::IsTerminal;
 
-use terminal_size::{Height, Width, terminal_size_of};
+#[cfg(not(target_family = "wasm"))]
+use terminal_size::terminal_size_of;
+use terminal_size::{Height, Width};
 
 /// Least width of wrapped lines, in characters. Narrower lines would have hardly more than one word.
 const MIN_WIDTH: usize = 40;
@@ -24,6 +26,12 @@ fn width(is_terminal: bool, size: Option<(Width, Height)>) -> Option<usize> {
     let seen = || size.map(|(Width(width), _)| usize::from(width));
     let width = is_terminal.then(|| stated().or_else(seen)).flatten().filter(|width| *width > 0);
     width.map(|width| width.max(MIN_WIDTH))
+}
+
+/// Returns the size of a terminal, which WebAssembly does not know.
+#[cfg(target_family = "wasm")]
+fn terminal_size_of<T>(_: T) -> Option<(Width, Height)> {
+    None
 }
 
 /// Returns a summary wrapped to the terminal's width. If the output shows colours, the exit code determines the colour and

@@ -34,7 +34,8 @@ pub fn run_in_order<T: Send, E>(
     work: impl Fn(usize) -> T + Sync,
     mut each: impl FnMut(T) -> Result<(), E>,
 ) -> Result<(), E> {
-    if jobs <= 1 {
+    // WebAssembly has no threads.
+    if jobs <= 1 || cfg!(target_family = "wasm") {
         return (0..count).try_for_each(|i| each(work(i)));
     }
     let next = AtomicUsize::new(0);

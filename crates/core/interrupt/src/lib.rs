@@ -19,7 +19,8 @@
 //! [`Interrupt::run`], so callers that never interrupt need not know about checkpoints.
 //!
 //! WebAssembly without a system (`wasm32-unknown-unknown`) has neither a clock nor unwinding. There, a `Host` supplies
-//! the time, and stops work by ending the whole instance of the program.
+//! the time, and stops work by ending the whole instance of the program. WASI has a clock, but no unwinding either: there,
+//! checkpoints call callbacks, but work that has begun runs to its end.
 #![forbid(unsafe_code)]
 
 #[cfg(any(all(target_family = "wasm", target_os = "unknown"), test))]
@@ -57,6 +58,9 @@ pub struct Interrupt {
     deadline: Option<Instant>,
     question: Option<Arc<StopCallback>>,
 }
+
+/// True if a checkpoint can stop work.
+const CAN_STOP: bool = !cfg!(target_os = "wasi");
 
 /// A callback that returns true if work must stop.
 type StopCheck = Box<dyn Fn() -> bool + Send + Sync>;
@@ -168,7 +172,7 @@ pub fn checkpoint() {
     let (set, asked) = ACTIVE.with_borrow(|active| {
         let why = |(depth, interrupt): (usize, &Interrupt)| Some(Unwinding { depth, why: interrupt.stop_reason()? });
         let is_due = |interrupt: &&Interrupt| interrupt.question.as_ref().is_some_and(|question| question.is_due());
-        ((1..).zip(active).find_map(why), active.iter().find(is_due).cloned())
+        ((1..).zip(active).filter(|_| CAN_STOP).find_map(why), active.iter().find(is_due).cloned())
     });
     if let Some(unwinding) = set {
         unwind(unwinding);

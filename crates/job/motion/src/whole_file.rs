@@ -72,7 +72,8 @@ impl TemporaryFile {
         let Target { file: target, folder, kept } = target(path)?;
         let mut file = new_temporary(&folder).map_err(refused)?;
         file.write_all(bytes).map_err(refused)?;
-        if let Some(permissions) = kept {
+        // WASI has no permissions.
+        if let Some(permissions) = kept.filter(|_| !cfg!(target_os = "wasi")) {
             file.as_file().set_permissions(permissions).map_err(refused)?;
         }
         Ok(Self { path: path.to_owned(), target, temporary: file.into_temp_path() })
