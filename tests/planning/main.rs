@@ -19,6 +19,7 @@ mod interrupt;
 mod optimum;
 mod own_bodies;
 mod published;
+mod published_lengths;
 mod random_tasks;
 mod random_worlds;
 mod replay;
