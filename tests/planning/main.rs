@@ -29,6 +29,7 @@ mod shortest;
 mod slabs;
 mod solve;
 mod stored;
+mod suite;
 mod task_optimum;
 mod tasks;
 mod touching_heights;
