@@ -4,6 +4,7 @@ mod cli;
 mod docs;
 mod draw;
 mod library_api;
+mod own_planner;
 mod pictures;
 mod rounding;
 mod searches;

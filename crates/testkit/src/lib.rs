@@ -42,6 +42,8 @@ pub mod shipped;
 #[cfg(feature = "cplan")]
 pub mod solid;
 #[cfg(feature = "cplan")]
+pub mod suite;
+#[cfg(feature = "cplan")]
 pub mod world;
 #[cfg(feature = "cplan")]
 pub mod world_reference;

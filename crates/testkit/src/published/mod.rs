@@ -2,6 +2,7 @@
 
 pub mod alves;
 pub mod deicu;
+pub mod grid_lengths;
 pub mod line_maps;
 pub mod plain;
 pub mod row;
