@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 impl Answered<'_> {
     /// Returns the answer.
     pub fn json(&self) -> Value {
-        let Self { args, cell, plan } = self;
+        let Self { args, cell, plan, .. } = self;
         let found = plan.outcome.found();
         let arms: Vec<Value> = cell.arms.iter().enumerate().map(|(k, arm)| self.arm(k, arm, found)).collect();
         let mut answer = json!({
@@ -66,16 +66,22 @@ impl Answered<'_> {
 
     fn interlocks(&self, found: &Coordination) -> Value {
         let named = |arm: usize| &self.cell.arms[arm].name;
-        let place = |arm: usize, time: f64| json!({ "time": time, "position": row(found.place(arm, time)) });
+        let place = |arm: usize, time: f64, signal: usize| {
+            let mut place = json!({ "time": time, "position": row(found.place(arm, time)) });
+            if let Some(programs) = self.programs {
+                place["target"] = json!(programs.target(signal, arm));
+            }
+            place
+        };
         let interlocks = found.interlocks.as_ref().map(|interlocks| {
             let one = |(number, interlock): (usize, &cplan_cell::Interlock)| {
                 let sets = 1 - interlock.waits;
                 json!({
                     "signal": number + 1,
                     "waits": named(interlock.waits),
-                    "at": place(interlock.waits, interlock.at),
+                    "at": place(interlock.waits, interlock.at, number + 1),
                     "sets": named(sets),
-                    "after": place(sets, interlock.set),
+                    "after": place(sets, interlock.set, number + 1),
                 })
             };
             interlocks.iter().enumerate().map(one).collect::<Vec<_>>()

@@ -2,6 +2,7 @@
 
 mod files;
 mod json;
+mod programs;
 mod words;
 
 use super::exit::code_of;
@@ -9,6 +10,7 @@ use super::failure::Failure;
 use super::headings::OUTPUT;
 use super::outputs::{Outputs, refuse_to_overwrite_inputs};
 use super::print_args::PrintArgs;
+use super::program_args::{ProgramArgs, ProgramWriter};
 use super::sinks;
 use super::theme::ThemeArgs;
 use super::values::clearance;
@@ -18,6 +20,7 @@ use crate::motion::{Format, field_per_line};
 use crate::options::number_in;
 use clap::{Args, ValueHint};
 use cplan_cell::{Cell, CellPlan, Settings, plan_cell};
+use programs::CellPrograms;
 use std::path::{Path, PathBuf};
 
 /// Coordinate two arms in one cell, on one clock.
@@ -33,6 +36,8 @@ Examples:
   cplan cell workspaces/cells/crossing.toml --output cell.csv \\
     --output left.yaml --output right.yaml
   cplan cell workspaces/cells/column.toml --skew 0.1 --json
+  cplan cell workspaces/cells/crossing.toml --template rapid \\
+    --output left.mod --output right.mod
 
 Exit codes: 0 both motions are found and certified, 1 bad input or I/O, 2 wrong
 command line, 3 there are no such motions, proven, 4 unknown.")]
@@ -52,12 +57,15 @@ pub struct CellArgs {
     #[arg(long, value_name = "COUNT", default_value_t = Settings::default().boxes)]
     boxes: usize,
     /// Write the result: .json, .csv with four joints, or .yaml (ROS 2). A .yaml file has the motions of both arms, or
-    /// that of one arm if its name ends in the name of the arm. Repeatable.
+    /// that of one arm if its name ends in the name of the arm. With --template, other extensions are programs, one for
+    /// each arm. Repeatable.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     output: Vec<PathBuf>,
     /// Draw both arms, the diagram of their times, and a time line for each arm: .svg, .png or .html. Repeatable.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     picture: Vec<PathBuf>,
+    #[command(flatten)]
+    program: ProgramArgs,
     #[command(flatten)]
     theme: ThemeArgs,
     #[command(flatten)]
@@ -76,6 +84,16 @@ struct Answered<'a> {
     args: &'a CellArgs,
     cell: &'a Cell,
     plan: &'a CellPlan,
+    programs: Option<&'a CellPrograms>,
+}
+
+/// The content of a file with motions.
+#[derive(Debug, Clone, Copy)]
+enum Content {
+    /// The result.
+    Result(Format),
+    /// A program for the controller of one arm.
+    Program,
 }
 
 /// Plans a cell, and writes its motions.
@@ -83,21 +101,37 @@ struct Answered<'a> {
 /// # Errors
 /// Bad input and I/O, and motions that cannot be timed.
 pub fn run(args: &CellArgs) -> Result<u8, Failure> {
+    let content = |path: &Path| content(path, &args.program);
     let outputs = Outputs::new(&args.output, content, &args.picture, [])?.without_animation("a cell")?;
-    let cell = Cell::load(&args.cell, &|path| crate::input::robot(path), args.clearance)?;
-    refuse_to_overwrite_inputs(outputs.paths(), &cell.files)?;
+    let has_program = outputs.results.iter().any(|(_, content)| matches!(content, Content::Program));
+    let mut writer = args.program.writer(has_program, 0.0)?;
+    let cell = programs::load(args, &outputs, writer.as_mut())?;
+    let inputs: Vec<PathBuf> = cell.files.iter().cloned().chain(writer.iter().flat_map(ProgramWriter::files)).collect();
+    refuse_to_overwrite_inputs(outputs.paths(), &inputs)?;
     for arm in &cell.arms {
         let warnings = arm.problem.robot().warnings.iter();
         warnings.for_each(|warning| args.print.print_status(&format!("warning: {}: {warning}", arm.name)));
     }
-    let settings = Settings { options: Options::default(), skew: args.skew, boxes: args.boxes };
+    let mut options = Options::default();
+    if writer.is_some() {
+        options.drive.blend = 0.0;
+    }
+    let settings = Settings { options, skew: args.skew, boxes: args.boxes };
     let plan = plan_cell(&cell, &settings, &mut |text| args.print.print_status(text))?;
-    let answered = Answered { args, cell: &cell, plan: &plan };
+    let programs = plan.outcome.found().zip(writer.as_ref());
+    let programs = programs.map(|(found, writer)| CellPrograms::new(&cell, found, writer)).transpose()?;
+    let answered = Answered { args, cell: &cell, plan: &plan, programs: programs.as_ref() };
     outputs.write(
         vec![],
-        |path, format| match (format, &plan.outcome) {
-            (Format::Json, _) => Ok(Some(field_per_line(&answered.json()).into_bytes())),
-            (format, Outcome::Found(found)) => Ok(Some(files::motion(&cell, found, path, format).into_bytes())),
+        |path, content| match (content, &plan.outcome) {
+            (Content::Result(Format::Json), _) => Ok(Some(field_per_line(&answered.json()).into_bytes())),
+            (Content::Result(format), Outcome::Found(found)) => {
+                Ok(Some(files::motion(&cell, found, path, format).into_bytes()))
+            }
+            (Content::Program, Outcome::Found(_)) => Ok(programs
+                .as_ref()
+                .and_then(|programs| programs.text(&cell, path))
+                .map(|text| text.as_bytes().to_vec())),
             _ => {
                 sinks::warn_unwritten(path, "motions");
                 Ok(None)
@@ -113,10 +147,14 @@ pub fn run(args: &CellArgs) -> Result<u8, Failure> {
     Ok(code)
 }
 
-/// Returns the format of an output by its extension.
-fn content(path: &Path) -> Result<Format, Failure> {
-    match Format::from_path(path)? {
-        format @ (Format::Json | Format::Csv | Format::Yaml) => Ok(format),
+/// Returns the content of an output by its extension.
+fn content(path: &Path, program: &ProgramArgs) -> Result<Content, Failure> {
+    let format = match Format::from_path(path) {
+        Ok(format) => format,
+        Err(error) => return program.accept(error).map(|()| Content::Program),
+    };
+    match format {
+        format @ (Format::Json | Format::Csv | Format::Yaml) => Ok(Content::Result(format)),
         #[cfg(feature = "mcap")]
         Format::Mcap => {
             Err(Failure::Usage(format!("{}: motions of cells are written as .json, .csv or .yaml", path.display())))

@@ -50,6 +50,12 @@ impl Coordination {
     pub fn place(&self, arm: usize, time: f64) -> Configuration {
         Curve::of_legs([&self.motions[arm].trajectory]).at(time)
     }
+
+    /// Returns the length of an arm's path up to a time on its clock, in joint space. The motion must stop at each corner of
+    /// the path.
+    pub fn travelled(&self, arm: usize, time: f64) -> f64 {
+        Curve::of_legs([&self.motions[arm].trajectory]).travelled(time)
+    }
 }
 
 /// Why paths are not coordinated.

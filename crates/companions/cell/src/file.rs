@@ -3,6 +3,7 @@
 use crate::excerpt::{Composition, Excerpt};
 use cplan_engine::Problem;
 use cplan_geometry::{Convex, separation};
+use cplan_handling::RobotJoints;
 use cplan_model::{Arm, Carrier, Obstacle, SelfObstacle, Shape};
 use cplan_robot::{Diagnostic, FileIdentity, InputError, RobotFile, Source, Spanned, toml_table};
 use cplan_world::{LoadedScene, Overrides, scene_from};
@@ -138,6 +139,17 @@ impl Cell {
             }
         }
         Ok(Self { name: title, arms, is_one_robot, files })
+    }
+}
+
+impl Cell {
+    /// Returns the joints of an arm's controller: all joints of its robot, unless the other arm moves some of them.
+    pub fn joints(&self, arm: usize) -> RobotJoints {
+        let problem = &self.arms[arm].problem;
+        match self.is_one_robot {
+            true => RobotJoints::only_planned(&problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone())),
+            false => problem.robot().joints.clone(),
+        }
     }
 }
 

@@ -46,7 +46,19 @@ pub(crate) enum Judgement {
 pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> Judgement {
     let end = motions.map(Trajectory::duration).into_iter().fold(0.0, f64::max) + skew;
     let curves = motions.map(|motion| Curve::resting(motion, -skew, end));
-    let mut nearest = sampled(between, &curves, end, skew);
+    let nearest = sampled(between, &curves, end, skew);
+    judge_pairs(between, &curves, skew, vec![[0, 0]], nearest)
+}
+
+/// Judges two motions at the pairs of times that belong to the pairs of legs `open` and differ by at most `skew` seconds.
+/// `nearest` is the nearest place that is known.
+pub(crate) fn judge_pairs(
+    between: &Between,
+    curves: &[Curve; 2],
+    skew: f64,
+    open: Vec<[usize; 2]>,
+    mut nearest: Option<NearestPlace>,
+) -> Judgement {
     let is_collision = |place: &NearestPlace| place.distance <= 0.0 || place.distance < between.clearance;
     if let Some(place) = nearest.filter(is_collision) {
         return Judgement::TooClose(place);
@@ -55,7 +67,8 @@ pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> 
         let (middle, deviation) = curves[arm].deviation(span);
         (span, Rc::new(between.placed(arm, middle, deviation)))
     };
-    let mut open = vec![[0, 1].map(|arm| side(arm, curves[arm].leg(0)))];
+    let pair = |legs: [usize; 2]| [0, 1].map(|arm| side(arm, curves[arm].leg(legs[arm])));
+    let mut open: Vec<_> = open.into_iter().map(pair).collect();
     let (mut clearance, mut evaluations) = (f64::INFINITY, 0);
     while let Some(sides) = open.pop() {
         checkpoint();

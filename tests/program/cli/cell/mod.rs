@@ -2,6 +2,7 @@
 
 mod errors;
 mod oracle;
+mod programs;
 mod random;
 
 use super::{Done, Place, number, read, shipped};
