@@ -5,12 +5,13 @@ use crate::space::{Derivative, Piece};
 use cplan_cell::{Cell, Coordination};
 use std::path::Path;
 
-/// Returns a motion as CSV or YAML. A YAML file whose name ends in that of an arm has the motion of this arm alone.
+/// Returns a motion as CSV or YAML. A file whose name ends in that of an arm has the motion of this arm alone.
 pub fn motion(cell: &Cell, found: &Coordination, path: &Path, format: Format) -> String {
     match (format, named_arm(cell, path)) {
         (Format::Yaml, Some(arm)) => ros_yaml(&alone(cell, found, arm)),
         (Format::Yaml, None) => ros_yaml(&both(cell, found)),
-        _ => csv_of_joints(&both(cell, found), &[], None),
+        (_, Some(arm)) => csv_of_joints(&alone(cell, found, arm), &[], None),
+        (_, None) => csv_of_joints(&both(cell, found), &[], None),
     }
 }
 

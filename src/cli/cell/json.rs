@@ -35,7 +35,7 @@ impl Answered<'_> {
         answer
     }
 
-    fn arm(&self, k: usize, CellArm { name, problem }: &CellArm, found: Option<&Coordination>) -> Value {
+    fn arm(&self, k: usize, CellArm { name, problem, .. }: &CellArm, found: Option<&Coordination>) -> Value {
         let motion = self.plan.alone[k].as_ref().and_then(|plan| plan.motion()?.1.outcome.found());
         let alone = motion.map(|motion| {
             let bound = motion.fastest.map(|fastest| fastest.lower_bound);

@@ -33,8 +33,8 @@ has a start and a goal; obstacles stand still.
 Examples:
   cplan cell workspaces/cells/crossing.toml
   cplan cell workspaces/cells/crossing.toml --picture cell.html
-  cplan cell workspaces/cells/crossing.toml --output cell.csv \\
-    --output left.yaml --output right.yaml
+  cplan cell workspaces/cells/crossing.toml --output cell.json \\
+    --output left.csv --output right.csv
   cplan cell workspaces/cells/column.toml --skew 0.1 --json
   cplan cell workspaces/cells/crossing.toml --template rapid \\
     --output left.mod --output right.mod
@@ -47,7 +47,7 @@ pub struct CellArgs {
     cell: PathBuf,
     /// Greatest difference of the two controllers' clocks, seconds. The certificate holds for all differences up to
     /// this one.
-    #[arg(long, value_name = "SECONDS", value_parser = skew, default_value_t = Settings::default().skew)]
+    #[arg(long, value_name = "SECONDS", value_parser = skew, default_value_t = skew_or_default(None))]
     skew: f64,
     /// Least distance to keep from every obstacle and between the arms, metres, instead of the cell's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
@@ -56,8 +56,8 @@ pub struct CellArgs {
     /// 0, cplan tries no such proof.
     #[arg(long, value_name = "COUNT", default_value_t = Settings::default().boxes)]
     boxes: usize,
-    /// Write the result: .json, .csv with four joints, or .yaml (ROS 2). A .yaml file has the motions of both arms, or
-    /// that of one arm if its name ends in the name of the arm. With --template, other extensions are programs, one for
+    /// Write the result: .json, .csv or .yaml (ROS 2). A .csv or .yaml file has the motions of both arms, or that of
+    /// one arm if its name ends in the name of the arm. With --template, other extensions are programs, one for
     /// each arm. Repeatable.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
     output: Vec<PathBuf>,
@@ -75,7 +75,16 @@ pub struct CellArgs {
 /// Greatest skew of two clocks, seconds.
 const MAX_SKEW: f64 = 60.0;
 
-fn skew(text: &str) -> Result<f64, String> {
+/// Returns the skew of a command line.
+pub fn skew_or_default(skew: Option<f64>) -> f64 {
+    skew.unwrap_or_else(|| Settings::default().skew)
+}
+
+/// Parses a skew.
+///
+/// # Errors
+/// The allowed values.
+pub fn skew(text: &str) -> Result<f64, String> {
     number_in(text, |x| (0.0..=MAX_SKEW).contains(&x), &format!("of seconds, from 0 to {MAX_SKEW}"))
 }
 

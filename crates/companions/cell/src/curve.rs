@@ -35,9 +35,20 @@ impl Curve {
         Self { pieces, legs: ranges }
     }
 
-    /// Creates the curve of one motion that is preceded and followed by rests, from `begin` (not after 0) to `end`.
-    pub fn resting(trajectory: &Trajectory, begin: f64, end: f64) -> Self {
-        let Self { mut pieces, .. } = Self::of_legs([trajectory]);
+    /// Creates the curve of a motion with one leg.
+    pub fn of_pieces(pieces: Vec<Piece>) -> Self {
+        let legs = vec![[0, pieces.len()]];
+        Self { pieces, legs }
+    }
+
+    /// Returns the times at which the curve begins and ends, seconds.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.pieces[0].from, self.pieces[self.pieces.len() - 1].to]
+    }
+
+    /// Returns the same motion as one leg, preceded and followed by rests from `begin` to `end`.
+    pub fn resting(self, begin: f64, end: f64) -> Self {
+        let Self { mut pieces, .. } = self;
         let (first, last) = (pieces[0].at(0.0), pieces[pieces.len() - 1].at(1.0));
         let (starts, ends) = (pieces[0].from, pieces[pieces.len() - 1].to);
         if begin < starts {
@@ -46,8 +57,7 @@ impl Curve {
         if end > ends {
             pieces.push(Piece::line(ends, end, last, last));
         }
-        let legs = vec![[0, pieces.len()]];
-        Self { pieces, legs }
+        Self::of_pieces(pieces)
     }
 
     /// Returns the curve of straight lines between targets, one in each unit of time. Legs end at the targets `ends`, in

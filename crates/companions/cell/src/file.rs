@@ -30,6 +30,8 @@ pub struct CellArm {
     pub name: String,
     /// The motion that the arm shall make. Its obstacles are those of the cell, and the base of the other arm.
     pub problem: Problem,
+    /// The robot in the cell, with the same obstacles.
+    pub loaded: LoadedScene,
 }
 
 toml_table! {
@@ -123,9 +125,12 @@ impl Cell {
         let mut files: Vec<PathBuf> = one.files().into_iter().chain(two.files()).chain([path.to_owned()]).collect();
         files.sort();
         files.dedup();
-        let [one, two] = [one, two].map(|loaded| Problem::of_scene(loaded, &Overrides::default()));
+        let arm = |name: String, loaded: LoadedScene| {
+            let problem = Problem::of_scene(loaded.clone(), &Overrides::default())?;
+            Ok::<_, InputError>(CellArm { name, problem, loaded })
+        };
         let [first, second] = names;
-        let arms = [CellArm { name: first, problem: one? }, CellArm { name: second, problem: two? }];
+        let arms = [arm(first, one)?, arm(second, two)?];
         for arm in &arms {
             if arm.problem.motion().is_none() {
                 let message = format!(

@@ -131,7 +131,7 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
     }
     let drive = Drive { optimize: Objective::Time, ..settings.options.drive };
     let options = Options { drive, ..settings.options };
-    for (arm, CellArm { name, problem }) in cell.arms.iter().enumerate() {
+    for (arm, CellArm { name, problem, .. }) in cell.arms.iter().enumerate() {
         progress(&format!("planning {name} alone"));
         let plan = plan(problem, &options, Searches::NONE, progress)?;
         let outcome = match plan.outcome() {
