@@ -15,6 +15,7 @@ use super::sinks;
 use super::theme::ThemeArgs;
 use super::values::clearance;
 use crate::engine::Options;
+use crate::input::{InputError, Source};
 use crate::model::Outcome;
 use crate::motion::{Format, field_per_line};
 use crate::options::number_in;
@@ -51,7 +52,7 @@ pub struct CellArgs {
     skew: f64,
     /// Least distance to keep from every obstacle and between the arms, metres, instead of the cell's.
     #[arg(long, value_name = "METRES", value_parser = clearance)]
-    clearance: Option<f64>,
+    pub clearance: Option<f64>,
     /// Number of boxes, in the space of all four joints, for a proof that the arms cannot both reach their goals. With
     /// 0, cplan tries no such proof.
     #[arg(long, value_name = "COUNT", default_value_t = Settings::default().boxes)]
@@ -60,16 +61,16 @@ pub struct CellArgs {
     /// one arm if its name ends in the name of the arm. With --template, other extensions are programs, one for
     /// each arm. Repeatable.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
-    output: Vec<PathBuf>,
+    pub output: Vec<PathBuf>,
     /// Draw both arms, the diagram of their times, and a time line for each arm: .svg, .png or .html. Repeatable.
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath, help_heading = OUTPUT)]
-    picture: Vec<PathBuf>,
+    pub picture: Vec<PathBuf>,
     #[command(flatten)]
-    program: ProgramArgs,
+    pub program: ProgramArgs,
     #[command(flatten)]
-    theme: ThemeArgs,
+    pub theme: ThemeArgs,
     #[command(flatten)]
-    print: PrintArgs,
+    pub print: PrintArgs,
 }
 
 /// Greatest skew of two clocks, seconds.
@@ -110,11 +111,21 @@ enum Content {
 /// # Errors
 /// Bad input and I/O, and motions that cannot be timed.
 pub fn run(args: &CellArgs) -> Result<u8, Failure> {
+    answer(args, |clearance| {
+        Cell::load(&Source::read(&args.cell)?, &|path| crate::input::robot(path).read(), clearance)
+    })
+}
+
+/// Plans the cell that `load` returns for a clearance, and writes its motions.
+///
+/// # Errors
+/// Bad input and I/O, and motions that cannot be timed.
+pub fn answer(args: &CellArgs, load: impl Fn(Option<f64>) -> Result<Cell, InputError>) -> Result<u8, Failure> {
     let content = |path: &Path| content(path, &args.program);
     let outputs = Outputs::new(&args.output, content, &args.picture, [])?.without_animation("a cell")?;
     let has_program = outputs.results.iter().any(|(_, content)| matches!(content, Content::Program));
     let mut writer = args.program.writer(has_program, 0.0)?;
-    let cell = programs::load(args, &outputs, writer.as_mut())?;
+    let cell = programs::load(load, args.clearance, &outputs, writer.as_mut())?;
     let inputs: Vec<PathBuf> = cell.files.iter().cloned().chain(writer.iter().flat_map(ProgramWriter::files)).collect();
     refuse_to_overwrite_inputs(outputs.paths(), &inputs)?;
     for arm in &cell.arms {

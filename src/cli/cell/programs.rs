@@ -1,11 +1,11 @@
 //! Programs of both arms for their controllers, with signals between them.
 
+use super::Content;
 use super::files::named_arm;
-use super::{CellArgs, Content};
 use crate::cli::failure::Failure;
 use crate::cli::outputs::Outputs;
 use crate::cli::program_args::ProgramWriter;
-use crate::input::digest;
+use crate::input::{InputError, digest};
 use crate::output::Line;
 use crate::text::length_down;
 use cplan_cell::{Cell, CellArm, Coordination, Interlock, SignalTargets, check_delays};
@@ -22,13 +22,17 @@ pub struct CellPrograms {
     signals: Vec<SignalTargets>,
 }
 
-/// Reads the cell. If programs are requested, its clearance covers their tolerance.
+/// Reads the cell by `load`, which gets its clearance. If programs are requested, its clearance covers their tolerance.
 ///
 /// # Errors
 /// Bad input, and outputs that are not one program for each arm.
-pub fn load(args: &CellArgs, outputs: &Outputs<Content>, writer: Option<&mut ProgramWriter>) -> Result<Cell, Failure> {
-    let load = |clearance| Cell::load(&args.cell, &|path| crate::input::robot(path), clearance);
-    let cell = load(args.clearance)?;
+pub fn load(
+    load: impl Fn(Option<f64>) -> Result<Cell, InputError>,
+    clearance: Option<f64>,
+    outputs: &Outputs<Content>,
+    writer: Option<&mut ProgramWriter>,
+) -> Result<Cell, Failure> {
+    let cell = load(clearance)?;
     let Some(writer) = writer else { return Ok(cell) };
     check_names(&cell, outputs)?;
     cell.arms.iter().try_for_each(|arm| Program::check(&arm.problem))?;

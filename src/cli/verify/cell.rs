@@ -40,7 +40,7 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     refuse_other_options(args)?;
     let settings = &args.settings;
     let clearance = settings.clearance;
-    let cell = Cell::load(&args.files.urdf, &|path| input::robot(path), clearance)?;
+    let cell = Cell::load(&Source::read(&args.files.urdf)?, &|path| input::robot(path).read(), clearance)?;
     for arm in &cell.arms {
         let warnings = arm.problem.robot().warnings.iter();
         warnings.for_each(|warning| args.print.print_status(&format!("warning: {}: {warning}", arm.name)));
@@ -56,7 +56,9 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     for (recorded, arm) in recorded.iter().zip(&cell.arms) {
         if recorded.recording.times().is_none() {
             let message = format!("the motion of {} has no times, but two arms need one clock", arm.name);
-            return Err(Failure::Refused(format!("{message}\n  hint: write a column or a member with times in seconds")));
+            return Err(Failure::Refused(format!(
+                "{message}\n  hint: write a column or a member with times in seconds"
+            )));
         }
     }
     let judged = |arm: usize| verify(&cell.arms[arm].loaded, &recorded[arm], &settings.overrides(), settings.anywhere);
@@ -104,7 +106,10 @@ fn recordings(args: &VerifyArgs, cell: &Cell) -> Result<([LoadedRecording; 2], O
     let names = cell.arms.each_ref().map(|arm| arm.name.as_str());
     let source = Source::read_recording(first)?;
     let wrong = |what: String| {
-        let hint = format!("give the motions of {} and {}, or the result of `cplan cell --output cell.json`", names[0], names[1]);
+        let hint = format!(
+            "give the motions of {} and {}, or the result of `cplan cell --output cell.json`",
+            names[0], names[1]
+        );
         Failure::Input(source.diagnostic(what).help(hint).into())
     };
     let result: Value =

@@ -264,7 +264,9 @@ impl Coordinator<'_> {
     /// Judges motions that are certified among the obstacles.
     pub fn judged(&self, [one, two]: [TimedMotion; 2], waits: [Vec<Wait>; 2]) -> Result<Coordination, Conflict> {
         let trajectories = [&one.trajectory, &two.trajectory];
-        let Judgement::Apart { clearance, nearest } = judge(self.between, trajectories.map(|motion| Curve::of_legs([motion])), self.skew) else {
+        let Judgement::Apart { clearance, nearest } =
+            judge(self.between, trajectories.map(|motion| Curve::of_legs([motion])), self.skew)
+        else {
             return Err(Conflict::NotCertified);
         };
         let duration = trajectories.map(Trajectory::duration).into_iter().fold(0.0, f64::max);

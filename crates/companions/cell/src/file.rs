@@ -5,7 +5,7 @@ use cplan_engine::Problem;
 use cplan_geometry::{Convex, separation};
 use cplan_handling::RobotJoints;
 use cplan_model::{Arm, Carrier, Obstacle, SelfObstacle, Shape};
-use cplan_robot::{Diagnostic, FileIdentity, InputError, RobotFile, Source, Spanned, toml_table};
+use cplan_robot::{Diagnostic, FileIdentity, InputError, Source, Spanned, toml_table};
 use cplan_world::{LoadedScene, Overrides, scene_from};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -22,6 +22,9 @@ pub struct Cell {
     /// Paths of all files that were read.
     pub files: Vec<PathBuf>,
 }
+
+/// A function that reads the robot of a path.
+pub type ReadRobot<'a> = dyn Fn(&Path) -> Result<Source, InputError> + 'a;
 
 /// An arm of a cell.
 #[derive(Debug, Clone)]
@@ -52,6 +55,7 @@ toml_table! {
         start: Option<Excerpt>,
         goal: Option<Excerpt>,
         step: Option<Spanned<Excerpt>>,
+        clearance: Option<Spanned<Excerpt>>,
     }
 
     /// The place of an arm's root frame in the cell.
@@ -77,14 +81,12 @@ fn hint(message: &str, _: usize) -> &'static str {
 }
 
 impl Cell {
-    /// Reads a cell, its robots and their meshes. `robot` returns the file of a robot for its path. `clearance` replaces the
-    /// file's, metres.
+    /// Reads a cell, its robots and their meshes. `robot` reads the file of a robot. `clearance` replaces the file's, metres.
     ///
     /// # Errors
     /// All defects of the files, with line, column and hint; a start or goal that is out of reach or not free of obstacles;
     /// bases that overlap.
-    pub fn load(path: &Path, robot: &dyn Fn(PathBuf) -> RobotFile, clearance: Option<f64>) -> Result<Self, InputError> {
-        let source = Source::read(path)?;
+    pub fn load(source: &Source, robot: &ReadRobot, clearance: Option<f64>) -> Result<Self, InputError> {
         let file: CellFile = source.toml(&hint)?;
         let tables: Vec<&ArmTable> = file.arm.iter().map(Spanned::get_ref).collect();
         let [first, second] = tables[..] else {
@@ -97,11 +99,11 @@ impl Cell {
             return Err(source.diagnostic_at(second.name.span(), message).help("give each arm its own name").into());
         }
         let title = file.name.clone().or_else(|| source.stem()).unwrap_or_else(|| "cell".to_owned());
-        let robots = [first, second].map(|table| path.with_file_name(table.urdf.get_ref()));
-        let reader = Reader { source: &source, file: &file };
+        let robots = [first, second].map(|table| source.path().with_file_name(table.urdf.get_ref()));
+        let reader = Reader { source, file: &file };
         let mut loaded = Vec::new();
         for (table, urdf) in [first, second].into_iter().zip(&robots) {
-            let urdf = robot(urdf.clone()).read().map_err(|error| reader.unread(table, error))?;
+            let urdf = robot(urdf).map_err(|error| reader.unread(table, error))?;
             loaded.push(reader.scene(table, &title, urdf)?.with_margins(clearance, None)?);
         }
         let [mut one, mut two] = <[LoadedScene; 2]>::try_from(loaded).expect("one for each arm");
@@ -122,7 +124,7 @@ impl Cell {
             let bases = [(&one, &names[0]), (&two, &names[1])].map(|(loaded, name)| base_of(loaded.scene.arm(), name));
             (one, two) = (among(one, &bases[1]), among(two, &bases[0]));
         }
-        let mut files: Vec<PathBuf> = one.files().into_iter().chain(two.files()).chain([path.to_owned()]).collect();
+        let mut files: Vec<PathBuf> = one.files().into_iter().chain(two.files()).chain(source.files()).collect();
         files.sort();
         files.dedup();
         let arm = |name: String, loaded: LoadedScene| {
@@ -190,6 +192,10 @@ impl Reader<'_> {
         if let Some(step) = &table.step {
             let message = format!("arm \"{name}\" has steps, which cells do not support");
             return Err(self.error(step.span(), message, "give the arm a goal: goal = { joints = [q1, q2] }"));
+        }
+        if let Some(clearance) = &table.clearance {
+            let message = format!("arm \"{name}\" has a clearance of its own, but both arms have that of the cell");
+            return Err(self.error(clearance.span(), message, "write it above the first [[arm]]: clearance = 0.005"));
         }
         for (table_of, key, example) in [
             (&table.start, "start", "start = { joints = [q1, q2] }"),

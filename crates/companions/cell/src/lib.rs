@@ -41,7 +41,7 @@ mod straighten;
 
 pub use coordinate::Coordination;
 pub use delays::{SignalTargets, check_delays};
-pub use file::{Cell, CellArm};
+pub use file::{Cell, CellArm, ReadRobot};
 pub use interlock::Interlock;
 pub use judged::NearestPlace;
 pub use picture::{figure, page};

@@ -57,9 +57,7 @@ pub fn judge_between(cell: &Cell, motions: [Vec<Piece>; 2], skew: f64) -> Betwee
         NearPlace { times, at, distance, links: between.describe(pair, names), point: point.into() }
     };
     match judge(&between, curves.clone(), skew) {
-        Judgement::Apart { clearance, nearest } => {
-            BetweenFinding::Free { clearance, nearest: nearest.map(described) }
-        }
+        Judgement::Apart { clearance, nearest } => BetweenFinding::Free { clearance, nearest: nearest.map(described) },
         Judgement::TooClose(place) => {
             let (first, nearest) = sampled_too_near(&between, &curves, skew, place);
             BetweenFinding::TooNear { first: described(first), nearest: described(nearest) }

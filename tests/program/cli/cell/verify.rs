@@ -85,7 +85,10 @@ fn shifted_motions_agree_with_the_oracle() {
             write_shifted(&place, "right.csv", &right, shift);
             let later = right.time.iter().map(|time| time + shift).collect();
             let right = Motion { time: later, position: right.position.clone(), velocity: right.velocity.clone() };
-            let motions = [Motion { time: left.time.clone(), position: left.position.clone(), velocity: left.velocity.clone() }, right];
+            let motions = [
+                Motion { time: left.time.clone(), position: left.position.clone(), velocity: left.velocity.clone() },
+                right,
+            ];
             // The oracle begins at time 0, and both arms rest before it.
             let least = replayed(&cell.arms, &motions, skew, STEP);
             let (_, judged) = judged(&place, "cell.toml", "left.csv right.csv", &format!("--skew {skew}"));
