@@ -129,10 +129,10 @@ pub fn crossing(random: &mut Dice, robots: &str) -> Option<String> {
 /// Returns two long arms that share a slot: each starts where the other has to go. On the shortest paths they block each
 /// other, but one can make room.
 fn swap(random: &mut Dice, robots: &str) -> Option<String> {
-    let apart = random.within(1.25, 1.36);
+    let apart = random.within(1.25, 1.34);
     let arm = |random: &mut Dice, name: &str, side: f64| {
         let bend = random.within(0.95, 1.15);
-        let goal = [side * random.within(0.1, 0.2), -side * random.within(0.8, 0.95)];
+        let goal = [side * random.within(0.1, 0.16), -side * random.within(0.8, 0.92)];
         let (urdf, goal) = (format!("{robots}/planar_2r.urdf"), format!("{{ tip = {goal:?} }}"));
         let (base, angle) = ([-side * apart, 0.0], if side > 0.0 { 0.0 } else { PI });
         Arm { name, urdf, base, angle, robot: "", start: [bend, -bend], goal }.text()
@@ -142,14 +142,14 @@ fn swap(random: &mut Dice, robots: &str) -> Option<String> {
 
 /// Returns two arms on one column.
 fn column(random: &mut Dice, robots: &str) -> Option<String> {
-    let mut arm = |name: &str| {
-        let mut joints = || [random.within(-2.0, 2.0), random.within(-1.5, 1.5)];
-        let (start, goal) = (joints(), format!("{{ joints = {:?} }}", joints()));
+    let mut arm = |name: &str, [from, to]: [[f64; 2]; 2]| {
+        let mut joints = |[first, last]: [f64; 2]| [random.within(first, last), random.within(-0.6, 0.6)];
+        let (start, goal) = (joints(from), format!("{{ joints = {:?} }}", joints(to)));
         let robot = format!("{{ joints = [\"{name}_1\", \"{name}_2\"], tip = \"{name}_tool\" }}");
         let urdf = format!("{robots}/dual_scara.urdf");
         Arm { name, urdf, base: [0.0, 0.0], angle: 0.0, robot: &robot, start, goal }.text()
     };
-    Some(arm("lower") + &arm("upper"))
+    Some(arm("lower", [[0.8, 1.8], [-0.4, 0.3]]) + &arm("upper", [[-0.6, 0.1], [-2.4, -1.2]]))
 }
 
 /// Returns a gantry that has put a part down and leaves, and a SCARA that comes to the part.

@@ -4,6 +4,7 @@ mod errors;
 mod oracle;
 mod programs;
 mod random;
+mod set;
 mod verify;
 
 use super::{Done, Place, number, read, shipped};
