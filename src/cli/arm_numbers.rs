@@ -27,9 +27,9 @@ impl ArmNumbers {
             Kind::Rp => [[0.45, 0.0], [2.9, 0.6], [1.5, 0.8]],
             Kind::Pr => [[0.0, 0.0], [0.8, 2.9], [1.0, 2.0]],
             Kind::Pp => [[0.0, 0.0], [1.2, 0.9], [1.0, 1.0]],
-            Kind::Scara | Kind::Arch => [[0.3, 0.25], [2.4435, 2.618], [7.243, 11.502]],
+            Kind::Scara | Kind::Arch | Kind::Cell => [[0.3, 0.25], [2.4435, 2.618], [7.243, 11.502]],
         };
-        let stroke = if matches!(kind, Kind::Scara | Kind::Arch) { 0.18 } else { 0.0 };
+        let stroke = if matches!(kind, Kind::Scara | Kind::Arch | Kind::Cell) { 0.18 } else { 0.0 };
         let lower = [0, 1].map(|k| if kind.turns()[k] { -limits[k] } else { 0.0 });
         Self { links, stroke, lower, limits, speeds, drives: None }
     }
@@ -50,7 +50,7 @@ impl ArmNumbers {
             Kind::Pp | Kind::Pr => [0, 1].map(|k| self.limits[k] / usual.limits[k]),
             Kind::Rp => [(self.links[0] + self.limits[1]) / (usual.links[0] + usual.limits[1]); 2],
             // The template's world suits an arm with two revolute joints.
-            Kind::Rr | Kind::Scara | Kind::Arch => {
+            Kind::Rr | Kind::Scara | Kind::Arch | Kind::Cell => {
                 let [a, b] = Self::of(Kind::Rr).links;
                 [(self.links[0] + self.links[1]) / (a + b); 2]
             }
@@ -64,7 +64,7 @@ impl ArmNumbers {
             Kind::Rp => include_str!("starter/rp.urdf"),
             Kind::Pr => include_str!("starter/pr.urdf"),
             Kind::Pp => include_str!("starter/pp.urdf"),
-            Kind::Scara | Kind::Arch => include_str!("starter/scara.urdf"),
+            Kind::Scara | Kind::Arch | Kind::Cell => include_str!("starter/scara.urdf"),
         };
         let Self { links: [a, b], stroke, lower, limits, speeds, .. } = *self;
         let usual = Self::of(kind);
@@ -81,7 +81,7 @@ impl ArmNumbers {
                 let s = limits[1] / usual.limits[1];
                 ([0.08 * s, 0.1 * s], [[-0.1 * s, limits[1] + 0.1 * s], [0.0; 2]], [0.0; 2])
             }
-            Kind::Scara | Kind::Arch => {
+            Kind::Scara | Kind::Arch | Kind::Cell => {
                 let s = ((a + b) / (usual.links[0] + usual.links[1])).min(1.5);
                 let widest = 0.8 * a.min(b);
                 ([0.11 * s, 0.1 * s].map(|width| width.min(widest)), [[0.0, a], [0.0, b]], [0.0; 2])

@@ -1,5 +1,6 @@
 //! `cplan demo`: a built-in cell, for users without files.
 
+use super::cell::{self, CellArgs};
 use super::exit::DONE;
 use super::failure::Failure;
 use super::follow::{self, FollowArgs};
@@ -7,9 +8,10 @@ use super::fresh::{folder, refuse_existing_files, word};
 use super::plan::PlanArgs;
 use super::print_args::PrintArgs;
 use super::{plan, sinks};
-use crate::input::{LoadedScene, Source, scene_from};
+use crate::input::{InputError, LoadedScene, Source, scene_from};
 use crate::output::format_columns;
 use clap::{Args, ValueEnum, ValueHint};
+use cplan_cell::Cell;
 use cplan_handling::FollowedLine;
 use cplan_toolpath::{Format, Placement, read};
 use std::ffi::OsString;
@@ -31,6 +33,9 @@ const FOLLOW_FILES: [[&str; 2]; 3] = [
     ["built-in plate.gcode", include_str!("../../workspaces/follow/plate.gcode")],
 ];
 
+/// The cell of the demonstration of two arms. Both have the robot [`DEMO_ROBOT`].
+pub const CELL: &str = include_str!("starter/cell.toml");
+
 /// The built-in worlds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum DemoKind {
@@ -40,14 +45,16 @@ pub enum DemoKind {
     Arch,
     /// The tip follows a line of G-code, as with `cplan follow`.
     Follow,
+    /// Two arms share a tray, as with `cplan cell`.
+    Cell,
 }
 
 impl DemoKind {
-    /// Reads the robot and the world.
-    fn load(self) -> Result<LoadedScene, crate::input::InputError> {
+    /// Reads the robot and the world. The kind without a world has that of its robot.
+    fn load(self) -> Result<LoadedScene, InputError> {
         const SCARA: [&str; 2] = ["built-in scara.urdf", DEMO_ROBOT];
         let files = match self {
-            Self::Scara => [SCARA, ["built-in scara_cell.toml", DEMO_WORLD]],
+            Self::Scara | Self::Cell => [SCARA, ["built-in scara_cell.toml", DEMO_WORLD]],
             Self::Arch => [SCARA, ["built-in pick_and_place.toml", ARCH_WORLD]],
             Self::Follow => [FOLLOW_FILES[0], FOLLOW_FILES[1]],
         };
@@ -62,8 +69,8 @@ const PICTURE_FILE: &str = "plan.html";
 
 /// Plan in a built-in cell; write plan.json and plan.html.
 ///
-/// All options of `cplan plan` also apply; `cplan help planners` lists the options of planners. With `--kind follow`,
-/// only options that `cplan follow` has as well apply.
+/// All options of `cplan plan` also apply; `cplan help planners` lists the options of planners. With `--kind follow`
+/// and `--kind cell`, only options that `cplan follow` and `cplan cell` have as well apply.
 #[derive(Debug, Args)]
 #[command(after_help = "\
 `cplan init --kind scara` writes the files of this cell.
@@ -73,6 +80,7 @@ Examples:
   cplan demo --planner harmonic --force
   cplan demo --kind arch --dir arch
   cplan demo --kind follow --dir engraving
+  cplan demo --kind cell --dir two_arms
   cplan demo --dir wider --clearance 0.02 --goal-tip 0.1,0.45
 
 Exit codes: those of `cplan plan`, such as 0 found and certified; 1 also if the
@@ -105,6 +113,7 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
     let kind = args.kind;
     let code = match kind {
         DemoKind::Scara | DemoKind::Arch => plan::answer(&args.plan, None, || kind.load())?,
+        DemoKind::Cell => cell::answer(&cell_args(&mut args.plan)?, built_in_cell)?,
         DemoKind::Follow => follow::answer(&follow_args(&mut args.plan)?, |_| kind.load(), |_| built_in_line())?,
     };
     if code == DONE && !args.plan.print.quiet && !args.plan.print.json {
@@ -120,19 +129,51 @@ pub fn run(args: &mut DemoArgs) -> Result<u8, Failure> {
 fn follow_args(plan: &mut PlanArgs) -> Result<FollowArgs, Failure> {
     let follow_words = ["follow"].into_iter().chain(FOLLOW_FILES.map(|file| file[0]));
     let mut follow: FollowArgs = of_words(follow_words)?;
-    let mut unset: PlanArgs = of_words(["demo"])?;
     (follow.output, follow.picture) = (take(&mut plan.output), take(&mut plan.picture));
     (follow.verbose, follow.clearance) = (take(&mut plan.verbose), plan.query.clearance.take());
     let PrintArgs { json, quiet } = plan.print;
     follow.print = PrintArgs { json, quiet };
     std::mem::swap(&mut follow.theme, &mut plan.theme);
-    unset.print = PrintArgs { json, quiet };
-    // All other options must have their default values.
-    if *plan == unset {
-        return Ok(follow);
-    }
     let all = "--kind follow takes only --output, --picture, --clearance, --theme, --json, --quiet and --verbose";
-    Err(Failure::Usage(format!("{all}; for more, call `cplan follow` with files")))
+    refuse_others(plan, &format!("{all}; for more, call `cplan follow` with files"))?;
+    Ok(follow)
+}
+
+/// Moves the options for outputs, clearance, programs and printed text to those of `cplan cell`.
+///
+/// # Errors
+/// Options that `cplan cell` does not have.
+fn cell_args(plan: &mut PlanArgs) -> Result<CellArgs, Failure> {
+    let mut cell: CellArgs = of_words(["cell", CELL_FILE])?;
+    (cell.output, cell.picture) = (take(&mut plan.output), take(&mut plan.picture));
+    cell.clearance = plan.query.clearance.take();
+    let PrintArgs { json, quiet } = plan.print;
+    cell.print = PrintArgs { json, quiet };
+    std::mem::swap(&mut cell.theme, &mut plan.theme);
+    std::mem::swap(&mut cell.program, &mut plan.program);
+    let all = "--kind cell takes only --output, --picture, --template, --joint-tolerance, --clearance, --theme, --json \
+               and --quiet";
+    refuse_others(plan, &format!("{all}; for more, call `cplan cell` with files"))?;
+    Ok(cell)
+}
+
+/// Checks that all options have their defaults, except those for printed text.
+///
+/// # Errors
+/// The message, if some option has another value.
+fn refuse_others(plan: &PlanArgs, message: &str) -> Result<(), Failure> {
+    let PrintArgs { json, quiet } = plan.print;
+    let unset = PlanArgs { print: PrintArgs { json, quiet }, ..of_words(["demo"])? };
+    if *plan == unset { Ok(()) } else { Err(Failure::Usage(message.to_owned())) }
+}
+
+/// Name of the built-in cell in messages.
+const CELL_FILE: &str = "built-in cell.toml";
+
+/// Reads the built-in cell.
+fn built_in_cell(clearance: Option<f64>) -> Result<Cell, InputError> {
+    let robot = |path: &Path| Ok(Source::in_memory(format!("built-in {}", path.display()), DEMO_ROBOT));
+    Cell::load(&Source::in_memory(CELL_FILE, CELL), &robot, clearance)
 }
 
 /// Returns the arguments of a command line.
@@ -162,6 +203,7 @@ fn next(picture: &Path, folder: &Path) -> String {
     let commands = [
         (format!("demo --planner harmonic --force{folder}"), "the same cell, with another planner"),
         (format!("demo --kind arch --force{folder}"), "pick and place; the quill moves while the arm moves"),
+        (format!("demo --kind cell --force{folder}"), "two arms share a tray, on one clock"),
         (format!("demo --kind follow --force{folder}"), "the tip follows a line of G-code within 0.01 mm"),
         ("init scara --kind scara".to_owned(), "the files of this cell, for you to change"),
         ("init small_arm".to_owned(), "a small arm and world, with every line explained"),

@@ -20,6 +20,7 @@ use std::path::{Path, PathBuf};
 /// Names of the files that `cplan init` writes.
 const ROBOT_FILE: &str = "arm.urdf";
 const WORLD_FILE: &str = "world.toml";
+const CELL_FILE: &str = "cell.toml";
 const SCHEMA_FILE: &str = "world.schema.json";
 
 /// Text of the world file, with `{{marks}}` where the worlds of different arms differ.
@@ -39,13 +40,14 @@ Examples:
   cplan init
   cplan init cell --kind pr
   cplan init scara --kind scara
+  cplan init two_arms --kind cell
   cplan init mine --kind scara --links 0.225,0.225 --stroke 0.2 --limits 130,145
   cplan init plotter --kind 2r --links 0.2,0.2 --drives standard_scara
 
 Exit codes: 0 the files are written, 1 they exist already or cannot be written,
 2 wrong command line.")]
 pub struct InitArgs {
-    /// Folder for arm.urdf, world.toml and world.schema.json; created if missing.
+    /// Folder for arm.urdf, world.toml and world.schema.json, or for arm.urdf and cell.toml; created if missing.
     #[arg(value_name = "DIR", default_value = ".", value_hint = ValueHint::DirPath)]
     pub dir: PathBuf,
     /// Kind of arm.
@@ -77,6 +79,8 @@ pub enum Kind {
     Scara,
     /// The pick-and-place cycle of `cplan demo --kind arch`.
     Arch,
+    /// The cell of `cplan demo --kind cell`: two arms, for `cplan cell`.
+    Cell,
 }
 
 /// Returns the text of the world of an arm with these numbers. `marks` is the name of its table in [`MARKS`]. Obstacles
@@ -114,14 +118,14 @@ impl Kind {
             Kind::Rp => "a turret with a ram",
             Kind::Pr => "an arm on a rail",
             Kind::Pp => "a gantry",
-            Kind::Scara | Kind::Arch => "a SCARA",
+            Kind::Scara | Kind::Arch | Kind::Cell => "a SCARA",
         }
     }
 
     /// Returns true for each revolute joint, and false for each prismatic one.
     pub fn turns(self) -> [bool; 2] {
         match self {
-            Kind::Rr | Kind::Scara | Kind::Arch => [true, true],
+            Kind::Rr | Kind::Scara | Kind::Arch | Kind::Cell => [true, true],
             Kind::Rp => [true, false],
             Kind::Pr => [false, true],
             Kind::Pp => [false, false],
@@ -135,6 +139,7 @@ impl Kind {
             Kind::Rr | Kind::Rp | Kind::Pr | Kind::Pp => self.files_by(&numbers, 1.0),
             Kind::Scara => [demo::DEMO_ROBOT.to_owned(), shipped(demo::DEMO_WORLD)],
             Kind::Arch => [demo::DEMO_ROBOT.to_owned(), shipped(demo::ARCH_WORLD)],
+            Kind::Cell => [demo::DEMO_ROBOT.to_owned(), demo::CELL.to_owned()],
         }
     }
 
@@ -146,7 +151,7 @@ impl Kind {
             Kind::Rp => "rp",
             Kind::Pr => "pr",
             Kind::Pp => "pp",
-            Kind::Scara | Kind::Arch => "scara",
+            Kind::Scara | Kind::Arch | Kind::Cell => "scara",
         };
         let mut world = world(self, marks, numbers, distance);
         if numbers.stroke > 0.0 {
@@ -199,37 +204,52 @@ fn shipped(world: &str) -> String {
 /// # Errors
 /// Files that exist already, and I/O. If there is an error, no file is written.
 pub fn run(args: &InitArgs) -> Result<u8, Failure> {
-    let [robot, world, schema_file] = [ROBOT_FILE, WORLD_FILE, SCHEMA_FILE].map(|name| in_folder(&args.dir, name));
-    refuse_existing_files(
-        &[robot.clone(), world.clone(), schema_file.clone()],
-        args.force,
-        "`cplan init DIR` writes elsewhere",
-    )?;
+    let is_cell = args.kind == Kind::Cell;
+    let world_file = if is_cell { CELL_FILE } else { WORLD_FILE };
+    let [robot, world, schema_file] = [ROBOT_FILE, world_file, SCHEMA_FILE].map(|name| in_folder(&args.dir, name));
+    let mut names = vec![robot.clone(), world.clone()];
+    // The schema is that of worlds.
+    names.extend((!is_cell).then(|| schema_file.clone()));
+    refuse_existing_files(&names, args.force, "`cplan init DIR` writes elsewhere")?;
     let numbers = (!args.sheet.is_empty()).then(|| args.sheet_numbers()).transpose()?;
     folder(&args.dir)?;
     let [robot_text, world_text] =
         numbers.as_ref().map_or_else(|| args.kind.files(), |numbers| args.kind.files_of_sheet(numbers));
-    let files = [
-        (robot.clone(), robot_text),
-        (world.clone(), world_text),
-        (schema_file.clone(), schema::WORLD_SCHEMA.to_owned()),
-    ];
+    let texts = [robot_text, world_text, schema::WORLD_SCHEMA.to_owned()];
+    let files: Vec<(PathBuf, String)> = names.into_iter().zip(texts).collect();
     write_whole_set(&files)?;
     let words = numbers.map(|numbers| numbers.words(args.kind));
-    sinks::report(&description([&robot, &world, &schema_file], words.as_deref()))?;
+    sinks::report(&match is_cell {
+        true => description_of_cell(&args.dir, &robot, &world),
+        false => description([&robot, &world, &schema_file], words.as_deref()),
+    })?;
     Ok(DONE)
 }
 
 impl InitArgs {
     fn sheet_numbers(&self) -> Result<ArmNumbers, Failure> {
         match self.kind {
-            Kind::Pr | Kind::Arch => {
+            Kind::Pr | Kind::Arch | Kind::Cell => {
                 let message = "numbers of a data sheet need --kind rr, rp, pp or scara";
                 Err(Failure::Usage(message.to_owned()))
             }
             kind => self.sheet.numbers(kind),
         }
     }
+}
+
+/// Describes the written files of a cell and the next commands.
+fn description_of_cell(folder: &Path, robot: &Path, cell: &Path) -> String {
+    let command = format!("cplan cell {}", word(cell));
+    let [result, picture, left, right] =
+        ["cell.json", "cell.html", "left.mod", "right.mod"].map(|name| word(&in_folder(folder, name)));
+    format_columns(&[
+        ("file", format!("{}: the robot of both arms", robot.display())),
+        ("file", format!("{}: both arms, their goals and the obstacles, with every key explained", cell.display())),
+        ("next", format!("{command} --output {result} --picture {picture}")),
+        ("next", format!("cplan verify {} {result}", word(cell))),
+        ("next", format!("{command} --template rapid --output {left} --output {right}")),
+    ])
 }
 
 /// Describes the written files and the next commands.

@@ -141,7 +141,8 @@ pub fn answer(
     let own_file = args.certificate.clone().filter(|path| !is_member(path, &args.output));
     let content = |path: &Path| PlanContent::of(path, &args.program);
     let outputs = Outputs::new(&args.output, content, &args.picture, own_file)?;
-    let mut program = args.program.writer(&outputs, args.motion.blend)?;
+    let has_program = outputs.results.iter().any(|(_, content)| *content == PlanContent::Program);
+    let mut program = args.program.writer(has_program, args.motion.blend)?;
     let options = options(args.planner, &args.options, &args.motion, &args.message)?;
     let mut options = Options { timings: args.timings, ..options };
     if program.is_some() {

@@ -3,8 +3,6 @@
 use super::failure::Failure;
 use super::files::Files;
 use super::headings::OUTPUT;
-use super::outputs::Outputs;
-use super::result_files::PlanContent;
 use crate::engine::{Plan, Problem};
 use crate::input::{Diagnostic, Digests, InputError, LoadedScene, Overrides};
 use crate::model::Status;
@@ -31,10 +29,10 @@ pub struct ProgramArgs {
 
 /// A template that writes the program of a plan.
 pub struct ProgramWriter {
-    template: Template,
-    tolerance: JointTolerance,
+    pub template: Template,
+    pub tolerance: JointTolerance,
     /// The clearance of the program, metres.
-    clearance: f64,
+    pub clearance: f64,
     /// The additional clearance of the plan, metres.
     room: f64,
 }
@@ -51,9 +49,9 @@ impl ProgramArgs {
     ///
     /// # Errors
     /// The error about the format, unless a template writes the file.
-    pub fn content(&self, error: FormatError) -> Result<PlanContent, Failure> {
+    pub fn accept(&self, error: FormatError) -> Result<(), Failure> {
         match (&error, &self.template) {
-            (FormatError::Unknown { .. }, Some(_)) => Ok(PlanContent::Program),
+            (FormatError::Unknown { .. }, Some(_)) => Ok(()),
             (FormatError::Unknown { .. }, None) => {
                 let hint = "to write a program for a controller, add --template; other extensions are then allowed";
                 Err(Failure::Usage(format!("{error}\n  hint: {hint}")))
@@ -62,13 +60,14 @@ impl ProgramArgs {
         }
     }
 
-    /// Reads the template. `None` if no program is requested. `blend` is the requested radius for corners.
+    /// Reads the template. `None` if no program is requested. `has_file` is true if a file is for a program. `blend` is the
+    /// requested radius for corners.
     ///
     /// # Errors
     /// A template without an output file, corners that must be rounded, and a defect of the template.
-    pub fn writer(&self, outputs: &Outputs<PlanContent>, blend: f64) -> Result<Option<ProgramWriter>, Failure> {
+    pub fn writer(&self, has_file: bool, blend: f64) -> Result<Option<ProgramWriter>, Failure> {
         let Some(name) = &self.template else { return Ok(None) };
-        if !outputs.results.iter().any(|(_, content)| *content == PlanContent::Program) {
+        if !has_file {
             let message =
                 "--template needs an --output file with the extension of the program, such as --output program.prg";
             return Err(Failure::Usage(message.into()));
@@ -98,10 +97,23 @@ impl ProgramWriter {
         let loaded = loaded.without_arches();
         let exact = Problem::of_scene(loaded.clone(), asked)?;
         Program::check(&exact)?;
-        self.clearance = exact.scene().workspace().clearance;
-        self.room = self.tolerance.room(&exact);
-        asked.clearance = Some(self.clearance + self.room);
-        Problem::of_scene(loaded, asked).map_err(|error| {
+        let (clearance, room) = (exact.scene().workspace().clearance, self.tolerance.room(&exact));
+        asked.clearance = Some(clearance + room);
+        self.widened(clearance, room, |_| Problem::of_scene(loaded, asked))
+    }
+
+    /// Returns the result of `load` with the clearance of the program plus `room`, metres.
+    ///
+    /// # Errors
+    /// The errors of `load`, with a hint for those that only the larger clearance causes.
+    pub fn widened<T>(
+        &mut self,
+        clearance: f64,
+        room: f64,
+        load: impl FnOnce(f64) -> Result<T, InputError>,
+    ) -> Result<T, Failure> {
+        (self.clearance, self.room) = (clearance, room);
+        load(clearance + room).map_err(|error| {
             let hint = format!("{}; use a smaller --joint-tolerance", self.describe_room());
             let hinted = |found: &Diagnostic| found.clone().help(hint.clone());
             let hinted = InputError::check(error.diagnostics().iter().map(hinted).collect());
@@ -127,6 +139,6 @@ impl ProgramWriter {
             vec![[name(&files.urdf), digests.urdf.clone()], [name(&files.world), digests.world.clone()]]
         });
         let program = Program::of(plan, self.tolerance, self.clearance)?.with_digests(digests.unwrap_or_default());
-        Ok(WrittenProgram { text: Some(self.template.write(&program)?), summary: program.summary() })
+        Ok(WrittenProgram { text: Some(self.template.write(&program)?.text), summary: program.summary() })
     }
 }

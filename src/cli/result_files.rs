@@ -33,7 +33,9 @@ impl PlanContent {
     pub fn of(path: &Path, program: &ProgramArgs) -> Result<Self, Failure> {
         match CSpaceFormat::from_path(path) {
             Some(format) => Ok(Self::CSpace(format)),
-            None => Format::from_path(path).map(Self::Result).or_else(|error| program.content(error)),
+            None => {
+                Format::from_path(path).map(Self::Result).or_else(|error| program.accept(error).map(|()| Self::Program))
+            }
         }
     }
 }

@@ -1,9 +1,11 @@
 //! Random cases for tests: their number and their seeds. They are the same in every run, unless the environment
-//! requests others. The submodules generate numbers, mazes and texts with typing mistakes.
+//! requests others. The submodules generate numbers, mazes, cells of two arms, and texts with typing
+//! mistakes.
 //!
 //! - `CPLAN_TIMES=20`: twenty times as many cases (0.1: a tenth).
 //! - `CPLAN_SEED=7`: other cases, choice number seven; 0 is the default. The same two variables reproduce a failure.
 
+pub mod cells;
 pub mod dice;
 pub mod mazes;
 pub mod slips;

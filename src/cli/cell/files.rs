@@ -1,28 +1,31 @@
 //! The motions of both arms as files.
 
-use crate::model::RobotJoints;
 use crate::motion::{Format, JointMotion, Trajectory, csv_of_joints, ros_yaml};
 use crate::space::{Derivative, Piece};
 use cplan_cell::{Cell, Coordination};
 use std::path::Path;
 
-/// Returns a motion as CSV or YAML. A YAML file whose name ends in the name of an arm has only the motion of this arm.
+/// Returns a motion as CSV or YAML. A file whose name ends in the name of an arm has only the motion of this arm.
 pub fn motion(cell: &Cell, found: &Coordination, path: &Path, format: Format) -> String {
-    let stem = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let named = |arm: &usize| stem.ends_with(&cell.arms[*arm].name);
-    match (format, (0..2).find(named)) {
+    match (format, named_arm(cell, path)) {
         (Format::Yaml, Some(arm)) => ros_yaml(&alone(cell, found, arm)),
         (Format::Yaml, None) => ros_yaml(&both(cell, found)),
-        _ => csv_of_joints(&both(cell, found), &[], None),
+        (_, Some(arm)) => csv_of_joints(&alone(cell, found, arm), &[], None),
+        (_, None) => csv_of_joints(&both(cell, found), &[], None),
     }
 }
 
-/// Returns the motion of one arm. It names all joints of its robot, unless the other arm moves some of them.
+/// Returns the arm whose name ends that of a file.
+pub fn named_arm(cell: &Cell, path: &Path) -> Option<usize> {
+    let stem = path.file_stem()?.to_string_lossy();
+    let named = (0..2).filter(|arm| stem.ends_with(&cell.arms[*arm].name));
+    // The name of one arm may end with that of the other.
+    named.max_by_key(|arm| cell.arms[*arm].name.len())
+}
+
+/// Returns the motion of one arm.
 fn alone(cell: &Cell, found: &Coordination, arm: usize) -> JointMotion {
-    let problem = &cell.arms[arm].problem;
-    let own = RobotJoints::only_planned(&problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone()));
-    let joints = if cell.is_one_robot { &own } else { &problem.robot().joints };
-    JointMotion::new(joints, &found.motions[arm].trajectory, false)
+    JointMotion::new(&cell.joints(arm), &found.motions[arm].trajectory, false)
 }
 
 /// Returns the motion of both arms on one clock, with the samples of both motions. Additional samples do not change a motion.

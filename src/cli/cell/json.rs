@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 impl Answered<'_> {
     /// Returns the answer.
     pub fn json(&self) -> Value {
-        let Self { args, cell, plan } = self;
+        let Self { args, cell, plan, .. } = self;
         let found = plan.outcome.found();
         let arms: Vec<Value> = cell.arms.iter().enumerate().map(|(k, arm)| self.arm(k, arm, found)).collect();
         let mut answer = json!({
@@ -35,7 +35,7 @@ impl Answered<'_> {
         answer
     }
 
-    fn arm(&self, k: usize, CellArm { name, problem }: &CellArm, found: Option<&Coordination>) -> Value {
+    fn arm(&self, k: usize, CellArm { name, problem, .. }: &CellArm, found: Option<&Coordination>) -> Value {
         let motion = self.plan.alone[k].as_ref().and_then(|plan| plan.motion()?.1.outcome.found());
         let alone = motion.map(|motion| {
             let bound = motion.fastest.map(|fastest| fastest.lower_bound);
@@ -66,16 +66,22 @@ impl Answered<'_> {
 
     fn interlocks(&self, found: &Coordination) -> Value {
         let named = |arm: usize| &self.cell.arms[arm].name;
-        let place = |arm: usize, time: f64| json!({ "time": time, "position": row(found.place(arm, time)) });
+        let place = |arm: usize, time: f64, signal: usize| {
+            let mut place = json!({ "time": time, "position": row(found.place(arm, time)) });
+            if let Some(programs) = self.programs {
+                place["target"] = json!(programs.target(signal, arm));
+            }
+            place
+        };
         let interlocks = found.interlocks.as_ref().map(|interlocks| {
             let one = |(number, interlock): (usize, &cplan_cell::Interlock)| {
                 let sets = 1 - interlock.waits;
                 json!({
                     "signal": number + 1,
                     "waits": named(interlock.waits),
-                    "at": place(interlock.waits, interlock.at),
+                    "at": place(interlock.waits, interlock.at, number + 1),
                     "sets": named(sets),
-                    "after": place(sets, interlock.set),
+                    "after": place(sets, interlock.set, number + 1),
                 })
             };
             interlocks.iter().enumerate().map(one).collect::<Vec<_>>()

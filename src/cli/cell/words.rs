@@ -18,7 +18,7 @@ impl Answered<'_> {
 
     /// Returns the facts: the result, figures of the motions or attempts, and notes.
     pub fn facts(&self) -> Vec<(&'static str, String)> {
-        let Self { args, cell, plan } = self;
+        let Self { args, cell, plan, .. } = self;
         let mut lines = vec![("result", self.result())];
         if let Some(found) = plan.outcome.found() {
             lines.push(("cycle", self.cycle(found)));
@@ -50,6 +50,7 @@ impl Answered<'_> {
         } else {
             lines.extend(plan.tried.iter().take(MAX_SHOWN).map(|tried| ("tried", tried.clone())));
         }
+        lines.extend(self.programs.iter().flat_map(|programs| programs.lines(cell)));
         let [one, two] = cell
             .arms
             .each_ref()
@@ -106,7 +107,8 @@ impl Answered<'_> {
         let name = |arm: usize| &self.cell.arms[arm].name;
         let place = |arm: usize, time: f64| {
             let q = found.place(arm, time);
-            format!("({:.3}, {:.3}), {time:.3} s", q[0], q[1])
+            let target = self.programs.map(|programs| format!(", target {}", programs.target(number, arm)));
+            format!("({:.3}, {:.3}), {time:.3} s{}", q[0], q[1], target.unwrap_or_default())
         };
         format!(
             "{} waits for signal {number} at {}; {} sets it after {}",

@@ -1,6 +1,7 @@
 //! `cplan verify`: checks whether a recorded motion is free of collisions and within the limits, and whether a recorded
 //! task is the task of the world.
 
+mod cell;
 mod settings;
 mod text;
 
@@ -26,8 +27,12 @@ use std::path::PathBuf;
 
 /// Judge a motion from any source: all of it, not only samples.
 ///
-/// The motion is a joint path, a trajectory, or a recorded task.
+/// The motion is a joint path, a trajectory, or a recorded task. In a cell of two arms, both motions are judged on one
+/// clock.
 #[derive(Debug, Args)]
+#[command(override_usage = "cplan verify [OPTIONS] <URDF> <WORLD> <TRAJECTORY>
+       cplan verify [OPTIONS] <CELL.toml> <TRAJECTORY> <TRAJECTORY>
+       cplan verify [OPTIONS] <CELL.toml> <CELL.json>")]
 #[command(after_help = "\
 The format of the file determines the motion between its samples:
   positions, velocities, accelerations   quintic (ROS 2 JointTrajectory)
@@ -48,6 +53,10 @@ places, turns of the wrist, and rests.
 With --plan, the report states the greatest distance of the motion from the
 plan, in joint space and for the tip. Times are not compared.
 
+With a cell file (.toml) instead of a robot, two files have the motions of both
+arms, in the order of the cell, or one file is the result of `cplan cell`. Each
+motion is judged among the obstacles, and both between the arms.
+
 Examples:
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv \\
@@ -55,6 +64,8 @@ Examples:
   cplan verify robots/planar_2r_continuous.urdf workspaces/wrap_around.toml \\
     turns.csv --unwrap --clearance 0.01
   cplan verify robots/scara.urdf workspaces/tasks/kitting_cell.toml kit.json
+  cplan verify workspaces/cells/crossing.toml left.csv right.csv --skew 0.05
+  cplan verify workspaces/cells/crossing.toml cell.json
 
 Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3
 refuted: a proven collision, a broken limit, a wrong start or goal, another task
@@ -64,7 +75,10 @@ pub struct VerifyArgs {
     pub files: Files,
     /// Motion: .json (a result of cplan), .csv, .yaml (ROS 2 JointTrajectory) or .mcap (ROS 2 recording).
     #[arg(value_name = "TRAJECTORY", value_hint = ValueHint::FilePath)]
-    pub trajectory: PathBuf,
+    pub trajectory: Option<PathBuf>,
+    /// For the motions of a cell: greatest difference of the two controllers' clocks, seconds [default: 0.02].
+    #[arg(long, value_name = "SECONDS", value_parser = super::cell::skew)]
+    pub skew: Option<f64>,
     #[command(flatten)]
     pub settings: Settings,
     /// Plan to compare with: .json (a result of cplan), .csv or .yaml. The report states the greatest distance of the
@@ -90,12 +104,21 @@ pub struct VerifyArgs {
 /// Bad input and I/O, and options that do not fit the recording. A collision is no error, because it is a result of the
 /// check.
 pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
+    if cell::is_cell(&args.files.urdf) {
+        return cell::run(args);
+    }
+    let Some(trajectory) = &args.trajectory else {
+        return Err(Failure::Usage("the motion is missing: cplan verify URDF WORLD TRAJECTORY".into()));
+    };
+    if args.skew.is_some() {
+        return Err(Failure::Usage("--skew needs a cell: cplan verify CELL.toml TRAJECTORY TRAJECTORY".into()));
+    }
     let outputs = Outputs::of_pictures(&args.picture, args.certificate.clone())?;
     let loaded = input::load_scene(args.files.robot(), &args.files.world)?;
     loaded.robot.warnings.iter().for_each(|w| args.print.print_status(&format!("warning: {w}")));
-    let inputs: Vec<_> = loaded.files().into_iter().chain([args.trajectory.clone()]).chain(args.plan.clone()).collect();
+    let inputs: Vec<_> = loaded.files().into_iter().chain([trajectory.clone()]).chain(args.plan.clone()).collect();
     refuse_to_overwrite_inputs(outputs.paths(), &inputs)?;
-    let source = RecordingSource::File(args.trajectory.clone());
+    let source = RecordingSource::File(trajectory.clone());
     let JudgedRecording { loaded, recorded, mut findings } = judge(loaded, &source, &args.settings)?;
     if recorded.steps.is_some() && !args.picture.is_empty() {
         let message = "--picture cannot draw tasks, only single motions; `cplan plan` draws tasks";

@@ -11,6 +11,10 @@ pub enum Statement {
     Wait(f64),
     /// Percent of the top speed.
     Speed(f64),
+    /// The number of a signal that the program sets.
+    SetSignal(usize),
+    /// The number of a signal for which the program waits.
+    WaitForSignal(usize),
 }
 
 pub fn numbers(list: &str) -> Vec<f64> {
@@ -33,9 +37,14 @@ pub fn read_spel(text: &str) -> Vec<Statement> {
                 assert!(values.len() == 4 || values.len() == 6, "{line}");
                 Statement::Move(values)
             }
+            "On" if rest.starts_with("doSignal") => Statement::SetSignal(rest["doSignal".len()..].parse().unwrap()),
             "On" | "Off" => {
                 assert_eq!(rest, "8");
                 Statement::Grip(word == "On")
+            }
+            "Wait" if rest.starts_with("Sw(") => {
+                let signal = rest.strip_prefix("Sw(diSignal").and_then(|rest| rest.strip_suffix(") = On"));
+                Statement::WaitForSignal(signal.expect("an input").parse().unwrap())
             }
             "Wait" => Statement::Wait(rest.parse().unwrap()),
             "Speed" => Statement::Speed(rest.parse().unwrap()),
@@ -68,6 +77,12 @@ pub fn read_rapid(text: &str) -> Vec<Statement> {
                 let (axes, external) = (numbers(axes), numbers(external));
                 assert_eq!((axes.len(), external), (6, vec![9e9; 6]));
                 Statement::Move(axes)
+            }
+            "SetDO" | "WaitDI" if rest.contains("Signal") => {
+                let direction = if word == "SetDO" { "doSignal" } else { "diSignal" };
+                let signal = rest.strip_prefix(direction).and_then(|rest| rest.strip_suffix(", 1")).expect("a signal");
+                let signal = signal.parse().unwrap();
+                if word == "SetDO" { Statement::SetSignal(signal) } else { Statement::WaitForSignal(signal) }
             }
             "SetDO" => Statement::Grip(rest.ends_with(", 1")),
             "WaitTime" => Statement::Wait(rest.parse().unwrap()),

@@ -83,6 +83,33 @@ fn the_demo_of_a_line_follows_it() {
     assert!(!place.path("other/plan.json").exists());
 }
 
+/// Checks the built-in cell of two arms: its files are those of `init`, whose further commands work.
+#[test]
+fn the_demo_of_two_arms_is_the_cell_of_init() {
+    let place = Place::new();
+    let done = place.run(&["demo"], "--kind cell --output left.csv --output right.csv").exits(0);
+    done.says(&["found: both motions are certified", "next       open plan.html", "cplan demo --kind follow"]);
+    let done = init(&place, "cell").succeeds_silently();
+    assert_eq!(names(&place, "cell"), ["arm.urdf", "cell.toml"]);
+    let commands: Vec<&str> = done.stdout.lines().filter_map(|l| l.split_once(" cplan ").map(|c| c.1)).collect();
+    assert_eq!(commands.len(), 3, "{}", done.stdout);
+    for command in commands {
+        place.run(&command.split(' ').collect::<Vec<_>>(), "").exits(0);
+    }
+    assert_eq!(names(&place, "cell"), ["arm.urdf", "cell.html", "cell.json", "cell.toml", "left.mod", "right.mod"]);
+    assert_eq!(place.read("plan.json"), place.read("cell/cell.json"));
+    place.run(&["verify", "cell/cell.toml", "left.csv", "right.csv"], "").exits(0);
+    let cell = place.read("cell/cell.toml");
+    place.write("cell/changed.toml", cell.replace("\n#height", "\nheight"));
+    assert_ne!(cell, place.read("cell/changed.toml"));
+    place.run(&["cell", "cell/changed.toml"], "--quiet").succeeds_silently();
+    place.run(&["init", "cell"], "--kind cell").refused(1, &["cell/arm.urdf and cell/cell.toml exist already"]);
+    place.run(&["init", "other"], "--kind cell --links 1,1").refused(2, &["numbers of a data sheet need"]);
+    place.run(&["demo"], "--kind cell --dir other --planner prm").refused(2, &["--kind cell takes only"]);
+    let done = place.run(&["demo"], "--kind cell --dir programs --template epson --output left.prg --output right.prg");
+    done.exits(0).says(&["whichever program is late: proven"]);
+}
+
 #[test]
 fn the_demo_does_not_overwrite_files() {
     let place = Place::new().with("plan.json", "mine");
@@ -100,7 +127,7 @@ fn the_demo_does_not_overwrite_files() {
     let done = here.run(&["demo"], "").exits(0);
     let suggested: Vec<String> =
         done.stdout.lines().filter_map(|line| line.trim().strip_prefix("cplan ")).map(str::to_owned).collect();
-    assert_eq!(suggested.len(), 6, "{}", done.stdout);
+    assert_eq!(suggested.len(), 7, "{}", done.stdout);
     for line in suggested {
         let command = line.split("  ").next().unwrap_or_default();
         here.run(&command.split(' ').collect::<Vec<_>>(), "").exits(0);

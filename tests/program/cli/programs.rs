@@ -62,6 +62,7 @@ fn a_kit_is_filled_by_lifting_travelling_and_lowering() {
                 waits += 1;
             }
             Statement::Speed(percent) => assert_eq!(percent, 100.0),
+            Statement::SetSignal(_) | Statement::WaitForSignal(_) => panic!("there is no other arm"),
         }
     }
     assert_eq!((feeders.len(), slots.len(), waits), (0, 0, 24));

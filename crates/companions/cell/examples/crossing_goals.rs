@@ -1,23 +1,20 @@
 //! Measures fifty random cells of two SCARAs whose goals cross: `cargo run --release -p cplan-cell --example crossing_goals`.
 //! Prints one row for each cell, and the percentiles of all. With a number, prints the attempts for that cell only.
 
-use cplan_cases::dice::Dice;
+use cplan_cases::cells::crossing;
 use cplan_cell::{Cell, Settings, plan_cell};
 use cplan_engine::Plan;
 use cplan_model::Status;
+use cplan_robot::Source;
 use std::error::Error;
-use std::f64::consts::PI;
 use std::sync::OnceLock;
 use std::time::Instant;
 
 /// Number of cells.
 const CELLS: usize = 50;
 
-/// Lengths of the links of `robots/scara.urdf`, metres.
-const LENGTHS: [f64; 2] = [0.3, 0.25];
-
 fn main() -> Result<(), Box<dyn Error>> {
-    let robot = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../robots/scara.urdf");
+    let robots = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../robots");
     let directory = tempfile::tempdir()?;
     let path = directory.path().join("cell.toml");
     let chosen = std::env::args().nth(1).map(|number| number.parse::<usize>()).transpose()?;
@@ -25,10 +22,10 @@ fn main() -> Result<(), Box<dyn Error>> {
     let mut random = cplan_cases::dice(57);
     let (mut seconds, mut gaps, mut gaps_alone) = (Vec::new(), Vec::new(), Vec::new());
     while seconds.len() < CELLS && chosen.is_none_or(|chosen| seconds.len() <= chosen) {
-        let Some(text) = cell_text(&mut random, robot) else { continue };
+        let Some(text) = crossing(&mut random, robots) else { continue };
         std::fs::write(&path, text)?;
         // Goals that are out of reach.
-        let Ok(cell) = Cell::load(&path, &|path| path.into(), None) else { continue };
+        let Ok(cell) = Cell::load(&Source::read(&path)?, &Source::read, None) else { continue };
         let begun = seconds_used();
         let plan = plan_cell(&cell, &settings, &mut |_| ())?;
         let lasted = seconds_used() - begun;
@@ -79,40 +76,4 @@ fn seconds_used() -> f64 {
     let used = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanoseconds = used.and_then(|used| used.split_whitespace().next()?.parse::<u64>().ok());
     nanoseconds.map_or_else(|| begun.elapsed().as_secs_f64(), |nanoseconds| nanoseconds as f64 * 1e-9)
-}
-
-/// Returns a random cell: each arm moves from one side of the table to the other, and the arms move in opposite directions.
-/// Returns `None` if a start is out of reach.
-fn cell_text(random: &mut Dice, robot: &str) -> Option<String> {
-    let apart = random.within(0.6, 0.95);
-    let mut tip = |side: f64| [apart / 2.0 + random.within(-0.12, 0.12), side * random.within(0.08, 0.3)];
-    let (starts, goals) = ([tip(-1.0), tip(1.0)], [tip(1.0), tip(-1.0)]);
-    let sides = [0, 1].map(|_| if random.chance(0.5) { 1.0 } else { -1.0 });
-    let bases = [([0.0, 0.0], 0.0), ([apart, 0.0], PI)];
-    let mut text = String::new();
-    for (arm, name) in ["left", "right"].into_iter().enumerate() {
-        let (base, angle) = bases[arm];
-        let start = joints_at(base, angle, starts[arm], sides[arm])?;
-        text += &format!(
-            "[[arm]]\nname = \"{name}\"\nurdf = \"{robot}\"\nbase = {{ at = {base:?}, angle = {angle:?} }}\n\
-             robot = {{ joints = [\"axis_1\", \"axis_2\"], tip = \"flange\", fixed = {{ axis_3 = -0.15 }} }}\n\
-             start = {{ joints = {start:?} }}\ngoal = {{ tip = {:?} }}\n",
-            goals[arm]
-        );
-    }
-    Some(text)
-}
-
-/// Returns joint values that put the tip at a place, with the elbow on one side.
-fn joints_at(base: [f64; 2], angle: f64, tip: [f64; 2], side: f64) -> Option<[f64; 2]> {
-    let (sin, cos) = angle.sin_cos();
-    let [x, y] = [tip[0] - base[0], tip[1] - base[1]];
-    let [x, y] = [cos * x + sin * y, cos * y - sin * x];
-    let [a, b] = LENGTHS;
-    let bend = (x * x + y * y - a * a - b * b) / (2.0 * a * b);
-    (bend.abs() < 1.0).then(|| {
-        let elbow = side * bend.acos();
-        let shoulder = y.atan2(x) - (b * elbow.sin()).atan2(a + b * elbow.cos());
-        [(shoulder + PI).rem_euclid(2.0 * PI) - PI, elbow]
-    })
 }

@@ -244,6 +244,15 @@ impl<'a> Between<'a> {
         })
     }
 
+    /// Returns a point of the first link of a pair that is nearest to the second, or deepest in it, while both arms rest.
+    pub fn contact(&self, pair: [usize; 2], at: [Configuration; 2]) -> Point {
+        let [a, b] = [0, 1].map(|side| {
+            let Body { link, part, .. } = &self.bodies[side][pair[side]];
+            part.shape.at(&self.scenes[side].arm().poses(at[side])[*link])
+        });
+        contact_point(&a, &b, separation(&a, &b))
+    }
+
     /// Names the links of a pair: `"forearm" of left and "upper arm" of right`.
     pub fn describe(&self, [i, j]: [usize; 2], names: [&str; 2]) -> String {
         let link = |side: usize, body: usize| format!("\"{}\" of {}", self.bodies[side][body].part.body, names[side]);

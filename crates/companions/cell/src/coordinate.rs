@@ -50,6 +50,12 @@ impl Coordination {
     pub fn place(&self, arm: usize, time: f64) -> Configuration {
         Curve::of_legs([&self.motions[arm].trajectory]).at(time)
     }
+
+    /// Returns the length of an arm's path up to a time on its clock, in joint space. The motion must stop at each corner of
+    /// the path.
+    pub fn travelled(&self, arm: usize, time: f64) -> f64 {
+        Curve::of_legs([&self.motions[arm].trajectory]).travelled(time)
+    }
 }
 
 /// Why paths are not coordinated.
@@ -259,7 +265,9 @@ impl Coordinator<'_> {
     /// Judges motions that are certified among the obstacles.
     pub fn judged(&self, [one, two]: [TimedMotion; 2], waits: [Vec<Wait>; 2]) -> Result<Coordination, Conflict> {
         let trajectories = [&one.trajectory, &two.trajectory];
-        let Judgement::Apart { clearance, nearest } = judge(self.between, trajectories, self.skew) else {
+        let Judgement::Apart { clearance, nearest } =
+            judge(self.between, trajectories.map(|motion| Curve::of_legs([motion])), self.skew)
+        else {
             return Err(Conflict::NotCertified);
         };
         let duration = trajectories.map(Trajectory::duration).into_iter().fold(0.0, f64::max);

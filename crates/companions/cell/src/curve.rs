@@ -35,9 +35,20 @@ impl Curve {
         Self { pieces, legs: ranges }
     }
 
-    /// Creates the curve of one motion that is preceded and followed by rests, from `begin` (not after 0) to `end`.
-    pub fn resting(trajectory: &Trajectory, begin: f64, end: f64) -> Self {
-        let Self { mut pieces, .. } = Self::of_legs([trajectory]);
+    /// Creates the curve of a motion with one leg.
+    pub fn of_pieces(pieces: Vec<Piece>) -> Self {
+        let legs = vec![[0, pieces.len()]];
+        Self { pieces, legs }
+    }
+
+    /// Returns the times at which the curve begins and ends, seconds.
+    pub fn ends(&self) -> [f64; 2] {
+        [self.pieces[0].from, self.pieces[self.pieces.len() - 1].to]
+    }
+
+    /// Returns the same motion as one leg, preceded and followed by rests from `begin` to `end`.
+    pub fn resting(self, begin: f64, end: f64) -> Self {
+        let Self { mut pieces, .. } = self;
         let (first, last) = (pieces[0].at(0.0), pieces[pieces.len() - 1].at(1.0));
         let (starts, ends) = (pieces[0].from, pieces[pieces.len() - 1].to);
         if begin < starts {
@@ -46,7 +57,26 @@ impl Curve {
         if end > ends {
             pieces.push(Piece::line(ends, end, last, last));
         }
-        let legs = vec![[0, pieces.len()]];
+        Self::of_pieces(pieces)
+    }
+
+    /// Returns the curve of straight lines between targets, one in each unit of time. Legs end at the targets `ends`, in
+    /// ascending order, and at the last target.
+    pub fn of_targets(targets: &[Configuration], ends: impl IntoIterator<Item = usize>) -> Self {
+        let lines = targets.windows(2).enumerate();
+        let mut pieces: Vec<Piece> =
+            lines.map(|(k, line)| Piece::line(k as f64, (k + 1) as f64, line[0], line[1])).collect();
+        if pieces.is_empty() {
+            let q = targets.first().copied().unwrap_or_default();
+            pieces.push(Piece::line(0.0, 0.0, q, q));
+        }
+        let (mut legs, mut first) = (Vec::new(), 0);
+        for end in ends.into_iter().filter(|end| *end < pieces.len()).chain([pieces.len()]) {
+            if end > first {
+                legs.push([first, end]);
+                first = end;
+            }
+        }
         Self { pieces, legs }
     }
 
@@ -73,6 +103,14 @@ impl Curve {
     /// Returns the configuration in the middle of a span, and the deviations from it in the whole span.
     pub fn deviation(&self, span: Span) -> (Configuration, Deviation) {
         span.deviation(&self.pieces)
+    }
+
+    /// Returns the length of the straight pieces up to a time, in joint space.
+    pub fn travelled(&self, time: f64) -> f64 {
+        let before = self.pieces.partition_point(|piece| piece.to < time);
+        let whole: f64 = self.pieces[..before].iter().map(|piece| (piece.at(1.0) - piece.at(0.0)).norm()).sum();
+        let last = self.pieces.get(before).map_or(0.0, |piece| (self.at(time) - piece.at(0.0)).norm());
+        whole + last
     }
 
     /// Returns the configuration at a time. Before the beginning and after the end the arm rests.

@@ -3,8 +3,9 @@
 use crate::excerpt::{Composition, Excerpt};
 use cplan_engine::Problem;
 use cplan_geometry::{Convex, separation};
+use cplan_handling::RobotJoints;
 use cplan_model::{Arm, Carrier, Obstacle, SelfObstacle, Shape};
-use cplan_robot::{Diagnostic, FileIdentity, InputError, RobotFile, Source, Spanned, toml_table};
+use cplan_robot::{Diagnostic, FileIdentity, InputError, Source, Spanned, toml_table};
 use cplan_world::{LoadedScene, Overrides, scene_from};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -22,6 +23,9 @@ pub struct Cell {
     pub files: Vec<PathBuf>,
 }
 
+/// A function that reads the robot of a path.
+pub type ReadRobot<'a> = dyn Fn(&Path) -> Result<Source, InputError> + 'a;
+
 /// An arm of a cell.
 #[derive(Debug, Clone)]
 pub struct CellArm {
@@ -29,6 +33,8 @@ pub struct CellArm {
     pub name: String,
     /// The motion that the arm shall make. Its obstacles are those of the cell, and the base of the other arm.
     pub problem: Problem,
+    /// The robot in the cell, with the same obstacles.
+    pub loaded: LoadedScene,
 }
 
 toml_table! {
@@ -49,6 +55,7 @@ toml_table! {
         start: Option<Excerpt>,
         goal: Option<Excerpt>,
         step: Option<Spanned<Excerpt>>,
+        clearance: Option<Spanned<Excerpt>>,
     }
 
     /// The place of an arm's root frame in the cell.
@@ -74,14 +81,12 @@ fn hint(message: &str, _: usize) -> &'static str {
 }
 
 impl Cell {
-    /// Reads a cell, its robots and their meshes. `robot` returns the file of a robot for its path. `clearance` replaces the
-    /// file's, metres.
+    /// Reads a cell, its robots and their meshes. `robot` reads the file of a robot. `clearance` replaces the file's, metres.
     ///
     /// # Errors
     /// All defects of the files, with line, column and hint; a start or goal that is out of reach or not free of obstacles;
     /// bases that overlap.
-    pub fn load(path: &Path, robot: &dyn Fn(PathBuf) -> RobotFile, clearance: Option<f64>) -> Result<Self, InputError> {
-        let source = Source::read(path)?;
+    pub fn load(source: &Source, robot: &ReadRobot, clearance: Option<f64>) -> Result<Self, InputError> {
         let file: CellFile = source.toml(&hint)?;
         let tables: Vec<&ArmTable> = file.arm.iter().map(Spanned::get_ref).collect();
         let [first, second] = tables[..] else {
@@ -94,11 +99,11 @@ impl Cell {
             return Err(source.diagnostic_at(second.name.span(), message).help("give each arm its own name").into());
         }
         let title = file.name.clone().or_else(|| source.stem()).unwrap_or_else(|| "cell".to_owned());
-        let robots = [first, second].map(|table| path.with_file_name(table.urdf.get_ref()));
-        let reader = Reader { source: &source, file: &file };
+        let robots = [first, second].map(|table| source.path().with_file_name(table.urdf.get_ref()));
+        let reader = Reader { source, file: &file };
         let mut loaded = Vec::new();
         for (table, urdf) in [first, second].into_iter().zip(&robots) {
-            let urdf = robot(urdf.clone()).read().map_err(|error| reader.unread(table, error))?;
+            let urdf = robot(urdf).map_err(|error| reader.unread(table, error))?;
             loaded.push(reader.scene(table, &title, urdf)?.with_margins(clearance, None)?);
         }
         let [mut one, mut two] = <[LoadedScene; 2]>::try_from(loaded).expect("one for each arm");
@@ -119,12 +124,15 @@ impl Cell {
             let bases = [(&one, &names[0]), (&two, &names[1])].map(|(loaded, name)| base_of(loaded.scene.arm(), name));
             (one, two) = (among(one, &bases[1]), among(two, &bases[0]));
         }
-        let mut files: Vec<PathBuf> = one.files().into_iter().chain(two.files()).chain([path.to_owned()]).collect();
+        let mut files: Vec<PathBuf> = one.files().into_iter().chain(two.files()).chain(source.files()).collect();
         files.sort();
         files.dedup();
-        let [one, two] = [one, two].map(|loaded| Problem::of_scene(loaded, &Overrides::default()));
+        let arm = |name: String, loaded: LoadedScene| {
+            let problem = Problem::of_scene(loaded.clone(), &Overrides::default())?;
+            Ok::<_, InputError>(CellArm { name, problem, loaded })
+        };
         let [first, second] = names;
-        let arms = [CellArm { name: first, problem: one? }, CellArm { name: second, problem: two? }];
+        let arms = [arm(first, one)?, arm(second, two)?];
         for arm in &arms {
             if arm.problem.motion().is_none() {
                 let message = format!(
@@ -138,6 +146,17 @@ impl Cell {
             }
         }
         Ok(Self { name: title, arms, is_one_robot, files })
+    }
+}
+
+impl Cell {
+    /// Returns the joints of an arm's controller: all joints of its robot, unless the other arm moves some of them.
+    pub fn joints(&self, arm: usize) -> RobotJoints {
+        let problem = &self.arms[arm].problem;
+        match self.is_one_robot {
+            true => RobotJoints::only_planned(&problem.scene().arm().joints.each_ref().map(|joint| joint.name.clone())),
+            false => problem.robot().joints.clone(),
+        }
     }
 }
 
@@ -173,6 +192,10 @@ impl Reader<'_> {
         if let Some(step) = &table.step {
             let message = format!("arm \"{name}\" has steps, which cells do not support");
             return Err(self.error(step.span(), message, "give the arm a goal: goal = { joints = [q1, q2] }"));
+        }
+        if let Some(clearance) = &table.clearance {
+            let message = format!("arm \"{name}\" has a clearance of its own, but both arms have that of the cell");
+            return Err(self.error(clearance.span(), message, "write it above the first [[arm]]: clearance = 0.005"));
         }
         for (table_of, key, example) in [
             (&table.start, "start", "start = { joints = [q1, q2] }"),

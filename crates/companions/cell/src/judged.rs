@@ -3,7 +3,7 @@
 use crate::between::{Between, Placed};
 use crate::curve::Curve;
 use cplan_interrupt::checkpoint;
-use cplan_motion::{Span, Trajectory};
+use cplan_motion::Span;
 use std::rc::Rc;
 
 /// A lower bound on the distance is accepted if it is at least this share of the least distance seen.
@@ -43,10 +43,22 @@ pub(crate) enum Judgement {
 ///
 /// The pairs of times that differ by at most the skew form a strip. It is covered by rectangles: the motions of all links in
 /// a rectangle are bounded, and if the bound does not decide, the rectangle is halved.
-pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> Judgement {
-    let end = motions.map(Trajectory::duration).into_iter().fold(0.0, f64::max) + skew;
-    let curves = motions.map(|motion| Curve::resting(motion, -skew, end));
-    let mut nearest = sampled(between, &curves, end, skew);
+pub(crate) fn judge(between: &Between, curves: [Curve; 2], skew: f64) -> Judgement {
+    let [begin, end] = span(&curves, skew);
+    let nearest = nearest_of(sampled(between, &curves, SAMPLES, skew));
+    let curves = curves.map(|curve| curve.resting(begin, end));
+    judge_pairs(between, &curves, skew, vec![[0, 0]], nearest)
+}
+
+/// Judges two motions at the pairs of times that belong to the pairs of legs `open` and differ by at most `skew` seconds.
+/// `nearest` is the nearest place that is known.
+pub(crate) fn judge_pairs(
+    between: &Between,
+    curves: &[Curve; 2],
+    skew: f64,
+    open: Vec<[usize; 2]>,
+    mut nearest: Option<NearestPlace>,
+) -> Judgement {
     let is_collision = |place: &NearestPlace| place.distance <= 0.0 || place.distance < between.clearance;
     if let Some(place) = nearest.filter(is_collision) {
         return Judgement::TooClose(place);
@@ -55,7 +67,8 @@ pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> 
         let (middle, deviation) = curves[arm].deviation(span);
         (span, Rc::new(between.placed(arm, middle, deviation)))
     };
-    let mut open = vec![[0, 1].map(|arm| side(arm, curves[arm].leg(0)))];
+    let pair = |legs: [usize; 2]| [0, 1].map(|arm| side(arm, curves[arm].leg(legs[arm])));
+    let mut open: Vec<_> = open.into_iter().map(pair).collect();
     let (mut clearance, mut evaluations) = (f64::INFINITY, 0);
     while let Some(sides) = open.pop() {
         checkpoint();
@@ -99,13 +112,46 @@ pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> 
     Judgement::Apart { clearance, nearest }
 }
 
-/// Returns the nearest place among samples of two motions that end at `end`, seconds.
-fn sampled(between: &Between, curves: &[Curve; 2], end: f64, skew: f64) -> Option<NearestPlace> {
-    let times = (0..=SAMPLES).map(|k| end * (k as f64 / SAMPLES as f64));
-    let places = times.flat_map(|time| [-skew, 0.0, skew].map(|shift| [time, time + shift])).filter_map(|times| {
+/// Number of times that are sampled in the description of two motions that are too near to each other.
+const FINE_SAMPLES: usize = 4096;
+
+/// Returns the first and the nearest place that are seen of two motions that are too near to each other. `known` is such a
+/// place.
+pub(crate) fn sampled_too_near(
+    between: &Between,
+    curves: &[Curve; 2],
+    skew: f64,
+    known: NearestPlace,
+) -> (NearestPlace, NearestPlace) {
+    let is_near = |place: &NearestPlace| place.distance <= 0.0 || place.distance < between.clearance;
+    let seen = sampled(between, curves, FINE_SAMPLES, skew).filter(is_near).chain([known]);
+    let earlier = |a: NearestPlace, b: NearestPlace| {
+        let last = |place: &NearestPlace| place.times[0].max(place.times[1]);
+        if last(&b) < last(&a) { b } else { a }
+    };
+    let seen: Vec<NearestPlace> = seen.collect();
+    let first = seen.iter().copied().reduce(earlier).unwrap_or(known);
+    (first, nearest_of(seen.into_iter()).unwrap_or(known))
+}
+
+/// Returns the times between which two motions are judged, seconds.
+fn span(curves: &[Curve; 2], skew: f64) -> [f64; 2] {
+    let [one, two] = curves.each_ref().map(Curve::ends);
+    [one[0].min(two[0]) - skew, one[1].max(two[1]) + skew]
+}
+
+/// Returns samples of two motions, each with the distance of the arms: both clocks are equal, or differ by the skew.
+fn sampled(between: &Between, curves: &[Curve; 2], samples: usize, skew: f64) -> impl Iterator<Item = NearestPlace> {
+    let [begin, end] = span(curves, skew);
+    let times = (0..=samples).map(move |k| begin + (end - begin) * (k as f64 / samples as f64));
+    let shifted = move |time: f64| [-skew, 0.0, skew].map(|shift| [time, time + shift]);
+    times.flat_map(shifted).filter_map(move |times| {
         let placed = [0, 1].map(|arm| between.at_rest(arm, curves[arm].at(times[arm])));
         let (distance, pair) = between.distance(placed.each_ref(), f64::INFINITY).here?;
         Some(NearestPlace { times, distance, pair })
-    });
+    })
+}
+
+fn nearest_of(places: impl Iterator<Item = NearestPlace>) -> Option<NearestPlace> {
     places.reduce(|nearest, place| if place.distance < nearest.distance { place } else { nearest })
 }

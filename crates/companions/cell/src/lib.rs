@@ -8,11 +8,11 @@
 //!   differences gives the earliest departures. If necessary, arms wait on their paths (`coordinate`).
 //! - If these paths block each other or lose time, both arms are planned at once in four joints (`joint_tree`), and an
 //!   interior-point method shortens their motions (`shaping`). If that fails, one arm is planned among the other at rest,
-//!   in both orders and for all IK solutions (`plan`).
+//!   in both orders and for all IK solutions (`plan`). For arms that stop at corners, paths lose corners (`straighten`).
 //! - The lower bound on the duration is raised by proofs that no motions of both arms end by a given time (`funnel`). They
 //!   rest on the values that each joint can have at each time (`reach`).
 //! - The final motions are judged for all skews of the two clocks within a bound (`judged`). Signals between the
-//!   controllers make them hold for any skew (`interlock`).
+//!   controllers make them hold for any skew (`interlock`). For programs of joint moves this is judged again (`delays`).
 //! - If nothing is found, boxes in four joints may prove that there is nothing (`refutation`).
 //!
 //! All verdicts about two arms rest on `between`: the distance of the links, with bounds on the motion of both.
@@ -22,6 +22,7 @@ mod between;
 mod contact;
 mod coordinate;
 mod curve;
+mod delays;
 mod diagram;
 mod excerpt;
 mod file;
@@ -33,13 +34,17 @@ mod order;
 mod picture;
 mod plan;
 mod reach;
+mod recorded;
 mod refutation;
 mod shaping;
+mod straighten;
 
 pub use coordinate::Coordination;
-pub use file::{Cell, CellArm};
+pub use delays::{SignalTargets, check_delays};
+pub use file::{Cell, CellArm, ReadRobot};
 pub use interlock::Interlock;
 pub use judged::NearestPlace;
 pub use picture::Answer;
 pub use plan::{CellPlan, Refutation, Settings, plan_cell};
+pub use recorded::{BetweenFinding, NearPlace, judge_between};
 pub use refutation::Boxes;

@@ -6,6 +6,7 @@ use crate::funnel::Funnels;
 use crate::joint_tree::joint_route;
 use crate::refutation::{Boxes, refuted_in_boxes};
 use crate::shaping::Shaping;
+use crate::straighten::with_fewer_corners;
 use crate::{Cell, CellArm};
 use cplan_engine::{Plan, PlanError, Refutation as PlanRefutation, Searches, plan};
 use cplan_judge::{CertifiedPath, CheckedProof, Deviation};
@@ -130,7 +131,7 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
     }
     let drive = Drive { optimize: Objective::Time, ..settings.options.drive };
     let options = Options { drive, ..settings.options };
-    for (arm, CellArm { name, problem }) in cell.arms.iter().enumerate() {
+    for (arm, CellArm { name, problem, .. }) in cell.arms.iter().enumerate() {
         progress(&format!("planning {name} alone"));
         let plan = plan(problem, &options, Searches::NONE, progress)?;
         let outcome = match plan.outcome() {
@@ -168,6 +169,14 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
         search.one_among_the_other(&goals.pairs)?;
         progress("searching with all four joints");
         search.with_all_joints(&goals.pairs)?;
+    }
+    if drive.blend == 0.0
+        && let Some(best) = search.best.take()
+    {
+        progress("removing corners, at which the arms stop");
+        let straighter = with_fewer_corners(&coordinator, best)?;
+        search.tried.push(format!("with fewer corners: {:.3} s", straighter.duration));
+        search.best = Some(straighter);
     }
     progress("looking for a greater bound");
     search.raise_bound();

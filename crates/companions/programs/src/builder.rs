@@ -170,7 +170,7 @@ impl<'a> Builder<'a> {
         let all = self.robot.values(&drives);
         let values = self.joints.iter().map(|(_, index)| all[*index]).collect();
         let step = self.steps.len() - 1;
-        self.moves.push(Move { kind, step, values, drives, grip: None, dwell: 0.0 });
+        self.moves.push(Move { kind, step, values, drives, grip: None, dwell: 0.0, signals: Vec::new() });
     }
 
     /// Adds an action of the gripper and a rest to the last move. If that move belongs to another step or already has

@@ -34,17 +34,25 @@ impl Program {
         self.travels.iter().try_for_each(|travel| self.certify_travel(travel, targets))
     }
 
+    /// Returns the values of the two planned joints at targets, which are given as the values of all joints.
+    ///
+    /// # Errors
+    /// A robot without one of these joints.
+    pub fn configurations(&self, targets: &[Vec<f64>]) -> Result<Vec<Configuration>, ProgramError> {
+        let planned = |k: usize| self.joints.iter().position(|joint| joint.driver == Driver::Planned(k));
+        let Some((one, two)) = planned(0).zip(planned(1)) else {
+            return Err(ProgramError::Unsuitable("the robot does not have both planned joints".into()));
+        };
+        Ok(targets.iter().map(|values| Configuration::new(values[one], values[two])).collect())
+    }
+
     fn certify_travel(
         &self,
         Travel { scene, moves: [first, last] }: &Travel,
         targets: &[Vec<f64>],
     ) -> Result<(), ProgramError> {
-        let planned = |k: usize| self.joints.iter().position(|joint| joint.driver == Driver::Planned(k));
-        let Some((one, two)) = planned(0).zip(planned(1)) else {
-            return Err(ProgramError::Unsuitable("the robot does not have both planned joints".into()));
-        };
-        let corners = targets[*first..=*last].iter().map(|values| Configuration::new(values[one], values[two]));
-        let refused = match certify_at(scene, Path::new(corners.collect()), self.required) {
+        let corners = self.configurations(&targets[*first..=*last])?;
+        let refused = match certify_at(scene, Path::new(corners), self.required) {
             Ok(_) => return Ok(()),
             Err(refused) => refused,
         };

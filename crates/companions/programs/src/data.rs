@@ -3,6 +3,7 @@
 use crate::joint_value::{JointValue, MARK};
 use crate::moves::{Move, MoveKind, ProgramStep};
 use crate::program::Program;
+use crate::signals::signals_of;
 use cplan_text::{plain_line, round_down, short};
 use minijinja::context;
 use minijinja::value::Value;
@@ -38,6 +39,13 @@ impl Program {
             format!("The path is {}.", self.guarantee()),
             "The controller chooses speeds and times; these are not certified.".to_owned(),
         ];
+        if let Some(other) = &self.interlocked_with {
+            let other = clean(other);
+            statement.push(format!(
+                "With the signals, the arm keeps apart from {other}, whichever program is late. \
+                 All signals must be off before either program begins."
+            ));
+        }
         if self.needs_wrist {
             statement.push(
                 "The program does not turn the wrist. The controller must keep the orientation of objects.".to_owned(),
@@ -53,6 +61,7 @@ impl Program {
             clearance => round_down(1e3 * self.clearance, 3),
             tolerance => self.tolerance.to_string(),
             statement,
+            has_signals => self.interlocked_with.is_some(),
             files => Value::from(files.collect::<Vec<_>>()),
             version => env!("CARGO_PKG_VERSION"),
         }
@@ -83,6 +92,7 @@ impl Program {
             speed => self.steps[one.step].speed,
             grip => one.grip,
             dwell => one.dwell,
+            signals => signals_of(target, one),
             quill => short(1e3 * one.drives.stroke),
         }
     }

@@ -3,6 +3,7 @@
 //! - [`Program`]: the joint moves of a plan. Each is a straight line in joint space that ends at rest. The arm stands still
 //!   while the gripper acts, and during strokes and turns of the wrist.
 //! - [`Template`]: a text in the language of [`minijinja`], shipped or from a file, that writes the program.
+//! - [`Signal`]: a digital signal between two programs, at a point of the motion.
 //! - [`JointTolerance`]: how far a controller may be from the straight lines.
 //!
 //! The written text is certified, not the plan. Each joint value carries a mark through the template (`joint_value`). After
@@ -23,11 +24,14 @@ mod error;
 mod joint_value;
 mod moves;
 mod program;
+mod signals;
 mod template;
 mod tolerance;
 mod written;
 
 pub use error::ProgramError;
 pub use program::Program;
+pub use signals::{Signal, SignalUse};
 pub use template::{SHIPPED, Template};
 pub use tolerance::JointTolerance;
+pub use written::Written;

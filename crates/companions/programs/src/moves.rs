@@ -1,5 +1,6 @@
 //! The parts of a program: joints, steps, moves, and the scenes in which moves are certified.
 
+use crate::signals::SignalUse;
 use crate::tolerance::JointTolerance;
 use cplan_handling::{Driver, Drives, Stroke};
 use cplan_legs::Leg;
@@ -60,6 +61,8 @@ pub(crate) struct Move {
     pub grip: Option<&'static str>,
     /// Time at rest after that, seconds.
     pub dwell: f64,
+    /// Numbers of the signals that the program uses at its end, in their order.
+    pub signals: Vec<(usize, SignalUse)>,
 }
 
 /// A step of a program.

@@ -5,9 +5,9 @@ use crate::error::ProgramError;
 use crate::moves::{Move, ProgramJoint, ProgramStep, Travel};
 use crate::tolerance::JointTolerance;
 use cplan_engine::{Detail, Plan, Problem};
-use cplan_handling::{Action, Holding, Task};
+use cplan_handling::{Action, Holding, RobotJoints, Task};
 use cplan_model::Motors;
-use cplan_model::space::JointRange;
+use cplan_model::space::{JointRange, Path};
 
 /// Displacement of a joint that is due to rounding, radians or metres.
 const ROUNDING: f64 = 1e-9;
@@ -35,6 +35,8 @@ pub struct Program {
     pub(crate) needs_wrist: bool,
     /// Names of the input files, and their SHA-256 in hexadecimal.
     pub(crate) digests: Vec<[String; 2]>,
+    /// The arm whose program shares signals with this one.
+    pub(crate) interlocked_with: Option<String>,
 }
 
 impl Program {
@@ -65,30 +67,61 @@ impl Program {
     /// The errors of [`Program::check`], a plan without a motion, and a wrist that leaves its range.
     pub fn of(plan: &Plan, tolerance: JointTolerance, clearance: f64) -> Result<Self, ProgramError> {
         let problem = plan.problem();
-        Self::check(problem)?;
         let no_motion = || ProgramError::Unsuitable("the plan has no motion".into());
-        let (arm, scene) = (plan.arm(), problem.scene());
-        let mut builder = Builder::new(&problem.robot().joints, arm);
-        let (length, kept) = match plan.detail() {
+        let joints = &problem.robot().joints;
+        match plan.detail() {
             Detail::Motion { answer, .. } => {
                 let motion = answer.outcome.found().ok_or_else(no_motion)?;
-                builder.motion(scene, motion.timed.curve.curve().path());
-                (motion.path.path().length(), motion.timed.curve.clearance())
+                let curve = &motion.timed.curve;
+                Self::of_motion(problem, joints, (curve.curve().path(), curve.clearance()), tolerance, clearance)
             }
             Detail::Task { task, answer } => {
+                Self::check(problem)?;
                 answer.outcome.found().ok_or_else(no_motion)?;
+                let mut builder = Builder::new(joints, problem.scene().arm());
                 builder.task(task, &answer.legs, tolerance)?;
-                (answer.legs.iter().map(|leg| leg.path().length()).sum(), answer.clearance())
+                let length = answer.legs.iter().map(|leg| leg.path().length()).sum();
+                Self::of_moves(problem, builder.into_moves(), length, answer.clearance(), tolerance, clearance)
             }
-        };
+        }
+    }
+
+    /// Returns the program of a motion along a path that keeps the distance `kept` from all obstacles, with the conditions
+    /// of [`Program::of`]. `joints` are those that the program moves.
+    ///
+    /// # Errors
+    /// The errors of [`Program::check`].
+    pub fn of_motion(
+        problem: &Problem,
+        joints: &RobotJoints,
+        (path, kept): (&Path, f64),
+        tolerance: JointTolerance,
+        clearance: f64,
+    ) -> Result<Self, ProgramError> {
+        Self::check(problem)?;
+        let mut builder = Builder::new(joints, problem.scene().arm());
+        builder.motion(problem.scene(), path);
+        Self::of_moves(problem, builder.into_moves(), path.length(), kept, tolerance, clearance)
+    }
+
+    /// Returns the program with these moves, which keep the distance `kept` from all obstacles.
+    fn of_moves(
+        problem: &Problem,
+        moves: Moves,
+        length: f64,
+        kept: f64,
+        tolerance: JointTolerance,
+        clearance: f64,
+    ) -> Result<Self, ProgramError> {
+        let (scene, robot) = (problem.scene(), problem.robot());
         let is_level = |task: &Task| task.objects.iter().any(|object| object.holding == Holding::Level);
-        let Moves { joints, steps, moves, travels } = builder.into_moves();
+        let Moves { joints, steps, moves, travels } = moves;
         let kept = if kept.is_finite() { (kept - tolerance.room(problem)).max(clearance) } else { clearance };
         let program = Self {
-            robot: arm.name.clone(),
+            robot: scene.arm().name.clone(),
             world: scene.workspace().name.clone(),
             joints,
-            motors: arm.motors,
+            motors: scene.arm().motors,
             steps,
             moves,
             travels,
@@ -96,8 +129,9 @@ impl Program {
             tolerance,
             clearance: kept,
             required: kept + tolerance.room_as_written(problem),
-            needs_wrist: problem.robot().joints.wrist.is_none() && problem.task().is_some_and(is_level),
+            needs_wrist: robot.joints.wrist.is_none() && problem.task().is_some_and(is_level),
             digests: Vec::new(),
+            interlocked_with: None,
         };
         program.check_ranges()?;
         Ok(program)

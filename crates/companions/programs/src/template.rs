@@ -24,7 +24,7 @@ const MAX_INSTRUCTIONS: u64 = 50_000_000;
 const HINT: &str = "docs/programs.md lists the data and the filters of templates";
 
 /// The hint for templates that do not write all targets.
-const HINT_FOR_TARGETS: &str = "write each joint of each move exactly once, in the order of `moves`: {% for move in moves %}{{ move.joints | join(\", \") }}{% endfor %}";
+const HINT_FOR_TARGETS: &str = "write each joint of each move exactly once, in the order of `moves`, and then its signals, if it has any: {% for move in moves %}{{ move.joints | join(\", \") }}{% endfor %}";
 
 /// A template for programs.
 #[derive(Debug, Clone)]
@@ -62,14 +62,14 @@ impl Template {
     ///
     /// # Errors
     /// A defect of the template, a text without all targets in order, and targets that are not certified as written.
-    pub fn write(&self, program: &Program) -> Result<String, ProgramError> {
+    pub fn write(&self, program: &Program) -> Result<Written, ProgramError> {
         let environment = self.environment();
         let template = environment.template_from_str(self.source.text()).map_err(|error| self.defect(&error))?;
         let rendered = template.render(program.data()).map_err(|error| self.defect(&error))?;
         let incomplete = |why: String| InputError::from(self.source.diagnostic(why).help(HINT_FOR_TARGETS));
-        let Written { text, targets } = Written::read(program, &rendered).map_err(incomplete)?;
-        program.certify(&targets)?;
-        Ok(text)
+        let written = Written::read(program, &rendered).map_err(incomplete)?;
+        program.certify(&written.targets)?;
+        Ok(written)
     }
 
     fn environment(&self) -> Environment<'_> {

@@ -95,7 +95,7 @@ impl JointTolerance {
     }
 
     /// Returns the clearance that the lines between written targets need beyond that of the program, metres.
-    pub(crate) fn room_as_written(self, problem: &Problem) -> f64 {
+    pub fn room_as_written(self, problem: &Problem) -> f64 {
         self.with_rounding(1.0).displacement(problem)
     }
 

@@ -2,9 +2,12 @@
 
 use crate::joint_value::{MARK, value_of};
 use crate::program::Program;
+use crate::signals::{SignalUse, is_signal, signal_mark};
 
 /// The text of a program, and the targets that its digits state.
-pub(crate) struct Written {
+#[derive(Debug, Clone)]
+pub struct Written {
+    /// The text.
     pub text: String,
     /// Values of all joints at each target, radians or metres. Joints that the plan holds and the text omits have the plan's
     /// values.
@@ -35,10 +38,12 @@ impl Written {
     ///
     /// # Errors
     /// The reason, for people, if the text does not have each joint of each target once, with the targets in order.
-    pub fn read(program: &Program, rendered: &str) -> Result<Self, String> {
+    pub(crate) fn read(program: &Program, rendered: &str) -> Result<Self, String> {
         let [open, middle, close] = MARK;
         let (mut text, mut targets) = (String::with_capacity(rendered.len()), Vec::new());
         let mut target: Vec<Option<f64>> = vec![None; program.joints.len()];
+        // Number of the target's signals that are written.
+        let mut signals = 0;
         let mut parts = rendered.split(open);
         text.push_str(parts.next().unwrap_or_default());
         for part in parts {
@@ -46,13 +51,26 @@ impl Written {
             let Some(((mark, digits), rest)) = marked else {
                 return Err("the template writes only a part of a joint value".into());
             };
+            if is_signal(mark) {
+                complete(program, targets.len(), &target)?;
+                let next = signal(program, targets.len(), signals);
+                if next.map(|next| signal_mark(targets.len(), next)).as_deref() != Some(mark) {
+                    let place = program.describe(targets.len());
+                    return Err(format!("the template writes signal {digits} in the wrong place: after {place}"));
+                }
+                signals += 1;
+                text.push_str(digits);
+                text.push_str(rest);
+                continue;
+            }
             let number = Number::read(mark, digits).filter(|number| number.joint < target.len());
             let Some(number) = number else {
                 return Err(format!("the template changes the digits of a joint value: {digits:?} is not a number"));
             };
             if number.target == targets.len() + 1 {
+                check_signals(program, targets.len(), signals)?;
                 targets.push(complete(program, targets.len(), &target)?);
-                target.fill(None);
+                (signals, target) = (0, vec![None; target.len()]);
             }
             let expected = program.describe(targets.len());
             if number.target != targets.len() {
@@ -74,6 +92,7 @@ impl Written {
             text.push_str(number.digits);
             text.push_str(rest);
         }
+        check_signals(program, targets.len(), signals)?;
         targets.push(complete(program, targets.len(), &target)?);
         if targets.len() < program.moves.len() {
             return Err(format!("the template does not write {}", program.describe(targets.len())));
@@ -82,6 +101,21 @@ impl Written {
             return Err("the template contains the private-use characters U+E000 to U+E002; remove them".into());
         }
         Ok(Self { text, targets })
+    }
+}
+
+/// Returns one of the signals of a target.
+fn signal(program: &Program, target: usize, number: usize) -> Option<(usize, SignalUse)> {
+    program.moves.get(target)?.signals.get(number).copied()
+}
+
+/// Checks that the text has all signals of a target.
+fn check_signals(program: &Program, target: usize, written: usize) -> Result<(), String> {
+    match signal(program, target, written) {
+        Some((number, _)) => {
+            Err(format!("the template does not write signal {number} after {}", program.describe(target)))
+        }
+        None => Ok(()),
     }
 }
 

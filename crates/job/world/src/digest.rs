@@ -42,7 +42,11 @@ impl Digests {
     }
 }
 
-fn digest(path: &Path) -> Result<String, InputError> {
+/// Returns the SHA-256 of a file, in hexadecimal.
+///
+/// # Errors
+/// A file that cannot be read.
+pub fn digest(path: &Path) -> Result<String, InputError> {
     Ok(digest_of(&read_bytes(path)?))
 }
 

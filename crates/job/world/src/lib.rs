@@ -60,7 +60,7 @@ mod values;
 mod world;
 mod world_map;
 
-pub use digest::Digests;
+pub use digest::{Digests, digest};
 pub use line_map::{Chain, LineMap};
 pub use line_table::{line_diagnostic, read_line};
 pub use occupancy::{MAX_CELLS, Occupancy, OccupancyMap, PixelRectangle, rectangles};

@@ -61,6 +61,10 @@ fn errors_name_the_line_of_the_cell_file() {
     for (changes, expected) in [
         (vec![("name = \"right\"", "name = \"left\"")], "cell.toml: line 10, column 8: both arms are named \"left\""),
         (vec![(second, "[[other]]\nname = \"right\"")], "line 9, column 3: unknown key `other`"),
+        (
+            vec![("base = {", "clearance = 0.01\nbase = {")],
+            "cell.toml: line 5, column 13: arm \"left\" has a clearance of its own, but both arms have that of the cell",
+        ),
         (vec![("base = {", "place = {")], "line 5, column 1: unknown key `place`"),
         (vec![("goal = { joints = [-0.5, -0.5] }\n", "")], "line 3, column 8: arm \"left\" has no goal"),
         (vec![("start = { joints = [0.5, 0.5] }\n", "")], "line 3, column 8: arm \"left\" has no start"),
@@ -111,7 +115,8 @@ fn bases_must_not_overlap() {
         .replace("at = [0.8, 0.0]", "at = [-0.05, 0.0]");
     let done = place.with("cell.toml", cell).run(&["cell", "cell.toml"], "");
     assert_eq!(done.code, 1, "{}", done.stdout);
-    assert!(done.stderr.contains("the bases of arms \"left\" and \"right\" overlap"), "{}", done.stderr);
+    let expected = "cell.toml: line 14, column 8: the bases of arms \"left\" and \"right\" overlap";
+    assert!(done.stderr.contains(expected), "{}", done.stderr);
 }
 
 #[test]

@@ -2,7 +2,10 @@
 
 mod errors;
 mod oracle;
+mod programs;
 mod random;
+mod set;
+mod verify;
 
 use super::{Done, Place, number, read, shipped};
 use oracle::{Arm, Motion, Solid, distance, replayed};

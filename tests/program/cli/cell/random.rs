@@ -7,8 +7,8 @@ use cplan_cases::dice::Dice;
 use std::f64::consts::PI;
 
 /// A random cell.
-struct Cell {
-    arms: [Arm; 2],
+pub struct Cell {
+    pub arms: [Arm; 2],
     width: f64,
     ranges: [[f64; 2]; 4],
     starts: [[f64; 2]; 2],
@@ -21,7 +21,7 @@ const POST: f64 = 0.03;
 
 impl Cell {
     /// Returns a cell whose starts and goals are free.
-    fn new(random: &mut Dice) -> Self {
+    pub fn new(random: &mut Dice) -> Self {
         loop {
             let width = random.within(0.04, 0.1);
             let lengths = [0, 1].map(|_| [random.within(0.3, 0.5), random.within(0.2, 0.4)]);
@@ -50,7 +50,7 @@ impl Cell {
         }
     }
 
-    fn post(&self) -> Vec<[f64; 2]> {
+    pub fn post(&self) -> Vec<[f64; 2]> {
         let [x, y] = self.post;
         vec![[x - POST, y - POST], [x + POST, y - POST], [x + POST, y + POST], [x - POST, y + POST]]
     }
@@ -85,6 +85,11 @@ impl Cell {
         )
     }
 
+    /// Returns a folder with the files of the cell.
+    pub fn place(&self) -> Place {
+        Place::new().with("left.urdf", self.urdf(0)).with("right.urdf", self.urdf(1)).with("cell.toml", self.toml())
+    }
+
     fn toml(&self) -> String {
         let arm = |k: usize, name: &str| {
             let Arm { base, angle, .. } = &self.arms[k];
@@ -103,11 +108,7 @@ fn random_cells_agree_with_the_oracle() {
     let mut counts = [0; 3];
     for seed in cplan_cases::seeds(100) {
         let cell = Cell::new(&mut Dice::new(seed));
-        let place = Place::new()
-            .with("left.urdf", cell.urdf(0))
-            .with("right.urdf", cell.urdf(1))
-            .with("cell.toml", cell.toml());
-        let done = place.run(&["cell", "cell.toml", "--json", "--quiet", "--boxes", "20000"], "");
+        let done = cell.place().run(&["cell", "cell.toml", "--json", "--quiet", "--boxes", "20000"], "");
         assert!([0, 3, 4].contains(&done.code), "seed {seed}: {}", done.stderr);
         let answer = answer(&done);
         match done.code {

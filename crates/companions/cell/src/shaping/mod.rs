@@ -104,12 +104,13 @@ impl Shape {
 }
 
 impl<'a> Shaping<'a> {
-    /// Returns `None` if the arms have limits that shapes do not consider: of jerks, torques, motors, or the speed of the tip.
+    /// Returns `None` if the arms have limits that shapes do not consider: of jerks, torques, motors, or the
+    /// speed of the tip, or stops at corners.
     pub fn new(between: &'a Between<'a>, drive: Drive, skew: f64) -> Option<Self> {
         let arms = between.scenes.map(|scene| scene.arm());
         let has_torques = drive.torque || between.scenes.iter().any(|scene| TorqueLimit::of(scene).is_some());
         let is_limited = arms.iter().any(|arm| arm.limits_jerks() || arm.motors.is_some());
-        if drive.tip_speed.is_some() || has_torques || is_limited {
+        if drive.blend == 0.0 || drive.tip_speed.is_some() || has_torques || is_limited {
             return None;
         }
         let joint = |k: usize| &arms[k / 2].joints[k % 2];

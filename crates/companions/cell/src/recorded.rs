@@ -1,0 +1,67 @@
+//! The judgement of two given motions between the arms, on one clock.
+
+use crate::Cell;
+use crate::between::Between;
+use crate::curve::Curve;
+use crate::judged::{Judgement, NearestPlace, judge, sampled_too_near};
+use cplan_handling::Piece;
+use cplan_model::space::Configuration;
+
+/// A place of two motions at which the arms are near to each other.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NearPlace {
+    /// The time on the clock of each arm, seconds.
+    pub times: [f64; 2],
+    /// The configuration of each arm.
+    pub at: [Configuration; 2],
+    /// The distance of the arms, metres; negative if they overlap.
+    pub distance: f64,
+    /// The links, such as `"forearm" of left and "upper arm" of right`.
+    pub links: String,
+    /// The place in the cell, metres: a point of the first link that is nearest to the second, or deepest in it.
+    pub point: [f64; 2],
+}
+
+/// The finding about two motions between the arms.
+#[derive(Debug, Clone, PartialEq)]
+pub enum BetweenFinding {
+    /// Proven: the arms keep the clearance.
+    Free {
+        /// Proven lower bound on the distance, metres. Infinite if no links can meet.
+        clearance: f64,
+        /// The nearest place that was seen.
+        nearest: Option<NearPlace>,
+    },
+    /// Proven: the arms collide, or are nearer than the clearance.
+    TooNear {
+        /// The first place that was seen.
+        first: NearPlace,
+        /// The nearest place that was seen.
+        nearest: NearPlace,
+    },
+    /// Neither is proven.
+    Undecided,
+}
+
+/// Judges two motions between the arms of a cell: both clocks may differ by up to `skew` seconds. Each arm rests at its first
+/// place before its motion, and at its last place after it.
+pub fn judge_between(cell: &Cell, motions: [Vec<Piece>; 2], skew: f64) -> BetweenFinding {
+    let scenes = cell.arms.each_ref().map(|arm| arm.problem.scene());
+    let between = Between::new(scenes, cell.is_one_robot, scenes[0].workspace().clearance);
+    let curves = motions.map(Curve::of_pieces);
+    let names = cell.arms.each_ref().map(|arm| arm.name.as_str());
+    let described = |place: NearestPlace| {
+        let at = [0, 1].map(|arm| curves[arm].at(place.times[arm]));
+        let point = between.contact(place.pair, at);
+        let NearestPlace { times, distance, pair } = place;
+        NearPlace { times, at, distance, links: between.describe(pair, names), point: point.into() }
+    };
+    match judge(&between, curves.clone(), skew) {
+        Judgement::Apart { clearance, nearest } => BetweenFinding::Free { clearance, nearest: nearest.map(described) },
+        Judgement::TooClose(place) => {
+            let (first, nearest) = sampled_too_near(&between, &curves, skew, place);
+            BetweenFinding::TooNear { first: described(first), nearest: described(nearest) }
+        }
+        Judgement::Undecided => BetweenFinding::Undecided,
+    }
+}
