@@ -71,6 +71,13 @@ impl Answered<'_> {
                         names[1 - *arm]
                     )
                 }
+                Refutation::Step { arm, failed } => format!(
+                    "infeasible: {} cannot do step {} ({}), even without {}; proven",
+                    names[*arm],
+                    failed.step.number,
+                    failed.step.place,
+                    names[1 - *arm]
+                ),
                 Refutation::Starts(what) => {
                     format!("infeasible: the arms cannot be at their starts together: {what}; proven")
                 }

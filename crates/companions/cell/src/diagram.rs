@@ -3,6 +3,7 @@
 
 use crate::between::{Between, Placed, Swept};
 use crate::curve::Curve;
+use crate::stage::StagePairs;
 use cplan_interrupt::checkpoint;
 use cplan_motion::Span;
 use std::rc::Rc;
@@ -28,17 +29,18 @@ struct Side {
 
 /// Returns the rectangles in which two motions are not proven to keep the clearance, and `margin` metres more. The links of
 /// each arm move by at most `resolution` metres within a rectangle, unless a collision is proven in all of it.
-pub(crate) fn rectangles(between: &Between, curves: [&Curve; 2], margin: f64, resolution: f64) -> Vec<Rectangle> {
-    let side = |arm: usize, span: Span| {
+pub(crate) fn rectangles(pairs: &StagePairs, curves: [&Curve; 2], margin: f64, resolution: f64) -> Vec<Rectangle> {
+    let side = |between: &Between, arm: usize, span: Span| {
         let (middle, deviation) = curves[arm].deviation(span);
         let placed = Rc::new(between.placed(arm, middle, deviation));
         Side { span, placed, swept: Rc::new(between.swept(arm, middle, deviation)) }
     };
-    let required = between.clearance + margin;
+    let required = pairs.clearance() + margin;
     let mut found = Vec::new();
     for (one, two) in (0..curves[0].legs()).flat_map(|one| (0..curves[1].legs()).map(move |two| (one, two))) {
         let legs = [one, two];
-        let mut open = vec![[0, 1].map(|arm| side(arm, curves[arm].leg(legs[arm])))];
+        let between = pairs.between([0, 1].map(|arm| curves[arm].stage(legs[arm])));
+        let mut open = vec![[0, 1].map(|arm| side(between, arm, curves[arm].leg(legs[arm])))];
         while let Some(sides) = open.pop() {
             checkpoint();
             let placed = sides.each_ref().map(|side| &*side.placed);
@@ -54,7 +56,7 @@ pub(crate) fn rectangles(between: &Between, curves: [&Curve; 2], margin: f64, re
             match halves {
                 Some((arm, halves)) => open.extend(halves.map(|span| {
                     let mut sides = sides.clone();
-                    sides[arm] = side(arm, span);
+                    sides[arm] = side(between, arm, span);
                     sides
                 })),
                 None => {

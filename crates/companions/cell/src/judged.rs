@@ -2,8 +2,9 @@
 
 use crate::between::{Between, Placed};
 use crate::curve::Curve;
+use crate::stage::StagePairs;
 use cplan_interrupt::checkpoint;
-use cplan_motion::{Span, Trajectory};
+use cplan_motion::Span;
 use std::rc::Rc;
 
 /// A lower bound on the distance is accepted if it is at least this share of the least distance seen.
@@ -38,34 +39,45 @@ pub(crate) enum Judgement {
     Undecided,
 }
 
-/// Judges two motions on two clocks, if either clock may be ahead of the other by `skew` seconds. Each arm rests at its start
-/// before its motion, and at its goal after it.
+/// Judges two motions on two clocks, if either clock may be ahead of the other by `skew` seconds. The curves contain the
+/// rests before and after the motions, from `-skew` to `end` seconds.
 ///
 /// The pairs of times that differ by at most the skew form a strip. It is covered by rectangles: the motions of all links in
 /// a rectangle are bounded, and if the bound does not decide, the rectangle is halved.
-pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> Judgement {
-    let end = motions.map(Trajectory::duration).into_iter().fold(0.0, f64::max) + skew;
-    let curves = motions.map(|motion| Curve::resting(motion, -skew, end));
-    let mut nearest = sampled(between, &curves, end, skew);
-    let is_collision = |place: &NearestPlace| place.distance <= 0.0 || place.distance < between.clearance;
+pub(crate) fn judge(pairs: &StagePairs, curves: &[Curve; 2], end: f64, skew: f64) -> Judgement {
+    let mut nearest = sampled(pairs, curves, end, skew);
+    let required = pairs.clearance();
+    let is_collision = |place: &NearestPlace| place.distance <= 0.0 || place.distance < required;
     if let Some(place) = nearest.filter(is_collision) {
         return Judgement::TooClose(place);
     }
-    let side = |arm: usize, span: Span| {
+    let side = |between: &Between, arm: usize, span: Span| {
         let (middle, deviation) = curves[arm].deviation(span);
         (span, Rc::new(between.placed(arm, middle, deviation)))
     };
-    let mut open = vec![[0, 1].map(|arm| side(arm, curves[arm].leg(0)))];
+    let is_beside = |spans: [Span; 2]| {
+        let [a, b] = [0, 1].map(|arm| curves[arm].times(spans[arm]));
+        a[0] - b[1] > skew || b[0] - a[1] > skew
+    };
+    let legs = (0..curves[0].legs()).flat_map(|one| (0..curves[1].legs()).map(move |two| [one, two]));
+    let legs = legs.filter(|legs| !is_beside([0, 1].map(|arm| curves[arm].leg(legs[arm]))));
+    let mut open: Vec<_> = legs
+        .map(|legs| {
+            let between = pairs.between([0, 1].map(|arm| curves[arm].stage(legs[arm])));
+            (between, [0, 1].map(|arm| side(between, arm, curves[arm].leg(legs[arm]))))
+        })
+        .collect();
     let (mut clearance, mut evaluations) = (f64::INFINITY, 0);
-    while let Some(sides) = open.pop() {
+    while let Some((between, sides)) = open.pop() {
         checkpoint();
-        let [a, b] = [0, 1].map(|arm| curves[arm].times(sides[arm].0));
-        if a[0] - b[1] > skew || b[0] - a[1] > skew {
+        let spans = sides.each_ref().map(|(span, _)| *span);
+        if is_beside(spans) {
             continue;
         }
+        let [a, b] = [0, 1].map(|arm| curves[arm].times(spans[arm]));
         evaluations += 1;
         let placed = sides.each_ref().map(|(_, placed)| &**placed);
-        let target = nearest.map_or(0.0, |place| TIGHTNESS * place.distance).max(between.clearance);
+        let target = nearest.map_or(0.0, |place| TIGHTNESS * place.distance).max(required);
         let distance = between.distance(placed, target);
         if distance.least > 0.0 && distance.least >= target {
             clearance = clearance.min(distance.least);
@@ -90,8 +102,8 @@ pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> 
         match halves.filter(|_| evaluations < MAX_EVALUATIONS) {
             Some((arm, halves)) => open.extend(halves.map(|span| {
                 let mut sides = sides.clone();
-                sides[arm] = side(arm, span);
-                sides
+                sides[arm] = side(between, arm, span);
+                (between, sides)
             })),
             None => return Judgement::Undecided,
         }
@@ -100,9 +112,10 @@ pub(crate) fn judge(between: &Between, motions: [&Trajectory; 2], skew: f64) -> 
 }
 
 /// Returns the nearest place among samples of two motions that end at `end`, seconds.
-fn sampled(between: &Between, curves: &[Curve; 2], end: f64, skew: f64) -> Option<NearestPlace> {
+fn sampled(pairs: &StagePairs, curves: &[Curve; 2], end: f64, skew: f64) -> Option<NearestPlace> {
     let times = (0..=SAMPLES).map(|k| end * (k as f64 / SAMPLES as f64));
     let places = times.flat_map(|time| [-skew, 0.0, skew].map(|shift| [time, time + shift])).filter_map(|times| {
+        let between = pairs.between([0, 1].map(|arm| curves[arm].stage(curves[arm].leg_at(times[arm]))));
         let placed = [0, 1].map(|arm| between.at_rest(arm, curves[arm].at(times[arm])));
         let (distance, pair) = between.distance(placed.each_ref(), f64::INFINITY).here?;
         Some(NearestPlace { times, distance, pair })

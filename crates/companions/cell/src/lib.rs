@@ -18,28 +18,37 @@
 //! All verdicts about two arms rest on `between`: the distance of the links, with bounds on the motion of both.
 #![forbid(unsafe_code)]
 
+mod assignment;
 mod between;
+mod body;
 mod contact;
 mod coordinate;
 mod curve;
 mod diagram;
 mod excerpt;
 mod file;
+mod file_steps;
 mod funnel;
 mod interlock;
 mod joint_tree;
 mod judged;
+mod legs;
 mod order;
 mod picture;
 mod plan;
 mod reach;
 mod refutation;
+mod schedule;
+mod sequence;
 mod shaping;
+mod stage;
+mod task_search;
+mod variants;
 
-pub use coordinate::Coordination;
+pub use coordinate::{Coordination, StepTimes};
 pub use file::{Cell, CellArm};
 pub use interlock::Interlock;
 pub use judged::NearestPlace;
 pub use picture::{figure, page};
-pub use plan::{CellPlan, Refutation, Settings, plan_cell};
+pub use plan::{Alone, CellPlan, Refutation, Settings, plan_cell};
 pub use refutation::Boxes;

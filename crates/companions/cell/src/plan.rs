@@ -6,8 +6,11 @@ use crate::funnel::Funnels;
 use crate::joint_tree::joint_route;
 use crate::refutation::{Boxes, refuted_in_boxes};
 use crate::shaping::Shaping;
+use crate::stage::StagePairs;
+use crate::task_search::plan_tasks;
 use crate::{Cell, CellArm};
 use cplan_engine::{Plan, PlanError, Refutation as PlanRefutation, Searches, plan};
+use cplan_legs::FailedStep;
 use cplan_judge::{CertifiedPath, CheckedProof, Deviation};
 use cplan_model::space::Configuration;
 use cplan_model::{MotionProblem, Obstacle, Outcome, Scene, Status};
@@ -16,7 +19,7 @@ use cplan_solver::{Criterion, Options, solve};
 use std::fmt::Write as _;
 
 /// Gap between the duration and its lower bound at which the search ends, as a share of the bound.
-const ACCEPTED_GAP: f64 = 0.02;
+pub(crate) const ACCEPTED_GAP: f64 = 0.02;
 
 /// Greatest number of pairs of paths that are coordinated, before the search with all four joints.
 const MAX_PAIRS: usize = 12;
@@ -76,6 +79,13 @@ pub enum Refutation {
         /// The proof.
         proof: CheckedProof,
     },
+    /// One arm alone cannot do its steps.
+    Step {
+        /// The arm, 0 or 1.
+        arm: usize,
+        /// The step that fails.
+        failed: Box<FailedStep>,
+    },
     /// The arms collide at their starts. The text names the links.
     Starts(String),
     /// The arms collide at every pair of their goals. The text names the links at the first pair.
@@ -89,13 +99,24 @@ pub enum Refutation {
 pub struct CellPlan {
     /// The motions, a proof that no motions exist, or the reason for an unknown answer.
     pub outcome: Outcome<Coordination, Refutation>,
-    /// The plan of each arm without the other.
-    pub alone: [Option<Plan>; 2],
+    /// Each arm without the other. `None` if it was not planned.
+    pub alone: [Option<Alone>; 2],
     /// Proven lower bound on the time until both arms are at their goals, seconds, for clocks that differ by up to the skew.
     /// `None` if it is not known.
     pub lower_bound: Option<f64>,
+    /// For each arm, the names of the objects that it moves, of those that either arm may move. `None` if there are none.
+    pub assignment: Option<[Vec<String>; 2]>,
     /// Attempts with their results, in words, in order.
     pub tried: Vec<String>,
+}
+
+/// The motion of an arm without the other arm.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Alone {
+    /// Duration of the fastest motion that was found, seconds. `None` if none was found.
+    pub duration: Option<f64>,
+    /// Proven lower bound on the duration of every motion, seconds. `None` if it is not known.
+    pub lower_bound: Option<f64>,
 }
 
 impl CellPlan {
@@ -110,18 +131,23 @@ impl CellPlan {
 /// # Errors
 /// Options that do not suit the robots, and motions that cannot be timed.
 pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str)) -> Result<CellPlan, PlanError> {
-    let mut alone = [None, None];
+    if let [Some(one), Some(two)] = cell.arms.each_ref().map(|arm| arm.task.as_ref()) {
+        return plan_tasks(cell, [one, two], settings, progress);
+    }
+    let mut alone: [Option<Plan>; 2] = [None, None];
     let answer = |outcome, alone: &mut [Option<Plan>; 2], tried: Vec<String>| {
         let bounds = alone.each_ref().map(|plan| plan.as_ref().and_then(duration_bound));
         let lower_bound = bounds[0].zip(bounds[1]).map(|(a, b)| a.max(b));
-        Ok(CellPlan { outcome, alone: std::mem::take(alone), lower_bound, tried })
+        let alone = alone.each_ref().map(|plan| plan.as_ref().map(alone_of));
+        Ok(CellPlan { outcome, alone, lower_bound, assignment: None, tried })
     };
     let problems = cell.arms.each_ref().map(|arm| arm.problem.query());
     let scenes = problems.map(MotionProblem::scene);
-    let between = Between::new(scenes, cell.is_one_robot, scenes[0].workspace().clearance);
+    let pairs = StagePairs::single(Between::new(scenes, cell.is_one_robot, scenes[0].workspace().clearance));
+    let between = pairs.between([0, 0]);
     let names = cell.arms.each_ref().map(|arm| arm.name.as_str());
     let starts = problems.map(MotionProblem::start);
-    if let Some(met) = Meeting::of(&between, starts, names) {
+    if let Some(met) = Meeting::of(between, starts, names) {
         let outcome = match met.is_proven {
             true => Outcome::Infeasible(Refutation::Starts(met.what)),
             false => Outcome::Unknown(format!("not proven that the arms do not touch at their starts: {}", met.what)),
@@ -130,7 +156,7 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
     }
     let drive = Drive { optimize: Objective::Time, ..settings.options.drive };
     let options = Options { drive, ..settings.options };
-    for (arm, CellArm { name, problem }) in cell.arms.iter().enumerate() {
+    for (arm, CellArm { name, problem, .. }) in cell.arms.iter().enumerate() {
         progress(&format!("planning {name} alone"));
         let plan = plan(problem, &options, Searches::NONE, progress)?;
         let outcome = match plan.outcome() {
@@ -147,7 +173,7 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
         }
     }
     let bound = alone.iter().flatten().filter_map(duration_bound).fold(0.0, f64::max);
-    let coordinator = Coordinator { between: &between, drive: settings.options.drive, skew: settings.skew };
+    let coordinator = Coordinator { pairs: &pairs, drive: settings.options.drive, skew: settings.skew };
     let mut search =
         Search { problems, names, options: settings.options, coordinator, bound, best: None, pairs: 0, tried: vec![] };
     let goals = search.goal_pairs();
@@ -176,7 +202,7 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
         Some(best) => Outcome::Found(coordinator.with_diagram(best)),
         None => {
             progress("looking for a proof of infeasibility");
-            match refuted_in_boxes(&between, problems, settings.boxes) {
+            match refuted_in_boxes(between, problems, settings.boxes) {
                 Ok(boxes) => Outcome::Infeasible(Refutation::Boxes(boxes)),
                 Err(why) => {
                     tried.push(why);
@@ -189,8 +215,15 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
     Ok(CellPlan { lower_bound: plan.lower_bound.map(|known| known.max(bound)), ..plan })
 }
 
+/// Returns the motion of an arm alone.
+fn alone_of(plan: &Plan) -> Alone {
+    let motion = plan.motion().and_then(|(_, answer)| answer.outcome.found());
+    let duration = motion.map(|motion| motion.timed.trajectory.duration());
+    Alone { duration, lower_bound: duration_bound(plan) }
+}
+
 /// Describes the result of an attempt.
-fn described(result: &Result<Coordination, Conflict>) -> String {
+pub(crate) fn described(result: &Result<Coordination, Conflict>) -> String {
     match result {
         Ok(found) => format!("{:.3} s", found.duration),
         Err(conflict) => conflict.describe().to_owned(),
@@ -210,15 +243,15 @@ fn path_of(plan: &Plan) -> Option<CertifiedPath> {
 }
 
 /// Two arms that are too near to each other.
-struct Meeting {
+pub(crate) struct Meeting {
     /// The links, with their distance.
-    what: String,
-    is_proven: bool,
+    pub what: String,
+    pub is_proven: bool,
 }
 
 impl Meeting {
     /// Returns the meeting of two arms at rest. `None` if they are proven to be apart.
-    fn of(between: &Between, at: [Configuration; 2], names: [&str; 2]) -> Option<Self> {
+    pub fn of(between: &Between, at: [Configuration; 2], names: [&str; 2]) -> Option<Self> {
         let placed = [0, 1].map(|arm| between.at_rest(arm, at[arm]));
         let placed = placed.each_ref();
         let swept = [0, 1].map(|arm| between.swept(arm, at[arm], Deviation::Box([0.0; 2])));
@@ -269,7 +302,7 @@ impl Search<'_> {
         let (mut pairs, mut first, mut is_refuted) = (Vec::new(), None, is_finite);
         for one in goals[0].points() {
             for two in goals[1].points() {
-                match Meeting::of(self.coordinator.between, [one, two], self.names) {
+                match Meeting::of(self.coordinator.between(), [one, two], self.names) {
                     None => pairs.push([one, two]),
                     Some(meeting) => {
                         is_refuted &= meeting.is_proven;
@@ -338,7 +371,7 @@ impl Search<'_> {
                 }
                 let second = 1 - first;
                 let (name, other) = (self.names[first], self.names[second]);
-                let between = self.coordinator.between;
+                let between = self.coordinator.between();
                 let at_start = between.obstacles(second, other, self.problems[second].start());
                 let at_goal = between.obstacles(first, name, pair[first]);
                 let what = format!("{name} first, {other} after it{of_goals}");
@@ -356,7 +389,7 @@ impl Search<'_> {
     /// Shapes the motions of both arms at once, from routes in four joints. Returns false if shapes do not consider all limits
     /// of the arms.
     fn shaped(&mut self, goals: &[[Configuration; 2]]) -> bool {
-        let between = self.coordinator.between;
+        let between = self.coordinator.between();
         let Some(mut shaping) = Shaping::new(between, self.options.drive, self.coordinator.skew) else { return false };
         let starts = self.problems.map(MotionProblem::start);
         let pairs = &goals[..goals.len().min(MAX_GOAL_PAIRS)];
@@ -369,7 +402,7 @@ impl Search<'_> {
             let before = self.best.as_ref().map_or(f64::INFINITY, |best| best.duration);
             let shape = shaping.along(&route, before).ok_or(Conflict::Slower);
             let motions = shape.and_then(|shape| shaping.certified(&shape).ok_or(Conflict::NotCertified));
-            let found = motions.and_then(|motions| self.coordinator.judged(motions, [vec![], vec![]]));
+            let found = motions.and_then(|motions| self.coordinator.judged(motions));
             let outcome = described(&found);
             self.tried.push(format!("both arms at once, motion {}: {outcome}", seed + 1));
             if let Ok(found) = found {
@@ -396,7 +429,7 @@ impl Search<'_> {
         while target > self.bound * (1.0 + BOUND_RESOLUTION) && left > 0 && !self.is_content() {
             let duration = f64::midpoint(self.bound, target);
             let budget = left.div_ceil(2);
-            let mut funnels = Funnels::new(self.coordinator.between, self.coordinator.skew, budget);
+            let mut funnels = Funnels::new(self.coordinator.between(), self.coordinator.skew, budget);
             let mut pairs = points[0].iter().flat_map(|one| points[1].iter().map(move |two| [*one, *two]));
             let is_refuted = pairs.all(|pair| funnels.refute(starts, pair, duration));
             left -= budget - funnels.budget;
@@ -419,7 +452,7 @@ impl Search<'_> {
                 return Ok(());
             }
             let what = format!("search with all four joints, number {}", seed + 1);
-            let between = self.coordinator.between;
+            let between = self.coordinator.between();
             let route = joint_route(between, starts, *pair, seed, SHORTCUTS);
             match route.and_then(|route| route.paths(between)) {
                 Some([one, two]) => self.consider(&what, [&one, &two])?,

@@ -1,0 +1,253 @@
+//! The search for a cell whose arms have steps: sequences of each arm alone, coordinated on the diagram of their times.
+
+use crate::coordinate::{Coordination, Coordinator};
+use crate::file_steps::with_obstacles;
+use crate::plan::{ACCEPTED_GAP, Alone, CellPlan, Meeting, Refutation, Settings, described};
+use crate::sequence::Sequence;
+use crate::stage::StagePairs;
+use crate::variants::{Variant, variants};
+use crate::{Cell, assignment};
+use cplan_engine::PlanError;
+use cplan_handling::Task;
+use cplan_legs::TaskAnswer;
+use cplan_model::{Obstacle, Outcome, Scene};
+
+/// Greatest number of pairs of sequences that are coordinated for one assignment of objects.
+const MAX_PAIRS: usize = 16;
+
+/// Greatest number of assignments whose sequences are coordinated.
+const MAX_ASSIGNMENTS: usize = 12;
+
+/// The search for the sequences of both arms.
+pub(crate) struct TaskSearch<'a> {
+    cell: &'a Cell,
+    settings: &'a Settings,
+    scenes: [&'a Scene; 2],
+    best: Option<Coordination>,
+    tried: Vec<String>,
+}
+
+/// A task with its answer.
+struct Planned {
+    task: Task,
+    answer: TaskAnswer,
+    sequence: Option<Sequence>,
+}
+
+/// The best sequences that were found for an assignment.
+enum Assigned {
+    /// The sequences of both arms alone, and whether they led to motions.
+    Planned { alone: [Alone; 2], is_better: bool },
+    /// An arm alone cannot do its steps, or no sequence was found.
+    Failed(Outcome<(), Refutation>),
+}
+
+/// Plans a cell whose arms have steps.
+///
+/// # Errors
+/// Motions that cannot be timed.
+pub(crate) fn plan_tasks(
+    cell: &Cell,
+    tasks: [&Task; 2],
+    settings: &Settings,
+    progress: &mut dyn FnMut(&str),
+) -> Result<CellPlan, PlanError> {
+    let scenes = cell.arms.each_ref().map(|arm| arm.problem.scene());
+    let mut search = TaskSearch { cell, settings, scenes, best: None, tried: vec![] };
+    let assignments = assignment::assignments(cell, tasks);
+    let least = assignments.iter().map(|assignment| assignment.bound).fold(f64::INFINITY, f64::min);
+    let mut plan = CellPlan {
+        outcome: Outcome::Unknown("no assignment of the objects was planned".into()),
+        alone: [None, None],
+        lower_bound: Some(least),
+        assignment: None,
+        tried: vec![],
+    };
+    let count = assignments.len();
+    for (number, assignment) in assignments.iter().enumerate() {
+        let known = search.best.as_ref().map_or(f64::INFINITY, |best| best.duration);
+        if assignment.bound >= known || known <= least * (1.0 + ACCEPTED_GAP) {
+            search.tried.push(format!("{} of {count} assignments cannot be faster, or not by more than {:.0} %", count - number, 100.0 * ACCEPTED_GAP));
+            break;
+        }
+        if number >= MAX_ASSIGNMENTS {
+            search.tried.push(format!("{} of {count} assignments were not tried", count - number));
+            break;
+        }
+        if count > 1 {
+            search.tried.push(assignment.describe(cell));
+        }
+        match search.assigned(assignment.tasks.each_ref(), progress)? {
+            Assigned::Planned { alone, is_better } if is_better || plan.alone[0].is_none() => {
+                plan.alone = alone.map(Some);
+                plan.assignment = (!cell.shared.is_empty()).then(|| assignment.names(cell));
+            }
+            Assigned::Failed(Outcome::Infeasible(proof)) if count == 1 => plan.outcome = Outcome::Infeasible(proof),
+            Assigned::Failed(Outcome::Unknown(why)) if search.best.is_none() => plan.outcome = Outcome::Unknown(why),
+            Assigned::Planned { .. } | Assigned::Failed(_) => {}
+        }
+    }
+    if let Outcome::Unknown(why) = &mut plan.outcome
+        && plan.alone[0].is_some()
+    {
+        *why = "no coordination of the sequences that were tried was found".into();
+    }
+    // The planner's bound on the duration of a task is never above the motion that it finds.
+    if count == 1 {
+        let bounds = plan.alone.iter().flatten().filter_map(|alone| alone.lower_bound);
+        plan.lower_bound = plan.lower_bound.map(|known| bounds.fold(known, f64::min).max(known));
+    }
+    plan.tried = search.tried;
+    if let Some(best) = search.best {
+        plan.outcome = Outcome::Found(best);
+    }
+    Ok(plan)
+}
+
+impl TaskSearch<'_> {
+    /// Plans the tasks of both arms, and coordinates their sequences.
+    fn assigned(&mut self, tasks: [&Task; 2], progress: &mut dyn FnMut(&str)) -> Result<Assigned, PlanError> {
+        let mut planned = Vec::new();
+        for (arm, task) in tasks.into_iter().enumerate() {
+            let name = &self.cell.arms[arm].name;
+            progress(&format!("planning the steps of {name} alone"));
+            let own = self.planned(task.clone(), progress);
+            match &own.answer.outcome {
+                Outcome::Found(_) => {}
+                Outcome::Infeasible(failed) => {
+                    let failed = Box::new(failed.clone());
+                    self.tried.push(format!("{name} alone: infeasible, proven"));
+                    return Ok(Assigned::Failed(Outcome::Infeasible(Refutation::Step { arm, failed })));
+                }
+                Outcome::Unknown(failed) => {
+                    let step = failed.step.action.describe(&task.objects);
+                    let why = format!("{name} alone: step {}, {step}: {}", failed.step.number, failed.reasons.join("; "));
+                    self.tried.push(why.clone());
+                    return Ok(Assigned::Failed(Outcome::Unknown(why)));
+                }
+            }
+            planned.push(own);
+        }
+        let [one, two] = <[Planned; 2]>::try_from(planned).map_err(|_| PlanError::Missing("tasks"))?;
+        let alone = [&one, &two].map(|own| Alone {
+            duration: own.answer.outcome.found().map(|motion| motion.seconds()),
+            lower_bound: Some(own.answer.least_seconds()),
+        });
+        if let Some(outcome) = self.starts([&one, &two]) {
+            return Ok(Assigned::Failed(outcome));
+        }
+        let before = self.best.as_ref().map(|best| best.duration);
+        self.coordinated([one, two], progress)?;
+        Ok(Assigned::Planned { alone, is_better: self.best.as_ref().map(|best| best.duration) != before })
+    }
+
+    /// Plans a task alone.
+    fn planned(&self, task: Task, progress: &mut dyn FnMut(&str)) -> Planned {
+        let answer = cplan_tasks::plan(&task, &self.settings.options, progress);
+        let sequence = answer.outcome.found().and_then(|_| Sequence::new(&task, &answer.legs));
+        Planned { task, answer, sequence }
+    }
+
+    /// Returns the outcome if the arms collide at their starts.
+    fn starts(&self, both: [&Planned; 2]) -> Option<Outcome<(), Refutation>> {
+        let [Some(one), Some(two)] = both.map(|own| own.sequence.as_ref()) else {
+            return Some(Outcome::Unknown("an arm without steps is not proven to stand free".into()));
+        };
+        let names = self.cell.arms.each_ref().map(|arm| arm.name.as_str());
+        let pairs = self.pairs([one, two], both.map(|own| &own.task));
+        let at = both.map(|own| own.task.start);
+        let met = Meeting::of(pairs.between([0, 0]), at, names)?;
+        Some(match met.is_proven {
+            true => Outcome::Infeasible(Refutation::Starts(met.what)),
+            false => Outcome::Unknown(format!("not proven that the arms do not touch at their starts: {}", met.what)),
+        })
+    }
+
+    /// Returns the pairs of stages of two sequences.
+    fn pairs(&self, both: [&Sequence; 2], tasks: [&Task; 2]) -> StagePairs<'_> {
+        let stages = both.map(|own| &own.stages[..]);
+        let precedences = Sequence::precedences(both, tasks);
+        let clearance = self.scenes[0].workspace().clearance;
+        StagePairs::new(self.scenes, stages, self.cell.is_one_robot, clearance, precedences)
+    }
+
+    /// Coordinates sequences of both arms: the fastest of each alone, then others that avoid the other arm or its objects.
+    fn coordinated(&mut self, alone: [Planned; 2], progress: &mut dyn FnMut(&str)) -> Result<(), PlanError> {
+        progress("coordinating the sequences of both arms");
+        let least = alone.iter().map(|own| own.answer.least_seconds()).fold(0.0, f64::max);
+        self.consider("the fastest sequence of each arm alone", alone.each_ref())?;
+        let mut pairs = 1;
+        let names = self.cell.arms.each_ref().map(|arm| arm.name.as_str());
+        for first in 0..2 {
+            let second = 1 - first;
+            if self.is_content(least) {
+                return Ok(());
+            }
+            progress("planning each arm with the other one at rest");
+            let what = format!("{} first, {} after it", names[first], names[second]);
+            let leading = self.variant(&alone[first], self.resting(&alone, second, false), progress);
+            let following = self.variant(&alone[second], self.resting(&alone, first, true), progress);
+            match (leading, following) {
+                (Some(leading), Some(following)) => {
+                    let both = if first == 0 { [&leading, &following] } else { [&following, &leading] };
+                    self.consider(&what, both)?;
+                    pairs += 1;
+                }
+                _ => self.tried.push(format!("{what}: no sequences were found")),
+            }
+        }
+        for arm in 0..2 {
+            for Variant { what, task } in variants(&alone[arm].task, &alone[arm].answer.legs) {
+                if self.is_content(least) || pairs >= MAX_PAIRS {
+                    return Ok(());
+                }
+                let own = self.planned(task, progress);
+                let what = format!("{}: {what}", names[arm]);
+                if own.sequence.is_none() {
+                    self.tried.push(format!("{what}: no sequence was found"));
+                    continue;
+                }
+                let both = if arm == 0 { [&own, &alone[1]] } else { [&alone[0], &own] };
+                self.consider(&what, both)?;
+                pairs += 1;
+            }
+        }
+        Ok(())
+    }
+
+    /// Returns true if no better motion of this assignment is worth the effort.
+    fn is_content(&self, least: f64) -> bool {
+        self.best.as_ref().is_some_and(|best| best.duration <= least * (1.0 + ACCEPTED_GAP))
+    }
+
+    /// Plans the task of an arm among more obstacles.
+    fn variant(&self, own: &Planned, others: Vec<Obstacle>, progress: &mut dyn FnMut(&str)) -> Option<Planned> {
+        Some(self.planned(with_obstacles(&own.task, &others), progress)).filter(|own| own.sequence.is_some())
+    }
+
+    /// Returns an arm and its objects at rest as obstacles: before its first step, or after its last one.
+    fn resting(&self, alone: &[Planned; 2], arm: usize, is_after: bool) -> Vec<Obstacle> {
+        let [Some(one), Some(two)] = alone.each_ref().map(|own| own.sequence.as_ref()) else { return Vec::new() };
+        let Planned { task, .. } = &alone[arm];
+        let own = [one, two][arm];
+        let pairs = self.pairs([one, two], alone.each_ref().map(|own| &own.task));
+        let last = [one, two].map(|own| own.stages.len() - 1);
+        let (stages, at) = if is_after { (last, own.end()) } else { ([0, 0], task.start) };
+        pairs.between(stages).obstacles(arm, &self.cell.arms[arm].name, at)
+    }
+
+    /// Coordinates two sequences, and keeps the result if it is the best.
+    fn consider(&mut self, what: &str, both: [&Planned; 2]) -> Result<(), PlanError> {
+        let [Some(one), Some(two)] = both.map(|own| own.sequence.as_ref()) else { return Ok(()) };
+        let pairs = self.pairs([one, two], both.map(|own| &own.task));
+        let coordinator = Coordinator { pairs: &pairs, drive: self.settings.options.drive, skew: self.settings.skew };
+        let before = self.best.as_ref().map_or(f64::INFINITY, |best| best.duration);
+        let result = coordinator.of_legs([&one.legs, &two.legs], before)?;
+        let result = result.map(|found| coordinator.with_diagram(found));
+        let outcome = described(&result);
+        drop(pairs);
+        self.tried.push(format!("{what}: {outcome}"));
+        self.best = result.ok().or(self.best.take());
+        Ok(())
+    }
+}
