@@ -16,6 +16,9 @@ use cplan_motion::{Drive, TimedMotion, TimingError, Trajectory, Wait};
 /// Motion of the links in a rectangle of the diagram that is not examined further, as a share of the reach of the arms.
 const RESOLUTION: f64 = 1.0 / 250.0;
 
+/// The same for arms with steps, whose diagrams are larger.
+const RESOLUTION_OF_STEPS: f64 = 1.0 / 80.0;
+
 /// Distance between the arms beyond their clearance, as a share of the resolution. Without it, an arm may wait so near to the
 /// other one that no proof succeeds.
 const MARGIN_SHARE: f64 = 0.5;
@@ -119,7 +122,8 @@ impl<'a> Coordinator<'a> {
     }
 
     fn resolution(&self) -> f64 {
-        RESOLUTION * self.pairs.scenes().map(|scene| scene.arm().reach()).into_iter().fold(0.0, f64::max)
+        let share = if self.pairs.is_single() { RESOLUTION } else { RESOLUTION_OF_STEPS };
+        share * self.pairs.scenes().map(|scene| scene.arm().reach()).into_iter().fold(0.0, f64::max)
     }
 
     /// Returns the earliest motions along two paths that are found, if they end before `before`, seconds.

@@ -8,7 +8,7 @@ use crate::stage::StageTime;
 use cplan_judge::CertifiedPath;
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, Path};
-use cplan_motion::{CertifiedCurve, Drive, TimedMotion, TimingError, Trajectory, Wait};
+use cplan_motion::{CertifiedCurve, Drive, MIN_INTERVAL, TimedMotion, TimingError, Trajectory, Wait};
 use std::sync::Arc;
 
 /// Greatest number of inner places of a path at which an arm may wait.
@@ -160,7 +160,7 @@ impl Legs {
             let at = *trajectory.position.last().expect("a start");
             trajectory.then((departs - from).max(0.0), &leg.trajectory);
             let to = trajectory.duration() - leg.trajectory.duration();
-            if to > from && leg.trajectory.duration() > 0.0 {
+            if to - from >= MIN_INTERVAL && leg.trajectory.duration() > 0.0 {
                 waits.push(Wait { from, to, at });
             }
             schedule.push(ScheduledLeg {

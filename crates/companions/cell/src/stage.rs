@@ -86,6 +86,11 @@ impl<'a> StagePairs<'a> {
         Self { pairs: stages[0].iter().map(row).collect(), precedences }
     }
 
+    /// Returns true if both arms have a single stage.
+    pub fn is_single(&self) -> bool {
+        self.pairs.len() == 1 && self.pairs[0].len() == 1
+    }
+
     /// Returns the bodies of both arms during two stages.
     pub fn between(&self, stages: [usize; 2]) -> &Between<'a> {
         &self.pairs[stages[0]][stages[1]]

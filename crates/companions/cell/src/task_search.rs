@@ -2,6 +2,7 @@
 
 use crate::coordinate::{Coordination, Coordinator};
 use crate::file_steps::with_obstacles;
+use crate::legs::Legs;
 use crate::plan::{ACCEPTED_GAP, Alone, CellPlan, Meeting, Refutation, Settings, described};
 use crate::sequence::Sequence;
 use crate::stage::StagePairs;
@@ -11,6 +12,7 @@ use cplan_engine::PlanError;
 use cplan_handling::Task;
 use cplan_legs::TaskAnswer;
 use cplan_model::{Obstacle, Outcome, Scene};
+use std::rc::Rc;
 
 /// Greatest number of pairs of sequences that are coordinated for one assignment of objects.
 const MAX_PAIRS: usize = 16;
@@ -23,15 +25,26 @@ pub(crate) struct TaskSearch<'a> {
     cell: &'a Cell,
     settings: &'a Settings,
     scenes: [&'a Scene; 2],
-    best: Option<Coordination>,
+    /// The best motions, with their sequences.
+    best: Option<(Coordination, [Rc<Planned>; 2])>,
     tried: Vec<String>,
 }
 
 /// A task with its answer.
 struct Planned {
+    /// How the sequence differs from others, in a few words.
+    what: String,
     task: Task,
     answer: TaskAnswer,
     sequence: Option<Sequence>,
+}
+
+impl Planned {
+    /// Returns true if the arm moves along the same paths.
+    fn moves_like(&self, other: &Self) -> bool {
+        let paths = |own: &Self| own.answer.legs.iter().map(|leg| leg.path().clone()).collect::<Vec<_>>();
+        paths(self) == paths(other)
+    }
 }
 
 /// The best sequences that were found for an assignment.
@@ -65,7 +78,7 @@ pub(crate) fn plan_tasks(
     };
     let count = assignments.len();
     for (number, assignment) in assignments.iter().enumerate() {
-        let known = search.best.as_ref().map_or(f64::INFINITY, |best| best.duration);
+        let known = search.best.as_ref().map_or(f64::INFINITY, |(best, _)| best.duration);
         if assignment.bound >= known || known <= least * (1.0 + ACCEPTED_GAP) {
             search.tried.push(format!("{} of {count} assignments cannot be faster, or not by more than {:.0} %", count - number, 100.0 * ACCEPTED_GAP));
             break;
@@ -97,8 +110,9 @@ pub(crate) fn plan_tasks(
         let bounds = plan.alone.iter().flatten().filter_map(|alone| alone.lower_bound);
         plan.lower_bound = plan.lower_bound.map(|known| bounds.fold(known, f64::min).max(known));
     }
+    let best = search.finished();
     plan.tried = search.tried;
-    if let Some(best) = search.best {
+    if let Some(best) = best {
         plan.outcome = Outcome::Found(best);
     }
     Ok(plan)
@@ -111,7 +125,7 @@ impl TaskSearch<'_> {
         for (arm, task) in tasks.into_iter().enumerate() {
             let name = &self.cell.arms[arm].name;
             progress(&format!("planning the steps of {name} alone"));
-            let own = self.planned(task.clone(), progress);
+            let own = self.planned(Variant { what: "fastest sequence alone".into(), task: task.clone() }, progress);
             match &own.answer.outcome {
                 Outcome::Found(_) => {}
                 Outcome::Infeasible(failed) => {
@@ -126,9 +140,9 @@ impl TaskSearch<'_> {
                     return Ok(Assigned::Failed(Outcome::Unknown(why)));
                 }
             }
-            planned.push(own);
+            planned.push(Rc::new(own));
         }
-        let [one, two] = <[Planned; 2]>::try_from(planned).map_err(|_| PlanError::Missing("tasks"))?;
+        let [one, two] = <[Rc<Planned>; 2]>::try_from(planned).map_err(|_| PlanError::Missing("tasks"))?;
         let alone = [&one, &two].map(|own| Alone {
             duration: own.answer.outcome.found().map(|motion| motion.seconds()),
             lower_bound: Some(own.answer.least_seconds()),
@@ -136,16 +150,16 @@ impl TaskSearch<'_> {
         if let Some(outcome) = self.starts([&one, &two]) {
             return Ok(Assigned::Failed(outcome));
         }
-        let before = self.best.as_ref().map(|best| best.duration);
+        let before = self.best.as_ref().map(|(best, _)| best.duration);
         self.coordinated([one, two], progress)?;
-        Ok(Assigned::Planned { alone, is_better: self.best.as_ref().map(|best| best.duration) != before })
+        Ok(Assigned::Planned { alone, is_better: self.best.as_ref().map(|(best, _)| best.duration) != before })
     }
 
     /// Plans a task alone.
-    fn planned(&self, task: Task, progress: &mut dyn FnMut(&str)) -> Planned {
+    fn planned(&self, Variant { what, task }: Variant, progress: &mut dyn FnMut(&str)) -> Planned {
         let answer = cplan_tasks::plan(&task, &self.settings.options, progress);
         let sequence = answer.outcome.found().and_then(|_| Sequence::new(&task, &answer.legs));
-        Planned { task, answer, sequence }
+        Planned { what, task, answer, sequence }
     }
 
     /// Returns the outcome if the arms collide at their starts.
@@ -171,64 +185,53 @@ impl TaskSearch<'_> {
         StagePairs::new(self.scenes, stages, self.cell.is_one_robot, clearance, precedences)
     }
 
-    /// Coordinates sequences of both arms: the fastest of each alone, then others that avoid the other arm or its objects.
-    fn coordinated(&mut self, alone: [Planned; 2], progress: &mut dyn FnMut(&str)) -> Result<(), PlanError> {
+    /// Coordinates sequences of both arms: the fastest of each alone, then others, the shorter ones first.
+    fn coordinated(&mut self, alone: [Rc<Planned>; 2], progress: &mut dyn FnMut(&str)) -> Result<(), PlanError> {
         progress("coordinating the sequences of both arms");
         let least = alone.iter().map(|own| own.answer.least_seconds()).fold(0.0, f64::max);
-        self.consider("the fastest sequence of each arm alone", alone.each_ref())?;
-        let mut pairs = 1;
-        let names = self.cell.arms.each_ref().map(|arm| arm.name.as_str());
-        for first in 0..2 {
-            let second = 1 - first;
-            if self.is_content(least) {
-                return Ok(());
-            }
-            progress("planning each arm with the other one at rest");
-            let what = format!("{} first, {} after it", names[first], names[second]);
-            let leading = self.variant(&alone[first], self.resting(&alone, second, false), progress);
-            let following = self.variant(&alone[second], self.resting(&alone, first, true), progress);
-            match (leading, following) {
-                (Some(leading), Some(following)) => {
-                    let both = if first == 0 { [&leading, &following] } else { [&following, &leading] };
-                    self.consider(&what, both)?;
-                    pairs += 1;
+        self.consider(&alone)?;
+        if self.is_content(least) {
+            return Ok(());
+        }
+        progress("planning other sequences of each arm");
+        let mut candidates = [vec![alone[0].clone()], vec![alone[1].clone()]];
+        for arm in 0..2 {
+            let mut others = variants(&alone[arm].task, &alone[arm].answer.legs);
+            let other = &self.cell.arms[1 - arm].name;
+            others.extend([(false, "at its start"), (true, "at its end")].map(|(is_after, when)| Variant {
+                what: format!("{other} at rest {when}"),
+                task: with_obstacles(&alone[arm].task, &self.resting(&alone, 1 - arm, is_after)),
+            }));
+            for variant in others {
+                let own = self.planned(variant, progress);
+                if own.sequence.is_none() {
+                    self.tried.push(format!("{}, {}: no sequence was found", self.cell.arms[arm].name, own.what));
+                } else if candidates[arm].iter().all(|known| !known.moves_like(&own)) {
+                    candidates[arm].push(Rc::new(own));
                 }
-                _ => self.tried.push(format!("{what}: no sequences were found")),
             }
         }
-        for arm in 0..2 {
-            for Variant { what, task } in variants(&alone[arm].task, &alone[arm].answer.legs) {
-                if self.is_content(least) || pairs >= MAX_PAIRS {
-                    return Ok(());
-                }
-                let own = self.planned(task, progress);
-                let what = format!("{}: {what}", names[arm]);
-                if own.sequence.is_none() {
-                    self.tried.push(format!("{what}: no sequence was found"));
-                    continue;
-                }
-                let both = if arm == 0 { [&own, &alone[1]] } else { [&alone[0], &own] };
-                self.consider(&what, both)?;
-                pairs += 1;
+        let both = candidates[0].iter().flat_map(|one| candidates[1].iter().map(move |two| [one.clone(), two.clone()]));
+        let mut pairs: Vec<[Rc<Planned>; 2]> = both.skip(1).collect();
+        pairs.sort_by(|a, b| longest(a).total_cmp(&longest(b)));
+        for pair in pairs.iter().take(MAX_PAIRS) {
+            if self.is_content(least) || self.best.as_ref().is_some_and(|(best, _)| longest(pair) >= best.duration) {
+                break;
             }
+            self.consider(pair)?;
         }
         Ok(())
     }
 
     /// Returns true if no better motion of this assignment is worth the effort.
     fn is_content(&self, least: f64) -> bool {
-        self.best.as_ref().is_some_and(|best| best.duration <= least * (1.0 + ACCEPTED_GAP))
-    }
-
-    /// Plans the task of an arm among more obstacles.
-    fn variant(&self, own: &Planned, others: Vec<Obstacle>, progress: &mut dyn FnMut(&str)) -> Option<Planned> {
-        Some(self.planned(with_obstacles(&own.task, &others), progress)).filter(|own| own.sequence.is_some())
+        self.best.as_ref().is_some_and(|(best, _)| best.duration <= least * (1.0 + ACCEPTED_GAP))
     }
 
     /// Returns an arm and its objects at rest as obstacles: before its first step, or after its last one.
-    fn resting(&self, alone: &[Planned; 2], arm: usize, is_after: bool) -> Vec<Obstacle> {
+    fn resting(&self, alone: &[Rc<Planned>; 2], arm: usize, is_after: bool) -> Vec<Obstacle> {
         let [Some(one), Some(two)] = alone.each_ref().map(|own| own.sequence.as_ref()) else { return Vec::new() };
-        let Planned { task, .. } = &alone[arm];
+        let Planned { task, .. } = &*alone[arm];
         let own = [one, two][arm];
         let pairs = self.pairs([one, two], alone.each_ref().map(|own| &own.task));
         let last = [one, two].map(|own| own.stages.len() - 1);
@@ -237,17 +240,41 @@ impl TaskSearch<'_> {
     }
 
     /// Coordinates two sequences, and keeps the result if it is the best.
-    fn consider(&mut self, what: &str, both: [&Planned; 2]) -> Result<(), PlanError> {
-        let [Some(one), Some(two)] = both.map(|own| own.sequence.as_ref()) else { return Ok(()) };
-        let pairs = self.pairs([one, two], both.map(|own| &own.task));
-        let coordinator = Coordinator { pairs: &pairs, drive: self.settings.options.drive, skew: self.settings.skew };
-        let before = self.best.as_ref().map_or(f64::INFINITY, |best| best.duration);
-        let result = coordinator.of_legs([&one.legs, &two.legs], before)?;
-        let result = result.map(|found| coordinator.with_diagram(found));
-        let outcome = described(&result);
-        drop(pairs);
-        self.tried.push(format!("{what}: {outcome}"));
-        self.best = result.ok().or(self.best.take());
+    fn consider(&mut self, both: &[Rc<Planned>; 2]) -> Result<(), PlanError> {
+        let before = self.best.as_ref().map_or(f64::INFINITY, |(best, _)| best.duration);
+        let Some(result) = self.with_coordinator(both, |coordinator, legs| coordinator.of_legs(legs, before)) else {
+            return Ok(());
+        };
+        let result = result?;
+        let own = |arm: usize| format!("{}, {}", self.cell.arms[arm].name, both[arm].what);
+        let what = format!("{}; {}", own(0), own(1));
+        self.tried.push(format!("{what}: {}", described(&result)));
+        if let Ok(found) = result {
+            self.best = Some((found, both.clone()));
+        }
         Ok(())
     }
+
+    /// Adds the diagram and the signals to the best motions.
+    fn finished(&mut self) -> Option<Coordination> {
+        let (best, both) = self.best.take()?;
+        self.with_coordinator(&both, |coordinator, _| coordinator.with_diagram(best))
+    }
+
+    /// Calls `f` with the coordinator of two sequences and their legs.
+    fn with_coordinator<T>(
+        &self,
+        both: &[Rc<Planned>; 2],
+        f: impl FnOnce(&Coordinator, [&Legs; 2]) -> T,
+    ) -> Option<T> {
+        let [Some(one), Some(two)] = both.each_ref().map(|own| own.sequence.as_ref()) else { return None };
+        let pairs = self.pairs([one, two], both.each_ref().map(|own| &own.task));
+        let coordinator = Coordinator { pairs: &pairs, drive: self.settings.options.drive, skew: self.settings.skew };
+        Some(f(&coordinator, [&one.legs, &two.legs]))
+    }
+}
+
+/// Returns the duration of the longer of two sequences, seconds.
+fn longest(both: &[Rc<Planned>; 2]) -> f64 {
+    both.iter().map(|own| own.answer.duration()).fold(0.0, f64::max)
 }
