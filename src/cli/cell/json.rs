@@ -3,7 +3,7 @@
 use super::Answered;
 use crate::model::Outcome;
 use crate::space::Configuration;
-use cplan_cell::{CellArm, Coordination, Refutation, StepTimes};
+use cplan_cell::{Cell, CellArm, Coordination, HandoverTimes, Refutation, StepTimes};
 use serde_json::{Value, json};
 
 impl Answered<'_> {
@@ -25,6 +25,7 @@ impl Answered<'_> {
             "nearest": found.and_then(|found| found.nearest).map(|place| json!({ "times": place.times, "distance": place.distance })),
             "interlocks": found.map(|found| self.interlocks(found)),
             "interpolation": "cubic",
+            "handovers": found.map(|found| found.handovers.iter().map(|times| handover(cell, times)).collect::<Vec<_>>()),
             "assignment": plan.assignment.as_ref().map(|names| self.assignment(names)),
             "tried": plan.tried,
         });
@@ -105,6 +106,12 @@ impl Answered<'_> {
             Refutation::Boxes(boxes) => json!({ "kind": "boxes", "examined": boxes.examined, "cells": boxes.cells }),
         }
     }
+}
+
+/// Returns a handover with its times.
+fn handover(cell: &Cell, HandoverTimes { object, giver, placed, taken }: &HandoverTimes) -> Value {
+    let [gives, takes] = [*giver, 1 - giver].map(|arm| &cell.arms[arm].name);
+    json!({ "object": object, "gives": gives, "placed": placed, "takes": takes, "taken": taken })
 }
 
 /// Returns a step with its times.

@@ -1,6 +1,7 @@
 //! Assignments of the objects that either arm may move.
 
 use crate::Cell;
+use crate::handover_bound::handover_bound;
 use cplan_handling::{Item, Task};
 use cplan_model::Shape;
 use cplan_tasks::least_duration;
@@ -36,16 +37,16 @@ impl Assignment {
 }
 
 /// Returns all assignments, in ascending order of their bounds.
-pub(crate) fn assignments(cell: &Cell, tasks: [&Task; 2]) -> Vec<Assignment> {
+pub(crate) fn assignments(cell: &Cell, tasks: [&Task; 2], skew: f64) -> Vec<Assignment> {
     let count = cell.shared.len();
     let can = |arms: &Vec<usize>| arms.iter().enumerate().all(|(pair, arm)| cell.arms[*arm].shared[pair].is_some());
     let all = (0..1_usize << count).map(|bits| (0..count).map(|pair| bits >> pair & 1).collect::<Vec<_>>());
-    let mut found: Vec<Assignment> = all.filter(can).map(|arms| assigned(cell, tasks, arms)).collect();
+    let mut found: Vec<Assignment> = all.filter(can).map(|arms| assigned(cell, tasks, arms, skew)).collect();
     found.sort_by(|a, b| a.bound.total_cmp(&b.bound));
     found
 }
 
-fn assigned(cell: &Cell, tasks: [&Task; 2], arms: Vec<usize>) -> Assignment {
+fn assigned(cell: &Cell, tasks: [&Task; 2], arms: Vec<usize>, skew: f64) -> Assignment {
     let reduced = [0, 1].map(|arm| {
         let mut task = tasks[arm].clone();
         let numbers = arms.iter().enumerate().filter(|(_, of)| **of == arm);
@@ -67,7 +68,8 @@ fn assigned(cell: &Cell, tasks: [&Task; 2], arms: Vec<usize>) -> Assignment {
             (task.objects[*object].shape, task.objects[*object].pieces) = (Shape::Pieces, Vec::new());
         }
     }
-    let bound = tasks.each_ref().map(least_duration).into_iter().fold(0.0, f64::max);
+    let handovers = handover_bound(tasks.each_ref(), skew);
+    let bound = tasks.each_ref().map(least_duration).into_iter().fold(handovers, f64::max);
     Assignment { arms, tasks, bound }
 }
 

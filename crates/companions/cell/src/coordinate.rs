@@ -51,8 +51,23 @@ pub struct Coordination {
     pub diagram: Vec<[[f64; 2]; 2]>,
     /// For each arm, its steps in the order of execution. Empty for an arm without steps.
     pub steps: [Vec<StepTimes>; 2],
+    /// The objects that one arm hands over to the other, with the times on the common clock.
+    pub handovers: Vec<HandoverTimes>,
     /// For each arm, its legs in time.
     pub(crate) schedules: [Schedule; 2],
+}
+
+/// The times of a handover on the common clock, seconds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HandoverTimes {
+    /// Name of the object.
+    pub object: String,
+    /// The arm that places the object, 0 or 1.
+    pub giver: usize,
+    /// The end of the step that places the object.
+    pub placed: f64,
+    /// The arrival of the other arm, which then takes the object.
+    pub taken: f64,
 }
 
 /// The times of a step on the common clock, seconds.
@@ -254,12 +269,14 @@ impl<'a> Coordinator<'a> {
     }
 
     fn judged_legs(&self, scheduled: [Scheduled; 2]) -> Result<Coordination, Conflict> {
-        let is_kept = |precedence: &Precedence| {
-            let end = scheduled[precedence.giver].schedule.time(precedence.placed);
-            let begin = scheduled[1 - precedence.giver].schedule.time(precedence.taken);
-            end + self.skew <= begin
+        let times = |precedence: &Precedence| HandoverTimes {
+            object: precedence.name.clone(),
+            giver: precedence.giver,
+            placed: scheduled[precedence.giver].schedule.time(precedence.placed),
+            taken: scheduled[1 - precedence.giver].schedule.time(precedence.taken),
         };
-        if !self.pairs.precedences.iter().all(is_kept) {
+        let handovers: Vec<HandoverTimes> = self.pairs.precedences.iter().map(times).collect();
+        if handovers.iter().any(|handover| handover.placed + self.skew > handover.taken) {
             return Err(Conflict::NotCertified);
         }
         let duration = scheduled.each_ref().map(|own| own.motion.trajectory.duration()).into_iter().fold(0.0, f64::max);
@@ -274,6 +291,7 @@ impl<'a> Coordinator<'a> {
             waits: [one.waits, two.waits],
             schedules: [one.schedule, two.schedule],
             steps: [vec![], vec![]],
+            handovers,
             duration,
             clearance,
             nearest,

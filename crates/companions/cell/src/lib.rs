@@ -29,6 +29,7 @@ mod excerpt;
 mod file;
 mod file_steps;
 mod funnel;
+mod handover_bound;
 mod interlock;
 mod joint_tree;
 mod judged;
@@ -45,7 +46,7 @@ mod stage;
 mod task_search;
 mod variants;
 
-pub use coordinate::{Coordination, StepTimes};
+pub use coordinate::{Coordination, HandoverTimes, StepTimes};
 pub use file::{Cell, CellArm};
 pub use interlock::Interlock;
 pub use judged::NearestPlace;

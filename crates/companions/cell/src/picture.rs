@@ -289,6 +289,12 @@ fn rows(cell: &Cell, found: &Coordination) -> Vec<Item> {
             let pale = Style::line(color, 1.0).filled(FAINT);
             items.push(Item::Titled(text, vec![Item::Outline(bar(wait.from, wait.to), pale)]));
         }
+        for step in &found.steps[arm] {
+            let Some(at) = step.event else { continue };
+            let text = format!("{}, step {}: {}, {at:.3} s", cell.arms[arm].name, step.number, step.action);
+            let spot = Item::Disc(frame.at(at, middle(arm)), 5.0, Style::line(INK, 1.0).filled(color.lighter(0.8)));
+            items.push(Item::Titled(text, vec![spot]));
+        }
         let [_, y] = frame.at(0.0, middle(arm));
         items.push(label([ROWS.x - 12.0, y + 5.0], &cell.arms[arm].name, 14.0, Anchor::End, color));
     }

@@ -55,7 +55,8 @@ impl Sequence {
                 if let (Some(place), Some(pick)) = (place, pick) {
                     let placed = StageTime::End(place.acts.unwrap_or(place.moves));
                     let taken = pick.acts.map_or(StageTime::End(pick.moves), StageTime::Begin);
-                    precedences.push(Precedence { object, giver, placed, taken });
+                    let name = tasks[giver].objects[object].name.clone();
+                    precedences.push(Precedence { name, giver, placed, taken });
                 }
             }
         }

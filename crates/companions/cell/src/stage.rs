@@ -46,10 +46,10 @@ pub(crate) enum StageTime {
 }
 
 /// A handover: the other arm takes an object after this arm has placed it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Precedence {
-    /// Index of the object.
-    pub object: usize,
+    /// Name of the object.
+    pub name: String,
     /// The arm that places the object, 0 or 1.
     pub giver: usize,
     /// The end of its step.

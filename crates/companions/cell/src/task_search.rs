@@ -7,7 +7,8 @@ use crate::plan::{ACCEPTED_GAP, Alone, CellPlan, Meeting, Refutation, Settings, 
 use crate::sequence::Sequence;
 use crate::stage::StagePairs;
 use crate::variants::{Variant, variants};
-use crate::{Cell, assignment};
+use crate::assignment::{self, Assignment};
+use crate::Cell;
 use cplan_engine::PlanError;
 use cplan_handling::Task;
 use cplan_legs::TaskAnswer;
@@ -67,7 +68,7 @@ pub(crate) fn plan_tasks(
 ) -> Result<CellPlan, PlanError> {
     let scenes = cell.arms.each_ref().map(|arm| arm.problem.scene());
     let mut search = TaskSearch { cell, settings, scenes, best: None, tried: vec![] };
-    let assignments = assignment::assignments(cell, tasks);
+    let assignments = assignment::assignments(cell, tasks, settings.skew);
     let least = assignments.iter().map(|assignment| assignment.bound).fold(f64::INFINITY, f64::min);
     let mut plan = CellPlan {
         outcome: Outcome::Unknown("no assignment of the objects was planned".into()),
@@ -90,7 +91,7 @@ pub(crate) fn plan_tasks(
         if count > 1 {
             search.tried.push(assignment.describe(cell));
         }
-        match search.assigned(assignment.tasks.each_ref(), progress)? {
+        match search.assigned(assignment, progress)? {
             Assigned::Planned { alone, is_better } if is_better || plan.alone[0].is_none() => {
                 plan.alone = alone.map(Some);
                 plan.assignment = (!cell.shared.is_empty()).then(|| assignment.names(cell));
@@ -105,14 +106,11 @@ pub(crate) fn plan_tasks(
     {
         *why = "no coordination of the sequences that were tried was found".into();
     }
-    // The planner's bound on the duration of a task is never above the motion that it finds.
-    if count == 1 {
-        let bounds = plan.alone.iter().flatten().filter_map(|alone| alone.lower_bound);
-        plan.lower_bound = plan.lower_bound.map(|known| bounds.fold(known, f64::min).max(known));
-    }
     let best = search.finished();
     plan.tried = search.tried;
     if let Some(best) = best {
+        // Both may be the same sum of times, but in another order.
+        plan.lower_bound = Some(least.min(best.duration));
         plan.outcome = Outcome::Found(best);
     }
     Ok(plan)
@@ -120,9 +118,9 @@ pub(crate) fn plan_tasks(
 
 impl TaskSearch<'_> {
     /// Plans the tasks of both arms, and coordinates their sequences.
-    fn assigned(&mut self, tasks: [&Task; 2], progress: &mut dyn FnMut(&str)) -> Result<Assigned, PlanError> {
+    fn assigned(&mut self, assignment: &Assignment, progress: &mut dyn FnMut(&str)) -> Result<Assigned, PlanError> {
         let mut planned = Vec::new();
-        for (arm, task) in tasks.into_iter().enumerate() {
+        for (arm, task) in assignment.tasks.iter().enumerate() {
             let name = &self.cell.arms[arm].name;
             progress(&format!("planning the steps of {name} alone"));
             let own = self.planned(Variant { what: "fastest sequence alone".into(), task: task.clone() }, progress);
@@ -151,7 +149,7 @@ impl TaskSearch<'_> {
             return Ok(Assigned::Failed(outcome));
         }
         let before = self.best.as_ref().map(|(best, _)| best.duration);
-        self.coordinated([one, two], progress)?;
+        self.coordinated([one, two], assignment.bound, progress)?;
         Ok(Assigned::Planned { alone, is_better: self.best.as_ref().map(|(best, _)| best.duration) != before })
     }
 
@@ -186,9 +184,8 @@ impl TaskSearch<'_> {
     }
 
     /// Coordinates sequences of both arms: the fastest of each alone, then others, the shorter ones first.
-    fn coordinated(&mut self, alone: [Rc<Planned>; 2], progress: &mut dyn FnMut(&str)) -> Result<(), PlanError> {
+    fn coordinated(&mut self, alone: [Rc<Planned>; 2], least: f64, progress: &mut dyn FnMut(&str)) -> Result<(), PlanError> {
         progress("coordinating the sequences of both arms");
-        let least = alone.iter().map(|own| own.answer.least_seconds()).fold(0.0, f64::max);
         self.consider(&alone)?;
         if self.is_content(least) {
             return Ok(());
