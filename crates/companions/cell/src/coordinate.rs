@@ -7,7 +7,7 @@ use crate::interlock::{Interlock, interlocks};
 use crate::judged::{Judgement, NearestPlace, judge};
 use crate::legs::Legs;
 use crate::order::{Diagram, Waits};
-use crate::schedule::{Schedule, Scheduled};
+use crate::schedule::{HandoverTimes, Schedule, Scheduled, StepTimes};
 use crate::stage::{Precedence, StagePairs, StageTime};
 use cplan_judge::CertifiedPath;
 use cplan_model::space::Configuration;
@@ -55,38 +55,6 @@ pub struct Coordination {
     pub handovers: Vec<HandoverTimes>,
     /// For each arm, its legs in time.
     pub(crate) schedules: [Schedule; 2],
-}
-
-/// The times of a handover on the common clock, seconds.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HandoverTimes {
-    /// Name of the object.
-    pub object: String,
-    /// The arm that places the object, 0 or 1.
-    pub giver: usize,
-    /// The end of the step that places the object.
-    pub placed: f64,
-    /// The arrival of the other arm, which then takes the object.
-    pub taken: f64,
-}
-
-/// The times of a step on the common clock, seconds.
-#[derive(Debug, Clone, PartialEq)]
-pub struct StepTimes {
-    /// Number of the step of the arm, from 1 in the order of execution.
-    pub number: usize,
-    /// The action in a few words.
-    pub action: String,
-    /// Name of the object that is picked or placed.
-    pub object: Option<String>,
-    /// The departure of the arm.
-    pub begin: f64,
-    /// The arrival of the arm.
-    pub arrival: f64,
-    /// Time at which the object is grasped or released. `None` for other steps.
-    pub event: Option<f64>,
-    /// The end of the step: the tool is raised, and the dwell is over.
-    pub end: f64,
 }
 
 impl Coordination {

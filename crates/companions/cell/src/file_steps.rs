@@ -47,6 +47,14 @@ pub(crate) fn worlds(reader: &Reader, urdfs: &[Source; 2]) -> Result<[ArmWorld; 
     }
     let handovers = handovers(reader)?;
     let own = [0, 1].map(|arm| own_steps(reader, arm));
+    let picked = |arm: usize| {
+        let picks = own[arm].iter().filter_map(|step| step.get("pick"));
+        picks.filter(|pick| handovers.iter().all(|handover| Some(handover.object.as_str()) != pick.as_text()))
+    };
+    let both = picked(1).find(|pick| picked(0).any(|other| other.as_text() == pick.as_text()));
+    if let Some(pick) = both {
+        return Err(picked_by_both(reader, pick.place(), pick.as_text().unwrap_or_default()));
+    }
     for handover in &handovers {
         let giver = 1 - handover.taker;
         let object = handed_object(reader, urdfs, &own[giver], giver, handover)?;
@@ -89,10 +97,7 @@ pub(crate) fn check(reader: &Reader, tasks: [Option<&Task>; 2]) -> Result<(), In
     let both = picks[0].iter().filter(is_free).find(|object| picks[1].contains(object));
     let at = || reader.tables[1].step.as_ref().map_or(reader.tables[1].name.span(), Excerpt::place);
     if let Some(object) = both {
-        let message = format!("both arms pick \"{}\"", one.objects[*object].name);
-        let giver = reader.tables[0].name.get_ref();
-        let hint = format!("if the arms hand it over, write from = \"{giver}\" beside the pick of the arm that takes it");
-        return Err(reader.error(at(), message, &hint));
+        return Err(picked_by_both(reader, at(), &one.objects[*object].name));
     }
     for picks in &picks {
         let mut seen = BTreeSet::new();
@@ -103,6 +108,13 @@ pub(crate) fn check(reader: &Reader, tasks: [Option<&Task>; 2]) -> Result<(), In
         }
     }
     Ok(())
+}
+
+/// Returns the error about an object that both arms pick.
+fn picked_by_both(reader: &Reader, at: Range<usize>, object: &str) -> InputError {
+    let giver = reader.tables[0].name.get_ref();
+    let hint = format!("if the arms hand it over, write from = \"{giver}\" beside the pick of the arm that takes it");
+    reader.error(at, format!("both arms pick \"{object}\""), &hint)
 }
 
 /// Returns the names of the objects that either arm may move.

@@ -1,9 +1,8 @@
 //! The legs of one arm before they are timed: certified motions, and rests in which the tool acts. An arm may wait between
 //! legs. A motion without steps is a single leg.
 
-use crate::coordinate::StepTimes;
 use crate::curve::Curve;
-use crate::schedule::{Schedule, Scheduled, ScheduledLeg};
+use crate::schedule::{Schedule, Scheduled, ScheduledLeg, StepTimes};
 use crate::stage::StageTime;
 use cplan_judge::CertifiedPath;
 use cplan_model::Scene;

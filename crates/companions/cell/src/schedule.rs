@@ -29,6 +29,38 @@ pub(crate) struct Scheduled {
     pub schedule: Schedule,
 }
 
+/// The times of a handover on the common clock, seconds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct HandoverTimes {
+    /// Name of the object.
+    pub object: String,
+    /// The arm that places the object, 0 or 1.
+    pub giver: usize,
+    /// The end of the step that places the object.
+    pub placed: f64,
+    /// The arrival of the other arm, which then takes the object.
+    pub taken: f64,
+}
+
+/// The times of a step on the common clock, seconds.
+#[derive(Debug, Clone, PartialEq)]
+pub struct StepTimes {
+    /// Number of the step of the arm, from 1 in the order of execution.
+    pub number: usize,
+    /// The action in a few words.
+    pub action: String,
+    /// Name of the object that is picked or placed.
+    pub object: Option<String>,
+    /// The departure of the arm.
+    pub begin: f64,
+    /// The arrival of the arm.
+    pub arrival: f64,
+    /// Time at which the object is grasped or released. `None` for other steps.
+    pub event: Option<f64>,
+    /// The end of the step: the tool is raised, and the dwell is over.
+    pub end: f64,
+}
+
 impl Scheduled {
     /// Creates a motion without steps and waits.
     pub fn single(motion: TimedMotion) -> Self {

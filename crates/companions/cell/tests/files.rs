@@ -28,7 +28,7 @@ fn errors_about_steps_name_the_line_and_a_hint() {
         (first_place, "place = { on = \"tray 1,1\" }", 0, "tray", "pallet"),
         ("task = { dwell = 0.1 }", "task = { dwell = -0.1 }", 0, "dwell", "0"),
         ("lift = 0.1", "lift = 0.1\npayload = \"rigid\"", -1000, "held rigidly", "payload = \"level\""),
-        ("pick = \"bracket 1\"\nfrom = \"left\"", "pick = \"bracket 1\"", -1000, "both arms pick \"bracket 1\"", "from = \"left\""),
+        ("pick = \"bracket 1\"\nfrom = \"left\"", "pick = \"bracket 1\"", 0, "both arms pick \"bracket 1\"", "from = \"left\""),
         ("pick = \"bracket 1\"\nfrom = \"left\"", "move = { tip = [0.75, 0.3] }\nfrom = \"left\"", 1, "`from` needs the object", "pick"),
         ("[[object]]", "[[step]]\npick = \"bracket 1\"\n\n[[object]]", 0, "pairs of a pick and a place", "[[arm.step]]"),
     ] {

@@ -250,9 +250,8 @@ fn cell_text(starts: [Place; 2], objects: &[Object], free: [bool; 2]) -> String 
                 _ => String::new(),
             };
         }
-        if own.is_empty() {
-            let _ = writeln!(text, "goal = {{ joints = {:?} }}", starts[arm]);
-        }
+        // Without a goal, an arm would stay at its last place.
+        let _ = writeln!(text, "goal = {{ joints = {:?} }}", starts[arm]);
         text += if own.is_empty() { "" } else { order };
         text += &own;
     }
@@ -287,9 +286,9 @@ fn random_objects(dice: &mut Dice) -> Vec<Object> {
     };
     let mut object = |dice: &mut Dice| {
         let arm = dice.below(2_usize);
-        match dice.below(3_u32) {
+        match dice.below(4_u32) {
             0 => Object { at: place(dice, Some(arm)), to: place(dice, Some(arm)), role: Role::Own(arm) },
-            1 => {
+            1 | 2 => {
                 let nest = place(dice, None);
                 Object { at: place(dice, Some(arm)), to: place(dice, Some(1 - arm)), role: Role::Given(arm, nest) }
             }
@@ -311,7 +310,7 @@ fn planned(text: &str, skew: f64) -> Option<CellPlan> {
 #[test]
 fn no_motion_of_random_tasks_collides() {
     let (mut found, mut handovers, mut waits) = (0, 0, 0);
-    for seed in cplan_cases::seeds(14) {
+    for seed in cplan_cases::seeds(40) {
         let mut dice = Dice::new(seed);
         let objects = random_objects(&mut dice);
         let starts = [0, 1].map(|_| [dice.within(0.8, 1.8), dice.within(0.3, 1.2)]);
@@ -330,10 +329,12 @@ fn no_motion_of_random_tasks_collides() {
                 handovers += motion.handovers.len();
                 waits += motion.waits.iter().map(Vec::len).sum::<usize>();
             }
-            Outcome::Infeasible(_) | Outcome::Unknown(_) => {}
+            Outcome::Infeasible(_) | Outcome::Unknown(_) => {
+                if std::env::var("SHOW").is_ok() { eprintln!("{what}: {skew} {starts:?} {objects:?}\n{:#?}", plan.tried); }
+            }
         }
     }
     if cplan_cases::uses_default_cases() {
-        assert!(found >= 6 && handovers >= 3 && waits >= 3, "{found} {handovers} {waits}");
+        assert!(found >= 10 && handovers >= 5 && waits >= 8, "{found} {handovers} {waits}");
     }
 }
