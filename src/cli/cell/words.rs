@@ -28,7 +28,10 @@ impl Answered<'_> {
             };
             lines.push(("between", format!("{between}{clocks}")));
             for (arm, names) in cell.arms.iter().zip(plan.assignment.iter().flatten()) {
-                lines.push(("objects", format!("{}: {}", arm.name, if names.is_empty() { "none".into() } else { names.join(", ") })));
+                lines.push((
+                    "objects",
+                    format!("{}: {}", arm.name, if names.is_empty() { "none".into() } else { names.join(", ") }),
+                ));
             }
             for (arm, steps) in cell.arms.iter().zip(&found.steps) {
                 lines.extend(steps.iter().map(|step| ("step", format!("{} {}", arm.name, done(step)))));

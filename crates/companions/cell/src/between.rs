@@ -88,12 +88,7 @@ impl<'a> Between<'a> {
     }
 
     /// Prepares the bodies of two arms.
-    pub fn of_bodies(
-        scenes: [&'a Scene; 2],
-        bodies: [Vec<Rc<Body>>; 2],
-        is_one_robot: bool,
-        clearance: f64,
-    ) -> Self {
+    pub fn of_bodies(scenes: [&'a Scene; 2], bodies: [Vec<Rc<Body>>; 2], is_one_robot: bool, clearance: f64) -> Self {
         let mut pairs = Vec::new();
         for (i, a) in bodies[0].iter().enumerate() {
             let met = bodies[1].iter().enumerate().filter(|(_, b)| a.may_meet(b, is_one_robot));

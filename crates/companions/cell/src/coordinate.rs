@@ -127,11 +127,7 @@ impl<'a> Coordinator<'a> {
     ///
     /// # Errors
     /// A path that cannot be timed.
-    pub fn of_legs(
-        &self,
-        legs: [&Legs; 2],
-        before: f64,
-    ) -> Result<Result<Coordination, Conflict>, TimingError> {
+    pub fn of_legs(&self, legs: [&Legs; 2], before: f64) -> Result<Result<Coordination, Conflict>, TimingError> {
         let found = self.of_legs_with(legs, before, MARGIN_SHARE * self.resolution())?;
         match found {
             Err(Conflict::NoTiming | Conflict::NotCertified) => self.of_legs_with(legs, before, 0.0),

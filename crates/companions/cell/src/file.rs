@@ -60,7 +60,7 @@ toml_table! {
         start: Option<Excerpt>,
         pub goal: Option<Excerpt>,
         pub step: Option<Excerpt>,
-        task: Option<Excerpt>,
+        pub task: Option<Excerpt>,
     }
 
     /// The place of an arm's root frame in the cell.
@@ -141,7 +141,9 @@ impl Cell {
         let mut arms = Vec::new();
         for (arm, loaded) in [one, two].into_iter().enumerate() {
             let problem = Problem::of_scene(loaded, &Overrides::default())?;
-            let task = worlds[arm].task(&problem, &others[arm]);
+            let mut task = worlds[arm].task(&problem, &others[arm]);
+            let world = reader.world(arm, &worlds[arm])?;
+            task.iter_mut().for_each(|task| file_steps::locate(task, &world, &source));
             let shared = worlds[arm].shared.clone();
             arms.push(CellArm { name: names[arm].clone(), problem, task, shared });
         }
@@ -193,6 +195,13 @@ impl Reader<'_> {
 
     /// Reads an arm in the cell, without the other arm.
     pub fn scene(&self, arm: usize, urdf: &Source, own: &ArmWorld) -> Result<LoadedScene, InputError> {
+        let loaded = scene_from(urdf.clone(), self.world(arm, own)?)?;
+        loaded.require_static_obstacles("obstacles in cells cannot move")?;
+        loaded.with_margins(self.clearance, None)
+    }
+
+    /// Returns the text of an arm's world.
+    fn world(&self, arm: usize, own: &ArmWorld) -> Result<Source, InputError> {
         let table = self.tables[arm];
         let name = table.name.get_ref();
         let example = "goal = { joints = [q1, q2] } or goal = { tip = [x, y] } or [[arm.step]]";
@@ -235,16 +244,14 @@ impl Reader<'_> {
             ("pallet", self.file.pallet.as_ref()),
             ("object", own.objects.as_ref()),
             ("step", own.steps.as_ref()),
-            ("task", table.task.as_ref()),
+            ("task", own.defaults.as_ref()),
             ("robot", Some(&robot)),
         ] {
             if let Some(value) = value {
                 world.value(key, value);
             }
         }
-        let loaded = scene_from(urdf.clone(), world.source(self.source))?;
-        loaded.require_static_obstacles("obstacles in cells cannot move")?;
-        loaded.with_margins(self.clearance, None)
+        Ok(world.source(self.source))
     }
 
     /// Checks that the arms of one robot have no joint in common.

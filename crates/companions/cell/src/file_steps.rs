@@ -3,7 +3,7 @@
 use crate::excerpt::Excerpt;
 use crate::file::{CellFile, Reader};
 use cplan_engine::Problem;
-use cplan_handling::{Action, Handover, Holding, Item, Task};
+use cplan_handling::{Action, Handover, Holding, Item, Step, Task};
 use cplan_model::Obstacle;
 use cplan_robot::{InputError, Source};
 use cplan_world::{Overrides, Rules};
@@ -13,6 +13,9 @@ use std::ops::Range;
 /// Greatest number of objects that either arm may move. Each of them doubles the number of assignments.
 const MAX_SHARED: usize = 8;
 
+/// Keys of `task` that apply to the steps of the file, but not to a move to the goal.
+const GROUP_KEYS: [&str; 2] = ["order", "repeat"];
+
 /// The parts of an arm's world that depend on steps.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct ArmWorld {
@@ -20,6 +23,8 @@ pub(crate) struct ArmWorld {
     pub objects: Option<Excerpt>,
     /// The steps. `None` if the cell has no steps.
     pub steps: Option<Excerpt>,
+    /// Defaults of the steps.
+    pub defaults: Option<Excerpt>,
     /// For each pair of a pick and a place that either arm may do, its number in the first group of steps.
     pub shared: Vec<Option<usize>>,
     /// Names of the objects that the arm hands over or takes.
@@ -41,11 +46,17 @@ struct FileHandover {
 /// Invalid handovers and shared steps.
 pub(crate) fn worlds(reader: &Reader, urdfs: &[Source; 2]) -> Result<[ArmWorld; 2], InputError> {
     let objects = reader.file.object.clone();
-    let mut worlds = [0, 1].map(|_| ArmWorld { objects: objects.clone(), ..ArmWorld::default() });
+    let mut worlds = [0, 1].map(|arm| {
+        let defaults = reader.tables[arm].task.clone();
+        ArmWorld { objects: objects.clone(), defaults, ..ArmWorld::default() }
+    });
     if reader.file.step.is_none() && reader.tables.iter().all(|table| table.step.is_none()) {
         return Ok(worlds);
     }
     let handovers = handovers(reader)?;
+    for world in &mut worlds {
+        world.defaults = world.defaults.take().map(|task| GROUP_KEYS.iter().fold(task, |task, key| task.without(key)));
+    }
     let own = [0, 1].map(|arm| own_steps(reader, arm));
     let picked = |arm: usize| {
         let picks = own[arm].iter().filter_map(|step| step.get("pick"));
@@ -57,7 +68,7 @@ pub(crate) fn worlds(reader: &Reader, urdfs: &[Source; 2]) -> Result<[ArmWorld; 
     }
     for handover in &handovers {
         let giver = 1 - handover.taker;
-        let object = handed_object(reader, urdfs, &own[giver], giver, handover)?;
+        let object = handed_object(reader, urdfs, &own[giver], (giver, &worlds[giver]), handover)?;
         worlds[handover.taker].objects = replaced(worlds[handover.taker].objects.take(), object);
         worlds[handover.taker].handovers.push((handover.object.clone(), Handover::Takes));
         worlds[giver].handovers.push((handover.object.clone(), Handover::Gives));
@@ -65,10 +76,13 @@ pub(crate) fn worlds(reader: &Reader, urdfs: &[Source; 2]) -> Result<[ArmWorld; 
     let pairs = shared_pairs(reader)?;
     for arm in 0..2 {
         let group = shared_group(reader, urdfs, arm, &pairs, &mut worlds[arm])?;
-        let steps: Vec<Excerpt> = group.into_iter().chain(own[arm].iter().map(without_from)).collect();
+        let steps: Vec<Excerpt> = group.into_iter().chain(composed(reader, arm, &own[arm])).collect();
         let at = reader.tables[arm].name.span();
         if steps.is_empty() {
-            let message = format!("arm \"{}\" has neither a goal nor steps, and none of the other steps suits it", reader.tables[arm].name.get_ref());
+            let message = format!(
+                "arm \"{}\" has neither a goal nor steps, and none of the other steps suits it",
+                reader.tables[arm].name.get_ref()
+            );
             return Err(reader.error(at, message, "give the arm a goal, or a step: [[arm.step]]"));
         }
         worlds[arm].steps = Some(Excerpt::of_items(steps, at));
@@ -76,7 +90,8 @@ pub(crate) fn worlds(reader: &Reader, urdfs: &[Source; 2]) -> Result<[ArmWorld; 
     for (pair, [pick, _]) in pairs.iter().enumerate() {
         if worlds.iter().all(|world| world.shared[pair].is_none()) {
             // The error of the first arm says why.
-            let world = ArmWorld { steps: Some(Excerpt::of_items(pairs[pair].to_vec(), pick.place())), ..worlds[0].clone() };
+            let world =
+                ArmWorld { steps: Some(Excerpt::of_items(pairs[pair].to_vec(), pick.place())), ..worlds[0].clone() };
             task_of(reader, urdfs, 0, &world)?;
         }
     }
@@ -91,9 +106,8 @@ pub(crate) fn check(reader: &Reader, tasks: [Option<&Task>; 2]) -> Result<(), In
     let [Some(one), Some(two)] = tasks else { return Ok(()) };
     let shared = shared_names(reader.file);
     let picks = [one, two].map(|task| task.steps().filter_map(|step| step.action.picked()).collect::<Vec<_>>());
-    let is_free = |object: &&usize| {
-        one.objects[**object].handover.is_none() && !shared.contains(&one.objects[**object].name)
-    };
+    let is_free =
+        |object: &&usize| one.objects[**object].handover.is_none() && !shared.contains(&one.objects[**object].name);
     let both = picks[0].iter().filter(is_free).find(|object| picks[1].contains(object));
     let at = || reader.tables[1].step.as_ref().map_or(reader.tables[1].name.span(), Excerpt::place);
     if let Some(object) = both {
@@ -103,7 +117,8 @@ pub(crate) fn check(reader: &Reader, tasks: [Option<&Task>; 2]) -> Result<(), In
         let mut seen = BTreeSet::new();
         let again = picks.iter().find(|object| !seen.insert(**object) && one.objects[**object].handover.is_some());
         if let Some(object) = again {
-            let message = format!("\"{}\" is handed over, but an arm picks it more than once", one.objects[*object].name);
+            let message =
+                format!("\"{}\" is handed over, but an arm picks it more than once", one.objects[*object].name);
             return Err(reader.error(at(), message, "each arm picks an object once that is handed over"));
         }
     }
@@ -146,8 +161,8 @@ pub(crate) fn with_obstacles(task: &Task, more: &[Obstacle]) -> Task {
     let mut task = task.clone();
     let before = task.workspace.fixed.obstacles.len();
     task.workspace.fixed.obstacles.extend_from_slice(more);
-    for action in task.items.iter_mut().flat_map(steps_of) {
-        if let Action::Pick { supports, .. } | Action::Place { supports, .. } = action {
+    for step in task.items.iter_mut().flat_map(steps_of) {
+        if let Action::Pick { supports, .. } | Action::Place { supports, .. } = &mut step.action {
             // Objects follow the obstacles.
             supports.iter_mut().filter(|support| **support >= before).for_each(|support| *support += more.len());
         }
@@ -155,25 +170,51 @@ pub(crate) fn with_obstacles(task: &Task, more: &[Obstacle]) -> Task {
     task
 }
 
-/// Returns the actions of an item.
-fn steps_of(item: &mut Item) -> Vec<&mut Action> {
+/// Returns the steps of an item.
+fn steps_of(item: &mut Item) -> Vec<&mut Step> {
     match item {
-        Item::Step(step) => vec![&mut step.action],
-        Item::AnyOrder(pairs) => pairs.iter_mut().flatten().map(|step| &mut step.action).collect(),
+        Item::Step(step) => vec![step],
+        Item::AnyOrder(pairs) => pairs.iter_mut().flatten().collect(),
         Item::Renew(_) => Vec::new(),
     }
 }
 
-/// Returns the steps of an arm as written. A goal counts as a move.
-fn own_steps(reader: &Reader, arm: usize) -> Vec<Excerpt> {
-    let table = reader.tables[arm];
-    let steps = table.step.iter().flat_map(|steps| steps.items().iter().cloned());
-    let goal = table.goal.iter().map(|goal| Excerpt::empty_table(goal.place()).with("move", goal.clone()));
-    steps.chain(goal).collect()
+/// Replaces the positions of the steps in the text of an arm's world by those in the cell file.
+pub(crate) fn locate(task: &mut Task, world: &Source, cell: &Source) {
+    let text = world.text();
+    for step in task.items.iter_mut().flat_map(steps_of) {
+        let mut numbers = step.place.rsplit(':').map_while(|number| number.parse::<usize>().ok());
+        let Some((column, line)) = numbers.next().zip(numbers.next()) else { continue };
+        let lines: Vec<&str> = text.split_inclusive('\n').take(line).collect();
+        let Some((own, before)) = lines.split_last() else { continue };
+        let in_line: usize = own.chars().take(column.saturating_sub(1)).map(char::len_utf8).sum();
+        let offset = before.iter().map(|line| line.len()).sum::<usize>() + in_line;
+        if let Some(at) = world.diagnostic_at(offset..offset + 1, "").position {
+            step.place = format!("{}:{}:{}", cell.name(), at.line, at.column);
+        }
+    }
 }
 
-fn without_from(step: &Excerpt) -> Excerpt {
-    step.clone().without("from")
+/// Returns the steps of an arm as written.
+fn own_steps(reader: &Reader, arm: usize) -> Vec<Excerpt> {
+    reader.tables[arm].step.iter().flat_map(|steps| steps.items().iter().cloned()).collect()
+}
+
+/// Returns steps of an arm as steps of its world: in a group if its `task` has keys of groups, and followed by a move to the
+/// goal.
+fn composed(reader: &Reader, arm: usize, steps: &[Excerpt]) -> Vec<Excerpt> {
+    let table = reader.tables[arm];
+    let mut steps: Vec<Excerpt> = steps.iter().map(|step| step.clone().without("from")).collect();
+    let keys: Vec<_> = GROUP_KEYS.iter().filter_map(|key| Some((*key, table.task.as_ref()?.get(key)?))).collect();
+    if let Some(first) = steps.first().filter(|_| !keys.is_empty()) {
+        let at = first.place();
+        let group = keys
+            .into_iter()
+            .fold(Excerpt::empty_table(at.clone()), |group, (key, value)| group.with(key, value.clone()));
+        steps = vec![group.with("steps", Excerpt::of_items(steps, at))];
+    }
+    steps.extend(table.goal.iter().map(|goal| Excerpt::empty_table(goal.place()).with("move", goal.clone())));
+    steps
 }
 
 /// Returns the handovers of the file: picks with the key `from`.
@@ -206,7 +247,7 @@ fn handed_object(
     reader: &Reader,
     urdfs: &[Source; 2],
     steps: &[Excerpt],
-    giver: usize,
+    (giver, of_giver): (usize, &ArmWorld),
     FileHandover { object, at, .. }: &FileHandover,
 ) -> Result<Excerpt, InputError> {
     let name = reader.tables[giver].name.get_ref();
@@ -227,7 +268,8 @@ fn handed_object(
     }
     let world = ArmWorld {
         objects: reader.file.object.clone(),
-        steps: Some(Excerpt::of_items(kept.clone(), at.clone())),
+        steps: Some(Excerpt::of_items(composed(reader, giver, &kept), at.clone())),
+        defaults: of_giver.defaults.clone(),
         ..ArmWorld::default()
     };
     let task = if kept.is_empty() { None } else { Some(task_of(reader, urdfs, giver, &world)?) };

@@ -43,12 +43,13 @@ fn after_arrival(task: &Task, object: usize) -> Option<f64> {
 fn solutions(task: &Task, tip: Point) -> Option<Vec<Configuration>> {
     let solved = inverse(&task.arm, tip, task.start);
     let joints = &task.arm.joints;
-    let copies = |q: &Configuration, k: usize| {
-        equivalent_values(joints[k].range, joints[k].joint_type.is_revolute(), q[k])
-    };
+    let copies =
+        |q: &Configuration, k: usize| equivalent_values(joints[k].range, joints[k].joint_type.is_revolute(), q[k]);
     let of_branch = |q: &Configuration| {
         let second = copies(q, 1);
-        let all = copies(q, 0).into_iter().flat_map(|first| second.iter().map(move |second| [first, *second]).collect::<Vec<_>>());
+        let all = copies(q, 0)
+            .into_iter()
+            .flat_map(|first| second.iter().map(move |second| [first, *second]).collect::<Vec<_>>());
         all.map(Configuration::from).collect::<Vec<_>>()
     };
     solved.free.is_none().then(|| solved.branches.iter().flat_map(of_branch).collect())

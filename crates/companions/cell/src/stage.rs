@@ -81,7 +81,8 @@ impl<'a> StagePairs<'a> {
         clearance: f64,
         precedences: Vec<Precedence>,
     ) -> Self {
-        let between = |one: &Stage, two: &Stage| Between::of_bodies(scenes, bodies([one, two]), is_one_robot, clearance);
+        let between =
+            |one: &Stage, two: &Stage| Between::of_bodies(scenes, bodies([one, two]), is_one_robot, clearance);
         let row = |one: &Stage| stages[1].iter().map(|two| between(one, two)).collect();
         Self { pairs: stages[0].iter().map(row).collect(), precedences }
     }

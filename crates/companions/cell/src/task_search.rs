@@ -1,5 +1,7 @@
 //! The search for a cell whose arms have steps: sequences of each arm alone, coordinated on the diagram of their times.
 
+use crate::Cell;
+use crate::assignment::{self, Assignment};
 use crate::coordinate::{Coordination, Coordinator};
 use crate::file_steps::with_obstacles;
 use crate::legs::Legs;
@@ -7,8 +9,6 @@ use crate::plan::{ACCEPTED_GAP, Alone, CellPlan, Meeting, Refutation, Settings, 
 use crate::sequence::Sequence;
 use crate::stage::StagePairs;
 use crate::variants::{Variant, variants};
-use crate::assignment::{self, Assignment};
-use crate::Cell;
 use cplan_engine::PlanError;
 use cplan_handling::Task;
 use cplan_legs::TaskAnswer;
@@ -81,7 +81,11 @@ pub(crate) fn plan_tasks(
     for (number, assignment) in assignments.iter().enumerate() {
         let known = search.best.as_ref().map_or(f64::INFINITY, |(best, _)| best.duration);
         if assignment.bound >= known || known <= least * (1.0 + ACCEPTED_GAP) {
-            search.tried.push(format!("{} of {count} assignments cannot be faster, or not by more than {:.0} %", count - number, 100.0 * ACCEPTED_GAP));
+            search.tried.push(format!(
+                "{} of {count} assignments cannot be faster, or not by more than {:.0} %",
+                count - number,
+                100.0 * ACCEPTED_GAP
+            ));
             break;
         }
         if number >= MAX_ASSIGNMENTS {
@@ -133,7 +137,8 @@ impl TaskSearch<'_> {
                 }
                 Outcome::Unknown(failed) => {
                     let step = failed.step.action.describe(&task.objects);
-                    let why = format!("{name} alone: step {}, {step}: {}", failed.step.number, failed.reasons.join("; "));
+                    let why =
+                        format!("{name} alone: step {}, {step}: {}", failed.step.number, failed.reasons.join("; "));
                     self.tried.push(why.clone());
                     return Ok(Assigned::Failed(Outcome::Unknown(why)));
                 }
@@ -184,7 +189,12 @@ impl TaskSearch<'_> {
     }
 
     /// Coordinates sequences of both arms: the fastest of each alone, then others, the shorter ones first.
-    fn coordinated(&mut self, alone: [Rc<Planned>; 2], least: f64, progress: &mut dyn FnMut(&str)) -> Result<(), PlanError> {
+    fn coordinated(
+        &mut self,
+        alone: [Rc<Planned>; 2],
+        least: f64,
+        progress: &mut dyn FnMut(&str),
+    ) -> Result<(), PlanError> {
         progress("coordinating the sequences of both arms");
         self.consider(&alone)?;
         if self.is_content(least) {
@@ -259,11 +269,7 @@ impl TaskSearch<'_> {
     }
 
     /// Calls `f` with the coordinator of two sequences and their legs.
-    fn with_coordinator<T>(
-        &self,
-        both: &[Rc<Planned>; 2],
-        f: impl FnOnce(&Coordinator, [&Legs; 2]) -> T,
-    ) -> Option<T> {
+    fn with_coordinator<T>(&self, both: &[Rc<Planned>; 2], f: impl FnOnce(&Coordinator, [&Legs; 2]) -> T) -> Option<T> {
         let [Some(one), Some(two)] = both.each_ref().map(|own| own.sequence.as_ref()) else { return None };
         let pairs = self.pairs([one, two], both.each_ref().map(|own| &own.task));
         let coordinator = Coordinator { pairs: &pairs, drive: self.settings.options.drive, skew: self.settings.skew };

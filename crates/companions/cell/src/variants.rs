@@ -4,6 +4,9 @@ use cplan_handling::{Action, Item, Step, Task};
 use cplan_legs::Leg;
 use cplan_model::{Elbow, JointType};
 
+/// A change of the order of pairs of a pick and a place.
+type Reorder = fn(&mut Vec<[Step; 2]>);
+
 /// A task that fixes choices of another one.
 pub(crate) struct Variant {
     /// The choice in a few words.
@@ -23,7 +26,7 @@ pub(crate) fn variants(task: &Task, legs: &[Leg]) -> Vec<Variant> {
             }
         }),
     });
-    let orders: [(&str, fn(&mut Vec<[Step; 2]>)); 2] = [
+    let orders: [(&str, Reorder); 2] = [
         ("free steps in the opposite order", |pairs| pairs.reverse()),
         ("free steps from the middle on", |pairs| {
             let middle = pairs.len() / 2;
@@ -50,16 +53,20 @@ fn changed(task: &Task, change: impl Fn(&mut Step)) -> Task {
 }
 
 /// Returns a task whose free steps have a fixed order: that of the legs, changed.
-fn ordered(task: &Task, legs: &[Leg], change: fn(&mut Vec<[Step; 2]>)) -> Task {
+fn ordered(task: &Task, legs: &[Leg], change: Reorder) -> Task {
     let place = |step: &Step| legs.iter().position(|leg| leg.step == *step).unwrap_or(usize::MAX);
     let mut task = task.clone();
-    task.items = task.items.into_iter().flat_map(|item| match item {
-        Item::AnyOrder(mut pairs) => {
-            pairs.sort_by_key(|[pick, _]| place(pick));
-            change(&mut pairs);
-            pairs.into_iter().flatten().map(Item::Step).collect()
-        }
-        other => vec![other],
-    }).collect();
+    task.items = task
+        .items
+        .into_iter()
+        .flat_map(|item| match item {
+            Item::AnyOrder(mut pairs) => {
+                pairs.sort_by_key(|[pick, _]| place(pick));
+                change(&mut pairs);
+                pairs.into_iter().flatten().map(Item::Step).collect()
+            }
+            other => vec![other],
+        })
+        .collect();
     task
 }

@@ -1,6 +1,7 @@
 //! Errors of cell files with steps: each names the line and what to do.
 
-use cplan_cell::Cell;
+use cplan_cell::{Cell, Refutation, Settings, plan_cell};
+use cplan_model::Outcome;
 use std::path::Path;
 
 /// Returns the error about `workspaces/cells/handover.toml` with a text replaced, and the number of the line where it was.
@@ -19,6 +20,18 @@ fn error_after(old: &str, new: &str) -> (String, usize) {
 }
 
 #[test]
+fn a_step_that_cannot_be_done_is_proven_and_has_its_line() {
+    let cells = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../workspaces/cells");
+    let path = cells.join("walled_in.toml");
+    let text = std::fs::read_to_string(&path).unwrap();
+    let line = text[..text.find("place = ").unwrap()].matches('\n').count();
+    let cell = Cell::load(&path, &|path| path.into(), None).unwrap();
+    let plan = plan_cell(&cell, &Settings::default(), &mut |_| ()).unwrap();
+    let Outcome::Infeasible(Refutation::Step { arm: 0, failed }) = &plan.outcome else { panic!("{:?}", plan.tried) };
+    assert!(failed.step.place.ends_with(&format!("walled_in.toml:{line}:1")), "{} {line}", failed.step.place);
+}
+
+#[test]
 fn errors_about_steps_name_the_line_and_a_hint() {
     let first_place = "place = { at = [0.4, 0.0] }";
     for (old, new, lines_later, message, hint) in [
@@ -28,9 +41,27 @@ fn errors_about_steps_name_the_line_and_a_hint() {
         (first_place, "place = { on = \"tray 1,1\" }", 0, "tray", "pallet"),
         ("task = { dwell = 0.1 }", "task = { dwell = -0.1 }", 0, "dwell", "0"),
         ("lift = 0.1", "lift = 0.1\npayload = \"rigid\"", -1000, "held rigidly", "payload = \"level\""),
-        ("pick = \"bracket 1\"\nfrom = \"left\"", "pick = \"bracket 1\"", 0, "both arms pick \"bracket 1\"", "from = \"left\""),
-        ("pick = \"bracket 1\"\nfrom = \"left\"", "move = { tip = [0.75, 0.3] }\nfrom = \"left\"", 1, "`from` needs the object", "pick"),
-        ("[[object]]", "[[step]]\npick = \"bracket 1\"\n\n[[object]]", 0, "pairs of a pick and a place", "[[arm.step]]"),
+        (
+            "pick = \"bracket 1\"\nfrom = \"left\"",
+            "pick = \"bracket 1\"",
+            0,
+            "both arms pick \"bracket 1\"",
+            "from = \"left\"",
+        ),
+        (
+            "pick = \"bracket 1\"\nfrom = \"left\"",
+            "move = { tip = [0.75, 0.3] }\nfrom = \"left\"",
+            1,
+            "`from` needs the object",
+            "pick",
+        ),
+        (
+            "[[object]]",
+            "[[step]]\npick = \"bracket 1\"\n\n[[object]]",
+            0,
+            "pairs of a pick and a place",
+            "[[arm.step]]",
+        ),
     ] {
         let (error, line) = error_after(old, new);
         assert!(error.contains(message) && error.contains(hint), "{old} -> {new}: {error}");

@@ -116,11 +116,8 @@ fn depth(steps: &[StepTimes], time: f64) -> f64 {
     let lowered = steps.iter().filter_map(|step| {
         let event = step.event?;
         let stroke = step.end - event - DWELL;
-        let share = if time <= event {
-            1.0 - (event - time) / stroke
-        } else {
-            1.0 - (time - event - DWELL).max(0.0) / stroke
-        };
+        let share =
+            if time <= event { 1.0 - (event - time) / stroke } else { 1.0 - (time - event - DWELL).max(0.0) / stroke };
         Some(LIFT * share.clamp(0.0, 1.0))
     });
     lowered.fold(0.0, f64::max)
@@ -128,8 +125,11 @@ fn depth(steps: &[StepTimes], time: f64) -> f64 {
 
 /// The times at which an arm grasps and releases an object.
 fn handled(found: &Coordination, arm: usize, name: &str) -> Option<[f64; 2]> {
-    let own: Vec<f64> =
-        found.steps[arm].iter().filter(|step| step.object.as_deref() == Some(name)).filter_map(|step| step.event).collect();
+    let own: Vec<f64> = found.steps[arm]
+        .iter()
+        .filter(|step| step.object.as_deref() == Some(name))
+        .filter_map(|step| step.event)
+        .collect();
     <[f64; 2]>::try_from(own).ok()
 }
 
@@ -155,7 +155,8 @@ fn replay(found: &Coordination, objects: &[Object], skew: f64, what: &str) -> f6
             for (number, object) in objects.iter().enumerate() {
                 let name = format!("part {number}");
                 let times = [0, 1].map(|arm| handled(found, arm, &name));
-                let carried = (0..2).find(|arm| times[*arm].is_some_and(|[a, b]| a <= clocks[*arm] && clocks[*arm] < b));
+                let carried =
+                    (0..2).find(|arm| times[*arm].is_some_and(|[a, b]| a <= clocks[*arm] && clocks[*arm] < b));
                 let lies = |at: Place| capsule(&name, [at, at], OBJECT_RADIUS, [0.0, OBJECT_HEIGHT]);
                 if let Some(arm) = carried {
                     let tip = bodies[arm][2].ends[0];
@@ -226,7 +227,9 @@ fn cell_text(starts: [Place; 2], objects: &[Object], free: [bool; 2]) -> String 
     let robot = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../robots/scara.urdf");
     let mut text = format!("name = \"random\"\nclearance = {CLEARANCE}\n");
     let transfer = |table: &str, number: usize, from: &str, to: Place| {
-        format!("[[{table}]]\npick = \"part {number}\"\n{from}dwell = {DWELL}\n[[{table}]]\nplace = {{ at = {to:?} }}\ndwell = {DWELL}\n")
+        format!(
+            "[[{table}]]\npick = \"part {number}\"\n{from}dwell = {DWELL}\n[[{table}]]\nplace = {{ at = {to:?} }}\ndwell = {DWELL}\n"
+        )
     };
     for (arm, name) in ["left", "right"].into_iter().enumerate() {
         let base = if arm == 0 { "" } else { "base = { at = [0.8, 0.0], angle = \"180deg\" }\n" };
@@ -330,7 +333,9 @@ fn no_motion_of_random_tasks_collides() {
                 waits += motion.waits.iter().map(Vec::len).sum::<usize>();
             }
             Outcome::Infeasible(_) | Outcome::Unknown(_) => {
-                if std::env::var("SHOW").is_ok() { eprintln!("{what}: {skew} {starts:?} {objects:?}\n{:#?}", plan.tried); }
+                if std::env::var("SHOW").is_ok() {
+                    eprintln!("{what}: {skew} {starts:?} {objects:?}\n{:#?}", plan.tried);
+                }
             }
         }
     }
