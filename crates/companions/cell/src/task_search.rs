@@ -15,11 +15,14 @@ use cplan_legs::TaskAnswer;
 use cplan_model::{Obstacle, Outcome, Scene};
 use std::rc::Rc;
 
-/// Greatest number of pairs of sequences that are coordinated for one assignment of objects.
+/// Greatest number of pairs of sequences that are coordinated besides the fastest ones.
 const MAX_PAIRS: usize = 16;
 
+/// The same for each of several assignments of objects.
+const MAX_PAIRS_OF_ASSIGNMENT: usize = 6;
+
 /// Greatest number of assignments whose sequences are coordinated.
-const MAX_ASSIGNMENTS: usize = 12;
+const MAX_ASSIGNMENTS: usize = 6;
 
 /// The search for the sequences of both arms.
 pub(crate) struct TaskSearch<'a> {
@@ -221,7 +224,8 @@ impl TaskSearch<'_> {
         let both = candidates[0].iter().flat_map(|one| candidates[1].iter().map(move |two| [one.clone(), two.clone()]));
         let mut pairs: Vec<[Rc<Planned>; 2]> = both.skip(1).collect();
         pairs.sort_by(|a, b| longest(a).total_cmp(&longest(b)));
-        for pair in pairs.iter().take(MAX_PAIRS) {
+        let most = if self.cell.shared.is_empty() { MAX_PAIRS } else { MAX_PAIRS_OF_ASSIGNMENT };
+        for pair in pairs.iter().take(most) {
             if self.is_content(least) || self.best.as_ref().is_some_and(|(best, _)| longest(pair) >= best.duration) {
                 break;
             }

@@ -1,8 +1,8 @@
 //! Other sequences for the task of one arm: other IK solutions, and other orders of free steps.
 
-use cplan_handling::{Action, Item, Step, Task};
+use cplan_handling::{Action, Handover, Item, Step, Task, ToolValues};
 use cplan_legs::Leg;
-use cplan_model::{Elbow, JointType};
+use cplan_model::{Elbow, Goal, JointType};
 
 /// A change of the order of pairs of a pick and a place.
 type Reorder = fn(&mut Vec<[Step; 2]>);
@@ -36,7 +36,46 @@ pub(crate) fn variants(task: &Task, legs: &[Leg]) -> Vec<Variant> {
     let is_free = task.items.iter().any(|item| matches!(item, Item::AnyOrder(pairs) if pairs.len() > 1));
     let orders = orders.into_iter().filter(|_| is_free);
     let orders = orders.map(|(what, change)| Variant { what: what.into(), task: ordered(task, legs, change) });
-    elbows.chain(orders).collect()
+    let retreats = retreating(task).map(|task| Variant { what: "at its start between handovers".into(), task });
+    elbows.chain(orders).chain(retreats).collect()
+}
+
+/// Returns a task in which the arm returns to its start before it takes an object, and after it has given one. There, it can
+/// wait out of the way. Returns `None` if there are no such steps in fixed order.
+fn retreating(task: &Task) -> Option<Task> {
+    let is = |step: &Step, role: Handover, held: Option<usize>| {
+        let object = if role == Handover::Takes { step.action.picked() } else { held };
+        object.is_some_and(|object| task.objects[object].handover == Some(role))
+    };
+    let retreat = |step: &Step| {
+        let action = Action::Move(Goal::Joints(task.start));
+        Item::Step(Step {
+            action,
+            dwell: 0.0,
+            tool: ToolValues::default(),
+            elevation: 0.0,
+            elbow: None,
+            ..step.clone()
+        })
+    };
+    let (mut items, mut held, mut is_there) = (Vec::new(), None, true);
+    for item in &task.items {
+        let Item::Step(step) = item else {
+            items.push(item.clone());
+            is_there = false;
+            continue;
+        };
+        if !is_there && is(step, Handover::Takes, None) {
+            items.push(retreat(step));
+        }
+        held = step.action.picked().or(held);
+        items.push(item.clone());
+        is_there = matches!(step.action, Action::Place { .. }) && is(step, Handover::Gives, held);
+        if is_there {
+            items.push(retreat(step));
+        }
+    }
+    (items.len() > task.items.len()).then(|| Task { items, ..task.clone() })
 }
 
 /// Returns a task whose steps are changed.
