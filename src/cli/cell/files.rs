@@ -11,7 +11,10 @@ pub fn motion(cell: &Cell, found: &Coordination, path: &Path, format: Format) ->
         (Format::Yaml, Some(arm)) => ros_yaml(&alone(cell, found, arm)),
         (Format::Yaml, None) => ros_yaml(&both(cell, found)),
         (_, Some(arm)) => csv_of_joints(&alone(cell, found, arm), &[], None),
-        (_, None) => csv_of_joints(&both(cell, found), &[], None),
+        (_, None) => {
+            let both = both(cell, found);
+            with_steps(cell, found, &both.time, &csv_of_joints(&both, &[], None))
+        }
     }
 }
 
@@ -21,6 +24,19 @@ pub fn named_arm(cell: &Cell, path: &Path) -> Option<usize> {
     let named = (0..2).filter(|arm| stem.ends_with(&cell.arms[*arm].name));
     // The name of one arm may end with that of the other.
     named.max_by_key(|arm| cell.arms[*arm].name.len())
+}
+
+/// Returns the table with a column for each arm that has steps: the number of its step at each time.
+fn with_steps(cell: &Cell, found: &Coordination, times: &[f64], table: &str) -> String {
+    let mut lines: Vec<String> = table.lines().map(str::to_owned).collect();
+    for (arm, steps) in cell.arms.iter().zip(&found.steps).filter(|(_, steps)| !steps.is_empty()) {
+        lines[0] += &format!(",{}/step", arm.name);
+        for (line, time) in lines[1..].iter_mut().zip(times) {
+            let number = steps.partition_point(|step| step.begin <= *time).max(1);
+            *line += &format!(",{number}");
+        }
+    }
+    lines.join("\n") + "\n"
 }
 
 /// Returns the motion of one arm.

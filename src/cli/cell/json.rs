@@ -3,7 +3,7 @@
 use super::Answered;
 use crate::model::Outcome;
 use crate::space::Configuration;
-use cplan_cell::{CellArm, Coordination, Refutation};
+use cplan_cell::{Cell, CellArm, Coordination, HandoverTimes, Refutation, StepTimes};
 use serde_json::{Value, json};
 
 impl Answered<'_> {
@@ -25,6 +25,8 @@ impl Answered<'_> {
             "nearest": found.and_then(|found| found.nearest).map(|place| json!({ "times": place.times, "distance": place.distance })),
             "interlocks": found.map(|found| self.interlocks(found)),
             "interpolation": "cubic",
+            "handovers": found.map(|found| found.handovers.iter().map(|times| handover(cell, times)).collect::<Vec<_>>()),
+            "assignment": plan.assignment.as_ref().map(|names| self.assignment(names)),
             "tried": plan.tried,
         });
         match &plan.outcome {
@@ -35,12 +37,15 @@ impl Answered<'_> {
         answer
     }
 
+    /// Returns for each arm the objects that it moves, of those that either arm may move.
+    fn assignment(&self, names: &[Vec<String>; 2]) -> Value {
+        let one = |(arm, names): (&CellArm, &Vec<String>)| (arm.name.clone(), json!(names));
+        Value::Object(self.cell.arms.iter().zip(names).map(one).collect())
+    }
+
     fn arm(&self, k: usize, CellArm { name, problem, .. }: &CellArm, found: Option<&Coordination>) -> Value {
-        let motion = self.plan.alone[k].as_ref().and_then(|plan| plan.motion()?.1.outcome.found());
-        let alone = motion.map(|motion| {
-            let bound = motion.fastest.map(|fastest| fastest.lower_bound);
-            json!({ "duration": motion.timed.trajectory.duration(), "lower_bound": bound })
-        });
+        let alone = self.plan.alone[k].as_ref().filter(|alone| alone.duration.is_some());
+        let alone = alone.map(|alone| json!({ "duration": alone.duration, "lower_bound": alone.lower_bound }));
         let mut arm = json!({
             "name": name,
             "robot": problem.scene().arm().name,
@@ -55,6 +60,9 @@ impl Answered<'_> {
             arm["path"] =
                 json!(motion.curve.straight().path().waypoints().iter().copied().map(row).collect::<Vec<_>>());
             arm["waits"] = json!(found.waits[k]);
+            if !found.steps[k].is_empty() {
+                arm["steps"] = json!(found.steps[k].iter().map(step).collect::<Vec<_>>());
+            }
             arm["trajectory"] = json!({
                 "time": trajectory.time,
                 "position": trajectory.position,
@@ -92,11 +100,37 @@ impl Answered<'_> {
     fn proof(&self, proof: &Refutation) -> Value {
         match proof {
             Refutation::Alone { arm, .. } => json!({ "kind": "alone", "arm": self.cell.arms[*arm].name }),
+            Refutation::Step { arm, failed } => json!({
+                "kind": "step",
+                "arm": self.cell.arms[*arm].name,
+                "step": failed.step.number,
+                "place": failed.step.place,
+                "reasons": failed.reasons,
+            }),
             Refutation::Starts(what) => json!({ "kind": "starts", "contact": what }),
             Refutation::Goals(what) => json!({ "kind": "goals", "contact": what }),
             Refutation::Boxes(boxes) => json!({ "kind": "boxes", "examined": boxes.examined, "cells": boxes.cells }),
         }
     }
+}
+
+/// Returns a handover with its times.
+fn handover(cell: &Cell, HandoverTimes { object, giver, placed, taken }: &HandoverTimes) -> Value {
+    let [gives, takes] = [*giver, 1 - giver].map(|arm| &cell.arms[arm].name);
+    json!({ "object": object, "gives": gives, "placed": placed, "takes": takes, "taken": taken })
+}
+
+/// Returns a step with its times.
+fn step(step: &StepTimes) -> Value {
+    json!({
+        "step": step.number,
+        "action": step.action,
+        "object": step.object,
+        "begin": step.begin,
+        "arrival": step.arrival,
+        "event": step.event,
+        "end": step.end,
+    })
 }
 
 fn row(q: Configuration) -> [f64; 2] {

@@ -29,7 +29,7 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
 Both motions are certified: the arms touch neither obstacles nor each other,
 even if the clocks of the controllers differ by up to --skew seconds. Each arm
-has a start and a goal; obstacles stand still.
+has a start and a goal, or steps: picks, places, handovers. Obstacles stand still.
 
 Examples:
   cplan cell workspaces/cells/crossing.toml
@@ -39,6 +39,7 @@ Examples:
   cplan cell workspaces/cells/column.toml --skew 0.1 --json
   cplan cell workspaces/cells/crossing.toml --template rapid \\
     --output left.mod --output right.mod
+  cplan cell workspaces/cells/handover.toml --output cell.json
 
 Exit codes: 0 both motions are found and certified, 1 bad input or I/O, 2 wrong
 command line, 3 there are no such motions, proven, 4 unknown.")]

@@ -5,7 +5,7 @@ use crate::model::Outcome;
 use crate::motion::Wait;
 use crate::output::format_columns;
 use crate::text::{counted, length_down, percent};
-use cplan_cell::{Coordination, Interlock, Refutation};
+use cplan_cell::{Coordination, HandoverTimes, Interlock, Refutation, StepTimes};
 
 /// Greatest number of interlocks and attempts in the summary.
 const MAX_SHOWN: usize = 8;
@@ -32,6 +32,16 @@ impl Answered<'_> {
                 String::new()
             };
             lines.push(("between", format!("{between}{clocks}")));
+            for (arm, names) in cell.arms.iter().zip(plan.assignment.iter().flatten()) {
+                lines.push((
+                    "objects",
+                    format!("{}: {}", arm.name, if names.is_empty() { "none".into() } else { names.join(", ") }),
+                ));
+            }
+            for (arm, steps) in cell.arms.iter().zip(&found.steps) {
+                lines.extend(steps.iter().map(|step| ("step", format!("{} {}", arm.name, done(step)))));
+            }
+            lines.extend(found.handovers.iter().map(|handover| ("handover", self.handover(handover))));
             for (arm, waits) in cell.arms.iter().zip(&found.waits) {
                 lines.extend(waits.iter().map(|wait| ("wait", format!("{} {}", arm.name, waiting(wait)))));
             }
@@ -77,6 +87,13 @@ impl Answered<'_> {
                         names[1 - *arm]
                     )
                 }
+                Refutation::Step { arm, failed } => format!(
+                    "infeasible: {} cannot do step {} ({}), even without {}; proven",
+                    names[*arm],
+                    failed.step.number,
+                    failed.step.place,
+                    names[1 - *arm]
+                ),
                 Refutation::Starts(what) => {
                     format!("infeasible: the arms cannot be at their starts together: {what}; proven")
                 }
@@ -102,6 +119,11 @@ impl Answered<'_> {
         format!("{:.3} s{bound}", found.duration)
     }
 
+    fn handover(&self, HandoverTimes { object, giver, placed, taken }: &HandoverTimes) -> String {
+        let [gives, takes] = [*giver, 1 - giver].map(|arm| &self.cell.arms[arm].name);
+        format!("\"{object}\": {gives} has placed it at {placed:.3} s, {takes} takes it from {taken:.3} s on")
+    }
+
     fn interlock(&self, number: usize, interlock: &Interlock, found: &Coordination) -> String {
         let (waits, sets) = (interlock.waits, 1 - interlock.waits);
         let name = |arm: usize| &self.cell.arms[arm].name;
@@ -118,6 +140,11 @@ impl Answered<'_> {
             place(sets, interlock.set)
         )
     }
+}
+
+/// Describes a step.
+fn done(StepTimes { number, action, begin, end, .. }: &StepTimes) -> String {
+    format!("{number}: {action}, from {begin:.3} s to {end:.3} s")
 }
 
 fn waiting(Wait { from, to, at }: &Wait) -> String {

@@ -49,6 +49,7 @@ pub fn task(seed: u64) -> Task {
             at: Pose::new(at, dice.within(-PI, PI)),
             trajectory: None,
             mass: 0.0,
+            handover: None,
         });
     }
     // Somewhere free among all objects.

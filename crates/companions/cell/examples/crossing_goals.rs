@@ -3,7 +3,6 @@
 
 use cplan_cases::cells::crossing;
 use cplan_cell::{Cell, Settings, plan_cell};
-use cplan_engine::Plan;
 use cplan_model::Status;
 use cplan_robot::Source;
 use std::error::Error;
@@ -35,8 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
         }
         let number = seconds.len();
         seconds.push(lasted);
-        let fastest = |plan: &Plan| plan.motion()?.1.outcome.found()?.fastest.map(|fastest| fastest.lower_bound);
-        let alone = plan.alone.iter().flatten().filter_map(fastest).fold(0.0, f64::max);
+        let alone = plan.alone.iter().flatten().filter_map(|alone| alone.lower_bound).fold(0.0, f64::max);
         let result = match (plan.outcome.found(), plan.lower_bound) {
             (Some(found), Some(bound)) => {
                 let gap = 100.0 * (found.duration / bound - 1.0);

@@ -1,10 +1,12 @@
 //! Distances between two arms, with bounds while both move.
 
+use crate::body::{Body, Frame, disc_around, poses};
 use crate::contact::{contact_point, rates};
-use cplan_geometry::{Convex, Point, Pose, Vector, separation, separation_at};
+use cplan_geometry::{Convex, Point, Pose, separation, separation_at};
 use cplan_judge::{Deviation, Posture};
 use cplan_model::space::Configuration;
-use cplan_model::{Heights, JointType, Obstacle, Part, Scene, Shape};
+use cplan_model::{JointType, Obstacle, Part, Scene, Shape};
+use std::rc::Rc;
 
 /// Rounding error of a distance and of bounds on motions, as a fraction of the lengths in it: a few dozen operations at
 /// 1.1e-16 each, with a wide margin.
@@ -13,23 +15,11 @@ const ROUNDING: f64 = 1e-12;
 /// The set of deviations that contains only the configuration itself.
 const NO_DEVIATION: Deviation = Deviation::Box([0.0; 2]);
 
-/// A part of a link of an arm.
-#[derive(Debug)]
-struct Body<'a> {
-    /// The link, 0 or 1.
-    link: usize,
-    part: &'a Part,
-    /// Greatest distance of a point of the part from the origin of the link's frame, metres.
-    reach: f64,
-    /// A disc around the part's shape, in the link's frame.
-    disc: (Point, f64),
-}
-
-/// The links of two arms, and the pairs that can meet.
+/// The bodies of two arms, and the pairs that can meet.
 #[derive(Debug)]
 pub(crate) struct Between<'a> {
     pub scenes: [&'a Scene; 2],
-    bodies: [Vec<Body<'a>>; 2],
+    bodies: [Vec<Rc<Body>>; 2],
     /// Pairs of bodies, one of each arm, whose heights meet.
     pairs: Vec<[usize; 2]>,
     /// True for each pair whose heights certainly overlap.
@@ -54,7 +44,7 @@ pub(crate) struct Placed {
 #[derive(Debug, Clone)]
 pub(crate) struct Stance {
     at: Configuration,
-    poses: [Pose; 2],
+    poses: [Pose; 4],
     /// For each body, the centre of its disc.
     centers: Vec<Point>,
 }
@@ -62,7 +52,7 @@ pub(crate) struct Stance {
 /// An arm that deviates from a configuration.
 #[derive(Debug, Clone)]
 pub(crate) struct Swept {
-    poses: [Pose; 2],
+    poses: [Pose; 4],
     /// For each body, the centre of its disc, and an upper bound on the motion of its points, metres.
     bodies: Vec<(Point, f64)>,
     /// Bound on the lengths in computations, metres.
@@ -86,24 +76,26 @@ pub(crate) struct ArmDistance {
 }
 
 impl<'a> Between<'a> {
-    /// Prepares two arms. Shapes of one robot whose heights only touch cannot meet.
+    /// Prepares two arms without payloads. Shapes of one robot whose heights only touch cannot meet.
     pub fn new(scenes: [&'a Scene; 2], is_one_robot: bool, clearance: f64) -> Self {
         let bodies = scenes.map(|scene| {
             let of = |link: usize| {
-                let body =
-                    move |part: &'a Part| Body { link, part, reach: part_reach(part), disc: disc_around(&part.shape) };
-                scene.arm().links[link].parts.iter().map(body)
+                scene.arm().links[link].parts.iter().map(move |part| Rc::new(Body::of_link(link, part, true)))
             };
-            of(0).chain(of(1)).collect::<Vec<_>>()
+            of(0).chain(of(1)).collect()
         });
-        let meet = |a: Heights, b: Heights| if is_one_robot { a.overlap(b) } else { a.meet(b) };
+        Self::of_bodies(scenes, bodies, is_one_robot, clearance)
+    }
+
+    /// Prepares the bodies of two arms.
+    pub fn of_bodies(scenes: [&'a Scene; 2], bodies: [Vec<Rc<Body>>; 2], is_one_robot: bool, clearance: f64) -> Self {
         let mut pairs = Vec::new();
         for (i, a) in bodies[0].iter().enumerate() {
-            let met = bodies[1].iter().enumerate().filter(|(_, b)| meet(a.part.heights, b.part.heights));
+            let met = bodies[1].iter().enumerate().filter(|(_, b)| a.may_meet(b, is_one_robot));
             pairs.extend(met.map(|(j, _)| [i, j]));
         }
-        let is_definite = pairs.iter().map(|[i, j]| bodies[0][*i].part.heights.overlap(bodies[1][*j].part.heights));
-        Self { scenes, is_definite: is_definite.collect(), bodies, pairs, clearance }
+        let is_definite = pairs.iter().map(|[i, j]| bodies[0][*i].surely_meets(&bodies[1][*j])).collect();
+        Self { scenes, is_definite, bodies, pairs, clearance }
     }
 
     /// Returns the pairs of parts that can meet, one of each arm. Parts are numbered as in the list of those of the first link,
@@ -114,14 +106,15 @@ impl<'a> Between<'a> {
 
     /// Places the links of an arm at a configuration, with bounds on their motion for a set of deviations from there.
     pub fn placed(&self, side: usize, at: Configuration, deviation: Deviation) -> Placed {
-        let posture = Posture::new(self.scenes[side], at);
-        let base = self.scenes[side].arm().base.norm();
+        let scene = self.scenes[side];
+        let (posture, poses) = (Posture::new(scene, at), poses(scene.arm(), at));
+        let base = scene.arm().base.norm();
         let mut placed = Placed { shapes: Vec::new(), discs: Vec::new(), moves: Vec::new(), scale: base };
-        for Body { link, part, reach, .. } in &self.bodies[side] {
-            let shape = part.shape.at(&posture.pose(*link));
+        for body in &self.bodies[side] {
+            let shape = body.part.shape.at(&poses[body.frame.index()]);
             placed.discs.push(disc_around(&shape));
-            placed.moves.push(posture.farthest_motion_within(*link, *reach, deviation));
-            placed.scale = placed.scale.max(base + shape.reach_from(Point::zeros()) + reach);
+            placed.moves.push(body.farthest_motion(scene, &posture, deviation));
+            placed.scale = placed.scale.max(base + shape.reach_from(Point::zeros()) + body.reach);
             placed.shapes.push(shape);
         }
         placed
@@ -157,8 +150,8 @@ impl<'a> Between<'a> {
 
     /// Returns an arm at a configuration, for [`Between::near`].
     pub fn stance(&self, side: usize, at: Configuration) -> Stance {
-        let poses = self.scenes[side].arm().poses(at);
-        let center = |body: &Body| poses[body.link].point(body.disc.0);
+        let poses = poses(self.scenes[side].arm(), at);
+        let center = |body: &Rc<Body>| poses[body.frame.index()].point(body.disc.0);
         Stance { at, poses, centers: self.bodies[side].iter().map(center).collect() }
     }
 
@@ -167,20 +160,25 @@ impl<'a> Between<'a> {
     pub fn near(&self, stances: [&Stance; 2], within: f64, mut visit: impl FnMut(f64, [[f64; 2]; 2])) {
         for &pair in &self.pairs {
             let [(p, r, one), (q, s, two)] = [0, 1].map(|side| {
-                let body = &self.bodies[side][pair[side]];
+                let body = &*self.bodies[side][pair[side]];
                 (stances[side].centers[pair[side]], body.disc.1, body)
             });
             let far = within + r + s;
             if (p - q).norm_squared() >= far * far {
                 continue;
             }
-            let shape = |side: usize, body: &Body| body.part.shape.at(&stances[side].poses[body.link]);
+            let shape = |side: usize, body: &Body| body.part.shape.at(&stances[side].poses[body.frame.index()]);
             let shapes = [shape(0, one), shape(1, two)];
             let here = separation(&shapes[0], &shapes[1]);
             if here.distance < within {
                 let at = contact_point(&shapes[0], &shapes[1], here);
                 let rates = |side: usize, body: &Body| {
-                    rates(self.scenes[side].arm(), body.link, stances[side].at, at, here.direction)
+                    let (arm, q) = (self.scenes[side].arm(), stances[side].at);
+                    match body.frame {
+                        Frame::Link(link) => rates(arm, link, q, at, here.direction),
+                        Frame::Tip => rates(arm, 1, q, arm.tip_at(q), here.direction),
+                        Frame::Cell => [0.0; 2],
+                    }
                 };
                 visit(here.distance, [rates(0, one).map(|rate| -rate), rates(1, two)]);
             }
@@ -189,14 +187,14 @@ impl<'a> Between<'a> {
 
     /// Returns an arm that deviates from a configuration, for [`Between::motion_per_depth`].
     pub fn swept(&self, side: usize, at: Configuration, deviation: Deviation) -> Swept {
-        let posture = Posture::new(self.scenes[side], at);
-        let poses = [0, 1].map(|link| posture.pose(link));
-        let base = self.scenes[side].arm().base.norm();
+        let scene = self.scenes[side];
+        let (posture, poses) = (Posture::new(scene, at), poses(scene.arm(), at));
+        let base = scene.arm().base.norm();
         let mut scale = base;
-        let bodies = self.bodies[side].iter().map(|Body { link, reach, disc: (center, radius), .. }| {
-            let center = poses[*link].point(*center);
-            scale = scale.max(base + center.norm() + radius + reach);
-            (center, posture.farthest_motion_within(*link, *reach, deviation))
+        let bodies = self.bodies[side].iter().map(|body| {
+            let center = poses[body.frame.index()].point(body.disc.0);
+            scale = scale.max(base + center.norm() + body.disc.1 + body.reach);
+            (center, body.farthest_motion(scene, &posture, deviation))
         });
         let bodies = bodies.collect();
         Swept { poses, bodies, scale }
@@ -220,12 +218,11 @@ impl<'a> Between<'a> {
             if !is_definite || (p - q).norm_squared() > far * far {
                 return f64::INFINITY;
             }
-            let shape = |part: &'a Part| part.inner.as_ref().unwrap_or(&part.shape);
-            let (own, other) = (shape(one.part), shape(two.part));
+            let (own, other) = (inner(&one.part), inner(&two.part));
             if own.is_sliver() || other.is_sliver() {
                 return f64::INFINITY;
             }
-            let pose = b.poses[two.link].inverse() * a.poses[one.link];
+            let pose = b.poses[two.frame.index()].inverse() * a.poses[one.frame.index()];
             let depth = self.clearance - separation_at(own, &pose, other, |_, here| here.distance);
             if depth > 0.0 { (first + second + rounding) / depth } else { f64::INFINITY }
         };
@@ -262,13 +259,13 @@ impl<'a> Between<'a> {
     /// Returns the links of an arm at a configuration, as obstacles of the other arm. Omits links that
     /// the other arm cannot meet.
     pub fn obstacles(&self, side: usize, name: &str, at: Configuration) -> Vec<Obstacle> {
-        let poses = self.scenes[side].arm().poses(at);
+        let poses = poses(self.scenes[side].arm(), at);
         let mut obstacles = Vec::new();
-        for (number, Body { link, part, .. }) in self.bodies[side].iter().enumerate() {
+        for (number, body) in self.bodies[side].iter().enumerate() {
             if !self.pairs.iter().any(|pair| pair[side] == number) {
                 continue;
             }
-            let shape = part.shape.at(&poses[*link]);
+            let (part, shape) = (&body.part, body.part.shape.at(&poses[body.frame.index()]));
             let Ok(mut obstacle) = Obstacle::polyline(&format!("{name}: {}", part.body), [[0.0; 2]]) else { continue };
             (obstacle.shape, obstacle.pieces, obstacle.heights) = (Shape::Pieces, vec![shape], part.heights);
             obstacles.push(obstacle);
@@ -288,14 +285,7 @@ pub(crate) fn surely_hits(inner: &Scene, at: Configuration, deviation: Deviation
     })
 }
 
-/// Returns a disc that contains a shape.
-fn disc_around(shape: &Convex) -> (Point, f64) {
-    let core = shape.core();
-    let center = core.iter().sum::<Vector>() / core.len() as f64;
-    (center, shape.reach_from(center))
-}
-
-fn part_reach(part: &Part) -> f64 {
-    let own = part.shape.reach_from(Point::zeros());
-    part.inner.as_ref().map_or(own, |inner| inner.reach_from(Point::zeros()).max(own))
+/// Returns a shape inside the real part.
+fn inner(part: &Part) -> &Convex {
+    part.inner.as_ref().unwrap_or(&part.shape)
 }

@@ -5,13 +5,19 @@ use crate::curve::Curve;
 use crate::diagram::{Rectangle, rectangles};
 use crate::interlock::{Interlock, interlocks};
 use crate::judged::{Judgement, NearestPlace, judge};
+use crate::legs::Legs;
 use crate::order::{Diagram, Waits};
+use crate::schedule::{HandoverTimes, Schedule, Scheduled, StepTimes};
+use crate::stage::{Precedence, StagePairs, StageTime};
 use cplan_judge::CertifiedPath;
-use cplan_model::space::{Configuration, Path};
-use cplan_motion::{CertifiedCurve, Drive, TimedMotion, TimingError, Trajectory, Wait};
+use cplan_model::space::Configuration;
+use cplan_motion::{Drive, TimedMotion, TimingError, Trajectory, Wait};
 
 /// Motion of the links in a rectangle of the diagram that is not examined further, as a share of the reach of the arms.
 const RESOLUTION: f64 = 1.0 / 250.0;
+
+/// The same for arms with steps, whose diagrams are larger.
+const RESOLUTION_OF_STEPS: f64 = 1.0 / 80.0;
 
 /// Distance between the arms beyond their clearance, as a share of the resolution. Without it, an arm may wait so near to the
 /// other one that no proof succeeds.
@@ -20,11 +26,11 @@ const MARGIN_SHARE: f64 = 0.5;
 /// Greatest number by which the resolution of the final diagram is divided, until signals are found.
 const FINEST_DIAGRAM: f64 = 32.0;
 
-/// Greatest number of inner places of a path at which an arm may wait.
-const MAX_STOPS: usize = 4;
-
 /// Share of the duration of the longer motion that waits may cost without a second attempt.
 const ACCEPTED_LOSS: f64 = 0.005;
+
+/// Seconds by which a handover is shortened in a diagram, so that it does not touch its border. Departures are later by more.
+const BORDER: f64 = 1e-6;
 
 /// A motion of both arms on one clock.
 #[derive(Debug, Clone)]
@@ -43,6 +49,12 @@ pub struct Coordination {
     pub interlocks: Option<Vec<Interlock>>,
     /// The diagram: for each arm, the times of rectangles in which the arms may be too near to each other.
     pub diagram: Vec<[[f64; 2]; 2]>,
+    /// For each arm, its steps in the order of execution. Empty for an arm without steps.
+    pub steps: [Vec<StepTimes>; 2],
+    /// The objects that one arm hands over to the other, with the times on the common clock.
+    pub handovers: Vec<HandoverTimes>,
+    /// For each arm, its legs in time.
+    pub(crate) schedules: [Schedule; 2],
 }
 
 impl Coordination {
@@ -83,58 +95,25 @@ impl Conflict {
     }
 }
 
-/// The legs of one arm: certified paths with their motions.
-struct Legs(Vec<TimedMotion>);
-
-impl Legs {
-    fn curve(&self) -> Curve {
-        Curve::of_legs(self.0.iter().map(|leg| &leg.trajectory))
-    }
-
-    /// Returns the times at which legs begin, and the end of the last.
-    fn times(&self) -> Vec<f64> {
-        let mut times = vec![0.0];
-        for leg in &self.0 {
-            times.push(times[times.len() - 1] + leg.trajectory.duration());
-        }
-        times
-    }
-
-    /// Returns the whole motion with these departures, and its waits.
-    fn departing(&self, departures: &[f64], start: Trajectory) -> (TimedMotion, Vec<Wait>) {
-        let (mut trajectory, mut waits) = (start, Vec::new());
-        let mut curve: Option<CertifiedCurve> = None;
-        for (leg, departs) in self.0.iter().zip(departures) {
-            let from = trajectory.duration();
-            let at = *trajectory.position.last().expect("a start");
-            trajectory.then((departs - from).max(0.0), &leg.trajectory);
-            let to = trajectory.duration() - leg.trajectory.duration();
-            if to > from && leg.trajectory.duration() > 0.0 {
-                waits.push(Wait { from, to, at });
-            }
-            curve = Some(match curve {
-                Some(curve) => curve.then(&leg.curve),
-                None => leg.curve.clone(),
-            });
-        }
-        let curve = curve.expect("at least one leg");
-        (TimedMotion { curve, trajectory }, waits)
-    }
-}
-
 /// Coordinates pairs of paths.
 #[derive(Clone, Copy)]
 pub(crate) struct Coordinator<'a> {
-    pub between: &'a Between<'a>,
+    pub pairs: &'a StagePairs<'a>,
     pub drive: Drive,
     /// Seconds by which the clock of one arm may be ahead of the other's.
     pub skew: f64,
 }
 
-impl Coordinator<'_> {
+impl<'a> Coordinator<'a> {
+    /// Returns the arms at their starts.
+    pub fn between(&self) -> &'a Between<'a> {
+        self.pairs.between([0, 0])
+    }
+
     /// Returns the motion of the links, metres, up to which a rectangle of the diagram is divided.
     pub fn resolution(&self) -> f64 {
-        RESOLUTION * self.between.scenes.map(|scene| scene.arm().reach()).into_iter().fold(0.0, f64::max)
+        let share = if self.pairs.is_single() { RESOLUTION } else { RESOLUTION_OF_STEPS };
+        share * self.pairs.scenes().map(|scene| scene.arm().reach()).into_iter().fold(0.0, f64::max)
     }
 
     /// Returns the earliest motions along two paths that are found, if they end before `before`, seconds.
@@ -146,44 +125,51 @@ impl Coordinator<'_> {
         paths: [&CertifiedPath; 2],
         before: f64,
     ) -> Result<Result<Coordination, Conflict>, TimingError> {
-        let found = self.along_with(paths, before, MARGIN_SHARE * self.resolution())?;
+        let scenes = self.pairs.scenes();
+        let legs = |arm: usize| Legs::along(&self.drive, scenes[arm], paths[arm]);
+        self.of_legs([&legs(0)?, &legs(1)?], before)
+    }
+
+    /// Returns the earliest motions along the legs of both arms that are found, if they end before `before`, seconds.
+    ///
+    /// # Errors
+    /// A path that cannot be timed.
+    pub fn of_legs(&self, legs: [&Legs; 2], before: f64) -> Result<Result<Coordination, Conflict>, TimingError> {
+        let found = self.of_legs_with(legs, before, MARGIN_SHARE * self.resolution())?;
         match found {
-            Err(Conflict::NoTiming | Conflict::NotCertified) => self.along_with(paths, before, 0.0),
+            Err(Conflict::NoTiming | Conflict::NotCertified) => self.of_legs_with(legs, before, 0.0),
             _ => Ok(found),
         }
     }
 
     /// Does the same with a distance of `margin` metres beyond the clearance.
-    fn along_with(
+    fn of_legs_with(
         &self,
-        paths: [&CertifiedPath; 2],
+        whole: [&Legs; 2],
         before: f64,
         margin: f64,
     ) -> Result<Result<Coordination, Conflict>, TimingError> {
-        let whole = [
-            Legs(vec![self.drive.along(self.between.scenes[0], paths[0], 1.0)?]),
-            Legs(vec![self.drive.along(self.between.scenes[1], paths[1], 1.0)?]),
-        ];
-        let longest = whole.each_ref().map(|legs| legs.0[0].trajectory.duration()).into_iter().fold(0.0, f64::max);
+        let longest = whole.map(Legs::duration).into_iter().fold(0.0, f64::max);
         if longest >= before {
             return Ok(Err(Conflict::Slower));
         }
+        let whole = whole.map(Legs::clone);
         let diagram = self.diagram(&whole, margin);
         let direct =
             diagram.route(Waits::BetweenLegs, self.skew).and_then(|route| diagram.departures(&route, self.skew));
         let duration = |legs: &[Legs; 2], departures: &[Vec<f64>; 2]| {
             let ends = [0, 1].map(|arm| {
-                let lasts = legs[arm].0.last().map_or(0.0, |leg| leg.trajectory.duration());
+                let lasts = legs[arm].legs.last().map_or(0.0, |leg| leg.trajectory.duration());
                 departures[arm].last().copied().unwrap_or(0.0) + lasts
             });
             ends[0].max(ends[1])
         };
-        let mut best = direct.map(|departures| (duration(&whole, &departures), whole, departures));
+        let mut best = direct.map(|departures| (duration(&whole, &departures), whole.clone(), departures));
         if best.as_ref().is_none_or(|(duration, ..)| *duration > longest * (1.0 + ACCEPTED_LOSS)) {
             if best.is_none() && diagram.is_deadlock() {
                 return Ok(Err(Conflict::Deadlock));
             }
-            if let Some(legs) = self.with_stops(paths, &diagram)? {
+            if let Some(legs) = self.with_stops(&whole, &diagram)? {
                 let diagram = self.diagram(&legs, margin);
                 let departures = diagram
                     .route(Waits::BetweenLegs, self.skew)
@@ -206,85 +192,101 @@ impl Coordinator<'_> {
     /// Returns the diagram of these legs.
     fn diagram(&self, legs: &[Legs; 2], margin: f64) -> Diagram {
         let curves = legs.each_ref().map(Legs::curve);
-        let rectangles = rectangles(self.between, curves.each_ref(), margin, self.resolution());
-        Diagram { legs: legs.each_ref().map(Legs::times), rectangles }
+        let mut rectangles = rectangles(self.pairs, curves.each_ref(), margin, self.resolution());
+        let times = legs.each_ref().map(Legs::times);
+        rectangles.extend(self.pairs.precedences.iter().map(|precedence| {
+            let of = |arm: usize, at: StageTime| {
+                let (leg, is_end) = legs[arm].leg_of(at);
+                (leg, times[arm][leg + usize::from(is_end)])
+            };
+            handover(precedence, of, times.each_ref().map(|times| times[times.len() - 1]))
+        }));
+        Diagram { legs: times, rectangles }
     }
 
     /// Divides the paths where the fastest route through the diagram waits. Returns `None` without a route, or without waits on
     /// the paths.
-    fn with_stops(&self, paths: [&CertifiedPath; 2], diagram: &Diagram) -> Result<Option<[Legs; 2]>, TimingError> {
-        let cost = self.between.scenes.map(|scene| {
+    fn with_stops(&self, legs: &[Legs; 2], diagram: &Diagram) -> Result<Option<[Legs; 2]>, TimingError> {
+        let cost = self.pairs.scenes().map(|scene| {
             let braking = scene.arm().joints.each_ref().map(|joint| joint.velocity / joint.acceleration);
             braking[0].max(braking[1])
         });
         let Some(route) = diagram.route(Waits::Anywhere { cost }, self.skew) else { return Ok(None) };
-        let waits = route.waits();
-        if waits.iter().all(Vec::is_empty) {
-            return Ok(None);
-        }
         let mut divided = Vec::new();
-        for (arm, waits) in waits.iter().enumerate() {
-            let (scene, path) = (self.between.scenes[arm], paths[arm]);
-            let motion = self.drive.along(scene, path, 1.0)?;
-            let curve = Curve::of_legs([&motion.trajectory]);
-            let mut ends: Vec<f64> = Vec::new();
-            let mut last = f64::NEG_INFINITY;
-            for time in waits {
-                if time - last > cost[arm] && ends.len() < MAX_STOPS {
-                    ends.push(distance_near(path.path(), curve.at(*time)));
-                    last = *time;
-                }
+        for (arm, waits) in route.waits().iter().enumerate() {
+            let times = &diagram.legs[arm];
+            let mut own = Legs { legs: Vec::new(), ..legs[arm].clone() };
+            for (number, leg) in legs[arm].legs.iter().enumerate() {
+                let inside = waits.iter().filter(|time| times[number] < **time && **time < times[number + 1]);
+                own.legs.extend(leg.divided(&self.drive, inside.map(|time| time - times[number]), cost[arm])?);
             }
-            let length = path.path().length();
-            ends.sort_by(f64::total_cmp);
-            ends.retain(|end| *end > 0.0 && *end < length);
-            ends.dedup();
-            // The last leg ends exactly at the goal.
-            ends.push(f64::INFINITY);
-            let (mut legs, mut from) = (Vec::new(), 0.0);
-            for to in ends {
-                legs.push(self.drive.along(scene, &path.part(from, to), 1.0)?);
-                from = to;
-            }
-            divided.push(Legs(legs));
+            divided.push(own);
         }
-        Ok(<[Legs; 2]>::try_from(divided).ok())
+        let divided = <[Legs; 2]>::try_from(divided).ok();
+        let count = |legs: &[Legs; 2]| legs.iter().map(|legs| legs.legs.len()).sum::<usize>();
+        Ok(divided.filter(|divided| count(divided) > count(legs)))
     }
 
     /// Judges the motions with these departures.
     fn certified(&self, legs: &[Legs; 2], departures: &[Vec<f64>; 2]) -> Result<Coordination, Conflict> {
-        let made = [0, 1].map(|arm| {
-            let scene = self.between.scenes[arm];
-            let start = legs[arm].0[0].curve.straight().path().start();
-            legs[arm].departing(&departures[arm], Trajectory::at_rest(scene, start))
-        });
-        let [(one, waits_one), (two, waits_two)] = made;
-        self.judged([one, two], [waits_one, waits_two])
+        let scheduled = [0, 1].map(|arm| legs[arm].departing(&departures[arm]));
+        let steps = [0, 1].map(|arm| legs[arm].steps(&scheduled[arm].schedule));
+        Ok(Coordination { steps, ..self.judged_legs(scheduled)? })
     }
 
-    /// Judges motions that are certified among the obstacles.
-    pub fn judged(&self, [one, two]: [TimedMotion; 2], waits: [Vec<Wait>; 2]) -> Result<Coordination, Conflict> {
-        let trajectories = [&one.trajectory, &two.trajectory];
-        let Judgement::Apart { clearance, nearest } =
-            judge(self.between, trajectories.map(|motion| Curve::of_legs([motion])), self.skew)
-        else {
+    /// Judges motions of arms without steps that are certified among the obstacles.
+    pub fn judged(&self, motions: [TimedMotion; 2]) -> Result<Coordination, Conflict> {
+        self.judged_legs(motions.map(Scheduled::single))
+    }
+
+    fn judged_legs(&self, scheduled: [Scheduled; 2]) -> Result<Coordination, Conflict> {
+        let times = |precedence: &Precedence| HandoverTimes {
+            object: precedence.name.clone(),
+            giver: precedence.giver,
+            placed: scheduled[precedence.giver].schedule.time(precedence.placed),
+            taken: scheduled[1 - precedence.giver].schedule.time(precedence.taken),
+        };
+        let handovers: Vec<HandoverTimes> = self.pairs.precedences.iter().map(times).collect();
+        if handovers.iter().any(|handover| handover.placed + self.skew > handover.taken) {
+            return Err(Conflict::NotCertified);
+        }
+        let duration = scheduled.each_ref().map(|own| own.motion.trajectory.duration()).into_iter().fold(0.0, f64::max);
+        let whole = [-self.skew, duration + self.skew];
+        let curves = scheduled.each_ref().map(|own| own.schedule.curve(&own.motion.trajectory, whole));
+        let Judgement::Apart { clearance, nearest } = judge(self.pairs, &curves, self.skew) else {
             return Err(Conflict::NotCertified);
         };
-        let duration = trajectories.map(Trajectory::duration).into_iter().fold(0.0, f64::max);
-        let motions = [one, two];
-        Ok(Coordination { motions, waits, duration, clearance, nearest, interlocks: None, diagram: vec![] })
+        let [one, two] = scheduled;
+        Ok(Coordination {
+            motions: [one.motion, two.motion],
+            waits: [one.waits, two.waits],
+            schedules: [one.schedule, two.schedule],
+            steps: [vec![], vec![]],
+            handovers,
+            duration,
+            clearance,
+            nearest,
+            interlocks: None,
+            diagram: vec![],
+        })
     }
 
     /// Adds the diagram and the signals.
     pub fn with_diagram(&self, found: Coordination) -> Coordination {
-        let curves = found.motions.each_ref().map(|motion| Curve::of_legs([&motion.trajectory]));
+        let trajectories = found.motions.each_ref().map(|motion| &motion.trajectory);
+        let ends = trajectories.map(Trajectory::duration);
+        let curves = [0, 1].map(|arm| found.schedules[arm].curve(trajectories[arm], [0.0, ends[arm]]));
+        let time = |arm: usize, at: StageTime| (0, found.schedules[arm].time(at));
+        let handovers = self.pairs.precedences.iter().map(|precedence| handover(precedence, time, ends));
+        let handovers: Vec<Rectangle> = handovers.collect();
         let is_beside = |rectangle: &Rectangle| {
             let [one, two] = rectangle.times;
             one[1] <= two[0] || two[1] <= one[0]
         };
         let mut resolution = self.resolution();
         loop {
-            let rectangles = rectangles(self.between, curves.each_ref(), 0.0, resolution);
+            let mut rectangles = rectangles(self.pairs, curves.each_ref(), 0.0, resolution);
+            rectangles.extend(&handovers);
             let interlocks = rectangles.iter().all(is_beside).then(|| interlocks(&rectangles));
             resolution /= 2.0;
             if interlocks.is_some() || resolution < self.resolution() / FINEST_DIAGRAM {
@@ -295,19 +297,16 @@ impl Coordinator<'_> {
     }
 }
 
-/// Returns the distance along a path of its point nearest to a configuration.
-fn distance_near(path: &Path, q: Configuration) -> f64 {
-    let (mut best, mut gone) = ((f64::INFINITY, 0.0), 0.0);
-    for (a, b) in path.segments() {
-        let (along, length) = (b - a, (b - a).norm());
-        let share = ((q - a).dot(&along) / along.norm_squared()).clamp(0.0, 1.0);
-        let beside = (a + along * share - q).norm();
-        if beside < best.0 {
-            best = (beside, gone + share * length);
-        }
-        gone += length;
-    }
-    best.1
+/// Returns the rectangle of a handover: the taker must not begin before the giver has ended. `of` returns the leg and the
+/// time of a stage of an arm, and `ends` are the ends of both motions, seconds.
+fn handover(precedence: &Precedence, of: impl Fn(usize, StageTime) -> (usize, f64), ends: [f64; 2]) -> Rectangle {
+    let (giver, taker) = (precedence.giver, 1 - precedence.giver);
+    let ((gives, placed), (takes, taken)) = (of(giver, precedence.placed), of(taker, precedence.taken));
+    let (mut times, mut legs) = ([[0.0; 2]; 2], [0; 2]);
+    times[giver] = [0.0, placed.min(ends[giver] - BORDER)];
+    times[taker] = [taken.max(BORDER), ends[taker]];
+    (legs[giver], legs[taker]) = (gives, takes);
+    Rectangle { times, legs, is_collision: true }
 }
 
 #[cfg(test)]
@@ -315,6 +314,7 @@ mod tests {
     use super::*;
     use cplan_geometry::{Convex, Point, Vector};
     use cplan_judge::certify;
+    use cplan_model::space::Path;
     use cplan_model::{Arm, Joint, Link, Scene, Workspace};
 
     const RADIUS: f64 = 0.1;
@@ -333,8 +333,8 @@ mod tests {
 
     fn along(paths: [&[[f64; 2]]; 2], skew: f64) -> Result<Coordination, Conflict> {
         let scene = sliding_disc();
-        let between = Between::new([&scene, &scene], false, 0.0);
-        let coordinator = Coordinator { between: &between, drive: Drive::default(), skew };
+        let pairs = StagePairs::single(Between::new([&scene, &scene], false, 0.0));
+        let coordinator = Coordinator { pairs: &pairs, drive: Drive::default(), skew };
         let paths = paths.map(|corners| path(&scene, corners));
         let found = coordinator.along(paths.each_ref(), f64::INFINITY).unwrap();
         found.map(|found| coordinator.with_diagram(found))

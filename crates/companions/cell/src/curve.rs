@@ -11,6 +11,8 @@ pub(crate) struct Curve {
     pieces: Vec<Piece>,
     /// For each leg, the number of its first piece, and that of the piece after it.
     legs: Vec<[usize; 2]>,
+    /// For each leg, the index of its stage.
+    stages: Vec<usize>,
 }
 
 impl Curve {
@@ -32,13 +34,28 @@ impl Curve {
             ranges.push([first, pieces.len()]);
             begin += leg.duration();
         }
-        Self { pieces, legs: ranges }
+        Self { pieces, stages: vec![0; ranges.len()], legs: ranges }
+    }
+
+    /// Returns the curve with these stages of its legs.
+    pub fn with_stages(self, stages: Vec<usize>) -> Self {
+        Self { stages, ..self }
+    }
+
+    /// Returns the curve of one motion, divided at these times into legs with these stages. There is one time less than
+    /// stages. Legs without a duration are omitted.
+    pub fn divided(self, times: &[f64], stages: &[usize]) -> Self {
+        let first = |time: &f64| self.pieces.partition_point(|piece| f64::midpoint(piece.from, piece.to) < *time);
+        let bounds: Vec<usize> = [0].into_iter().chain(times.iter().map(first)).chain([self.pieces.len()]).collect();
+        let legs = bounds.windows(2).map(|ends| [ends[0], ends[1]]).zip(stages).filter(|([from, to], _)| from < to);
+        let (legs, stages) = legs.unzip();
+        Self { legs, stages, pieces: self.pieces }
     }
 
     /// Creates the curve of a motion with one leg.
     pub fn of_pieces(pieces: Vec<Piece>) -> Self {
         let legs = vec![[0, pieces.len()]];
-        Self { pieces, legs }
+        Self { pieces, legs, stages: vec![0] }
     }
 
     /// Returns the times at which the curve begins and ends, seconds.
@@ -77,12 +94,23 @@ impl Curve {
                 first = end;
             }
         }
-        Self { pieces, legs }
+        Self { pieces, stages: vec![0; legs.len()], legs }
     }
 
     /// Returns the number of legs.
     pub fn legs(&self) -> usize {
         self.legs.len()
+    }
+
+    /// Returns the stage of a leg.
+    pub fn stage(&self, leg: usize) -> usize {
+        self.stages[leg]
+    }
+
+    /// Returns the leg to which a time belongs. Before the beginning it is the first one, and after the end the last one.
+    pub fn leg_at(&self, time: f64) -> usize {
+        let ended = self.legs.partition_point(|[_, end]| self.pieces[end - 1].to < time);
+        ended.min(self.legs.len() - 1)
     }
 
     /// Returns the span of a leg.

@@ -3,7 +3,8 @@
 use crate::Cell;
 use crate::between::Between;
 use crate::curve::Curve;
-use crate::judged::{Judgement, judge_pairs};
+use crate::judged::{Judgement, judge_legs};
+use crate::stage::StagePairs;
 use cplan_model::space::Configuration;
 
 /// A signal between two programs of joint moves. Targets are numbered from 0.
@@ -38,7 +39,7 @@ pub fn check_delays(
 ) -> Result<(), String> {
     check_progress(targets.map(|targets| targets.len().saturating_sub(1)), signals)?;
     let scenes = cell.arms.each_ref().map(|arm| arm.problem.scene());
-    let between = Between::new(scenes, cell.is_one_robot, clearance);
+    let pairs = StagePairs::single(Between::new(scenes, cell.is_one_robot, clearance));
     let curves = [0, 1].map(|arm| {
         let mut ends: Vec<usize> = signals.iter().map(|signal| signal.of(arm)).collect();
         ends.sort_unstable();
@@ -52,15 +53,15 @@ pub fn check_delays(
         };
         signals.iter().any(excludes)
     };
-    let pairs = (0..curves[0].legs()).flat_map(|one| (0..curves[1].legs()).map(move |two| [one, two]));
+    let legs = (0..curves[0].legs()).flat_map(|one| (0..curves[1].legs()).map(move |two| [one, two]));
     let times = |legs: [usize; 2]| [0, 1].map(|arm| curves[arm].times(curves[arm].leg(legs[arm])));
-    let open = pairs.filter(|legs| !is_excluded(times(*legs))).collect();
+    let open = legs.filter(|legs| !is_excluded(times(*legs)));
     let place = |times: [f64; 2]| {
         let names = cell.arms.each_ref().map(|arm| &arm.name);
         let [one, two] = times.map(|time| time.floor() + 1.0);
         format!("{} after target {one}, and {} after target {two}", names[0], names[1])
     };
-    match judge_pairs(&between, &curves, f64::INFINITY, open, None) {
+    match judge_legs(&pairs, &curves, f64::INFINITY, open, None) {
         Judgement::Apart { .. } => Ok(()),
         Judgement::TooClose(nearest) => {
             Err(format!("the arms may be too near to each other: {}", place(nearest.times)))

@@ -7,48 +7,33 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use toml::de::DeValue;
 
-/// A part of a TOML file, written as an inline value.
-#[derive(Debug, Clone, Default)]
+/// A part of a TOML file.
+#[derive(Debug, Clone)]
 pub(crate) struct Excerpt {
-    text: String,
-    /// Offsets in the text, each with the range of the original file from which the text up to the next offset was copied.
-    places: Vec<(usize, Range<usize>)>,
-    /// The keys of a table, with their places in the file. `None` for another value.
-    keys: Option<Vec<(String, Range<usize>)>>,
+    /// Its place in the file.
+    place: Range<usize>,
+    value: Value,
+}
+
+/// The value of an excerpt.
+#[derive(Debug, Clone)]
+enum Value {
+    Text(String),
+    /// A number, a boolean or a time, as an inline value.
+    Other(String),
+    Array(Vec<Excerpt>),
+    /// The keys with their places and values.
+    Table(Vec<(String, Range<usize>, Excerpt)>),
 }
 
 impl FromToml for Excerpt {
     fn read(value: &TomlValue) -> Result<Self, TomlError> {
-        let mut excerpt = Self::default();
-        excerpt.push(value);
-        let keys =
-            |table: &toml::de::DeTable| table.keys().map(|key| (key.get_ref().to_string(), key.span())).collect();
-        excerpt.keys = value.get_ref().as_table().map(keys);
-        Ok(excerpt)
-    }
-}
-
-impl Excerpt {
-    /// Returns the place of a key in the file. `None` if the excerpt is no table, or has no such key.
-    pub fn key(&self, name: &str) -> Option<Range<usize>> {
-        self.keys.iter().flatten().find(|(key, _)| key == name).map(|(_, place)| place.clone())
-    }
-
-    /// Returns true if the excerpt is a table.
-    pub fn is_table(&self) -> bool {
-        self.keys.is_some()
-    }
-
-    /// Returns the text.
-    pub fn text(&self) -> &str {
-        &self.text
-    }
-
-    /// Appends a value.
-    fn push(&mut self, value: &TomlValue) {
-        self.places.push((self.text.len(), value.span()));
-        match value.get_ref() {
-            DeValue::String(text) => self.text += &quoted(text),
+        let all = |items: &toml::de::DeArray| items.iter().map(Self::read).collect::<Result<_, _>>();
+        let entry = |(key, item): (&toml::Spanned<toml::de::DeString>, &TomlValue)| {
+            Ok((key.get_ref().to_string(), key.span(), Self::read(item)?))
+        };
+        let read = match value.get_ref() {
+            DeValue::String(text) => Value::Text(text.to_string()),
             DeValue::Integer(number) => {
                 let prefix = match number.radix() {
                     2 => "0b",
@@ -56,33 +41,97 @@ impl Excerpt {
                     16 => "0x",
                     _ => "",
                 };
-                self.text += prefix;
-                self.text += number.as_str();
+                Value::Other(format!("{prefix}{}", number.as_str()))
             }
-            DeValue::Float(number) => self.text += number.as_str(),
-            DeValue::Boolean(is_true) => self.text += if *is_true { "true" } else { "false" },
-            DeValue::Datetime(time) => self.text += &time.to_string(),
-            DeValue::Array(items) => {
-                self.text.push('[');
-                for item in items.iter() {
-                    self.push(item);
-                    self.text.push(',');
-                }
-                self.text.push(']');
-            }
-            DeValue::Table(table) => {
-                self.text.push('{');
-                for (k, (key, item)) in table.iter().enumerate() {
-                    self.text += if k > 0 { "," } else { "" };
-                    self.places.push((self.text.len(), key.span()));
-                    self.text += &quoted(key.get_ref());
-                    self.text.push('=');
-                    self.push(item);
-                }
-                self.places.push((self.text.len(), value.span()));
-                self.text.push('}');
-            }
+            DeValue::Float(number) => Value::Other(number.as_str().to_owned()),
+            DeValue::Boolean(is_true) => Value::Other(is_true.to_string()),
+            DeValue::Datetime(time) => Value::Other(time.to_string()),
+            DeValue::Array(items) => Value::Array(all(items)?),
+            DeValue::Table(table) => Value::Table(table.iter().map(entry).collect::<Result<_, TomlError>>()?),
+        };
+        Ok(Self { place: value.span(), value: read })
+    }
+}
+
+impl Excerpt {
+    /// Creates a text at a place of the file.
+    pub fn of_text(text: &str, place: Range<usize>) -> Self {
+        Self { place, value: Value::Text(text.to_owned()) }
+    }
+
+    /// Creates a number at a place of the file.
+    pub fn of_number(number: f64, place: Range<usize>) -> Self {
+        Self { place, value: Value::Other(format!("{number:?}")) }
+    }
+
+    /// Creates an array at a place of the file.
+    pub fn of_items(items: Vec<Self>, place: Range<usize>) -> Self {
+        Self { place, value: Value::Array(items) }
+    }
+
+    /// Creates a table without keys at a place of the file.
+    pub fn empty_table(place: Range<usize>) -> Self {
+        Self { place, value: Value::Table(Vec::new()) }
+    }
+
+    /// Returns the place in the file.
+    pub fn place(&self) -> Range<usize> {
+        self.place.clone()
+    }
+
+    /// Returns the place of a key in the file. `None` if the excerpt is no table, or has no such key.
+    pub fn key(&self, name: &str) -> Option<Range<usize>> {
+        self.entries().iter().find(|(key, ..)| key == name).map(|(_, place, _)| place.clone())
+    }
+
+    /// Returns the value of a key. `None` if the excerpt is no table, or has no such key.
+    pub fn get(&self, name: &str) -> Option<&Self> {
+        self.entries().iter().find(|(key, ..)| key == name).map(|(.., value)| value)
+    }
+
+    /// Returns true if the excerpt is a table.
+    pub fn is_table(&self) -> bool {
+        matches!(self.value, Value::Table(_))
+    }
+
+    /// Returns the text of a string. `None` for other values.
+    pub fn as_text(&self) -> Option<&str> {
+        if let Value::Text(text) = &self.value { Some(text) } else { None }
+    }
+
+    /// Returns the items of an array. Empty for other values.
+    pub fn items(&self) -> &[Self] {
+        if let Value::Array(items) = &self.value { items } else { &[] }
+    }
+
+    /// Returns the table with this value of a key, instead of any other value.
+    #[must_use]
+    pub fn with(self, key: &str, value: Self) -> Self {
+        let mut table = self.without(key);
+        if let Value::Table(entries) = &mut table.value {
+            entries.push((key.to_owned(), value.place(), value));
         }
+        table
+    }
+
+    /// Returns the table without a key.
+    #[must_use]
+    pub fn without(mut self, key: &str) -> Self {
+        if let Value::Table(entries) = &mut self.value {
+            entries.retain(|(known, ..)| known != key);
+        }
+        self
+    }
+
+    /// Returns the excerpt as an inline value.
+    pub fn text(&self) -> String {
+        let mut written = Composition::default();
+        written.push(self);
+        written.text
+    }
+
+    fn entries(&self) -> &[(String, Range<usize>, Self)] {
+        if let Value::Table(entries) = &self.value { entries } else { &[] }
     }
 }
 
@@ -96,49 +145,46 @@ fn quoted(text: &str) -> String {
 #[derive(Debug, Default)]
 pub(crate) struct Composition {
     text: String,
+    /// Offsets in the text, each with the range of the original file from which the text up to the next offset was copied.
     places: Vec<(usize, Range<usize>)>,
 }
 
 impl Composition {
-    /// Appends a key with a text as its value. `at` is the place in the file that messages show.
-    pub fn text(&mut self, key: &str, value: &str, at: Range<usize>) {
-        self.places.push((self.text.len(), at));
-        self.text += &format!("{key} = {}\n", quoted(value));
-    }
-
     /// Appends a key with an excerpt as its value.
     pub fn value(&mut self, key: &str, excerpt: &Excerpt) {
-        self.places.extend(excerpt.places.first().map(|(_, at)| (self.text.len(), at.clone())));
+        self.places.push((self.text.len(), excerpt.place()));
         self.text += &format!("{key} = ");
-        self.append(excerpt);
+        self.push(excerpt);
         self.text.push('\n');
     }
 
-    /// Appends a key with a table as its value: the entries of a table, if there is one, and more of them.
-    pub fn table(&mut self, key: &str, table: Option<&Excerpt>, more: &[(&str, &Excerpt)]) {
-        self.text += &format!("{key} = {{");
-        let mut is_first = true;
-        if let Some(table) = table.filter(|table| table.keys.as_ref().is_some_and(|keys| !keys.is_empty())) {
-            // Without the braces, which are the first and the last byte.
-            let inner = table.text.len() - 1;
-            let places = table.places.iter().filter(|(offset, _)| *offset < inner);
-            self.places.extend(places.map(|(offset, at)| (self.text.len() + offset.saturating_sub(1), at.clone())));
-            self.text += &table.text[1..inner];
-            is_first = false;
+    /// Appends an inline value.
+    fn push(&mut self, excerpt: &Excerpt) {
+        self.places.push((self.text.len(), excerpt.place()));
+        match &excerpt.value {
+            Value::Text(text) => self.text += &quoted(text),
+            Value::Other(text) => self.text += text,
+            Value::Array(items) => {
+                self.text.push('[');
+                for item in items {
+                    self.push(item);
+                    self.text.push(',');
+                }
+                self.text.push(']');
+            }
+            Value::Table(entries) => {
+                self.text.push('{');
+                for (k, (key, place, item)) in entries.iter().enumerate() {
+                    self.text += if k > 0 { "," } else { "" };
+                    self.places.push((self.text.len(), place.clone()));
+                    self.text += &quoted(key);
+                    self.text.push('=');
+                    self.push(item);
+                }
+                self.places.push((self.text.len(), excerpt.place()));
+                self.text.push('}');
+            }
         }
-        for (name, value) in more {
-            self.text += if is_first { "" } else { "," };
-            self.places.extend(value.places.first().map(|(_, at)| (self.text.len(), at.clone())));
-            self.text += &format!("{name} = ");
-            self.append(value);
-            is_first = false;
-        }
-        self.text += "}\n";
-    }
-
-    fn append(&mut self, excerpt: &Excerpt) {
-        self.places.extend(excerpt.places.iter().map(|(offset, at)| (self.text.len() + offset, at.clone())));
-        self.text += &excerpt.text;
     }
 
     /// Returns the text as a source. Messages about it show the original file.
@@ -186,9 +232,9 @@ mod tests {
         let Both { one, two } = source.toml(&|_, _| "").unwrap();
         let two = two.unwrap();
         let mut composed = Composition::default();
-        composed.table("all", Some(&one), &[("two", &two)]);
+        composed.value("all", &one.clone().with("two", two.clone()));
         composed.value("again", &two);
-        composed.table("none", None, &[]);
+        composed.value("none", &two.clone().without("k"));
         let composed = composed.source(&source);
         let read: toml::Table = composed.text().parse().unwrap();
         let expected = "all = { \"a b\" = 'x\"y', n = [1, 31, -2500.0], t = { on = true }, two = { k = '5deg' } }\n\

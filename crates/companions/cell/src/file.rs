@@ -1,9 +1,10 @@
 //! Reads cell files. Each arm becomes the text of a world of its own, and all keys are those of world files.
 
 use crate::excerpt::{Composition, Excerpt};
+use crate::file_steps::{self, ArmWorld};
 use cplan_engine::Problem;
 use cplan_geometry::{Convex, separation};
-use cplan_handling::RobotJoints;
+use cplan_handling::{RobotJoints, Task};
 use cplan_model::{Arm, Carrier, Obstacle, SelfObstacle, Shape};
 use cplan_robot::{Diagnostic, FileIdentity, InputError, Source, Spanned, toml_table};
 use cplan_world::{LoadedScene, Overrides, scene_from};
@@ -19,6 +20,8 @@ pub struct Cell {
     pub arms: [CellArm; 2],
     /// True if both arms belong to one robot.
     pub is_one_robot: bool,
+    /// Names of the objects that either arm may move, in the order of the file.
+    pub shared: Vec<String>,
     /// Paths of all files that were read.
     pub files: Vec<PathBuf>,
 }
@@ -35,26 +38,34 @@ pub struct CellArm {
     pub problem: Problem,
     /// The robot in the cell, with the same obstacles.
     pub loaded: LoadedScene,
+    /// The steps of the arm, if an arm of the cell has steps. The first group has the objects that either arm may move.
+    pub(crate) task: Option<Task>,
+    /// For each object that either arm may move, its number in that group. `None` if the arm cannot move it.
+    pub(crate) shared: Vec<Option<usize>>,
 }
 
 toml_table! {
     /// A cell file.
-    struct CellFile {
+    pub(crate) struct CellFile {
         name: Option<String>,
         clearance: Option<Excerpt>,
-        arm: Vec<Spanned<ArmTable>>,
+        pub arm: Vec<Spanned<ArmTable>>,
         obstacle: Option<Excerpt>,
+        pallet: Option<Excerpt>,
+        pub object: Option<Excerpt>,
+        pub step: Option<Excerpt>,
     }
 
-    /// An arm of a cell file. The tables `robot`, `start` and `goal` are those of a world file.
-    struct ArmTable {
-        name: Spanned<String>,
+    /// An arm of a cell file. The tables `robot`, `start`, `goal`, `step` and `task` are those of a world file.
+    pub(crate) struct ArmTable {
+        pub name: Spanned<String>,
         urdf: Spanned<String>,
         base: Option<BaseTable>,
         robot: Option<Spanned<Excerpt>>,
         start: Option<Excerpt>,
-        goal: Option<Excerpt>,
-        step: Option<Spanned<Excerpt>>,
+        pub goal: Option<Excerpt>,
+        pub step: Option<Excerpt>,
+        pub task: Option<Excerpt>,
         clearance: Option<Spanned<Excerpt>>,
     }
 
@@ -74,7 +85,7 @@ fn hint(message: &str, _: usize) -> &'static str {
     } else if message.contains("`name`") {
         "give each arm a name: name = \"left\""
     } else if message.contains("map, expected a sequence") {
-        "begin each arm with [[arm]], and each obstacle with [[obstacle]]"
+        "begin each arm with [[arm]], its steps with [[arm.step]], and each obstacle with [[obstacle]]"
     } else {
         "see the page \"Two arms\" of the documentation"
     }
@@ -100,13 +111,14 @@ impl Cell {
         }
         let title = file.name.clone().or_else(|| source.stem()).unwrap_or_else(|| "cell".to_owned());
         let robots = [first, second].map(|table| source.path().with_file_name(table.urdf.get_ref()));
-        let reader = Reader { source, file: &file };
-        let mut loaded = Vec::new();
-        for (table, urdf) in [first, second].into_iter().zip(&robots) {
-            let urdf = robot(urdf).map_err(|error| reader.unread(table, error))?;
-            loaded.push(reader.scene(table, &title, urdf)?.with_margins(clearance, None)?);
-        }
-        let [mut one, mut two] = <[LoadedScene; 2]>::try_from(loaded).expect("one for each arm");
+        let reader = Reader { source, file: &file, title: &title, tables: [first, second], clearance };
+        let urdfs =
+            [0, 1].map(|arm| robot(&robots[arm]).map_err(|error| reader.unread(reader.tables[arm], error)));
+        let [one, two] = urdfs;
+        let urdfs = [one?, two?];
+        let worlds = file_steps::worlds(&reader, &urdfs)?;
+        let loaded = |arm: usize| reader.scene(arm, &urdfs[arm], &worlds[arm]);
+        let (mut one, mut two) = (loaded(0)?, loaded(1)?);
         let names = [first, second].map(|table| table.name.get_ref().clone());
         let identities = robots.each_ref().map(|path| FileIdentity::of(path));
         let is_same_file = identities[0].as_ref().zip(identities[1].as_ref()).is_some_and(|(a, b)| a.is_same_file(b));
@@ -117,35 +129,39 @@ impl Cell {
             return Err(source.diagnostic_at(second.urdf.span(), message).help(hint).into());
         }
         let is_one_robot = is_same_file && first.place() == second.place();
+        let mut others = [vec![], vec![]];
         if is_one_robot {
             reader.check_joints([&one, &two], second)?;
         } else {
             reader.check_bases([&one, &two], second)?;
-            let bases = [(&one, &names[0]), (&two, &names[1])].map(|(loaded, name)| base_of(loaded.scene.arm(), name));
-            (one, two) = (among(one, &bases[1]), among(two, &bases[0]));
+            others = [(&two, &names[1]), (&one, &names[0])].map(|(loaded, name)| base_of(loaded.scene.arm(), name));
+            (one, two) = (among(one, &others[0]), among(two, &others[1]));
         }
         let mut files: Vec<PathBuf> = one.files().into_iter().chain(two.files()).chain(source.files()).collect();
         files.sort();
         files.dedup();
-        let arm = |name: String, loaded: LoadedScene| {
+        let mut arms = Vec::new();
+        for (arm, loaded) in [one, two].into_iter().enumerate() {
             let problem = Problem::of_scene(loaded.clone(), &Overrides::default())?;
-            Ok::<_, InputError>(CellArm { name, problem, loaded })
-        };
-        let [first, second] = names;
-        let arms = [arm(first, one)?, arm(second, two)?];
+            let mut task = worlds[arm].task(&problem, &others[arm]);
+            let world = reader.world(arm, &worlds[arm])?;
+            task.iter_mut().for_each(|task| file_steps::locate(task, &world, source));
+            let shared = worlds[arm].shared.clone();
+            arms.push(CellArm { name: names[arm].clone(), problem, loaded, task, shared });
+        }
+        let arms = <[CellArm; 2]>::try_from(arms).expect("one for each arm");
         for arm in &arms {
-            if arm.problem.motion().is_none() {
-                let message = format!(
-                    "arm \"{}\" has steps or values of the tool's joints, which cells do not support",
-                    arm.name
-                );
+            if arm.task.is_none() && arm.problem.motion().is_none() {
+                let message = format!("arm \"{}\" has values of the tool's joints, but no steps", arm.name);
                 return Err(source
                     .diagnostic(message)
-                    .help("give the arm a goal: goal = { joints = [q1, q2] }")
+                    .help("give the arm a step: [[arm.step]] with move = { joints = [q1, q2] }")
                     .into());
             }
         }
-        Ok(Self { name: title, arms, is_one_robot, files })
+        let tasks = arms.each_ref().map(|arm| arm.task.as_ref());
+        file_steps::check(&reader, tasks)?;
+        Ok(Self { name: title, arms, is_one_robot, shared: file_steps::shared_names(&file), files })
     }
 }
 
@@ -162,20 +178,24 @@ impl Cell {
 
 impl ArmTable {
     /// Returns the written position and angle of the root frame.
-    fn place(&self) -> [Option<&str>; 2] {
+    fn place(&self) -> [Option<String>; 2] {
         let written = |of: fn(&BaseTable) -> &Option<Excerpt>| Some(of(self.base.as_ref()?).as_ref()?.text());
         [written(|base| &base.at), written(|base| &base.angle)]
     }
 }
 
 /// Reads the parts of a cell file.
-struct Reader<'a> {
-    source: &'a Source,
-    file: &'a CellFile,
+pub(crate) struct Reader<'a> {
+    pub source: &'a Source,
+    pub file: &'a CellFile,
+    title: &'a str,
+    pub tables: [&'a ArmTable; 2],
+    clearance: Option<f64>,
 }
 
 impl Reader<'_> {
-    fn error(&self, at: Range<usize>, message: String, hint: &str) -> InputError {
+    /// Returns an error about a place of the file.
+    pub fn error(&self, at: Range<usize>, message: String, hint: &str) -> InputError {
         self.source.diagnostic_at(at, message).help(hint).into()
     }
 
@@ -187,21 +207,26 @@ impl Reader<'_> {
     }
 
     /// Reads an arm in the cell, without the other arm.
-    fn scene(&self, table: &ArmTable, title: &str, urdf: Source) -> Result<LoadedScene, InputError> {
+    pub fn scene(&self, arm: usize, urdf: &Source, own: &ArmWorld) -> Result<LoadedScene, InputError> {
+        let loaded = scene_from(urdf.clone(), self.world(arm, own)?)?;
+        loaded.require_static_obstacles("obstacles in cells cannot move")?;
+        loaded.with_margins(self.clearance, None)
+    }
+
+    /// Returns the text of an arm's world.
+    fn world(&self, arm: usize, own: &ArmWorld) -> Result<Source, InputError> {
+        let table = self.tables[arm];
         let name = table.name.get_ref();
-        if let Some(step) = &table.step {
-            let message = format!("arm \"{name}\" has steps, which cells do not support");
-            return Err(self.error(step.span(), message, "give the arm a goal: goal = { joints = [q1, q2] }"));
-        }
         if let Some(clearance) = &table.clearance {
             let message = format!("arm \"{name}\" has a clearance of its own, but both arms have that of the cell");
             return Err(self.error(clearance.span(), message, "write it above the first [[arm]]: clearance = 0.005"));
         }
-        for (table_of, key, example) in [
-            (&table.start, "start", "start = { joints = [q1, q2] }"),
-            (&table.goal, "goal", "goal = { joints = [q1, q2] } or goal = { tip = [x, y] }"),
+        let example = "goal = { joints = [q1, q2] } or goal = { tip = [x, y] } or [[arm.step]]";
+        for (is_missing, key, example) in [
+            (table.start.is_none(), "start", "start = { joints = [q1, q2] }"),
+            (table.goal.is_none() && own.steps.is_none(), "goal", example),
         ] {
-            if table_of.is_none() {
+            if is_missing {
                 return Err(self.error(table.name.span(), format!("arm \"{name}\" has no {key}"), example));
             }
         }
@@ -219,23 +244,31 @@ impl Reader<'_> {
         }
         let place = |of: fn(&BaseTable) -> &Option<Excerpt>| table.base.as_ref().and_then(|base| of(base).as_ref());
         let (at, angle) = (place(|base| &base.at), place(|base| &base.angle));
-        let more = [("at", at), ("angle", angle)].map(|(key, value)| value.map(|value| (key, value)));
+        let mut robot = robot.cloned().unwrap_or_else(|| Excerpt::empty_table(table.name.span()));
+        for (key, value) in [("at", at), ("angle", angle)] {
+            if let Some(value) = value {
+                robot = robot.with(key, value.clone());
+            }
+        }
         let mut world = Composition::default();
-        world.text("name", &format!("{title}, {name}"), table.name.span());
+        world.value("name", &Excerpt::of_text(&format!("{}, {name}", self.title), table.name.span()));
+        let goal = table.goal.as_ref().filter(|_| own.steps.is_none());
         for (key, value) in [
-            ("clearance", &self.file.clearance),
-            ("start", &table.start),
-            ("goal", &table.goal),
-            ("obstacle", &self.file.obstacle),
+            ("clearance", self.file.clearance.as_ref()),
+            ("start", table.start.as_ref()),
+            ("goal", goal),
+            ("obstacle", self.file.obstacle.as_ref()),
+            ("pallet", self.file.pallet.as_ref()),
+            ("object", own.objects.as_ref()),
+            ("step", own.steps.as_ref()),
+            ("task", own.defaults.as_ref()),
+            ("robot", Some(&robot)),
         ] {
             if let Some(value) = value {
                 world.value(key, value);
             }
         }
-        world.table("robot", robot, &more.into_iter().flatten().collect::<Vec<_>>());
-        let loaded = scene_from(urdf, world.source(self.source))?;
-        loaded.require_static_obstacles("obstacles in cells cannot move")?;
-        Ok(loaded)
+        Ok(world.source(self.source))
     }
 
     /// Checks that the arms of one robot have no joint in common.

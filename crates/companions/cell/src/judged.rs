@@ -2,6 +2,7 @@
 
 use crate::between::{Between, Placed};
 use crate::curve::Curve;
+use crate::stage::StagePairs;
 use cplan_interrupt::checkpoint;
 use cplan_motion::Span;
 use std::rc::Rc;
@@ -38,47 +39,57 @@ pub(crate) enum Judgement {
     Undecided,
 }
 
-/// Judges two motions on two clocks, if either clock may be ahead of the other by `skew` seconds. Each arm rests at its start
-/// before its motion, and at its goal after it.
+/// Judges two motions on two clocks, if either clock may be ahead of the other by `skew` seconds. The curves contain the
+/// rests before and after the motions.
 ///
 /// The pairs of times that differ by at most the skew form a strip. It is covered by rectangles: the motions of all links in
 /// a rectangle are bounded, and if the bound does not decide, the rectangle is halved.
-pub(crate) fn judge(between: &Between, curves: [Curve; 2], skew: f64) -> Judgement {
-    let [begin, end] = span(&curves, skew);
-    let nearest = nearest_of(sampled(between, &curves, SAMPLES, skew));
-    let curves = curves.map(|curve| curve.resting(begin, end));
-    judge_pairs(between, &curves, skew, vec![[0, 0]], nearest)
+pub(crate) fn judge(pairs: &StagePairs, curves: &[Curve; 2], skew: f64) -> Judgement {
+    let nearest = nearest_of(sampled(pairs, curves, SAMPLES, skew));
+    let legs = (0..curves[0].legs()).flat_map(|one| (0..curves[1].legs()).map(move |two| [one, two]));
+    judge_legs(pairs, curves, skew, legs, nearest)
 }
 
-/// Judges two motions at the pairs of times that belong to the pairs of legs `open` and differ by at most `skew` seconds.
+/// Judges two motions at the pairs of times that belong to the given pairs of legs and differ by at most `skew` seconds.
 /// `nearest` is the nearest place that is known.
-pub(crate) fn judge_pairs(
-    between: &Between,
+pub(crate) fn judge_legs(
+    pairs: &StagePairs,
     curves: &[Curve; 2],
     skew: f64,
-    open: Vec<[usize; 2]>,
+    legs: impl IntoIterator<Item = [usize; 2]>,
     mut nearest: Option<NearestPlace>,
 ) -> Judgement {
-    let is_collision = |place: &NearestPlace| place.distance <= 0.0 || place.distance < between.clearance;
+    let required = pairs.clearance();
+    let is_collision = |place: &NearestPlace| place.distance <= 0.0 || place.distance < required;
     if let Some(place) = nearest.filter(is_collision) {
         return Judgement::TooClose(place);
     }
-    let side = |arm: usize, span: Span| {
+    let side = |between: &Between, arm: usize, span: Span| {
         let (middle, deviation) = curves[arm].deviation(span);
         (span, Rc::new(between.placed(arm, middle, deviation)))
     };
-    let pair = |legs: [usize; 2]| [0, 1].map(|arm| side(arm, curves[arm].leg(legs[arm])));
-    let mut open: Vec<_> = open.into_iter().map(pair).collect();
+    let is_beside = |spans: [Span; 2]| {
+        let [a, b] = [0, 1].map(|arm| curves[arm].times(spans[arm]));
+        a[0] - b[1] > skew || b[0] - a[1] > skew
+    };
+    let legs = legs.into_iter().filter(|legs| !is_beside([0, 1].map(|arm| curves[arm].leg(legs[arm]))));
+    let mut open: Vec<_> = legs
+        .map(|legs| {
+            let between = pairs.between([0, 1].map(|arm| curves[arm].stage(legs[arm])));
+            (between, [0, 1].map(|arm| side(between, arm, curves[arm].leg(legs[arm]))))
+        })
+        .collect();
     let (mut clearance, mut evaluations) = (f64::INFINITY, 0);
-    while let Some(sides) = open.pop() {
+    while let Some((between, sides)) = open.pop() {
         checkpoint();
-        let [a, b] = [0, 1].map(|arm| curves[arm].times(sides[arm].0));
-        if a[0] - b[1] > skew || b[0] - a[1] > skew {
+        let spans = sides.each_ref().map(|(span, _)| *span);
+        if is_beside(spans) {
             continue;
         }
+        let [a, b] = [0, 1].map(|arm| curves[arm].times(spans[arm]));
         evaluations += 1;
         let placed = sides.each_ref().map(|(_, placed)| &**placed);
-        let target = nearest.map_or(0.0, |place| TIGHTNESS * place.distance).max(between.clearance);
+        let target = nearest.map_or(0.0, |place| TIGHTNESS * place.distance).max(required);
         let distance = between.distance(placed, target);
         if distance.least > 0.0 && distance.least >= target {
             clearance = clearance.min(distance.least);
@@ -103,8 +114,8 @@ pub(crate) fn judge_pairs(
         match halves.filter(|_| evaluations < MAX_EVALUATIONS) {
             Some((arm, halves)) => open.extend(halves.map(|span| {
                 let mut sides = sides.clone();
-                sides[arm] = side(arm, span);
-                sides
+                sides[arm] = side(between, arm, span);
+                (between, sides)
             })),
             None => return Judgement::Undecided,
         }
@@ -118,13 +129,13 @@ const FINE_SAMPLES: usize = 4096;
 /// Returns the first and the nearest place that are seen of two motions that are too near to each other. `known` is such a
 /// place.
 pub(crate) fn sampled_too_near(
-    between: &Between,
+    pairs: &StagePairs,
     curves: &[Curve; 2],
     skew: f64,
     known: NearestPlace,
 ) -> (NearestPlace, NearestPlace) {
-    let is_near = |place: &NearestPlace| place.distance <= 0.0 || place.distance < between.clearance;
-    let seen = sampled(between, curves, FINE_SAMPLES, skew).filter(is_near).chain([known]);
+    let is_near = |place: &NearestPlace| place.distance <= 0.0 || place.distance < pairs.clearance();
+    let seen = sampled(pairs, curves, FINE_SAMPLES, skew).filter(is_near).chain([known]);
     let earlier = |a: NearestPlace, b: NearestPlace| {
         let last = |place: &NearestPlace| place.times[0].max(place.times[1]);
         if last(&b) < last(&a) { b } else { a }
@@ -134,18 +145,19 @@ pub(crate) fn sampled_too_near(
     (first, nearest_of(seen.into_iter()).unwrap_or(known))
 }
 
-/// Returns the times between which two motions are judged, seconds.
-fn span(curves: &[Curve; 2], skew: f64) -> [f64; 2] {
-    let [one, two] = curves.each_ref().map(Curve::ends);
-    [one[0].min(two[0]) - skew, one[1].max(two[1]) + skew]
-}
-
 /// Returns samples of two motions, each with the distance of the arms: both clocks are equal, or differ by the skew.
-fn sampled(between: &Between, curves: &[Curve; 2], samples: usize, skew: f64) -> impl Iterator<Item = NearestPlace> {
-    let [begin, end] = span(curves, skew);
+fn sampled(
+    pairs: &StagePairs,
+    curves: &[Curve; 2],
+    samples: usize,
+    skew: f64,
+) -> impl Iterator<Item = NearestPlace> {
+    let [one, two] = curves.each_ref().map(Curve::ends);
+    let [begin, end] = [one[0].min(two[0]), one[1].max(two[1])];
     let times = (0..=samples).map(move |k| begin + (end - begin) * (k as f64 / samples as f64));
     let shifted = move |time: f64| [-skew, 0.0, skew].map(|shift| [time, time + shift]);
     times.flat_map(shifted).filter_map(move |times| {
+        let between = pairs.between([0, 1].map(|arm| curves[arm].stage(curves[arm].leg_at(times[arm]))));
         let placed = [0, 1].map(|arm| between.at_rest(arm, curves[arm].at(times[arm])));
         let (distance, pair) = between.distance(placed.each_ref(), f64::INFINITY).here?;
         Some(NearestPlace { times, distance, pair })

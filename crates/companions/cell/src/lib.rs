@@ -6,7 +6,10 @@
 //! - Two paths are coordinated in the plane of both arms' times (`diagram`): rectangles cover the times at which the arms
 //!   are not proven to be apart. A monotone route through the plane decides which arm passes first (`order`), and a graph of
 //!   differences gives the earliest departures. If necessary, arms wait on their paths (`coordinate`).
-//! - If these paths block each other or lose time, both arms are planned at once in four joints (`joint_tree`), and an
+//! - Steps: the sequence of each arm alone is a list of legs (`sequence`), between which the arm can wait. The bodies that
+//!   move with an arm or rest change from stage to stage (`stage`). Sequences of both arms are coordinated like paths
+//!   (`task_search`), also others (`variants`), and those of other assignments of shared objects (`assignment`).
+//! - If two paths block each other or lose time, both arms are planned at once in four joints (`joint_tree`), and an
 //!   interior-point method shortens their motions (`shaping`). If that fails, one arm is planned among the other at rest,
 //!   in both orders and for all IK solutions (`plan`). For arms that stop at corners, paths lose corners (`straighten`).
 //! - The lower bound on the duration is raised by proofs that no motions of both arms end by a given time (`funnel`). They
@@ -18,7 +21,9 @@
 //! All verdicts about two arms rest on `between`: the distance of the links, with bounds on the motion of both.
 #![forbid(unsafe_code)]
 
+mod assignment;
 mod between;
+mod body;
 mod contact;
 mod coordinate;
 mod curve;
@@ -26,18 +31,27 @@ mod delays;
 mod diagram;
 mod excerpt;
 mod file;
+mod file_steps;
 mod funnel;
+mod handover_bound;
 mod interlock;
 mod joint_tree;
 mod judged;
+mod legs;
+mod motion_search;
 mod order;
 mod picture;
 mod plan;
 mod reach;
 mod recorded;
 mod refutation;
+mod schedule;
+mod sequence;
 mod shaping;
+mod stage;
 mod straighten;
+mod task_search;
+mod variants;
 
 pub use coordinate::Coordination;
 pub use delays::{SignalTargets, check_delays};
@@ -45,6 +59,7 @@ pub use file::{Cell, CellArm, ReadRobot};
 pub use interlock::Interlock;
 pub use judged::NearestPlace;
 pub use picture::Answer;
-pub use plan::{CellPlan, Refutation, Settings, plan_cell};
+pub use plan::{Alone, CellPlan, Refutation, Settings, plan_cell};
 pub use recorded::{BetweenFinding, NearPlace, judge_between};
 pub use refutation::Boxes;
+pub use schedule::{HandoverTimes, StepTimes};

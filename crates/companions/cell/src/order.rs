@@ -280,6 +280,9 @@ impl Grid {
 }
 
 #[cfg(test)]
+mod brute_force;
+
+#[cfg(test)]
 mod tests {
     use super::*;
 

@@ -4,6 +4,7 @@ use crate::Cell;
 use crate::between::Between;
 use crate::curve::Curve;
 use crate::judged::{Judgement, NearestPlace, judge, sampled_too_near};
+use crate::stage::StagePairs;
 use cplan_handling::Piece;
 use cplan_model::space::Configuration;
 
@@ -47,8 +48,9 @@ pub enum BetweenFinding {
 /// place before its motion, and at its last place after it.
 pub fn judge_between(cell: &Cell, motions: [Vec<Piece>; 2], skew: f64) -> BetweenFinding {
     let scenes = cell.arms.each_ref().map(|arm| arm.problem.scene());
-    let between = Between::new(scenes, cell.is_one_robot, scenes[0].workspace().clearance);
-    let curves = motions.map(Curve::of_pieces);
+    let pairs = StagePairs::single(Between::new(scenes, cell.is_one_robot, scenes[0].workspace().clearance));
+    let between = pairs.between([0, 0]);
+    let curves = with_rests(motions.map(Curve::of_pieces), skew);
     let names = cell.arms.each_ref().map(|arm| arm.name.as_str());
     let described = |place: NearestPlace| {
         let at = [0, 1].map(|arm| curves[arm].at(place.times[arm]));
@@ -56,12 +58,19 @@ pub fn judge_between(cell: &Cell, motions: [Vec<Piece>; 2], skew: f64) -> Betwee
         let NearestPlace { times, distance, pair } = place;
         NearPlace { times, at, distance, links: between.describe(pair, names), point: point.into() }
     };
-    match judge(&between, curves.clone(), skew) {
+    match judge(&pairs, &curves, skew) {
         Judgement::Apart { clearance, nearest } => BetweenFinding::Free { clearance, nearest: nearest.map(described) },
         Judgement::TooClose(place) => {
-            let (first, nearest) = sampled_too_near(&between, &curves, skew, place);
+            let (first, nearest) = sampled_too_near(&pairs, &curves, skew, place);
             BetweenFinding::TooNear { first: described(first), nearest: described(nearest) }
         }
         Judgement::Undecided => BetweenFinding::Undecided,
     }
+}
+
+/// Returns both curves with rests: they begin and end at the same times, and may be shifted by the skew.
+fn with_rests(curves: [Curve; 2], skew: f64) -> [Curve; 2] {
+    let [one, two] = curves.each_ref().map(Curve::ends);
+    let [begin, end] = [one[0].min(two[0]) - skew, one[1].max(two[1]) + skew];
+    curves.map(|curve| curve.resting(begin, end))
 }

@@ -31,7 +31,7 @@ pub(crate) fn with_fewer_corners(
                 let mut tried = paths(&best);
                 let shorter = without(&tried[arm], first, size);
                 first += size;
-                let Ok(shorter) = certify(coordinator.between.scenes[arm], shorter) else { continue };
+                let Ok(shorter) = certify(coordinator.pairs.scenes()[arm], shorter) else { continue };
                 tried[arm] = shorter;
                 if let Ok(found) = coordinator.along(tried.each_ref(), best.duration)? {
                     (best, is_better) = (found, true);

@@ -75,7 +75,7 @@ use cplan_legs::{TaskAnswer, TaskReplay};
 use cplan_solver::Options;
 
 pub use cplan_handling::rest_to_rest;
-pub use plan::plan;
+pub use plan::{least_duration, plan};
 pub use replay::replay;
 pub use standstill::raising_at_start;
 

@@ -52,11 +52,7 @@ pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> T
         return among_movers::plan(task, options, progress);
     }
     let heuristic = Heuristic::new(task);
-    let start = State::at_start(task);
-    let raising = least_raising_at_start(task, |depth| least_stroke(task, depth));
-    let lower_bound = raising + heuristic.remaining(start.q, start.progress);
-    let turns = task.steps().filter_map(|step| task.wrist_turn(step)).zip(&task.wrist);
-    let lower_bound = turns.map(|(angle, wrist)| least_turn(wrist, angle)).fold(lower_bound, f64::max);
+    let lower_bound = bound_with(task, &heuristic);
     let mut planning = Planning { task, options, legs: MotionCache::new(options), lower_bound, expanded: 0, progress };
     if let Some(found) = alone::impossible(task) {
         return planning.answer(found);
@@ -70,6 +66,19 @@ pub fn plan(task: &Task, options: &Options, progress: &mut dyn FnMut(&str)) -> T
             planning.answer(found)
         }
     }
+}
+
+/// Returns a proven lower bound on the duration of a task, seconds, without planning its motions. Obstacles do not move.
+pub fn least_duration(task: &Task) -> f64 {
+    bound_with(task, &Heuristic::new(task))
+}
+
+fn bound_with(task: &Task, heuristic: &Heuristic) -> f64 {
+    let start = State::at_start(task);
+    let raising = least_raising_at_start(task, |depth| least_stroke(task, depth));
+    let lower_bound = raising + heuristic.remaining(start.q, start.progress);
+    let turns = task.steps().filter_map(|step| task.wrist_turn(step)).zip(&task.wrist);
+    turns.map(|(angle, wrist)| least_turn(wrist, angle)).fold(lower_bound, f64::max)
 }
 
 struct Planning<'a, 'p> {

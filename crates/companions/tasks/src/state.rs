@@ -221,7 +221,8 @@ impl State {
                 reach
             }
             (Action::Pick { object, grasp, .. }, None) => {
-                let Some(Placement { pose: lies, .. }) = self.poses[*object] else { return Candidates::unknown(step) };
+                let there = self.poses[*object].or_else(|| task.objects[*object].handed_pose());
+                let Some(Placement { pose: lies, .. }) = there else { return Candidates::unknown(step) };
                 let reach = ik_solutions(arm, arm.tip, (lies.point(*grasp), elbow), self.q);
                 let wanted = place.and_then(|place| match place.action {
                     Action::Place { angle, .. } => angle,
@@ -305,7 +306,8 @@ impl State {
                 after.held = candidate.grip.map(|grip| Payload { object, grip, supports });
             }
             Some(Event::Release { object, pose }) => {
-                Arc::make_mut(&mut poses)[object] = Some(Placement { pose, elevation: candidate.step.elevation });
+                let placement = Placement { pose, elevation: candidate.step.elevation };
+                Arc::make_mut(&mut poses)[object] = task.objects[object].left_at(placement);
                 (after.held, after.released) = (None, Some(object));
             }
             None => {}

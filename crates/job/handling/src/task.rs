@@ -21,6 +21,15 @@ pub enum Holding {
     Level,
 }
 
+/// The role of an arm in the handover of an object to another arm.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Handover {
+    /// The arm places the object, and the other arm takes it from there.
+    Gives,
+    /// The arm takes the object from where the other arm has placed it.
+    Takes,
+}
+
 /// A movable object. It is an obstacle while it lies somewhere, and a payload while the arm carries it.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -45,6 +54,10 @@ pub struct Object {
     /// Mass in kilograms.
     #[serde(default)]
     pub mass: f64,
+    /// Role of the arm if the object is handed over. While another arm may still bring the object or has taken it, it is no
+    /// obstacle. `None` in all tasks of a single arm.
+    #[serde(skip)]
+    pub handover: Option<Handover>,
 }
 
 impl Object {
@@ -320,9 +333,20 @@ impl Object {
         Obstacle { name: self.name.clone(), shape, pieces, heights, growth: Growth::default() }
     }
 
-    /// Returns the object's initial placement. `None` if it moves initially.
+    /// Returns the initial placement of the object. `None` if the object moves initially, or if another arm brings it.
     pub fn initial_static_pose(&self) -> Option<Placement> {
-        self.trajectory.is_none().then_some(self.at.into())
+        let is_there = self.trajectory.is_none() && self.handover != Some(Handover::Takes);
+        is_there.then_some(self.at.into())
+    }
+
+    /// Returns the placement from which the object is picked, if another arm brings it there.
+    pub fn handed_pose(&self) -> Option<Placement> {
+        (self.handover == Some(Handover::Takes)).then_some(self.at.into())
+    }
+
+    /// Returns the placement of the object after a step has released it. Returns `None` if another arm takes it away.
+    pub fn left_at(&self, placement: Placement) -> Option<Placement> {
+        (self.handover != Some(Handover::Gives)).then_some(placement)
     }
 
     /// Returns the object's heights where it lies at an elevation, in metres.

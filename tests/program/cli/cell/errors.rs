@@ -79,7 +79,10 @@ fn errors_name_the_line_of_the_cell_file() {
             "line 6, column 11: the robot of arm \"left\" has `at`",
         ),
         (vec![("start = {", "robot = { tip = \"nose\" }\nstart = {")], "line 6, column 17"),
-        (vec![("start = {", "step = [{ pick = \"part\" }]\nstart = {")], "line 6, column 8: arm \"left\" has steps"),
+        (
+            vec![("start = {", "step = [{ pick = \"part\" }]\nstart = {")],
+            "line 6, column 18: there is no object \"part\"",
+        ),
         (
             vec![(second, "[[obstacle]]\ncircle = { center = [0, 0], radius = -1 }\n[[arm]]\nname = \"right\"")],
             "line 10, column 38",

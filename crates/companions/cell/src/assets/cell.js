@@ -3,7 +3,7 @@
 
 /**
  * An arm with its motion: `waits` and `end` are in seconds, `arm`, `clock` and `start` are those of its view.
- * @typedef {{ name: string, color: string, waits: [number, number][], end: number, arm: ArmModel, clock: ClockModel | null,
+ * @typedef {{ name: string, color: string, waits: [number, number][], steps: [number, number, string][], end: number, arm: ArmModel, clock: ClockModel | null,
  *   start: Point, goals: Point[] }} CellArm
  */
 

@@ -47,15 +47,20 @@ class CellRows {
     return element('li', { class: 'row' }, element('span', { class: 'object' }, ...name), element('ol', { class: 'lane' }, ...items));
   }
 
-  /** Returns the row of an arm: its motion, and its waits as buttons that go there. */
-  motionRow({ name, color, waits, end }) {
+  /** Returns the row of an arm: its motion, its waits and the events of its steps. Waits and events are buttons that go there. */
+  motionRow({ name, color, waits, steps, end }) {
     const swatch = element('span', { class: 'swatch', style: `background:var(--${color})` });
     const bar = element('span', { class: 'bar held', title: `${name} moves until ${Numbers.seconds(end)}`, style: `--color:var(--${color})` });
     const stops = waits.map(([from, to]) => {
       const text = `${name} waits from ${CellView.seconds(from)} to ${CellView.seconds(to)}`;
       return this.place(element('button', { type: 'button', class: 'wait', title: text, 'aria-label': text, onclick: () => this.view.seek(from) }), from, to);
     });
-    return CellRows.row([swatch, name], this.place(element('li', {}, bar), 0, end), ...stops.map((stop) => element('li', { class: 'whole' }, stop)));
+    const events = steps.map(([time, number, action]) => {
+      const text = `${name}, step ${number}: ${action}, at ${CellView.seconds(time)}`;
+      return this.place(element('button', { type: 'button', class: 'event', title: text, 'aria-label': text, onclick: () => this.view.seek(time) }), time, time);
+    });
+    const items = [...stops, ...events].map((item) => element('li', { class: 'whole' }, item));
+    return CellRows.row([swatch, name], this.place(element('li', {}, bar), 0, end), ...items);
   }
 
   /** Returns the row of a signal: a line from the time at which one arm sets it to that at which the other arm needs it. */

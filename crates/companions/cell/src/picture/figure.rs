@@ -1,6 +1,6 @@
 //! The picture of an answer about a cell.
 
-use super::motions::{ShownMotions, between, met};
+use super::motions::{ShownMotions, met, pairs_of_links};
 use super::{ARM_COLORS, Answer, REGION_PALENESS, arm_shapes, bases, time_frame};
 use crate::between::Between;
 use cplan_geometry::{Convex, Point};
@@ -42,13 +42,13 @@ const PLACES: usize = 400;
 impl Answer<'_> {
     /// Returns the answer as a picture.
     pub fn figure(&self) -> Figure {
-        let between = between(self.cell);
-        let motions = ShownMotions::of(self, &between);
+        let pairs = pairs_of_links(self.cell);
+        let motions = ShownMotions::of(self, &pairs);
         let result = self.facts.first().map_or("", |(_, result)| result.as_str());
         let lines = [self.headline(), format!("{} \u{b7} {result}", self.cell.name)];
         let status = self.plan.status();
         let mut items = titles(&lines, verdict(Some(status), cplan_view::output::status(status)), WIDTH);
-        items.extend(self.workspace(motions.as_ref(), &between));
+        items.extend(self.workspace(motions.as_ref(), pairs.between([0, 0])));
         items.push(heading(WORKSPACE, WORKSPACE.y - 14.0, "Workspace"));
         let below = WORKSPACE.bottom() + AXES_HEIGHT;
         items.extend(signs([WORKSPACE.x, below], &self.signs_of_arms()));
@@ -196,6 +196,12 @@ impl Answer<'_> {
                 let text = format!("{} waits from {:.3} s to {:.3} s", self.names()[arm], wait.from, wait.to);
                 let pale = Style::line(color, 1.0).filled(FAINT);
                 items.push(Item::Titled(text, vec![Item::Outline(bar(wait.from, wait.to), pale)]));
+            }
+            for step in motions.steps[arm] {
+                let Some(time) = step.event else { continue };
+                let text = format!("{}, step {}: {}, at {time:.3} s", self.names()[arm], step.number, step.action);
+                let disc = Item::Disc([x(time), middle(arm)], 5.0, Style::line(INK, 1.0).filled(color.lighter(0.8)));
+                items.push(Item::Titled(text, vec![disc]));
             }
             items.push(name(arm, self.names()[arm], color));
         }

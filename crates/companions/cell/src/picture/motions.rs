@@ -5,7 +5,8 @@ use crate::between::Between;
 use crate::coordinate::Coordinator;
 use crate::curve::Curve;
 use crate::diagram::rectangles;
-use crate::{Cell, CellPlan, Interlock};
+use crate::stage::StagePairs;
+use crate::{Cell, Interlock, StepTimes};
 use cplan_model::Outcome;
 use cplan_model::space::Configuration;
 use cplan_motion::{Drive, Trajectory, Wait};
@@ -21,6 +22,8 @@ pub struct ShownMotions<'a> {
     /// Time until both arms are at their goals, seconds.
     pub duration: f64,
     pub signals: &'a [Interlock],
+    /// For each arm, its steps.
+    pub steps: [&'a [StepTimes]; 2],
     /// For each arm, the times of rectangles in which the arms may be too near to each other.
     pub rectangles: Vec<[[f64; 2]; 2]>,
     /// True for the motions of the answer. False if they are those of each arm alone, which are not coordinated.
@@ -31,12 +34,12 @@ pub struct ShownMotions<'a> {
 
 impl<'a> ShownMotions<'a> {
     /// Returns the motions to show. `None` if an arm has none, even alone.
-    pub fn of(answer: &Answer<'a>, between: &Between) -> Option<Self> {
+    pub fn of(answer: &Answer<'a>, pairs: &StagePairs) -> Option<Self> {
         let (trajectories, waits, signals) = if let Outcome::Found(found) = &answer.plan.outcome {
             let motions = found.motions.each_ref().map(|motion| &motion.trajectory);
             (motions, found.waits.each_ref().map(Vec::as_slice), found.interlocks.as_deref().unwrap_or_default())
         } else {
-            let [one, two] = alone(answer.plan);
+            let [one, two] = answer.plan.alone.each_ref().map(|alone| alone.as_ref()?.trajectory.as_ref());
             ([one?, two?], [&[][..]; 2], &[][..])
         };
         let curves = trajectories.map(|trajectory| Curve::of_legs([trajectory]));
@@ -44,16 +47,17 @@ impl<'a> ShownMotions<'a> {
         let found = answer.plan.outcome.found();
         let rectangles = found.map_or_else(
             || {
-                let coordinator = Coordinator { between, drive: Drive::default(), skew: answer.skew };
-                let all = rectangles(between, curves.each_ref(), 0.0, coordinator.resolution());
+                let coordinator = Coordinator { pairs, drive: Drive::default(), skew: answer.skew };
+                let all = rectangles(pairs, curves.each_ref(), 0.0, coordinator.resolution());
                 all.iter().map(|rectangle| rectangle.times).collect()
             },
             |found| found.diagram.clone(),
         );
+        let steps = found.map_or([&[][..]; 2], |found| found.steps.each_ref().map(Vec::as_slice));
         let are_certified = found.is_some();
         let mut motions =
-            Self { trajectories, curves, waits, duration, signals, rectangles, are_certified, collides: None };
-        motions.collides = (!are_certified).then(|| motions.first_collision(between)).flatten();
+            Self { trajectories, curves, waits, duration, signals, steps, rectangles, are_certified, collides: None };
+        motions.collides = (!are_certified).then(|| motions.first_collision(pairs.between([0, 0]))).flatten();
         Some(motions)
     }
 
@@ -111,18 +115,10 @@ pub fn met(between: &Between, at: [Configuration; 2]) -> Option<(f64, [usize; 2]
     between.distance(placed.each_ref(), f64::INFINITY).here
 }
 
-/// Returns the distances between the arms of a cell.
-pub fn between(cell: &Cell) -> Between<'_> {
+/// Returns the pairs of links of a cell that can meet, without objects.
+pub fn pairs_of_links(cell: &Cell) -> StagePairs<'_> {
     let scenes = cell.arms.each_ref().map(|arm| arm.problem.scene());
-    Between::new(scenes, cell.is_one_robot, scenes[0].workspace().clearance)
-}
-
-/// Returns the fastest motion of each arm alone. `None` for an arm without one.
-pub fn alone(plan: &CellPlan) -> [Option<&Trajectory>; 2] {
-    plan.alone.each_ref().map(|plan| {
-        let (_, answer) = plan.as_ref()?.motion()?;
-        Some(&answer.outcome.found()?.timed.trajectory)
-    })
+    StagePairs::single(Between::new(scenes, cell.is_one_robot, scenes[0].workspace().clearance))
 }
 
 /// Merges rectangles that are neighbours along an axis and have the same range along the other one.

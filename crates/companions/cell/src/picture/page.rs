@@ -1,6 +1,6 @@
 //! The page of an answer about a cell.
 
-use super::motions::{ShownMotions, between};
+use super::motions::{ShownMotions, pairs_of_links};
 use super::{ARM_COLORS, Answer, REGION_PALENESS, bases};
 use cplan_model::Obstacle;
 use cplan_motion::Trajectory;
@@ -18,10 +18,10 @@ const SCRIPTS: [&str; 3] =
 impl Answer<'_> {
     /// Returns the answer as one self-contained HTML file.
     pub fn page(&self) -> String {
-        let between = between(self.cell);
-        let motions = ShownMotions::of(self, &between);
+        let pairs = pairs_of_links(self.cell);
+        let motions = ShownMotions::of(self, &pairs);
         let views = [0, 1].map(|arm| self.view(arm, motions.as_ref().map(|motions| motions.trajectories[arm])).json());
-        let data = self.data(motions.as_ref(), between.pairs()).to_string();
+        let data = self.data(motions.as_ref(), pairs.between([0, 0]).pairs()).to_string();
         // Views have their own serializer, so they become the first entry of the object as text.
         let data = format!("{{\"views\":[{}],{}", views.join(","), &data[1..]);
         sealed(&self.headline(), STYLE, "cell", &data, &(drawing() + &SCRIPTS.concat()))
@@ -41,10 +41,13 @@ impl Answer<'_> {
         let arm = |arm: usize| {
             let waits = motions.map_or(&[][..], |motions| motions.waits[arm]);
             let waits = waits.iter().map(|wait| [wait.from, wait.to].map(short));
+            let steps = motions.map_or(&[][..], |motions| motions.steps[arm]).iter();
+            let steps = steps.filter_map(|step| Some(json!([short(step.event?), step.number, step.action])));
             json!({
                 "name": self.names()[arm],
                 "color": role_or_hex(ARM_COLORS[arm]),
                 "waits": waits.collect::<Vec<_>>(),
+                "steps": steps.collect::<Vec<_>>(),
                 "end": motions.map(|motions| motions.trajectories[arm].duration()),
             })
         };

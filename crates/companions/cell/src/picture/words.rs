@@ -1,7 +1,7 @@
 //! The answer in a sentence, and its key figures.
 
 use super::Answer;
-use super::motions::{ShownMotions, alone, between, met};
+use super::motions::{ShownMotions, met, pairs_of_links};
 use crate::{Coordination, Refutation};
 use cplan_model::Outcome;
 use cplan_text::{counted, length_down, percent};
@@ -25,10 +25,14 @@ impl Answer<'_> {
                     Some(gap) => format!("proven within {} of the least time", percent(gap)),
                     None => "certified".to_owned(),
                 };
-                format!("Both arms arrive after {:.3} s, {proven}{}", found.duration, self.waits_in_words(found))
+                let done = if found.steps.iter().all(Vec::is_empty) { "arrive" } else { "finish their steps" };
+                format!("Both arms {done} after {:.3} s, {proven}{}", found.duration, self.waits_in_words(found))
             }
             Outcome::Infeasible(Refutation::Alone { arm, .. }) => {
                 format!("No motions: {} cannot reach its goal, even without {}", names[*arm], names[1 - *arm])
+            }
+            Outcome::Infeasible(Refutation::Step { arm, failed }) => {
+                format!("No motions: {} cannot do step {}, even without {}", names[*arm], failed.step.number, names[1 - *arm])
             }
             Outcome::Infeasible(Refutation::Starts(what)) => {
                 format!("No motions: at the starts, {}", what.replace('"', ""))
@@ -92,14 +96,15 @@ impl Answer<'_> {
 
     fn cards_without_motions(&self) -> Vec<Card> {
         let names = self.names();
-        let (mut cards, between) = (Vec::new(), between(self.cell));
+        let (mut cards, pairs) = (Vec::new(), pairs_of_links(self.cell));
+        let between = pairs.between([0, 0]);
         match &self.plan.outcome {
             Outcome::Infeasible(Refutation::Boxes(boxes)) => {
                 let note = "of colliding configurations, in the space of all four joints";
                 cards.push(card("proof", counted(boxes.examined, "box"), note));
             }
             Outcome::Infeasible(Refutation::Starts(_)) => {
-                if let Some((distance, pair)) = met(&between, self.starts()) {
+                if let Some((distance, pair)) = met(between, self.starts()) {
                     let what = between.describe(pair, names).replace('"', "");
                     let (name, value) = match distance {
                         depth if depth <= 0.0 => ("overlap", length_down(-depth)),
@@ -110,16 +115,16 @@ impl Answer<'_> {
             }
             _ => {}
         }
-        if let Some((time, pair)) = ShownMotions::of(self, &between).and_then(|motions| motions.first_contact(&between))
+        if let Some((time, pair)) = ShownMotions::of(self, &pairs).and_then(|motions| motions.first_contact(between))
         {
             let what = between.describe(pair, names).replace('"', "");
             let note = format!("{what}, if both take their fastest paths at once");
             cards.push(card("first collision", format!("at {time:.3} s"), &note));
         }
-        for (arm, motion) in alone(self.plan).into_iter().enumerate() {
-            if let Some(motion) = motion {
+        for (arm, alone) in self.plan.alone.iter().enumerate() {
+            if let Some(duration) = alone.as_ref().and_then(|alone| alone.duration) {
                 let note = format!("its fastest motion without {}", names[1 - arm]);
-                cards.push(card(&format!("{} alone", names[arm]), format!("{:.3} s", motion.duration()), &note));
+                cards.push(card(&format!("{} alone", names[arm]), format!("{duration:.3} s"), &note));
             }
         }
         cards

@@ -20,8 +20,8 @@ fn poses_before(task: &Task, item: usize) -> Poses {
     let mut held = None;
     for before in &task.items[..item] {
         match before {
-            Item::Step(step) => follow(step, &mut poses, &mut held),
-            Item::AnyOrder(pairs) => pairs.iter().flatten().for_each(|step| follow(step, &mut poses, &mut held)),
+            Item::Step(step) => follow(task, step, &mut poses, &mut held),
+            Item::AnyOrder(pairs) => pairs.iter().flatten().for_each(|step| follow(task, step, &mut poses, &mut held)),
             Item::Renew(objects) => {
                 objects.iter().for_each(|&object| poses[object] = Some(task.objects[object].at.into()))
             }
@@ -30,13 +30,14 @@ fn poses_before(task: &Task, item: usize) -> Poses {
     poses.into()
 }
 
-fn follow(step: &Step, poses: &mut [Option<Placement>], held: &mut Option<(usize, Option<Placement>)>) {
+fn follow(task: &Task, step: &Step, poses: &mut [Option<Placement>], held: &mut Option<(usize, Option<Placement>)>) {
     match step.action {
         Action::Pick { object, .. } => *held = Some((object, poses[object].take())),
         Action::Place { at, angle, .. } => {
             if let Some((object, pose)) = held.take() {
                 let turned = angle.or(pose.map(|lies| lies.pose.rotation.angle())).unwrap_or(0.0);
-                poses[object] = Some(Placement { pose: Pose::new(at, turned), elevation: step.elevation });
+                let placement = Placement { pose: Pose::new(at, turned), elevation: step.elevation };
+                poses[object] = task.objects[object].left_at(placement);
             }
         }
         Action::Move(_) | Action::Follow(_) => {}
