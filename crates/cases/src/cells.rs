@@ -187,7 +187,7 @@ fn no_room(random: &mut Dice, robots: &str) -> Option<String> {
     Some(arm("left", -apart, 0.0) + &arm("right", apart, PI))
 }
 
-/// Returns two SCARAs of which one has to reach into a closed wall.
+/// Returns two SCARAs. A closed wall surrounds the goal of the left one.
 fn walled(random: &mut Dice, robots: &str) -> Option<String> {
     let apart = random.within(0.8, 0.95);
     let goal = [random.within(0.25, 0.35), random.within(0.2, 0.35)];

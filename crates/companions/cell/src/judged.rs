@@ -126,8 +126,7 @@ pub(crate) fn judge_legs(
 /// Number of times that are sampled in the description of two motions that are too near to each other.
 const FINE_SAMPLES: usize = 4096;
 
-/// Returns the first and the nearest place that are seen of two motions that are too near to each other. `known` is such a
-/// place.
+/// Returns the first and the nearest sampled place of two motions that are too near to each other. `known` is such a place.
 pub(crate) fn sampled_too_near(
     pairs: &StagePairs,
     curves: &[Curve; 2],

@@ -34,7 +34,7 @@ impl Program {
         self.travels.iter().try_for_each(|travel| self.certify_travel(travel, targets))
     }
 
-    /// Returns the values of the two planned joints at targets, which are given as the values of all joints.
+    /// Returns the values of the two planned joints at targets. Each target has the values of all joints.
     ///
     /// # Errors
     /// A robot without one of these joints.
