@@ -35,6 +35,10 @@ pub fn load(
     let cell = load(clearance)?;
     let Some(writer) = writer else { return Ok(cell) };
     check_names(&cell, outputs)?;
+    if cell.has_steps() {
+        let message = "arms of the cell have steps, but the programs of two arms consist of one motion to a goal each";
+        return Err(ProgramError::Unsuitable(format!("{message}\n  hint: write .json, .csv or .yaml files")).into());
+    }
     cell.arms.iter().try_for_each(|arm| Program::check(&arm.problem))?;
     let rooms = cell.arms.each_ref().map(|arm| writer.tolerance.room(&arm.problem));
     let clearance = cell.arms[0].problem.scene().workspace().clearance;

@@ -41,6 +41,10 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let settings = &args.settings;
     let clearance = settings.clearance;
     let cell = Cell::load(&Source::read(&args.files.urdf)?, &|path| input::robot(path).read(), clearance)?;
+    if cell.has_steps() {
+        let message = format!("{}: `cplan verify` judges no cells with steps", args.files.urdf.display());
+        return Err(Failure::Refused(format!("{message}\n  hint: judge the motion of each arm to a goal, without steps")));
+    }
     for arm in &cell.arms {
         let warnings = arm.problem.robot().warnings.iter();
         warnings.for_each(|warning| args.print.print_status(&format!("warning: {}: {warning}", arm.name)));

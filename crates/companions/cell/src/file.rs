@@ -166,6 +166,11 @@ impl Cell {
 }
 
 impl Cell {
+    /// Returns true if an arm has steps.
+    pub fn has_steps(&self) -> bool {
+        self.arms.iter().any(|arm| arm.task.is_some())
+    }
+
     /// Returns the joints of an arm's controller: all joints of its robot, unless the other arm moves some of them.
     pub fn joints(&self, arm: usize) -> RobotJoints {
         let problem = &self.arms[arm].problem;
