@@ -16,7 +16,7 @@ use cplan_motion::{Drive, TimedMotion, TimingError, Trajectory, Wait};
 /// Motion of the links in a rectangle of the diagram that is not examined further, as a share of the reach of the arms.
 const RESOLUTION: f64 = 1.0 / 250.0;
 
-/// The same for arms with steps, whose diagrams are larger.
+/// Resolution for arms with steps, as a share of the reach. It is coarser, because their diagrams are larger.
 const RESOLUTION_OF_STEPS: f64 = 1.0 / 80.0;
 
 /// Distance between the arms beyond their clearance, as a share of the resolution. Without it, an arm may wait so near to the

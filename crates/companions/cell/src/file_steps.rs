@@ -80,7 +80,7 @@ pub(crate) fn worlds(reader: &Reader, urdfs: &[Source; 2]) -> Result<[ArmWorld; 
         let at = reader.tables[arm].name.span();
         if steps.is_empty() {
             let message = format!(
-                "arm \"{}\" has neither a goal nor steps, and none of the other steps suits it",
+                "arm \"{}\" has no goal and no steps, and it can do none of the shared steps",
                 reader.tables[arm].name.get_ref()
             );
             return Err(reader.error(at, message, "give the arm a goal, or a step: [[arm.step]]"));

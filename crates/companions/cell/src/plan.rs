@@ -73,7 +73,7 @@ pub struct CellPlan {
     /// Proven lower bound on the time until both arms are at their goals, seconds, for clocks that differ by up to the skew.
     /// `None` if it is not known.
     pub lower_bound: Option<f64>,
-    /// For each arm, the names of the objects that it moves, of those that either arm may move. `None` if there are none.
+    /// For each arm, the names of the shared objects that it moves. `None` if the cell has no shared objects.
     pub assignment: Option<[Vec<String>; 2]>,
     /// Attempts with their results, in words, in order.
     pub tried: Vec<String>,

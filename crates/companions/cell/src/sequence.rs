@@ -1,4 +1,4 @@
-//! The legs and stages of one arm's task: what moves with the arm, and what rests, from step to step.
+//! The legs and stages of one arm's task. Bodies move with the arm or rest, and this changes from step to step.
 
 use crate::body::{Body, Frame};
 use crate::legs::{Leg, LegStep, Legs, Moving};

@@ -15,10 +15,10 @@ use cplan_legs::TaskAnswer;
 use cplan_model::{Obstacle, Outcome, Scene};
 use std::rc::Rc;
 
-/// Greatest number of pairs of sequences that are coordinated besides the fastest ones.
+/// Greatest number of pairs of other sequences to coordinate.
 const MAX_PAIRS: usize = 16;
 
-/// The same for each of several assignments of objects.
+/// Greatest number of pairs of other sequences for each of several assignments.
 const MAX_PAIRS_OF_ASSIGNMENT: usize = 6;
 
 /// Greatest number of assignments whose sequences are coordinated.
@@ -36,7 +36,7 @@ pub(crate) struct TaskSearch<'a> {
 
 /// A task with its answer.
 struct Planned {
-    /// How the sequence differs from others, in a few words.
+    /// Difference from other sequences, in a few words.
     what: String,
     task: Task,
     answer: TaskAnswer,
