@@ -136,7 +136,7 @@ def test_the_program_reads_and_writes_files(tmp_path: Path) -> None:
     (tmp_path / "same.json").symlink_to(robot)
     refused = run(robot, SHELF, "--quiet", "--output", tmp_path / "same.json")
     assert refused.returncode == 1 and "is the input file" in refused.stderr and robot.read_bytes() == ROBOT.read_bytes()
-    assert run("no.urdf", "no.toml").stderr.startswith("error: no.urdf")
+    assert run("no.urdf", "no.toml").stderr.startswith("error: no.toml: cannot be read")
     assert sorted(path.name for path in tmp_path.iterdir()) == ["arm.urdf", "plan.json", "same.json"]
 
 
