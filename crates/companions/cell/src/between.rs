@@ -244,8 +244,8 @@ impl<'a> Between<'a> {
     /// Returns a point of the first link of a pair that is nearest to the second, or deepest in it, while both arms rest.
     pub fn contact(&self, pair: [usize; 2], at: [Configuration; 2]) -> Point {
         let [a, b] = [0, 1].map(|side| {
-            let Body { link, part, .. } = &self.bodies[side][pair[side]];
-            part.shape.at(&self.scenes[side].arm().poses(at[side])[*link])
+            let Body { frame, part, .. } = &*self.bodies[side][pair[side]];
+            part.shape.at(&poses(self.scenes[side].arm(), at[side])[frame.index()])
         });
         contact_point(&a, &b, separation(&a, &b))
     }
