@@ -35,7 +35,7 @@ fn main() -> Result<(), Box<dyn Error>> {
 /// Returns the row of a cell.
 fn row(case: &CellCase, plan: &CellPlan) -> String {
     let proof = match &plan.outcome {
-        Outcome::Infeasible(Refutation::Alone { .. }) => "alone",
+        Outcome::Infeasible(Refutation::Alone { .. } | Refutation::Step { .. }) => "alone",
         Outcome::Infeasible(Refutation::Starts(_)) => "starts",
         Outcome::Infeasible(Refutation::Goals(_)) => "goals",
         Outcome::Infeasible(Refutation::Boxes(_)) => "boxes",
