@@ -43,7 +43,9 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let cell = Cell::load(&Source::read(&args.files.urdf)?, &|path| input::robot(path).read(), clearance)?;
     if cell.has_steps() {
         let message = format!("{}: `cplan verify` judges no cells with steps", args.files.urdf.display());
-        return Err(Failure::Refused(format!("{message}\n  hint: `cplan cell` has certified the motions that it wrote")));
+        return Err(Failure::Refused(format!(
+            "{message}\n  hint: `cplan cell` has certified the motions that it wrote"
+        )));
     }
     for arm in &cell.arms {
         let warnings = arm.problem.robot().warnings.iter();

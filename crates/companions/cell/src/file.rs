@@ -112,8 +112,7 @@ impl Cell {
         let title = file.name.clone().or_else(|| source.stem()).unwrap_or_else(|| "cell".to_owned());
         let robots = [first, second].map(|table| source.path().with_file_name(table.urdf.get_ref()));
         let reader = Reader { source, file: &file, title: &title, tables: [first, second], clearance };
-        let urdfs =
-            [0, 1].map(|arm| robot(&robots[arm]).map_err(|error| reader.unread(reader.tables[arm], error)));
+        let urdfs = [0, 1].map(|arm| robot(&robots[arm]).map_err(|error| reader.unread(reader.tables[arm], error)));
         let [one, two] = urdfs;
         let urdfs = [one?, two?];
         let worlds = file_steps::worlds(&reader, &urdfs)?;

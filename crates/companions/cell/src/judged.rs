@@ -145,12 +145,7 @@ pub(crate) fn sampled_too_near(
 }
 
 /// Returns samples of two motions, each with the distance of the arms: both clocks are equal, or differ by the skew.
-fn sampled(
-    pairs: &StagePairs,
-    curves: &[Curve; 2],
-    samples: usize,
-    skew: f64,
-) -> impl Iterator<Item = NearestPlace> {
+fn sampled(pairs: &StagePairs, curves: &[Curve; 2], samples: usize, skew: f64) -> impl Iterator<Item = NearestPlace> {
     let [one, two] = curves.each_ref().map(Curve::ends);
     let [begin, end] = [one[0].min(two[0]), one[1].max(two[1])];
     let times = (0..=samples).map(move |k| begin + (end - begin) * (k as f64 / samples as f64));

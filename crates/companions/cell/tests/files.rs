@@ -2,6 +2,7 @@
 
 use cplan_cell::{Cell, Refutation, Settings, plan_cell};
 use cplan_model::Outcome;
+use cplan_robot::Source;
 use std::path::Path;
 
 /// Returns the error about `workspaces/cells/handover.toml` with a text replaced, and the number of the line where it was.
@@ -15,7 +16,7 @@ fn error_after(old: &str, new: &str) -> (String, usize) {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("cell.toml");
     std::fs::write(&path, written).unwrap();
-    let error = Cell::load(&path, &|path| path.into(), None).expect_err(old).to_string();
+    let error = Cell::load(&Source::read(&path).unwrap(), &Source::read, None).expect_err(old).to_string();
     (error, text[..at].matches('\n').count() + 1)
 }
 
@@ -25,7 +26,7 @@ fn a_step_that_cannot_be_done_is_proven_and_has_its_line() {
     let path = cells.join("walled_in.toml");
     let text = std::fs::read_to_string(&path).unwrap();
     let line = text[..text.find("place = ").unwrap()].matches('\n').count();
-    let cell = Cell::load(&path, &|path| path.into(), None).unwrap();
+    let cell = Cell::load(&Source::read(&path).unwrap(), &Source::read, None).unwrap();
     let plan = plan_cell(&cell, &Settings::default(), &mut |_| ()).unwrap();
     let Outcome::Infeasible(Refutation::Step { arm: 0, failed }) = &plan.outcome else { panic!("{:?}", plan.tried) };
     assert!(failed.step.place.ends_with(&format!("walled_in.toml:{line}:1")), "{} {line}", failed.step.place);

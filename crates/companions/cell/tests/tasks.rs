@@ -4,6 +4,7 @@
 use cplan_cases::dice::Dice;
 use cplan_cell::{Cell, CellPlan, Coordination, Settings, StepTimes, plan_cell};
 use cplan_model::Outcome;
+use cplan_robot::Source;
 use std::fmt::Write as _;
 
 /// Lengths of the links of `robots/scara.urdf`, metres.
@@ -305,7 +306,7 @@ fn planned(text: &str, skew: f64) -> Option<CellPlan> {
     let directory = tempfile::tempdir().unwrap();
     let path = directory.path().join("cell.toml");
     std::fs::write(&path, text).unwrap();
-    let cell = Cell::load(&path, &|path| path.into(), None).ok()?;
+    let cell = Cell::load(&Source::read(&path).unwrap(), &Source::read, None).ok()?;
     let settings = Settings { skew, ..Settings::default() };
     Some(plan_cell(&cell, &settings, &mut |_| ()).unwrap())
 }

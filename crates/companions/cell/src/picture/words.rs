@@ -32,7 +32,12 @@ impl Answer<'_> {
                 format!("No motions: {} cannot reach its goal, even without {}", names[*arm], names[1 - *arm])
             }
             Outcome::Infeasible(Refutation::Step { arm, failed }) => {
-                format!("No motions: {} cannot do step {}, even without {}", names[*arm], failed.step.number, names[1 - *arm])
+                format!(
+                    "No motions: {} cannot do step {}, even without {}",
+                    names[*arm],
+                    failed.step.number,
+                    names[1 - *arm]
+                )
             }
             Outcome::Infeasible(Refutation::Starts(what)) => {
                 format!("No motions: at the starts, {}", what.replace('"', ""))
@@ -115,8 +120,7 @@ impl Answer<'_> {
             }
             _ => {}
         }
-        if let Some((time, pair)) = ShownMotions::of(self, &pairs).and_then(|motions| motions.first_contact(between))
-        {
+        if let Some((time, pair)) = ShownMotions::of(self, &pairs).and_then(|motions| motions.first_contact(between)) {
             let what = between.describe(pair, names).replace('"', "");
             let note = format!("{what}, if both take their fastest paths at once");
             cards.push(card("first collision", format!("at {time:.3} s"), &note));
