@@ -77,6 +77,7 @@ class CellView extends View {
       cspace.canvas.parentElement.hidden = true;
     }
     workspace.canvas.setAttribute('aria-label', 'Workspace with both arms');
+    this.explain.fold();
     this.recolor();
     this.seek(motions?.collides ?? 0);
   }

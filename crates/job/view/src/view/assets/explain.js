@@ -96,7 +96,7 @@ class Explain {
   }
 
   /**
-   * Closes the facts below the pictures, because the cards say the same.
+   * Closes the facts below the pictures, because cards and pictures say the same.
    * @returns {void}
    */
   fold() {
