@@ -169,7 +169,7 @@ def test_nothing_moves_under_the_finger(serve):
 def test_the_lesson_is_in_sight_when_the_course_opens(serve):
     seen = serve(*PLANAR, **PHONE)
     seen.page.get_by_role("button", name="Learn", exact=True).tap()
-    in_sight = "(({ top, bottom }) => top >= 0 && bottom < innerHeight / 2)(document.querySelector('.course-head h2').getBoundingClientRect())"
+    in_sight = "(({ top, bottom }) => top >= 0 && bottom < innerHeight)(document.querySelector('.course-head h2').getBoundingClientRect())"
     seen.until(in_sight)
     seen.page.wait_for_timeout(600)
     assert seen.do(in_sight)
