@@ -65,8 +65,7 @@ fn the_pages_of_the_course_need_nothing_else() {
         let text = exercise.split("</li>").next().unwrap();
         assert!(text.contains("<code>cplan ") && text.contains("robots/") && text.contains("workspaces/"), "{text}");
     }
-    let aims = count(&index, "<p>");
-    assert!(aims >= 7 && count(&index, "<img ") == 7, "{index}");
+    assert_eq!([count(&index, "<img "), count(&index, "</a><p>")], [7, 7], "{index}");
 }
 
 #[test]
