@@ -18,14 +18,17 @@ pub fn folder(path: &Path) -> Result<(), Failure> {
     })
 }
 
+/// Returns the files that exist. A symbolic link without a target counts as an existing file.
+pub fn existing_files(files: &[PathBuf]) -> Vec<&PathBuf> {
+    files.iter().filter(|file| file.symlink_metadata().is_ok()).collect()
+}
+
 /// Checks that files do not exist, unless `force` is set. `elsewhere` is the alternative that the message suggests.
 ///
 /// # Errors
 /// Existing files. The message names all of them.
 pub fn refuse_existing_files(files: &[PathBuf], force: bool, elsewhere: &str) -> Result<(), Failure> {
-    // A symbolic link without a target counts as an existing file.
-    let there: Vec<String> =
-        files.iter().filter(|f| f.symlink_metadata().is_ok()).map(|f| f.display().to_string()).collect();
+    let there: Vec<String> = existing_files(files).iter().map(|file| file.display().to_string()).collect();
     if force || there.is_empty() {
         return Ok(());
     }

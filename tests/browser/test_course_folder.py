@@ -34,6 +34,28 @@ def test_every_chapter_has_its_figure(course, show, width, height, scheme):
         seen.page.get_by_role("link", name="All chapters").first.click()
 
 
+@pytest.mark.parametrize("width", [1280, 390])
+def test_the_index_shows_what_each_chapter_is_about(course, show, width):
+    seen = show((course / "index.html").as_uri(), width=width)
+    assert seen.page.locator(".chapters li").count() == len(CHAPTERS)
+    seen.until("[...document.querySelectorAll('.chapters img')].every((img) => img.complete)")
+    assert seen.do("[...document.querySelectorAll('.chapters img')].map((img) => img.naturalWidth > 0 && img.clientWidth > 60)") == [True] * len(CHAPTERS)
+    assert all(len(text) > 30 for text in seen.page.locator(".chapters p").all_inner_texts())
+    assert seen.do("document.documentElement.scrollWidth <= document.documentElement.clientWidth")
+    seen.shoot(f"course-index-{width}")
+
+
+def test_the_printed_sheet_has_room_for_the_name_and_answers(course, show):
+    seen = show((course / "exercises.html").as_uri())
+    seen.page.emulate_media(media="print")
+    assert seen.do("getComputedStyle(document.querySelector('.person'), '::after').borderBottomStyle") == "solid"
+    rooms = seen.do("[...document.querySelectorAll('.sheet li')].map((li) => parseFloat(getComputedStyle(li, '::after').height))")
+    assert len(rooms) >= 21 and min(rooms) >= 100
+    headings = seen.page.locator(".sheet h2 a")
+    assert [headings.nth(k).get_attribute("href") for k in range(headings.count())] == [f"{chapter}.html" for chapter in CHAPTERS]
+    seen.shoot("course-sheet")
+
+
 def test_answers_are_apart(course, show):
     seen = show((course / "exercises.html").as_uri())
     questions = seen.page.locator("section > ol > li").count()

@@ -277,6 +277,22 @@ def test_lessons_fit_a_phone_and_all_controls_have_names(program, show_file, sch
         seen.shoot(f"learn_phone_{lesson}_{scheme}")
 
 
+HEADING_IS_IN_SIGHT = "(({ top, bottom }) => top >= 0 && bottom < innerHeight / 2)(document.querySelector('.course-head h2').getBoundingClientRect())"
+
+
+@pytest.mark.parametrize("motion", ["reduce", "no-preference"])
+@pytest.mark.parametrize("scrolled", [90, 270])
+def test_a_phone_scrolls_to_the_lesson_when_the_course_opens(program, show_file, scrolled, motion):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page, width=390, height=844, has_touch=True, is_mobile=True, reduced_motion=motion)
+    seen.do("(y) => scrollTo(0, y)", scrolled)
+    seen.page.get_by_role("button", name="Learn", exact=True).tap()
+    seen.until(HEADING_IS_IN_SIGHT)
+    # The browser's own scrolling, which keeps old content in place, is over as well.
+    seen.page.wait_for_timeout(600)
+    assert seen.do(HEADING_IS_IN_SIGHT)
+
+
 def test_there_are_lessons_only_where_there_is_something_to_learn_from(program, show_file):
     program.run("inspect", ROOT / "robots/planar_2r.urdf", "--picture", "inspect.html")
     assert show_file(program.folder / "inspect.html").page.get_by_role("button", name="Learn").is_hidden()

@@ -164,3 +164,12 @@ def test_nothing_moves_under_the_finger(serve):
     tops = seen.do("[...tops].map((top) => JSON.parse(top))")
     # While the page scrolls, places are rounded to fractions of a pixel.
     assert all(max(top) - min(top) < 1 for top in zip(*tops)), tops
+
+
+def test_the_lesson_is_in_sight_when_the_course_opens(serve):
+    seen = serve(*PLANAR, **PHONE)
+    seen.page.get_by_role("button", name="Learn", exact=True).tap()
+    in_sight = "(({ top, bottom }) => top >= 0 && bottom < innerHeight)(document.querySelector('.course-head h2').getBoundingClientRect())"
+    seen.until(in_sight)
+    seen.page.wait_for_timeout(600)
+    assert seen.do(in_sight)

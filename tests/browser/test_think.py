@@ -66,6 +66,30 @@ def test_thinking_is_played_by_keyboard_and_each_keeps_its_time(program, show_fi
     assert pressed.all_inner_texts() == ["Motion"]
 
 
+def test_keys_act_after_a_click_on_the_mode(program, show_file):
+    page, _ = program.plan("planar_2r", "shelf")
+    seen = show_file(page)
+    think(seen)
+    assert "opening" in seen.page.locator(".play").get_attribute("class"), "the button to play stands out"
+    opening = seen.do("cplan.time")
+    keyboard = seen.page.keyboard
+    keyboard.press("ArrowRight")
+    assert seen.do("cplan.moment.index") == 1 and seen.do("cplan.time") > opening
+    assert "opening" not in seen.page.locator(".play").get_attribute("class")
+    keyboard.press("Home")
+    assert seen.do("cplan.time") == 0
+    # Space plays once, although a button has the focus.
+    keyboard.press(" ")
+    seen.until("cplan.playing && cplan.time > 0")
+    assert seen.do("cplan.mode") == "think" and seen.do("document.activeElement.dataset.mode") == "think"
+    keyboard.press(" ")
+    assert not seen.do("cplan.playing")
+    # On the button of another mode, Space chooses this mode.
+    seen.page.get_by_role("button", name="Motion", exact=True).focus()
+    keyboard.press(" ")
+    assert seen.do("cplan.mode") == "move" and not seen.do("cplan.playing")
+
+
 def test_the_arm_stands_where_the_planner_looks(program, show_file):
     page, _ = program.plan("planar_2r", "workbench", "--planner", "voronoi")
     seen = show_file(page)

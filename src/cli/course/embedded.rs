@@ -1,17 +1,46 @@
 //! The texts of the course, and the files for its figures, embedded in the program.
 
 use crate::input::Source;
+use cplan_course::Chapter;
 use std::path::Path;
 
-/// Names and texts of the chapters, in their order.
-pub const CHAPTERS: [(&str, &str); 7] = [
-    ("c_obstacles", include_str!("../../../docs/c_obstacles.md")),
-    ("roadmaps", include_str!("../../../docs/roadmaps.md")),
-    ("cells", include_str!("../../../docs/cells.md")),
-    ("waves", include_str!("../../../docs/waves.md")),
-    ("fields", include_str!("../../../docs/fields.md")),
-    ("proofs", include_str!("../../../docs/proofs.md")),
-    ("tasks", include_str!("../../../docs/tasks.md")),
+/// The chapters, in their order.
+pub const CHAPTERS: [Chapter; 7] = [
+    Chapter {
+        name: "c_obstacles",
+        text: include_str!("../../../docs/c_obstacles.md"),
+        aim: "How an obstacle becomes a set of joint values that the arm must avoid.",
+    },
+    Chapter {
+        name: "roadmaps",
+        text: include_str!("../../../docs/roadmaps.md"),
+        aim: "How a graph of collision-free motions turns planning into a search for a shortest path.",
+    },
+    Chapter {
+        name: "cells",
+        text: include_str!("../../../docs/cells.md"),
+        aim: "How free space is divided into simple cells, and how a path through them is pulled taut.",
+    },
+    Chapter {
+        name: "waves",
+        text: include_str!("../../../docs/waves.md"),
+        aim: "How a wave over a grid, and A*, find a path with the fewest moves.",
+    },
+    Chapter {
+        name: "fields",
+        text: include_str!("../../../docs/fields.md"),
+        aim: "How a potential leads to the goal without a search, and what a local minimum is.",
+    },
+    Chapter {
+        name: "proofs",
+        text: include_str!("../../../docs/proofs.md"),
+        aim: "How a motion is certified, and how boxes prove that there is no path.",
+    },
+    Chapter {
+        name: "tasks",
+        text: include_str!("../../../docs/tasks.md"),
+        aim: "How picking, carrying and placing change the configuration space from step to step.",
+    },
 ];
 
 /// The pictures of the chapters that no live figure replaces.

@@ -4,7 +4,7 @@ mod embedded;
 
 use super::exit::DONE;
 use super::failure::Failure;
-use super::fresh::{folder, refuse_existing_files};
+use super::fresh::{existing_files, folder};
 use super::plan::page_view;
 use super::serve::{DEFAULT_TIME_LIMIT, page_with_engine};
 use super::{sinks, words};
@@ -47,7 +47,7 @@ pub struct CourseArgs {
 /// # Errors
 /// Files that exist already, and I/O. If there is an error, no file is written.
 pub fn run(args: &CourseArgs) -> Result<u8, Failure> {
-    let chapters = embedded::CHAPTERS.map(|(name, text)| Chapter { name, text });
+    let chapters = embedded::CHAPTERS;
     let mut files: Vec<(String, String)> =
         cplan_course::files(&chapters, args.engine.is_some()).into_iter().map(|file| (file.path, file.text)).collect();
     for figure in chapters.iter().filter_map(Chapter::figure) {
@@ -60,11 +60,23 @@ pub fn run(args: &CourseArgs) -> Result<u8, Failure> {
     }
     let files: Vec<(PathBuf, String)> = files.into_iter().map(|(path, text)| (args.dir.join(path), text)).collect();
     let paths: Vec<PathBuf> = files.iter().map(|(path, _)| path.clone()).collect();
-    refuse_existing_files(&paths, args.force, "`cplan course DIR` with another folder writes elsewhere")?;
+    refuse_existing_course(args, &paths)?;
     paths.iter().filter_map(|path| path.parent()).try_for_each(folder)?;
     write_whole_set(&files)?;
     sinks::report(&description(&args.dir))?;
     Ok(DONE)
+}
+
+/// Checks that the folder has no files of a course, unless they may be replaced. The message counts them, because they are many.
+fn refuse_existing_course(args: &CourseArgs, paths: &[PathBuf]) -> Result<(), Failure> {
+    let there = existing_files(paths);
+    let Some(first) = there.first().filter(|_| !args.force) else { return Ok(()) };
+    let (dir, first) = (args.dir.display(), first.display());
+    let files = if there.len() == 1 { "a file".to_owned() } else { format!("{} files", there.len()) };
+    Err(Failure::Refused(format!(
+        "{dir} already has {files} of a course, such as {first}; nothing was written\n  \
+         hint: choose another folder, remove this one, or replace the files by --force"
+    )))
 }
 
 /// Returns the page of a live figure, which the command in the chapter also writes.

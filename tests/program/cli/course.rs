@@ -60,6 +60,12 @@ fn the_pages_of_the_course_need_nothing_else() {
     let count = |page: &str, what: &str| page.matches(what).count();
     assert_eq!(count(&answers, "<details"), count(&sheet, "<li>"));
     assert!(count(&sheet, "<li>") >= 21, "{sheet}");
+    // Each can be done alone: it has a command with its robot and its world.
+    for exercise in sheet.split("<li>").skip(1) {
+        let text = exercise.split("</li>").next().unwrap();
+        assert!(text.contains("<code>cplan ") && text.contains("robots/") && text.contains("workspaces/"), "{text}");
+    }
+    assert_eq!([count(&index, "<img "), count(&index, "</a><p>")], [7, 7], "{index}");
 }
 
 #[test]
@@ -88,7 +94,10 @@ fn existing_files_are_kept() {
     place.run(&["course", "."], "").exits(0);
     let written = files(&place);
     place.write("waves.html", "my own");
-    place.run(&["course", "."], "").refused(1, &["waves.html", "--force"]);
+    let refusal = ["already has ", " files of a course, such as ", "index.html", "another folder", "--force"];
+    let answer = place.run(&["course", "."], "");
+    answer.refused(1, &refusal);
+    assert!(!answer.stderr.contains("waves.html"), "one file stands for all: {}", answer.stderr);
     assert_eq!(place.read("waves.html"), "my own");
     place.run(&["course", "."], "--force").exits(0);
     assert_ne!(place.read("waves.html"), "my own");

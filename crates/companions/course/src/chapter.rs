@@ -7,6 +7,8 @@ pub struct Chapter<'a> {
     pub name: &'a str,
     /// The whole text.
     pub text: &'a str,
+    /// What one learns, as one sentence without markup.
+    pub aim: &'a str,
 }
 
 /// The live figure of a chapter.
@@ -34,6 +36,14 @@ impl<'a> Chapter<'a> {
     /// Returns the title: the first heading.
     pub fn title(&self) -> &'a str {
         self.text.lines().find_map(|line| line.strip_prefix("# ")).unwrap_or(self.name)
+    }
+
+    /// Returns the path of the first picture. `None` if the text has only the picture that the live figure replaces, or none.
+    pub fn first_picture(&self) -> Option<&'a str> {
+        let live = self.figure().map(|figure| figure.picture);
+        let mut targets =
+            self.text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target);
+        targets.find(|target| target.starts_with("pictures/") && Some(*target) != live.as_deref())
     }
 
     /// Returns the explanation: the text before the exercises, without the title.

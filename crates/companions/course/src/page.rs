@@ -52,8 +52,13 @@ fn index(chapters: &[Chapter], has_lab: bool) -> String {
          which you move the arm, and exercises. The pages need no network and no installation.</p>\n<ol class=\"chapters\">\n",
     );
     for chapter in chapters {
-        let (name, title) = (chapter.name, markup(chapter.title()));
-        let _ = writeln!(content, "<li><a href=\"{name}.html\">{title}</a></li>");
+        let (name, title, aim) = (chapter.name, markup(chapter.title()), markup(chapter.aim));
+        let picture = chapter.first_picture().map(|path| format!("<img src=\"{}\" alt=\"\">", markup(path)));
+        let picture = picture.unwrap_or_default();
+        let _ = writeln!(
+            content,
+            "<li><div>{picture}</div><div><a href=\"{name}.html\">{title}</a><p>{aim}</p></div></li>"
+        );
     }
     content += "</ol>\n<p><a href=\"exercises.html\">All exercises on one sheet</a>, to print.</p>\n";
     if has_lab {
@@ -93,10 +98,15 @@ fn chapter_page(chapters: &[Chapter], names: &[&str], at: usize) -> String {
 /// Returns the sheet of all exercises, with room for answers.
 fn exercises(chapters: &[Chapter], names: &[&str]) -> String {
     let links = Links { chapters: names, root: "", figure: None };
-    let mut content = String::from("<h1>Exercises</h1>\n<p class=\"person\">Name: </p>\n");
+    let mut content = String::from(
+        "<h1>Exercises</h1>\n<p class=\"person\">Name: </p>\n<p>Run the commands in the folder of cplan, which contains the folders \
+         <code>robots</code> and <code>workspaces</code>. Each heading links to the chapter with its live figure.</p>\n",
+    );
     for chapter in chapters {
-        let (title, questions) = (markup(chapter.title()), links.html(&chapter.exercises()));
-        let _ = write!(content, "<section class=\"sheet\">\n<h2>{title}</h2>\n{questions}</section>\n");
+        let (name, title) = (chapter.name, markup(chapter.title()));
+        let questions = links.html(&chapter.exercises());
+        let heading = format!("<h2><a href=\"{name}.html\">{title}</a></h2>");
+        let _ = write!(content, "<section class=\"sheet\">\n{heading}\n{questions}</section>\n");
     }
     page("Exercises", "", &content)
 }
@@ -123,12 +133,13 @@ mod tests {
     const CHAPTERS: [Chapter; 2] = [
         Chapter {
             name: "waves",
+            aim: "How waves spread",
             text: "# Waves\n\nA *wave*, see [fields](fields.md#exercises) and [planners](planners.md).\n\n![Small](pictures/small.svg)\n\n![A picture](pictures/wave.svg)\n\
                    <!-- live: waves.html#learn=waves -->\n\n```sh\ncplan robots/a.urdf workspaces/b.toml --cells 64 --quiet --picture \
                    waves.html\n```\n\n![Another](pictures/other.svg)\n\n## Exercises\n\n1. Why?\n\n<details><summary>Answer</summary>\n\nBecause \
                    `a < b`.\n\n</details>\n\n2. How?\n\n<details><summary>Answer</summary>\n\nSo.\n\n</details>\n",
         },
-        Chapter { name: "fields", text: "# Fields\n\nNo figure.\n" },
+        Chapter { name: "fields", aim: "How fields lead", text: "# Fields\n\nNo figure.\n" },
     ];
 
     fn text_of(path: &str) -> String {
@@ -149,6 +160,16 @@ mod tests {
         assert!(answers.contains("So.") && answers.contains("../style.css"), "{answers}");
         assert!(!text_of("exercises.html").contains("So."));
         assert!(!text_of("index.html").contains("answers"));
+    }
+
+    #[test]
+    fn the_index_has_a_picture_and_the_aim_of_each_chapter() {
+        let index = text_of("index.html");
+        let waves =
+            r#"<img src="pictures/small.svg" alt=""></div><div><a href="waves.html">Waves</a><p>How waves spread</p>"#;
+        assert!(index.contains(waves), "{index}");
+        let fields = r#"<li><div></div><div><a href="fields.html">Fields</a><p>How fields lead</p>"#;
+        assert!(index.contains(fields), "{index}");
     }
 
     #[test]

@@ -19,7 +19,9 @@ class Keys {
     if (event.target.matches?.('input:not([type=checkbox]):not([type=range]), textarea, select')) return;
     const panel = Object.values(view.panels).find(({ canvas }) => event.target === canvas);
     if (panel && (this.zooms(panel, event) || (panel === view.panels.cspace ? this.nudge(event) : this.nudgeTip(event)))) return;
-    const control = event.target.matches?.('button, input, a, summary');
+    // After a choice of the mode, its button has the focus. Choosing the current mode again does nothing, so keys act on the page.
+    const isCurrentMode = event.target.matches?.('[data-mode][aria-pressed=true]');
+    const control = !isCurrentMode && event.target.matches?.('button, input, a, summary');
     const step = event.shiftKey ? 0.5 : 0.05;
     const isSlider = event.target === view.parts.scrubber;
     // In the replay, arrow keys go from phase to phase.

@@ -136,7 +136,7 @@ class Learn {
     else if (this.chapters[this.chapter + by]) this.enter(this.chapter + by, by > 0 ? 0 : this.chapters[this.chapter + by].lessons.length - 1);
     else return;
     // The buttons stay under the finger, but the reader begins with the text.
-    if (this.head.getBoundingClientRect().top < 0) this.head.scrollIntoView({ behavior: Settings.reducesMotion ? 'auto' : 'smooth' });
+    this.reveal();
   }
 
   /** Begins a lesson, with a view of its figure that shows as much as possible. */
@@ -156,10 +156,18 @@ class Learn {
     if (window.parent === window && !this.view.recall && location.hash !== hash) history.replaceState(null, '', hash);
   }
 
-  /** Shows the course again, or its first lesson. */
+  /** Shows the course again, or its first lesson, and scrolls to its text if that is out of sight. Frames in other pages do not scroll. */
   resume() {
     if (this.isOpen) this.view.ready();
     else this.enter(this.chapter, this.at);
+    // In the next frame, the browser may scroll to keep the old content in place. So the text has its place in the one after.
+    if (window.parent === window) requestAnimationFrame(() => requestAnimationFrame(() => this.reveal()));
+  }
+
+  /** Scrolls to the text of the lesson, unless its beginning is visible. */
+  reveal() {
+    const { top } = this.head.getBoundingClientRect();
+    if (top < 0 || top >= window.innerHeight) this.head.scrollIntoView({ behavior: Settings.reducesMotion ? 'auto' : 'smooth' });
   }
 
   // Progress.

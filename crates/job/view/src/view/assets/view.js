@@ -587,6 +587,7 @@ class View {
     this.time = Math.min(this.duration, Math.max(0, Number.isFinite(time) ? time : 0));
     if (this.drawn === 'think' && this.time !== this.opening) this.opening = null;
     const { parts, motion } = this;
+    parts.play.classList.toggle('opening', this.drawn === 'think' && this.time === this.opening);
     if (Number(parts.scrubber.value) !== this.time) parts.scrubber.value = this.time;
     const { moment } = this;
     if (this.mode === 'learn' && this.learn.own) {
