@@ -234,7 +234,7 @@ def test_a_task_that_fails_opens_before_its_step_and_says_what_opens_a_path(prog
     seen.shoot("task-fails")
 
 
-def test_the_goals_of_a_failed_step_and_what_blocks_them_are_in_sight(program, show_file):
+def test_the_goals_of_a_failed_step_and_its_blocking_obstacles_are_in_sight(program, show_file):
     page, _ = program.plan("scara", "tasks/slot_rigid", code=3)
     seen = show_file(page, width=390, height=844)
     # The rail is picked at y = -0.2 m, and the far jaw ends at y = 0.4 m.

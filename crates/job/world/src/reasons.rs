@@ -107,8 +107,8 @@ pub(super) fn help_for_limits(scene: &Scene, q: Configuration, notation: Notatio
     hint_for_degrees(scene, q, notation).unwrap_or_else(|| HELP_FOR_LIMITS.to_owned())
 }
 
-/// Asks whether degrees were meant, if a value of more than a turn is outside the limits, but would be within them in degrees.
-/// `None` if no such value is in radians.
+/// Returns the hint that degrees may be meant, if a value in radians is more than a turn and outside the limits, but would be
+/// within them in degrees. Otherwise `None`.
 pub(super) fn hint_for_degrees(scene: &Scene, q: Configuration, notation: Notation) -> Option<String> {
     let quote = if notation.in_file { "\"" } else { "" };
     let degrees = |i: usize| {

@@ -126,8 +126,8 @@ impl JointValues {
 }
 
 impl JointValues {
-    /// Asks whether degrees were meant, if a value of more than a turn is outside the limits of the scene's joints, but would be
-    /// within them in degrees. `q` holds the resolved values. `None` if no such value is in radians.
+    /// Returns the hint that degrees may be meant, if a value in radians is more than a turn and outside the limits of the scene's
+    /// joints, but would be within them in degrees. Otherwise `None`. `q` holds the resolved values.
     pub fn hint_for_degrees(&self, scene: &Scene, q: Configuration) -> Option<String> {
         hint_for_degrees(scene, q, self.notation())
     }

@@ -411,7 +411,7 @@ class View {
 
   /**
    * Returns the part of the workspace in which a task happens: the places of tip, elbow and objects, and the base. If a step
-   * fails, also the tip and elbow at its goals, and what blocks it, as far as the arm sweeps.
+   * fails, also tip and elbow at its goals, and the blocking obstacles within the swept part of the plane.
    */
   stage() {
     const { paths, worlds, motions, arm, places = [], frame, stuck } = this.model;
