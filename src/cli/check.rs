@@ -99,7 +99,7 @@ pub fn run(args: &CheckArgs) -> Result<u8, Failure> {
         sinks::print_json(&sinks::pretty(&findings)?)?;
     } else {
         let mut columns = Columns::default();
-        report(&loaded, q, &findings).iter().for_each(|(key, value)| columns.add(key, value));
+        report(&loaded, args.at, q, &findings).iter().for_each(|(key, value)| columns.add(key, value));
         if let Some(is_expected) = is_expected {
             columns.add("expected", if is_expected { "yes" } else { "no" });
         }
@@ -122,7 +122,7 @@ fn view(args: &CheckArgs, loaded: &LoadedScene, q: Configuration, findings: &Con
             format!("{}: {}", place.join(", "), configuration(scene.arm(), q)),
         ],
         status: outcome(findings).to_owned(),
-        facts: page_facts(report(loaded, q, findings)),
+        facts: page_facts(report(loaded, args.at, q, findings)),
         c_obstacles: &contours(scene),
         ..Picture::new(scene, q)
     });
@@ -146,8 +146,13 @@ fn outcome(findings: &ConfigurationFindings) -> &'static str {
     if findings.free { "free" } else { "not free" }
 }
 
-/// Returns the lines of the report, with their keys. The key of a continuation line is empty.
-fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindings) -> Vec<(&'static str, String)> {
+/// Returns the lines of the report, with their keys. The key of a continuation line is empty. `at` holds the values as written.
+fn report(
+    loaded: &LoadedScene,
+    at: JointValues,
+    q: Configuration,
+    findings: &ConfigurationFindings,
+) -> Vec<(&'static str, String)> {
     let scene = &*loaded.scene.drawn();
     let arm = scene.arm();
     let mut lines = Vec::new();
@@ -228,5 +233,6 @@ fn report(loaded: &LoadedScene, q: Configuration, findings: &ConfigurationFindin
     let RobotReport { geometry, notes, .. } = &loaded.robot;
     geometry.iter().for_each(|fact| line("", fact.clone()));
     notes.iter().chain(&loaded.world.notes).for_each(|note| line("note", note.clone()));
+    at.hint_for_degrees(scene, q).into_iter().for_each(|hint| line("hint", hint));
     lines
 }

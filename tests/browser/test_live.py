@@ -280,7 +280,7 @@ def test_how_a_plan_was_found_is_told_when_somebody_asks(serve):
 
 def test_a_proof_is_told_too(serve):
     seen = serve(ROOT / "robots/planar_2r_continuous.urdf", ROOT / "workspaces/no_path.toml")
-    seen.page.get_by_role("button", name="How it was found", exact=True).click()
+    seen.page.locator("button[data-mode=think]").click()
     settled(seen)
     seen.until("cplan.view.mode === 'think'")
     seen.do("cplan.view.seek(cplan.view.duration)")

@@ -131,3 +131,12 @@ def test_the_turns_of_the_wrist_are_shown_in_time(program, show_file):
     # A task without turns has no strip of turns.
     page, _ = program.plan("rrbot_vertical", "tasks/tower")
     assert show_file(page).page.locator(".turns").is_hidden()
+
+
+def test_a_page_without_an_answer_has_the_reason_as_title_and_shows_what_moves(program, show_file):
+    page, _ = program.plan("planar_2r", "moving/parked", code=4)
+    seen = show_file(page)
+    assert seen.page.locator("h1").inner_text().startswith("Not known: a path exists past the static obstacles")
+    assert seen.page.locator("button[data-mode=think]").inner_text() == "What was tried"
+    # At 0 s, the cart reaches from 2.0 to 3.1 m.
+    assert seen.do("cplan.now") == 0 and seen.do("cplan.model.frame[0][1]") > 2.5

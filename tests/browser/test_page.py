@@ -202,6 +202,8 @@ def test_unknown_says_so(program, show_file):
     seen = show_file(page)
     assert "unknown" in seen.page.get_by_role("status").inner_text()
     assert result["reason"] in seen.page.locator(".facts").inner_text()
+    title = seen.page.locator("h1").inner_text()
+    assert title.startswith("Not known: ") and result["reason"] in title
 
 
 def test_a_task_is_followed_step_by_step(program, show_file):

@@ -232,3 +232,18 @@ def test_a_task_that_fails_opens_before_its_step_and_says_what_opens_a_path(prog
     card.click()
     assert seen.do("JSON.stringify(cplan.model.worlds.map(({ obstacles }) => obstacles))") == old
     seen.shoot("task-fails")
+
+
+def test_the_goals_of_a_failed_step_and_its_blocking_obstacles_are_in_sight(program, show_file):
+    page, _ = program.plan("scara", "tasks/slot_rigid", code=3)
+    seen = show_file(page, width=390, height=844)
+    # The rail is picked at y = -0.2 m, and the far jaw ends at y = 0.4 m.
+    low, high = seen.do("cplan.panels.workspace.y")
+    assert low < -0.2 and high > 0.4
+    # The joint values of all attempts are folded.
+    attempt = seen.page.locator(".lines details p").first
+    assert seen.page.locator(".lines > p").count() == 3 and not attempt.is_visible()
+    seen.page.locator(".lines summary").click()
+    assert attempt.is_visible()
+    assert "With nothing in the way, there is a certified path." in seen.page.locator(".explain").inner_text()
+    assert seen.page.locator(".status").bounding_box()["height"] < 40

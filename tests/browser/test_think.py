@@ -108,6 +108,7 @@ def test_what_is_proven_impossible_is_told_at_once_and_ends_with_the_proof(progr
     page, _ = program.plan("planar_2r_continuous", "no_path", code=3)
     seen = show_file(page)
     assert seen.do("cplan.mode") == "think" and seen.do("cplan.time") == seen.do("cplan.duration")
+    assert seen.page.locator("button[data-mode=think]").inner_text() == "How it was proven"
     assert "there is no path" in seen.page.locator(".step").inner_text()
     proven = pixels(seen, "cspace")
     seen.page.keyboard.press("Home")

@@ -4,8 +4,8 @@ use super::Answered;
 use crate::model::Outcome;
 use crate::motion::Wait;
 use crate::output::format_columns;
-use crate::text::{counted, length_down, percent};
-use cplan_cell::{Coordination, HandoverTimes, Interlock, Refutation, StepTimes};
+use crate::text::{counted, fixed, length_down, percent};
+use cplan_cell::{CellArm, Coordination, HandoverTimes, Interlock, Refutation, StepTimes};
 
 /// Greatest number of interlocks and attempts in the summary.
 const MAX_SHOWN: usize = 8;
@@ -43,7 +43,7 @@ impl Answered<'_> {
             }
             lines.extend(found.handovers.iter().map(|handover| ("handover", self.handover(handover))));
             for (arm, waits) in cell.arms.iter().zip(&found.waits) {
-                lines.extend(waits.iter().map(|wait| ("wait", format!("{} {}", arm.name, waiting(wait)))));
+                lines.extend(waits.iter().map(|wait| ("wait", format!("{} {}", arm.name, waiting(arm, wait)))));
             }
             match &found.interlocks {
                 None => {
@@ -130,7 +130,7 @@ impl Answered<'_> {
         let place = |arm: usize, time: f64| {
             let q = found.place(arm, time);
             let target = self.programs.map(|programs| format!(", target {}", programs.target(number, arm)));
-            format!("({:.3}, {:.3}), {time:.3} s{}", q[0], q[1], target.unwrap_or_default())
+            format!("{}, {time:.3} s{}", joints(&self.cell.arms[arm], q.into()), target.unwrap_or_default())
         };
         format!(
             "{} waits for signal {number} at {}; {} sets it after {}",
@@ -147,7 +147,16 @@ fn done(StepTimes { number, action, begin, end, .. }: &StepTimes) -> String {
     format!("{number}: {action}, from {begin:.3} s to {end:.3} s")
 }
 
-fn waiting(Wait { from, to, at }: &Wait) -> String {
-    let place = if *from == 0.0 { "at its start".into() } else { format!("at ({:.3}, {:.3})", at[0], at[1]) };
+fn waiting(arm: &CellArm, Wait { from, to, at }: &Wait) -> String {
+    let place = if *from == 0.0 { "at its start".into() } else { format!("at {}", joints(arm, *at)) };
     format!("{place} from {from:.3} s to {to:.3} s")
+}
+
+/// Formats joint values: `(0.300, 1.200) rad`, `(0.300 m, 1.200 rad)`.
+fn joints(arm: &CellArm, q: [f64; 2]) -> String {
+    let [a, b] = q.map(|value| fixed(value, 3));
+    match arm.problem.scene().arm().joints.each_ref().map(|joint| joint.unit()) {
+        [first, second] if first == second => format!("({a}, {b}) {first}"),
+        [first, second] => format!("({a} {first}, {b} {second})"),
+    }
 }

@@ -47,6 +47,8 @@ fn a_wrong_command_line_is_json_too() {
     place.run(&shelf(), "--json --picture plan.bmp").error(2, "usage", &[".svg, .png, .gif or .html"]);
     // Without the flag, stdout is empty; help is no error.
     place.run(&shelf(), "--planner best").refused(2, &["invalid value"]);
+    let tip = "astar is a search, not a planner; write `--planner wavefront --search astar` or `--planner prm --search astar`";
+    place.run(&shelf(), "--planner astar").refused(2, &["invalid value", tip]);
     let help = place.run::<&str>(&[], "--json --help").exits(0);
     help.says(&["Usage:"]);
 }

@@ -55,6 +55,10 @@ fn degrees_and_millimetres_are_suspected() {
     let place = Place::new();
     place.plan(FREE, "--start -51.6,0.4").refused(1, &["exceeds its limits", "write -51.6deg"]);
     place.plan(FREE.replace("-0.9", "-51.6"), "").refused(1, &["exceeds its limits", "write \"-51.6deg\""]);
+    place.plan(FREE, "--goal 400deg,0").refused(1, &["exceeds its limits", "choose values within the limits"]);
+    place
+        .plan(FREE.replace("-0.9", "\"400deg\""), "")
+        .refused(1, &["exceeds its limits", "choose values within the limits"]);
     place.plan(FREE, "--start 3.5,0.4").refused(1, &["exceeds its limits", "choose values within the limits"]);
     let post = format!("{FREE}[[obstacle]]\ncircle = {{ center = [1.2, 1.4], radius = 0.1 }}\n");
     place.plan(&post, "--clearance 20").refused(1, &["clearance of 20 m", "if 20 mm are meant, write 20mm"]);
@@ -62,6 +66,11 @@ fn degrees_and_millimetres_are_suspected() {
     let done = place.plan(far, "");
     assert!(done.stderr.contains("obstacle \"far\" is 499.0000 m from joint 1"), "{}", done.stderr);
     assert!(!place.plan(post, "").stderr.contains("warning"));
+    place.write("world.toml", FREE);
+    let check =
+        |at: &str| place.run(&["check", &shipped("robots/planar_2r.urdf"), "world.toml", "--at", at], "").stdout;
+    assert!(check("10,45").contains("if degrees are meant, write 10deg and 45deg"));
+    assert!(!check("400deg,0").contains("degrees are meant"));
 }
 
 /// Checks that a world with units is the same world as one in metres, for the program and for the checker.

@@ -111,27 +111,30 @@ pub fn evidence(explanation: &Explanation) -> String {
         }),
         Outcome::Infeasible(closed) => {
             let Some(set) = closed.sets.iter().find(|set| !set.blockers.is_empty()) else { return String::new() };
-            let boxes = set.proof.as_ref().map(|proof| match proof.collision_boxes().len() {
-                1 => " by 1 collision box".into(),
-                n => format!(" by {n} collision boxes"),
-            });
-            let proven = format!("proven{}", boxes.unwrap_or_default());
-            match (set.blockers.len(), set.is_irreducible()) {
-                (1, true) => format!(
-                    "Even if nothing else is in the way, there is no path ({proven}). Without it, there is a certified path."
-                ),
-                (_, true) => {
-                    format!(
-                        "Even if nothing else is in the way, there is no path ({proven}). Without any one of them, there is a certified path."
-                    )
-                }
-                (1, false) => format!("Even if nothing else is in the way, there is no path ({proven})."),
-                (_, false) => format!(
-                    "Even if nothing else is in the way, there is no path ({proven}). Perhaps fewer of them block it, too."
-                ),
-            }
+            evidence_of(explanation.question.scene(), set)
         }
     }
+}
+
+/// Returns a sentence about the proof that a set blocks all motions, and about the need of its elements.
+fn evidence_of(scene: &Scene, set: &BlockingSet) -> String {
+    let boxes = set.proof.as_ref().map(|proof| match proof.collision_boxes().len() {
+        1 => " by 1 collision box".into(),
+        n => format!(" by {n} collision boxes"),
+    });
+    let names: Vec<String> = set.elements().into_iter().map(|element| subject(scene, element)).collect();
+    let blame = if names.len() > MAX_NAMED {
+        "nothing else is in the way".to_owned()
+    } else {
+        format!("only {} {} in the way", joined(&names), is_or_are(names.len()))
+    };
+    let need = match (names.len(), set.is_irreducible()) {
+        (1, true) => " With nothing in the way, there is a certified path.",
+        (_, true) => " Without any one of them, there is a certified path.",
+        (1, false) => "",
+        (_, false) => " Perhaps fewer of them block it, too.",
+    };
+    format!("Even if {blame}, there is no path (proven{}).{need}", boxes.unwrap_or_default())
 }
 
 /// Returns a change as an instruction: `Move it 614 mm right`. `is_only` is true if "it" can only mean the changed

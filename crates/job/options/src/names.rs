@@ -1,6 +1,7 @@
 //! Words for planners, paths, searches and other choices, for help and shells to list.
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::error::{ContextKind, ContextValue};
 use cplan_fields::{Device, Difference, Initial, Limits, Lines, Measure, Order, Scan, Stencil};
 use cplan_motion::Objective;
 use cplan_planners::planner::{GridSearch, PathKind, VisibilityGraph};
@@ -31,7 +32,8 @@ impl<T: Copy + Send + Sync + 'static> TypedValueParser for WordParser<T> {
         value: &OsStr,
     ) -> Result<Self::Value, clap::Error> {
         let known = PossibleValuesParser::new(self.0.iter().map(possible_value));
-        let word = known.parse_ref(command, argument, value)?;
+        let word =
+            known.parse_ref(command, argument, value).map_err(|error| with_search_tip(error, argument, value))?;
         let is_meant = |(_, words, _): &&Word<T>| words.split('|').any(|own| own == word);
         Ok(self.0.iter().find(is_meant).expect("the word is one of its values").0)
     }
@@ -39,6 +41,19 @@ impl<T: Copy + Send + Sync + 'static> TypedValueParser for WordParser<T> {
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
         Some(Box::new(self.0.iter().map(possible_value)))
     }
+}
+
+/// Adds a tip to an error about a planner's name that is the name of a search.
+fn with_search_tip(mut error: clap::Error, argument: Option<&clap::Arg>, value: &OsStr) -> clap::Error {
+    let Some(argument) = argument.filter(|argument| argument.get_id() == "planner") else { return error };
+    let Some((search, name, _)) = searches().into_iter().find(|(_, name, _)| value == *name) else { return error };
+    let option = if argument.get_long().is_some() { "--planner " } else { "" };
+    let with = |planner: &str| format!("`{option}{planner} --search {name}`");
+    let is_for_grids = matches!(search, GridSearch::Wave | GridSearch::IterativeDeepening);
+    let example = if is_for_grids { with("wavefront") } else { format!("{} or {}", with("wavefront"), with("prm")) };
+    let tip = format!("{name} is a search, not a planner; write {example}");
+    error.insert(ContextKind::Suggested, ContextValue::StyledStrs(vec![tip.into()]));
+    error
 }
 
 fn possible_value<T>(&(_, words, help): &Word<T>) -> PossibleValue {

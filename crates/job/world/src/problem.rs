@@ -1,10 +1,10 @@
 //! Checks that start and goal are within the limits and free. Finds every IK solution for a goal of the tip.
 
 use super::reasons::{
-    HELP_FOR_LIMITS, beyond_limits, describe, describe_out_of_reach, describe_segment, help_at, help_for_ik_solutions,
-    help_for_limits, help_for_reach, obstructions, within_limits,
+    HELP_FOR_LIMITS, Notation, beyond_limits, describe, describe_out_of_reach, describe_segment, help_at,
+    help_for_ik_solutions, help_for_limits, help_for_reach, obstructions, within_limits,
 };
-use super::{AllowedErrors, LoadedProblem, LoadedScene, Overrides};
+use super::{AllowedErrors, JointValues, LoadedProblem, LoadedScene, Overrides};
 use cplan_geometry::Point;
 use cplan_model::space::{Configuration, GoalSet, Segment};
 use cplan_model::{BlockedStretch, Elbow, Freedom, Goal, MotionProblem, Scene, area_goals, inverse};
@@ -17,14 +17,25 @@ use std::sync::Arc;
 /// The source of a value: the command line or the world file.
 pub(super) enum Place<'a> {
     Option(&'static str),
+    /// An option that gives joint values.
+    Joints(&'static str, JointValues),
     World(&'a LoadedScene, Range<usize>),
 }
 
 impl Place<'_> {
     pub(super) fn diagnostic(&self, message: String) -> Diagnostic {
         match self {
-            Place::Option(name) => Diagnostic::new(*name, message),
+            Place::Option(name) | Place::Joints(name, _) => Diagnostic::new(*name, message),
             Place::World(loaded, at) => loaded.world.source.diagnostic_at(at.clone(), message),
+        }
+    }
+
+    /// Returns the notation of joint values from this source.
+    fn notation(&self) -> Notation {
+        match self {
+            Place::Option(_) => Notation::default(),
+            Place::Joints(_, values) => values.notation(),
+            Place::World(loaded, at) => Notation::in_world(&loaded.world, at),
         }
     }
 }
@@ -216,7 +227,7 @@ impl LoadedScene {
             }
             (Some(values), None) => {
                 let q = values.resolve(&self.scene.arm().joints, "--goal")?;
-                return Ok((vec![Goal::Joints(q)], Place::Option("--goal")));
+                return Ok((vec![Goal::Joints(q)], Place::Joints("--goal", *values)));
             }
             (None, Some(goal)) => {
                 let place = Place::Option("--goal-tip");
@@ -276,7 +287,7 @@ impl LoadedScene {
         let outside = beyond_limits(&self.scene, q);
         if !outside.is_empty() {
             let message = format!("{what} is outside the joint limits: {}", outside.join("; "));
-            let help = help_for_limits(&self.scene, q, matches!(place, Place::World(..)));
+            let help = help_for_limits(&self.scene, q, place.notation());
             return Err(place.diagnostic(message).help(help));
         }
         let hits = obstructions(&self.scene, q);

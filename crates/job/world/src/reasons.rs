@@ -1,10 +1,12 @@
 //! Describes why a configuration is outside the limits or blocked, and why no IK solution reaches a point.
 
+use super::World;
 use cplan_geometry::Point;
 use cplan_model::space::{Configuration, JointRange, Segment};
-use cplan_model::{Freedom, Inverse, Joint, Obstruction, Scene, equivalent_values};
+use cplan_model::{Freedom, Inverse, Obstruction, Scene, equivalent_values};
 use cplan_text::{fixed, format_distinct, joined};
 use std::f64::consts::TAU;
+use std::ops::Range;
 
 /// Returns the IK solutions of `solved` that are within the joint limits, shifted by every whole turn that keeps them there. Also
 /// returns a reason for each solution outside the limits.
@@ -81,23 +83,45 @@ pub(super) fn beyond_limits(scene: &Scene, q: Configuration) -> Vec<String> {
     outside
 }
 
-/// Returns the hint about a configuration outside the limits. If a value of more than a turn would be within the limits in
-/// degrees, asks whether degrees were meant. `in_file` is true for values in the world file, where degrees are written as
-/// strings.
-pub(super) fn help_for_limits(scene: &Scene, q: Configuration, in_file: bool) -> String {
-    let degrees = |(joint, value): (&Joint, &f64)| {
-        let is_meant = joint.joint_type.is_revolute()
+/// Notation of two joint values in the input.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Notation {
+    /// True in the world file, where values in degrees are strings.
+    pub in_file: bool,
+    /// True for each value in degrees.
+    pub in_degrees: [bool; 2],
+}
+
+impl Notation {
+    /// Returns the notation of the joint values in a part of the world file.
+    pub fn in_world(world: &World, at: &Range<usize>) -> Self {
+        let is_inside = |value: &Range<usize>| at.start <= value.start && value.end <= at.end;
+        let is_in_degrees =
+            |i: usize| world.in_degrees.iter().filter_map(|pair| pair.degrees[i].as_ref()).any(is_inside);
+        Self { in_file: true, in_degrees: [0, 1].map(is_in_degrees) }
+    }
+}
+
+/// Returns the hint about a configuration outside the limits.
+pub(super) fn help_for_limits(scene: &Scene, q: Configuration, notation: Notation) -> String {
+    hint_for_degrees(scene, q, notation).unwrap_or_else(|| HELP_FOR_LIMITS.to_owned())
+}
+
+/// Returns the hint that degrees may be meant, if a value in radians is more than a turn and outside the limits, but would be
+/// within them in degrees. Otherwise `None`.
+pub(super) fn hint_for_degrees(scene: &Scene, q: Configuration, notation: Notation) -> Option<String> {
+    let quote = if notation.in_file { "\"" } else { "" };
+    let degrees = |i: usize| {
+        let (joint, value) = (&scene.arm().joints[i], q[i]);
+        let is_meant = !notation.in_degrees[i]
+            && joint.joint_type.is_revolute()
             && value.abs() > TAU
-            && !joint.range.contains(*value)
+            && !joint.range.contains(value)
             && joint.range.contains(value.to_radians());
-        let quote = if in_file { "\"" } else { "" };
         is_meant.then(|| format!("{quote}{value}deg{quote}"))
     };
-    let meant: Vec<String> = scene.arm().joints.iter().zip(q.iter()).filter_map(degrees).collect();
-    if meant.is_empty() {
-        return HELP_FOR_LIMITS.to_owned();
-    }
-    format!("angles are in radians; if degrees are meant, write {}", joined(&meant))
+    let meant: Vec<String> = (0..2).filter_map(degrees).collect();
+    (!meant.is_empty()).then(|| format!("angles are in radians; if degrees are meant, write {}", joined(&meant)))
 }
 
 /// Hint to change the limits.

@@ -46,7 +46,7 @@ impl LoadedScene {
         notes: &mut Vec<String>,
     ) -> Result<(Configuration, Place<'_>), InputError> {
         if let Some(values) = &overrides.start {
-            return Ok((values.resolve(&self.scene.arm().joints, "--start")?, Place::Option("--start")));
+            return Ok((values.resolve(&self.scene.arm().joints, "--start")?, Place::Joints("--start", *values)));
         }
         let Some((start, at)) = &self.world.start else {
             return Err(self.missing("start", "[start] joints = [q1, q2] in the world file, or --start q1,q2").into());

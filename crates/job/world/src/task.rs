@@ -2,7 +2,7 @@
 
 use super::problem::{Place, no_elbow};
 use super::reasons::{
-    HELP_FOR_TIP, beyond_limits, describe_out_of_reach, help_for_limits, help_for_reach, within_limits,
+    HELP_FOR_TIP, Notation, beyond_limits, describe_out_of_reach, help_for_limits, help_for_reach, within_limits,
 };
 use super::requirement::{Required, Requirement};
 use super::tool_values::require_free_lowered;
@@ -13,6 +13,7 @@ use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Elbow, Goal, RESTING_TOLERANCE, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::{length, listed, short};
+use std::ops::Range;
 
 impl LoadedScene {
     /// Returns true if the world is a task: it has steps, or its start or goal states values of the tool's joints. Without steps,
@@ -102,7 +103,7 @@ impl LoadedScene {
     fn unmet_requirement(&self, requirement: &Requirement, start: Configuration) -> Option<Diagnostic> {
         let step = format!("step {}", requirement.step);
         let (message, help) = match requirement.required {
-            Required::Joints(q) => self.beyond_limits(&step, q)?,
+            Required::Joints(q) => self.beyond_limits(&step, q, &requirement.at)?,
             Required::Tip(tip, elbow) => self.beyond_reach(&step, (tip, elbow), start)?,
             Required::Elbow => {
                 no_elbow(&self.scene).map(|(message, help)| (format!("{step}: {message}"), help.to_owned()))?
@@ -112,12 +113,12 @@ impl LoadedScene {
         Some(self.world.source.diagnostic_at(requirement.at.clone(), message).help(help))
     }
 
-    fn beyond_limits(&self, step: &str, q: Configuration) -> Option<(String, String)> {
+    fn beyond_limits(&self, step: &str, q: Configuration, at: &Range<usize>) -> Option<(String, String)> {
         let outside = beyond_limits(&self.scene, q);
         (!outside.is_empty()).then(|| {
             (
                 format!("{step} is outside the joint limits: {}", outside.join("; ")),
-                help_for_limits(&self.scene, q, true),
+                help_for_limits(&self.scene, q, Notation::in_world(&self.world, at)),
             )
         })
     }

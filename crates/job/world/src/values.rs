@@ -1,10 +1,11 @@
 //! Joint values and points given on the command line.
 
 use super::LoadedScene;
+use super::reasons::{Notation, hint_for_degrees};
 use cplan_dynamics::keep_efforts;
 use cplan_geometry::Point;
 use cplan_model::space::Configuration;
-use cplan_model::{Elbow, Goal, Joint, SceneError, check_clearance};
+use cplan_model::{Elbow, Goal, Joint, Scene, SceneError, check_clearance};
 use cplan_robot::{CalibrationTable, Diagnostic, InputError, MAX_LENGTH};
 use cplan_text::metres;
 use std::fmt;
@@ -125,6 +126,16 @@ impl JointValues {
 }
 
 impl JointValues {
+    /// Returns the hint that degrees may be meant, if a value in radians is more than a turn and outside the limits of the scene's
+    /// joints, but would be within them in degrees. Otherwise `None`. `q` holds the resolved values.
+    pub fn hint_for_degrees(&self, scene: &Scene, q: Configuration) -> Option<String> {
+        hint_for_degrees(scene, q, self.notation())
+    }
+
+    pub(super) fn notation(&self) -> Notation {
+        Notation { in_file: false, in_degrees: self.degrees }
+    }
+
     /// Formats the values as in the world file.
     pub fn in_toml(&self) -> String {
         let value = |i: usize| match (self.numbers[i], self.degrees[i]) {

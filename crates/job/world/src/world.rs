@@ -23,6 +23,7 @@ use cplan_robot::{
     CalibrationTable, Diagnostic, InputError, Length, LengthError, Lengths, RobotSettings, RobotTable, Source, Spanned,
     Written, toml_table,
 };
+use cplan_text::fixed;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -282,7 +283,8 @@ pub(super) fn read(source: Source) -> Result<World, InputError> {
     let mut notes = reader.taken.lines();
     notes.extend(place.as_ref().map(|place| {
         let (at, angle) = (place.translation, place.rotation.angle());
-        format!("robot: the root frame is at ({}, {}) m in the world, turned by {angle} rad", at.x, at.y)
+        let turn = format!("{} deg ({} rad)", fixed(angle.to_degrees(), 2), fixed(angle, 4));
+        format!("robot: the root frame is at ({}, {}) m in the world, turned by {turn}", at.x, at.y)
     }));
     let fixed = Workspace { name: file.name.unwrap_or(stem), obstacles, clearance, preferences };
     let world = World {

@@ -257,8 +257,12 @@ fn task_picture<'a>(
     }
 }
 
-/// Returns the result of a successful plan as a sentence. `None` without a motion.
+/// Returns the result as a sentence: that of a motion that was found, or the reason why it is not known whether a single motion
+/// exists. `None` for other results.
 pub fn headline(plan: &Plan) -> Option<String> {
+    if let Some(Outcome::Unknown(unknown)) = plan.motion().map(|(_, answer)| &answer.outcome) {
+        return Some(format!("Not known: {}", unknown.reason));
+    }
     let seconds = format!("{:.2} s", plan.duration()?);
     if plan.status() != Status::Found {
         return None;

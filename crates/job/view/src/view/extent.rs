@@ -1,5 +1,6 @@
 //! The visible part of the workspace.
 
+use super::world::ObstacleView;
 use crate::axes::Range;
 use cplan_geometry::{Convex, Point, Pose};
 use cplan_model::Scene;
@@ -8,15 +9,17 @@ use cplan_model::space::Configuration;
 /// Number of samples along each axis that determine the extent of the arm's motion.
 const SAMPLES_PER_AXIS: usize = 17;
 
-/// Returns the least and greatest coordinates of what the arm can sweep, and of obstacles not much farther away.
-pub fn sides(scene: &Scene, shown: &[Configuration]) -> [Range; 2] {
+/// Returns the least and greatest coordinates of what the arm can sweep, and of obstacles not much farther away: those of the
+/// scene, and `moving` obstacles at the time that is shown.
+pub fn sides(scene: &Scene, shown: &[Configuration], moving: &[ObstacleView]) -> [Range; 2] {
     /// Fraction of the swept extent by which the panel may grow to include obstacles.
     const MAX_GROWTH: f64 = 0.25;
     const MARGIN_SHARE: f64 = 0.04;
     let swept = reach_box(scene, shown);
     let size = (swept[0].1 - swept[0].0).max(swept[1].1 - swept[1].0);
     let mut sides = swept;
-    for corners in scene.workspace().obstacles.iter().map(|o| bounding_box(&o.pieces)) {
+    let fixed = scene.workspace().obstacles.iter().map(|o| bounding_box(&o.pieces));
+    for corners in fixed.chain(moving.iter().map(|o| bounding_box(o.own()))) {
         let near = [0, 1].map(|k| {
             (corners[k].0.max(swept[k].0 - MAX_GROWTH * size), corners[k].1.min(swept[k].1 + MAX_GROWTH * size))
         });

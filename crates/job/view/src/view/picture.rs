@@ -7,7 +7,7 @@ use super::motion::{Clock, MotionView, PathView};
 use super::numbers::{RoundingSteps, number};
 use super::strip::StripView;
 use super::trace::TraceView;
-use super::world::WorldView;
+use super::world::{ObstacleView, WorldView};
 use cplan_geometry::Point;
 use cplan_handling::TimedScene;
 use cplan_judge::CheckedProof;
@@ -129,6 +129,9 @@ impl View {
         let goals: Vec<[f64; 2]> = goals.into_iter().map(|q| grain.configuration(q)).collect();
         let segments = picture.goals.iter().filter(|goal| !goal.is_point());
         let end = paths.first().map(|path| path.goal().into()).or(goals.first().copied());
+        // Without a motion, pages show moving obstacles at 0 s.
+        let shown_at_start = world.movers.iter().filter(|_| picture.trajectory.is_none());
+        let moving: Vec<ObstacleView> = shown_at_start.map(|mover| mover.at(0.0)).collect();
         Self {
             title: picture.title.clone(),
             status: picture.status.clone(),
@@ -136,7 +139,7 @@ impl View {
             facts: picture.facts.clone(),
             figures: KeyFigures::default(),
             arm: arm::empty_handed(scene, grain),
-            frame: extent::sides(scene, &shown).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
+            frame: extent::sides(scene, &shown, &moving).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
             start: grain.configuration(start),
             goals,
             goal_lines: segments.map(|goal| grain.configurations(&goal.ends())).collect(),

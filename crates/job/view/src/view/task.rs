@@ -90,7 +90,7 @@ impl View {
         let strip = strip(picture, &worlds.views);
         let (ending, facts) = (picture.ending, picture.facts.clone());
         Self {
-            frame: extent::sides(&overview, &shown).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
+            frame: extent::sides(&overview, &shown, &[]).map(|(lower, upper)| [lower, upper].map(|x| grain.length(x))),
             worlds: worlds.views,
             paths,
             motions,

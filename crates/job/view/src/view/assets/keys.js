@@ -101,7 +101,7 @@ function help(view) {
   const rows = [
     ...view.pointerHelp,
     ['Space or k', 'play, pause'],
-    ['arrow keys elsewhere', 'back and forth in time (with Shift further); while How it was found plays, from phase to phase'],
+    ['arrow keys elsewhere', 'back and forth in time (with Shift further); while the planner is replayed, from phase to phase'],
     ['Home, End', 'to the start, to the end'],
     ...(view.hasModes ? [['t', 'the motion, or how it was found'], ['l', 'the course: short lessons, each with a question']] : []),
     ['+, \u2212', 'faster, slower; after a click into a panel: zoom'],

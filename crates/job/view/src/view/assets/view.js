@@ -4,6 +4,8 @@
 const SYMBOLS = { found: '\u2713', infeasible: '\u2715', unknown: '?', shown: '\u2022', waiting: '\u2026' };
 /** A finger that begins within `NEAR` pixels of the cross, or of the arm's tip, takes it; a mouse within `NEAR_MOUSE`. */
 const [NEAR, NEAR_MOUSE] = [24, 12];
+/** Largest number of lines below the title. Further lines are folded. */
+const MAX_LINES = 3;
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4, 10];
 /** More obstacles than `NAMED` have numbers instead of names. With more than `CROWDED`, names appear only under the pointer. */
 const [NAMED, CROWDED] = [16, 40];
@@ -133,6 +135,7 @@ class View {
     const there = { move: moves || !thinks, think: thinks, learn: learns };
     for (const button of this.parts.modes.children) button.hidden = !(there[button.dataset.mode] || (button.dataset.mode === 'think' && this.recall));
     this.parts.modes.firstChild.textContent = moves ? 'Motion' : 'Picture';
+    this.parts.modes.children[1].textContent = this.replayName;
     const choices = [...this.parts.modes.children].filter((button) => !button.hidden).length;
     this.parts.modes.hidden = choices < 2;
     this.parts.transport.hidden = !moves && !thinks && (this.light || choices < 2);
@@ -181,6 +184,13 @@ class View {
   /** Returns true if there is a replay of the planner for a motion of a task. */
   hasReplay(motion) {
     return motion?.replay !== undefined;
+  }
+
+  /** Returns the name of the mode that replays the planner. */
+  get replayName() {
+    const { ending } = this.model;
+    if (ending === 'infeasible' && !this.isTask) return 'How it was proven';
+    return ending === 'infeasible' || ending === 'unknown' ? 'What was tried' : 'How it was found';
   }
 
   /** Returns true if there is any replay of the planner. */
@@ -399,14 +409,21 @@ class View {
     return this.relevance.pale.has(obstacle);
   }
 
-  /** Returns the part of the workspace in which a task happens: the places of tip, elbow and objects, and the base. */
+  /**
+   * Returns the part of the workspace in which a task happens: the places of tip, elbow and objects, and the base. If a step
+   * fails, also tip and elbow at its goals, and the blocking obstacles within the swept part of the plane.
+   */
   stage() {
-    const { paths, worlds, arm, places = [], frame } = this.model;
+    const { paths, worlds, motions, arm, places = [], frame, stuck } = this.model;
     const carried = new Set(worlds.map(({ payload }) => payload?.object));
     const objects = [...places, ...worlds.flatMap(({ obstacles }) => obstacles.filter(({ name }) => carried.has(name)))];
-    const corners = objects.flatMap(({ pieces, own }) => pieces.slice(0, own)).flatMap(({ core, radius }) => [...Geometry.pointsOf(core)].flatMap(([x, y]) => [[x - radius, y - radius], [x + radius, y + radius]]));
+    const cornersOf = (shapes) => shapes.flatMap(({ pieces, own }) => pieces.slice(0, own)).flatMap(({ core, radius }) => [...Geometry.pointsOf(core)].flatMap(([x, y]) => [[x - radius, y - radius], [x + radius, y + radius]]));
+    const last = worlds[motions[motions.length - 1]?.world ?? 0];
+    const blockers = cornersOf((stuck?.blockers ?? []).map((number) => last.obstacles[number]));
+    const blocking = blockers.map((corner) => corner.map((x, k) => Math.min(Math.max(x, frame[k][0]), frame[k][1])));
+    const unreached = last.unreached.flatMap((q) => [Geometry.elbowAt(arm, q), Geometry.tipAt(arm, q)]);
     const elbows = paths.flatMap(({ points: ends }) => [ends.slice(0, 2), ends.slice(-2)]).map((q) => Geometry.elbowAt(arm, q));
-    const points = [arm.base, ...corners, ...elbows, ...paths.flatMap((path) => Workspace.tipTrace(arm, path.points))];
+    const points = [arm.base, ...cornersOf(objects), ...blocking, ...unreached, ...elbows, ...paths.flatMap((path) => Workspace.tipTrace(arm, path.points))];
     return [0, 1].map((k) => {
       const values = points.map((point) => point[k]);
       const [low, high] = [Math.min(...values), Math.max(...values)];
@@ -456,7 +473,10 @@ class View {
     };
     parts.title.textContent = title[0] ?? '';
     parts.spaceTitle.textContent = this.isTask ? `${this.space} of this step` : this.space;
-    parts.lines.replaceChildren(...title.slice(1).map((text) => readable(text)));
+    const lines = title.slice(1).map((text) => readable(text));
+    const further = lines.splice(MAX_LINES);
+    const folded = further.length ? [element('details', {}, element('summary', {}, `${further.length} more ${further.length > 1 ? 'lines' : 'line'}`), ...further)] : [];
+    parts.lines.replaceChildren(...lines, ...folded);
     if (!this.judged) this.say(ending, status);
     parts.facts.replaceChildren(...facts.flatMap(([name, text]) => [element('dt', {}, name), readable(text, 'dd')]));
     // The live page shows its own figures.
