@@ -31,7 +31,7 @@ impl Place<'_> {
     }
 
     /// Returns the notation of joint values from this source.
-    fn notation(&self) -> Notation {
+    pub(super) fn notation(&self) -> Notation {
         match self {
             Place::Option(_) => Notation::default(),
             Place::Joints(_, values) => values.notation(),

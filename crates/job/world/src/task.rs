@@ -13,7 +13,6 @@ use cplan_model::space::{Configuration, JointRange};
 use cplan_model::{Elbow, Goal, RESTING_TOLERANCE, inverse};
 use cplan_robot::{Diagnostic, DiagnosticKind, InputError};
 use cplan_text::{length, listed, short};
-use std::ops::Range;
 
 impl LoadedScene {
     /// Returns true if the world is a task: it has steps, or its start or goal states values of the tool's joints. Without steps,
@@ -92,7 +91,7 @@ impl LoadedScene {
         let (goals, place) = self.goals(overrides)?;
         let step = Self::move_to_goal(&goals, &place, tool)?;
         if let [Goal::Joints(q)] = goals[..]
-            && let Some((message, help)) = self.beyond_limits("the goal", q)
+            && let Some((message, help)) = self.beyond_limits("the goal", q, place.notation())
         {
             return Err(place.diagnostic(message).help(help).into());
         }
@@ -103,7 +102,7 @@ impl LoadedScene {
     fn unmet_requirement(&self, requirement: &Requirement, start: Configuration) -> Option<Diagnostic> {
         let step = format!("step {}", requirement.step);
         let (message, help) = match requirement.required {
-            Required::Joints(q) => self.beyond_limits(&step, q, &requirement.at)?,
+            Required::Joints(q) => self.beyond_limits(&step, q, Notation::in_world(&self.world, &requirement.at))?,
             Required::Tip(tip, elbow) => self.beyond_reach(&step, (tip, elbow), start)?,
             Required::Elbow => {
                 no_elbow(&self.scene).map(|(message, help)| (format!("{step}: {message}"), help.to_owned()))?
@@ -113,12 +112,12 @@ impl LoadedScene {
         Some(self.world.source.diagnostic_at(requirement.at.clone(), message).help(help))
     }
 
-    fn beyond_limits(&self, step: &str, q: Configuration, at: &Range<usize>) -> Option<(String, String)> {
+    fn beyond_limits(&self, step: &str, q: Configuration, notation: Notation) -> Option<(String, String)> {
         let outside = beyond_limits(&self.scene, q);
         (!outside.is_empty()).then(|| {
             (
                 format!("{step} is outside the joint limits: {}", outside.join("; ")),
-                help_for_limits(&self.scene, q, Notation::in_world(&self.world, at)),
+                help_for_limits(&self.scene, q, notation),
             )
         })
     }
