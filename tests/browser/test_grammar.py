@@ -32,7 +32,7 @@ def picture(program, robot, world, *words, code=0):
 def test_the_legend_is_that_of_the_picture(program, show_file, robot, world, words, code, scheme):
     page, _ = program.plan(robot, world, *words, code=code)
     seen = show_file(page, color_scheme=scheme)
-    # What the planner did is shown, and explained, under "How it was found", "How it was proven" or "What was tried".
+    # The planner's work is shown and explained under "How it was found", "How it was proven" or "What was tried".
     if seen.page.locator("button[data-mode=think]").is_visible():
         seen.do("cplan.switchTo('think')")
         seen.do("cplan.seek(cplan.duration)")

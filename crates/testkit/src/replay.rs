@@ -292,7 +292,8 @@ impl<'a> World<'a> {
         bodies
     }
 
-    /// Returns how much deeper a body may press into its support, whatever the clearance. Negative if it presses too deep.
+    /// Returns the depth by which a body may press deeper into its support. The clearance does not matter. Negative if it presses
+    /// too deep.
     fn allowance_left(&self, body: &Solid, support: &Solid) -> f64 {
         body.distance(support) + PENETRATION_ALLOWANCE * self.task.arm.reach()
     }

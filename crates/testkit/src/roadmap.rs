@@ -43,8 +43,8 @@ pub fn convex_crowd(random: &mut Dice, side: usize, corners: usize) -> Vec<Vec<P
     crowd
 }
 
-/// Returns `count` disjoint star-shaped polygons with ten corners each, most of which are not convex. Their sizes and places are
-/// random, in a window of as many unit squares, of which they fill about 23 %.
+/// Returns `count` disjoint star-shaped polygons with ten corners each. Most of them are not convex. Their sizes and places
+/// are random, in a window of `count` unit squares. They fill about 23 % of it.
 pub fn star_crowd(random: &mut Dice, count: usize) -> Regions {
     let columns = (count as f64).sqrt().ceil() as usize;
     let rows = count.div_ceil(columns);

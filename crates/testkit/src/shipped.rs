@@ -1,4 +1,4 @@
-//! The worlds in `workspaces`, with what their first comments state.
+//! The worlds in `workspaces`, and the statements in their first comments.
 
 use crate::root;
 use cplan::input::{self, Overrides};

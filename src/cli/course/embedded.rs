@@ -29,12 +29,12 @@ pub const CHAPTERS: [Chapter; 7] = [
     Chapter {
         name: "fields",
         text: include_str!("../../../docs/fields.md"),
-        aim: "How a potential leads to the goal without a search, and what a local minimum is.",
+        aim: "Potentials that lead to the goal without a search, and the local minima of others.",
     },
     Chapter {
         name: "proofs",
         text: include_str!("../../../docs/proofs.md"),
-        aim: "How a motion is certified, and how boxes prove that there is no path.",
+        aim: "Certified motions, and boxes that prove that no path exists.",
     },
     Chapter {
         name: "tasks",

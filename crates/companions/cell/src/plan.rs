@@ -86,7 +86,7 @@ pub struct Alone {
     pub duration: Option<f64>,
     /// Proven lower bound on the duration of every motion, seconds. `None` if it is not known.
     pub lower_bound: Option<f64>,
-    /// That motion. `None` if none was found, or if the arm has steps.
+    /// The fastest motion that was found. `None` if the arm has steps, or if there is no such motion.
     pub trajectory: Option<Trajectory>,
 }
 

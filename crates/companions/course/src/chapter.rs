@@ -7,7 +7,7 @@ pub struct Chapter<'a> {
     pub name: &'a str,
     /// The whole text.
     pub text: &'a str,
-    /// What one learns, as one sentence without markup.
+    /// Subject of the chapter in one sentence, without markup.
     pub aim: &'a str,
 }
 

@@ -125,7 +125,7 @@ impl Grid {
         sketch.path(frame, &cells.iter().map(|&cell| self.middle(cell)).collect::<Vec<_>>());
     }
 
-    /// Draws the values of free cells in shades: `SHADES` equally large groups, the lowest of which is the lightest.
+    /// Draws the values of free cells in shades: `SHADES` groups of equal size. The lowest values are the lightest.
     fn shade(&self, sketch: &mut Sketch, frame: &Frame, values: &[f64]) {
         let mut order: Vec<usize> = (0..values.len()).filter(|&cell| !self.is_blocked[cell]).collect();
         order.sort_by(|&a, &b| values[a].total_cmp(&values[b]));

@@ -101,7 +101,7 @@ pub struct Drive {
     pub fastest: [f64; 2],
 }
 
-/// Drives from waypoint to waypoint until the last one is passed, but for at most this many seconds.
+/// Drives from waypoint to waypoint until the last one is passed. Stops after this many seconds.
 pub fn follow(robot: &mut Robot, law: &Tanh, waypoints: &[Point], seconds: f64) -> Drive {
     let end = robot.time + seconds;
     let mut drive = Drive { passed: 0, repelled: 0, fastest: [0.0; 2] };

@@ -61,7 +61,7 @@ impl fmt::Display for Choice {
     }
 }
 
-/// A field during its relaxation, on `n x n` cells, of which the outermost ones are walls.
+/// A field during its relaxation, on `n x n` cells. The outermost cells are walls.
 #[derive(Clone)]
 pub struct Plain<'a> {
     n: usize,

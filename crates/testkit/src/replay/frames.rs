@@ -9,7 +9,7 @@ use cplan::model::{Arm, Growth, Heights, JointType, MovingObstacle, Object, Obst
 /// A frame: cosine and sine of its angle, and its origin.
 pub type Frame = (V, V);
 
-/// Composes two frames, of which `b` is stated in the frame `a`.
+/// Composes two frames; `b` is stated in the frame `a`.
 pub fn compose(a: Frame, b: Frame) -> Frame {
     (rotate(b.0, a.0), add(a.1, rotate(b.1, a.0)))
 }
