@@ -95,8 +95,10 @@ try {
   const passes = pyodide.runPython(`
 import numpy as np
 path = plan.path
-isinstance(path, np.ndarray) and path.shape[1] == 2 and np.array_equal(path[-1], plan.trajectory.position[-1])`);
-  console.log(`${passes ? 'passed' : 'FAILED'}: paths are arrays`);
+grade = cplan.grade(cplan.grading.Path(arm, world), path)
+(isinstance(path, np.ndarray) and path.shape[1] == 2 and np.array_equal(path[-1], plan.trajectory.position[-1])
+    and grade.right and grade.svg().startswith("<svg"))`);
+  console.log(`${passes ? 'passed' : 'FAILED'}: paths are arrays, and are graded`);
   failed += !passes;
 } catch {
   console.log("numpy for Pyodide cannot be fetched: arrays are not tested there");
