@@ -14,6 +14,9 @@ there is none (`Infeasible`), or `Unknown` at the resolution that was tried.
 Lengths are metres, angles radians, times seconds. A configuration is the pair of joint values, base to tip.
 """
 
+from importlib import import_module
+from typing import TYPE_CHECKING
+
 from cplan._cplan import (
     Arm,
     Found,
@@ -33,9 +36,21 @@ from cplan._cplan import (
 from cplan._frames import PolygonTest, Trajectory
 from cplan.explaining import Explanation, explain
 from cplan.findings import Check, Comparison, Comparisons, Verification, check, compare, verify
-from cplan.grading import Grade, grade
 from cplan.planning import plan
 from cplan.studies import Results, Study
+
+if TYPE_CHECKING:
+    from cplan import grading as grading
+    from cplan.grading import Grade, grade
+else:
+
+    def __getattr__(name: str) -> object:
+        """Imports the grader when it is first used, because it needs numpy, and planning does not."""
+        if name not in ("Grade", "grade", "grading"):
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        grading = import_module("cplan.grading")
+        return grading if name == "grading" else getattr(grading, name)
+
 
 __all__ = [
     "Arm",

@@ -90,6 +90,6 @@ pub fn explain_drawn(
 }
 
 /// Makes a call that Ctrl-C can end.
-fn called<T: Send>(py: Python<'_>, call: impl FnOnce() -> Result<T, Refusal> + Send) -> PyResult<T> {
+pub fn called<T: Send>(py: Python<'_>, call: impl FnOnce() -> Result<T, Refusal> + Send) -> PyResult<T> {
     interruptible(py, |_| call())?.map_err(|refusal| raised(py, refusal))
 }

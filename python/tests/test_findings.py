@@ -7,7 +7,6 @@ import signal
 import subprocess
 import sys
 import threading
-import time
 from pathlib import Path
 from typing import Any
 
@@ -143,11 +142,10 @@ def test_random_problems_are_compared() -> None:
 def test_control_c_ends_a_comparison() -> None:
     # Background jobs of shells begin with SIGINT ignored.
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    begun = time.monotonic()
-    threading.Timer(0.5, signal.raise_signal, [signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):
+        threading.Timer(0.5, signal.raise_signal, [signal.SIGINT]).start()
+        # All queries take longer than a run of all tests.
         cplan.compare(*shelf(), planners=["harmonic"], cells=1024, queries=1000)
-    assert time.monotonic() - begun < 30
 
 
 @pytest.mark.parametrize("wrong", [{"planners": ["best"]}, {"queries": 0}, {"suite": "workspaces"}, {"output": "a.csv"}, {"nonsense": 1}])

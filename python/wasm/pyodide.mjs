@@ -90,15 +90,17 @@ for (const [name, test] of Object.entries(tests)) {
 }
 
 // Arrays need numpy, which Pyodide fetches from its own server.
-try {
-  await pyodide.loadPackage('numpy', { messageCallback: () => {}, errorCallback: () => {} });
+await pyodide.loadPackage('numpy', { messageCallback: () => {}, errorCallback: () => {} }).catch(() => {});
+if (pyodide.runPython('from importlib.util import find_spec; find_spec("numpy") is not None')) {
   const passes = pyodide.runPython(`
 import numpy as np
 path = plan.path
-isinstance(path, np.ndarray) and path.shape[1] == 2 and np.array_equal(path[-1], plan.trajectory.position[-1])`);
-  console.log(`${passes ? 'passed' : 'FAILED'}: paths are arrays`);
+grade = cplan.grade(cplan.grading.Path(arm, world), path)
+(isinstance(path, np.ndarray) and path.shape[1] == 2 and np.array_equal(path[-1], plan.trajectory.position[-1])
+    and grade.right and grade.svg().startswith("<svg"))`);
+  console.log(`${passes ? 'passed' : 'FAILED'}: paths are arrays, and are graded`);
   failed += !passes;
-} catch {
-  console.log("numpy for Pyodide cannot be fetched: arrays are not tested there");
+} else {
+  console.log('numpy for Pyodide cannot be fetched: arrays and grades are not tested there');
 }
 process.exit(failed === 0 ? 0 : 1);

@@ -34,8 +34,10 @@ def metadata(project: dict, version: str) -> str:
 
 def contents(program: Path, folder: str, project: dict, version: str) -> dict[str, bytes]:
     """Returns the files of the wheel, except the list of them."""
-    sources = [*(ROOT / "python/cplan").iterdir(), *(ROOT / "python/wasm/cplan").iterdir()]
-    files = {f"cplan/{path.name}": path.read_bytes() for path in sources if path.suffix in (".py", ".pyi", ".typed")}
+    files = {}
+    for package in (ROOT / "python/cplan", ROOT / "python/wasm/cplan"):
+        sources = [path for path in package.rglob("*") if path.suffix in (".py", ".pyi", ".typed")]
+        files |= {f"cplan/{path.relative_to(package).as_posix()}": path.read_bytes() for path in sources}
     files["cplan/cplan.wasm"] = program.read_bytes()
     files[f"{folder}/METADATA"] = metadata(project, version).encode()
     files[f"{folder}/WHEEL"] = b"Wheel-Version: 1.0\nGenerator: cplan\nRoot-Is-Purelib: true\nTag: py3-none-any\n"

@@ -8,6 +8,7 @@
 mod error;
 mod findings;
 mod geometry;
+mod grading;
 mod plan;
 mod problem;
 mod study;
@@ -17,6 +18,7 @@ pub use findings::{
     ComparedProblem, Motion, check, compare, compared_problems, explanation, explanation_drawn, slices, verify,
 };
 pub use geometry::{PolygonTest, minkowski_difference, penetration_depth, polygon_test};
+pub use grading::{DrawnAnswer, JointBox, Verdict, drawn, joint_ranges, judge_boxes, separate};
 pub use plan::{Trajectory, plan, restored, trajectory};
 pub use problem::{Arm, ArmNumbers, Options, World, notes, problem};
 pub use study::{

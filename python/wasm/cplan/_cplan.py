@@ -19,6 +19,7 @@ from cplan._calls import (
     slices,
     verify,
 )
+from cplan._grading import drawn, joint_ranges, judge_boxes, separate
 from cplan._problems import (
     Arm,
     Found,
@@ -53,8 +54,11 @@ __all__ = [
     "check",
     "compare",
     "compared_problems",
+    "drawn",
     "explain",
     "explain_drawn",
+    "joint_ranges",
+    "judge_boxes",
     "minkowski_difference",
     "penetration_depth",
     "plan",
@@ -63,6 +67,7 @@ __all__ = [
     "rows_restored",
     "run",
     "seconds_in_rust",
+    "separate",
     "slices",
     "verify",
 ]

@@ -1,7 +1,7 @@
 //! Requests: the functions and methods of `_cplan`, as JSON.
 
 use cplan::study::Row;
-use cplan_calls::{Arm, ArmNumbers, Motion, Options, World};
+use cplan_calls::{Arm, ArmNumbers, DrawnAnswer, JointBox, Motion, Options, World};
 use serde::Deserialize;
 use std::collections::BTreeMap;
 use std::path::PathBuf;
@@ -59,6 +59,10 @@ pub enum Request {
     PenetrationDepth { a: Corners, b: Corners },
     PolygonTest { a: Corners, b: Corners },
     MinkowskiDifference { a: Corners, b: Corners },
+    JointRanges { arm: Arm, world: World },
+    JudgeBoxes { arm: Arm, world: World, boxes: Vec<JointBox>, colliding: bool },
+    Separate { arm: Arm, world: World, boxes: Vec<JointBox> },
+    Drawn { arm: Arm, world: World, answer: DrawnAnswer },
     ReadStudy { path: PathBuf },
     StudyOfSources { sources: String },
     StudySources { text: String, arm: Arm, world: World },

@@ -114,6 +114,12 @@ impl Session {
             Request::MinkowskiDifference { a, b } => {
                 Answer::json(&cplan_calls::minkowski_difference(&corners(a), &corners(b))?)
             }
+            Request::JointRanges { arm, world } => Answer::json(&cplan_calls::joint_ranges(&arm, &world)?),
+            Request::JudgeBoxes { arm, world, boxes, colliding } => {
+                Answer::json(&cplan_calls::judge_boxes(&arm, &world, &boxes, colliding)?)
+            }
+            Request::Separate { arm, world, boxes } => Answer::json(&cplan_calls::separate(&arm, &world, &boxes)?),
+            Request::Drawn { arm, world, answer } => Answer::text(cplan_calls::drawn(&arm, &world, answer)?),
             Request::Run { arguments } => {
                 let arguments = arguments.into_iter().map(OsString::from).collect();
                 Answer::json(&cplan::cli::run_with(arguments, None))
