@@ -54,7 +54,7 @@ impl Planned {
 /// The best sequences that were found for an assignment.
 enum Assigned {
     /// The sequences of both arms alone, and whether they led to motions.
-    Planned { alone: [Alone; 2], is_better: bool },
+    Planned { alone: Box<[Alone; 2]>, is_better: bool },
     /// An arm alone cannot do its steps, or no sequence was found.
     Failed(Outcome<(), Refutation>),
 }
@@ -159,7 +159,7 @@ impl TaskSearch<'_> {
         }
         let before = self.best.as_ref().map(|(best, _)| best.duration);
         self.coordinated([one, two], assignment.bound, progress)?;
-        Ok(Assigned::Planned { alone, is_better: self.best.as_ref().map(|(best, _)| best.duration) != before })
+        Ok(Assigned::Planned { alone: Box::new(alone), is_better: self.best.as_ref().map(|(best, _)| best.duration) != before })
     }
 
     /// Plans a task alone.
