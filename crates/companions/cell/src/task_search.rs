@@ -159,7 +159,10 @@ impl TaskSearch<'_> {
         }
         let before = self.best.as_ref().map(|(best, _)| best.duration);
         self.coordinated([one, two], assignment.bound, progress)?;
-        Ok(Assigned::Planned { alone: Box::new(alone), is_better: self.best.as_ref().map(|(best, _)| best.duration) != before })
+        Ok(Assigned::Planned {
+            alone: Box::new(alone),
+            is_better: self.best.as_ref().map(|(best, _)| best.duration) != before,
+        })
     }
 
     /// Plans a task alone.
