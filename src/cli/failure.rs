@@ -2,7 +2,7 @@
 
 use super::exit::{BAD_INPUT, USAGE};
 use crate::engine::PlanError;
-use crate::input::InputError;
+use crate::input::{Diagnostic, InputError};
 use crate::motion::{FormatError, TimingError, WriteError};
 use crate::output::PictureFormatError;
 use crate::view::DrawError;
@@ -52,6 +52,25 @@ impl Failure {
     /// Returns true if the failure is already part of the report on stdout.
     pub fn is_reported(&self) -> bool {
         matches!(self, Self::Reported(_))
+    }
+
+    /// Returns the failure with a hint to `cplan cell`, if another command was given a cell.
+    #[must_use]
+    pub fn with_command_for_cells(self) -> Self {
+        let is_cell = |found: &Diagnostic| {
+            let line = found.excerpt.as_deref().unwrap_or_default();
+            found.message.starts_with("unknown key `arm`") && line.contains("[[arm]]")
+        };
+        match self {
+            Self::Input(error) => match error.diagnostics() {
+                [found] if is_cell(found) => {
+                    let hint = format!("this is a cell with two arms, for `cplan cell {}`", found.origin);
+                    Self::Input(found.clone().help(hint).into())
+                }
+                _ => Self::Input(error),
+            },
+            other => other,
+        }
     }
 
     /// Returns the exit code of the process.

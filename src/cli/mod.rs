@@ -255,7 +255,7 @@ pub fn run_with(arguments: Vec<OsString>, meter: Option<MemoryMeter>) -> u8 {
             return unread(&error, in_json);
         }
     };
-    command.run(meter).unwrap_or_else(|failure: Failure| {
+    command.run(meter).map_err(Failure::with_command_for_cells).unwrap_or_else(|failure| {
         if in_json && !failure.is_reported() {
             // If stdout is closed, the error cannot be reported there.
             let _ = sinks::print(&ErrorJson::of_failure(&failure).text());

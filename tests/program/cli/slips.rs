@@ -23,6 +23,15 @@ fn misspelled_words_get_the_nearest_one() {
 }
 
 #[test]
+fn files_of_another_command_get_its_name() {
+    let place = Place::new();
+    let cell = "[[arm]]\nname = \"left\"\nurdf = \"arm.urdf\"\n";
+    place.plan(cell, "").refused(1, &["unknown key `arm`", "`cplan cell "]);
+    let place = place.with("world.toml", FREE);
+    place.run(&["cell", "world.toml"], "").refused(1, &["unknown key `start`", "use `cplan URDF WORLD`"]);
+}
+
+#[test]
 fn misspelled_commands_get_the_nearest_one() {
     let place = Place::new();
     for (words, meant) in [

@@ -78,7 +78,11 @@ toml_table! {
 
 /// Returns the hint for an error in the cell file itself.
 fn hint(message: &str, _: usize) -> &'static str {
-    if message.contains("unknown field") {
+    let is_of_world =
+        |key: &str| message.contains(&format!("unknown field `{key}`, expected one of `name`, `clearance`, `arm`"));
+    if ["robot", "start", "goal"].into_iter().any(is_of_world) {
+        "a cell has these keys in [[arm]] tables; for the world of one arm, use `cplan URDF WORLD`"
+    } else if message.contains("unknown field") {
         "use a known key, or remove this one"
     } else if message.contains("`urdf`") {
         "name the robot's file, relative to the cell file: urdf = \"scara.urdf\""
