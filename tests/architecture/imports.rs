@@ -22,7 +22,7 @@ fn the_checker_shares_no_crate_with_the_planner() {
     assert_eq!(workspace_dependencies("crates/check-line", "dependencies"), ["cplan-check"]);
     assert_eq!(workspace_dependencies("crates/check-line", "dev-dependencies"), [""; 0]);
     assert_eq!(workspace_dependencies("crates/check-files", "dependencies"), ["cplan-check", "cplan-check-line"]);
-    // Its tests share only the choice of random cases.
+    // Its tests share only the choice of random cases, and distances in the plane.
     assert_eq!(workspace_dependencies("crates/check-files", "dev-dependencies"), ["cplan-cases"]);
 }
 

@@ -170,7 +170,6 @@ pub(crate) fn with_obstacles(task: &Task, more: &[Obstacle]) -> Task {
     task
 }
 
-/// Returns the steps of an item.
 fn steps_of(item: &mut Item) -> Vec<&mut Step> {
     match item {
         Item::Step(step) => vec![step],
