@@ -38,6 +38,7 @@ pub struct Source {
 
 /// The files from which a text was made, and the origin of each part of the text.
 pub trait Origins: Debug + Send + Sync {
+    /// Returns the paths of all files.
     fn files(&self) -> Vec<PathBuf>;
 
     /// Returns the file from which the text at a byte offset comes, and the range in that file.
