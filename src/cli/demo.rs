@@ -170,7 +170,6 @@ fn refuse_others(plan: &PlanArgs, message: &str) -> Result<(), Failure> {
 /// Name of the built-in cell in messages.
 const CELL_FILE: &str = "built-in cell.toml";
 
-/// Reads the built-in cell.
 fn built_in_cell(clearance: Option<f64>) -> Result<Cell, InputError> {
     let robot = |path: &Path| Ok(Source::in_memory(format!("built-in {}", path.display()), DEMO_ROBOT));
     Cell::load(&Source::in_memory(CELL_FILE, CELL), &robot, clearance)

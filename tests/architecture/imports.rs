@@ -1,6 +1,8 @@
 //! Checks that the checker of certificates shares no code with the planner, and that crates use only what is inside their
 //! ring. Cargo checks all other boundaries: a crate can use only the dependencies in its manifest.
 
+use super::files_of;
+use regex::Regex;
 use std::path::Path;
 
 /// Returns the dependencies of a crate that are crates of this repository.
@@ -20,7 +22,7 @@ fn the_checker_shares_no_crate_with_the_planner() {
     assert_eq!(workspace_dependencies("crates/check-line", "dependencies"), ["cplan-check"]);
     assert_eq!(workspace_dependencies("crates/check-line", "dev-dependencies"), [""; 0]);
     assert_eq!(workspace_dependencies("crates/check-files", "dependencies"), ["cplan-check", "cplan-check-line"]);
-    // Its tests share only the choice of random cases.
+    // Its tests share only the choice of random cases, and distances in the plane.
     assert_eq!(workspace_dependencies("crates/check-files", "dev-dependencies"), ["cplan-cases"]);
 }
 
@@ -55,6 +57,30 @@ fn a_ring_uses_only_what_is_inside_it() {
     let known: Vec<(String, String)> =
         LEAKS.iter().map(|(name, used)| ((*name).to_owned(), format!("cplan-{used}"))).collect();
     assert_eq!(leaks, known, "left what crates use outside their ring, right what LEAKS lists");
+}
+
+/// Words of companions that the rings inside them must not know: two arms in one cell, and exploration. Scripts of pages may
+/// name the cells of grids, but not the data of a cell.
+const WORDS_OF_COMPANIONS: [(&[&str], &str); 2] = [
+    (&["rs", "js", "ts", "css"], r"hand(ed)?[ _]?over|\bother arm\b|\b(two|both) arms\b"),
+    (&["js", "ts"], r"\bexploration\b|\bsurvey\b|\b(model|view|this)\.cell\b|\bcell\?(: |\.motions)"),
+];
+
+#[test]
+fn inner_rings_know_no_words_of_companions() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let (mut wrong, mut count) = (Vec::new(), 0);
+    for (extensions, pattern) in WORDS_OF_COMPANIONS {
+        let pattern = Regex::new(&format!("(?i){pattern}")).unwrap();
+        for file in RINGS[..2].iter().flat_map(|ring| files_of(&root.join(ring), extensions)) {
+            let text = std::fs::read_to_string(&file).unwrap();
+            let lines = text.lines().zip(1..).filter(|(line, _)| pattern.is_match(line));
+            wrong.extend(lines.map(|(line, number)| format!("{}:{number}: {line}", file.display())));
+            count += 1;
+        }
+    }
+    assert!(wrong.is_empty(), "name these neutrally, or move them to the companion:\n{}", wrong.join("\n"));
+    assert!(count > 500, "only {count} files were read");
 }
 
 #[test]

@@ -165,7 +165,6 @@ fn tolerances_are_proven_and_tight() {
     assert!(all > 100 && 2 * tight > all, "{tight} of {all} are tight");
 }
 
-/// Returns the plan of a shipped world.
 fn shipped(robot: &str, world: &str) -> Plan {
     let plan = shipped::plan(robot, world, &Options::default());
     assert!(plan.trajectory().is_some(), "{world} has no motion");
@@ -229,7 +228,7 @@ fn margins_of_tasks_hold_for_all_steps() {
                 let (mut arm, mut workspace) = Scene::clone(&leg.scene).into_parts();
                 arm.self_obstacles.clear();
                 workspace.obstacles = vec![obstacle];
-                if leg.scene.allowed_contacts().contains(&number) {
+                if leg.scene.additions().allowed_contacts.contains(&number) {
                     arm.links[1].parts.clear();
                 }
                 seen = seen.min(least(&oracle(&Scene::new(arm, workspace).unwrap(), |_, _| ()), &motion));

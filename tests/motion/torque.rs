@@ -281,7 +281,7 @@ fn payload_mass_counts() {
         at: Pose::identity(),
         trajectory: None,
         mass: 6.0,
-        handover: None,
+        presence: None,
     };
     let bare = gantry([24.0, 30.0], [4.0, 2.0], Vector::zeros());
     let rigid = Grip::Rigid(Pose::translation(Vector::new(0.5, 0.0)));

@@ -50,7 +50,7 @@ fn distant_object(name: &str, at: Point) -> Object {
         at: Pose::new(at, 0.0),
         trajectory: None,
         mass: 0.0,
-        handover: None,
+        presence: None,
     }
 }
 

@@ -18,7 +18,6 @@ fn options() -> Options {
     Method::Visibility.into()
 }
 
-/// Returns the task of a shipped world.
 fn task_of(world: &Shipped) -> Task {
     world.problem().task().expect("a world with steps").clone()
 }

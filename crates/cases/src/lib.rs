@@ -1,6 +1,6 @@
 //! Random cases for tests: their number and their seeds. They are the same in every run, unless the environment
 //! requests others. The submodules generate numbers, mazes, cells of two arms, and texts with typing
-//! mistakes.
+//! mistakes. The module [`plane`] has distances for oracles.
 //!
 //! - `CPLAN_TIMES=20`: twenty times as many cases (0.1: a tenth).
 //! - `CPLAN_SEED=7`: other cases, choice number seven; 0 is the default. The same two variables reproduce a failure.
@@ -8,6 +8,7 @@
 pub mod cells;
 pub mod dice;
 pub mod mazes;
+pub mod plane;
 pub mod slips;
 
 use dice::Dice;

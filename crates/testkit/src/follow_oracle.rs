@@ -1,6 +1,7 @@
 //! Checks of motions along lines, without code of the crate `follow`: kinematics, distances, and the order of a line's points.
 
 use cplan::motion::Trajectory;
+use cplan_cases::plane::polygon_distance;
 use cplan_toolpath::Toolpath;
 
 /// A point in the plane, or the values of both joints.
@@ -33,7 +34,7 @@ impl Bars {
     pub fn distance(&self, q: Point, corners: &[Point], radius: f64) -> f64 {
         let [base, elbow, tip] = self.places(q);
         let bars = [[base, elbow], [elbow, tip]];
-        let apart = bars.iter().map(|bar| bar_to_polygon(*bar, corners)).fold(f64::INFINITY, f64::min);
+        let apart = bars.iter().map(|bar| polygon_distance(bar, corners)).fold(f64::INFINITY, f64::min);
         (apart - self.width / 2.0 - radius).max(0.0)
     }
 
@@ -49,40 +50,6 @@ impl Bars {
             })
         })
     }
-}
-
-fn bar_to_polygon([a, b]: [Point; 2], corners: &[Point]) -> f64 {
-    if let [center] = corners {
-        return to_segment(*center, a, b);
-    }
-    let sides = (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]);
-    let is_inside = |p: Point| sides.clone().all(|[c, d]| turn(c, d, p) >= 0.0);
-    if is_inside(a) || is_inside(b) {
-        return 0.0;
-    }
-    sides.map(|side| segments_apart([a, b], side)).fold(f64::INFINITY, f64::min)
-}
-
-fn turn(a: Point, b: Point, p: Point) -> f64 {
-    (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0])
-}
-
-fn segments_apart([a, b]: [Point; 2], [c, d]: [Point; 2]) -> f64 {
-    let crosses = turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0;
-    if crosses {
-        return 0.0;
-    }
-    [to_segment(a, c, d), to_segment(b, c, d), to_segment(c, a, b), to_segment(d, a, b)]
-        .into_iter()
-        .fold(f64::INFINITY, f64::min)
-}
-
-fn to_segment(p: Point, a: Point, b: Point) -> f64 {
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let square = along[0] * along[0] + along[1] * along[1];
-    let share = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / square;
-    let share = if square > 0.0 { share.clamp(0.0, 1.0) } else { 0.0 };
-    (p[0] - a[0] - share * along[0]).hypot(p[1] - a[1] - share * along[1])
 }
 
 /// A state of the executed motion.

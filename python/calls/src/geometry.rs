@@ -7,7 +7,6 @@ use serde::Serialize;
 /// Largest coordinate in metres, the same as for arms and worlds.
 const MAX_COORDINATE: f64 = 1e15;
 
-/// Creates a convex polygon.
 fn polygon(name: &str, corners: &[[f64; 2]]) -> Result<Convex, Refusal> {
     // Products of larger coordinates overflow.
     if corners.iter().flatten().any(|x| x.abs() > MAX_COORDINATE) {

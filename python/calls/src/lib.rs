@@ -25,6 +25,3 @@ pub use study::{
     Column, Table, layout, layout_values, parameter_names, read_study, study_description, study_of_sources,
     study_sources, table,
 };
-
-/// Version of the package.
-pub const VERSION: &str = env!("CARGO_PKG_VERSION");

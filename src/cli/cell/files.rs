@@ -39,7 +39,6 @@ fn with_steps(cell: &Cell, found: &Coordination, times: &[f64], table: &str) -> 
     lines.join("\n") + "\n"
 }
 
-/// Returns the motion of one arm.
 fn alone(cell: &Cell, found: &Coordination, arm: usize) -> JointMotion {
     JointMotion::new(&cell.joints(arm), &found.motions[arm].trajectory, false)
 }

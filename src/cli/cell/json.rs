@@ -114,13 +114,11 @@ impl Answered<'_> {
     }
 }
 
-/// Returns a handover with its times.
 fn handover(cell: &Cell, HandoverTimes { object, giver, placed, taken }: &HandoverTimes) -> Value {
     let [gives, takes] = [*giver, 1 - giver].map(|arm| &cell.arms[arm].name);
     json!({ "object": object, "gives": gives, "placed": placed, "takes": takes, "taken": taken })
 }
 
-/// Returns a step with its times.
 fn step(step: &StepTimes) -> Value {
     json!({
         "step": step.number,

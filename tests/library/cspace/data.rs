@@ -12,7 +12,6 @@ use cplan_cases::{dice, times};
 use cplan_testkit::parry::core_distance;
 use std::path::Path;
 
-/// Plans in a shipped world.
 fn plan_shipped(robot: &str, world: &str, planner: &str) -> (Problem, CSpaces) {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let (options, overrides) = read_words(&[format!("--planner={planner}")]).unwrap();

@@ -40,7 +40,6 @@ fn distance(cell: usize, columns: usize, center: [f64; 2]) -> f64 {
     a.hypot(b)
 }
 
-/// Returns the kind of each cell.
 fn kinds(walls: &[bool], columns: usize, moment: &Moment) -> Vec<Cell> {
     let within = |cell: usize, discs: &[Disc]| discs.iter().any(|d| distance(cell, columns, d.center) < d.radius);
     let mut kinds = vec![Cell::Free; walls.len()];

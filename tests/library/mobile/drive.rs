@@ -4,6 +4,7 @@ use super::plain::least_gap;
 use cplan::model::{Arm, Obstacle, Scene, Workspace};
 use cplan::nalgebra::Vector2;
 use cplan::{Options, Outcome, Point, Problem, plan};
+use cplan_cases::plane::distance_to_segment;
 use cplan_cases::{dice, seeds, uses_default_cases};
 use cplan_testkit::mobile::floor::Floor;
 use cplan_testkit::mobile::robot::{Pose, Robot};
@@ -96,11 +97,7 @@ fn repulsion_pushes_away_and_its_printed_sign_does_not() {
 
 /// Returns the distance between a point and a line through corners.
 fn distance_to_line(p: Point, corners: &[[f64; 2]]) -> f64 {
-    let side = |w: &[[f64; 2]]| {
-        let ([dx, dy], [px, py]) = ([w[1][0] - w[0][0], w[1][1] - w[0][1]], [p.x - w[0][0], p.y - w[0][1]]);
-        let share = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
-        (px - share * dx).hypot(py - share * dy)
-    };
+    let side = |w: &[[f64; 2]]| distance_to_segment([p.x, p.y], [w[0], w[1]]);
     corners.windows(2).map(side).fold(f64::INFINITY, f64::min)
 }
 

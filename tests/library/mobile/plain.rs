@@ -2,6 +2,7 @@
 
 use cplan::Point;
 use cplan::model::{Scene, Shape};
+use cplan_cases::plane;
 
 /// Radius of the robot's body, `robots/mobile_robot.urdf`, metres.
 pub const RADIUS: f64 = 0.25;
@@ -9,18 +10,7 @@ pub const RADIUS: f64 = 0.25;
 /// Returns the distance between a point and a segment: to the foot of the perpendicular if that is on the segment,
 /// otherwise to the nearer end.
 pub fn to_segment(p: Point, a: Point, b: Point) -> f64 {
-    let ([dx, dy], [px, py]) = ([b.x - a.x, b.y - a.y], [p.x - a.x, p.y - a.y]);
-    let share = ((px * dx + py * dy) / (dx * dx + dy * dy)).clamp(0.0, 1.0);
-    (px - share * dx).hypot(py - share * dy)
-}
-
-/// Returns true if a ray to the right crosses the sides an odd number of times.
-fn is_inside(p: Point, corners: &[Point]) -> bool {
-    let crosses = |k: &usize| {
-        let (a, b) = (corners[*k], corners[(*k + 1) % corners.len()]);
-        (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
-    };
-    (0..corners.len()).filter(crosses).count() % 2 == 1
+    plane::distance_to_segment(p.into(), [a.into(), b.into()])
 }
 
 /// Returns the distance between the robot's body and a shape of the world file. It is not positive if they meet.
@@ -29,8 +19,10 @@ fn to_shape(p: Point, shape: &Shape) -> f64 {
     let distance = match shape {
         Shape::Circle { center, radius } => (p.x - center.x).hypot(p.y - center.y) - radius,
         Shape::Polyline(points) => open(points),
-        Shape::Polygon(corners) if is_inside(p, corners) => 0.0,
-        Shape::Polygon(corners) => open(corners).min(to_segment(p, corners[corners.len() - 1], corners[0])),
+        Shape::Polygon(corners) => {
+            let corners: Vec<plane::Point> = corners.iter().map(|&corner| corner.into()).collect();
+            plane::polygon_distance(&[p.into()], &corners)
+        }
         Shape::Pieces => panic!("no world here has such obstacles"),
     };
     distance - RADIUS

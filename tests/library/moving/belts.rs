@@ -87,6 +87,6 @@ fn object(dice: &mut Dice, still: &Scene, number: usize, level: bool) -> Object 
         at,
         trajectory,
         mass: 0.0,
-        handover: None,
+        presence: None,
     }
 }

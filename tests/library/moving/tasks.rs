@@ -84,7 +84,7 @@ fn single_pick(seed: u64) -> Task {
         at: trajectory.pose(0.0),
         trajectory: Some(trajectory),
         mass: 0.0,
-        handover: None,
+        presence: None,
     };
     let action = Action::Pick { object: 0, grasp: Point::zeros(), supports: Vec::new(), when: Vec::new() };
     let place = String::new();

@@ -96,7 +96,6 @@ impl Certified {
         position[k] == position[k + 1] && [velocity[k], velocity[k + 1]] == [[0.0; 2]; 2]
     }
 
-    /// Returns the sample at or before a time.
     fn sample_before(&self, time: f64) -> usize {
         let times = &self.0.time;
         times.partition_point(|t| *t <= time + 1e-10).saturating_sub(1).min(times.len().saturating_sub(2))

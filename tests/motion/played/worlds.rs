@@ -8,7 +8,6 @@ use cplan_cases::{seeds, uses_default_cases};
 use cplan_testkit::shipped::{self, Shipped};
 use std::path::{Path, PathBuf};
 
-/// Returns the joints of a robot in a world.
 fn joints(robot: &Path, world: &Path) -> [Joint; 2] {
     load_scene(robot, world).unwrap().scene.into_parts().0.joints
 }

@@ -2,8 +2,9 @@
 //! projections, distances, inverse kinematics and flood fill.
 
 use super::drawn::{Drawn, Goal, Joint, Kind, Outline, PLANES, Solid, V};
+use cplan_cases::plane::{cross, distance_to_segment, minus, plus, polygon_distance, sides, turned};
 use cplan_testkit::flood::Cells;
-use cplan_testkit::solid::{add as plus, dot, sub as minus};
+use cplan_testkit::solid::dot;
 use serde_json::Value;
 use std::f64::consts::{PI, TAU};
 
@@ -19,15 +20,6 @@ const REACHED: f64 = 1e-13;
 
 /// Number of samples of a box along each joint.
 const SAMPLES: usize = 3;
-
-fn turned([x, y]: V, angle: f64) -> V {
-    let (s, c) = angle.sin_cos();
-    [c * x - s * y, s * x + c * y]
-}
-
-fn cross(a: V, b: V) -> f64 {
-    a[0] * b[1] - a[1] * b[0]
-}
 
 impl Joint {
     fn moved(&self, p: V, value: f64) -> V {
@@ -121,33 +113,6 @@ fn hull(mut points: Vec<V>) -> Vec<V> {
     ring
 }
 
-fn edges(ring: &[V]) -> impl Iterator<Item = (V, V)> + '_ {
-    (0..ring.len()).map(|i| (ring[i], ring[(i + 1) % ring.len()]))
-}
-
-fn distance_to(p: V, (a, b): (V, V)) -> f64 {
-    let along = minus(b, a);
-    let square = dot(along, along);
-    let share = if square > 0.0 { (dot(minus(p, a), along) / square).clamp(0.0, 1.0) } else { 0.0 };
-    let off = minus(p, plus(a, [share * along[0], share * along[1]]));
-    off[0].hypot(off[1])
-}
-
-/// Returns the distance of two convex polygons; 0 if they overlap.
-fn distance(a: &[V], b: &[V]) -> f64 {
-    let holds = |ring: &[V], p: V| ring.len() > 2 && edges(ring).all(|(u, v)| cross(minus(v, u), minus(p, u)) >= 0.0);
-    let crosses = |(a, b): (V, V), (c, d): (V, V)| {
-        let side = |u: V, v: V, p: V| cross(minus(v, u), minus(p, u));
-        side(a, b, c) * side(a, b, d) < 0.0 && side(c, d, a) * side(c, d, b) < 0.0
-    };
-    if holds(a, b[0]) || holds(b, a[0]) || edges(a).any(|e| edges(b).any(|f| crosses(e, f))) {
-        return 0.0;
-    }
-    let corners =
-        |a: &[V], b: &[V]| a.iter().flat_map(|p| edges(b).map(|e| distance_to(*p, e))).fold(f64::INFINITY, f64::min);
-    corners(a, b).min(corners(b, a))
-}
-
 /// Reads two numbers, clamped so that their squares are finite.
 fn pair(value: &Value) -> Option<V> {
     Some([value.get(0)?.as_f64()?, value.get(1)?.as_f64()?].map(|x| x.clamp(-1e100, 1e100)))
@@ -188,7 +153,7 @@ pub fn false_claim(drawn: &Drawn, certificate: &Value) -> Option<String> {
             let at = |k: usize, n: usize| lower[k] + (upper[k] - lower[k]) * n as f64 / (SAMPLES - 1) as f64;
             let q = [at(0, i), at(1, j)];
             let points: Vec<V> = body.points.iter().map(|p| drawn.world_position(link, *p, q)).collect();
-            let apart = distance(&points, &corners) - body.radius - radius - clearance;
+            let apart = polygon_distance(&points, &corners) - body.radius - radius - clearance;
             // Far from the origin, coordinates are less exact.
             let size = points.iter().chain(&corners).flatten().fold(drawn.scale, |most, x| most.max(x.abs()));
             if apart > ROUNDING * size {
@@ -226,12 +191,13 @@ fn part_of(drawn: &Drawn, part: &Value) -> Result<(Vec<V>, f64), &'static str> {
             }
             // Points of all its triangles are in the polygon, or on its border.
             let is_in = |p: V| {
-                let crosses = |(a, b): &(V, V)| {
-                    (a[1] <= p[1]) != (b[1] <= p[1]) && (cross(minus(*b, *a), minus(p, *a)) > 0.0) == (b[1] > a[1])
+                let crosses = |&[a, b]: &[V; 2]| {
+                    (a[1] <= p[1]) != (b[1] <= p[1]) && (cross(minus(b, a), minus(p, a)) > 0.0) == (b[1] > a[1])
                 };
-                let sides = || rings.iter().flat_map(|ring| edges(ring));
+                let sides = || rings.iter().flat_map(|ring| sides(ring));
                 let size = named.iter().flatten().fold(drawn.scale, |most, x| most.max(x.abs()));
-                sides().filter(crosses).count() % 2 == 1 || sides().any(|e| distance_to(p, e) < ROUNDING * size)
+                sides().filter(crosses).count() % 2 == 1
+                    || sides().any(|side| distance_to_segment(p, side) < ROUNDING * size)
             };
             let inner = (2..named.len()).flat_map(|k| {
                 let [a, b, c] = [named[0], named[k - 1], named[k]];

@@ -20,7 +20,6 @@ const ROUNDING: f64 = 1e-9;
 /// Limits of the length from which the search starts, as multiples of the true length. They are far above it.
 const LIMITS: [f64; 2] = [3.0, 10.0];
 
-/// Returns the bound for a problem.
 fn bound(problem: &MotionProblem, metric: Metric, limit: f64, gap: f64) -> f64 {
     let (scene, start, goals) = (problem.scene(), problem.start(), problem.goals());
     let clearance = scene.workspace().clearance;

@@ -49,7 +49,7 @@ pub fn task(seed: u64) -> Task {
             at: Pose::new(at, dice.within(-PI, PI)),
             trajectory: None,
             mass: 0.0,
-            handover: None,
+            presence: None,
         });
     }
     // Somewhere free among all objects.

@@ -4,10 +4,6 @@ use super::*;
 
 const ALL: &str = "base=0.5mm,0.05deg; links=0.2mm; zeros=0.02deg; obstacles=1mm";
 
-fn files(world: &str) -> [String; 2] {
-    [shipped("robots/planar_2r.urdf"), shipped(&format!("workspaces/{world}.toml"))]
-}
-
 /// Returns the shipped world with these lines before its start.
 fn with(world: &str, lines: &str) -> String {
     let [_, world] = files(world);

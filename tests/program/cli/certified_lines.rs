@@ -4,10 +4,6 @@ use super::certificates::without_digests;
 use super::*;
 use cplan_cases::dice::Dice;
 
-fn robot() -> String {
-    shipped("robots/planar_2r.urdf")
-}
-
 fn follow(place: &Place, robot: &str, world: &str, line: &str, options: &str) -> Done {
     place.run(&["follow", robot, world, line, "--quiet"], &format!("--certificate c.json {options}"))
 }

@@ -18,7 +18,6 @@ fn tasks(expected: &str) -> Vec<(String, String)> {
     found
 }
 
-/// Returns the certificate with a change.
 fn with_change(certificate: &Value, alter: impl FnOnce(&mut Value)) -> String {
     let mut whole = certificate.clone();
     alter(&mut whole);

@@ -4,7 +4,6 @@ use super::*;
 use std::collections::BTreeSet;
 use std::path::PathBuf;
 
-/// Returns the values of an attribute in a page.
 fn values<'a>(page: &'a str, attribute: &str) -> Vec<&'a str> {
     let opening = format!(" {attribute}=\"");
     page.split(opening.as_str()).skip(1).map(|rest| rest.split('"').next().unwrap()).collect()

@@ -1,10 +1,6 @@
 //! Motors: files with their angles, recordings and certificates that their limits refute, and mistakes in their table.
 
 use super::*;
-fn files(world: &str) -> [String; 2] {
-    [shipped("robots/planar_2r.urdf"), shipped(&format!("workspaces/{world}.toml"))]
-}
-
 /// The files have the angles of both shafts, by the formula of the page, through gears as well.
 #[test]
 fn results_have_the_angles_of_the_shafts() {

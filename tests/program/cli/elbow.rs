@@ -18,10 +18,6 @@ fn end(result: &Value) -> [f64; 2] {
     pair(result["path"].as_array().unwrap().last().unwrap())
 }
 
-fn robot() -> String {
-    shipped("robots/planar_2r.urdf")
-}
-
 const START: &str = "[start]\njoints = [-0.9, 0.4]\n";
 
 /// An arc about the base that the stretched arm cannot pass, and limits of joint 1. The elbow cannot change its side.

@@ -2,10 +2,6 @@
 
 use super::*;
 
-fn maze() -> [String; 2] {
-    [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")]
-}
-
 fn space(place: &Place, options: &str) -> Value {
     place.run(&maze(), &format!("{options} --quiet --output cspace.json")).exits(0);
     let spaces = place.json("cspace.json");

@@ -2,16 +2,11 @@
 
 use super::*;
 
-fn maze() -> [String; 2] {
-    [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")]
-}
-
 fn drawn(place: &Place, files: &[String; 2], options: &str) -> String {
     place.run(files, &format!("{options} --picture picture.svg --output cspace.json")).exits(0);
     place.read("picture.svg")
 }
 
-/// Returns the texts in a picture.
 fn texts(picture: &str) -> Vec<&str> {
     let texts = picture.split("<text").skip(1).filter_map(|text| text.split_once('>')?.1.split_once("</text>"));
     texts.map(|(text, _)| text.trim()).collect()

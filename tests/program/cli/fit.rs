@@ -9,12 +9,8 @@ const FRAME: &str = "G21 G90 F6000\nG0 X0 Y0\nG1 X300\nG1 Y200\nG1 X0\nG1 Y0\nG0
 const WALLS: &str = "[[obstacle]]\nname = \"right\"\npolygon = [[0.9, -0.6], [1.1, -0.6], [1.1, 0.4], [0.9, 0.4]]\n\
     [[obstacle]]\nname = \"above\"\npolygon = [[-0.6, 1.0], [0.3, 1.0], [0.3, 1.2], [-0.6, 1.2]]\n";
 
-fn files() -> [String; 2] {
-    [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/engraving.toml")]
-}
-
 fn follow(place: &Place, options: &str) -> Done {
-    place.run(&["follow", &files()[0], "world.toml", "line.gcode"], options)
+    place.run(&["follow", &robot(), "world.toml", "line.gcode"], options)
 }
 
 /// The stated options repeat the motion, which keeps one side of the elbow, and whose tip draws the line at the placement.

@@ -1,12 +1,8 @@
 //! `cplan follow` from outside: motions against the tests' own kinematics, answers, files and errors.
 
 use super::*;
-fn files() -> [String; 2] {
-    [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/engraving.toml")]
-}
-
 fn follow(place: &Place, line: &str, options: &str) -> Done {
-    let [robot, world] = files();
+    let [robot, world] = files("follow/engraving");
     place.run(&["follow", &robot, &world, line], options)
 }
 
@@ -118,7 +114,7 @@ fn obstacles_at_both_solutions_are_named() {
                  [[obstacle]]\nname = \"below\"\npolygon = [[0.2, -0.6], [1.0, -0.6], [1.0, -0.3], [0.2, -0.3]]\n";
     place.write("world.toml", world);
     place.write("line.gcode", "G21 G0 X1000 Y-100\nG1 Y100\n");
-    let done = place.run(&["follow", &files()[0], "world.toml", "line.gcode"], "").exits(3);
+    let done = place.run(&["follow", &robot(), "world.toml", "line.gcode"], "").exits(3);
     done.says(&["no IK solution is possible at", "hits obstacle \"above\"", "hits obstacle \"below\""]);
 }
 
@@ -216,7 +212,7 @@ fn unusable_options_are_refused_before_any_work() {
     });
     let mover = mover.expect("a world with a moving obstacle").display().to_string();
     place
-        .run(&["follow", &files()[0], &mover, "line.gcode"], "")
+        .run(&["follow", &robot(), &mover, "line.gcode"], "")
         .refused(1, &["lines can be followed only if all obstacles are static"]);
 }
 
@@ -226,7 +222,7 @@ fn places_beside_the_reach_are_followed_or_named_with_a_tolerance_that_works() {
     let place = Place::new().with("world.toml", "");
     let follow = |end: f64, options: &str| {
         place.write("line.gcode", format!("G21 G90 F6000\nG0 X1000 Y0\nG1 X{end}\n"));
-        place.run(&["follow", &files()[0], "world.toml", "line.gcode"], options)
+        place.run(&["follow", &robot(), "world.toml", "line.gcode"], options)
     };
     assert_eq!(follow(1800.008, "").code, 0);
     assert_eq!(follow(1800.011, "").code, 3);

@@ -31,10 +31,6 @@ fn between(a: &[f64; 5], b: &[f64; 5], u: f64) -> [f64; 2] {
     })
 }
 
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap()
-}
-
 #[test]
 fn the_page_states_the_measured_distance_from_the_line() {
     let place = Place::new();

@@ -206,10 +206,6 @@ fn unsupported_searches_are_refused() {
     assert!(!place.path("cspace.csv").exists());
 }
 
-fn maze() -> [String; 2] {
-    [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")]
-}
-
 /// Returns the grid of `cspace.json`, the number of its free cells, and the label of the cell at `(0.15, 0.15)`, the start.
 fn maze_grid(place: &Place, cells: usize, options: &str) -> (serde_json::Value, usize, Option<u64>) {
     place.run(&maze(), &format!("--planner wavefront --cells {cells} --quiet --output cspace.json {options}"));

@@ -4,13 +4,9 @@ use super::*;
 use std::f64::consts::PI;
 
 fn follow(place: &Place, line: &str, options: &str) -> Done {
-    let [robot, world] = [shipped("robots/planar_2r.urdf"), shipped("workspaces/follow/engraving.toml")];
+    let [robot, world] = files("follow/engraving");
     place.write("line.toml", line);
     place.run(&["follow", &robot, &world, "line.toml"], options)
-}
-
-fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap()
 }
 
 /// Returns the positions of the tip at the samples of a result.

@@ -79,8 +79,21 @@ fn read(path: impl AsRef<Path>) -> String {
     std::fs::read_to_string(path).unwrap()
 }
 
+/// Returns the paths of `planar_2r` and of a shipped world.
+fn files(world: &str) -> [String; 2] {
+    [robot(), shipped(&format!("workspaces/{world}.toml"))]
+}
+
+fn robot() -> String {
+    shipped("robots/planar_2r.urdf")
+}
+
 fn shelf() -> [String; 2] {
-    [shipped("robots/planar_2r.urdf"), shipped("workspaces/shelf.toml")]
+    files("shelf")
+}
+
+fn maze() -> [String; 2] {
+    [shipped("robots/gantry.urdf"), shipped("workspaces/gantry_maze.toml")]
 }
 
 /// Returns the URDF of `planar_2r` with changes.

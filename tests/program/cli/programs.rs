@@ -4,6 +4,7 @@
 
 use super::controller_languages::{Statement, numbers, read_rapid, read_spel, targets};
 use super::*;
+use cplan_cases::plane::polygon_distance;
 
 /// Runs cplan for a world in the place's folder or of the repository.
 fn program(place: &Place, robot: &str, world: &str, options: &str) -> super::Done {
@@ -75,28 +76,6 @@ fn link(from: [f64; 2], angle: f64, length: f64) -> Vec<[f64; 2]> {
     corners.iter().map(|[x, y]| [from[0] + c * x - s * y, from[1] + s * x + c * y]).collect()
 }
 
-/// Distance between a point and a segment.
-fn to_segment(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let (d, e) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-    let t = ((d[0] * e[0] + d[1] * e[1]) / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);
-    (e[0] - t * d[0]).hypot(e[1] - t * d[1])
-}
-
-/// Distance between two convex polygons that are apart, by their corners and edges. If they overlap, it is 0 or wrong by the
-/// size of an edge; a motion that is sampled finely passes a small distance first.
-fn apart(one: &[[f64; 2]], other: &[[f64; 2]]) -> f64 {
-    let edges = |polygon: &[[f64; 2]]| {
-        let next = polygon.iter().cycle().skip(1);
-        polygon.iter().copied().zip(next.copied()).collect::<Vec<_>>()
-    };
-    let from = |corners: &[[f64; 2]], polygon: &[[f64; 2]]| {
-        let edges = edges(polygon);
-        let least = |p: &[f64; 2]| edges.iter().map(|&(a, b)| to_segment(*p, a, b)).fold(f64::INFINITY, f64::min);
-        corners.iter().map(least).fold(f64::INFINITY, f64::min)
-    };
-    from(one, other).min(from(other, one))
-}
-
 #[test]
 fn the_clearance_holds_for_all_motions_within_the_tolerance() {
     let place = Place::new();
@@ -122,7 +101,7 @@ fn the_clearance_holds_for_all_motions_within_the_tolerance() {
                 let elbow = [first.cos(), first.sin()];
                 let links = [link([0.0, 0.0], first, 1.0), link(elbow, first + second, 0.8)];
                 for (link, obstacle) in links.iter().flat_map(|link| obstacles.iter().map(move |one| (link, one))) {
-                    least = least.min(apart(link, obstacle));
+                    least = least.min(polygon_distance(link, obstacle));
                 }
             }
         }

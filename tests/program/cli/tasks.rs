@@ -5,6 +5,7 @@ use cplan::check::limit_violations;
 use cplan::input::load_scene;
 use cplan::model::Arm;
 use cplan::space::{Configuration, Recording};
+use cplan_cases::plane::distance;
 
 /// A world with two objects, of which one is held by a wrist, and with a post as an obstacle. The steps are added to
 /// it.
@@ -73,10 +74,6 @@ fn numbers(value: &Value) -> Vec<f64> {
 
 fn rows(value: &Value) -> Vec<[f64; 2]> {
     serde_json::from_value(value.clone()).unwrap()
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
 }
 
 /// Checks that position, velocity and limits agree: the judge of recorded motions finds no fault, and both ends are at

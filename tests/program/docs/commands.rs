@@ -23,7 +23,6 @@ struct Shown<'a> {
     says: Option<String>,
 }
 
-/// Returns the commands of a block.
 fn commands(block: &Block) -> Vec<Shown<'_>> {
     let mut commands: Vec<Shown> = Vec::new();
     for (line, text) in (block.line..).zip(block.text.lines()) {

@@ -47,7 +47,6 @@ fn worlds(folder: &str) -> Vec<[PathBuf; 2]> {
     files.into_iter().filter_map(with_robot).collect()
 }
 
-/// Returns the corners of an outline.
 fn corners(outline: &str) -> Vec<[f64; 2]> {
     let steps = outline.split_inclusive(['M', 'L', 'A', 'Z']).map(|step| step.trim_end_matches(['M', 'L', 'A', 'Z']));
     let corner = |step: &str| {

@@ -2,6 +2,7 @@
 
 use super::client::Page;
 use super::shelf_page;
+use cplan_cases::plane::distance_to_segment;
 use serde_json::{Value, json};
 use std::time::Duration;
 
@@ -24,17 +25,13 @@ fn crowd() -> Vec<Vec<[f64; 2]>> {
         let tip = [elbow[0] + 0.8 * (q1 + q2).cos(), elbow[1] + 0.8 * (q1 + q2).sin()];
         [[[0.0, 0.0], elbow], [elbow, tip]]
     };
-    let distance = |p: [f64; 2], [a, b]: [[f64; 2]; 2]| {
-        let (d, e) = ([b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]);
-        let t = ((e[0] * d[0] + e[1] * d[1]) / (d[0] * d[0] + d[1] * d[1])).clamp(0.0, 1.0);
-        (e[0] - t * d[0]).hypot(e[1] - t * d[1])
-    };
     let place = |k: usize| {
         // The golden angle spreads the obstacles evenly.
         let (radius, angle) = (1.3 + 0.6 * (k as f64 * 0.754_877).fract(), k as f64 * 2.399_963);
         [radius * angle.cos(), radius * angle.sin()]
     };
-    let is_apart = |p: &[f64; 2]| [START, GOAL].into_iter().flat_map(links).all(|link| distance(*p, link) > 0.14);
+    let is_apart =
+        |p: &[f64; 2]| [START, GOAL].into_iter().flat_map(links).all(|link| distance_to_segment(*p, link) > 0.14);
     let corner = |[x, y]: [f64; 2], i: usize| {
         let angle = i as f64 * std::f64::consts::TAU / 5.0;
         [x + 0.01 * angle.cos(), y + 0.01 * angle.sin()]

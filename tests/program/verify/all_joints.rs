@@ -60,7 +60,6 @@ fn a_tool_that_is_held_low_gets_the_same_verdict_in_json_and_csv() {
     assert!(blames(&json, "axis_3"), "{:#}", json["faults"]);
 }
 
-/// Without its steps, a result is its motion of all joints.
 #[test]
 fn a_result_without_steps_is_judged_by_its_motion_of_all_joints() {
     let files = shipped("scara", "arch/into_the_box");

@@ -1,6 +1,8 @@
 //! Motions with limits on jerks, as `verify` judges them in the files of the planner.
 
 use super::*;
+use cplan_cases::plane::{distance, distance_to_segment};
+
 /// Worlds with corners whose legs are short and long.
 const WORLDS: [&str; 5] = ["shelf", "discs", "limits_open", "two_branches", "crowd"];
 
@@ -15,18 +17,6 @@ fn findings(world: &str, result: &Value) -> Value {
 
 fn rows(of: &Value) -> Vec<[f64; 2]> {
     serde_json::from_value(of.clone()).unwrap()
-}
-
-fn distance(a: [f64; 2], b: [f64; 2]) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
-/// Returns the distance of a point from a straight piece.
-fn from_leg(p: [f64; 2], a: [f64; 2], b: [f64; 2]) -> f64 {
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let share = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / (along[0] * along[0] + along[1] * along[1]);
-    let share = share.clamp(0.0, 1.0);
-    distance(p, [a[0] + share * along[0], a[1] + share * along[1]])
 }
 
 /// Returns the greatest distance from the nearest corner at which the motion of a result is off its path by more than a
@@ -47,7 +37,8 @@ fn rounded_within(result: &Value) -> f64 {
                 let basis = [2.0 * u - 3.0, 3.0 - 2.0 * u, u - 2.0, u - 1.0];
                 p + p * u * u * basis[0] + q * u * u * basis[1] + v * (u + u * u * basis[2]) + w * u * u * basis[3]
             });
-            let off = path.windows(2).map(|leg| from_leg(at, leg[0], leg[1])).fold(f64::INFINITY, f64::min);
+            let off =
+                path.windows(2).map(|leg| distance_to_segment(at, [leg[0], leg[1]])).fold(f64::INFINITY, f64::min);
             if off > 1e-6 {
                 let corners = &path[1..path.len() - 1];
                 farthest =

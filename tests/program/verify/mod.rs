@@ -27,7 +27,6 @@ fn root(file: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
-/// Returns the paths of a shipped robot and world.
 fn shipped(robot: &str, world: &str) -> [PathBuf; 2] {
     [root(&format!("robots/{robot}.urdf")), root(&format!("workspaces/{world}.toml"))]
 }

@@ -32,7 +32,6 @@ fn main() -> Result<(), Box<dyn Error>> {
     Ok(())
 }
 
-/// Returns the row of a cell.
 fn row(case: &CellCase, plan: &CellPlan) -> String {
     let proof = match &plan.outcome {
         Outcome::Infeasible(Refutation::Alone { .. } | Refutation::Step { .. }) => "alone",

@@ -3,7 +3,7 @@
 use crate::excerpt::Excerpt;
 use crate::file::{CellFile, Reader};
 use cplan_engine::Problem;
-use cplan_handling::{Action, Handover, Holding, Item, Step, Task};
+use cplan_handling::{Action, Holding, Item, Presence, Step, Task};
 use cplan_model::Obstacle;
 use cplan_robot::{InputError, Source};
 use cplan_world::{Overrides, Rules};
@@ -28,7 +28,7 @@ pub(crate) struct ArmWorld {
     /// For each pair of a pick and a place that either arm may do, its number in the first group of steps.
     pub shared: Vec<Option<usize>>,
     /// Names of the objects that the arm hands over or takes.
-    handovers: Vec<(String, Handover)>,
+    handovers: Vec<(String, Presence)>,
 }
 
 /// A handover of the file.
@@ -70,8 +70,8 @@ pub(crate) fn worlds(reader: &Reader, urdfs: &[Source; 2]) -> Result<[ArmWorld; 
         let giver = 1 - handover.taker;
         let object = handed_object(reader, urdfs, &own[giver], (giver, &worlds[giver]), handover)?;
         worlds[handover.taker].objects = replaced(worlds[handover.taker].objects.take(), object);
-        worlds[handover.taker].handovers.push((handover.object.clone(), Handover::Takes));
-        worlds[giver].handovers.push((handover.object.clone(), Handover::Gives));
+        worlds[handover.taker].handovers.push((handover.object.clone(), Presence::FromPick));
+        worlds[giver].handovers.push((handover.object.clone(), Presence::UntilPlaced));
     }
     let pairs = shared_pairs(reader)?;
     for arm in 0..2 {
@@ -107,7 +107,7 @@ pub(crate) fn check(reader: &Reader, tasks: [Option<&Task>; 2]) -> Result<(), In
     let shared = shared_names(reader.file);
     let picks = [one, two].map(|task| task.steps().filter_map(|step| step.action.picked()).collect::<Vec<_>>());
     let is_free =
-        |object: &&usize| one.objects[**object].handover.is_none() && !shared.contains(&one.objects[**object].name);
+        |object: &&usize| one.objects[**object].presence.is_none() && !shared.contains(&one.objects[**object].name);
     let both = picks[0].iter().filter(is_free).find(|object| picks[1].contains(object));
     let at = || reader.tables[1].step.as_ref().map_or(reader.tables[1].name.span(), Excerpt::place);
     if let Some(object) = both {
@@ -115,7 +115,7 @@ pub(crate) fn check(reader: &Reader, tasks: [Option<&Task>; 2]) -> Result<(), In
     }
     for picks in &picks {
         let mut seen = BTreeSet::new();
-        let again = picks.iter().find(|object| !seen.insert(**object) && one.objects[**object].handover.is_some());
+        let again = picks.iter().find(|object| !seen.insert(**object) && one.objects[**object].presence.is_some());
         if let Some(object) = again {
             let message =
                 format!("\"{}\" is handed over, but an arm picks it more than once", one.objects[*object].name);
@@ -143,7 +143,7 @@ impl ArmWorld {
     pub fn task(&self, problem: &Problem, others: &[Obstacle]) -> Option<Task> {
         let mut task = problem.task().filter(|_| self.steps.is_some())?.clone();
         for object in &mut task.objects {
-            object.handover = self.handovers.iter().find(|(name, _)| *name == object.name).map(|(_, role)| *role);
+            object.presence = self.handovers.iter().find(|(name, _)| *name == object.name).map(|(_, role)| *role);
         }
         // The arm rests during strokes and turns, so it can wait with the tool raised before each motion.
         if let Some(stroke) = &mut task.stroke {
@@ -170,7 +170,6 @@ pub(crate) fn with_obstacles(task: &Task, more: &[Obstacle]) -> Task {
     task
 }
 
-/// Returns the steps of an item.
 fn steps_of(item: &mut Item) -> Vec<&mut Step> {
     match item {
         Item::Step(step) => vec![step],

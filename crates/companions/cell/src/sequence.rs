@@ -4,7 +4,7 @@ use crate::body::{Body, Frame};
 use crate::legs::{Leg, LegStep, Legs, Moving};
 use crate::stage::{Awaited, Left, Precedence, Stage, StageTime};
 use cplan_geometry::{Convex, Pose};
-use cplan_handling::{Handover, Object, Task};
+use cplan_handling::{Object, Presence, Task};
 use cplan_judge::certify;
 use cplan_legs::{Event, Leg as TaskLeg};
 use cplan_model::space::{Configuration, Path};
@@ -77,7 +77,7 @@ impl Sequence {
 
 /// Iterates over the objects of a task that the arm hands over to another arm.
 pub(crate) fn handed_over(task: &Task) -> impl Iterator<Item = usize> {
-    let gives = |object: &Object| object.handover == Some(Handover::Gives);
+    let gives = |object: &Object| object.presence == Some(Presence::UntilPlaced);
     task.objects.iter().enumerate().filter(move |(_, object)| gives(object)).map(|(number, _)| number)
 }
 
@@ -98,7 +98,7 @@ impl<'a> Builder<'a> {
     fn new(task: &'a Task, legs: &[TaskLeg]) -> Self {
         let picked = |(number, leg): (usize, &TaskLeg)| Some((leg.step.action.picked()?, number));
         let picks: Vec<(usize, usize)> = legs.iter().enumerate().filter_map(picked).collect();
-        let is_taken = |(object, _): &(usize, usize)| task.objects[*object].handover == Some(Handover::Takes);
+        let is_taken = |(object, _): &(usize, usize)| task.objects[*object].presence == Some(Presence::FromPick);
         let taken = picks.iter().filter(|pick| is_taken(pick)).copied().collect();
         let moved = picks.iter().map(|(object, _)| *object).collect();
         Self { task, moved, taken, left: Vec::new(), out: Vec::new(), stages: Vec::new(), steps: Vec::new() }
@@ -131,7 +131,7 @@ impl<'a> Builder<'a> {
             stage
         });
         if let Some(Event::Release { object, .. }) = leg.event
-            && task.objects[object].handover == Some(Handover::Gives)
+            && task.objects[object].presence == Some(Presence::UntilPlaced)
         {
             self.left.push((object, number, self.released(leg).collect()));
         }
@@ -145,7 +145,7 @@ impl<'a> Builder<'a> {
         let Some(Event::Release { object, .. }) = leg.event else { return };
         let mut bodies = self.links(&leg.scene, None);
         bodies.extend(self.resting(&leg.scene, Some(object)));
-        if self.task.objects[object].handover != Some(Handover::Gives) {
+        if self.task.objects[object].presence != Some(Presence::UntilPlaced) {
             bodies.extend(self.released(leg).map(Rc::new));
         }
         let stage = self.stage(number, false, bodies);

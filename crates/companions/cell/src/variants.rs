@@ -1,6 +1,6 @@
 //! Other sequences for the task of one arm: other IK solutions, and other orders of free steps.
 
-use cplan_handling::{Action, Handover, Item, Step, Task, ToolValues};
+use cplan_handling::{Action, Item, Presence, Step, Task, ToolValues};
 use cplan_legs::Leg;
 use cplan_model::{Elbow, Goal, JointType};
 
@@ -43,9 +43,9 @@ pub(crate) fn variants(task: &Task, legs: &[Leg]) -> Vec<Variant> {
 /// Returns a task in which the arm returns to its start before it takes an object, and after it has given one. There, it can
 /// wait out of the way. Returns `None` if there are no such steps in fixed order.
 fn retreating(task: &Task) -> Option<Task> {
-    let is = |step: &Step, role: Handover, held: Option<usize>| {
-        let object = if role == Handover::Takes { step.action.picked() } else { held };
-        object.is_some_and(|object| task.objects[object].handover == Some(role))
+    let is = |step: &Step, role: Presence, held: Option<usize>| {
+        let object = if role == Presence::FromPick { step.action.picked() } else { held };
+        object.is_some_and(|object| task.objects[object].presence == Some(role))
     };
     let retreat = |step: &Step| {
         let action = Action::Move(Goal::Joints(task.start));
@@ -65,12 +65,12 @@ fn retreating(task: &Task) -> Option<Task> {
             is_there = false;
             continue;
         };
-        if !is_there && is(step, Handover::Takes, None) {
+        if !is_there && is(step, Presence::FromPick, None) {
             items.push(retreat(step));
         }
         held = step.action.picked().or(held);
         items.push(item.clone());
-        is_there = matches!(step.action, Action::Place { .. }) && is(step, Handover::Gives, held);
+        is_there = matches!(step.action, Action::Place { .. }) && is(step, Presence::UntilPlaced, held);
         if is_there {
             items.push(retreat(step));
         }

@@ -2,6 +2,7 @@
 //! capsules at heights, and objects that are discs.
 
 use cplan_cases::dice::Dice;
+use cplan_cases::plane::segment_distance;
 use cplan_cell::{Cell, CellPlan, Coordination, Settings, StepTimes, plan_cell};
 use cplan_model::Outcome;
 use cplan_robot::Source;
@@ -63,27 +64,12 @@ fn capsule(name: &str, ends: [Place; 2], radius: f64, heights: [f64; 2]) -> Caps
     Capsule { name: name.to_owned(), ends, radius, heights }
 }
 
-fn between(p: Place, [a, b]: [Place; 2]) -> f64 {
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let length = along[0] * along[0] + along[1] * along[1];
-    let share = ((p[0] - a[0]) * along[0] + (p[1] - a[1]) * along[1]) / length.max(1e-30);
-    let share = share.clamp(0.0, 1.0);
-    (p[0] - a[0] - share * along[0]).hypot(p[1] - a[1] - share * along[1])
-}
-
-fn cross(o: Place, a: Place, b: Place) -> f64 {
-    (a[0] - o[0]) * (b[1] - o[1]) - (a[1] - o[1]) * (b[0] - o[0])
-}
-
 /// Returns the distance of two capsules. Infinite if their heights do not overlap.
 fn distance(a: &Capsule, b: &Capsule) -> f64 {
     if a.heights[0] > b.heights[1] - TOUCHING || b.heights[0] > a.heights[1] - TOUCHING {
         return f64::INFINITY;
     }
-    let ([p, q], [r, s]) = (a.ends, b.ends);
-    let crosses = cross(p, q, r) * cross(p, q, s) < 0.0 && cross(r, s, p) * cross(r, s, q) < 0.0;
-    let nearest = between(p, b.ends).min(between(q, b.ends)).min(between(r, a.ends)).min(between(s, a.ends));
-    if crosses { -a.radius - b.radius } else { nearest - a.radius - b.radius }
+    segment_distance(a.ends, b.ends) - a.radius - b.radius
 }
 
 /// Returns elbow and tip of an arm.

@@ -151,6 +151,10 @@ class ExplorationView extends View {
     return true;
   }
 
+  get ownLayers() {
+    return ['path', 'map', 'sensor', 'known'];
+  }
+
   /** Returns true for the layers of an exploration. */
   draws(layer) {
     return layer !== 'poses' && super.draws(layer);

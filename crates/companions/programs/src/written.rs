@@ -104,7 +104,6 @@ impl Written {
     }
 }
 
-/// Returns one of the signals of a target.
 fn signal(program: &Program, target: usize, number: usize) -> Option<(usize, SignalUse)> {
     program.moves.get(target)?.signals.get(number).copied()
 }

@@ -221,7 +221,7 @@ impl State {
                 reach
             }
             (Action::Pick { object, grasp, .. }, None) => {
-                let there = self.poses[*object].or_else(|| task.objects[*object].handed_pose());
+                let there = self.poses[*object].or_else(|| task.objects[*object].arrival());
                 let Some(Placement { pose: lies, .. }) = there else { return Candidates::unknown(step) };
                 let reach = ik_solutions(arm, arm.tip, (lies.point(*grasp), elbow), self.q);
                 let wanted = place.and_then(|place| match place.action {

@@ -68,7 +68,6 @@ pub fn inverse(arm: &Arm, target: Point, preferred: Configuration) -> Inverse {
     inverse
 }
 
-/// Returns the angle of a vector.
 fn angle(v: Vector) -> f64 {
     v.y.atan2(v.x)
 }

@@ -294,11 +294,6 @@ impl Scene {
         (self.arm, self.workspace)
     }
 
-    /// Returns the numbers of the obstacles that link 2's own parts may touch.
-    pub fn allowed_contacts(&self) -> &[usize] {
-        &self.additions.allowed_contacts
-    }
-
     /// Returns the optional contents of the scene.
     pub fn additions(&self) -> &Additions {
         &self.additions

@@ -161,7 +161,6 @@ impl Deviation<'_> {
         pairs
     }
 
-    /// Returns pairs with their bounds.
     fn with_bounds(&self, pieces: &[Piece], pairs: Vec<(f64, Foot)>) -> Pairing {
         let mut bounds = vec![0.0_f64; pieces.len()];
         let Some(first) = pieces.first() else { return Pairing { pairs, bounds } };

@@ -41,7 +41,7 @@ pub use piece::{Derivative, Piece, State};
 pub use recording::{RecordedJoints, Recording, RecordingError};
 pub use robot_joints::{Driver, Drives, RobotJoint, RobotJoints};
 pub use stroke::{Arch, Stroke, ToolJoint, ToolLimits, ToolValues, rest_to_rest};
-pub use task::{Action, Handover, Holding, Item, Object, Placement, Step, Task, Wrist};
+pub use task::{Action, Holding, Item, Object, Placement, Presence, Step, Task, Wrist};
 pub use task_error::TaskError;
 pub use timed::{TimedScene, TimedWorkspace};
 pub use wrist_guide::{

@@ -21,13 +21,13 @@ pub enum Holding {
     Level,
 }
 
-/// The role of an arm in the handover of an object to another arm.
+/// The part of a task during which an object is in the workspace, if it is not there all the time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Handover {
-    /// The arm places the object, and the other arm takes it from there.
-    Gives,
-    /// The arm takes the object from where the other arm has placed it.
-    Takes,
+pub enum Presence {
+    /// The object leaves the workspace once it is placed.
+    UntilPlaced,
+    /// The object arrives at its initial pose before it is picked.
+    FromPick,
 }
 
 /// A movable object. It is an obstacle while it lies somewhere, and a payload while the arm carries it.
@@ -54,10 +54,9 @@ pub struct Object {
     /// Mass in kilograms.
     #[serde(default)]
     pub mass: f64,
-    /// Role of the arm if the object is handed over. While another arm may still bring the object or has taken it, it is no
-    /// obstacle. `None` in all tasks of a single arm.
+    /// The part of the task during which the object can be an obstacle; `None` if always, as in all world files.
     #[serde(skip)]
-    pub handover: Option<Handover>,
+    pub presence: Option<Presence>,
 }
 
 impl Object {
@@ -333,20 +332,20 @@ impl Object {
         Obstacle { name: self.name.clone(), shape, pieces, heights, growth: Growth::default() }
     }
 
-    /// Returns the initial placement of the object. `None` if the object moves initially, or if another arm brings it.
+    /// Returns the initial placement of the object. `None` if the object moves initially, or arrives later.
     pub fn initial_static_pose(&self) -> Option<Placement> {
-        let is_there = self.trajectory.is_none() && self.handover != Some(Handover::Takes);
+        let is_there = self.trajectory.is_none() && self.presence != Some(Presence::FromPick);
         is_there.then_some(self.at.into())
     }
 
-    /// Returns the placement from which the object is picked, if another arm brings it there.
-    pub fn handed_pose(&self) -> Option<Placement> {
-        (self.handover == Some(Handover::Takes)).then_some(self.at.into())
+    /// Returns the placement at which the object arrives before the pick. `None` if it does not arrive later.
+    pub fn arrival(&self) -> Option<Placement> {
+        (self.presence == Some(Presence::FromPick)).then_some(self.at.into())
     }
 
-    /// Returns the placement of the object after a step has released it. Returns `None` if another arm takes it away.
+    /// Returns the placement of the object after a step has released it. Returns `None` if the object leaves the workspace.
     pub fn left_at(&self, placement: Placement) -> Option<Placement> {
-        (self.handover != Some(Handover::Gives)).then_some(placement)
+        (self.presence != Some(Presence::UntilPlaced)).then_some(placement)
     }
 
     /// Returns the object's heights where it lies at an elevation, in metres.

@@ -140,7 +140,6 @@ fn new_temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     tempfile::Builder::new().prefix(".cplan").permissions(fs::Permissions::from_mode(0o666)).tempfile_in(folder)
 }
 
-/// Creates a temporary file.
 #[cfg(not(unix))]
 fn new_temporary(folder: &Path) -> io::Result<tempfile::NamedTempFile> {
     tempfile::Builder::new().prefix(".cplan").tempfile_in(folder)

@@ -153,7 +153,6 @@ fn names(view: &View, panel: &PanelView, chart: &Chart, paths: &[(Vec<Step>, Pen
     placer.into_items()
 }
 
-/// Returns the style of a C-obstacle.
 fn c_obstacle_style(color: Rgb) -> Style {
     let style = Style::line(color.darker(0.25), 2.0).filled(color.lighter(0.35)).faded(0.85);
     Style { pen_below: true, ..style }

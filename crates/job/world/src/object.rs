@@ -350,7 +350,7 @@ fn movable(
         at,
         mass: mass.unwrap_or(0.0),
         trajectory,
-        handover: None,
+        presence: None,
     };
     Ok(MovableObject { object, grasp: grasp.unwrap_or_else(Point::zeros), supports, is_renewed: given.renew })
 }

@@ -65,7 +65,6 @@ impl Grid {
         self.neighbors(cell).into_iter().filter(|&other| !self.is_blocked[other])
     }
 
-    /// Returns the middle of a cell.
     fn middle(&self, cell: usize) -> Point {
         Point::new((cell % self.columns) as f64 + 0.5, (self.rows - cell / self.columns) as f64 - 0.5)
     }

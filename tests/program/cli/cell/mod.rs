@@ -256,7 +256,6 @@ fn files_have_the_motions_of_both_arms() {
     assert!(place.read("cell.svg").contains("waits for signal 1, which"));
 }
 
-/// Returns the title of a page.
 fn title(page: &str) -> &str {
     let (_, rest) = page.split_once("<title>").expect("a title");
     rest.split_once("</title>").expect("its end").0

@@ -1,8 +1,9 @@
 //! Two arms with their own kinematics and their own distances of polygons: this shares no code with cplan.
 
+use cplan_cases::plane::polygon_distance;
 use serde_json::Value;
 
-pub type Point = [f64; 2];
+pub use cplan_cases::plane::Point;
 
 /// A shape of a link in the link's frame, with its heights.
 #[derive(Debug, Clone)]
@@ -103,42 +104,6 @@ pub fn clearance(arm: &Arm, q: [f64; 2], obstacles: &[Vec<Point>]) -> f64 {
     let solids = arm.solids(q);
     let pairs = solids.iter().flat_map(|solid| obstacles.iter().map(move |other| (solid, other)));
     pairs.map(|(solid, other)| polygon_distance(&solid.corners, other)).fold(f64::INFINITY, f64::min)
-}
-
-fn polygon_distance(a: &[Point], b: &[Point]) -> f64 {
-    if is_inside(a[0], b) || is_inside(b[0], a) {
-        return 0.0;
-    }
-    let sides = |p: &[Point]| (0..p.len()).map(|k| [p[k], p[(k + 1) % p.len()]]).collect::<Vec<_>>();
-    let (one, two) = (sides(a), sides(b));
-    let mut least = f64::INFINITY;
-    for (s, t) in one.iter().flat_map(|s| two.iter().map(move |t| (*s, *t))) {
-        if cross_each_other(s, t) {
-            return 0.0;
-        }
-        let ends = [point_distance(s[0], t), point_distance(s[1], t), point_distance(t[0], s), point_distance(t[1], s)];
-        least = ends.into_iter().fold(least, f64::min);
-    }
-    least
-}
-
-fn turn(a: Point, b: Point, c: Point) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-fn is_inside(p: Point, convex: &[Point]) -> bool {
-    (0..convex.len()).all(|k| turn(convex[k], convex[(k + 1) % convex.len()], p) >= 0.0)
-}
-
-fn cross_each_other([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0
-}
-
-fn point_distance(p: Point, [a, b]: [Point; 2]) -> f64 {
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let to = [p[0] - a[0], p[1] - a[1]];
-    let share = ((to[0] * along[0] + to[1] * along[1]) / (along[0] * along[0] + along[1] * along[1])).clamp(0.0, 1.0);
-    (to[0] - share * along[0]).hypot(to[1] - share * along[1])
 }
 
 /// A motion of one arm as the result states it: cubics through positions and velocities.

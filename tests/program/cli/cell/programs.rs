@@ -116,7 +116,6 @@ fn check_signals(programs: &[Vec<Statement>; 2], answer: &Value) {
     assert_eq!(programs.iter().flatten().filter(is_signal).count(), 2 * interlocks.len());
 }
 
-/// Returns the programs without their waits.
 fn without_waits(programs: &[Vec<Statement>; 2]) -> [Vec<Statement>; 2] {
     let kept = |statement: &&Statement| !matches!(statement, Statement::WaitForSignal(_));
     programs.each_ref().map(|program| program.iter().filter(kept).cloned().collect())

@@ -1,8 +1,9 @@
 //! A machine with its own kinematics, as its maker would write it: it shares no code with cplan.
 
+use cplan_cases::plane::polygon_distance;
 use std::f64::consts::TAU;
 
-pub type Point = [f64; 2];
+pub use cplan_cases::plane::{Point, distance};
 
 /// Two bars of constant width on revolute joints, the first at the origin, with a firmware that keeps the side of its elbow.
 pub struct Machine {
@@ -152,7 +153,8 @@ impl Machine {
     pub fn clearance(&self, [p, q]: Point) -> f64 {
         let elbow = [self.lengths[0] * p.cos(), self.lengths[0] * p.sin()];
         let bars = [bar([0.0; 2], p, self.lengths[0], self.width), bar(elbow, p + q, self.lengths[1], self.width)];
-        let pairs = bars.iter().flat_map(|bar| self.obstacles.iter().map(move |obstacle| between(bar, obstacle)));
+        let pairs =
+            bars.iter().flat_map(|bar| self.obstacles.iter().map(move |obstacle| polygon_distance(bar, obstacle)));
         pairs.fold(f64::INFINITY, f64::min)
     }
 
@@ -227,63 +229,10 @@ impl Machine {
     }
 }
 
-pub fn distance(a: Point, b: Point) -> f64 {
-    (a[0] - b[0]).hypot(a[1] - b[1])
-}
-
 fn bar(from: Point, angle: f64, length: f64, width: f64) -> Vec<Point> {
     let (sin, cos) = angle.sin_cos();
     let half = width / 2.0;
     [[0.0, -half], [length, -half], [length, half], [0.0, half]]
         .map(|[u, v]| [from[0] + u * cos - v * sin, from[1] + u * sin + v * cos])
         .to_vec()
-}
-
-/// Returns the distance between two polygons; 0 if they meet.
-fn between(a: &[Point], b: &[Point]) -> f64 {
-    if contains(a, b[0]) || contains(b, a[0]) {
-        return 0.0;
-    }
-    let sides = |corners: &[Point]| -> Vec<[Point; 2]> {
-        (0..corners.len()).map(|k| [corners[k], corners[(k + 1) % corners.len()]]).collect()
-    };
-    let mut least = f64::INFINITY;
-    for one in sides(a) {
-        for two in sides(b) {
-            if cross_each_other(one, two) {
-                return 0.0;
-            }
-            for (point, side) in [(one[0], two), (one[1], two), (two[0], one), (two[1], one)] {
-                least = least.min(from_side(point, side));
-            }
-        }
-    }
-    least
-}
-
-fn turn(a: Point, b: Point, c: Point) -> f64 {
-    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
-}
-
-fn cross_each_other([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    turn(a, b, c) * turn(a, b, d) < 0.0 && turn(c, d, a) * turn(c, d, b) < 0.0
-}
-
-fn from_side(point: Point, [a, b]: [Point; 2]) -> f64 {
-    let along = [b[0] - a[0], b[1] - a[1]];
-    let square = along[0] * along[0] + along[1] * along[1];
-    let share = ((point[0] - a[0]) * along[0] + (point[1] - a[1]) * along[1]) / square;
-    let share = share.clamp(0.0, 1.0);
-    distance(point, [a[0] + share * along[0], a[1] + share * along[1]])
-}
-
-fn contains(corners: &[Point], [x, y]: Point) -> bool {
-    let mut inside = false;
-    for k in 0..corners.len() {
-        let ([ax, ay], [bx, by]) = (corners[k], corners[(k + 1) % corners.len()]);
-        if (ay > y) != (by > y) && x < ax + (y - ay) / (by - ay) * (bx - ax) {
-            inside = !inside;
-        }
-    }
-    inside
 }

@@ -87,6 +87,10 @@ class CellView extends View {
     return this.model.cell;
   }
 
+  get ownLayers() {
+    return this.cell.motions ? ['path', 'poses'] : [];
+  }
+
   // Content.
 
   update(model) {

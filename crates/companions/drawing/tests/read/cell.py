@@ -41,3 +41,9 @@ hatch = msp.add_hatch(color=2, dxfattribs={"layer": "notes"})
 hatch.paths.add_polyline_path([(500, 750), (1900, 750), (1900, 1150), (500, 1150)])
 msp.add_circle((0, 0), 1200, dxfattribs={"layer": "old"})
 doc.saveas(sys.argv[1])
+# Of the variables of the header, only these differ from the defaults that a reader assumes.
+kept = {"$ACADVER", "$DWGCODEPAGE", "$HANDSEED", "$MEASUREMENT", "$INSUNITS"}
+head, mark, rest = open(sys.argv[1]).read().partition("  0\nENDSEC\n")
+begin, *variables = head.split("  9\n")
+with open(sys.argv[1], "w") as file:
+    file.write("  9\n".join([begin, *(text for text in variables if text.split("\n")[0] in kept)]) + mark + rest)

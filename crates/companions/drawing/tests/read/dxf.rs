@@ -1,6 +1,7 @@
 //! Entities, units, blocks, layers and ends that meet.
 
 use super::{area, assert_same_points, distance, drawing, length, near, notes, only_shape, ring, wall};
+use cplan_cases::plane::distance_to_segment;
 use cplan_drawing::{Drawing, Format, Geometry, Point, Settings, Shape, Unit, read};
 use std::f64::consts::PI;
 
@@ -175,7 +176,7 @@ fn splines_pass_where_their_definition_says() {
     };
     for k in 0..=1000 {
         let exact = bernstein(f64::from(k) / 1000.0);
-        let off = points.windows(2).map(|w| to_segment(exact, w[0], w[1])).fold(f64::INFINITY, f64::min);
+        let off = points.windows(2).map(|w| distance_to_segment(exact, [w[0], w[1]])).fold(f64::INFINITY, f64::min);
         assert!(off <= TOLERANCE, "{off}");
     }
     // A quarter of a circle as a rational spline of degree 2, another one to come back: closed, a lens.
@@ -206,7 +207,7 @@ fn splines_of_fit_points_agree_with_cad_programs() {
         assert_eq!(notes(&given), [""; 0]);
         let points = wall(only_shape(&given));
         for exact in middles.map(|p: Point| p.map(|x| x / 1000.0)) {
-            let off = points.windows(2).map(|w| to_segment(exact, w[0], w[1])).fold(f64::INFINITY, f64::min);
+            let off = points.windows(2).map(|w| distance_to_segment(exact, [w[0], w[1]])).fold(f64::INFINITY, f64::min);
             assert!(off <= TOLERANCE, "{off}");
         }
         let short = mm / 1000.0 - length(points);
@@ -221,12 +222,6 @@ fn splines_of_fit_points_agree_with_cad_programs() {
         let exact = 3.05 * 0.25;
         assert!(given <= exact && given > exact - 3.2 * TOLERANCE, "{given} against {exact}");
     }
-}
-
-fn to_segment(p: Point, a: Point, b: Point) -> f64 {
-    let [u, v] = [[b[0] - a[0], b[1] - a[1]], [p[0] - a[0], p[1] - a[1]]];
-    let part = ((u[0] * v[0] + u[1] * v[1]) / (u[0] * u[0] + u[1] * u[1])).clamp(0.0, 1.0);
-    distance(p, [a[0] + part * u[0], a[1] + part * u[1]])
 }
 
 #[test]

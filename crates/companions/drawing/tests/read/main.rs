@@ -46,11 +46,6 @@ pub fn length(points: &[Point]) -> f64 {
     points.windows(2).map(|w| distance(w[0], w[1])).sum()
 }
 
-/// Returns the distance of two points.
-pub fn distance(p: Point, q: Point) -> f64 {
-    (p[0] - q[0]).hypot(p[1] - q[1])
-}
-
 /// Asserts that a number equals another one within a tolerance.
 #[track_caller]
 pub fn near(a: f64, b: f64, within: f64) {

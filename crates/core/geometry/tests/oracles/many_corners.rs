@@ -25,7 +25,6 @@ fn slanted_comb(teeth: usize) -> Vec<Corner> {
     ring
 }
 
-/// Returns twice the area of a ring.
 fn twice_area(ring: &[Corner]) -> i128 {
     let product = |i: usize| {
         let ((a, b), (c, d)) = (ring[i], ring[(i + 1) % ring.len()]);

@@ -221,7 +221,6 @@ impl<'a> Judge<'a> {
         Moment::new(index, &self.pieces[index], u)
     }
 
-    /// Returns the moment of a sample.
     fn sample(&self, index: usize) -> Moment {
         if index < self.pieces.len() { self.moment(index, 0.0) } else { self.moment(index - 1, 1.0) }
     }

@@ -42,19 +42,18 @@ class Layers {
     this.rows = [];
   }
 
-  /** Returns the names of the layers that a model has. */
-  static of({ worlds, replays = [], paths, reach, frames, exploration, cell, line: given }) {
+  /** Returns the names of the layers that a model has, and those that the page draws itself. */
+  static of({ worlds, replays = [], paths, reach, frames, line: given }, own) {
     const traces = [...worlds, ...replays].map(({ trace }) => trace);
     const kinds = new Set(traces.map((trace) => trace?.kind));
     const any = (key) => worlds.some((world) => world[key]?.length > 0);
     const exists = {
-      path: paths.length > 0 || Boolean(exploration ?? cell?.motions ?? given), solutions: Boolean(given?.solutions.length), 'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(reach), proof: any('proof'), regions: any('regions'),
+      path: paths.length > 0 || Boolean(given), solutions: Boolean(given?.solutions.length), 'c-obstacles': any('c_obstacles') || any('moments'), access: Boolean(reach), proof: any('proof'), regions: any('regions'),
       roadmap: kinds.has('roadmap'), roads: kinds.has('roads'), rows: kinds.has('rows'), channel: kinds.has('channel'), cells: kinds.has('channel'),
       expanded: traces.some((trace) => trace?.expanded?.length > 0), wavefront: kinds.has('wavefront'), equipotentials: kinds.has('field'), flow: kinds.has('field'),
-      boxes: kinds.has('boxes'), poses: paths.length > 0 || Boolean(cell?.motions), map: Boolean(exploration), sensor: Boolean(exploration), known: Boolean(exploration),
-      names: any('obstacles') || any('movers'), frames: frames.length > 0,
+      boxes: kinds.has('boxes'), poses: paths.length > 0, names: any('obstacles') || any('movers'), frames: frames.length > 0,
     };
-    return LAYERS.map(([name]) => name).filter((name) => exists[name]);
+    return LAYERS.map(([name]) => name).filter((name) => exists[name] || own.includes(name));
   }
 
   /** Returns the layer to which an entry of the legend belongs, of those that it names. */
@@ -67,7 +66,7 @@ class Layers {
   update(model) {
     const { view } = this;
     const names = [...new Map(model.worlds.flatMap((world) => [...world.obstacles, ...(world.movers ?? [])].map((o) => [o.name, o.color])))];
-    const layers = Layers.of(model);
+    const layers = Layers.of(model, view.ownLayers);
     const signature = JSON.stringify([layers, names, model.legend, view.named]);
     if (signature === this.signature) return;
     this.signature = signature;

@@ -206,11 +206,6 @@ interface Model {
   line?: LineModel;
   /** Objects where a task puts them. */
   places?: ObstacleModel[];
-  /** The data of an exploration, and the knowledge over time. */
-  exploration?: any;
-  survey?: any;
-  /** The data of two arms in one cell. */
-  cell?: any;
 }
 
 /** The pair of an arm's part and an obstacle that is in contact or nearest. */

@@ -99,6 +99,11 @@ class View {
 
   // Content.
 
+  /** The layers that the page draws itself, besides those of the model. Other pages override this. @returns {string[]} */
+  get ownLayers() {
+    return [];
+  }
+
   /** Shows another model. Layers, hidden obstacles and, as far as possible, the time stay the same. */
   update(model) {
     this.model = model;
