@@ -53,10 +53,12 @@ class ScheduleTool {
 }
 
 class CellView extends View {
-  /** Number of times among which the nearest place of the schedule is sought, and of places of a tip that are drawn. */
+  /** Number of times among which the nearest place of the schedule is sought. A third of it are the places of a tip that are drawn, at least. */
   static PLACES = 600;
   /** Arms that are nearer than this share of the picture's smaller side have a line between them. */
   static NEAR = 0.12;
+  /** Time between two places of a tip that are drawn, at most, in seconds. */
+  static PATH_STEP = 0.005;
   /** Opacity of the path of all steps. That of the current step is opaque. */
   static FAINT = 0.25;
 
@@ -342,7 +344,7 @@ class CellView extends View {
   /** Draws the path of an arm's tip between two times. Names dodge it, unless the arm has steps and it is the whole path. */
   drawPath(context, panel, k, [from, to]) {
     const { arm, color, end, steps } = this.cell.arms[k];
-    const count = Math.max(1, Math.ceil((CellView.PLACES / 3) * ((to - from) / end)));
+    const count = Math.max(CellView.PLACES / 3, Math.ceil((to - from) / CellView.PATH_STEP));
     const spots = Array.from({ length: count + 1 }, (_, i) => panel.at(Geometry.tipAt(arm, this.placed(k, from + ((to - from) * i) / count))));
     pathLine(context, panel.theme, { color, width: 2, dash: [] }, () => line(context, spots));
     if (!steps.length || to - from < end) Labels.blockLine(panel, spots);
@@ -427,7 +429,7 @@ class CellView extends View {
   const layers = [{ sign: 'path', text: 'paths of the tips', layers: ['path'] }, { sign: 'poses', text: hasSteps ? 'arms at their starts' : 'arms at start (pale) and goal', layers: ['poses'] }];
   const legend = [...arms.map(({ name, color }) => swatch(color, name)), ...(motions ? [...schedule, ...layers] : [])];
   const cell = { ...data, arms };
-  const arm = { ...views[0].arm, joints, one_scale: ratio < 3 };
+  const arm = { ...views[0].arm, joints, one_scale: ratio < 2 };
   const world = { label: '', clearance, obstacles, pairs: [], c_obstacles: [], regions: [], proof: [], unreached: [] };
   // Layers list the obstacles of all worlds. The first one is shown.
   const worlds = [world, { ...world, obstacles: objects }];

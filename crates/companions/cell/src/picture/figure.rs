@@ -34,7 +34,10 @@ const TEXT: f64 = 14.0;
 /// Radius of the disc of a signal in the diagram, pixels.
 const DISC: f64 = 8.0;
 
-/// Number of places of the tip in each step, and of the schedule, that are drawn.
+/// Number of places of the tip that are drawn for each step of an arm.
+const PLACES_PER_STEP: usize = 160;
+
+/// Number of places of the schedule, and of the tip of an arm without steps, that are drawn.
 const PLACES: usize = 400;
 
 impl Answer<'_> {
@@ -45,10 +48,8 @@ impl Answer<'_> {
         let result = self.facts.first().map_or("", |(_, result)| result.as_str());
         let objects = self.objects(motions.as_ref());
         // Waits would not fit into the title.
-        let headline = self.headline();
-        let (title, waits) = headline.split_once("; ").unwrap_or((&headline, ""));
-        let waits = if waits.is_empty() { String::new() } else { format!("{waits} \u{b7} ") };
-        let lines = [title.to_owned(), format!("{} \u{b7} {waits}{result}", self.cell.name)];
+        let below = [self.cell.name.clone()].into_iter().chain(self.waits_in_words()).chain([result.to_owned()]);
+        let lines = [self.sentence(), below.collect::<Vec<_>>().join(" \u{b7} ")];
         let status = self.plan.status();
         let mut items = titles(&lines, verdict(Some(status), cplan_view::output::status(status)), WIDTH);
         items.extend(self.workspace(motions.as_ref(), &objects, pairs.between([0, 0])));
@@ -119,7 +120,7 @@ impl Answer<'_> {
             items.extend(hit.map(|(_, pair)| union(&parts[pair[arm]..=pair[arm]], struck)));
         }
         let traces = motions.into_iter().flat_map(|motions| [(0, motions), (1, motions)]).map(|(arm, motions)| {
-            let count = PLACES * motions.steps[arm].len().max(1);
+            let count = PLACES.max(PLACES_PER_STEP * motions.steps[arm].len());
             let tip = |time| scenes[arm].arm().tip_at(motions.place(arm, time));
             let tips: Vec<Point> = moments(motions, count).map(tip).collect();
             let steps = chain(tips.iter().map(|tip| frame.at(tip.x, tip.y)), false);
