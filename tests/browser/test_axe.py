@@ -56,7 +56,7 @@ def pages(program):
     for name, words, code in [("explained", [robot, closed], 3), ("explained_limits", [robot, ROOT / "workspaces/limits_closed.toml"], 3)]:
         made[name] = program.folder / f"axe_{name}.html"
         program.run("explain", *words, "--quiet", "--picture", made[name], code=code)
-    for name, code in [("crossing", 0), ("no_room", 3)]:
+    for name, code in [("crossing", 0), ("handover", 0), ("no_room", 3)]:
         made[name] = program.folder / f"axe_{name}.html"
         program.run("cell", ROOT / f"workspaces/cells/{name}.toml", "--quiet", "--picture", made[name], code=code)
     made["convergence"] = program.folder / "axe_convergence.html"
@@ -64,7 +64,7 @@ def pages(program):
     return made
 
 
-@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration", "explained", "explained_limits", "crossing", "no_room"])
+@pytest.mark.parametrize("name", ["plan", "proof", "task", "moving", "report", "infeasible", "queries", "study", "convergence", "reach", "inspection", "defects", "exploration", "explained", "explained_limits", "crossing", "handover", "no_room"])
 def test_nothing_is_found_on_pages(pages, show_file, name):
     for scheme, width, height in LOOKS:
         seen = show_file(pages[name], width=width, height=height, color_scheme=scheme)

@@ -38,6 +38,11 @@ def crossing(program):
 
 
 @pytest.fixture(scope="module")
+def handover(program):
+    return planned(program, "handover", CELLS / "handover.toml")
+
+
+@pytest.fixture(scope="module")
 def no_room(program):
     return planned(program, "no_room", CELLS / "no_room.toml", code=3)
 
@@ -234,7 +239,7 @@ def test_starts_that_collide_are_shown_alone(colliding, show_file):
 
 
 @pytest.mark.parametrize(("scheme", "width", "height"), LOOKS)
-@pytest.mark.parametrize("name", ["crossing", "waiting", "no_room", "colliding"])
+@pytest.mark.parametrize("name", ["crossing", "waiting", "handover", "no_room", "colliding"])
 def test_it_fits_the_window(request, show_file, name, scheme, width, height):
     page, _ = request.getfixturevalue(name)
     seen = show_file(page, width=width, height=height, color_scheme=scheme)

@@ -2,8 +2,9 @@
 //! legs. A motion without steps is a single leg.
 
 use crate::curve::Curve;
-use crate::schedule::{Schedule, Scheduled, ScheduledLeg, StepTimes};
+use crate::schedule::{Schedule, Scheduled, ScheduledLeg, StepTimes, TurnTimes};
 use crate::stage::StageTime;
+use cplan_geometry::Pose;
 use cplan_judge::CertifiedPath;
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, Path};
@@ -47,6 +48,10 @@ pub(crate) struct LegStep {
     pub acts: Option<usize>,
     /// Time from the arrival to the grasp or release without waits, seconds. `None` for other steps.
     pub event_after: Option<f64>,
+    /// Pose of the object after its release. `None` for other steps.
+    pub released: Option<Pose>,
+    /// The turn of the carried object before a release or after a grasp: its angle, radians, and its duration, seconds.
+    pub turn: Option<[f64; 2]>,
 }
 
 /// The legs of one arm, at least one, in order.
@@ -199,6 +204,11 @@ impl Legs {
         let step = |(number, step): (usize, &LegStep)| {
             let arrival = schedule.time(StageTime::End(step.moves));
             let acting = step.acts.map(|stage| schedule.time(StageTime::Begin(stage)));
+            let end = step.acts.map_or(arrival, |stage| schedule.time(StageTime::End(stage)));
+            let turn = step.turn.map(|[angle, seconds]| {
+                let begin = if step.released.is_some() { acting.unwrap_or(arrival) } else { end - seconds };
+                TurnTimes { begin, end: begin + seconds, angle }
+            });
             StepTimes {
                 number: number + 1,
                 action: step.action.clone(),
@@ -206,7 +216,9 @@ impl Legs {
                 begin: schedule.time(StageTime::Begin(step.moves)),
                 arrival,
                 event: step.event_after.map(|after| acting.unwrap_or(arrival) + after),
-                end: step.acts.map_or(arrival, |stage| schedule.time(StageTime::End(stage))),
+                end,
+                released: step.released,
+                turn,
             }
         };
         self.steps.iter().enumerate().map(step).collect()

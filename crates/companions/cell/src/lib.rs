@@ -62,4 +62,4 @@ pub use picture::Answer;
 pub use plan::{Alone, CellPlan, Refutation, Settings, plan_cell};
 pub use recorded::{BetweenFinding, NearPlace, judge_between};
 pub use refutation::Boxes;
-pub use schedule::{HandoverTimes, StepTimes};
+pub use schedule::{HandoverTimes, StepTimes, TurnTimes};

@@ -2,6 +2,7 @@
 
 use crate::curve::Curve;
 use crate::stage::StageTime;
+use cplan_geometry::Pose;
 use cplan_motion::{TimedMotion, Trajectory, Wait};
 
 /// The legs of an arm's motion in time, in order.
@@ -59,6 +60,21 @@ pub struct StepTimes {
     pub event: Option<f64>,
     /// The end of the step: the tool is raised, and the dwell is over.
     pub end: f64,
+    /// Pose of the object after its release. `None` for other steps.
+    pub released: Option<Pose>,
+    /// The turn of the carried object by the wrist. `None` without a turn.
+    pub turn: Option<TurnTimes>,
+}
+
+/// A turn of a carried object about the tip, while the arm rests.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TurnTimes {
+    /// Its beginning on the common clock, seconds.
+    pub begin: f64,
+    /// Its end on the common clock, seconds.
+    pub end: f64,
+    /// The angle by which it turns the object, radians.
+    pub angle: f64,
 }
 
 impl Scheduled {

@@ -137,7 +137,12 @@ impl<'a> Builder<'a> {
         }
         let object = leg.event.map(|event| task.objects[event.object()].name.clone());
         let action = leg.step.action.describe(&task.objects);
-        self.steps.push(LegStep { action, object, moves, acts, event_after: leg.event_after() });
+        let released = leg.event.and_then(|event| match event {
+            Event::Release { pose, .. } => Some(pose),
+            Event::Grasp { .. } => None,
+        });
+        let turn = leg.turn.map(|(turn, seconds)| [turn.to - turn.from, seconds]);
+        self.steps.push(LegStep { action, object, moves, acts, event_after: leg.event_after(), released, turn });
     }
 
     /// Adds a rest with the raised tool after the last step, if that step lowers the tool at a place.

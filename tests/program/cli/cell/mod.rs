@@ -275,6 +275,30 @@ fn titles_state_the_cycle_and_the_gap() {
     assert!(place.read("a.svg").contains(title), "{title}");
 }
 
+/// A picture shows the start: an object lies at its place, and dashed outlines show where it is placed.
+#[test]
+fn pictures_show_steps_handovers_and_destinations() {
+    let place = Place::new();
+    let done = place.run(&["cell", &shipped("workspaces/cells/handover.toml")], "--json --quiet --picture a.svg");
+    let (answer, picture) = (answer(&done), place.read("a.svg"));
+    let mut releases = 0;
+    for (arm, step) in
+        list(&answer["arms"]).iter().flat_map(|arm| list(&arm["steps"]).iter().map(move |step| (arm, step)))
+    {
+        let [name, action] = [&arm["name"], &step["action"]].map(|text| text.as_str().unwrap());
+        let at = step["event"].as_f64().map_or_else(String::new, |time| format!(", at {time:.3} s"));
+        let title = format!("<title>{name}, step {}: {action}{at}</title>", step["step"]);
+        assert!(picture.contains(&title), "{title}");
+        releases += usize::from(action.starts_with("place"));
+    }
+    assert_eq!((releases, picture.matches("stroke-dasharray=\"5 3\"").count()), (4, releases));
+    for handover in list(&answer["handovers"]) {
+        let [gives, object, takes] = ["gives", "object", "takes"].map(|key| handover[key].as_str().unwrap());
+        assert!(picture.contains(&format!("<title>{gives} hands \"{object}\" over to {takes}</title>")), "{object}");
+    }
+    assert!(picture.contains("\npick bracket 1\n") && picture.contains("\nhandover 2\n"));
+}
+
 #[test]
 fn a_result_is_the_same_in_every_run() {
     let [one, two] = [0, 1].map(|_| shipped_cell("crossing", &[]).stdout);

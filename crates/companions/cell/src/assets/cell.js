@@ -2,8 +2,13 @@
 // point of a configuration space is a pair of joint values.
 
 /**
+ * A step of an arm: `span` and `event` (the grasp or release) are in seconds, `object` is an index.
+ * @typedef {{ span: [number, number], number: number, text: string, object: number | null, event: number | null, places: boolean }} CellStep
+ */
+
+/**
  * An arm with its motion: `waits` and `end` are in seconds, `arm`, `clock` and `start` are those of its view.
- * @typedef {{ name: string, color: string, waits: [number, number][], steps: [number, number, string][], end: number, arm: ArmModel, clock: ClockModel | null,
+ * @typedef {{ name: string, color: string, waits: [number, number][], steps: CellStep[], end: number, arm: ArmModel, clock: ClockModel | null,
  *   start: Point, goals: Point[] }} CellArm
  */
 
@@ -48,10 +53,14 @@ class ScheduleTool {
 }
 
 class CellView extends View {
-  /** Number of times among which the nearest place of the schedule is sought, and of places of a tip that are drawn. */
+  /** Number of times among which the nearest place of the schedule is sought. A third of it are the places of a tip that are drawn, at least. */
   static PLACES = 600;
   /** Arms that are nearer than this share of the picture's smaller side have a line between them. */
   static NEAR = 0.12;
+  /** Time between two places of a tip that are drawn, at most, in seconds. */
+  static PATH_STEP = 0.005;
+  /** Opacity of the path of all steps. That of the current step is opaque. */
+  static FAINT = 0.25;
 
   /** Formats a time with milliseconds. */
   static seconds(value) {
@@ -63,7 +72,7 @@ class CellView extends View {
     root.classList.add('cell');
     const { workspace, cspace } = this.panels;
     workspace.still = (context, panel) => this.drawStill(context, panel);
-    workspace.moving = (context, panel) => this.drawArms(context, panel);
+    workspace.moving = (context, panel) => this.drawMoving(context, panel);
     const { motions } = this.cell;
     cspace.still = (context, panel) => motions && CellDiagram.still(context, panel, this);
     cspace.moving = (context, panel) => motions && CellDiagram.moving(context, panel, this);
@@ -82,7 +91,10 @@ class CellView extends View {
     this.seek(motions?.collides ?? 0);
   }
 
-  /** @returns {{ arms: CellArm[], motions: any, cards: string[][], pairs: [number, number][], clearance: number, skew: number, paleness: number }} */
+  /**
+   * @returns {{ arms: CellArm[], objects: CellObject[], handovers: { object: number, giver: number, placed: number, taken: number }[], motions: any,
+   *   cards: string[][], pairs: [number, number][], named: number, clearance: number, skew: number, paleness: number }}
+   */
   get cell() {
     return this.model.cell;
   }
@@ -175,10 +187,36 @@ class CellView extends View {
     return clock ? Geometry.moving(clock, time).position : start;
   }
 
-  /** Returns the shown configuration of each arm: the examined ones, or those of the current time. */
+  /** Returns the shown time of each arm: the examined ones, or the current time. */
+  get shownTimes() {
+    return this.probe ? this.probe.q.map((moved, arm) => this.onClock(arm, moved)) : [this.time, this.time];
+  }
+
+  /** Returns the shown configuration of each arm. */
   get shown() {
-    const times = this.probe ? this.probe.q.map((moved, arm) => this.onClock(arm, moved)) : [this.time, this.time];
-    return times.map((time, arm) => this.placed(arm, time));
+    return this.shownTimes.map((time, arm) => this.placed(arm, time));
+  }
+
+  /** Returns the step that an arm does at a time. Undefined before its first and after its last one. */
+  stepOf(arm, time) {
+    return this.cell.arms[arm].steps.find(({ span: [from, to] }) => from <= time && time < to);
+  }
+
+  /** Describes a step in a few words. */
+  words({ text, object }) {
+    return object === null ? text : `${text.split(' ')[0]} ${this.cell.objects[object].name}`;
+  }
+
+  /** Describes what each arm does at the shown times. */
+  get doing() {
+    const { arms } = this.cell;
+    if (!arms.some(({ steps }) => steps.length)) return '';
+    const texts = this.shownTimes.map((time, arm) => {
+      const isWaiting = arms[arm].waits.some(([from, to]) => from <= time && time < to);
+      const step = this.stepOf(arm, time);
+      return `${arms[arm].name}: ${isWaiting ? 'waits' : step ? this.words(step) : 'rests'}`;
+    });
+    return texts.join(', ');
   }
 
   /** Returns the nearest parts of both arms: { distance, pair, ends }. `null` if no links can meet. */
@@ -226,7 +264,9 @@ class CellView extends View {
   }
 
   report() {
-    const { probe } = this.parts;
+    const { probe, step } = this.parts;
+    step.textContent = this.doing;
+    step.setAttribute('aria-live', this.playing ? 'off' : 'polite');
     const at = this.cell.motions ? this.valued(this.probe?.q ?? this.q) : 'both arms at their starts';
     probe.textContent = `${at}: ${this.touched()}`;
     probe.setAttribute('aria-live', this.playing ? 'off' : 'polite');
@@ -247,7 +287,7 @@ class CellView extends View {
     return [
       ['Two arms, two times', `${here}, both arms. ${there}, how far each arm is on its path. In the coloured regions, the arms would be too near to each other.`, isNarrow ? workspace : parts.panels],
       ['Take the dot', 'Drag the dot along the schedule, or point anywhere else to see both arms at other times.', panels.cspace.canvas.parentElement],
-      ['Who waits for whom', 'Each arm has a row. Hatched parts are waits; each signal has a row of its own.', rows.root],
+      ['Who waits for whom', `Each arm has a row${this.doing && ' with its steps'}. Hatched parts are waits; each ${this.doing && 'handover and each '}signal has a row of its own.`, rows.root],
       ['Choose what is drawn', 'Each layer has its sign and a checkbox.', layers.root],
     ];
   }
@@ -274,48 +314,72 @@ class CellView extends View {
 
   // Drawings.
 
-  /** Draws the obstacles, the arms at their starts and goals, and the paths of their tips. */
+  /** No obstacle is pale. */
+  isIrrelevant() {
+    return false;
+  }
+
+  /** Leaves out hidden obstacles and objects. */
+  visible(all) {
+    return all.filter(({ name }) => !this.hidden.has(name));
+  }
+
+  /** Draws the obstacles, the destinations of objects, the arms at their starts and goals, and the paths of their tips. */
   drawStill(context, panel) {
     const { theme } = panel;
-    for (const obstacle of this.world.obstacles.filter(({ name }) => !this.hidden.has(name))) {
-      const { fill, line: edge } = theme.obstacle(obstacle.color);
-      Workspace.outline(context, panel, obstacle);
-      [context.fillStyle, context.strokeStyle, context.lineWidth] = [fill, edge, 1.4];
-      context.fill();
-      context.stroke();
-    }
     const { arms, motions } = this.cell;
+    Workspace.destinations(context, panel, this);
+    Workspace.solids(context, panel, this, this.world.obstacles);
+    if (!motions) return;
     arms.forEach((own, k) => {
-      const { color, start, end } = own;
+      const { color, start, end, steps } = own;
       const look = (paleness, alpha) => ({ fill: Theme.mixed(theme[color], theme.paper, paleness), line: Theme.mixed(theme[color], theme.paper, 0.35), width: 0.8, alpha });
-      if (this.shows('poses') && motions) {
+      if (this.shows('poses')) {
         this.drawArm(context, panel, own, start, look(0.92, 0.75));
-        this.drawArm(context, panel, own, this.placed(k, end), look(0.72, 0.75));
+        // Arms with steps often end where they start.
+        if (!steps.length) this.drawArm(context, panel, own, this.placed(k, end), look(0.72, 0.75));
       }
     });
-    arms.forEach(({ color, arm, end }, k) => {
-      if (!this.shows('path') || !motions) return;
-      const spots = Array.from({ length: CellView.PLACES / 3 + 1 }, (_, i) => panel.at(Geometry.tipAt(arm, this.placed(k, (3 * end * i) / CellView.PLACES))));
-      pathLine(context, theme, { color, width: 2, dash: [] }, () => line(context, spots));
-      Labels.blockLine(panel, spots);
+    arms.forEach(({ end, steps }, k) => {
+      if (this.shows('path')) panel.faded(context, steps.length ? CellView.FAINT : 1, (layer) => this.drawPath(layer, panel, k, [0, end]));
     });
   }
 
-  /** Draws an arm. */
-  drawArm(context, panel, { arm }, q, look) {
-    Workspace.arm(context, panel, /** @type {any} */ ({ model: { arm } }), /** @type {any} */ ({}), q, look);
+  /** Draws the path of an arm's tip between two times. Names dodge it, unless the arm has steps and it is the whole path. */
+  drawPath(context, panel, k, [from, to]) {
+    const { arm, color, end, steps } = this.cell.arms[k];
+    const count = Math.max(CellView.PLACES / 3, Math.ceil((to - from) / CellView.PATH_STEP));
+    const spots = Array.from({ length: count + 1 }, (_, i) => panel.at(Geometry.tipAt(arm, this.placed(k, from + ((to - from) * i) / count))));
+    pathLine(context, panel.theme, { color, width: 2, dash: [] }, () => line(context, spots));
+    if (!steps.length || to - from < end) Labels.blockLine(panel, spots);
   }
 
-  /** Draws both arms, the parts that are too near, and the line between the arms if it is short. */
-  drawArms(context, panel) {
+  /** Draws an arm with the object that it carries. */
+  drawArm(context, panel, { arm }, q, look, held = undefined) {
+    Workspace.arm(context, panel, /** @type {any} */ ({ model: { arm } }), /** @type {any} */ ({ payload: held }), q, { turned: held?.turned, ...look });
+  }
+
+  /** Draws the objects, both arms, the parts that are too near, and the line between the arms if it is short. */
+  drawMoving(context, panel) {
     const { theme } = panel;
     const { arms, clearance } = this.cell;
-    const [found, { shown }] = [this.nearest(), this];
+    const [found, { shown, shownTimes: times }] = [this.nearest(), this];
     const isTooNear = found && (found.distance <= 0 || found.distance < clearance);
+    const objects = this.visible(this.cell.objects);
+    const lying = CellObjects.lying(objects, times);
+    times.forEach((time, k) => {
+      const step = this.stepOf(k, time);
+      if (step && this.shows('path')) this.drawPath(context, panel, k, step.span);
+    });
+    // Objects that the arms move are above the arms, which would cover them.
+    const moves = ({ changes }) => changes.length > 0;
+    Workspace.solids(context, panel, this, lying.filter((object) => !moves(object)));
     arms.forEach((own, k) => {
       const fill = Theme.mixed(theme[own.color], theme.paper, 0.45);
-      this.drawArm(context, panel, own, shown[k], { fill, line: theme[own.color], width: 1.5, alpha: 0.92, joints: true, blocks: true });
+      const look = { fill, line: theme[own.color], width: 1.5, alpha: 0.92, joints: true, blocks: true };
+      this.drawArm(context, panel, own, shown[k], look, CellObjects.held(objects, k, times));
     });
+    Workspace.solids(context, panel, this, lying.filter(moves));
     if (isTooNear) {
       for (const shape of [found.one, found.two]) {
         context.beginPath();
@@ -331,20 +395,27 @@ class CellView extends View {
     if (found && found.distance > 0 && found.distance < CellView.NEAR * size) {
       Workspace.distance(context, panel, { ends: found.ends, text: Numbers.length(found.distance) });
     }
-    if (!this.shows('names')) return;
-    const names = arms.map(({ name, arm }, k) => {
+    if (this.shows('names')) this.drawNames(context, panel, lying);
+  }
+
+  /** Draws the names of the arms, and of objects and obstacles where they lie. */
+  drawNames(context, panel, lying) {
+    const { shownTimes: times, shown } = this;
+    const arms = this.cell.arms.map(({ name, arm }, k) => {
       const q = shown[k];
       const box = Labels.beyond(context, panel, name, panel.at(Geometry.tipAt(arm, q)), panel.at(Geometry.elbowAt(arm, q)));
       return [name, Labels.shaped(panel, box, Geometry.armShapes(arm, undefined, q))];
     });
-    const obstacles = this.world.obstacles.filter(({ name }) => !this.hidden.has(name));
-    Labels.beside(context, panel, [...names, ...obstacles.map((obstacle) => [obstacle.name, Workspace.named(panel, obstacle)])]);
+    const current = times.map((time, k) => this.cell.objects[this.stepOf(k, time)?.object ?? -1]?.name);
+    // The bases, which are the last obstacles, have the names of their arms.
+    const all = [...this.visible(this.world.obstacles.slice(0, this.cell.named)), ...lying];
+    Labels.beside(context, panel, [...arms, ...Workspace.families(panel, all, (name) => current.includes(name))]);
   }
 }
 
 {
   const data = JSON.parse(document.getElementById('cell').textContent);
-  const { views, title, status, ending, facts, frame, obstacles, clearance, motions } = data;
+  const { views, title, status, ending, facts, frame, obstacles, objects, clearance, motions } = data;
   /** @type {CellArm[]} */
   const arms = data.arms.map((own, k) => ({ ...own, arm: views[k].arm, clock: views[k].clock, start: views[k].start, goals: views[k].goals }));
   // The coordinates of the right picture are the times of both arms.
@@ -356,12 +427,17 @@ class CellView extends View {
   const schedule = motions?.certified
     ? [region(0), region(1), { sign: 'line', color: 'ink', width: 2.4, text: 'schedule of both arms' }, { sign: 'line', color: 'ink', width: 1, dash: [4, 3], text: `clocks that differ by ${Math.round(1000 * data.skew)} ms` }]
     : [swatch('undecided', 'too near to each other'), { sign: 'line', color: 'ink', width: 1.4, dash: [6, 4], text: 'both arms at once, not coordinated' }];
-  const layers = [{ sign: 'path', text: 'paths of the tips', layers: ['path'] }, { sign: 'poses', text: 'arms at start (pale) and goal', layers: ['poses'] }];
+  const hasSteps = arms.some(({ steps }) => steps.length);
+  const places = CellObjects.destinations(objects);
+  if (places.length) schedule.push({ sign: 'dashed', color: places[0].color, text: 'where objects are placed' });
+  const layers = [{ sign: 'path', text: 'paths of the tips', layers: ['path'] }, { sign: 'poses', text: hasSteps ? 'arms at their starts' : 'arms at start (pale) and goal', layers: ['poses'] }];
   const legend = [...arms.map(({ name, color }) => swatch(color, name)), ...(motions ? [...schedule, ...layers] : [])];
   const cell = { ...data, arms };
-  const arm = { ...views[0].arm, joints, one_scale: ratio < 3 };
+  const arm = { ...views[0].arm, joints, one_scale: ratio < 2 };
   const world = { label: '', clearance, obstacles, pairs: [], c_obstacles: [], regions: [], proof: [], unreached: [] };
-  const model = { title, status, ending, facts, arm, frame, start: [0, 0], goals: [], goal_lines: [], worlds: [world], paths: [], motions: [], clock: null, frames: [], legend, cell };
+  // Layers list the obstacles of all worlds. The first one is shown.
+  const worlds = [world, { ...world, obstacles: objects }];
+  const model = { title, status, ending, facts, arm, frame, start: [0, 0], goals: [], goal_lines: [], worlds, paths: [], motions: [], places, clock: null, frames: [], legend, cell };
   window.cplan = new CellView(document.querySelector('main'), model);
   cplan.tour.offer();
 }

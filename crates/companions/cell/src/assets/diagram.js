@@ -3,6 +3,8 @@
 const CellDiagram = (() => {
   /** Number of places of the schedule that are drawn. */
   const PLACES = 400;
+  /** Share of the duration above which waits have names. */
+  const NAMED_WAIT = 0.02;
   /** Radius of a signal's disc, in pixels. */
   const DISC = 9;
 
@@ -57,7 +59,7 @@ const CellDiagram = (() => {
       times[1 - signal.waits] = signal.set;
       const spot = panel.at(times.map((time, arm) => view.moved(arm, time)));
       // Discs at one place stand side by side.
-      while (spots.some(([x, y]) => Math.hypot(x - spot[0], y - spot[1]) < 2 * DISC)) spot[0] += 1;
+      while (spots.some(([x, y]) => Math.hypot(x - spot[0], y - spot[1]) < 2 * DISC + 2)) spot[0] += 1;
       spots.push(spot);
     }
     motions.signals.forEach(({ waits }, k) => {
@@ -68,11 +70,13 @@ const CellDiagram = (() => {
     });
     const text = (first) => (arms[first] ? `${arms[first].name} first` : 'too near');
     const named = outlines.map((path, first) => ({ text: text(first), paint: (painter) => painter.fill(path) }));
-    const waits = arms.flatMap(({ name, color, waits: spans }) => spans.map((times) => {
+    const { duration } = view;
+    const waits = arms.flatMap(({ name, color, waits: spans }) => spans.flatMap((times) => {
       const ends = times.map((time) => panel.at([0, 1].map((arm) => view.moved(arm, time))));
       [context.strokeStyle, context.lineWidth] = [theme[color], 5];
       line(context, ends);
-      return [`${name} waits`, { rect: Labels.about(ends[0].map((x, k) => (x + ends[1][k]) / 2), 3) }];
+      const isNamed = times[1] - times[0] >= NAMED_WAIT * duration;
+      return isNamed ? [[`${name} waits`, { rect: Labels.about(ends[0].map((x, k) => (x + ends[1][k]) / 2), 3) }]] : [];
     }));
     Labels.beside(context, panel, [['start', Labels.spotted(route[0], 7)], ['goals', Labels.spotted(route[PLACES], 7)], ...waits]);
     Labels.onRegions(context, panel, named);

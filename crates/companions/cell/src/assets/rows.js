@@ -10,9 +10,11 @@ class CellRows {
     this.view = view;
     const { arms, motions } = view.cell;
     this.cursor = element('div', { class: 'cursor', 'aria-hidden': 'true' });
-    const lanes = [...arms.map((arm) => this.motionRow(arm)), ...motions.signals.map((signal, k) => this.signalRow(signal, k + 1))];
+    /** Buttons of the steps, each with its span of time. @type {[HTMLElement, [number, number]][]} */
+    this.steps = [];
+    const lanes = [...arms.map((arm) => this.motionRow(arm)), ...view.cell.handovers.map((handover, k) => this.handoverRow(handover, k + 1)), ...motions.signals.map((signal, k) => this.signalRow(signal, k + 1))];
     this.rows = element('ol', { class: 'rows' }, ...lanes, this.axis());
-    this.root = element('section', { class: 'gantt', 'aria-label': 'Motions, waits and signals over time' }, this.rows, this.cursor);
+    this.root = element('section', { class: 'gantt', 'aria-label': 'Motions, steps, waits and signals over time' }, this.rows, this.cursor);
     this.rows.addEventListener('pointerdown', (event) => this.scrub(event));
     this.rows.addEventListener('pointermove', (event) => event.buttons && this.scrub(event));
   }
@@ -47,20 +49,48 @@ class CellRows {
     return element('li', { class: 'row' }, element('span', { class: 'object' }, ...name), element('ol', { class: 'lane' }, ...items));
   }
 
-  /** Returns the row of an arm: its motion, its waits and the events of its steps. Waits and events are buttons that go there. */
+  /** Returns the row of an arm: its steps, or its motion, and its waits. Steps and waits are buttons that go there. */
   motionRow({ name, color, waits, steps, end }) {
     const swatch = element('span', { class: 'swatch', style: `background:var(--${color})` });
     const bar = element('span', { class: 'bar held', title: `${name} moves until ${Numbers.seconds(end)}`, style: `--color:var(--${color})` });
+    const bars = steps.length ? steps.map((step) => this.stepBar(name, color, step, waits)) : [this.place(element('li', {}, bar), 0, end)];
     const stops = waits.map(([from, to]) => {
       const text = `${name} waits from ${CellView.seconds(from)} to ${CellView.seconds(to)}`;
       return this.place(element('button', { type: 'button', class: 'wait', title: text, 'aria-label': text, onclick: () => this.view.seek(from) }), from, to);
     });
-    const events = steps.map(([time, number, action]) => {
-      const text = `${name}, step ${number}: ${action}, at ${CellView.seconds(time)}`;
-      return this.place(element('button', { type: 'button', class: 'event', title: text, 'aria-label': text, onclick: () => this.view.seek(time) }), time, time);
-    });
-    const items = [...stops, ...events].map((item) => element('li', { class: 'whole' }, item));
-    return CellRows.row([swatch, name], this.place(element('li', {}, bar), 0, end), ...items);
+    const row = CellRows.row([swatch, name], ...bars, ...stops.map((item) => element('li', { class: 'whole' }, item)));
+    row.classList.toggle('steps', steps.length > 0);
+    return row;
+  }
+
+  /** Returns the bar of a step: outlined before a grasp, filled while an object is carried, with a mark at the grasp or release. */
+  stepBar(name, color, step, waits) {
+    const { span, number, text, object, event, places } = step;
+    const { objects } = this.view.cell;
+    const [from, to] = span;
+    const share = (time) => String((time - from) / (to - from));
+    // The text is in the longest part between the waits.
+    const ends = [from, to, ...waits.flat().filter((time) => from < time && time < to)].sort((a, b) => a - b);
+    const parts = ends.slice(1).map((end, k) => [ends[k], end]).filter(([a, b]) => !waits.some((wait) => wait[0] <= a && b <= wait[1]));
+    const [begin, end] = parts.reduce((best, part) => (part[1] - part[0] > best[1] - best[0] ? part : best));
+    const words = element('span', {}, this.view.words(step));
+    words.style.setProperty('--from', share(begin));
+    words.style.setProperty('--length', String((end - begin) / (to - from)));
+    const mark = event === null ? null : element('i');
+    mark?.style.setProperty('--from', share(event));
+    const title = `${name}, step ${number}: ${text}, from ${CellView.seconds(from)} to ${CellView.seconds(to)}`;
+    const bar = element('button', { type: 'button', class: object === null || places ? 'bar held' : 'bar', title, 'aria-label': title, onclick: () => this.view.seek(from) }, words, mark);
+    bar.style.setProperty('--color', object === null ? `var(--${color})` : objects[object].color);
+    this.steps.push([bar, span]);
+    return this.place(element('li', {}, bar), from, to);
+  }
+
+  /** Returns the row of a handover: a line from the time at which one arm has placed the object to that at which the other arm takes it. */
+  handoverRow({ object, giver, placed, taken }, number) {
+    const { arms, objects } = this.view.cell;
+    const { name, color } = objects[object];
+    const text = `Handover of ${name}: ${arms[giver].name} has placed it at ${CellView.seconds(placed)}, ${arms[1 - giver].name} takes it from ${CellView.seconds(taken)}`;
+    return this.link([element('span', { class: 'swatch', style: `background:${color}` }), `handover ${number}`], text, [giver, placed], taken);
   }
 
   /** Returns the row of a signal: a line from the time at which one arm sets it to that at which the other arm needs it. */
@@ -68,8 +98,15 @@ class CellRows {
     const { arms } = this.view.cell;
     const [waiting, setting] = [arms[waits], arms[1 - waits]];
     const text = `Signal ${number}: ${waiting.name} waits at ${CellView.seconds(at)} until ${setting.name} has passed ${CellView.seconds(set)}`;
-    const line = element('button', { type: 'button', class: 'signal', title: text, 'aria-label': text, style: `--sets:var(--${setting.color});--waits:var(--${waiting.color})`, onclick: () => this.view.seek(at) });
-    return CellRows.row([`signal ${number}`], this.place(element('li', {}, line), set, at));
+    return this.link([`signal ${number}`], text, [1 - waits, set], at);
+  }
+
+  /** Returns a row with a line between the times of both arms: that of the first one, and that of the other one. Its button goes to the second time. */
+  link(name, text, [first, from], to) {
+    const { arms } = this.view.cell;
+    const style = `--sets:var(--${arms[first].color});--waits:var(--${arms[1 - first].color})`;
+    const line = element('button', { type: 'button', class: 'signal', title: text, 'aria-label': text, style, onclick: () => this.view.seek(to) });
+    return CellRows.row(name, this.place(element('li', {}, line), from, to));
   }
 
   /** Returns the row with the values of time. */
@@ -83,8 +120,10 @@ class CellRows {
     return row;
   }
 
-  /** Shows the current time. */
+  /** Shows the current time, and marks the current step of each arm. */
   follow() {
+    const { time } = this.view;
+    for (const [bar, [from, to]] of this.steps) bar.setAttribute('aria-current', from <= time && time < to ? 'step' : 'false');
     this.cursor.style.setProperty('--at', String(this.view.time / this.view.duration));
   }
 }

@@ -1,7 +1,8 @@
 //! The picture of an answer about a cell.
 
 use super::motions::{ShownMotions, met, pairs_of_links};
-use super::{ARM_COLORS, Answer, REGION_PALENESS, arm_shapes, bases, time_frame};
+use super::objects::ShownObject;
+use super::{ARM_COLORS, Answer, REGION_PALENESS, arm_shapes, bases, rows, time_frame};
 use crate::between::Between;
 use cplan_geometry::{Convex, Point};
 use cplan_model::space::Configuration;
@@ -23,20 +24,20 @@ const DIAGRAM: Rect = Rect { x: 790.0, ..WORKSPACE };
 /// Distance between the panels and the signs below them, pixels.
 const AXES_HEIGHT: f64 = 62.0;
 
-/// Place of the rows of time. Their height depends on the number of signals.
+/// Place of the rows of time. Their height depends on the number of handovers and signals.
 const ROWS: Rect =
     Rect { x: 150.0, y: WORKSPACE.y + WORKSPACE.height + AXES_HEIGHT + 34.0, width: 1210.0, height: 0.0 };
 
-/// Heights of the row of an arm and of that of a signal, pixels.
-const ROW_HEIGHTS: [f64; 2] = [30.0, 22.0];
-
-/// Size of the text of signs and rows, pixels.
+/// Size of the text of signs, pixels.
 const TEXT: f64 = 14.0;
 
 /// Radius of the disc of a signal in the diagram, pixels.
 const DISC: f64 = 8.0;
 
-/// Number of places of the tip, and of the schedule, that are drawn.
+/// Number of places of the tip that are drawn for each step of an arm.
+const PLACES_PER_STEP: usize = 160;
+
+/// Number of places of the schedule, and of the tip of an arm without steps, that are drawn.
 const PLACES: usize = 400;
 
 impl Answer<'_> {
@@ -45,27 +46,37 @@ impl Answer<'_> {
         let pairs = pairs_of_links(self.cell);
         let motions = ShownMotions::of(self, &pairs);
         let result = self.facts.first().map_or("", |(_, result)| result.as_str());
-        let lines = [self.headline(), format!("{} \u{b7} {result}", self.cell.name)];
+        let objects = self.objects(motions.as_ref());
+        // Waits would not fit into the title.
+        let below = [self.cell.name.clone()].into_iter().chain(self.waits_in_words()).chain([result.to_owned()]);
+        let lines = [self.sentence(), below.collect::<Vec<_>>().join(" \u{b7} ")];
         let status = self.plan.status();
         let mut items = titles(&lines, verdict(Some(status), cplan_view::output::status(status)), WIDTH);
-        items.extend(self.workspace(motions.as_ref(), pairs.between([0, 0])));
+        items.extend(self.workspace(motions.as_ref(), &objects, pairs.between([0, 0])));
         items.push(heading(WORKSPACE, WORKSPACE.y - 14.0, "Workspace"));
         let below = WORKSPACE.bottom() + AXES_HEIGHT;
-        items.extend(signs([WORKSPACE.x, below], &self.signs_of_arms()));
+        items.extend(signs([WORKSPACE.x, below], &self.signs_of_arms(&objects)));
         let Some(motions) = motions else {
             return Figure { width: WIDTH, height: below + 30.0, items, is_dark: false };
         };
         items.push(heading(DIAGRAM, DIAGRAM.y - 14.0, "Times of both arms on their paths"));
         items.extend(self.diagram(&motions));
         items.extend(signs([DIAGRAM.x, below], &self.signs_of_regions(&motions)));
-        items.extend(self.rows(&motions));
-        let height = ROWS.y + rows_height(&motions) + 62.0;
+        items.extend(self.rows(&motions, &objects, ROWS));
+        let height = ROWS.y + rows::height(&motions) + 62.0;
         Figure { width: WIDTH, height, items, is_dark: false }
     }
 
-    fn signs_of_arms(&self) -> Vec<(Rgb, String)> {
+    fn signs_of_arms(&self, objects: &[ShownObject]) -> Vec<(Rgb, String)> {
         let names = self.names();
-        [0, 1].map(|arm| (ARM_COLORS[arm], format!("{} (pale: at its start)", names[arm]))).to_vec()
+        match objects.first() {
+            None => [0, 1].map(|arm| (ARM_COLORS[arm], format!("{} (pale: at its start)", names[arm]))).to_vec(),
+            Some(object) => {
+                let arms = [0, 1].map(|arm| (ARM_COLORS[arm], format!("{} at its start", names[arm])));
+                let objects = (object.color().lighter(0.25), "objects; dashed: where they are placed".to_owned());
+                arms.into_iter().chain([objects]).collect()
+            }
+        }
     }
 
     fn signs_of_regions(&self, motions: &ShownMotions) -> Vec<(Rgb, String)> {
@@ -79,15 +90,16 @@ impl Answer<'_> {
         [0, 1].map(|arm| (region_color(arm), format!("too near; {} passes first", names[arm]))).to_vec()
     }
 
-    /// Draws the cell with both arms: pale at their starts, opaque at their goals or where they collide.
-    fn workspace(&self, motions: Option<&ShownMotions>, between: &Between) -> Vec<Item> {
+    /// Draws the cell with both arms: pale at their starts, opaque at their goals or where they collide. Arms with steps are
+    /// opaque at their starts, where they often end.
+    fn workspace(&self, motions: Option<&ShownMotions>, objects: &[ShownObject], between: &Between) -> Vec<Item> {
         let scenes = self.scenes();
         let [x, y] = self.extent(motions);
         let frame = Frame::filling(WORKSPACE, x, y);
         let union = |pieces: &[Convex], style: Style| shapes::union(&frame, pieces.iter().cloned(), style);
         let mut items = frame.grid([Unit::Meters; 2]);
         let solid = Style::line(ROBOT.darker(0.2), 1.2).filled(GHOST);
-        items.extend(self.obstacles().iter().map(|obstacle| union(&obstacle.pieces, solid)));
+        items.extend(self.obstacles().map(|obstacle| union(&obstacle.pieces, solid)));
         let bases = scenes.into_iter().flat_map(bases);
         items.extend(bases.map(|base| union(&base.pieces, Style::line(ROBOT, 1.2).filled(FAINT))));
         // Without a motion, the arms are opaque at their starts.
@@ -95,11 +107,12 @@ impl Answer<'_> {
             let time = motions.collides.unwrap_or(motions.duration);
             [0, 1].map(|arm| motions.place(arm, time))
         };
-        let at = motions.map_or_else(|| self.starts(), shown);
+        let ending = motions.filter(|_| objects.is_empty());
+        let at = ending.map_or_else(|| self.starts(), shown);
         let hit = met(between, at).filter(|(distance, _)| *distance <= 0.0 || *distance < between.clearance);
         for (arm, color) in ARM_COLORS.into_iter().enumerate() {
             let pale = Style::line(color.lighter(0.3), 1.2).filled(color.lighter(0.8)).faded(0.6);
-            items.extend(motions.map(|_| union(&arm_shapes(scenes[arm], self.starts()[arm]), pale)));
+            items.extend(ending.map(|_| union(&arm_shapes(scenes[arm], self.starts()[arm]), pale)));
             let strong = Style::line(color.darker(0.2), 1.4).filled(color.lighter(0.45)).faded(0.8);
             let parts = arm_shapes(scenes[arm], at[arm]);
             items.push(union(&parts, strong));
@@ -107,12 +120,18 @@ impl Answer<'_> {
             items.extend(hit.map(|(_, pair)| union(&parts[pair[arm]..=pair[arm]], struck)));
         }
         let traces = motions.into_iter().flat_map(|motions| [(0, motions), (1, motions)]).map(|(arm, motions)| {
-            let tips: Vec<Point> =
-                moments(motions).map(|time| scenes[arm].arm().tip_at(motions.place(arm, time))).collect();
+            let count = PLACES.max(PLACES_PER_STEP * motions.steps[arm].len());
+            let tip = |time| scenes[arm].arm().tip_at(motions.place(arm, time));
+            let tips: Vec<Point> = moments(motions, count).map(tip).collect();
             let steps = chain(tips.iter().map(|tip| frame.at(tip.x, tip.y)), false);
-            (steps, Pen { color: ARM_COLORS[arm], width: 2.0, dash: &[] })
+            // The paths of many steps cross each other.
+            let (color, width) =
+                if objects.is_empty() { (ARM_COLORS[arm], 2.0) } else { (ARM_COLORS[arm].lighter(0.4), 1.4) };
+            (steps, Pen { color, width, dash: &[] })
         });
         items.extend(lines(traces));
+        items.extend(objects.iter().flat_map(ShownObject::destinations).map(|object| shapes::dashed(&frame, &object)));
+        items.extend(objects.iter().map(|object| shapes::solid(&frame, &object.at_first())));
         items.extend([0, 1].map(|arm| self.name_at_tip(arm, at[arm], &frame)));
         let mut items = vec![Item::Clip(frame.rect, items)];
         items.extend(frame.border([Unit::Meters; 2], ["x (m)", "y (m)"].map(str::to_owned), [false; 2]));
@@ -143,7 +162,7 @@ impl Answer<'_> {
         }
         let route = |shift: f64| {
             let place = |time: f64| frame.at(motions.moved(0, (time + shift).max(0.0)), motions.moved(1, time));
-            chain(moments(motions).map(place).collect::<Vec<_>>(), false)
+            chain(moments(motions, PLACES).map(place).collect::<Vec<_>>(), false)
         };
         let beside = Pen { color: INK, width: 0.8, dash: &[4.0, 3.0] };
         if motions.are_certified {
@@ -158,7 +177,7 @@ impl Answer<'_> {
             times[1 - signal.waits] = signal.set;
             let [mut x, y] = frame.at(motions.moved(0, times[0]), motions.moved(1, times[1]));
             // Discs at one place stand side by side.
-            while discs.iter().any(|disc| (disc[0] - x).hypot(disc[1] - y) < 2.0 * DISC) {
+            while discs.iter().any(|disc| (disc[0] - x).hypot(disc[1] - y) < 2.0 * DISC + 2.0) {
                 x += 1.0;
             }
             discs.push([x, y]);
@@ -172,62 +191,6 @@ impl Answer<'_> {
         items.extend(frame.border([Unit::Seconds; 2], [title(0), title(1)], [false; 2]));
         items
     }
-
-    /// Draws a row of time for each arm, with its motion and its waits, and one for each signal.
-    fn rows(&self, motions: &ShownMotions) -> Vec<Item> {
-        let rect = Rect { height: rows_height(motions), ..ROWS };
-        let frame = Frame::fitted(rect, (0.0, motions.duration.max(1e-3)), (0.0, 1.0), false);
-        let x = |time: f64| frame.at(time, 0.0)[0];
-        let middle = |row: usize| {
-            let [arm, signal] = ROW_HEIGHTS;
-            rect.y + if row < 2 { arm * (row as f64 + 0.5) } else { 2.0 * arm + signal * (row as f64 - 1.5) }
-        };
-        let name = |row: usize, text: &str, color: Rgb| {
-            label([rect.x - 12.0, middle(row) + 5.0], text, TEXT, Anchor::End, color)
-        };
-        let mut items = Vec::new();
-        for (arm, color) in ARM_COLORS.into_iter().enumerate() {
-            let bar = |from: f64, to: f64| {
-                rectangle(Rect { x: x(from), y: middle(arm) - 10.0, width: x(to) - x(from), height: 20.0 })
-            };
-            let end = motions.trajectories[arm].duration();
-            items.push(Item::Outline(bar(0.0, end), Style::fill(color.lighter(0.35))));
-            for wait in motions.waits[arm] {
-                let text = format!("{} waits from {:.3} s to {:.3} s", self.names()[arm], wait.from, wait.to);
-                let pale = Style::line(color, 1.0).filled(FAINT);
-                items.push(Item::Titled(text, vec![Item::Outline(bar(wait.from, wait.to), pale)]));
-            }
-            for step in motions.steps[arm] {
-                let Some(time) = step.event else { continue };
-                let text = format!("{}, step {}: {}, at {time:.3} s", self.names()[arm], step.number, step.action);
-                let disc = Item::Disc([x(time), middle(arm)], 5.0, Style::line(INK, 1.0).filled(color.lighter(0.8)));
-                items.push(Item::Titled(text, vec![disc]));
-            }
-            items.push(name(arm, self.names()[arm], color));
-        }
-        for (number, signal) in motions.signals.iter().enumerate() {
-            let y = middle(2 + number);
-            let [waits, sets] = [signal.waits, 1 - signal.waits].map(|arm| (self.names()[arm], ARM_COLORS[arm]));
-            let text = format!("{} waits for signal {}, which {} sets", waits.0, number + 1, sets.0);
-            let line = vec![Step::Move([x(signal.set), y]), Step::Line([x(signal.at), y])];
-            let drawn = vec![
-                Item::Outline(line, Style::line(INK, 1.4)),
-                Item::Disc([x(signal.set), y], 3.5, Style::fill(sets.1)),
-                Item::Disc([x(signal.at), y], 5.0, Style::line(INK, 1.2).filled(waits.1)),
-            ];
-            items.push(Item::Titled(text, drawn));
-            items.push(name(2 + number, &format!("signal {}", number + 1), GRAY));
-        }
-        items.extend(frame.sides([false; 2]));
-        items.extend(frame.tick_marks([Unit::Seconds; 2], [true, false]));
-        items.push(label([rect.right(), rect.bottom() + 40.0], "time (s)", TEXT, Anchor::End, INK));
-        items
-    }
-}
-
-/// Returns the height of the rows of time, pixels.
-fn rows_height(motions: &ShownMotions) -> f64 {
-    2.0 * ROW_HEIGHTS[0] + ROW_HEIGHTS[1] * motions.signals.len() as f64
 }
 
 /// Returns the colour of the regions that an arm passes first; grey for those that neither passes first.
@@ -235,10 +198,10 @@ fn region_color(first: usize) -> Rgb {
     ARM_COLORS.get(first).map_or(UNDECIDED, |color| color.lighter(REGION_PALENESS))
 }
 
-/// Returns times in equal steps, from the beginning to the end.
-fn moments(motions: &ShownMotions) -> impl Iterator<Item = f64> {
+/// Returns times in `count` equal steps, from the beginning to the end.
+fn moments(motions: &ShownMotions, count: usize) -> impl Iterator<Item = f64> {
     let duration = motions.duration;
-    (0..=PLACES).map(move |k| duration * k as f64 / PLACES as f64)
+    (0..=count).map(move |k| duration * k as f64 / count as f64)
 }
 
 /// Draws coloured squares with their meaning, in a row that begins at a place.

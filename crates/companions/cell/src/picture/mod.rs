@@ -2,7 +2,9 @@
 
 mod figure;
 mod motions;
+mod objects;
 mod page;
+mod rows;
 mod words;
 
 use crate::{Cell, CellPlan};
@@ -12,6 +14,7 @@ use cplan_model::{Carrier, Obstacle, Scene};
 use cplan_theme::{ACCENT, PROOF, Rgb};
 use cplan_view::{Frame, bounding_box};
 use motions::ShownMotions;
+use objects::ShownObject;
 
 /// Colours of the arms.
 const ARM_COLORS: [Rgb; 2] = [ACCENT, PROOF];
@@ -51,18 +54,21 @@ impl Answer<'_> {
         self.cell.arms.each_ref().map(|arm| arm.problem.query().start())
     }
 
-    /// Returns the obstacles of the cell, without the bases of the robots.
-    fn obstacles(&self) -> &[Obstacle] {
+    /// Iterates over the obstacles of the cell, without the bases of the robots and without objects that the arms can move.
+    fn obstacles(&self) -> impl Iterator<Item = &Obstacle> {
         let [one, two] = self.scenes();
         let all = &one.workspace().obstacles;
         // The bases of the second robot are the last obstacles of the first arm.
         let bases = if self.cell.is_one_robot { 0 } else { bases(two).count() };
-        &all[..all.len() - bases]
+        let objects = self.tasks().into_iter().flatten().next().map_or(&[][..], |task| &task.objects);
+        let can_move = |obstacle: &&Obstacle| objects.iter().any(|object| object.name == obstacle.name);
+        all[..all.len() - bases].iter().filter(move |obstacle| !can_move(obstacle))
     }
 
     /// Returns the least and greatest coordinates of the cell and the whole motions, with a margin.
     fn extent(&self, motions: Option<&ShownMotions>) -> [(f64, f64); 2] {
-        let mut shapes: Vec<Convex> = self.obstacles().iter().flat_map(|obstacle| obstacle.pieces.clone()).collect();
+        let mut shapes: Vec<Convex> = self.obstacles().flat_map(|obstacle| obstacle.pieces.clone()).collect();
+        shapes.extend(self.objects(motions).iter().flat_map(ShownObject::shapes));
         for (arm, scene) in self.scenes().into_iter().enumerate() {
             shapes.extend(bases(scene).flat_map(|base| base.pieces.clone()));
             shapes.extend(arm_shapes(scene, self.starts()[arm]));

@@ -6,7 +6,7 @@ use crate::coordinate::Coordinator;
 use crate::curve::Curve;
 use crate::diagram::rectangles;
 use crate::stage::StagePairs;
-use crate::{Cell, Interlock, StepTimes};
+use crate::{Cell, HandoverTimes, Interlock, StepTimes};
 use cplan_model::Outcome;
 use cplan_model::space::Configuration;
 use cplan_motion::{Drive, Trajectory, Wait};
@@ -24,6 +24,7 @@ pub struct ShownMotions<'a> {
     pub signals: &'a [Interlock],
     /// For each arm, its steps.
     pub steps: [&'a [StepTimes]; 2],
+    pub handovers: &'a [HandoverTimes],
     /// For each arm, the times of rectangles in which the arms may be too near to each other.
     pub rectangles: Vec<[[f64; 2]; 2]>,
     /// True for the motions of the answer. False if they are those of each arm alone, which are not coordinated.
@@ -54,10 +55,20 @@ impl<'a> ShownMotions<'a> {
             |found| found.diagram.clone(),
         );
         let steps = found.map_or([&[][..]; 2], |found| found.steps.each_ref().map(Vec::as_slice));
-        let are_certified = found.is_some();
-        let mut motions =
-            Self { trajectories, curves, waits, duration, signals, steps, rectangles, are_certified, collides: None };
-        motions.collides = (!are_certified).then(|| motions.first_collision(pairs.between([0, 0]))).flatten();
+        let handovers = found.map_or(&[][..], |found| found.handovers.as_slice());
+        let mut motions = Self {
+            trajectories,
+            curves,
+            waits,
+            duration,
+            signals,
+            steps,
+            handovers,
+            rectangles,
+            are_certified: found.is_some(),
+            collides: None,
+        };
+        motions.collides = (!motions.are_certified).then(|| motions.first_collision(pairs.between([0, 0]))).flatten();
         Some(motions)
     }
 

@@ -1,7 +1,9 @@
 //! The page of an answer about a cell.
 
 use super::motions::{ShownMotions, pairs_of_links};
+use super::objects::ShownObject;
 use super::{ARM_COLORS, Answer, REGION_PALENESS, bases};
+use crate::{HandoverTimes, StepTimes};
 use cplan_model::Obstacle;
 use cplan_motion::Trajectory;
 use cplan_theme::{ROBOT, Rgb, UNDECIDED, role_or_hex};
@@ -12,8 +14,12 @@ use serde_json::{Value, json};
 const STYLE: &str = include_str!("../assets/cell.css");
 
 /// Code that draws a cell, after the code of a view.
-const SCRIPTS: [&str; 3] =
-    [include_str!("../assets/rows.js"), include_str!("../assets/diagram.js"), include_str!("../assets/cell.js")];
+const SCRIPTS: [&str; 4] = [
+    include_str!("../assets/rows.js"),
+    include_str!("../assets/diagram.js"),
+    include_str!("../assets/objects.js"),
+    include_str!("../assets/cell.js"),
+];
 
 impl Answer<'_> {
     /// Returns the answer as one self-contained HTML file.
@@ -38,16 +44,36 @@ impl Answer<'_> {
     }
 
     fn data(&self, motions: Option<&ShownMotions>, pairs: &[[usize; 2]]) -> Value {
+        let objects = self.objects(motions);
+        let number = |name: &str| objects.iter().position(|object| object.name() == name);
+        let step = |step: &StepTimes| {
+            let span = [step.begin, step.end].map(short);
+            json!({
+                "span": span,
+                "number": step.number,
+                "text": step.action,
+                "object": step.object.as_deref().and_then(number),
+                "event": step.event.map(short),
+                "places": step.released.is_some(),
+            })
+        };
+        let handover = |times: &HandoverTimes| {
+            json!({
+                "object": number(&times.object),
+                "giver": times.giver,
+                "placed": short(times.placed),
+                "taken": short(times.taken),
+            })
+        };
         let arm = |arm: usize| {
             let waits = motions.map_or(&[][..], |motions| motions.waits[arm]);
             let waits = waits.iter().map(|wait| [wait.from, wait.to].map(short));
-            let steps = motions.map_or(&[][..], |motions| motions.steps[arm]).iter();
-            let steps = steps.filter_map(|step| Some(json!([short(step.event?), step.number, step.action])));
+            let steps = motions.map_or(&[][..], |motions| motions.steps[arm]);
             json!({
                 "name": self.names()[arm],
                 "color": role_or_hex(ARM_COLORS[arm]),
                 "waits": waits.collect::<Vec<_>>(),
-                "steps": steps.collect::<Vec<_>>(),
+                "steps": steps.iter().map(step).collect::<Vec<_>>(),
                 "end": motions.map(|motions| motions.trajectories[arm].duration()),
             })
         };
@@ -62,6 +88,9 @@ impl Answer<'_> {
             "cards": self.cards(),
             "arms": [arm(0), arm(1)],
             "obstacles": self.obstacle_views(),
+            "named": self.obstacles().count(),
+            "objects": objects.iter().map(ShownObject::json).collect::<Vec<_>>(),
+            "handovers": motions.map_or(&[][..], |motions| motions.handovers).iter().map(handover).collect::<Vec<_>>(),
             "frame": self.extent(motions).map(|(low, high)| [low, high].map(short)),
             "pairs": pairs,
             "clearance": clearance,
@@ -80,7 +109,7 @@ impl Answer<'_> {
             view
         };
         let mut views: Vec<ObstacleView> =
-            self.obstacles().iter().map(|obstacle| colored(obstacle, obstacle.name.clone(), UNDECIDED)).collect();
+            self.obstacles().map(|obstacle| colored(obstacle, obstacle.name.clone(), UNDECIDED)).collect();
         let robots = if self.cell.is_one_robot { 1 } else { 2 };
         for (scene, name) in self.scenes().into_iter().zip(self.names()).take(robots) {
             let named = if robots == 1 { "base".to_owned() } else { format!("base of {name}") };
@@ -108,6 +137,6 @@ fn motion(motions: &ShownMotions) -> Value {
 }
 
 /// Rounds a time or a length for the page.
-fn short(value: f64) -> f64 {
+pub fn short(value: f64) -> f64 {
     (value * 1e4).round() / 1e4 + 0.0
 }

@@ -16,8 +16,13 @@ const TIGHT_CLEARANCE: f64 = 1e-3;
 pub type Card = [String; 4];
 
 impl Answer<'_> {
-    /// Returns the answer in one sentence.
+    /// Returns the answer in one sentence, with the waits.
     pub fn headline(&self) -> String {
+        [self.sentence()].into_iter().chain(self.waits_in_words()).collect::<Vec<_>>().join("; ")
+    }
+
+    /// Returns the answer in one sentence.
+    pub fn sentence(&self) -> String {
         let names = self.names();
         match &self.plan.outcome {
             Outcome::Found(found) => {
@@ -26,7 +31,7 @@ impl Answer<'_> {
                     None => "certified".to_owned(),
                 };
                 let done = if found.steps.iter().all(Vec::is_empty) { "arrive" } else { "finish their steps" };
-                format!("Both arms {done} after {:.3} s, {proven}{}", found.duration, self.waits_in_words(found))
+                format!("Both arms {done} after {:.3} s, {proven}", found.duration)
             }
             Outcome::Infeasible(Refutation::Alone { arm, .. }) => {
                 format!("No motions: {} cannot reach its goal, even without {}", names[*arm], names[1 - *arm])
@@ -58,12 +63,13 @@ impl Answer<'_> {
         Some((found.duration / bound - 1.0).max(0.0))
     }
 
-    /// States which arm waits for which, and for how long: `; right waits 0.20 s for left`.
-    fn waits_in_words(&self, found: &Coordination) -> String {
+    /// States which arm waits for which, and for how long: `right waits 0.20 s for left`. Empty without motions.
+    pub fn waits_in_words(&self) -> Vec<String> {
         let names = self.names();
+        let Outcome::Found(found) = &self.plan.outcome else { return Vec::new() };
         let total = |arm: usize| found.waits[arm].iter().map(|wait| wait.to - wait.from).sum::<f64>();
         let waiting = (0..2).filter(|arm| total(*arm) >= MIN_STATED_WAIT);
-        waiting.map(|arm| format!("; {} waits {:.2} s for {}", names[arm], total(arm), names[1 - arm])).collect()
+        waiting.map(|arm| format!("{} waits {:.2} s for {}", names[arm], total(arm), names[1 - arm])).collect()
     }
 
     /// Returns the key figures.

@@ -51,7 +51,7 @@ const Geometry = (() => {
    * the last.
    */
   function moved(mover, time) {
-    const { stops, velocity, outline, pieces } = mover;
+    const { stops, velocity } = mover;
     const next = stops.findIndex(([at]) => at > time);
     let [, x, y, angle] = stops[next < 0 ? stops.length - 1 : Math.max(0, next - 1)];
     if (next > 0) {
@@ -62,11 +62,16 @@ const Geometry = (() => {
       const since = time - stops[stops.length - 1][0];
       [x, y] = [x + velocity[0] * since, y + velocity[1] * since];
     }
+    return lying(mover, [x, y, angle]);
+  }
+
+  /** Returns an obstacle that is given in its own frame, at a pose. */
+  function lying(obstacle, /** @type {Point} */ [x, y, angle]) {
     const pose = turned(x, y, angle);
     const all = (points) => points && placed({ core: points }, pose).core;
-    const { polygon, circle, polyline } = outline;
+    const { outline: { polygon, circle, polyline }, pieces } = obstacle;
     const disc = circle && [...apply(pose, circle[0], circle[1]), circle[2]];
-    return { ...mover, outline: { polygon: all(polygon), circle: disc, polyline: all(polyline) }, pieces: pieces.map((piece) => placed(piece, pose)) };
+    return { ...obstacle, outline: { polygon: all(polygon), circle: disc, polyline: all(polyline) }, pieces: pieces.map((piece) => placed(piece, pose)) };
   }
 
   function placed(shape, pose) {
@@ -374,5 +379,5 @@ const Geometry = (() => {
     for (let i = 0; i + 1 < flat.length; i += 2) yield [flat[i], flat[i + 1]];
   }
 
-  return { TURN, apply, poses, armShapes, tipAt, elbowAt, payloadPose, placed, moved, separation, nearest, contacts, inverse, solutions, wrap, interval, moving, pointsOf };
+  return { TURN, apply, poses, armShapes, tipAt, elbowAt, payloadPose, placed, moved, lying, separation, nearest, contacts, inverse, solutions, wrap, interval, moving, pointsOf };
 })();

@@ -100,7 +100,8 @@ const Workspace = (() => {
       shown.push(beyond('start', view.beginning()));
     }
     if (!view.isCrowded) {
-      const written = view.isTask ? families(panel, view, world) : null;
+      const current = view.isTask && Steps.objects(view.model)[view.model.motions.indexOf(view.motion)]?.object;
+      const written = view.isTask ? families(panel, world.obstacles.filter(({ name }) => !view.hidden.has(name)), (name) => name === current) : null;
       if (written) shown.push(...written);
       world.obstacles.forEach((obstacle, index) => {
         if (obstacle.own === 0 || view.hidden.has(obstacle.name)) return;
@@ -121,16 +122,15 @@ const Workspace = (() => {
 
   /**
    * Returns the names in a task, each with its shape: objects whose names differ only in a number at the end, and that lie
-   * side by side, share one name with their count.
+   * side by side, share one name with their count. `isAlone` returns true for objects with names of their own.
    */
-  function families(panel, view, world) {
+  function families(panel, obstacles, isAlone) {
     const kind = (name) => name.replace(/[\s_-]*\d+(\s*,\s*\d+)*$/u, '') || name;
     const groups = [];
-    const current = Steps.objects(view.model)[view.model.motions.indexOf(view.motion)]?.object;
-    for (const obstacle of world.obstacles) {
-      if (obstacle.own === 0 || view.hidden.has(obstacle.name)) continue;
+    for (const obstacle of obstacles) {
+      if (obstacle.own === 0) continue;
       const own = box(panel, obstacle);
-      if (!groups.length || obstacle.name === current) {
+      if (!groups.length || isAlone(obstacle.name)) {
         groups.push({ name: obstacle.name, kind: obstacle.name, members: [obstacle], box: own });
         continue;
       }
@@ -497,7 +497,7 @@ const Workspace = (() => {
     return [x + width / 2, y + height / 2];
   }
 
-  return { still, moving, found, arm, struck, outline, tipTrace, outlines, named, middle, distance };
+  return { still, moving, found, arm, struck, outline, solids, destinations, families, tipTrace, outlines, middle, distance };
 })();
 
 /** Draws a path or trace in its colour, over a broad pale line that makes it visible on any ground. */
