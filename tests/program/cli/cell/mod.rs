@@ -281,10 +281,10 @@ fn pictures_show_steps_handovers_and_destinations() {
     let place = Place::new();
     let done = place.run(&["cell", &shipped("workspaces/cells/handover.toml")], "--json --quiet --picture a.svg");
     let (answer, picture) = (answer(&done), place.read("a.svg"));
+    let list = |value: &Value| value.as_array().unwrap().clone();
     let mut releases = 0;
-    for (arm, step) in
-        list(&answer["arms"]).iter().flat_map(|arm| list(&arm["steps"]).iter().map(move |step| (arm, step)))
-    {
+    let arms = list(&answer["arms"]);
+    for (arm, step) in arms.iter().flat_map(|arm| list(&arm["steps"]).into_iter().map(move |step| (arm, step))) {
         let [name, action] = [&arm["name"], &step["action"]].map(|text| text.as_str().unwrap());
         let at = step["event"].as_f64().map_or_else(String::new, |time| format!(", at {time:.3} s"));
         let title = format!("<title>{name}, step {}: {action}{at}</title>", step["step"]);

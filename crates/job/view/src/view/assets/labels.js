@@ -1,7 +1,7 @@
 // The placer of names in a panel. A name lies within its shape, touches it, or has a line that ends on it. It lies
 // neither on the arm, nor on a marker, nor on another name, avoids paths as far as possible, and is left out if there is no
 // place for it. A named shape is { rect, pieces }: the box on which or around which the name may lie, and the shape as
-// convex pieces in pixels (without any, the box).
+// convex pieces in pixels (without any, the box); `moves` is true for a shape that moves.
 // Pictures have the same rule in `labels.rs`, `named.rs` and `regions.rs`: the same places in the same order, with the same
 // costs. A change here needs the same change there.
 'use strict';
@@ -21,8 +21,11 @@ const Labels = (() => {
   const [BLOCKED, PART] = [-1, 0.3];
   /** Possible positions of a name: on its shape, then above, below, to the sides and at the corners of it. */
   const SIDES = [[0, 0], [0, -1], [0, 1], [1, 0], [-1, 0], [1, -1], [-1, -1], [1, 1], [-1, 1]];
-  /** Costs of a place: crossing a path, and a line to the shape. A name that stays where it was costs less. */
-  const [CROSSING, LEADER, STAYING] = [3, 0.6, -0.3];
+  /**
+   * Costs of a place: crossing a path, the same for a shape that moves, and a line to the shape. A name that stays where it
+   * was costs less. The name of a moving shape rather crosses a path than that it is far from its shape.
+   */
+  const [CROSSING, MOVING_CROSSING, LEADER, STAYING] = [3, 0.3, 0.6, -0.3];
 
   // Boxes.
 
@@ -161,6 +164,7 @@ const Labels = (() => {
    */
   function put(context, panel, text, shape, cost) {
     const before = panel.placed.get(text);
+    const crossing = shape.moves ? MOVING_CROSSING : CROSSING;
     let [best, least] = [null, Infinity];
     places(panel, size(context, panel, text), shape.rect).forEach(({ box, isFar }, index) => {
       const known = 0.01 * index + (before === index ? STAYING : 0);
@@ -168,7 +172,7 @@ const Labels = (() => {
       const [distance, end] = nearest(box, shape);
       const hasLine = isFar || distance > TOUCH;
       if (hasLine && (!holds(panel.rect, end) || crossesName(panel, box, end))) return;
-      const whole = known + (hasLine ? LEADER : 0) + (crosses(panel, box) ? CROSSING : 0) + cost(box, hasLine);
+      const whole = known + (hasLine ? LEADER : 0) + (crosses(panel, box) ? crossing : 0) + cost(box, hasLine);
       if (whole < least) [best, least] = [{ box, end: hasLine ? end : null, index }, whole];
     });
     if (!best) {

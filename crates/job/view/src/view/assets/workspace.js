@@ -110,7 +110,7 @@ const Workspace = (() => {
         if (wall) Labels.blockLine(panel, [...pointsOf(wall)].map((p) => panel.at(p)));
       });
       for (const mover of (world.movers ?? []).filter(({ name }) => !view.hidden.has(name))) {
-        shown.push([mover.name, named(panel, Geometry.moved(mover, view.now))]);
+        shown.push([mover.name, { ...named(panel, Geometry.moved(mover, view.now)), moves: true }]);
       }
     }
     if (view.shows('frames')) for (const { name, at } of view.model.frames) shown.push([name, Labels.spotted(panel.at(at), 10)]);
