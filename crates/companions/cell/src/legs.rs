@@ -4,6 +4,7 @@
 use crate::curve::Curve;
 use crate::schedule::{Schedule, Scheduled, ScheduledLeg, StepTimes};
 use crate::stage::StageTime;
+use cplan_handling::{RecordedTurn, RecordedWrist};
 use cplan_judge::CertifiedPath;
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, Path};
@@ -37,16 +38,28 @@ pub(crate) struct Moving {
 /// A step of an arm, without its times.
 #[derive(Debug, Clone)]
 pub(crate) struct LegStep {
+    /// Number of the step in the arm's task, from 1.
+    pub file_step: usize,
+    /// Number of its repetition, from 1.
+    pub cycle: usize,
     /// The action in a few words.
     pub action: String,
     /// Name of the object that is picked or placed.
     pub object: Option<String>,
+    /// Stage in which the tool is raised before the motion. `None` if it is raised already.
+    pub raises: Option<usize>,
     /// Stage of its motion.
     pub moves: usize,
     /// Stage in which the tool acts after the motion. `None` if there is no such rest.
     pub acts: Option<usize>,
     /// Time from the arrival to the grasp or release without waits, seconds. `None` for other steps.
     pub event_after: Option<f64>,
+    /// The turn of the object.
+    pub turn: Option<RecordedTurn>,
+    /// Values of the stroke's joint while the tool is lowered, before and after the motion, metres.
+    pub lowered: [Option<f64>; 2],
+    /// The turn of the wrist to the value that the step states. It begins this long after the motion, seconds.
+    pub wrist: Option<RecordedWrist>,
 }
 
 /// The legs of one arm, at least one, in order.
@@ -199,14 +212,21 @@ impl Legs {
         let step = |(number, step): (usize, &LegStep)| {
             let arrival = schedule.time(StageTime::End(step.moves));
             let acting = step.acts.map(|stage| schedule.time(StageTime::Begin(stage)));
+            let begin = schedule.time(StageTime::Begin(step.moves));
             StepTimes {
                 number: number + 1,
+                file_step: step.file_step,
+                cycle: step.cycle,
                 action: step.action.clone(),
                 object: step.object.clone(),
-                begin: schedule.time(StageTime::Begin(step.moves)),
+                raising: step.raises.map(|stage| schedule.time(StageTime::Begin(stage))),
+                begin,
                 arrival,
                 event: step.event_after.map(|after| acting.unwrap_or(arrival) + after),
                 end: step.acts.map_or(arrival, |stage| schedule.time(StageTime::End(stage))),
+                turn: step.turn,
+                lowered: step.lowered,
+                wrist: step.wrist.map(|wrist| RecordedWrist { begin: begin + wrist.begin, ..wrist }),
             }
         };
         self.steps.iter().enumerate().map(step).collect()

@@ -6,6 +6,7 @@ mod programs;
 mod random;
 mod set;
 mod verify;
+mod verify_steps;
 
 use super::{Done, Place, number, read, shipped};
 use oracle::{Arm, Motion, Solid, distance, replayed};
