@@ -56,8 +56,8 @@ mod straighten;
 mod task_search;
 mod variants;
 
-pub use coordinate::Coordination;
-pub use delays::{SignalTargets, check_delays};
+pub use coordinate::{Coordination, PlannedSteps};
+pub use delays::{ProgramSteps, SignalTargets, StepPart, check_delays};
 pub use file::{Cell, CellArm, ReadRobot};
 pub use interlock::Interlock;
 pub use judged::NearestPlace;

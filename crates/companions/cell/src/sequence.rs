@@ -27,7 +27,13 @@ impl Sequence {
     /// Returns the sequence of the steps of a task. Returns `None` if the task has no steps and the arm cannot be proven to
     /// stand free.
     pub fn new(task: &Task, legs: &[TaskLeg]) -> Option<Self> {
+        Self::with_height_tolerance(task, legs, 0.0)
+    }
+
+    /// Does the same for a tool and a payload whose heights may deviate by a distance, metres.
+    pub fn with_height_tolerance(task: &Task, legs: &[TaskLeg], height_tolerance: f64) -> Option<Self> {
         let bodies = StageBuilder::new(task, legs.iter().map(|leg| &leg.step));
+        let bodies = bodies.with_height_tolerance(height_tolerance);
         let mut builder = Builder { task, bodies, out: Vec::new(), steps: Vec::new() };
         if legs.is_empty() {
             builder.stand()?;

@@ -6,7 +6,7 @@ use cplan_geometry::{Convex, Pose};
 use cplan_handling::{Handover, Object, Step, Task};
 use cplan_legs::Event;
 use cplan_model::space::Configuration;
-use cplan_model::{AttachedPart, Grip, Part, Scene};
+use cplan_model::{AttachedPart, Grip, Heights, Part, Scene};
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
@@ -36,6 +36,8 @@ pub(crate) struct StageBuilder<'a> {
     /// The objects that the arm has placed for the other one, each with the number of the step that has placed it.
     left: Vec<(usize, usize, Vec<Body>)>,
     pub stages: Vec<Stage>,
+    /// Distance by which the heights of the tool and of its payload may deviate, metres.
+    height_tolerance: f64,
 }
 
 impl<'a> StageBuilder<'a> {
@@ -46,7 +48,12 @@ impl<'a> StageBuilder<'a> {
         let is_taken = |(object, _): &(usize, usize)| task.objects[*object].handover == Some(Handover::Takes);
         let taken = picks.iter().filter(|pick| is_taken(pick)).copied().collect();
         let moved = picks.iter().map(|(object, _)| *object).collect();
-        Self { task, moved, taken, left: Vec::new(), stages: Vec::new() }
+        Self { task, moved, taken, left: Vec::new(), stages: Vec::new(), height_tolerance: 0.0 }
+    }
+
+    /// Lets the heights of the tool and of its payload deviate by a distance, metres.
+    pub fn with_height_tolerance(self, height_tolerance: f64) -> Self {
+        Self { height_tolerance, ..self }
     }
 
     /// Adds the stage in which the tool is raised before a motion, and returns its index. `None` if the tool is raised already.
@@ -58,7 +65,7 @@ impl<'a> StageBuilder<'a> {
 
     /// Adds the stage of a motion, and returns its index.
     pub fn motion(&mut self, number: usize, step: &StepScene) -> usize {
-        let bodies = self.links(step.scene, None).into_iter().chain(payload(step.scene));
+        let bodies = self.links(step.scene, None).into_iter().chain(payload(step.scene, self.height_tolerance));
         let bodies = bodies.chain(self.resting(step.scene, None)).collect();
         self.stage(number, true, bodies)
     }
@@ -118,7 +125,9 @@ impl<'a> StageBuilder<'a> {
 
     /// Returns the links, with the tool raised, or at all heights down to a depth, metres.
     fn links(&self, scene: &Scene, depth: Option<f64>) -> Vec<Rc<Body>> {
-        let swept = self.task.stroke.as_ref().zip(depth).map(|(stroke, depth)| stroke.swept(&self.task.arm, &[depth]));
+        let by = self.height_tolerance;
+        let stroke = self.task.stroke.as_ref().filter(|_| depth.is_some() || by > 0.0);
+        let swept = stroke.map(|stroke| stroke.swept(&self.task.arm, &[depth.unwrap_or(0.0), by, -by]));
         let of = |link: usize| {
             let raised = scene.own_parts(link);
             let parts = swept.as_ref().map_or(raised, |arm| &arm.links[link].parts);
@@ -170,7 +179,8 @@ impl<'a> StageBuilder<'a> {
             Event::Grasp { .. } => lies.pieces.clone(),
         };
         let elevation = step.step.elevation;
-        let heights = object.handled_heights([elevation]);
+        let Heights { lower, upper } = object.handled_heights([elevation]);
+        let heights = Heights { lower, upper: upper + self.height_tolerance };
         let is_exact = !step.turns && heights == object.heights_at(elevation);
         let tip = self.task.arm.tip_at(step.end);
         let shape = |piece: Convex| match step.turns {
@@ -183,17 +193,19 @@ impl<'a> StageBuilder<'a> {
     }
 }
 
-/// Returns the carried object of a scene.
-fn payload(scene: &Scene) -> Vec<Rc<Body>> {
+/// Returns the carried object of a scene, whose heights may deviate by a distance, metres.
+fn payload(scene: &Scene, by: f64) -> Vec<Rc<Body>> {
     let Some(attachment) = scene.attachment() else { return Vec::new() };
     let (frame, pose) = match attachment.grip {
         Grip::Rigid(in_link) => (Frame::Link(1), in_link),
         Grip::Level { angle, point } => (Frame::Tip, Pose::rotation(angle).shifted_in_frame(-point)),
     };
+    let Heights { lower, upper } = attachment.heights;
+    let heights = Heights { lower: lower - by, upper: upper + by };
     let parts = attachment.parts.iter().filter(|part| !part.on_supports);
     let body = |part: &AttachedPart| {
         let shape = part.shape.at(&pose);
-        Rc::new(Body::of_object(frame, &attachment.name, shape, attachment.heights, part.is_never_empty))
+        Rc::new(Body::of_object(frame, &attachment.name, shape, heights, part.is_never_empty))
     };
     parts.map(body).collect()
 }
