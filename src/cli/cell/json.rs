@@ -26,7 +26,7 @@ impl Answered<'_> {
             "interlocks": found.map(|found| self.interlocks(found)),
             "interpolation": "cubic",
             "handovers": found.map(|found| found.handovers.iter().map(|times| handover(cell, times)).collect::<Vec<_>>()),
-            "assignment": plan.assignment.as_ref().map(|names| self.assignment(names)),
+            "assignment": plan.assignment.as_ref().map(|names| assignment(cell, names)),
             "tried": plan.tried,
         });
         match &plan.outcome {
@@ -35,12 +35,6 @@ impl Answered<'_> {
             Outcome::Unknown(why) => answer["reason"] = json!(why),
         }
         answer
-    }
-
-    /// Returns for each arm the objects that it moves, of those that either arm may move.
-    fn assignment(&self, names: &[Vec<String>; 2]) -> Value {
-        let one = |(arm, names): (&CellArm, &Vec<String>)| (arm.name.clone(), json!(names));
-        Value::Object(self.cell.arms.iter().zip(names).map(one).collect())
     }
 
     fn arm(&self, k: usize, CellArm { name, problem, .. }: &CellArm, found: Option<&Coordination>) -> Value {
@@ -60,7 +54,7 @@ impl Answered<'_> {
             arm["path"] =
                 json!(motion.curve.straight().path().waypoints().iter().copied().map(row).collect::<Vec<_>>());
             arm["waits"] = json!(found.waits[k]);
-            if !found.steps[k].is_empty() {
+            if self.cell.has_steps() {
                 arm["steps"] = json!(found.steps[k].iter().map(step).collect::<Vec<_>>());
             }
             arm["trajectory"] = json!({
@@ -114,18 +108,35 @@ impl Answered<'_> {
     }
 }
 
-fn handover(cell: &Cell, HandoverTimes { object, giver, placed, taken }: &HandoverTimes) -> Value {
+/// Returns for each arm the objects that it moves, of those that either arm may move.
+pub fn assignment(cell: &Cell, names: &[Vec<String>; 2]) -> Value {
+    let one = |(arm, names): (&CellArm, &Vec<String>)| (arm.name.clone(), json!(names));
+    Value::Object(cell.arms.iter().zip(names).map(one).collect())
+}
+
+/// Returns a handover with its times.
+pub fn handover(cell: &Cell, HandoverTimes { object, giver, placed, taken }: &HandoverTimes) -> Value {
     let [gives, takes] = [*giver, 1 - giver].map(|arm| &cell.arms[arm].name);
     json!({ "object": object, "gives": gives, "placed": placed, "takes": takes, "taken": taken })
 }
 
-fn step(step: &StepTimes) -> Value {
+/// Returns a step with its times.
+pub fn step(step: &StepTimes) -> Value {
+    let [before, after] = step.lowered;
     json!({
         "step": step.number,
+        "file_step": step.file_step,
+        "cycle": step.cycle,
         "action": step.action,
         "object": step.object,
+        "raising": step.raising.zip(before).map(|(begin, lowered)| json!({ "begin": begin, "lowered": lowered })),
         "begin": step.begin,
         "arrival": step.arrival,
+        "turn": step.turn.map(|turn| json!({ "from": turn.from, "to": turn.to, "seconds": turn.seconds })),
+        "stroke": after.map(|lowered| json!({ "lowered": lowered })),
+        "wrist": step.wrist.map(|wrist| {
+            json!({ "from": wrist.from, "to": wrist.to, "begin": wrist.begin, "seconds": wrist.seconds })
+        }),
         "event": step.event,
         "end": step.end,
     })

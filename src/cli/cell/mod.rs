@@ -21,6 +21,7 @@ use crate::motion::{Format, field_per_line};
 use crate::options::number_in;
 use clap::{Args, ValueHint};
 use cplan_cell::{Answer, Cell, CellPlan, Settings, plan_cell};
+pub use json::{assignment as assignment_json, handover as handover_json, step as step_json};
 use programs::CellPrograms;
 use std::path::{Path, PathBuf};
 

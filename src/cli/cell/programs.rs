@@ -8,9 +8,14 @@ use crate::cli::program_args::ProgramWriter;
 use crate::input::{InputError, digest};
 use crate::output::Line;
 use crate::text::length_down;
-use cplan_cell::{Cell, CellArm, Coordination, Interlock, SignalTargets, check_delays};
-use cplan_programs::{Program, ProgramError, Signal, SignalUse, Written};
+use cplan_cell::{
+    Cell, CellArm, Coordination, Interlock, ProgramSteps, SignalTargets, StepPart, StepTimes, check_delays,
+};
+use cplan_programs::{MovePart, Program, ProgramError, Signal, SignalPlace, SignalUse, Written};
 use std::path::Path;
+
+/// Difference of two times, seconds, below which they are equal.
+const SAME_TIME: f64 = 1e-9;
 
 /// The programs of both arms. They are certified as written, for any delay of either program.
 pub struct CellPrograms {
@@ -35,8 +40,8 @@ pub fn load(
     let cell = load(clearance)?;
     let Some(writer) = writer else { return Ok(cell) };
     check_names(&cell, outputs)?;
-    if cell.has_steps() {
-        let message = "arms of the cell have steps, but the programs of two arms consist of one motion to a goal each";
+    if cell.has_steps() && cell.is_one_robot {
+        let message = "the arms are one robot, and the program of one arm has no joints that move its tool";
         return Err(ProgramError::Unsuitable(format!("{message}\n  hint: write .json, .csv or .yaml files")).into());
     }
     cell.arms.iter().try_for_each(|arm| Program::check(&arm.problem))?;
@@ -81,9 +86,18 @@ impl CellPrograms {
         let interlocks = found.interlocks.as_ref().ok_or_else(unsuitable)?;
         let mut made = Vec::new();
         for (arm, CellArm { problem, .. }) in cell.arms.iter().enumerate() {
-            let curve = &found.motions[arm].curve;
-            let motion = (curve.curve().path(), curve.clearance());
-            let program = Program::of_motion(problem, &cell.joints(arm), motion, writer.tolerance, writer.clearance)?;
+            let joints = cell.joints(arm);
+            let program = match &found.planned {
+                Some(planned) => {
+                    let steps = (&planned[arm].task, &planned[arm].legs[..]);
+                    Program::of_steps(problem, &joints, steps, writer.tolerance, writer.clearance)?
+                }
+                None => {
+                    let curve = &found.motions[arm].curve;
+                    let motion = (curve.curve().path(), curve.clearance());
+                    Program::of_motion(problem, &joints, motion, writer.tolerance, writer.clearance)?
+                }
+            };
             let signals: Vec<Signal> =
                 interlocks.iter().zip(1..).map(|(interlock, number)| signal(found, arm, interlock, number)).collect();
             let program = program.with_digests(digests(cell)?).with_signals(&signals, &cell.arms[1 - arm].name);
@@ -102,7 +116,13 @@ impl CellPrograms {
         let paths = [one.configurations(&first.targets)?, two.configurations(&second.targets)?];
         let rooms = cell.arms.each_ref().map(|arm| writer.tolerance.room_as_written(&arm.problem));
         let required = writer.clearance + rooms.iter().sum::<f64>();
-        check_delays(cell, paths.each_ref().map(Vec::as_slice), &signals, required)
+        let parts = [&one, &two].map(step_parts);
+        let steps = found.planned.as_ref().map(|planned| ProgramSteps {
+            planned,
+            parts: parts.each_ref().map(Vec::as_slice),
+            height_tolerance: writer.tolerance.height_as_written(),
+        });
+        check_delays(cell, paths.each_ref().map(Vec::as_slice), &signals, required, steps)
             .map_err(ProgramError::NotCertified)?;
         let summaries = [one.summary(), two.summary()];
         Ok(Self { written: [first, second], summaries, clearance: writer.clearance, signals })
@@ -136,7 +156,48 @@ fn signal(found: &Coordination, arm: usize, interlock: &Interlock, number: usize
         true => (SignalUse::Wait, interlock.at),
         false => (SignalUse::Set, interlock.set),
     };
-    Signal { number, usage, along: found.travelled(arm, time) }
+    let (step, place) = signal_place(found, arm, time, usage);
+    Signal { number, usage, step, place }
+}
+
+/// Returns the step of an arm in which it uses a signal at a time, and the place there. While the arm rests, a program waits at
+/// the beginning of the rest, and sets signals at its end.
+fn signal_place(found: &Coordination, arm: usize, time: f64, usage: SignalUse) -> (usize, SignalPlace) {
+    let along = |begin: f64| SignalPlace::Along(found.travelled(arm, time) - found.travelled(arm, begin));
+    let steps = &found.steps[arm];
+    for (number, StepTimes { begin, arrival, end, .. }) in steps.iter().enumerate() {
+        match time {
+            // Before the departure, the tool may be raised.
+            time if time < begin - SAME_TIME && usage == SignalUse::Wait && number > 0 => {
+                return (number - 1, SignalPlace::End);
+            }
+            time if time <= begin + SAME_TIME => return (number, SignalPlace::Along(0.0)),
+            time if time < arrival - SAME_TIME => return (number, along(*begin)),
+            time if time <= arrival + SAME_TIME => return (number, SignalPlace::Arrival),
+            time if time <= end + SAME_TIME => {
+                let place = if usage == SignalUse::Wait { SignalPlace::Arrival } else { SignalPlace::End };
+                return (number, place);
+            }
+            _ => {}
+        }
+    }
+    match steps.len() {
+        0 => (0, along(0.0)),
+        count => (count - 1, SignalPlace::End),
+    }
+}
+
+/// Returns the steps of a program's moves for the judgement between both arms.
+fn step_parts(program: &Program) -> Vec<(usize, StepPart)> {
+    let part = |(step, part)| {
+        let part = match part {
+            MovePart::Raising => StepPart::Raising,
+            MovePart::Travel => StepPart::Motion,
+            MovePart::Acts => StepPart::Acts,
+        };
+        (step, part)
+    };
+    program.parts().into_iter().map(part).collect()
 }
 
 /// Returns the names of the files of a cell, with their digests.

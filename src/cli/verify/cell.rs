@@ -1,6 +1,6 @@
 //! `cplan verify` for the motions of two arms in one cell.
 
-use super::{VerifyArgs, text};
+use super::{VerifyArgs, cell_steps, text};
 use crate::cli::cell::skew_or_default;
 use crate::cli::exit::{DONE, REFUTED, UNKNOWN};
 use crate::cli::failure::Failure;
@@ -9,7 +9,7 @@ use crate::engine::findings::{Judgement, MotionFindings, verify};
 use crate::input::{self, LoadedRecording, Source, read_recording};
 use crate::output::{Line, configuration, format_columns};
 use crate::text::{chosen_length, length, length_down};
-use cplan_cell::{BetweenFinding, Cell, NearPlace, judge_between};
+use cplan_cell::{BetweenFinding, Cell, NearPlace, ToolTimes, judge_between, judge_steps};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
@@ -28,8 +28,19 @@ struct Judged {
     findings: [MotionFindings; 2],
     between: BetweenFinding,
     skew: f64,
+    /// Differences from the steps of the cell that no arm has alone.
+    step_faults: Vec<String>,
     /// False statements of the file about both arms.
     faults: Vec<String>,
+}
+
+/// Motions that were read.
+struct Motions {
+    recorded: [LoadedRecording; 2],
+    /// The result of `cplan cell` that they are from. `None` for one file of each arm.
+    stated: Option<Value>,
+    /// For each arm, the times at which its tool acts in each step. Empty without steps.
+    tools: [Vec<ToolTimes>; 2],
 }
 
 /// Judges the motions of both arms: each among the obstacles, and both between the arms.
@@ -41,18 +52,12 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     let settings = &args.settings;
     let clearance = settings.clearance;
     let cell = Cell::load(&Source::read(&args.files.urdf)?, &|path| input::robot(path).read(), clearance)?;
-    if cell.has_steps() {
-        let message = format!("{}: `cplan verify` judges no cells with steps", args.files.urdf.display());
-        return Err(Failure::Refused(format!(
-            "{message}\n  hint: `cplan cell` has certified the motions that it wrote"
-        )));
-    }
     for arm in &cell.arms {
         let warnings = arm.problem.robot().warnings.iter();
         warnings.for_each(|warning| args.print.print_status(&format!("warning: {}: {warning}", arm.name)));
     }
     let skew = skew_or_default(args.skew);
-    let (mut recorded, stated) = recordings(args, &cell)?;
+    let Motions { mut recorded, stated, tools } = recordings(args, &cell)?;
     if settings.unwrap {
         for (recorded, arm) in recorded.iter_mut().zip(&cell.arms) {
             let topology = arm.problem.scene().arm().topology();
@@ -67,11 +72,26 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
             )));
         }
     }
-    let judged = |arm: usize| verify(&cell.arms[arm].loaded, &recorded[arm], &settings.overrides(), settings.anywhere);
-    let findings = [judged(0)?, judged(1)?];
-    let between = judge_between(&cell, recorded.each_ref().map(|recorded| recorded.recording.pieces()), skew);
-    let faults = stated.map_or(vec![], |stated| false_distance(&stated, &between, skew));
-    let judged = Judged { cell, recorded, findings, between, skew, faults };
+    let steps = judge_steps(&cell, recorded.each_ref(), tools.each_ref().map(Vec::as_slice), skew)?;
+    let (mut step_faults, mut faults) = (vec![], vec![]);
+    let (findings, between) = match steps {
+        Some(steps) => {
+            // Other steps have other times.
+            if let Some(stated) = stated.as_ref().filter(|_| steps.is_whole) {
+                faults.extend(cell_steps::false_statements(&cell, stated, &steps));
+            }
+            step_faults = steps.faults;
+            (steps.arms, steps.between)
+        }
+        None => {
+            let of =
+                |arm: usize| verify(&cell.arms[arm].loaded, &recorded[arm], &settings.overrides(), settings.anywhere);
+            let motions = recorded.each_ref().map(|recorded| recorded.recording.pieces());
+            ([of(0)?, of(1)?], judge_between(&cell, motions, skew))
+        }
+    };
+    faults.extend(stated.and_then(|stated| false_distance(&stated, &between, skew)));
+    let judged = Judged { cell, recorded, findings, between, skew, step_faults, faults };
     let code = match judged.verdict() {
         Judgement::Free => DONE,
         Judgement::Undecided => UNKNOWN,
@@ -102,20 +122,28 @@ fn refuse_other_options(args: &VerifyArgs) -> Result<(), Failure> {
     }
 }
 
-/// Reads the motions of both arms: one file for each, or a result of `cplan cell`, which is returned, too.
-fn recordings(args: &VerifyArgs, cell: &Cell) -> Result<([LoadedRecording; 2], Option<Value>), Failure> {
+/// Reads the motions of both arms: one file for each, or a result of `cplan cell`.
+fn recordings(args: &VerifyArgs, cell: &Cell) -> Result<Motions, Failure> {
     let first = &args.files.world;
-    if let Some(second) = &args.trajectory {
-        let read = |arm: usize, path: &PathBuf| input::load_recording(path, &cell.arms[arm].loaded);
-        return Ok(([read(0, first)?, read(1, second)?], None));
-    }
     let names = cell.arms.each_ref().map(|arm| arm.name.as_str());
+    if let Some(second) = &args.trajectory {
+        if cell.has_steps() {
+            let message = format!("{}: the arms have steps, but a motion alone does not state any", first.display());
+            let hint = "verify the result of a whole cell: `cplan cell --output cell.json`";
+            return Err(Failure::Refused(format!("{message}\n  hint: {hint}")));
+        }
+        let read = |arm: usize, path: &PathBuf| input::load_recording(path, &cell.arms[arm].loaded);
+        return Ok(Motions { recorded: [read(0, first)?, read(1, second)?], stated: None, tools: [vec![], vec![]] });
+    }
     let source = Source::read_recording(first)?;
     let wrong = |what: String| {
-        let hint = format!(
-            "give the motions of {} and {}, or the result of `cplan cell --output cell.json`",
-            names[0], names[1]
-        );
+        let hint = match cell.has_steps() {
+            true => "verify the result of `cplan cell --output cell.json` for this cell".to_owned(),
+            false => format!(
+                "give the motions of {} and {}, or the result of `cplan cell --output cell.json`",
+                names[0], names[1]
+            ),
+        };
         Failure::Input(source.diagnostic(what).help(hint).into())
     };
     let result: Value =
@@ -127,24 +155,34 @@ fn recordings(args: &VerifyArgs, cell: &Cell) -> Result<([LoadedRecording; 2], O
         let members = ["joints", "trajectory", "clearance"].map(|key| (key.to_owned(), motion[key].clone()));
         let mut members: serde_json::Map<String, Value> = members.into_iter().collect();
         members.insert("status".into(), json!("found"));
+        let mut tools = Vec::new();
+        if cell.has_steps() {
+            let steps = cell_steps::read(motion).map_err(|what| wrong(format!("arm \"{}\": {what}", names[arm])))?;
+            members.insert("steps".into(), steps.0);
+            tools = steps.1;
+        }
         let text = Value::Object(members).to_string();
         let name = format!("{}, arm \"{}\"", first.display(), names[arm]);
-        Ok::<_, Failure>(read_recording(&Source::in_memory(name, text), &cell.arms[arm].loaded)?)
+        let mut recorded = read_recording(&Source::in_memory(name, text), &cell.arms[arm].loaded)?;
+        // The text has no other members.
+        recorded.claims.iter_mut().for_each(|claims| claims.unjudged.clear());
+        Ok::<_, Failure>((recorded, tools))
     };
-    Ok(([read(0)?, read(1)?], Some(result.clone())))
+    let ((one, own), (two, other)) = (read(0)?, read(1)?);
+    Ok(Motions { recorded: [one, two], stated: Some(result), tools: [own, other] })
 }
 
 /// Returns the statement of a result about the distance of the arms, if it is false.
-fn false_distance(stated: &Value, between: &BetweenFinding, skew: f64) -> Vec<String> {
-    let BetweenFinding::Free { nearest: Some(nearest), .. } = between else { return vec![] };
-    let claimed = stated["clearance_between"].as_f64().filter(|claimed| *claimed > nearest.distance + ROUNDING);
+fn false_distance(stated: &Value, between: &BetweenFinding, skew: f64) -> Option<String> {
+    let BetweenFinding::Free { nearest: Some(nearest), .. } = between else { return None };
+    let claimed = stated["clearance_between"].as_f64().filter(|claimed| *claimed > nearest.distance + ROUNDING)?;
     // A result is about its own skew.
     let is_same = stated["skew"].as_f64().is_some_and(|stated| stated >= skew);
-    let describe = |claimed| {
-        let [claimed, seen] = [claimed, nearest.distance].map(length);
-        format!("the file states that the arms keep {claimed}, but they are only {seen} apart {}", when(nearest.times))
-    };
-    claimed.filter(|_| is_same).map(describe).into_iter().collect()
+    let [claimed, seen] = [claimed, nearest.distance].map(length);
+    is_same.then(|| {
+        let when = when(nearest.times);
+        format!("the file states that the arms keep {claimed}, but they are only {seen} apart {when}")
+    })
 }
 
 fn when([one, two]: [f64; 2]) -> String {
@@ -160,7 +198,8 @@ impl Judged {
             BetweenFinding::TooNear { .. } => Judgement::Collision,
             BetweenFinding::Undecided => Judgement::Undecided,
         };
-        self.findings.iter().map(|findings| findings.verdict).fold(between, Judgement::max)
+        let steps = if self.step_faults.is_empty() { Judgement::Free } else { Judgement::Task };
+        self.findings.iter().map(|findings| findings.verdict).fold(between.max(steps), Judgement::max)
     }
 
     fn json(&self) -> Value {
@@ -191,7 +230,7 @@ impl Judged {
             "skew": self.skew,
             "required": self.required(),
             "between": between,
-            "faults": self.faults,
+            "faults": self.step_faults.iter().chain(&self.faults).collect::<Vec<_>>(),
             "arms": arms,
         })
     }
@@ -203,6 +242,7 @@ impl Judged {
     fn summary(&self) -> String {
         let mut lines = vec![("result", self.result())];
         lines.extend(self.between());
+        lines.extend(self.step_faults.iter().map(|fault| ("task", fault.clone())));
         lines.extend(self.faults.iter().map(|fault| ("fault", fault.clone())));
         let mut summary = format!("{}\n{}", self.cell.name, format_columns(&lines));
         for (arm, (recorded, findings)) in self.cell.arms.iter().zip(self.recorded.iter().zip(&self.findings)) {
@@ -225,7 +265,8 @@ impl Judged {
         let of_arms = || format!("the motion of {} is not accepted; see below", wrong.join(" and that of "));
         match (&self.between, self.verdict()) {
             (_, Judgement::Free) => {
-                format!("free{kept}: both whole motions, among the obstacles and between the arms, proven")
+                let what = if self.cell.has_steps() { "all steps" } else { "both whole motions" };
+                format!("free{kept}: {what}, among the obstacles and between the arms, proven")
             }
             (BetweenFinding::TooNear { nearest, .. }, _) if nearest.distance <= 0.0 => {
                 "collision of the arms: proven".into()
@@ -234,6 +275,7 @@ impl Judged {
                 let [least, required] = [nearest.distance, required].map(length);
                 format!("the arms are too near to each other, {least} instead of the required {required}: proven")
             }
+            (_, Judgement::Task) if wrong.is_empty() => "not the steps of the cell".into(),
             (_, Judgement::Undecided) if wrong.is_empty() => "undecided between the arms".into(),
             (_, Judgement::Claims) if wrong.is_empty() => "free, but values stated in the file are wrong".into(),
             _ => of_arms(),

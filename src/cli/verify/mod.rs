@@ -2,6 +2,7 @@
 //! task is the task of the world.
 
 mod cell;
+mod cell_steps;
 mod settings;
 mod text;
 

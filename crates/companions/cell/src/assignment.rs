@@ -47,6 +47,15 @@ pub(crate) fn assignments(cell: &Cell, tasks: [&Task; 2], skew: f64) -> Vec<Assi
 }
 
 fn assigned(cell: &Cell, tasks: [&Task; 2], arms: Vec<usize>, skew: f64) -> Assignment {
+    let tasks = assigned_tasks(cell, tasks, &arms);
+    let handovers = handover_bound(tasks.each_ref(), skew);
+    let bound = tasks.each_ref().map(least_duration).into_iter().fold(handovers, f64::max);
+    Assignment { arms, tasks, bound }
+}
+
+/// Returns the tasks of both arms, if each object that either arm may move is moved by the arm in `arms`. Objects that only the
+/// other arm moves have no shape.
+pub(crate) fn assigned_tasks(cell: &Cell, tasks: [&Task; 2], arms: &[usize]) -> [Task; 2] {
     let reduced = [0, 1].map(|arm| {
         let mut task = tasks[arm].clone();
         let numbers = arms.iter().enumerate().filter(|(_, of)| **of == arm);
@@ -68,9 +77,7 @@ fn assigned(cell: &Cell, tasks: [&Task; 2], arms: Vec<usize>, skew: f64) -> Assi
             (task.objects[*object].shape, task.objects[*object].pieces) = (Shape::Pieces, Vec::new());
         }
     }
-    let handovers = handover_bound(tasks.each_ref(), skew);
-    let bound = tasks.each_ref().map(least_duration).into_iter().fold(handovers, f64::max);
-    Assignment { arms, tasks, bound }
+    tasks
 }
 
 /// Returns true if the first steps of an arm are those that either arm may do.

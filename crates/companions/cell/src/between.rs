@@ -78,13 +78,15 @@ pub(crate) struct ArmDistance {
 impl<'a> Between<'a> {
     /// Prepares two arms without payloads. Shapes of one robot whose heights only touch cannot meet.
     pub fn new(scenes: [&'a Scene; 2], is_one_robot: bool, clearance: f64) -> Self {
-        let bodies = scenes.map(|scene| {
-            let of = |link: usize| {
-                scene.arm().links[link].parts.iter().map(move |part| Rc::new(Body::of_link(link, part, true)))
-            };
-            of(0).chain(of(1)).collect()
-        });
-        Self::of_bodies(scenes, bodies, is_one_robot, clearance)
+        Self::of_bodies(scenes, scenes.map(Self::links), is_one_robot, clearance)
+    }
+
+    /// Returns the links of an arm.
+    pub fn links(scene: &Scene) -> Vec<Rc<Body>> {
+        let of = |link: usize| {
+            scene.arm().links[link].parts.iter().map(move |part| Rc::new(Body::of_link(link, part, true)))
+        };
+        of(0).chain(of(1)).collect()
     }
 
     /// Prepares the bodies of two arms.

@@ -9,7 +9,9 @@ use crate::legs::Legs;
 use crate::order::{Diagram, Waits};
 use crate::schedule::{HandoverTimes, Schedule, Scheduled, StepTimes};
 use crate::stage::{Precedence, StagePairs, StageTime};
+use cplan_handling::Task;
 use cplan_judge::CertifiedPath;
+use cplan_legs::Leg as TaskLeg;
 use cplan_model::space::Configuration;
 use cplan_motion::{Drive, TimedMotion, TimingError, Trajectory, Wait};
 
@@ -53,8 +55,19 @@ pub struct Coordination {
     pub steps: [Vec<StepTimes>; 2],
     /// The objects that one arm hands over to the other, with the times on the common clock.
     pub handovers: Vec<HandoverTimes>,
+    /// For each arm, the plan of its steps without the other arm's waits. `None` if the cell has no steps.
+    pub planned: Option<[PlannedSteps; 2]>,
     /// For each arm, its legs in time.
     pub(crate) schedules: [Schedule; 2],
+}
+
+/// The steps of an arm as they were planned for it.
+#[derive(Debug, Clone)]
+pub struct PlannedSteps {
+    /// The task. Objects that only the other arm moves have no shape.
+    pub task: Task,
+    /// The steps in the order of execution. Their paths are those of the motion.
+    pub legs: Vec<TaskLeg>,
 }
 
 impl Coordination {
@@ -267,6 +280,7 @@ impl<'a> Coordinator<'a> {
             clearance,
             nearest,
             interlocks: None,
+            planned: None,
             diagram: vec![],
         })
     }

@@ -42,6 +42,11 @@ impl Curve {
         Self { stages, ..self }
     }
 
+    /// Returns the curve with the stage of the first piece of each leg. `stage` returns that of a piece.
+    pub fn with_stages_of(self, stage: impl Fn(usize) -> usize) -> Self {
+        Self { stages: self.legs.iter().map(|[first, _]| stage(*first)).collect(), ..self }
+    }
+
     /// Returns the curve of one motion, divided at these times into legs with these stages. There is one time less than
     /// stages. Legs without a duration are omitted.
     pub fn divided(self, times: &[f64], stages: &[usize]) -> Self {

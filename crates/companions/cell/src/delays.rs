@@ -2,9 +2,12 @@
 
 use crate::Cell;
 use crate::between::Between;
+use crate::coordinate::PlannedSteps;
 use crate::curve::Curve;
 use crate::judged::{Judgement, judge_legs};
-use crate::stage::StagePairs;
+use crate::legs::Legs;
+use crate::sequence::Sequence;
+use crate::stage::{Stage, StagePairs, StageTime};
 use cplan_model::space::Configuration;
 
 /// A signal between two programs of joint moves. Targets are numbered from 0.
@@ -25,9 +28,88 @@ impl SignalTargets {
     }
 }
 
+/// The part of a step to which a move of a program belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StepPart {
+    /// The tool is raised before the arm moves.
+    Raising,
+    /// The arm moves.
+    Motion,
+    /// The arm rests while the tool acts.
+    Acts,
+}
+
+/// The steps of two programs.
+#[derive(Debug, Clone, Copy)]
+pub struct ProgramSteps<'a> {
+    /// The planned steps of each arm.
+    pub planned: &'a [PlannedSteps; 2],
+    /// For each arm and each target except the first, the index of the step and its part in which the arm moves there.
+    pub parts: [&'a [(usize, StepPart)]; 2],
+    /// Distance by which the heights of each arm's tool may deviate, metres.
+    pub height_tolerance: f64,
+}
+
+/// The straight lines of one program. Line `k` begins at target `k`.
+struct Lines {
+    stages: Vec<Stage>,
+    /// The stage of each line. The last one is the rest after the program.
+    of_line: Vec<usize>,
+}
+
+impl Lines {
+    /// Returns the target at which a stage begins or ends.
+    fn target(&self, time: StageTime) -> Option<usize> {
+        match time {
+            StageTime::Begin(stage) => self.of_line.iter().position(|known| *known == stage),
+            StageTime::End(stage) => self.of_line.iter().rposition(|known| *known == stage).map(|line| line + 1),
+        }
+    }
+}
+
+/// Returns the lines of both programs, and the handovers, each as the signal that suffices for it.
+fn lines(cell: &Cell, steps: Option<ProgramSteps>, counts: [usize; 2]) -> Option<([Lines; 2], Vec<SignalTargets>)> {
+    let Some(ProgramSteps { planned, parts, height_tolerance }) = steps else {
+        let of = |arm: usize| {
+            let stages = vec![Stage { bodies: Between::links(cell.arms[arm].problem.scene()), ..Stage::default() }];
+            Lines { stages, of_line: vec![0; counts[arm] + 1] }
+        };
+        return Some(([of(0), of(1)], Vec::new()));
+    };
+    let sequence = |arm: usize| {
+        let PlannedSteps { task, legs } = &planned[arm];
+        Sequence::with_height_tolerance(task, legs, height_tolerance)
+    };
+    let both = [sequence(0)?, sequence(1)?];
+    let [one, two] = [0, 1].map(|arm| {
+        let Legs { legs, steps } = &both[arm].legs;
+        let stage = |(step, part): &(usize, StepPart)| {
+            let Some(step) = steps.get(*step) else { return 0 };
+            match part {
+                StepPart::Raising => step.raises.unwrap_or(step.moves),
+                StepPart::Motion => step.moves,
+                StepPart::Acts => step.acts.unwrap_or(step.moves),
+            }
+        };
+        let last = legs.last().map_or(0, |leg| leg.stage);
+        let of_line = parts[arm].iter().map(stage).chain([last]).collect();
+        Lines { stages: both[arm].stages.clone(), of_line }
+    });
+    let lines = [one, two];
+    let precedences = Sequence::precedences(both.each_ref(), planned.each_ref().map(|own| &own.task));
+    let handovers = precedences.iter().map(|precedence| {
+        let (giver, taker) = (precedence.giver, 1 - precedence.giver);
+        let (set, at) = (lines[giver].target(precedence.placed)?, lines[taker].target(precedence.taken)?);
+        Some(SignalTargets { waits: taker, at, set })
+    });
+    let handovers = handovers.collect::<Option<Vec<_>>>()?;
+    Some((lines, handovers))
+}
+
 /// Checks that two programs are safe for any delays. `targets` are the corners of the straight lines that each arm
-/// follows. The arms keep the distance `clearance`, metres, at all pairs of places that the signals allow, and never wait for
-/// each other forever.
+/// follows, and `steps` are those of the programs, if the cell has steps. The arms keep the distance `clearance`, metres, at
+/// all pairs of places that the signals allow, take objects only after they have been placed, and never wait for each other
+/// forever.
 ///
 /// # Errors
 /// The reason, for people.
@@ -36,14 +118,34 @@ pub fn check_delays(
     targets: [&[Configuration]; 2],
     signals: &[SignalTargets],
     clearance: f64,
+    steps: Option<ProgramSteps>,
 ) -> Result<(), String> {
-    check_progress(targets.map(|targets| targets.len().saturating_sub(1)), signals)?;
+    let counts = targets.map(|targets| targets.len().saturating_sub(1));
+    check_progress(counts, signals)?;
     let scenes = cell.arms.each_ref().map(|arm| arm.problem.scene());
-    let pairs = StagePairs::single(Between::new(scenes, cell.is_one_robot, clearance));
+    let (lines, handovers) = lines(cell, steps, counts).ok_or("the steps of the programs are not those of the plan")?;
+    for handover in &handovers {
+        let is_enough = |signal: &SignalTargets| {
+            signal.waits == handover.waits && signal.at <= handover.at && signal.set >= handover.set
+        };
+        if !signals.iter().any(is_enough) {
+            let names = cell.arms.each_ref().map(|arm| &arm.name);
+            let [takes, gives] = [handover.waits, 1 - handover.waits].map(|arm| names[arm]);
+            let [at, set] = [handover.at, handover.set].map(|target| target + 1);
+            return Err(format!(
+                "no signal keeps {takes} from taking an object after target {at} before {gives} has placed it at target {set}"
+            ));
+        }
+    }
+    let stages = lines.each_ref().map(|lines| &lines.stages[..]);
+    let pairs = StagePairs::new(scenes, stages, cell.is_one_robot, clearance, Vec::new());
     let curves = [0, 1].map(|arm| {
-        let mut ends: Vec<usize> = signals.iter().map(|signal| signal.of(arm)).collect();
+        let Lines { of_line, .. } = &lines[arm];
+        let changes = (1..of_line.len()).filter(|line| of_line[*line] != of_line[line - 1]);
+        let mut ends: Vec<usize> = signals.iter().map(|signal| signal.of(arm)).chain(changes).collect();
         ends.sort_unstable();
-        Curve::of_targets(targets[arm], ends)
+        let targets: Vec<Configuration> = targets[arm].iter().chain(targets[arm].last()).copied().collect();
+        Curve::of_targets(&targets, ends).with_stages_of(|line| of_line[line])
     });
     // A signal keeps the waiting arm before its target while the other arm is before the target that sets the signal.
     let is_excluded = |times: [[f64; 2]; 2]| {
@@ -58,7 +160,7 @@ pub fn check_delays(
     let open = legs.filter(|legs| !is_excluded(times(*legs)));
     let place = |times: [f64; 2]| {
         let names = cell.arms.each_ref().map(|arm| &arm.name);
-        let [one, two] = times.map(|time| time.floor() + 1.0);
+        let [one, two] = [0, 1].map(|arm| (times[arm].floor() as usize).min(counts[arm]) + 1);
         format!("{} after target {one}, and {} after target {two}", names[0], names[1])
     };
     match judge_legs(&pairs, &curves, f64::INFINITY, open, None) {

@@ -24,7 +24,9 @@ pub struct NearestPlace {
     pub times: [f64; 2],
     /// The distance there, metres. It is an upper bound on the least distance.
     pub distance: f64,
-    /// The bodies, one of each arm.
+    /// The stages of both arms.
+    pub(crate) stages: [usize; 2],
+    /// The bodies, one of each arm, by their numbers in these stages.
     pub(crate) pair: [usize; 2],
 }
 
@@ -75,13 +77,14 @@ pub(crate) fn judge_legs(
     let legs = legs.into_iter().filter(|legs| !is_beside([0, 1].map(|arm| curves[arm].leg(legs[arm]))));
     let mut open: Vec<_> = legs
         .map(|legs| {
-            let between = pairs.between([0, 1].map(|arm| curves[arm].stage(legs[arm])));
-            (between, [0, 1].map(|arm| side(between, arm, curves[arm].leg(legs[arm]))))
+            let stages = [0, 1].map(|arm| curves[arm].stage(legs[arm]));
+            (stages, [0, 1].map(|arm| side(pairs.between(stages), arm, curves[arm].leg(legs[arm]))))
         })
         .collect();
     let (mut clearance, mut evaluations) = (f64::INFINITY, 0);
-    while let Some((between, sides)) = open.pop() {
+    while let Some((stages, sides)) = open.pop() {
         checkpoint();
+        let between = pairs.between(stages);
         let spans = sides.each_ref().map(|(span, _)| *span);
         if is_beside(spans) {
             continue;
@@ -102,7 +105,7 @@ pub(crate) fn judge_legs(
         if let Some((here, pair)) = between.distance(seen.each_ref(), f64::INFINITY).here
             && nearest.is_none_or(|known| here < known.distance)
         {
-            let place = NearestPlace { times, distance: here, pair };
+            let place = NearestPlace { times, distance: here, stages, pair };
             if is_collision(&place) {
                 return Judgement::TooClose(place);
             }
@@ -115,7 +118,7 @@ pub(crate) fn judge_legs(
             Some((arm, halves)) => open.extend(halves.map(|span| {
                 let mut sides = sides.clone();
                 sides[arm] = side(between, arm, span);
-                (between, sides)
+                (stages, sides)
             })),
             None => return Judgement::Undecided,
         }
@@ -151,10 +154,11 @@ fn sampled(pairs: &StagePairs, curves: &[Curve; 2], samples: usize, skew: f64) -
     let times = (0..=samples).map(move |k| begin + (end - begin) * (k as f64 / samples as f64));
     let shifted = move |time: f64| [-skew, 0.0, skew].map(|shift| [time, time + shift]);
     times.flat_map(shifted).filter_map(move |times| {
-        let between = pairs.between([0, 1].map(|arm| curves[arm].stage(curves[arm].leg_at(times[arm]))));
+        let stages = [0, 1].map(|arm| curves[arm].stage(curves[arm].leg_at(times[arm])));
+        let between = pairs.between(stages);
         let placed = [0, 1].map(|arm| between.at_rest(arm, curves[arm].at(times[arm])));
         let (distance, pair) = between.distance(placed.each_ref(), f64::INFINITY).here?;
-        Some(NearestPlace { times, distance, pair })
+        Some(NearestPlace { times, distance, stages, pair })
     })
 }
 

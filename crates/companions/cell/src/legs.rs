@@ -5,6 +5,7 @@ use crate::curve::Curve;
 use crate::schedule::{Schedule, Scheduled, ScheduledLeg, StepTimes, TurnTimes};
 use crate::stage::StageTime;
 use cplan_geometry::Pose;
+use cplan_handling::{RecordedTurn, RecordedWrist};
 use cplan_judge::CertifiedPath;
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, Path};
@@ -38,10 +39,16 @@ pub(crate) struct Moving {
 /// A step of an arm, without its times.
 #[derive(Debug, Clone)]
 pub(crate) struct LegStep {
+    /// Number of the step in the arm's task, from 1.
+    pub file_step: usize,
+    /// Number of its repetition, from 1.
+    pub cycle: usize,
     /// The action in a few words.
     pub action: String,
     /// Name of the object that is picked or placed.
     pub object: Option<String>,
+    /// Stage in which the tool is raised before the motion. `None` if it is raised already.
+    pub raises: Option<usize>,
     /// Stage of its motion.
     pub moves: usize,
     /// Stage in which the tool acts after the motion. `None` if there is no such rest.
@@ -50,8 +57,12 @@ pub(crate) struct LegStep {
     pub event_after: Option<f64>,
     /// Pose of the object after its release. `None` for other steps.
     pub released: Option<Pose>,
-    /// The turn of the carried object before a release or after a grasp: its angle, radians, and its duration, seconds.
-    pub turn: Option<[f64; 2]>,
+    /// The turn of the object.
+    pub turn: Option<RecordedTurn>,
+    /// Values of the stroke's joint while the tool is lowered, before and after the motion, metres.
+    pub lowered: [Option<f64>; 2],
+    /// The turn of the wrist to the value that the step states. It begins this long after the motion, seconds.
+    pub wrist: Option<RecordedWrist>,
 }
 
 /// The legs of one arm, at least one, in order.
@@ -205,20 +216,27 @@ impl Legs {
             let arrival = schedule.time(StageTime::End(step.moves));
             let acting = step.acts.map(|stage| schedule.time(StageTime::Begin(stage)));
             let end = step.acts.map_or(arrival, |stage| schedule.time(StageTime::End(stage)));
-            let turn = step.turn.map(|[angle, seconds]| {
-                let begin = if step.released.is_some() { acting.unwrap_or(arrival) } else { end - seconds };
-                TurnTimes { begin, end: begin + seconds, angle }
+            let turning = step.turn.map(|turn| {
+                let begin = if step.released.is_some() { acting.unwrap_or(arrival) } else { end - turn.seconds };
+                TurnTimes { begin, end: begin + turn.seconds, angle: turn.to - turn.from }
             });
+            let begin = schedule.time(StageTime::Begin(step.moves));
             StepTimes {
                 number: number + 1,
+                file_step: step.file_step,
+                cycle: step.cycle,
                 action: step.action.clone(),
                 object: step.object.clone(),
-                begin: schedule.time(StageTime::Begin(step.moves)),
+                raising: step.raises.map(|stage| schedule.time(StageTime::Begin(stage))),
+                begin,
                 arrival,
                 event: step.event_after.map(|after| acting.unwrap_or(arrival) + after),
                 end,
                 released: step.released,
-                turn,
+                turn: step.turn,
+                turning,
+                lowered: step.lowered,
+                wrist: step.wrist.map(|wrist| RecordedWrist { begin: begin + wrist.begin, ..wrist }),
             }
         };
         self.steps.iter().enumerate().map(step).collect()

@@ -49,19 +49,23 @@ pub enum BetweenFinding {
 pub fn judge_between(cell: &Cell, motions: [Vec<Piece>; 2], skew: f64) -> BetweenFinding {
     let scenes = cell.arms.each_ref().map(|arm| arm.problem.scene());
     let pairs = StagePairs::single(Between::new(scenes, cell.is_one_robot, scenes[0].workspace().clearance));
-    let between = pairs.between([0, 0]);
     let curves = with_rests(motions.map(Curve::of_pieces), skew);
+    judged_between(cell, &pairs, &curves, skew)
+}
+
+/// Judges two curves with rests between the arms of a cell.
+pub(crate) fn judged_between(cell: &Cell, pairs: &StagePairs, curves: &[Curve; 2], skew: f64) -> BetweenFinding {
     let names = cell.arms.each_ref().map(|arm| arm.name.as_str());
     let described = |place: NearestPlace| {
-        let at = [0, 1].map(|arm| curves[arm].at(place.times[arm]));
-        let point = between.contact(place.pair, at);
-        let NearestPlace { times, distance, pair } = place;
-        NearPlace { times, at, distance, links: between.describe(pair, names), point: point.into() }
+        let NearestPlace { times, distance, stages, pair } = place;
+        let (between, at) = (pairs.between(stages), [0, 1].map(|arm| curves[arm].at(times[arm])));
+        let (links, point) = (between.describe(pair, names), between.contact(pair, at).into());
+        NearPlace { times, at, distance, links, point }
     };
-    match judge(&pairs, &curves, skew) {
+    match judge(pairs, curves, skew) {
         Judgement::Apart { clearance, nearest } => BetweenFinding::Free { clearance, nearest: nearest.map(described) },
         Judgement::TooClose(place) => {
-            let (first, nearest) = sampled_too_near(&pairs, &curves, skew, place);
+            let (first, nearest) = sampled_too_near(pairs, curves, skew, place);
             BetweenFinding::TooNear { first: described(first), nearest: described(nearest) }
         }
         Judgement::Undecided => BetweenFinding::Undecided,
@@ -69,7 +73,7 @@ pub fn judge_between(cell: &Cell, motions: [Vec<Piece>; 2], skew: f64) -> Betwee
 }
 
 /// Returns both curves with rests: they begin and end at the same times, and may be shifted by the skew.
-fn with_rests(curves: [Curve; 2], skew: f64) -> [Curve; 2] {
+pub(crate) fn with_rests(curves: [Curve; 2], skew: f64) -> [Curve; 2] {
     let [one, two] = curves.each_ref().map(Curve::ends);
     let [begin, end] = [one[0].min(two[0]) - skew, one[1].max(two[1]) + skew];
     curves.map(|curve| curve.resting(begin, end))

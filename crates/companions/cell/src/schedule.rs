@@ -3,6 +3,7 @@
 use crate::curve::Curve;
 use crate::stage::StageTime;
 use cplan_geometry::Pose;
+use cplan_handling::{RecordedTurn, RecordedWrist};
 use cplan_motion::{TimedMotion, Trajectory, Wait};
 
 /// The legs of an arm's motion in time, in order.
@@ -48,10 +49,17 @@ pub struct HandoverTimes {
 pub struct StepTimes {
     /// Number of the step of the arm, from 1 in the order of execution.
     pub number: usize,
+    /// Number of the step in the arm's task, from 1 in the order of the file: first the steps that either arm may do, then those
+    /// of the arm, then the move to its goal.
+    pub file_step: usize,
+    /// Number of the step's repetition, from 1.
+    pub cycle: usize,
     /// The action in a few words.
     pub action: String,
     /// Name of the object that is picked or placed.
     pub object: Option<String>,
+    /// Time at which the tool begins to rise before the departure. `None` if it is raised already.
+    pub raising: Option<f64>,
     /// The departure of the arm.
     pub begin: f64,
     /// The arrival of the arm.
@@ -62,8 +70,14 @@ pub struct StepTimes {
     pub end: f64,
     /// Pose of the object after its release. `None` for other steps.
     pub released: Option<Pose>,
-    /// The turn of the carried object by the wrist. `None` without a turn.
-    pub turn: Option<TurnTimes>,
+    /// The turn of the wrist with the object.
+    pub turn: Option<RecordedTurn>,
+    /// The times of this turn.
+    pub turning: Option<TurnTimes>,
+    /// Values of the stroke's joint while the tool is lowered, before and after the motion, metres. `None` if it is raised.
+    pub lowered: [Option<f64>; 2],
+    /// The turn of the wrist to the value of its joint that the step states.
+    pub wrist: Option<RecordedWrist>,
 }
 
 /// A turn of a carried object about the tip, while the arm rests.

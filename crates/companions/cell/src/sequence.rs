@@ -1,17 +1,14 @@
-//! The legs and stages of one arm's task. Bodies move with the arm or rest, and this changes from step to step.
+//! The legs and stages of one arm's task.
 
-use crate::body::{Body, Frame};
 use crate::legs::{Leg, LegStep, Legs, Moving};
-use crate::stage::{Awaited, Left, Precedence, Stage, StageTime};
-use cplan_geometry::{Convex, Pose};
-use cplan_handling::{Object, Presence, Task};
+use crate::stage::{Precedence, Stage, StageTime};
+use crate::step_stages::{StageBuilder, StepScene};
+use cplan_handling::{Object, Presence, RecordedTurn, RecordedWrist, Task};
 use cplan_judge::certify;
-use cplan_legs::{Event, Leg as TaskLeg};
+use cplan_legs::{Event, Leg as TaskLeg, ToolStroke};
+use cplan_model::Scene;
 use cplan_model::space::{Configuration, Path};
-use cplan_model::{AttachedPart, Grip, Part, Scene};
 use cplan_motion::{CertifiedCurve, MIN_INTERVAL, Trajectory};
-use std::collections::BTreeSet;
-use std::rc::Rc;
 use std::sync::Arc;
 
 /// Duration of the rest after a last step that lowers the tool, seconds. In it, the tool is raised.
@@ -30,7 +27,14 @@ impl Sequence {
     /// Returns the sequence of the steps of a task. Returns `None` if the task has no steps and the arm cannot be proven to
     /// stand free.
     pub fn new(task: &Task, legs: &[TaskLeg]) -> Option<Self> {
-        let mut builder = Builder::new(task, legs);
+        Self::with_height_tolerance(task, legs, 0.0)
+    }
+
+    /// Does the same for a tool and a payload whose heights may deviate by a distance, metres.
+    pub fn with_height_tolerance(task: &Task, legs: &[TaskLeg], height_tolerance: f64) -> Option<Self> {
+        let bodies = StageBuilder::new(task, legs.iter().map(|leg| &leg.step));
+        let bodies = bodies.with_height_tolerance(height_tolerance);
+        let mut builder = Builder { task, bodies, out: Vec::new(), steps: Vec::new() };
         if legs.is_empty() {
             builder.stand()?;
         }
@@ -38,11 +42,14 @@ impl Sequence {
             builder.step(number, leg);
         }
         if let Some((last, leg)) = legs.iter().enumerate().next_back() {
-            builder.rest_at_end(last + 1, leg);
+            let step = step_scene(task, leg);
+            if let Some(stage) = builder.bodies.rest_at_end(last + 1, &step) {
+                builder.rest(&leg.scene, step.end, LAST_REST, stage);
+            }
         }
-        let Builder { out, stages, steps, .. } = builder;
+        let Builder { out, bodies, steps, .. } = builder;
         let events = legs.iter().map(|leg| leg.event).collect();
-        Some(Self { legs: Legs { legs: out, steps: steps.into() }, stages, events })
+        Some(Self { legs: Legs { legs: out, steps: steps.into() }, stages: bodies.stages, events })
     }
 
     /// Returns the precedences of all objects that one of two arms hands over to the other.
@@ -83,104 +90,67 @@ pub(crate) fn handed_over(task: &Task) -> impl Iterator<Item = usize> {
 
 struct Builder<'a> {
     task: &'a Task,
-    /// The objects that the arm moves.
-    moved: BTreeSet<usize>,
-    /// The objects that the arm takes from the other one, each with the number of the step that picks it.
-    taken: Vec<(usize, usize)>,
-    /// The objects that the arm has placed for the other one, each with the number of the step that has placed it.
-    left: Vec<(usize, usize, Vec<Body>)>,
+    bodies: StageBuilder<'a>,
     out: Vec<Leg>,
-    stages: Vec<Stage>,
     steps: Vec<LegStep>,
 }
 
-impl<'a> Builder<'a> {
-    fn new(task: &'a Task, legs: &[TaskLeg]) -> Self {
-        let picked = |(number, leg): (usize, &TaskLeg)| Some((leg.step.action.picked()?, number));
-        let picks: Vec<(usize, usize)> = legs.iter().enumerate().filter_map(picked).collect();
-        let is_taken = |(object, _): &(usize, usize)| task.objects[*object].presence == Some(Presence::FromPick);
-        let taken = picks.iter().filter(|pick| is_taken(pick)).copied().collect();
-        let moved = picks.iter().map(|(object, _)| *object).collect();
-        Self { task, moved, taken, left: Vec::new(), out: Vec::new(), stages: Vec::new(), steps: Vec::new() }
-    }
-
+impl Builder<'_> {
     /// Adds the legs of a step.
     fn step(&mut self, number: usize, leg: &TaskLeg) {
         let task = self.task;
-        if let Some(raising) = leg.raising {
-            let depth = task.stroke.as_ref().map(|stroke| stroke.depth_at(raising.lowered));
-            let bodies = self.links(&leg.scene, depth).into_iter().chain(self.resting(&leg.scene, None)).collect();
-            let stage = self.stage(number, true, bodies);
+        let step = step_scene(task, leg);
+        let raises = self.bodies.raising(number, &step);
+        if let Some((stage, raising)) = raises.zip(leg.raising) {
             self.rest(&leg.scene, leg.path().start(), raising.seconds, stage);
         }
-        let bodies = self.links(&leg.scene, None).into_iter().chain(payload(&leg.scene));
-        let bodies = bodies.chain(self.resting(&leg.scene, None)).collect();
-        let moves = self.stage(number, true, bodies);
+        let moves = self.bodies.motion(number, &step);
         let (timed, speed) = (&*leg.timed, leg.step.speed);
         let moving = Some(Moving { scene: leg.scene.clone(), curve: timed.curve.clone(), speed });
         self.out.push(Leg { stage: moves, trajectory: timed.trajectory.clone(), moving });
         let rest = leg.rest();
         let acts = (rest >= MIN_INTERVAL).then(|| {
-            let depth = leg.stroke.zip(task.stroke.as_ref()).map(|(own, stroke)| stroke.depth_at(own.lowered));
-            let object = leg.event.map(|event| event.object());
-            let mut bodies = self.links(&leg.scene, depth);
-            bodies.extend(leg.event.into_iter().flat_map(|event| self.handled(leg, event)));
-            bodies.extend(self.resting(&leg.scene, object));
-            let stage = self.stage(number, false, bodies);
-            self.rest(&leg.scene, end_of(leg), rest, stage);
+            let stage = self.bodies.acts(number, &step);
+            self.rest(&leg.scene, step.end, rest, stage);
             stage
         });
-        if let Some(Event::Release { object, .. }) = leg.event
-            && task.objects[object].presence == Some(Presence::UntilPlaced)
-        {
-            self.left.push((object, number, self.released(leg).collect()));
-        }
-        let object = leg.event.map(|event| task.objects[event.object()].name.clone());
-        let action = leg.step.action.describe(&task.objects);
-        let released = leg.event.and_then(|event| match event {
-            Event::Release { pose, .. } => Some(pose),
-            Event::Grasp { .. } => None,
+        self.bodies.end(number, &step);
+        let wrist = leg.wrist.zip(task.start_tool.wrist).map(|(wrist, from)| {
+            let to = leg.step.tool.wrist.unwrap_or(from + wrist.angle);
+            RecordedWrist { from, to, begin: wrist.begin - leg.begin, seconds: wrist.seconds }
         });
-        let turn = leg.turn.map(|(turn, seconds)| [turn.to - turn.from, seconds]);
-        self.steps.push(LegStep { action, object, moves, acts, event_after: leg.event_after(), released, turn });
-    }
-
-    /// Adds a rest with the raised tool after the last step, if that step lowers the tool at a place.
-    fn rest_at_end(&mut self, number: usize, leg: &TaskLeg) {
-        let Some(Event::Release { object, .. }) = leg.event else { return };
-        let mut bodies = self.links(&leg.scene, None);
-        bodies.extend(self.resting(&leg.scene, Some(object)));
-        if self.task.objects[object].presence != Some(Presence::UntilPlaced) {
-            bodies.extend(self.released(leg).map(Rc::new));
-        }
-        let stage = self.stage(number, false, bodies);
-        self.rest(&leg.scene, end_of(leg), LAST_REST, stage);
+        let turn = leg.turn.map(|(turn, seconds)| RecordedTurn {
+            from: turn.from,
+            to: turn.to,
+            seconds,
+            ..RecordedTurn::default()
+        });
+        self.steps.push(LegStep {
+            file_step: leg.step.number,
+            cycle: leg.step.cycle,
+            action: leg.step.action.describe(&task.objects),
+            object: leg.event.map(|event| task.objects[event.object()].name.clone()),
+            raises,
+            moves,
+            acts,
+            event_after: leg.event_after(),
+            released: leg.event.and_then(|event| match event {
+                Event::Release { pose, .. } => Some(pose),
+                Event::Grasp { .. } => None,
+            }),
+            turn,
+            lowered: [leg.raising, leg.stroke].map(|stroke| stroke.map(|stroke| stroke.lowered)),
+            wrist,
+        });
     }
 
     /// Adds a motion of no length, for an arm without steps.
     fn stand(&mut self) -> Option<()> {
-        let task = self.task;
-        let poses: Vec<_> = task.objects.iter().map(Object::initial_static_pose).collect();
-        let scene = Arc::new(task.scene(&poses, &[], None, []));
-        let curve = CertifiedCurve::from(certify(&scene, Path::new(vec![task.start; 2])).ok()?);
-        let stage = self.stage(0, false, self.links(&scene, None));
-        let trajectory = Trajectory::at_rest(&scene, task.start);
-        self.out.push(Leg { stage, trajectory, moving: Some(Moving { scene, curve, speed: 1.0 }) });
+        let scene = Arc::new(self.bodies.stand());
+        let curve = CertifiedCurve::from(certify(&scene, Path::new(vec![self.task.start; 2])).ok()?);
+        let trajectory = Trajectory::at_rest(&scene, self.task.start);
+        self.out.push(Leg { stage: 0, trajectory, moving: Some(Moving { scene, curve, speed: 1.0 }) });
         Some(())
-    }
-
-    /// Adds a stage of a step, and returns its index. `is_before` is true until the arm has arrived.
-    fn stage(&mut self, number: usize, is_before: bool, bodies: Vec<Rc<Body>>) -> usize {
-        let left = self.left.iter().map(|(object, placed, pieces)| Left {
-            object: *object,
-            pieces: pieces.clone(),
-            is_released: number == placed + 1,
-        });
-        let waits = |(_, picked): &&(usize, usize)| number < *picked || is_before && number == *picked;
-        let awaited = self.taken.iter().filter(waits);
-        let awaited = awaited.map(|(object, picked)| Awaited { object: *object, is_next: number == *picked });
-        self.stages.push(Stage { bodies, left: left.collect(), awaited: awaited.collect() });
-        self.stages.len() - 1
     }
 
     fn rest(&mut self, scene: &Scene, at: Configuration, seconds: f64, stage: usize) {
@@ -188,90 +158,18 @@ impl<'a> Builder<'a> {
         trajectory.append_rest(seconds);
         self.out.push(Leg { stage, trajectory, moving: None });
     }
-
-    /// Returns the links, with the tool raised, or at all heights down to a depth, metres.
-    fn links(&self, scene: &Scene, depth: Option<f64>) -> Vec<Rc<Body>> {
-        let swept = self.task.stroke.as_ref().zip(depth).map(|(stroke, depth)| stroke.swept(&self.task.arm, &[depth]));
-        let of = |link: usize| {
-            let raised = scene.own_parts(link);
-            let parts = swept.as_ref().map_or(raised, |arm| &arm.links[link].parts);
-            let body = move |(part, raised): (_, &Part)| {
-                let part: &Part = part;
-                Rc::new(Body::of_link(link, part, part.heights == raised.heights))
-            };
-            parts.iter().zip(raised).map(body).collect::<Vec<_>>()
-        };
-        [of(0), of(1)].concat()
-    }
-
-    /// Returns the objects at rest that the arm moves at some time, except one.
-    fn resting(&self, scene: &Scene, except: Option<usize>) -> Vec<Rc<Body>> {
-        let at_rest = self.moved.iter().filter(|object| Some(**object) != except);
-        let obstacle = |object: &usize| &scene.workspace().obstacles[self.task.obstacle_number(*object)];
-        let bodies = at_rest.map(obstacle).flat_map(|lies| {
-            let body = |piece: &Convex| Body::of_object(Frame::Cell, &lies.name, piece.clone(), lies.heights, true);
-            lies.pieces.iter().map(body).map(Rc::new)
-        });
-        bodies.collect()
-    }
-
-    /// Returns the released object of a step at rest.
-    fn released(&self, leg: &TaskLeg) -> impl Iterator<Item = Body> {
-        let place = leg.event.and_then(|event| match event {
-            Event::Release { object, pose } => Some((&self.task.objects[object], pose)),
-            Event::Grasp { .. } => None,
-        });
-        let elevation = leg.step.elevation;
-        place.into_iter().flat_map(move |(object, pose)| {
-            let heights = object.heights_at(elevation);
-            object
-                .pieces
-                .iter()
-                .map(move |piece| Body::of_object(Frame::Cell, &object.name, piece.at(&pose), heights, true))
-        })
-    }
-
-    /// Returns the object of a step while it is lowered, grasped or released, turned and raised.
-    fn handled(&self, leg: &TaskLeg, event: Event) -> Vec<Rc<Body>> {
-        let object = &self.task.objects[event.object()];
-        let lies = &leg.scene.workspace().obstacles[self.task.obstacle_number(event.object())];
-        let pieces: Vec<Convex> = match event {
-            Event::Release { pose, .. } => object.pieces.iter().map(|piece| piece.at(&pose)).collect(),
-            Event::Grasp { .. } if lies.pieces.is_empty() => {
-                object.pieces.iter().map(|piece| piece.at(&object.at)).collect()
-            }
-            Event::Grasp { .. } => lies.pieces.clone(),
-        };
-        let heights = object.handled_heights([leg.step.elevation]);
-        let is_exact = leg.turn.is_none() && heights == object.heights_at(leg.step.elevation);
-        let tip = self.task.arm.tip_at(end_of(leg));
-        let shape = |piece: Convex| match leg.turn {
-            // The piece turns about the tip.
-            Some(_) => Convex::disc(tip, piece.reach_from(tip)).unwrap_or(piece),
-            None => piece,
-        };
-        let body = |piece| Rc::new(Body::of_object(Frame::Cell, &object.name, shape(piece), heights, is_exact));
-        pieces.into_iter().map(body).collect()
-    }
 }
 
-/// Returns the carried object of a scene.
-fn payload(scene: &Scene) -> Vec<Rc<Body>> {
-    let Some(attachment) = scene.attachment() else { return Vec::new() };
-    let (frame, pose) = match attachment.grip {
-        Grip::Rigid(in_link) => (Frame::Link(1), in_link),
-        Grip::Level { angle, point } => (Frame::Tip, Pose::rotation(angle).shifted_in_frame(-point)),
-    };
-    let parts = attachment.parts.iter().filter(|part| !part.on_supports);
-    let body = |part: &AttachedPart| {
-        let shape = part.shape.at(&pose);
-        Rc::new(Body::of_object(frame, &attachment.name, shape, attachment.heights, part.is_never_empty))
-    };
-    parts.map(body).collect()
-}
-
-/// Returns the configuration at the end of a step's motion.
-fn end_of(leg: &TaskLeg) -> Configuration {
+/// Returns a step, as far as the bodies depend on it.
+fn step_scene<'a>(task: &Task, leg: &'a TaskLeg) -> StepScene<'a> {
     let last = leg.timed.trajectory.position.last();
-    last.map_or_else(|| leg.path().goal(), |q| Configuration::from(*q))
+    let depth = |stroke: Option<ToolStroke>| Some(task.stroke.as_ref()?.depth_at(stroke?.lowered));
+    StepScene {
+        step: &leg.step,
+        scene: &leg.scene,
+        end: last.map_or_else(|| leg.path().goal(), |q| Configuration::from(*q)),
+        event: leg.event,
+        turns: leg.turn.is_some(),
+        depths: [leg.raising, leg.stroke].map(depth),
+    }
 }

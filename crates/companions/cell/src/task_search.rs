@@ -2,7 +2,7 @@
 
 use crate::Cell;
 use crate::assignment::{self, Assignment};
-use crate::coordinate::{Coordination, Coordinator};
+use crate::coordinate::{Coordination, Coordinator, PlannedSteps};
 use crate::file_steps::with_obstacles;
 use crate::legs::Legs;
 use crate::plan::{ACCEPTED_GAP, Alone, CellPlan, Meeting, Refutation, Settings, described};
@@ -273,7 +273,9 @@ impl TaskSearch<'_> {
     /// Adds the diagram and the signals to the best motions.
     fn finished(&mut self) -> Option<Coordination> {
         let (best, both) = self.best.take()?;
-        self.with_coordinator(&both, |coordinator, _| coordinator.with_diagram(best))
+        let found = self.with_coordinator(&both, |coordinator, _| coordinator.with_diagram(best))?;
+        let planned = both.map(|own| PlannedSteps { task: own.task.clone(), legs: own.answer.legs.clone() });
+        Some(Coordination { planned: Some(planned), ..found })
     }
 
     /// Calls `f` with the coordinator of two sequences and their legs.

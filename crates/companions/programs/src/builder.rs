@@ -27,6 +27,8 @@ pub(crate) struct Builder<'a> {
     steps: Vec<ProgramStep>,
     moves: Vec<Move>,
     travels: Vec<Travel>,
+    /// True if each step has a travel of at least one move, and the gripper acts in moves of its own.
+    has_separate_acts: bool,
 }
 
 impl<'a> Builder<'a> {
@@ -34,7 +36,21 @@ impl<'a> Builder<'a> {
         let joints = robot.joints.iter().enumerate();
         let joints = joints.filter_map(|(index, joint)| Some((program_joint(robot, arm, joint)?, index))).collect();
         let drives = robot.at_rest([0.0; 2]);
-        Self { robot, arm, joints, drives, steps: Vec::new(), moves: Vec::new(), travels: Vec::new() }
+        Self {
+            robot,
+            arm,
+            joints,
+            drives,
+            steps: Vec::new(),
+            moves: Vec::new(),
+            travels: Vec::new(),
+            has_separate_acts: false,
+        }
+    }
+
+    /// Lets the gripper act in moves of its own, after the arm has arrived.
+    pub fn with_separate_acts(self) -> Self {
+        Self { has_separate_acts: true, ..self }
     }
 
     /// Adds a single motion.
@@ -144,6 +160,9 @@ impl<'a> Builder<'a> {
             let turned = wrist(planned, 1.0, from);
             self.add(MoveKind::Turn, Drives { wrist: turned, ..self.drives });
         }
+        if self.has_separate_acts && self.moves.len() == first + 1 {
+            self.push(MoveKind::Travel, self.drives);
+        }
         self.travels.push(Travel { scene, moves: [first, self.moves.len() - 1] });
     }
 
@@ -180,7 +199,9 @@ impl<'a> Builder<'a> {
             return;
         }
         let step = self.steps.len() - 1;
-        let is_free = |last: &Move| last.step == step && last.grip.is_none() && last.dwell == 0.0;
+        let arrival = self.travels.last().filter(|_| self.has_separate_acts).map(|travel| travel.moves[1]);
+        let has_arrived = arrival.is_none_or(|arrival| self.moves.len() > arrival + 1);
+        let is_free = |last: &Move| last.step == step && last.grip.is_none() && last.dwell == 0.0 && has_arrived;
         if !self.moves.last().is_some_and(is_free) {
             self.push(MoveKind::Travel, self.drives);
         }

@@ -30,8 +30,8 @@ mod tolerance;
 mod written;
 
 pub use error::ProgramError;
-pub use program::Program;
-pub use signals::{Signal, SignalUse};
+pub use program::{MovePart, Program};
+pub use signals::{Signal, SignalPlace, SignalUse};
 pub use template::{SHIPPED, Template};
 pub use tolerance::JointTolerance;
 pub use written::Written;

@@ -6,11 +6,23 @@ use crate::moves::{Move, ProgramJoint, ProgramStep, Travel};
 use crate::tolerance::JointTolerance;
 use cplan_engine::{Detail, Plan, Problem};
 use cplan_handling::{Action, Holding, RobotJoints, Task};
+use cplan_legs::Leg;
 use cplan_model::Motors;
 use cplan_model::space::{JointRange, Path};
 
 /// Displacement of a joint that is due to rounding, radians or metres.
 const ROUNDING: f64 = 1e-9;
+
+/// The part of a step to which a move belongs.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum MovePart {
+    /// The tool is raised before the arm moves.
+    Raising,
+    /// The arm moves.
+    Travel,
+    /// The arm rests while the tool acts.
+    Acts,
+}
 
 /// The joint moves of a plan.
 #[derive(Debug)]
@@ -76,12 +88,9 @@ impl Program {
                 Self::of_motion(problem, joints, (curve.curve().path(), curve.clearance()), tolerance, clearance)
             }
             Detail::Task { task, answer } => {
-                Self::check(problem)?;
                 answer.outcome.found().ok_or_else(no_motion)?;
-                let mut builder = Builder::new(joints, problem.scene().arm());
-                builder.task(task, &answer.legs, tolerance)?;
-                let length = answer.legs.iter().map(|leg| leg.path().length()).sum();
-                Self::of_moves(problem, builder.into_moves(), length, answer.clearance(), tolerance, clearance)
+                let builder = Builder::new(joints, problem.scene().arm());
+                Self::of_legs(problem, builder, (task, &answer.legs), tolerance, clearance)
             }
         }
     }
@@ -102,6 +111,57 @@ impl Program {
         let mut builder = Builder::new(joints, problem.scene().arm());
         builder.motion(problem.scene(), path);
         Self::of_moves(problem, builder.into_moves(), path.length(), kept, tolerance, clearance)
+    }
+
+    /// Returns the program of the steps of a task, with the conditions of [`Program::of`]. The gripper acts in moves of its own,
+    /// so that the program can wait for signals between the arrival of the arm and the action. Without steps, the arm stays at
+    /// its start.
+    ///
+    /// # Errors
+    /// The errors of [`Program::of`].
+    pub fn of_steps(
+        problem: &Problem,
+        joints: &RobotJoints,
+        (task, legs): (&Task, &[Leg]),
+        tolerance: JointTolerance,
+        clearance: f64,
+    ) -> Result<Self, ProgramError> {
+        if legs.is_empty() {
+            let path = Path::new(vec![task.start; 2]);
+            return Self::of_motion(problem, joints, (&path, f64::INFINITY), tolerance, clearance);
+        }
+        let builder = Builder::new(joints, problem.scene().arm()).with_separate_acts();
+        Self::of_legs(problem, builder, (task, legs), tolerance, clearance)
+    }
+
+    /// Returns the program of the legs of a task.
+    fn of_legs(
+        problem: &Problem,
+        mut builder: Builder,
+        (task, legs): (&Task, &[Leg]),
+        tolerance: JointTolerance,
+        clearance: f64,
+    ) -> Result<Self, ProgramError> {
+        Self::check(problem)?;
+        builder.task(task, legs, tolerance)?;
+        let length = legs.iter().map(|leg| leg.path().length()).sum();
+        let kept = legs.iter().map(Leg::clearance).fold(f64::INFINITY, f64::min);
+        Self::of_moves(problem, builder.into_moves(), length, kept, tolerance, clearance)
+    }
+
+    /// Returns for each target except the first the index of its step, and the part of the step in which the program moves
+    /// there.
+    pub fn parts(&self) -> Vec<(usize, MovePart)> {
+        let part = |(index, one): (usize, &Move)| {
+            let [first, last] = self.travels[one.step].moves;
+            let part = match index {
+                index if index <= first => MovePart::Raising,
+                index if index <= last => MovePart::Travel,
+                _ => MovePart::Acts,
+            };
+            (one.step, part)
+        };
+        self.moves.iter().enumerate().skip(1).map(part).collect()
     }
 
     /// Returns the program with these moves, which keep the distance `kept` from all obstacles.

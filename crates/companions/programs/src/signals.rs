@@ -32,6 +32,17 @@ impl SignalUse {
     }
 }
 
+/// The place in a step at which a program uses a signal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum SignalPlace {
+    /// On the path of the step, after this length in joint space.
+    Along(f64),
+    /// At the end of the path, before the tool acts.
+    Arrival,
+    /// At the end of the step, after the tool has acted.
+    End,
+}
+
 /// A signal of a program.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Signal {
@@ -39,40 +50,59 @@ pub struct Signal {
     pub number: usize,
     /// Use of the signal.
     pub usage: SignalUse,
-    /// Length of the path up to the point of the signal, in joint space.
-    pub along: f64,
+    /// Index of the step; 0 for the program of a single motion.
+    pub step: usize,
+    /// Place in this step.
+    pub place: SignalPlace,
 }
 
 impl Program {
-    /// Adds signals to the program of a single motion. A signal that is between two targets adds a target there. `other` is
-    /// the program that shares the signals, for the head.
+    /// Adds signals to the program. A signal that is between two targets adds a target there. `other` is the program that
+    /// shares the signals, for the head.
     #[must_use]
     pub fn with_signals(mut self, signals: &[Signal], other: &str) -> Self {
-        let mut signals = signals.to_vec();
-        signals.sort_by(|a, b| a.along.total_cmp(&b.along).then(a.usage.cmp(&b.usage)).then(a.number.cmp(&b.number)));
-        let (mut moves, mut passed) = (Vec::new(), 0.0);
-        let mut left = signals.iter().peekable();
-        for one in std::mem::take(&mut self.moves) {
-            if let Some(last) = moves.last().cloned() {
-                let leg = place(&one) - place(&last);
-                let length = leg.norm();
-                while let Some(signal) = left.next_if(|signal| signal.along < passed + length - SAME_POINT) {
-                    let share = ((signal.along - passed) / length).clamp(0.0, 1.0);
-                    add(&mut moves, &last, &one, share, signal);
-                }
-                passed += length;
+        let placed = |signal: &Signal| (self.signal_line(signal), (signal.number, signal.usage));
+        let mut placed: Vec<_> = signals.iter().map(placed).collect();
+        placed.sort_by(|((one, a), (m, used)), ((two, b), (n, other))| {
+            one.cmp(two).then(a.total_cmp(b)).then(used.cmp(other)).then(m.cmp(n))
+        });
+        let (mut moves, mut numbers) = (Vec::<Move>::new(), Vec::new());
+        let mut left = placed.iter().peekable();
+        let old = std::mem::take(&mut self.moves);
+        for (index, one) in old.iter().enumerate() {
+            while let Some(((_, share), signal)) = left.next_if(|((line, share), _)| *line == index && *share < 1.0) {
+                add(&mut moves, &old[index - 1], one, *share, *signal);
             }
-            moves.push(one);
-            while let Some(signal) = left.next_if(|signal| signal.along <= passed + SAME_POINT) {
-                moves.last_mut().expect("a move").signals.push((signal.number, signal.usage));
-            }
+            numbers.push(moves.len());
+            moves.push(one.clone());
+            let here = std::iter::from_fn(|| left.next_if(|((line, _), _)| *line == index));
+            moves.last_mut().expect("a move").signals.extend(here.map(|(_, signal)| *signal));
         }
-        if let Some(last) = moves.last_mut() {
-            last.signals.extend(left.map(|signal| (signal.number, signal.usage)));
-        }
-        let last = moves.len() - 1;
-        self.travels.iter_mut().for_each(|travel| travel.moves[1] = last);
+        self.travels.iter_mut().for_each(|travel| travel.moves = travel.moves.map(|index| numbers[index]));
         Self { moves, interlocked_with: Some(other.to_owned()), ..self }
+    }
+
+    /// Returns the index of the move in which a signal is used, and the share of its line up to there, at most 1.
+    fn signal_line(&self, signal: &Signal) -> (usize, f64) {
+        let [first, last] = self.travels[signal.step].moves;
+        match signal.place {
+            SignalPlace::Arrival => (last, 1.0),
+            SignalPlace::End => (self.moves.iter().rposition(|one| one.step == signal.step).unwrap_or(last), 1.0),
+            SignalPlace::Along(along) => {
+                let mut passed = 0.0;
+                for index in first + 1..=last {
+                    let length = (place(&self.moves[index]) - place(&self.moves[index - 1])).norm();
+                    if along <= passed + SAME_POINT {
+                        return (index - 1, 1.0);
+                    }
+                    if along < passed + length - SAME_POINT {
+                        return (index, (along - passed) / length);
+                    }
+                    passed += length;
+                }
+                (last, 1.0)
+            }
+        }
     }
 
     /// Returns the index of the target at which the program uses a signal.
@@ -82,7 +112,7 @@ impl Program {
 }
 
 /// Adds a signal to the last move if its point is that of the move, or else a move to the point.
-fn add(moves: &mut Vec<Move>, from: &Move, to: &Move, share: f64, signal: &Signal) {
+fn add(moves: &mut Vec<Move>, from: &Move, to: &Move, share: f64, signal: (usize, SignalUse)) {
     let between = |a: f64, b: f64| a + (b - a) * share;
     let mut point = Move { kind: MoveKind::Travel, signals: Vec::new(), grip: None, dwell: 0.0, ..to.clone() };
     point.values = from.values.iter().zip(&to.values).map(|(a, b)| between(*a, *b)).collect();
@@ -92,7 +122,7 @@ fn add(moves: &mut Vec<Move>, from: &Move, to: &Move, share: f64, signal: &Signa
     if moves.last().is_none_or(|last| (place(&point) - place(last)).norm() > SAME_POINT) {
         moves.push(point);
     }
-    moves.last_mut().expect("a move").signals.push((signal.number, signal.usage));
+    moves.last_mut().expect("a move").signals.push(signal);
 }
 
 fn place(one: &Move) -> Configuration {

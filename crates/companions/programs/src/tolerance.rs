@@ -99,6 +99,11 @@ impl JointTolerance {
         self.with_rounding(1.0).displacement(problem)
     }
 
+    /// Returns the distance by which the height of a tool may deviate from that of the plan, metres, for written targets.
+    pub fn height_as_written(self) -> f64 {
+        self.with_rounding(1.0).slide
+    }
+
     /// Returns an upper bound on the distance, metres, by which deviations of the joints move a point of the arm or of a
     /// payload.
     ///

@@ -1,6 +1,7 @@
 //! Judges recorded motions and tasks of any origin, and the claims in their files.
 //!
-//! - [`verify`] returns the verdict on a recording with all findings, as `cplan verify` prints it.
+//! - [`verify`] returns the verdict on a recording with all findings, as `cplan verify` prints it. [`verify_task`] does the same
+//!   for a task that another program has read.
 //! - [`replay()`] repeats a recorded task: it matches the recorded steps with those of the task (`order`), computes the
 //!   places of the objects and of the load from the recorded configurations (`state`), and judges each motion among the
 //!   objects as they are at that time.
@@ -30,4 +31,4 @@ pub use replay::{
     Fault, GripperEvent, MisplacedJoint, OrderDeviation, Replay, ReplayedStep, ReplayedTurn, StepTool,
     misplaced_joints, replay,
 };
-pub use verify::verify;
+pub use verify::{verify, verify_task};

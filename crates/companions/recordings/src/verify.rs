@@ -25,26 +25,46 @@ pub fn verify(
     overrides: &Overrides,
     anywhere: bool,
 ) -> Result<MotionFindings, InputError> {
-    let LoadedRecording { recording, held, steps, all_joints, claims, has_torques: _, unjudged, notes: read } =
-        recorded;
+    let read = recorded.steps.as_ref().map(|_| loaded.clone().resolve(overrides, Rules::Recording)).transpose()?;
+    if let Some((task, scene)) = read.as_ref().and_then(|read| Some((read.task.as_ref()?, read.problem.scene()))) {
+        return verify_task(loaded, (task, scene), recorded, overrides);
+    }
+    let LoadedRecording { recording, held, claims, unjudged, .. } = recorded;
     let nothing = Claims::default();
     let claims = claims.as_ref().unwrap_or(&nothing);
-    let turns = describe_jumps(&loaded.scene, recording);
-    let assumed = recording.times().map(|_| loaded.robot.assumptions(loaded.scene.arm())).unwrap_or_default();
-    let notes = loaded.world.notes.iter().chain(read).cloned().chain(turns).chain(assumed).collect();
-    let read = steps.as_ref().map(|_| loaded.clone().resolve(overrides, Rules::Recording)).transpose()?;
-    let task = read.as_ref().and_then(|read| Some((read.task.as_ref()?, read.problem.scene())));
-    let mut findings = match steps.as_ref().zip(task) {
-        Some((steps, task)) => {
-            judge_task(loaded, task, (recording, steps, all_joints.as_ref()), claims, overrides, notes)?
-        }
-        None => judge_motion(loaded, (recording, held), claims, overrides, anywhere, notes)?
-            .with_faults(Judgement::Undecided, unjudged.clone()),
-    };
-    if findings.verdict == Judgement::Free && findings.steps.is_none() {
+    let mut findings =
+        judge_motion(loaded, (recording, held), claims, overrides, anywhere, general_notes(loaded, recorded))?
+            .with_faults(Judgement::Undecided, unjudged.clone());
+    if findings.verdict == Judgement::Free {
         findings.margins = Some(margins(loaded, recording, held, findings.collisions.clearance));
     }
     Ok(findings.leaving(claims))
+}
+
+/// Judges a recording as a task of a robot. `scene` is that of the arm without a load. A recording without steps is one that
+/// lacks all of them.
+///
+/// # Errors
+/// Overrides that do not suit the world.
+pub fn verify_task(
+    loaded: &LoadedScene,
+    task: (&Task, &Scene),
+    recorded: &LoadedRecording,
+    overrides: &Overrides,
+) -> Result<MotionFindings, InputError> {
+    let LoadedRecording { recording, steps, all_joints, claims, .. } = recorded;
+    let nothing = Claims::default();
+    let claims = claims.as_ref().unwrap_or(&nothing);
+    let record = (recording, steps.as_deref().unwrap_or_default(), all_joints.as_ref());
+    let findings = judge_task(loaded, task, record, claims, overrides, general_notes(loaded, recorded))?;
+    Ok(findings.leaving(claims))
+}
+
+/// Returns notes about the world, the file, turns between samples, and limits that are assumed.
+fn general_notes(loaded: &LoadedScene, LoadedRecording { recording, notes, .. }: &LoadedRecording) -> Vec<String> {
+    let turns = describe_jumps(&loaded.scene, recording);
+    let assumed = recording.times().map(|_| loaded.robot.assumptions(loaded.scene.arm())).unwrap_or_default();
+    loaded.world.notes.iter().chain(notes).cloned().chain(turns).chain(assumed).collect()
 }
 
 fn judge_motion(

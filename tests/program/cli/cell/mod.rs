@@ -2,10 +2,12 @@
 
 mod errors;
 mod oracle;
+mod program_steps;
 mod programs;
 mod random;
 mod set;
 mod verify;
+mod verify_steps;
 
 use super::{Done, Place, number, read, shipped};
 use oracle::{Arm, Motion, Solid, distance, replayed};
@@ -20,9 +22,14 @@ const SKEW: f64 = 0.02;
 
 /// Returns the SCARA of `robots/scara.urdf` with its quill lowered by 0.15 m.
 fn scara(base: [f64; 2], angle: f64) -> Arm {
+    scara_with_quill(base, angle, 0.15)
+}
+
+/// Returns the SCARA of `robots/scara.urdf` with its quill lowered by a depth.
+fn scara_with_quill(base: [f64; 2], angle: f64, depth: f64) -> Arm {
     let inner = [0.195, 0.265];
     let outer = [0.27, 0.43];
-    let quill = [0.03, 0.25];
+    let quill = [0.18 - depth, 0.4 - depth];
     let links = [
         vec![
             Solid::rectangle([0.15, 0.0], [0.3, 0.11], inner),

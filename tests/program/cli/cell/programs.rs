@@ -97,7 +97,7 @@ fn target(program: &[Statement], used: &Statement) -> (usize, [f64; 2]) {
 
 /// Checks that the programs use the signals at the places that the answer states.
 #[track_caller]
-fn check_signals(programs: &[Vec<Statement>; 2], answer: &Value) {
+pub fn check_signals(programs: &[Vec<Statement>; 2], answer: &Value) {
     let name = |k: usize| answer["arms"][k]["name"].as_str().unwrap();
     let interlocks = answer["interlocks"].as_array().expect("interlocks");
     for interlock in interlocks {
@@ -116,7 +116,8 @@ fn check_signals(programs: &[Vec<Statement>; 2], answer: &Value) {
     assert_eq!(programs.iter().flatten().filter(is_signal).count(), 2 * interlocks.len());
 }
 
-fn without_waits(programs: &[Vec<Statement>; 2]) -> [Vec<Statement>; 2] {
+/// Returns the programs without their waits.
+pub fn without_waits(programs: &[Vec<Statement>; 2]) -> [Vec<Statement>; 2] {
     let kept = |statement: &&Statement| !matches!(statement, Statement::WaitForSignal(_));
     programs.each_ref().map(|program| program.iter().filter(kept).cloned().collect())
 }

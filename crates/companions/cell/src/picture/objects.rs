@@ -146,7 +146,7 @@ fn changes(object: &Object, motions: &ShownMotions, scenes: [&Scene; 2]) -> Vec<
     for (time, arm, step) in events {
         let place = if let Some(released) = step.released {
             if let Some(Change { place: Place::Carried(_, turns), .. }) = changes.last_mut() {
-                turns.extend(step.turn);
+                turns.extend(step.turning);
             }
             pose = released;
             Place::Lies(released)
@@ -158,7 +158,7 @@ fn changes(object: &Object, motions: &ShownMotions, scenes: [&Scene; 2]) -> Vec<
                     Grip::Level { angle: pose.rotation.angle(), point: pose.inverse_point(model.tip_at(q)) }
                 }
             };
-            Place::Carried(grip, step.turn.into_iter().collect())
+            Place::Carried(grip, step.turning.into_iter().collect())
         };
         changes.push(Change { time, arm, place });
     }

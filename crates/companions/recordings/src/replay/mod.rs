@@ -88,6 +88,10 @@ pub struct ReplayedStep<'a> {
     /// Seconds from the beginning of the record to three times: the beginning of the motion, its end, and the next
     /// motion or the end of the record.
     pub times: [f64; 3],
+    /// Least time for which the arm rests after the motion: dwell, turn and strokes, seconds.
+    pub rest: f64,
+    /// Depths of the lowered tool before the motion and at its end, metres. `None` if it is raised.
+    pub depths: [Option<f64>; 2],
     /// The gripper event, if there is one.
     pub event: Option<GripperEvent>,
     /// The collision check of the motion, with the tool at the height that strokes give it. Moments are those of the
@@ -268,7 +272,7 @@ impl<'a> Iterator for Replay<'a> {
             }
         }
         faults.extend(elbow_fault(task, step, &motion));
-        let asked = step.dwell
+        let asked_rest = step.dwell
             + recorded.turn.as_ref().map_or(0.0, turning_at_rest)
             + depth.map_or(0.0, |depth| lowering_seconds(task, depth) * if handled.is_some() { 2.0 } else { 1.0 })
             - overlaps.lowering.map_or(0.0, |lowering| lowering.overlap)
@@ -310,8 +314,8 @@ impl<'a> Iterator for Replay<'a> {
             faults.push(Fault::MustRest);
         }
         faults.extend(turn_faults(recorded, is_picked, matches!(step.action, Action::Place { .. })));
-        if let Some(stood) = matched.rest.filter(|stood| *stood < asked - TIME_TOLERANCE) {
-            faults.push(Fault::Rest { stood, asked });
+        if let Some(stood) = matched.rest.filter(|stood| *stood < asked_rest - TIME_TOLERANCE) {
+            faults.push(Fault::Rest { stood, asked: asked_rest });
         }
         faults.extend(wrist_faults(task, step, recorded.wrist, times[2]));
         let lowered = |depth: Option<f64>| depth.zip(task.stroke.as_ref()).map(|(depth, stroke)| stroke.lowered(depth));
@@ -353,6 +357,8 @@ impl<'a> Iterator for Replay<'a> {
             carried,
             seconds,
             times,
+            rest: asked_rest,
+            depths: [raised_from, depth],
             event,
             collision_check: judged.check,
             broken,

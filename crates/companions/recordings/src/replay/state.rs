@@ -22,13 +22,15 @@ pub(super) struct State {
     released: Option<usize>,
     /// Depth from which the tool is raised before the next motion, metres. `None` if it is raised.
     lowered: Option<f64>,
+    /// The object that was released last if another arm takes it away, with its pose.
+    left: Option<(usize, Pose)>,
 }
 
 impl State {
     pub fn initial(task: &Task) -> Self {
         let poses = task.objects.iter().map(Object::initial_static_pose).collect();
         let lowered = task.start_tool.lowered_by();
-        Self { poses, moving: task.initially_moving().collect(), held: None, released: None, lowered }
+        Self { poses, moving: task.initially_moving().collect(), held: None, released: None, lowered, left: None }
     }
 
     /// Raises the tool before the next motion. Returns its previous depth, and the scene with the tool lowered.
@@ -59,9 +61,10 @@ impl State {
         moved.is_some()
     }
 
-    /// Returns the pose of an object, or `None` while it is carried.
+    /// Returns the pose of an object, or `None` while it is carried. An object that was left for another arm keeps its pose.
     pub fn pose(&self, object: usize) -> Option<Pose> {
-        self.poses[object].map(|lies| lies.pose)
+        let left = self.left.filter(|(left, _)| *left == object).map(|(_, pose)| pose);
+        self.poses[object].map(|lies| lies.pose).or(left)
     }
 
     pub fn carried(&self) -> Option<usize> {
@@ -89,8 +92,8 @@ impl State {
         let Action::Pick { object, supports, .. } = &step.action else { return None };
         let (object, arm) = (*object, &task.arm);
         self.released = None;
-        // In a task, every pick has an object at its place.
-        let lies = self.poses[object].take()?.pose;
+        // In a task, every pick has an object at its place, to which another arm may have brought it.
+        let lies = self.poses[object].take().or_else(|| task.objects[object].handed_pose())?.pose;
         let tip = arm.tip_at(q);
         let grip = match task.objects[object].holding {
             Holding::Rigid => Grip::rigid(arm, q, &lies),
@@ -113,7 +116,8 @@ impl State {
         // In a task, every place follows a pick.
         let Some(Payload { object, grip, .. }) = self.held.take() else { return Vec::new() };
         let pose = grip.pose(&task.arm, q);
-        self.poses[object] = Some(Placement { pose, elevation });
+        self.poses[object] = task.objects[object].left_at(Placement { pose, elevation });
+        self.left = self.poses[object].is_none().then_some((object, pose));
         self.released = Some(object);
         let mut faults = Vec::new();
         let off = (pose.translation - at).norm();
