@@ -17,6 +17,7 @@
 //! - The final motions are judged for all skews of the two clocks within a bound (`judged`). Signals between the
 //!   controllers make them hold for any skew (`interlock`). For programs of joint moves this is judged again (`delays`).
 //! - If nothing is found, boxes in four joints may prove that there is nothing (`refutation`).
+//! - The evidence of a proof can be written, read and checked (`proof`).
 //!
 //! All verdicts about two arms rest on `between`: the distance of the links, with bounds on the motion of both.
 #![forbid(unsafe_code)]
@@ -42,6 +43,7 @@ mod motion_search;
 mod order;
 mod picture;
 mod plan;
+mod proof;
 mod reach;
 mod recorded;
 mod refutation;
@@ -60,6 +62,6 @@ pub use interlock::Interlock;
 pub use judged::NearestPlace;
 pub use picture::Answer;
 pub use plan::{Alone, CellPlan, Refutation, Settings, plan_cell};
+pub use proof::{BoxProof, Contact, ContactBox, GoalContact, LinkPart, Proof, ProofError};
 pub use recorded::{BetweenFinding, NearPlace, judge_between};
-pub use refutation::Boxes;
 pub use schedule::{HandoverTimes, StepTimes};

@@ -3,6 +3,7 @@
 mod errors;
 mod oracle;
 mod programs;
+mod proofs;
 mod random;
 mod set;
 mod verify;
