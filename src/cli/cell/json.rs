@@ -3,7 +3,7 @@
 use super::Answered;
 use crate::model::Outcome;
 use crate::space::Configuration;
-use cplan_cell::{Cell, CellArm, Coordination, HandoverTimes, Refutation, StepTimes};
+use cplan_cell::{Cell, CellArm, Coordination, HandoverTimes, Proof, Refutation, StepTimes};
 use serde_json::{Value, json};
 
 impl Answered<'_> {
@@ -91,9 +91,8 @@ impl Answered<'_> {
         json!(interlocks)
     }
 
-    fn proof(&self, proof: &Refutation) -> Value {
-        match proof {
-            Refutation::Alone { arm, .. } => json!({ "kind": "alone", "arm": self.cell.arms[*arm].name }),
+    fn proof(&self, refutation: &Refutation) -> Value {
+        match refutation {
             Refutation::Step { arm, failed } => json!({
                 "kind": "step",
                 "arm": self.cell.arms[*arm].name,
@@ -101,9 +100,8 @@ impl Answered<'_> {
                 "place": failed.step.place,
                 "reasons": failed.reasons,
             }),
-            Refutation::Starts(what) => json!({ "kind": "starts", "contact": what }),
-            Refutation::Goals(what) => json!({ "kind": "goals", "contact": what }),
-            Refutation::Boxes(boxes) => json!({ "kind": "boxes", "examined": boxes.examined, "cells": boxes.cells }),
+            Refutation::Starts { contact, parts: None } => json!({ "kind": "starts", "contact": contact }),
+            _ => json!(Proof::of(refutation, self.cell)),
         }
     }
 }

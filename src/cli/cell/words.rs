@@ -94,14 +94,14 @@ impl Answered<'_> {
                     failed.step.place,
                     names[1 - *arm]
                 ),
-                Refutation::Starts(what) => {
-                    format!("infeasible: the arms cannot be at their starts together: {what}; proven")
+                Refutation::Starts { contact, .. } => {
+                    format!("infeasible: the arms cannot be at their starts together: {contact}; proven")
                 }
-                Refutation::Goals(what) => {
-                    format!("infeasible: the arms collide at every pair of goals, for example {what}; proven")
+                Refutation::Goals { contact, .. } => {
+                    format!("infeasible: the arms collide at every pair of goals, for example {contact}; proven")
                 }
-                Refutation::Boxes(boxes) => {
-                    let count = counted(boxes.examined, "box");
+                Refutation::Boxes(proof) => {
+                    let count = counted(proof.boxes.len(), "box");
                     format!(
                         "infeasible: the arms cannot both reach their goals without a collision; proven with {count} of colliding configurations in the space of all four joints"
                     )

@@ -1,6 +1,6 @@
 //! `cplan verify` for the motions of two arms in one cell.
 
-use super::{VerifyArgs, cell_steps, text};
+use super::{VerifyArgs, cell_proof, cell_steps, text};
 use crate::cli::cell::skew_or_default;
 use crate::cli::exit::{DONE, REFUTED, UNKNOWN};
 use crate::cli::failure::Failure;
@@ -55,6 +55,9 @@ pub fn run(args: &VerifyArgs) -> Result<u8, Failure> {
     for arm in &cell.arms {
         let warnings = arm.problem.robot().warnings.iter();
         warnings.for_each(|warning| args.print.print_status(&format!("warning: {}: {warning}", arm.name)));
+    }
+    if let Some(code) = cell_proof::run(args, &cell)? {
+        return Ok(code);
     }
     let skew = skew_or_default(args.skew);
     let Motions { mut recorded, stated, tools } = recordings(args, &cell)?;

@@ -2,6 +2,7 @@
 //! task is the task of the world.
 
 mod cell;
+mod cell_proof;
 mod cell_steps;
 mod settings;
 mod text;
@@ -56,7 +57,8 @@ plan, in joint space and for the tip. Times are not compared.
 
 With a cell file (.toml) instead of a robot, two files have the motions of both
 arms, in the order of the cell, or one file is the result of `cplan cell`. Each
-motion is judged among the obstacles, and both between the arms.
+motion is judged among the obstacles, and both between the arms. If the result
+is that no motions exist, its proof is judged.
 
 Examples:
   cplan verify robots/planar_2r.urdf workspaces/shelf.toml recorded.csv
@@ -68,9 +70,10 @@ Examples:
   cplan verify workspaces/cells/crossing.toml left.csv right.csv --skew 0.05
   cplan verify workspaces/cells/crossing.toml cell.json
 
-Exit codes: 0 free and within all limits, 1 bad input, 2 wrong command line, 3
-refuted: a proven collision, a broken limit, a wrong start or goal, another task
-than requested, or a false statement in the file, 4 undecided.")]
+Exit codes: 0 free and within all limits, 1 bad input or a proof that does not
+hold, 2 wrong command line, 3 refuted: a proven collision, a broken limit, a
+wrong start or goal, another task than requested, or a false statement in the
+file; or no motions exist, as the file proves; 4 undecided.")]
 pub struct VerifyArgs {
     #[command(flatten)]
     pub files: Files,

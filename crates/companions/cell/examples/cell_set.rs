@@ -35,8 +35,8 @@ fn main() -> Result<(), Box<dyn Error>> {
 fn row(case: &CellCase, plan: &CellPlan) -> String {
     let proof = match &plan.outcome {
         Outcome::Infeasible(Refutation::Alone { .. } | Refutation::Step { .. }) => "alone",
-        Outcome::Infeasible(Refutation::Starts(_)) => "starts",
-        Outcome::Infeasible(Refutation::Goals(_)) => "goals",
+        Outcome::Infeasible(Refutation::Starts { .. }) => "starts",
+        Outcome::Infeasible(Refutation::Goals { .. }) => "goals",
         Outcome::Infeasible(Refutation::Boxes(_)) => "boxes",
         Outcome::Found(_) | Outcome::Unknown(_) => "",
     };

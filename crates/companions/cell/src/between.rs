@@ -2,10 +2,11 @@
 
 use crate::body::{Body, Frame, disc_around, poses};
 use crate::contact::{contact_point, rates};
+use crate::proof::LinkPart;
 use cplan_geometry::{Convex, Point, Pose, separation, separation_at};
 use cplan_judge::{Deviation, Posture};
 use cplan_model::space::Configuration;
-use cplan_model::{JointType, Obstacle, Part, Scene, Shape};
+use cplan_model::{JointType, Obstacle, Pair, Scene, Shape};
 use std::rc::Rc;
 
 /// Rounding error of a distance and of bounds on motions, as a fraction of the lengths in it: a few dozen operations at
@@ -207,12 +208,24 @@ impl<'a> Between<'a> {
         self.motion_per_depth(swept) < 1.0
     }
 
+    /// Returns the bodies that are proven to collide, or to be nearer than the clearance, for all deviations. If there are
+    /// several pairs, returns the one with the widest margin.
+    pub fn colliding_pair(&self, swept: [&Swept; 2]) -> Option<[usize; 2]> {
+        let least = self.motions_per_depth(swept).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        (least.0 < 1.0).then_some(least.1)
+    }
+
     /// Returns the bound on the motion of two links for the deviations, as a share of the depth by which they are too near to each
     /// other at the configurations themselves: the least for all pairs of links. Below 1, the arms are proven to collide, or to be nearer
     /// than the clearance, for all deviations. Infinite if no links are too near.
-    pub fn motion_per_depth(&self, [a, b]: [&Swept; 2]) -> f64 {
+    pub fn motion_per_depth(&self, swept: [&Swept; 2]) -> f64 {
+        self.motions_per_depth(swept).map(|(share, _)| share).fold(f64::INFINITY, f64::min)
+    }
+
+    /// Returns the shares of [`Between::motion_per_depth`] for all pairs of bodies.
+    fn motions_per_depth<'b>(&'b self, [a, b]: [&'b Swept; 2]) -> impl Iterator<Item = (f64, [usize; 2])> + 'b {
         let rounding = ROUNDING * (a.scale + b.scale);
-        let share = |(&[i, j], is_definite): (&[usize; 2], &bool)| {
+        let share = move |[i, j]: [usize; 2], is_definite: bool| {
             let (one, two) = (&self.bodies[0][i], &self.bodies[1][j]);
             let ((p, first), (q, second)) = (a.bodies[i], b.bodies[j]);
             // Shapes at this distance have no point in common.
@@ -220,15 +233,15 @@ impl<'a> Between<'a> {
             if !is_definite || (p - q).norm_squared() > far * far {
                 return f64::INFINITY;
             }
-            let (own, other) = (inner(&one.part), inner(&two.part));
+            let (own, other) = (one.part.inner_shape(), two.part.inner_shape());
             if own.is_sliver() || other.is_sliver() {
                 return f64::INFINITY;
             }
             let pose = b.poses[two.frame.index()].inverse() * a.poses[one.frame.index()];
-            let depth = self.clearance - separation_at(own, &pose, other, |_, here| here.distance);
+            let depth = self.clearance - separation_at(&own, &pose, &other, |_, here| here.distance);
             if depth > 0.0 { (first + second + rounding) / depth } else { f64::INFINITY }
         };
-        self.pairs.iter().zip(&self.is_definite).map(share).fold(f64::INFINITY, f64::min)
+        self.pairs.iter().zip(&self.is_definite).map(move |(pair, is_definite)| (share(*pair, *is_definite), *pair))
     }
 
     /// Returns the motion of the links per unit of each joint, metres: those of the first arm, then those of the second.
@@ -258,6 +271,18 @@ impl<'a> Between<'a> {
         format!("{} and {}", link(0, i), link(1, j))
     }
 
+    /// Returns the parts of the links of a pair. `None` if one of the bodies is an object.
+    pub fn link_parts(&self, pair: [usize; 2]) -> Option<[LinkPart; 2]> {
+        let part = |side: usize| {
+            let is_of = |body: &Body, link: usize| !body.is_object && body.frame == Frame::Link(link);
+            let body = &self.bodies[side][pair[side]];
+            let link = (0..2).find(|link| is_of(body, *link))?;
+            let part = self.bodies[side][..pair[side]].iter().filter(|body| is_of(body, link)).count();
+            Some(LinkPart { link, part })
+        };
+        Some([part(0)?, part(1)?])
+    }
+
     /// Returns the links of an arm at a configuration, as obstacles of the other arm. Omits links that
     /// the other arm cannot meet.
     pub fn obstacles(&self, side: usize, name: &str, at: Configuration) -> Vec<Obstacle> {
@@ -276,18 +301,15 @@ impl<'a> Between<'a> {
     }
 }
 
-/// Returns true if an arm is proven to collide with an obstacle for all deviations. The scene is one for proofs of collisions.
-pub(crate) fn surely_hits(inner: &Scene, at: Configuration, deviation: Deviation) -> bool {
+/// Returns a part of an arm and an obstacle that are proven to collide for all deviations. The scene is one for proofs of
+/// collisions.
+pub(crate) fn proven_hit(inner: &Scene, at: Configuration, deviation: Deviation) -> Option<Pair> {
     let posture = Posture::new(inner, at);
     let clearance = inner.workspace().clearance;
-    inner.pairs().iter().any(|pair| {
+    let is_hit = |pair: &&Pair| {
         // A link meets its robot's own body only if they overlap.
         let is_own = inner.self_obstacle(pair.obstacle).is_some();
-        posture.greatest(*pair, deviation) < if is_own { 0.0 } else { clearance }
-    })
-}
-
-/// Returns a shape inside the real part.
-fn inner(part: &Part) -> &Convex {
-    part.inner.as_ref().unwrap_or(&part.shape)
+        posture.greatest(**pair, deviation) < if is_own { 0.0 } else { clearance }
+    };
+    inner.pairs().iter().find(is_hit).copied()
 }

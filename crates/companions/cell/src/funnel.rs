@@ -5,7 +5,7 @@
 //! that the clocks may show at once. If the arms collide in a whole box, the motions do not exist. Otherwise the box that is nearest
 //! to a proof is halved, and both halves must be refuted. Halving an interval at one time also narrows those at other times.
 
-use crate::between::{Between, Swept, surely_hits};
+use crate::between::{Between, Swept, proven_hit};
 use crate::reach::Reach;
 use cplan_interrupt::checkpoint;
 use cplan_judge::Deviation;
@@ -183,7 +183,7 @@ impl<'a> Funnels<'a> {
         let middle = joints.map(|[from, to]| f64::midpoint(from, to));
         let half = joints.map(|[from, to]| (to - from) / 2.0 + 8.0 * f64::EPSILON * from.abs().max(to.abs()));
         let (middle, deviation) = (Configuration::from(middle), Deviation::Box(half));
-        (!surely_hits(&self.inner[arm], middle, deviation)).then(|| self.between.swept(arm, middle, deviation))
+        proven_hit(&self.inner[arm], middle, deviation).is_none().then(|| self.between.swept(arm, middle, deviation))
     }
 }
 

@@ -18,6 +18,7 @@
 //!   in the same way (`recorded`), also those with steps, whose bodies follow from the motions (`recorded_steps`). Signals between the
 //!   controllers make them hold for any skew (`interlock`). For programs of joint moves this is judged again (`delays`).
 //! - If nothing is found, boxes in four joints may prove that there is nothing (`refutation`).
+//! - The evidence of a proof can be written, read and checked (`proof`).
 //!
 //! All verdicts about two arms rest on `between`: the distance of the links, with bounds on the motion of both.
 #![forbid(unsafe_code)]
@@ -43,6 +44,7 @@ mod motion_search;
 mod order;
 mod picture;
 mod plan;
+mod proof;
 mod reach;
 mod recorded;
 mod recorded_steps;
@@ -63,7 +65,7 @@ pub use interlock::Interlock;
 pub use judged::NearestPlace;
 pub use picture::Answer;
 pub use plan::{Alone, CellPlan, Refutation, Settings, plan_cell};
+pub use proof::{BoxProof, Contact, ContactBox, GoalContact, LinkPart, Proof, ProofError};
 pub use recorded::{BetweenFinding, NearPlace, judge_between};
 pub use recorded_steps::{JudgedSteps, ToolTimes, judge_steps};
-pub use refutation::Boxes;
 pub use schedule::{HandoverTimes, StepTimes, TurnTimes};

@@ -3,7 +3,8 @@
 use crate::coordinate::{Conflict, Coordination, Coordinator};
 use crate::funnel::Funnels;
 use crate::joint_tree::joint_route;
-use crate::plan::{ACCEPTED_GAP, Meeting, described};
+use crate::plan::{ACCEPTED_GAP, Meeting, Refutation, described};
+use crate::proof::GoalContact;
 use crate::shaping::Shaping;
 use cplan_engine::PlanError;
 use cplan_judge::CertifiedPath;
@@ -45,8 +46,8 @@ const BOUND_ROUNDING: f64 = 1e-9;
 pub(crate) struct GoalPairs {
     /// The pairs at which the arms are apart.
     pub pairs: Vec<[Configuration; 2]>,
-    /// If the arms are proven to collide at all pairs: their links at the first pair.
-    pub refuted: Option<String>,
+    /// The proof that the arms collide at all pairs, if they do.
+    pub refutation: Option<Refutation>,
 }
 
 /// The search for paths.
@@ -68,13 +69,16 @@ impl Search<'_> {
     pub fn goal_pairs(&self) -> GoalPairs {
         let goals = self.problems.map(|problem| problem.goals());
         let is_finite = goals.iter().all(|goals| goals.pieces().iter().all(|piece| piece.is_point()));
-        let (mut pairs, mut first, mut is_refuted) = (Vec::new(), None, is_finite);
+        let between = self.coordinator.between();
+        let (mut pairs, mut first, mut contacts, mut is_refuted) = (Vec::new(), None, Vec::new(), is_finite);
         for one in goals[0].points() {
             for two in goals[1].points() {
-                match Meeting::of(self.coordinator.between(), [one, two], self.names) {
+                match Meeting::of(between, [one, two], self.names) {
                     None => pairs.push([one, two]),
                     Some(meeting) => {
-                        is_refuted &= meeting.is_proven;
+                        let parts = meeting.colliding.and_then(|pair| between.link_parts(pair));
+                        is_refuted &= parts.is_some();
+                        contacts.extend(parts.map(|parts| GoalContact { goals: [one.into(), two.into()], parts }));
                         first.get_or_insert(meeting.what);
                     }
                 }
@@ -91,7 +95,8 @@ impl Search<'_> {
         };
         // The nearest goals come first.
         pairs.sort_by(|a, b| time(a).total_cmp(&time(b)));
-        GoalPairs { refuted: first.filter(|_| is_refuted && pairs.is_empty()), pairs }
+        let contact = first.filter(|_| is_refuted && pairs.is_empty());
+        GoalPairs { refutation: contact.map(|contact| Refutation::Goals { contact, pairs: contacts }), pairs }
     }
 
     /// Returns true if no better motion is worth the effort.

@@ -3,7 +3,8 @@
 use crate::between::Between;
 use crate::coordinate::{Conflict, Coordination, Coordinator};
 use crate::motion_search::Search;
-use crate::refutation::{Boxes, refuted_in_boxes};
+use crate::proof::{BoxProof, GoalContact, LinkPart};
+use crate::refutation::refuted_in_boxes;
 use crate::stage::StagePairs;
 use crate::straighten::with_fewer_corners;
 use crate::task_search::plan_tasks;
@@ -55,12 +56,22 @@ pub enum Refutation {
         /// The step that fails.
         failed: Box<FailedStep>,
     },
-    /// The arms collide at their starts. The text names the links.
-    Starts(String),
-    /// The arms collide at every pair of their goals. The text names the links at the first pair.
-    Goals(String),
+    /// The arms collide at their starts.
+    Starts {
+        /// The links, in words.
+        contact: String,
+        /// The colliding part of each arm. `None` if objects collide.
+        parts: Option<[LinkPart; 2]>,
+    },
+    /// The arms collide at every pair of their goals.
+    Goals {
+        /// The links at the first pair, in words.
+        contact: String,
+        /// All pairs of goals.
+        pairs: Vec<GoalContact>,
+    },
     /// Boxes of collisions in four joints separate the starts from all goals.
-    Boxes(Boxes),
+    Boxes(BoxProof),
 }
 
 /// The answer about a cell.
@@ -119,11 +130,7 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
     let names = cell.arms.each_ref().map(|arm| arm.name.as_str());
     let starts = problems.map(MotionProblem::start);
     if let Some(met) = Meeting::of(between, starts, names) {
-        let outcome = match met.is_proven {
-            true => Outcome::Infeasible(Refutation::Starts(met.what)),
-            false => Outcome::Unknown(format!("not proven that the arms do not touch at their starts: {}", met.what)),
-        };
-        return answer(outcome, &mut alone, vec![]);
+        return answer(met.at_starts(between), &mut alone, vec![]);
     }
     let drive = Drive { optimize: Objective::Time, ..settings.options.drive };
     let options = Options { drive, ..settings.options };
@@ -148,10 +155,8 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
     let mut search =
         Search { problems, names, options: settings.options, coordinator, bound, best: None, pairs: 0, tried: vec![] };
     let goals = search.goal_pairs();
-    if goals.pairs.is_empty()
-        && let Some(what) = goals.refuted
-    {
-        return answer(Outcome::Infeasible(Refutation::Goals(what)), &mut alone, search.tried);
+    if let Some(refutation) = goals.refutation {
+        return answer(Outcome::Infeasible(refutation), &mut alone, search.tried);
     }
     let own = alone.each_ref().map(|plan| plan.as_ref().and_then(path_of));
     if let [Some(one), Some(two)] = own {
@@ -182,7 +187,7 @@ pub fn plan_cell(cell: &Cell, settings: &Settings, progress: &mut dyn FnMut(&str
         None => {
             progress("looking for a proof of infeasibility");
             match refuted_in_boxes(between, problems, settings.boxes) {
-                Ok(boxes) => Outcome::Infeasible(Refutation::Boxes(boxes)),
+                Ok(proof) => Outcome::Infeasible(Refutation::Boxes(proof)),
                 Err(why) => {
                     tried.push(why);
                     Outcome::Unknown("neither coordinated motions nor a proof of infeasibility were found".into())
@@ -225,7 +230,8 @@ fn path_of(plan: &Plan) -> Option<CertifiedPath> {
 pub(crate) struct Meeting {
     /// The links, with their distance.
     pub what: String,
-    pub is_proven: bool,
+    /// The bodies that are proven to collide. `None` if it is not proven that any do.
+    pub colliding: Option<[usize; 2]>,
 }
 
 impl Meeting {
@@ -247,6 +253,16 @@ impl Meeting {
         if between.clearance > 0.0 {
             let _ = write!(what, ", less than the clearance of {:.1} mm", between.clearance * 1e3);
         }
-        Some(Self { what, is_proven: between.surely_collide(swept.each_ref()) })
+        Some(Self { what, colliding: between.colliding_pair(swept.each_ref()) })
+    }
+
+    /// Returns the outcome for a meeting at the starts.
+    pub fn at_starts<F>(self, between: &Between) -> Outcome<F, Refutation> {
+        match self.colliding {
+            Some(pair) => {
+                Outcome::Infeasible(Refutation::Starts { contact: self.what, parts: between.link_parts(pair) })
+            }
+            None => Outcome::Unknown(format!("not proven that the arms do not touch at their starts: {}", self.what)),
+        }
     }
 }

@@ -180,11 +180,8 @@ impl TaskSearch<'_> {
         let names = self.cell.arms.each_ref().map(|arm| arm.name.as_str());
         let pairs = self.pairs([one, two], both.map(|own| &own.task));
         let at = both.map(|own| own.task.start);
-        let met = Meeting::of(pairs.between([0, 0]), at, names)?;
-        Some(match met.is_proven {
-            true => Outcome::Infeasible(Refutation::Starts(met.what)),
-            false => Outcome::Unknown(format!("not proven that the arms do not touch at their starts: {}", met.what)),
-        })
+        let between = pairs.between([0, 0]);
+        Some(Meeting::of(between, at, names)?.at_starts(between))
     }
 
     /// Returns the pairs of stages of two sequences.

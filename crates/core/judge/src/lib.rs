@@ -42,5 +42,8 @@ pub use deviation::{COLLISION_ROUNDING, Deviation, Posture, SeparationBound, Spa
 pub use drift::Drift;
 pub use motion::{CertifiedPath, CurveSearch, Nearest, Rejection, StraightMotions, certify, certify_at};
 pub use permanent::permanent_contacts;
-pub use proof::{CheckedProof, CollisionBox, Disconnection, ProofBox, ProofError, ProofFormatError, read_proof};
+pub use proof::{
+    CheckedProof, CollisionBox, Disconnection, ProofBox, ProofError, ProofFormatError, farthest_displacement,
+    read_proof,
+};
 pub use vicinity::Vicinity;

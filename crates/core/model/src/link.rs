@@ -4,6 +4,7 @@ use super::Heights;
 use super::workspace::resized;
 use cplan_geometry::{Convex, ConvexError, Point};
 use serde::{Deserialize, Serialize};
+use std::borrow::Cow;
 
 /// The source of a link's outline.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
@@ -68,12 +69,19 @@ impl Part {
         }
     }
 
+    /// Returns a shape that lies inside the real part.
+    pub fn inner_shape(&self) -> Cow<'_, Convex> {
+        match &self.inner {
+            Some(inner) => Cow::Borrowed(inner),
+            None if self.padding > 0.0 => Cow::Owned(resized(&self.shape, -self.padding)),
+            None => Cow::Borrowed(&self.shape),
+        }
+    }
+
     /// Replaces the shape by one that lies inside the real part.
     pub(super) fn restrict_to_inner(&mut self) {
-        self.unpad();
-        if let Some(inner) = self.inner.take() {
-            self.shape = inner;
-        }
+        self.shape = self.inner_shape().into_owned();
+        (self.inner, self.padding) = (None, 0.0);
     }
 }
 

@@ -4,6 +4,7 @@ mod errors;
 mod oracle;
 mod program_steps;
 mod programs;
+mod proofs;
 mod random;
 mod set;
 mod verify;

@@ -2,6 +2,7 @@
 
 use super::super::Place;
 use super::oracle::{Arm, Flood, clearance, distance};
+use super::proofs::{check_boxes, verified};
 use super::{SKEW, answer, check_found, check_waits};
 use cplan_cases::dice::Dice;
 use std::f64::consts::PI;
@@ -108,7 +109,8 @@ fn random_cells_agree_with_the_oracle() {
     let mut counts = [0; 3];
     for seed in cplan_cases::seeds(100) {
         let cell = Cell::new(&mut Dice::new(seed));
-        let done = cell.place().run(&["cell", "cell.toml", "--json", "--quiet", "--boxes", "20000"], "");
+        let place = cell.place();
+        let done = place.run(&["cell", "cell.toml", "--json", "--quiet", "--boxes", "20000"], "");
         assert!([0, 3, 4].contains(&done.code), "seed {seed}: {}", done.stderr);
         let answer = answer(&done);
         match done.code {
@@ -127,7 +129,9 @@ fn random_cells_agree_with_the_oracle() {
             }
             3 => {
                 let flood = Flood { arms: &cell.arms, ranges: cell.ranges, obstacles: &[cell.post()], cells: 14 };
-                assert!(!flood.connects(cell.starts, cell.goals), "seed {seed}: there are motions, {answer}");
+                assert!(!flood.connects(cell.starts, cell.goals), "seed {seed}: there are motions, {answer:.300}");
+                verified(&place, "cell.toml", &answer, "").exits(3).says(&["infeasible: proven"]);
+                check_boxes(&answer["proof"], &cell.arms, &[cell.post()], &mut Dice::new(seed));
                 counts[1] += 1;
             }
             _ => counts[2] += 1,

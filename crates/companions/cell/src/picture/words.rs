@@ -44,10 +44,10 @@ impl Answer<'_> {
                     names[1 - *arm]
                 )
             }
-            Outcome::Infeasible(Refutation::Starts(what)) => {
-                format!("No motions: at the starts, {}", what.replace('"', ""))
+            Outcome::Infeasible(Refutation::Starts { contact, .. }) => {
+                format!("No motions: at the starts, {}", contact.replace('"', ""))
             }
-            Outcome::Infeasible(Refutation::Goals(_)) => {
+            Outcome::Infeasible(Refutation::Goals { .. }) => {
                 "No motions: the arms collide at every pair of goals".to_owned()
             }
             Outcome::Infeasible(Refutation::Boxes(_)) => {
@@ -110,11 +110,11 @@ impl Answer<'_> {
         let (mut cards, pairs) = (Vec::new(), pairs_of_links(self.cell));
         let between = pairs.between([0, 0]);
         match &self.plan.outcome {
-            Outcome::Infeasible(Refutation::Boxes(boxes)) => {
+            Outcome::Infeasible(Refutation::Boxes(proof)) => {
                 let note = "of colliding configurations, in the space of all four joints";
-                cards.push(card("proof", counted(boxes.examined, "box"), note));
+                cards.push(card("proof", counted(proof.boxes.len(), "box"), note));
             }
-            Outcome::Infeasible(Refutation::Starts(_)) => {
+            Outcome::Infeasible(Refutation::Starts { .. }) => {
                 if let Some((distance, pair)) = met(between, self.starts()) {
                     let what = between.describe(pair, names).replace('"', "");
                     let (name, value) = match distance {

@@ -11,10 +11,10 @@ mod separation;
 pub use json::{ProofBox, ProofFormatError, read_proof};
 
 use super::cell::Cell;
-use cplan_geometry::{Vector, penetration_depth};
+use cplan_geometry::{Convex, Vector, penetration_depth};
 use cplan_model::checkpoint;
 use cplan_model::space::{Configuration, GoalSet, Topology};
-use cplan_model::{JointType, Pair, Scene};
+use cplan_model::{Arm, JointType, Pair, Scene};
 use separation::not_separated;
 use serde::{Serialize, Serializer};
 use std::sync::Arc;
@@ -166,17 +166,17 @@ fn is_collision(scene: &Scene, index: usize, stuck: &CollisionBox, clearance: f6
     let part = scene.part(stuck.pair).at(&scene.arm().pose(stuck.pair.link, middle));
     let piece = scene.piece(stuck.pair).grown(clearance);
     let depth = penetration_depth(&part, &piece);
-    let motion = farthest(scene, stuck, middle, half);
+    let motion = farthest_displacement(scene.arm(), stuck.pair.link, scene.part(stuck.pair), middle, half);
     let scale = part.reach_from(scene.arm().base) + piece.reach_from(scene.arm().base) + scene.arm().base.norm();
     if depth > motion + ROUNDING * scale { Ok(()) } else { Err(ProofError::NotColliding { index, depth, motion }) }
 }
 
-/// Returns an upper bound on the displacement of the part's corners, metres, while each joint moves by at most `half`
-/// from `q`. A turn by `t` about a point at distance `r` moves a corner by the chord `2 r sin(t / 2)`.
-fn farthest(scene: &Scene, stuck: &CollisionBox, q: Configuration, half: [f64; 2]) -> f64 {
-    let arm = scene.arm();
+/// Returns an upper bound on the displacement of the corners of a part, metres, while each joint moves by at most `half`
+/// from `q`. `link` is that of [`Pair::link`]. A turn by `t` about a point at distance `r` moves a corner by the chord
+/// `2 r sin(t / 2)`.
+pub fn farthest_displacement(arm: &Arm, link: usize, part: &Convex, q: Configuration, half: [f64; 2]) -> f64 {
     let chord = |angle: f64| 2.0 * (angle.min(std::f64::consts::PI) / 2.0).sin();
-    let of_corner = |a: Vector| match (stuck.pair.link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
+    let of_corner = |a: Vector| match (link, arm.joints[0].joint_type, arm.joints[1].joint_type) {
         (0, JointType::Revolute { .. }, _) => a.norm() * chord(half[0]),
         (0, JointType::Prismatic { .. }, _) => half[0],
         (2, _, JointType::Revolute { .. }) => a.norm() * chord(half[1]),
@@ -192,5 +192,5 @@ fn farthest(scene: &Scene, stuck: &CollisionBox, q: Configuration, half: [f64; 2
         (_, JointType::Prismatic { .. }, JointType::Revolute { .. }) => half[0] + a.norm() * chord(half[1]),
         (_, JointType::Prismatic { .. }, JointType::Prismatic { .. }) => half[0] + half[1],
     };
-    scene.part(stuck.pair).core().iter().map(|&p| of_corner(p)).fold(0.0, f64::max)
+    part.core().iter().map(|&p| of_corner(p)).fold(0.0, f64::max)
 }
