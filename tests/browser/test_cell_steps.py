@@ -131,6 +131,29 @@ def test_objects_lie_move_with_the_tools_and_lie_at_their_destinations(cell, sho
     seen.shoot(f"cell_{file['name'].replace(' ', '_')}")
 
 
+def test_the_wrist_turns_an_object_before_it_is_placed(program, show_file):
+    text = (CELLS / "handover.toml").read_text().replace("../../robots", str(ROOT / "robots"))
+    file = program.folder / "turned.toml"
+    file.write_text(text.replace("at = [0.75, 0.3] }", 'at = [0.75, 0.3], angle = "90deg" }'))
+    page, result = planned(program, "turned", file)
+    *_, (_, release) = steps_of(result, "bracket 1")
+    polygon = tomllib.loads(file.read_text())["object"][0]["polygon"]
+    seen = show_file(page)
+
+    def angle(time):
+        """Returns the angle of the object at a time, from its first side. The side in the file has the angle 0."""
+        assert polygon[0][1] == polygon[1][1] and polygon[0][0] < polygon[1][0]
+        (x, y), (u, v), *_ = seen.do(LOOK, [time, "bracket 1"])["corners"]
+        return math.atan2(v - y, u - x)
+
+    # The arm rests, turns the object, and then lowers it.
+    span = release["event"] - release["arrival"]
+    turning = [angle(release["arrival"] + share * span) for share in (0, 0.1, 0.2, 0.3, 1.01)]
+    assert angle(release["arrival"] - 0.1) == pytest.approx(0, abs=1e-3) and turning[0] == pytest.approx(0, abs=1e-3)
+    assert turning == sorted(turning) and len(set(turning)) == len(turning)
+    assert turning[-1] == pytest.approx(math.pi / 2, abs=1e-3)
+
+
 def test_the_other_arm_takes_what_was_handed_over(handover, show_file):
     _, page, result = handover
     seen = show_file(page)
