@@ -1,4 +1,4 @@
-// Runs Polyanya, as its authors wrote it, on a mesh and a scenario of movingai.com. Prints the time of each query in
+// Runs the code of Polyanya's authors on a mesh and a scenario of movingai.com. Prints the time of each query in
 // microseconds, and the length of its path. The time is that of locating both places and of the search.
 #include "mesh.h"
 #include "scenario.h"
