@@ -96,7 +96,7 @@ class Robot:
         """Returns the translation of an element."""
         origin = element.find("origin")
         if origin is not None and numbers(origin.get("rpy")).any():
-            sys.exit("two_arms.py reads no turned frames; take cells of SCARAs or of planar_2r.urdf")
+            raise ValueError("two_arms.py reads no turned frames; take cells of SCARAs or of planar_2r.urdf")
         return numbers(None if origin is None else origin.get("xyz"))
 
     def add_bodies(self, element: ElementTree.Element, link: int, place: np.ndarray) -> None:
@@ -135,7 +135,7 @@ class Cell:
         self.file, self.library = file, library
         read = tomllib.loads(file.read_text())
         if "obstacle" in read:
-            sys.exit(f"{file}: two_arms.py reads no obstacles")
+            raise ValueError(f"{file}: two_arms.py reads no obstacles")
         self.start, goals, joints, shapes, arms = [], [], [], [], []
         for k, arm in enumerate(read["arm"]):
             robot = Robot(file.parent / arm["urdf"], arm.get("robot", {}).get("fixed", {}))
@@ -308,7 +308,7 @@ def cplan_motion(cplan: str, cell: Cell, skew: float) -> tuple[dict, Motion | No
     near = answer["nearest"]
     q = np.hstack([spline(np.clip(t, 0, end)) for spline, end, t in zip(splines, ends, near["times"], strict=True)])
     if abs(cell.distance_between(q) - near["distance"]) > 1e-6:
-        sys.exit(f"{cell.file}: cplan and two_arms.cpp disagree about the distance of the arms")
+        raise ValueError(f"{cell.file}: cplan and two_arms.cpp disagree about the distance of the arms")
     return answer, motion
 
 
@@ -415,8 +415,11 @@ def main() -> None:
     files = sorted(file for folder in options.folders for file in folder.glob(f"{options.kind}.toml"))
     if not files:
         sys.exit(f"no cell {options.kind}.toml in {', '.join(map(str, options.folders))}")
-    with multiprocessing.Pool(options.jobs) as pool:
-        cells = pool.map(functools.partial(measure, options=options), files, chunksize=1)
+    try:
+        with multiprocessing.Pool(options.jobs) as pool:
+            cells = pool.map(functools.partial(measure, options=options), files, chunksize=1)
+    except ValueError as error:
+        sys.exit(str(error))
     names = ["cplan", "cplan, `--skew 0`", *(name for name, *_ in contenders(options))]
     print("| planner | found | free | free, clocks 20 ms apart | cycle over bound: median | max | time: median | max |")
     print("|---|---|---|---|---|---|---|---|")
