@@ -1,11 +1,13 @@
 //! Measures fifty random cells of two SCARAs whose goals cross: `cargo run --release -p cplan-cell --example crossing_goals`.
-//! Prints one row for each cell, and the percentiles of all. With a number, prints the attempts for that cell only.
+//! Prints one row for each cell, and the percentiles of all. With a number, prints the attempts for that cell only. With a
+//! folder, also writes the cells to it.
 
 use cplan_cases::cells::crossing;
 use cplan_cell::{Cell, Settings, plan_cell};
 use cplan_model::Status;
 use cplan_robot::Source;
 use std::error::Error;
+use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::time::Instant;
 
@@ -16,7 +18,12 @@ fn main() -> Result<(), Box<dyn Error>> {
     let robots = concat!(env!("CARGO_MANIFEST_DIR"), "/../../../robots");
     let directory = tempfile::tempdir()?;
     let path = directory.path().join("cell.toml");
-    let chosen = std::env::args().nth(1).map(|number| number.parse::<usize>()).transpose()?;
+    let argument = std::env::args().nth(1);
+    let chosen = argument.as_ref().and_then(|number| number.parse::<usize>().ok());
+    let folder = argument.filter(|_| chosen.is_none()).map(PathBuf::from);
+    if let Some(folder) = &folder {
+        std::fs::create_dir_all(folder)?;
+    }
     let settings = Settings { boxes: 0, ..Settings::default() };
     let mut random = cplan_cases::dice(57);
     let (mut seconds, mut gaps, mut gaps_alone) = (Vec::new(), Vec::new(), Vec::new());
@@ -33,6 +40,9 @@ fn main() -> Result<(), Box<dyn Error>> {
             continue;
         }
         let number = seconds.len();
+        if let Some(folder) = &folder {
+            std::fs::copy(&path, folder.join(format!("{number:02}_crossing.toml")))?;
+        }
         seconds.push(lasted);
         let alone = plan.alone.iter().flatten().filter_map(|alone| alone.lower_bound).fold(0.0, f64::max);
         let result = match (plan.outcome.found(), plan.lower_bound) {
