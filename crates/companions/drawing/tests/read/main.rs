@@ -8,6 +8,7 @@ mod line;
 mod svg;
 mod written;
 
+pub use cplan_cases::plane::distance;
 use cplan_drawing::{Drawing, Format, Geometry, Point, Ring, Settings, Shape, read};
 
 /// Reads a text with the default settings.
