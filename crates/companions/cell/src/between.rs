@@ -2,7 +2,8 @@
 
 use crate::body::{Body, Frame, disc_around, poses};
 use crate::contact::{contact_point, rates};
-use cplan_geometry::{Convex, Point, Pose, separation, separation_at};
+use crate::overlap::{Corner, Moving, Overlap, overlap};
+use cplan_geometry::{Convex, Point, Pose, Vector, separation, separation_at};
 use cplan_judge::{Deviation, Posture};
 use cplan_model::space::Configuration;
 use cplan_model::{JointType, Obstacle, Part, Scene, Shape};
@@ -52,6 +53,8 @@ pub(crate) struct Stance {
 /// An arm that deviates from a configuration.
 #[derive(Debug, Clone)]
 pub(crate) struct Swept {
+    at: Configuration,
+    deviation: Deviation,
     poses: [Pose; 4],
     /// For each body, the centre of its disc, and an upper bound on the motion of its points, metres.
     bodies: Vec<(Point, f64)>,
@@ -185,7 +188,7 @@ impl<'a> Between<'a> {
         }
     }
 
-    /// Returns an arm that deviates from a configuration, for [`Between::motion_per_depth`].
+    /// Returns an arm that deviates from a configuration, for [`Between::overlap`].
     pub fn swept(&self, side: usize, at: Configuration, deviation: Deviation) -> Swept {
         let scene = self.scenes[side];
         let (posture, poses) = (Posture::new(scene, at), poses(scene.arm(), at));
@@ -197,36 +200,75 @@ impl<'a> Between<'a> {
             (center, body.farthest_motion(scene, &posture, deviation))
         });
         let bodies = bodies.collect();
-        Swept { poses, bodies, scale }
+        Swept { at, deviation, poses, bodies, scale }
     }
 
     /// Returns true if the arms are proven to collide, or to be nearer than the clearance, for all deviations.
     pub fn surely_collide(&self, swept: [&Swept; 2]) -> bool {
-        self.motion_per_depth(swept) < 1.0
+        self.overlap(swept).share < 1.0
     }
 
-    /// Returns the bound on the motion of two links for the deviations, as a share of the depth by which they are too near to each
-    /// other at the configurations themselves: the least for all pairs of links. Below 1, the arms are proven to collide, or to be nearer
-    /// than the clearance, for all deviations. Infinite if no links are too near.
-    pub fn motion_per_depth(&self, [a, b]: [&Swept; 2]) -> f64 {
+    /// Returns the overlap of the pair of links whose motion for the deviations is the least share of their depth. If the share is
+    /// below 1, the arms are proven to collide, or to be nearer than the clearance, for all deviations. It is infinite if no links are
+    /// too near.
+    pub fn overlap(&self, swept: [&Swept; 2]) -> Overlap {
+        let [a, b] = swept;
         let rounding = ROUNDING * (a.scale + b.scale);
-        let share = |(&[i, j], is_definite): (&[usize; 2], &bool)| {
+        let mut best = Overlap::NONE;
+        for (&[i, j], is_definite) in self.pairs.iter().zip(&self.is_definite) {
             let (one, two) = (&self.bodies[0][i], &self.bodies[1][j]);
             let ((p, first), (q, second)) = (a.bodies[i], b.bodies[j]);
             // Shapes at this distance have no point in common.
             let far = one.disc.1 + two.disc.1 + self.clearance + rounding;
             if !is_definite || (p - q).norm_squared() > far * far {
-                return f64::INFINITY;
+                continue;
             }
             let (own, other) = (inner(&one.part), inner(&two.part));
             if own.is_sliver() || other.is_sliver() {
-                return f64::INFINITY;
+                continue;
             }
             let pose = b.poses[two.frame.index()].inverse() * a.poses[one.frame.index()];
             let depth = self.clearance - separation_at(own, &pose, other, |_, here| here.distance);
-            if depth > 0.0 { (first + second + rounding) / depth } else { f64::INFINITY }
+            if depth <= 0.0 {
+                continue;
+            }
+            let share = (first + second + rounding) / depth;
+            if share < 1.0 {
+                return Overlap { share, ..Overlap::NONE };
+            }
+            let moving = [0, 1].map(|side| self.moving(side, [i, j][side], swept[side]));
+            let overlap = overlap(moving.each_ref(), self.clearance, rounding);
+            if overlap.share < best.share {
+                best = overlap;
+            }
+            if best.share < 1.0 {
+                break;
+            }
+        }
+        best
+    }
+
+    /// Returns the corners of a body of an arm that deviates from a configuration.
+    fn moving(&self, side: usize, body: usize, swept: &Swept) -> Moving {
+        let (arm, body) = (self.scenes[side].arm(), &*self.bodies[side][body]);
+        let shape = inner(&body.part);
+        let posture = Posture::new(self.scenes[side], swept.at);
+        let corner = |p: &Point| {
+            let at = swept.poses[body.frame.index()].point(*p);
+            let (link, moved, own) = match body.frame {
+                Frame::Link(link) => (link, at, *p),
+                Frame::Tip => (1, arm.tip_at(swept.at), arm.tip),
+                Frame::Cell => return Corner { at, rates: [Vector::zeros(); 2], bend: 0.0 },
+            };
+            let [x, y] = [Vector::x(), Vector::y()].map(|n| rates(arm, link, swept.at, moved, n));
+            let bend = posture.curvature_in_plane(link, swept.deviation).of(own) / 2.0;
+            Corner { at, rates: [0, 1].map(|k| Vector::new(x[k], y[k])), bend }
         };
-        self.pairs.iter().zip(&self.is_definite).map(share).fold(f64::INFINITY, f64::min)
+        Moving {
+            corners: shape.core().iter().map(corner).collect(),
+            radius: shape.radius(),
+            deviation: swept.deviation,
+        }
     }
 
     /// Returns the motion of the links per unit of each joint, metres: those of the first arm, then those of the second.
