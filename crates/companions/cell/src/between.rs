@@ -2,8 +2,9 @@
 
 use crate::body::{Body, Frame, disc_around, poses};
 use crate::contact::{contact_point, rates};
+use crate::overlap::{Corner, Moving, Overlap, overlap};
 use crate::proof::LinkPart;
-use cplan_geometry::{Convex, Point, Pose, separation, separation_at};
+use cplan_geometry::{Convex, Point, Pose, Vector, separation, separation_at};
 use cplan_judge::{Deviation, Posture};
 use cplan_model::space::Configuration;
 use cplan_model::{JointType, Obstacle, Pair, Scene, Shape};
@@ -53,6 +54,8 @@ pub(crate) struct Stance {
 /// An arm that deviates from a configuration.
 #[derive(Debug, Clone)]
 pub(crate) struct Swept {
+    at: Configuration,
+    deviation: Deviation,
     poses: [Pose; 4],
     /// For each body, the centre of its disc, and an upper bound on the motion of its points, metres.
     bodies: Vec<(Point, f64)>,
@@ -188,7 +191,7 @@ impl<'a> Between<'a> {
         }
     }
 
-    /// Returns an arm that deviates from a configuration, for [`Between::motion_per_depth`].
+    /// Returns an arm that deviates from a configuration, for [`Between::overlap`].
     pub fn swept(&self, side: usize, at: Configuration, deviation: Deviation) -> Swept {
         let scene = self.scenes[side];
         let (posture, poses) = (Posture::new(scene, at), poses(scene.arm(), at));
@@ -200,48 +203,95 @@ impl<'a> Between<'a> {
             (center, body.farthest_motion(scene, &posture, deviation))
         });
         let bodies = bodies.collect();
-        Swept { poses, bodies, scale }
+        Swept { at, deviation, poses, bodies, scale }
     }
 
     /// Returns true if the arms are proven to collide, or to be nearer than the clearance, for all deviations.
     pub fn surely_collide(&self, swept: [&Swept; 2]) -> bool {
-        self.motion_per_depth(swept) < 1.0
+        self.overlap(swept).share < 1.0
     }
 
     /// Returns the bodies that are proven to collide, or to be nearer than the clearance, for all deviations. If there are
     /// several pairs, returns the one with the widest margin.
     pub fn colliding_pair(&self, swept: [&Swept; 2]) -> Option<[usize; 2]> {
-        let least = self.motions_per_depth(swept).min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let shares = self.definite_pairs().map(|pair| (self.motion_per_depth(swept, pair), pair));
+        let least = shares.min_by(|a, b| a.0.total_cmp(&b.0))?;
         (least.0 < 1.0).then_some(least.1)
     }
 
-    /// Returns the bound on the motion of two links for the deviations, as a share of the depth by which they are too near to each
-    /// other at the configurations themselves: the least for all pairs of links. Below 1, the arms are proven to collide, or to be nearer
-    /// than the clearance, for all deviations. Infinite if no links are too near.
-    pub fn motion_per_depth(&self, swept: [&Swept; 2]) -> f64 {
-        self.motions_per_depth(swept).map(|(share, _)| share).fold(f64::INFINITY, f64::min)
+    /// Returns the overlap of the pair of links whose motion for the deviations is the least share of their depth. If the share is
+    /// below 1, the arms are proven to collide, or to be nearer than the clearance, for all deviations. It is infinite if no links are
+    /// too near.
+    pub fn overlap(&self, swept: [&Swept; 2]) -> Overlap {
+        let rounding = rounding_of(swept);
+        let mut best = Overlap::NONE;
+        for pair in self.definite_pairs() {
+            let share = self.motion_per_depth(swept, pair);
+            if share < 1.0 {
+                return Overlap { share, ..Overlap::NONE };
+            }
+            if share.is_infinite() {
+                continue;
+            }
+            let moving = [0, 1].map(|side| self.moving(side, pair[side], swept[side]));
+            let overlap = overlap(moving.each_ref(), self.clearance, rounding);
+            if overlap.share < best.share {
+                best = overlap;
+            }
+            if best.share < 1.0 {
+                break;
+            }
+        }
+        best
     }
 
-    /// Returns the shares of [`Between::motion_per_depth`] for all pairs of bodies.
-    fn motions_per_depth<'b>(&'b self, [a, b]: [&'b Swept; 2]) -> impl Iterator<Item = (f64, [usize; 2])> + 'b {
-        let rounding = ROUNDING * (a.scale + b.scale);
-        let share = move |[i, j]: [usize; 2], is_definite: bool| {
-            let (one, two) = (&self.bodies[0][i], &self.bodies[1][j]);
-            let ((p, first), (q, second)) = (a.bodies[i], b.bodies[j]);
-            // Shapes at this distance have no point in common.
-            let far = one.disc.1 + two.disc.1 + self.clearance + rounding;
-            if !is_definite || (p - q).norm_squared() > far * far {
-                return f64::INFINITY;
-            }
-            let (own, other) = (one.part.inner_shape(), two.part.inner_shape());
-            if own.is_sliver() || other.is_sliver() {
-                return f64::INFINITY;
-            }
-            let pose = b.poses[two.frame.index()].inverse() * a.poses[one.frame.index()];
-            let depth = self.clearance - separation_at(&own, &pose, &other, |_, here| here.distance);
-            if depth > 0.0 { (first + second + rounding) / depth } else { f64::INFINITY }
+    /// Iterates over the pairs of bodies that are at common heights for certain.
+    fn definite_pairs(&self) -> impl Iterator<Item = [usize; 2]> + '_ {
+        self.pairs.iter().zip(&self.is_definite).filter(|(_, is_definite)| **is_definite).map(|(pair, _)| *pair)
+    }
+
+    /// Returns the bound on the motion of two bodies for the deviations, as a share of the depth by which they are too near to each
+    /// other at the configurations themselves. Below 1, they are proven to collide, or to be nearer than the clearance, for all
+    /// deviations. Infinite if they are not too near.
+    fn motion_per_depth(&self, [a, b]: [&Swept; 2], [i, j]: [usize; 2]) -> f64 {
+        let (one, two) = (&self.bodies[0][i], &self.bodies[1][j]);
+        let ((p, first), (q, second)) = (a.bodies[i], b.bodies[j]);
+        let rounding = rounding_of([a, b]);
+        // Shapes at this distance have no point in common.
+        let far = one.disc.1 + two.disc.1 + self.clearance + rounding;
+        if (p - q).norm_squared() > far * far {
+            return f64::INFINITY;
+        }
+        let (own, other) = (one.part.inner_shape(), two.part.inner_shape());
+        if own.is_sliver() || other.is_sliver() {
+            return f64::INFINITY;
+        }
+        let pose = b.poses[two.frame.index()].inverse() * a.poses[one.frame.index()];
+        let depth = self.clearance - separation_at(&own, &pose, &other, |_, here| here.distance);
+        if depth > 0.0 { (first + second + rounding) / depth } else { f64::INFINITY }
+    }
+
+    /// Returns the corners of a body of an arm that deviates from a configuration.
+    fn moving(&self, side: usize, body: usize, swept: &Swept) -> Moving {
+        let (arm, body) = (self.scenes[side].arm(), &*self.bodies[side][body]);
+        let shape = body.part.inner_shape();
+        let posture = Posture::new(self.scenes[side], swept.at);
+        let corner = |p: &Point| {
+            let at = swept.poses[body.frame.index()].point(*p);
+            let (link, moved, own) = match body.frame {
+                Frame::Link(link) => (link, at, *p),
+                Frame::Tip => (1, arm.tip_at(swept.at), arm.tip),
+                Frame::Cell => return Corner { at, rates: [Vector::zeros(); 2], bend: 0.0 },
+            };
+            let [x, y] = [Vector::x(), Vector::y()].map(|n| rates(arm, link, swept.at, moved, n));
+            let bend = posture.curvature_in_plane(link, swept.deviation).of(own) / 2.0;
+            Corner { at, rates: [0, 1].map(|k| Vector::new(x[k], y[k])), bend }
         };
-        self.pairs.iter().zip(&self.is_definite).map(move |(pair, is_definite)| (share(*pair, *is_definite), *pair))
+        Moving {
+            corners: shape.core().iter().map(corner).collect(),
+            radius: shape.radius(),
+            deviation: swept.deviation,
+        }
     }
 
     /// Returns the motion of the links per unit of each joint, metres: those of the first arm, then those of the second.
@@ -299,6 +349,11 @@ impl<'a> Between<'a> {
         }
         obstacles
     }
+}
+
+/// Returns the rounding error of distances between two arms, metres.
+fn rounding_of([a, b]: [&Swept; 2]) -> f64 {
+    ROUNDING * (a.scale + b.scale)
 }
 
 /// Returns a part of an arm and an obstacle that are proven to collide for all deviations. The scene is one for proofs of

@@ -4,17 +4,21 @@
 //! rest, and its acceleration and speed are limited (`reach`). These intervals of all four joints form a box for each pair of times
 //! that the clocks may show at once. If the arms collide in a whole box, the motions do not exist. Otherwise the box that is nearest
 //! to a proof is halved, and both halves must be refuted. Halving an interval at one time also narrows those at other times.
+//!
+//! The times are fixed shares of the duration. So the halves for one duration are also halves of all motions with a greater duration:
+//! the next proof begins with the same halves.
 
 use crate::between::{Between, Swept, proven_hit};
-use crate::reach::Reach;
+use crate::overlap::Overlap;
+use crate::reach::{Reach, Tube};
 use cplan_interrupt::checkpoint;
 use cplan_judge::Deviation;
 use cplan_model::Scene;
 use cplan_model::space::{Configuration, JointRange};
 use std::rc::Rc;
 
-/// Greatest number of times.
-const MAX_TIMES: usize = 24;
+/// Least number of intervals between the times, and the greatest number that the skew may require.
+const INTERVALS: [usize; 2] = [24, 64];
 
 /// Least motion of the links in a box that is halved, as a share of the reach of the arms. Smaller boxes hardly lead to
 /// a proof.
@@ -23,54 +27,154 @@ const LEAST_BOX: f64 = 0.003;
 /// Cost of a box of one metre in whose middle the arms are apart. It exceeds that of boxes in whose middle they collide.
 const APART_COST: f64 = 1e6;
 
+/// Shares by which the duration is raised: the first one, and the least one. If a proof fails, the next share is half as large.
+const DURATION_STEPS: [f64; 2] = [0.04, 0.005];
+
+/// Share of its width by which an interval shrinks before its box is examined again.
+const RENEWAL: f64 = 0.2;
+
 /// Looks for proofs.
 pub(crate) struct Funnels<'a> {
     between: &'a Between<'a>,
     /// Scenes for proofs of collisions.
     inner: [Scene; 2],
-    skew: f64,
+    /// Number of intervals between the times.
+    count: usize,
+    /// Pairs of times that the clocks may show at once.
+    pairs: Vec<[usize; 2]>,
     /// Motion of the links per unit of each joint, metres.
     levers: [f64; 4],
+    /// Least motion of the links in a box that is halved, metres.
+    least: f64,
+    /// The known duration that is too short, and the greatest one that matters, seconds.
+    ends: [f64; 2],
     /// Number of boxes that may be examined.
     pub budget: usize,
 }
 
-/// Motions that are not refuted: for each joint its interval at each time.
+/// How motions are divided.
 #[derive(Clone)]
-struct Motions {
-    intervals: [Rc<Vec<[f64; 2]>>; 4],
-    /// For each arm, the links at each time, as far as they were needed.
-    swept: [Vec<Option<Rc<Swept>>>; 2],
-    /// The times of both arms whose box was halved last.
-    halved: [usize; 2],
+enum Division {
+    /// Not yet. The pair of times whose box was halved or refuted last.
+    Whole([usize; 2]),
+    /// The value of a joint at a time is at most, or at least, the value in the middle.
+    Halves { joint: usize, time: usize, middle: f64, halves: Box<[Division; 2]> },
+}
+
+/// Intervals of both joints of an arm, and its links in them.
+type SweptBox = ([[f64; 2]; 2], Swept);
+
+/// The boxes of motions with one duration.
+#[derive(Clone)]
+struct Boxes {
+    tubes: [Rc<Tube>; 4],
+    /// For each arm, the links at each time, as far as they are known, in at least the intervals.
+    swept: [Vec<Option<Rc<SweptBox>>>; 2],
+    /// For each pair of times, the overlap of the arms. `None` if it is not known.
+    overlaps: Vec<Option<Overlap>>,
+}
+
+/// The result of an examination of boxes.
+enum Verdict {
+    /// The arms collide in a whole box.
+    Refuted,
+    /// The interval of this joint at this time is the next to be halved.
+    Undecided { joint: usize, time: usize },
+    /// All boxes are too small to be halved.
+    TooSmall,
 }
 
 impl<'a> Funnels<'a> {
-    pub fn new(between: &'a Between<'a>, skew: f64, budget: usize) -> Self {
+    /// Prepares proofs for durations between the one that is known to be too short, and the greatest one that matters, seconds.
+    pub fn new(between: &'a Between<'a>, skew: f64, [known, greatest]: [f64; 2], budget: usize) -> Self {
         let inner = between.scenes.map(|scene| scene.inner().into_owned());
-        Self { between, inner, skew, levers: between.levers(), budget }
+        let reach = between.scenes.map(|scene| scene.arm().reach()).into_iter().fold(0.0, f64::max);
+        // The times of a pair differ by at most the skew, also for the greatest duration.
+        let shift = (INTERVALS[0] as f64 * skew / greatest).ceil();
+        let needed = (shift * greatest / skew * (1.0 + 1e-9)).ceil();
+        let (count, shift) = match skew > 0.0 && needed <= INTERVALS[1] as f64 {
+            true => (needed.max(4.0) as usize, shift as usize),
+            false => (INTERVALS[0], 0),
+        };
+        let shifted = |k: usize| [[k, k.saturating_sub(shift)], [k, (k + shift).min(count)]];
+        let mut pairs: Vec<[usize; 2]> = (0..=count).flat_map(shifted).collect();
+        pairs.dedup();
+        let ends = [known, greatest];
+        Self { between, inner, count, pairs, levers: between.levers(), least: LEAST_BOX * reach, ends, budget }
     }
 
-    /// Returns true if it is proven that no motions from the starts to the goals end by this time. The goals are configurations up to whole turns.
-    pub fn refute(&mut self, starts: [Configuration; 2], goals: [Configuration; 2], duration: f64) -> bool {
-        let times =
-            if self.skew > 0.0 { (duration / self.skew).ceil().min(MAX_TIMES as f64) as usize } else { MAX_TIMES };
-        let times = times.max(4);
-        let step = duration / times as f64;
-        let reaches = self.reaches(starts, goals, duration);
-        // Every combination of turns must be refuted.
+    /// Returns the greatest duration for which it is proven that no motions from the starts to one of the pairs of goals are
+    /// as short. The goals are configurations up to whole turns.
+    pub fn proven(&mut self, starts: [Configuration; 2], goals: impl IntoIterator<Item = [Configuration; 2]>) -> f64 {
+        let [mut proven, greatest] = self.ends;
+        let choices = goals.into_iter().flat_map(|goals| self.choices(starts, goals));
+        let whole = Division::Whole([self.count / 2; 2]);
+        let mut motions: Vec<(Vec<Reach>, Division)> = choices.map(|reaches| (reaches, whole.clone())).collect();
+        let [mut step, least] = DURATION_STEPS;
+        while proven < greatest && step >= least && self.budget > 0 {
+            let duration = (proven.max(greatest / 8.0) * (1.0 + step)).min(greatest);
+            // Motions that are hard to refute come first, because others are not needed if they fail.
+            let failed = motions.iter_mut().position(|(reaches, division)| {
+                let boxes = self.boxes(reaches, duration);
+                boxes.is_some_and(|boxes| !self.refute(reaches, division, boxes))
+            });
+            match failed {
+                None => proven = duration,
+                Some(failed) => {
+                    motions.swap(0, failed);
+                    step /= 2.0;
+                }
+            }
+        }
+        proven
+    }
+
+    /// Divides motions until all parts are refuted. Returns false if it fails.
+    fn refute(&mut self, reaches: &[Reach], division: &mut Division, mut boxes: Boxes) -> bool {
+        checkpoint();
+        if self.budget == 0 {
+            return false;
+        }
+        self.budget -= 1;
+        if let Division::Whole(at) = division {
+            match self.verdict(&mut boxes, at) {
+                Verdict::Refuted => return true,
+                Verdict::TooSmall => return false,
+                Verdict::Undecided { joint, time } => {
+                    let [lower, upper] = boxes.tubes[joint].intervals[time];
+                    let halves = Box::new([Division::Whole(*at), Division::Whole(*at)]);
+                    *division = Division::Halves { joint, time, middle: f64::midpoint(lower, upper), halves };
+                }
+            }
+        }
+        let Division::Halves { joint, time, middle, halves } = division else { return false };
+        let [lower, upper] = boxes.tubes[*joint].intervals[*time];
+        let parts = [[lower, upper.min(*middle)], [lower.max(*middle), upper]];
+        parts.into_iter().zip(halves.iter_mut()).all(|(half, division)| {
+            let tube =
+                if half[0] <= half[1] { reaches[*joint].halved(&boxes.tubes[*joint], *time, half) } else { None };
+            tube.is_none_or(|tube| {
+                let boxes = self.narrowed(&boxes, *joint, tube);
+                self.refute(reaches, division, boxes)
+            })
+        })
+    }
+
+    /// Returns the possible displacements of the joints, for each combination of turns to the goals.
+    fn choices(&self, starts: [Configuration; 2], goals: [Configuration; 2]) -> Vec<Vec<Reach>> {
         let mut choices: Vec<Vec<Reach>> = vec![vec![]];
-        for of_joint in reaches {
+        for of_joint in self.reaches(starts, goals) {
             choices = choices
                 .iter()
                 .flat_map(|known| of_joint.iter().map(|reach| known.iter().cloned().chain([reach.clone()]).collect()))
                 .collect();
         }
-        choices.into_iter().all(|reaches| self.refute_funnel(&reaches, step, times))
+        choices
     }
 
     /// Returns the possible displacements of each joint.
-    fn reaches(&self, starts: [Configuration; 2], goals: [Configuration; 2], duration: f64) -> [Vec<Reach>; 4] {
+    fn reaches(&self, starts: [Configuration; 2], goals: [Configuration; 2]) -> [Vec<Reach>; 4] {
+        let duration = self.ends[1];
         [0, 1, 2, 3].map(|k| {
             let (arm, joint) = (k / 2, k % 2);
             let own = &self.between.scenes[arm].arm().joints[joint];
@@ -94,88 +198,93 @@ impl<'a> Funnels<'a> {
         })
     }
 
-    fn refute_funnel(&mut self, reaches: &[Reach], step: f64, times: usize) -> bool {
-        let mut intervals = Vec::new();
-        for reach in reaches {
-            let mut own = vec![reach.range; times + 1];
-            if !reach.narrow(&mut own, step) {
-                return true;
-            }
-            intervals.push(Rc::new(own));
-        }
-        let Ok(intervals) = <[Rc<Vec<[f64; 2]>>; 4]>::try_from(intervals) else { return false };
-        let swept = [vec![None; times + 1], vec![None; times + 1]];
-        let mut open = vec![Motions { intervals, swept, halved: [times / 2; 2] }];
-        let least = LEAST_BOX * self.between.scenes.map(|scene| scene.arm().reach()).into_iter().fold(0.0, f64::max);
-        while let Some(mut motions) = open.pop() {
-            checkpoint();
-            if self.budget == 0 {
-                return false;
-            }
-            self.budget -= 1;
-            let Some([k, l]) = self.nearest_to_a_proof(&mut motions, step, times, least) else { continue };
-            let at = [k, k, l, l];
-            let motion = |joint: usize| self.motion(&motions, joint, at[joint]);
-            let joint = (0..4).max_by(|a, b| motion(*a).total_cmp(&motion(*b))).unwrap_or(0);
-            if motion(joint) < least {
-                return false;
-            }
-            let [lower, upper] = motions.intervals[joint][at[joint]];
-            let middle = f64::midpoint(lower, upper);
-            for half in [[lower, middle], [middle, upper]] {
-                let mut own = (*motions.intervals[joint]).clone();
-                own[at[joint]] = half;
-                if reaches[joint].narrow(&mut own, step) {
-                    let mut next = motions.clone();
-                    next.intervals[joint] = Rc::new(own);
-                    next.swept[joint / 2] = vec![None; times + 1];
-                    next.halved = [k, l];
-                    open.push(next);
-                }
-            }
-        }
-        true
+    /// Returns the boxes of all motions with a duration. `None` if there are no such motions.
+    fn boxes(&self, reaches: &[Reach], duration: f64) -> Option<Boxes> {
+        let whole = |reach: &Reach| vec![reach.range; self.count + 1];
+        let tube = |reach: &Reach| reach.tube(whole(reach), duration / self.count as f64).map(Rc::new);
+        let tubes: Vec<Rc<Tube>> = reaches.iter().map(tube).collect::<Option<_>>()?;
+        let swept = [vec![None; self.count + 1], vec![None; self.count + 1]];
+        Some(Boxes { tubes: tubes.try_into().ok()?, swept, overlaps: vec![None; self.pairs.len()] })
     }
 
-    /// Returns the times of both arms whose box is nearest to a proof. `None` if a collision is proven.
-    fn nearest_to_a_proof(&self, motions: &mut Motions, step: f64, times: usize, least: f64) -> Option<[usize; 2]> {
-        // Rounding must not let a pair of times exceed the skew.
-        let shift = ((self.skew * (1.0 - 1e-9) / step) as usize).min(times);
-        let mut best = (f64::INFINITY, motions.halved);
+    /// Returns boxes with narrower intervals of a joint.
+    fn narrowed(&self, boxes: &Boxes, joint: usize, tube: Tube) -> Boxes {
+        let mut next = boxes.clone();
+        let arm = joint / 2;
+        let mut is_changed = vec![false; self.count + 1];
+        for (time, [lower, upper]) in tube.intervals.iter().enumerate() {
+            let known = &mut next.swept[arm][time];
+            if let Some((joints, _)) = known.as_deref()
+                && upper - lower < (1.0 - RENEWAL) * (joints[joint % 2][1] - joints[joint % 2][0])
+            {
+                (*known, is_changed[time]) = (None, true);
+            }
+        }
+        for (overlap, times) in next.overlaps.iter_mut().zip(&self.pairs) {
+            if is_changed[times[arm]] {
+                *overlap = None;
+            }
+        }
+        next.tubes[joint] = Rc::new(tube);
+        next
+    }
+
+    /// Examines the boxes, first those near the given pair of times. Replaces these times by those of the box that decides.
+    fn verdict(&self, boxes: &mut Boxes, at: &mut [usize; 2]) -> Verdict {
+        let mut best = (f64::INFINITY, Verdict::TooSmall, *at);
         // A proof is likely near the box that was halved.
-        let middle = motions.halved[0];
-        let mut order: Vec<usize> = (1..=times).collect();
-        order.sort_by_key(|k| k.abs_diff(middle));
-        for k in order {
-            let others = [k.saturating_sub(shift), (k + shift).min(times)];
-            for l in others.into_iter().take(if shift > 0 { 2 } else { 1 }) {
-                let motion = (0..4).map(|joint| self.motion(motions, joint, if joint < 2 { k } else { l }));
-                let (total, greatest) = motion.fold((0.0, 0.0_f64), |(sum, most), x| (sum + x, most.max(x)));
-                for (arm, time) in [(0, k), (1, l)] {
-                    if motions.swept[arm][time].is_none() {
-                        let joints = [0, 1].map(|joint| motions.intervals[2 * arm + joint][time]);
-                        motions.swept[arm][time] = Some(Rc::new(self.swept(arm, joints)?));
+        let mut order: Vec<usize> = (0..self.pairs.len()).collect();
+        order.sort_by_key(|pair| (self.pairs[*pair][0].abs_diff(at[0]), self.pairs[*pair] != *at));
+        for pair in order {
+            let times = self.pairs[pair];
+            let overlap = match boxes.overlaps[pair] {
+                Some(overlap) => overlap,
+                None => {
+                    for (arm, time) in [0, 1].into_iter().zip(times) {
+                        if boxes.swept[arm][time].is_none() {
+                            let joints = [0, 1].map(|joint| boxes.tubes[2 * arm + joint].intervals[time]);
+                            let Some(swept) = self.swept(arm, joints) else {
+                                *at = times;
+                                return Verdict::Refuted;
+                            };
+                            boxes.swept[arm][time] = Some(Rc::new((joints, swept)));
+                        }
                     }
+                    let (Some(one), Some(two)) = (&boxes.swept[0][times[0]], &boxes.swept[1][times[1]]) else {
+                        continue;
+                    };
+                    let overlap = self.between.overlap([&one.1, &two.1]);
+                    if overlap.share < 1.0 {
+                        *at = times;
+                        return Verdict::Refuted;
+                    }
+                    boxes.overlaps[pair] = Some(overlap);
+                    overlap
                 }
-                let (Some(one), Some(two)) = (&motions.swept[0][k], &motions.swept[1][l]) else { continue };
-                let share = self.between.motion_per_depth([one, two]);
-                if share < 1.0 {
-                    return None;
-                }
-                // If the arms are apart in the middle of all boxes, the largest box counts.
-                let cost = if share.is_finite() { share } else { APART_COST / total.max(f64::MIN_POSITIVE) };
-                if cost < best.0 && greatest >= least {
-                    best = (cost, [k, l]);
-                }
+            };
+            let width = |joint: usize| {
+                let [lower, upper] = boxes.tubes[joint].intervals[times[joint / 2]];
+                upper - lower
+            };
+            let motion = |joint: usize| self.levers[joint] * width(joint);
+            let total: f64 = (0..4).map(motion).sum();
+            let is_apart = overlap.share.is_infinite();
+            // If the arms are apart in the middle of all boxes, the largest box counts.
+            let cost = if is_apart { APART_COST / total.max(f64::MIN_POSITIVE) } else { overlap.share };
+            if cost < best.0 && (0..4).any(|joint| motion(joint) >= self.least) {
+                let part = |joint: usize| match is_apart {
+                    true => motion(joint),
+                    // The first order, and the bend.
+                    false => {
+                        overlap.rates[joint / 2][joint % 2].abs() * width(joint) + motion(joint) * width(joint) / 4.0
+                    }
+                };
+                let joint = (0..4).max_by(|a, b| part(*a).total_cmp(&part(*b))).unwrap_or(0);
+                best = (cost, Verdict::Undecided { joint, time: times[joint / 2] }, times);
             }
         }
-        Some(best.1)
-    }
-
-    /// Returns the motion of the links in the interval of a joint at a time, metres.
-    fn motion(&self, motions: &Motions, joint: usize, time: usize) -> f64 {
-        let [lower, upper] = motions.intervals[joint][time];
-        self.levers[joint] * (upper - lower)
+        *at = best.2;
+        best.1
     }
 
     /// Returns the links of an arm in a box of its joints. `None` if it is proven to collide with an obstacle in the whole box.
@@ -245,12 +354,8 @@ mod tests {
                     best = motions[0].trajectory.duration();
                 }
             }
-            let refute = |duration: f64| Funnels::new(&between, skew, 2000).refute(starts, goals, duration);
             if best.is_finite() {
                 found += 1;
-                for factor in [1.0, 1.000_01, 1.0001, 1.001, 1.01, 1.1, 1.5] {
-                    assert!(!refute(factor * best), "seed {seed}: {factor} of {best} s");
-                }
                 let alone = starts.iter().zip(&goals).flat_map(|(from, to)| {
                     (0..2).map(move |k| {
                         let by = (to[k] - from[k]).abs();
@@ -258,7 +363,14 @@ mod tests {
                     })
                 });
                 let alone = alone.fold(0.0, f64::max);
-                raised += usize::from(best > 1.03 * alone && refute(1.01 * alone));
+                let bound = Funnels::new(&between, skew, [alone, 1.5 * best], 2000).proven(starts, [goals]);
+                assert!(bound < best, "seed {seed}: {bound} of {best} s");
+                for factor in [1.0, 1.0001, 1.01, 1.5] {
+                    let ends = [0.999 * factor * best, factor * best];
+                    let bound = Funnels::new(&between, skew, ends, 300).proven(starts, [goals]);
+                    assert!(bound < ends[1], "seed {seed}: {factor} of {best} s");
+                }
+                raised += usize::from(best > 1.03 * alone && bound > 1.01 * alone);
             }
         }
         if cplan_cases::uses_default_cases() {

@@ -13,7 +13,7 @@
 //!   interior-point method shortens their motions (`shaping`). If that fails, one arm is planned among the other at rest,
 //!   in both orders and for all IK solutions (`plan`). For arms that stop at corners, paths lose corners (`straighten`).
 //! - The lower bound on the duration is raised by proofs that no motions of both arms end by a given time (`funnel`). They
-//!   rest on the values that each joint can have at each time (`reach`).
+//!   rest on the values that each joint can have at each time (`reach`), and on boxes in which bodies collide (`overlap`).
 //! - The final motions are judged for all skews of the two clocks within a bound (`judged`). Motions of any origin are judged
 //!   in the same way (`recorded`), also those with steps, whose bodies follow from the motions (`recorded_steps`). Signals between the
 //!   controllers make them hold for any skew (`interlock`). For programs of joint moves this is judged again (`delays`).
@@ -42,6 +42,7 @@ mod judged;
 mod legs;
 mod motion_search;
 mod order;
+mod overlap;
 mod picture;
 mod plan;
 mod proof;

@@ -1,14 +1,19 @@
 //! The values that one joint can have at given times, if it begins and ends at rest and its acceleration and speed are limited.
 
+use std::rc::Rc;
+
 /// Widening of limits because of rounding, as a share of them.
 const ROUNDING: f64 = 1e-9;
 
 /// Widening of common parts because of rounding, in the unit of the joint.
 const COMMON_ROUNDING: f64 = 1e-8;
 
-/// Least length of a side that bounds a common part. The direction of a shorter side depends on rounding: corners are exact to some
-/// 1e-15, so the line through this side is exact to [`COMMON_ROUNDING`] over more than ten units.
+/// Least difference of the values at the ends of a side that bounds a common part. The direction of a shorter side depends on
+/// rounding: corners are exact to some 1e-15, so the line through this side is exact to [`COMMON_ROUNDING`] over more than ten units.
 const LEAST_SIDE: f64 = 1e-5;
+
+/// Greatest number of steps towards an end of a common part.
+const MAX_NEWTON_STEPS: usize = 12;
 
 /// A motion of one joint.
 #[derive(Debug, Clone)]
@@ -24,69 +29,146 @@ pub(crate) struct Reach {
 /// A convex polygon of pairs: the value of the joint at a time, and its mean speed until the next time. Counter-clockwise.
 type Polygon = Vec<[f64; 2]>;
 
+/// A polygon of pairs, with the lines through its sides.
+#[derive(Debug)]
+struct Pairs {
+    corners: Polygon,
+    /// The least and the greatest value.
+    range: [f64; 2],
+    /// The slopes of the lines below and above the polygon, and their speeds at the value 0.
+    lines: [Vec<[f64; 2]>; 2],
+}
+
+/// All motions of one joint that are in given intervals at some times.
+///
+/// An acceleration of at most `a` changes the mean speed between two times by at most `a h` up to the next mean speed. From
+/// rest to the first mean speed and from the last one to rest, the change is at most `a h / 2`. So the pairs of a value
+/// and the next mean speed that can be reached from the start are a convex polygon, and so are those from which the goal can be
+/// reached.
+#[derive(Debug, Clone)]
+pub(crate) struct Tube {
+    /// The values of the joint at times that are `step` seconds apart, the first at the start and the last at the goal.
+    pub intervals: Vec<[f64; 2]>,
+    step: f64,
+    /// For each time except the last one, the pairs that can be reached from the start.
+    forward: Vec<Rc<Pairs>>,
+    /// For each time except the last one, the pairs from which the goal can be reached.
+    backward: Vec<Rc<Pairs>>,
+}
+
 impl Reach {
-    /// Narrows intervals of the joint at times that are `step` seconds apart, the first at the start and the last at the goal.
-    /// All motions within them remain within them. Returns false if there are no such motions.
-    ///
-    /// An acceleration of at most `a` changes the mean speed between two times by at most `a h` up to the next mean speed. From
-    /// rest to the first mean speed and from the last one to rest, the change is at most `a h / 2`. So the pairs of a value
-    /// and the next mean speed that can be reached from the start are a convex polygon, and so are those from which the goal can be
-    /// reached.
-    pub fn narrow(&self, intervals: &mut [[f64; 2]], step: f64) -> bool {
-        let slack = self.ends.map(|end| ROUNDING * (1.0 + end.abs()));
+    /// Returns the motions of the joint that are in these intervals at times that are `step` seconds apart. Returns `None` if there
+    /// are no such motions.
+    pub fn tube(&self, mut intervals: Vec<[f64; 2]>, step: f64) -> Option<Tube> {
+        let last = intervals.len() - 1;
+        for (k, end) in [0, last].into_iter().zip(self.ends) {
+            let slack = ROUNDING * (1.0 + end.abs());
+            intervals[k] = [intervals[k][0].max(end - slack), intervals[k][1].min(end + slack)];
+        }
+        let near_rest = (self.acceleration * step * (1.0 + ROUNDING) / 2.0).min(self.velocity * (1.0 + ROUNDING));
+        let rectangle = |[a, b]: [f64; 2]| vec![[a, -near_rest], [b, -near_rest], [b, near_rest], [a, near_rest]];
+        let ends = [rectangle(intervals[0]), sheared(rectangle(intervals[last]), -step)];
+        let [forward, backward] = ends.map(|polygon| vec![Rc::new(Pairs::new(polygon)); last]);
+        let mut tube = Tube { intervals, step, forward, backward };
+        let is_possible = |[from, to]: &[f64; 2]| from <= to;
+        (tube.intervals.iter().all(is_possible) && self.narrow(&mut tube, [0, last - 1])).then_some(tube)
+    }
+
+    /// Returns the motions of a tube that are in an interval at a time, which is not the last one. Returns `None` if there are no such
+    /// motions.
+    pub fn halved(&self, tube: &Tube, time: usize, half: [f64; 2]) -> Option<Tube> {
+        let mut next = tube.clone();
+        next.intervals[time] = half;
+        let forward = clipped(tube.forward[time].corners.clone(), 0, half);
+        if forward.is_empty() {
+            return None;
+        }
+        next.forward[time] = Rc::new(Pairs::new(forward));
+        self.narrow(&mut next, [time, time]).then_some(next)
+    }
+
+    /// Narrows the intervals of a tube: all motions within them remain within them. The pairs that can be reached are known up to
+    /// the time `from`, and those from which the goal can be reached are known from the time `to` on. Returns false if there are no
+    /// motions.
+    fn narrow(&self, tube: &mut Tube, [from, to]: [usize; 2]) -> bool {
+        let (last, step) = (tube.intervals.len() - 1, tube.step);
         let change = self.acceleration * step * (1.0 + ROUNDING);
         let fastest = self.velocity * (1.0 + ROUNDING);
-        let last = intervals.len() - 1;
-        for (k, end) in [0, last].into_iter().zip(0..2) {
-            let [from, to] = [self.ends[end] - slack[end], self.ends[end] + slack[end]];
-            if intervals[k][0] > to || intervals[k][1] < from {
-                return false;
-            }
-            intervals[k] = [intervals[k][0].max(from), intervals[k][1].min(to)];
-        }
-        let near_rest = (change / 2.0).min(fastest);
-        let rectangle = |[a, b]: [f64; 2]| vec![[a, -near_rest], [b, -near_rest], [b, near_rest], [a, near_rest]];
         let next_speeds = |polygon: &Polygon| clipped(thickened(polygon, change), 1, [-fastest, fastest]);
-        let mut forward = vec![rectangle(intervals[0])];
-        for k in 1..last {
-            let polygon = clipped(sheared(forward[k - 1].clone(), step), 0, intervals[k]);
-            if polygon.is_empty() {
+        for k in from + 1..last {
+            let reached = clipped(sheared(tube.forward[k - 1].corners.clone(), step), 0, tube.intervals[k]);
+            if reached.is_empty() {
                 return false;
             }
-            forward.push(next_speeds(&polygon));
+            tube.forward[k] = Rc::new(Pairs::new(next_speeds(&reached)));
         }
-        let mut backward = rectangle(intervals[last]);
-        for k in (0..last).rev() {
-            backward = common(sheared(backward, -step), &forward[k]);
-            if backward.is_empty() {
+        for k in (0..to).rev() {
+            let left = clipped(tube.backward[k + 1].corners.clone(), 0, tube.intervals[k + 1]);
+            if left.is_empty() {
                 return false;
             }
-            let values = backward.iter().map(|[x, _]| *x);
-            let (least, most) = values.fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), x| (a.min(x), b.max(x)));
-            intervals[k] = [intervals[k][0].max(least - slack[0]), intervals[k][1].min(most + slack[0])];
-            backward = next_speeds(&backward);
+            tube.backward[k] = Rc::new(Pairs::new(sheared(next_speeds(&left), -step)));
+        }
+        for k in 0..last {
+            let Some([least, most]) = common_range([&tube.forward[k], &tube.backward[k]]) else { return false };
+            let slack = ROUNDING * (1.0 + least.abs().max(most.abs()));
+            tube.intervals[k] = [tube.intervals[k][0].max(least - slack), tube.intervals[k][1].min(most + slack)];
         }
         true
     }
 }
 
+impl Pairs {
+    fn new(corners: Polygon) -> Self {
+        let mut range = [f64::INFINITY, f64::NEG_INFINITY];
+        let mut lines = [Vec::with_capacity(corners.len()), Vec::with_capacity(corners.len())];
+        for (k, [x, w]) in corners.iter().enumerate() {
+            range = [range[0].min(*x), range[1].max(*x)];
+            let next = corners[(k + 1) % corners.len()];
+            let along = next[0] - x;
+            if along.abs() >= LEAST_SIDE {
+                let slope = (next[1] - w) / along;
+                let outward = COMMON_ROUNDING * (1.0 + slope.abs());
+                let is_above = along < 0.0;
+                let shift = if is_above { outward } else { -outward };
+                lines[usize::from(is_above)].push([slope, w - slope * x + shift]);
+            }
+        }
+        Self { corners, range, lines }
+    }
+}
+
+/// Returns the range of the values in the common part of two polygons, and possibly of points near it. `None` if they have no
+/// common part.
+fn common_range(both: [&Pairs; 2]) -> Option<[f64; 2]> {
+    let [a, b] = both.map(|pairs| pairs.range);
+    let mut range = [a[0].max(b[0]) - COMMON_ROUNDING, a[1].min(b[1]) + COMMON_ROUNDING];
+    // The height of the common part is concave. Newton's method approaches its zeros from outside.
+    for end in 0..2 {
+        for _ in 0..MAX_NEWTON_STEPS {
+            let x = range[end];
+            let at = |[slope, value]: [f64; 2]| (slope * x + value, slope);
+            let lines = |side: usize| both.into_iter().flat_map(move |pairs| pairs.lines[side].iter().copied().map(at));
+            let below = lines(0).reduce(|a, b| if b.0 > a.0 { b } else { a });
+            let above = lines(1).reduce(|a, b| if b.0 < a.0 { b } else { a });
+            let (Some(below), Some(above)) = (below, above) else { break };
+            let (height, slope) = (above.0 - below.0, above.1 - below.1);
+            if height >= 0.0 {
+                break;
+            }
+            let inward = if end == 0 { slope > 0.0 } else { slope < 0.0 };
+            range[end] = x - height / slope;
+            if !inward || range[0] > range[1] {
+                return None;
+            }
+        }
+    }
+    (range[0] <= range[1]).then_some(range)
+}
+
 /// Moves the values of a polygon by their speed for some seconds.
 fn sheared(mut polygon: Polygon, time: f64) -> Polygon {
     polygon.iter_mut().for_each(|[x, w]| *x += time * *w);
-    polygon
-}
-
-/// Returns the common part of two polygons, and possibly points near it.
-fn common(mut polygon: Polygon, other: &Polygon) -> Polygon {
-    for (k, p) in other.iter().enumerate() {
-        let q = other[(k + 1) % other.len()];
-        let along = [q[0] - p[0], q[1] - p[1]];
-        let length = along[0].hypot(along[1]);
-        if length >= LEAST_SIDE {
-            let normal = [along[1] / length, -along[0] / length];
-            polygon = cut(polygon, normal, normal[0] * p[0] + normal[1] * p[1] + COMMON_ROUNDING);
-        }
-    }
     polygon
 }
 
@@ -196,9 +278,21 @@ mod tests {
                 let k = dice.below(times + 1);
                 intervals[k] = [values[k] - dice.within(0.0, 0.05), values[k] + dice.within(0.0, 0.05)];
             }
-            assert!(reach.narrow(&mut intervals, step), "seed {seed}");
-            for (value, [lower, upper]) in values.iter().zip(&intervals) {
-                assert!(lower <= value && value <= upper, "seed {seed}: {value} {lower} {upper}");
+            let mut tube = reach.tube(intervals, step).unwrap_or_else(|| panic!("seed {seed}"));
+            for _ in 0..20 {
+                for (value, [lower, upper]) in values.iter().zip(&tube.intervals) {
+                    assert!(lower <= value && value <= upper, "seed {seed}: {value} {lower} {upper}");
+                }
+                let time = dice.below(times - 1) + 1;
+                let [lower, upper] = tube.intervals[time];
+                let middle = lower + (upper - lower) * dice.within(0.0, 1.0);
+                let half = if values[time] <= middle { [lower, middle] } else { [middle, upper] };
+                tube = reach.halved(&tube, time, half).unwrap_or_else(|| panic!("seed {seed}"));
+                // The same motions, without the tube that is known.
+                let again = reach.tube(tube.intervals.clone(), step).unwrap_or_else(|| panic!("seed {seed}"));
+                for (known, other) in tube.intervals.iter().zip(again.intervals) {
+                    assert!((known[0] - other[0]).abs().max((known[1] - other[1]).abs()) < 1e-4, "seed {seed}");
+                }
             }
         }
     }
@@ -207,17 +301,16 @@ mod tests {
     fn intervals_are_those_of_the_fastest_motions() {
         // One unit at 4 units/s2 takes 1 s, in two parabolas.
         let reach = Reach { ends: [0.0, 1.0], velocity: 9.0, acceleration: 4.0, range: [-5.0, 5.0] };
-        let mut intervals = vec![reach.range; 9];
-        assert!(reach.narrow(&mut intervals, 0.125 * (1.0 + 1e-9)));
-        for (k, [lower, upper]) in intervals.into_iter().enumerate() {
+        let tube = reach.tube(vec![reach.range; 9], 0.125 * (1.0 + 1e-9)).unwrap();
+        for (k, [lower, upper]) in tube.intervals.into_iter().enumerate() {
             let time = 0.125 * k as f64;
             let expected = if time < 0.5 { 2.0 * time * time } else { 1.0 - 2.0 * (1.0 - time) * (1.0 - time) };
             assert!((lower - expected).abs() < 1e-3 && (upper - expected).abs() < 1e-3, "{lower} {upper} {expected}");
         }
-        assert!(!reach.narrow(&mut [reach.range; 9], 0.124));
+        assert!(reach.tube(vec![reach.range; 9], 0.124).is_none());
         // The speed limit makes it slower: 1 s at 1 unit/s, and a quarter of a second for speeding up and slowing down.
         let slow = Reach { velocity: 1.0, ..reach };
-        let is_possible = |duration: f64| slow.narrow(&mut [slow.range; 33], duration / 32.0);
+        let is_possible = |duration: f64| slow.tube(vec![slow.range; 33], duration / 32.0).is_some();
         assert!(!is_possible(1.24) && is_possible(1.25 + 1e-6));
     }
 }
