@@ -11,6 +11,7 @@ use crate::schedule::{HandoverTimes, StepTimes};
 use crate::sequence::handed_over;
 use crate::stage::{Stage, StagePairs};
 use crate::step_stages::{StageBuilder, StepScene};
+use cplan_geometry::Pose;
 use cplan_handling::{Item, Recording, Task};
 use cplan_judge::certify;
 use cplan_legs::Event;
@@ -23,6 +24,9 @@ use cplan_world::{LoadedRecording, Overrides};
 
 /// Largest amount by which a stated time may be wrong, seconds. It exceeds the rounding of clocks.
 const TIME_TOLERANCE: f64 = 1e-6;
+
+/// Largest difference between two places of one object, metres or radians, as for the places of one arm.
+const PLACE_TOLERANCE: f64 = 1e-6;
 
 /// Difference of two times, seconds, below which they are one sample.
 const SAME_TIME: f64 = 1e-9;
@@ -85,7 +89,7 @@ pub fn judge_steps(
             findings[arm].faults.push("the arm without steps is not proven to stand free".into());
         }
     }
-    let handovers = handovers(tasks.each_ref(), &lines);
+    let handovers = handovers(cell, tasks.each_ref(), &lines, &mut faults);
     for HandoverTimes { object, giver, placed, taken } in &handovers {
         if placed + skew > taken + TIME_TOLERANCE {
             let [gives, takes] = [*giver, 1 - giver].map(|arm| &cell.arms[arm].name);
@@ -131,19 +135,28 @@ fn assignment(cell: &Cell, tasks: [&Task; 2], recorded: [&LoadedRecording; 2]) -
     (0..cell.shared.len()).map(arm).collect()
 }
 
-/// Returns the handovers whose two steps both arms have done.
-fn handovers(tasks: [&Task; 2], lines: &[TimeLine; 2]) -> Vec<HandoverTimes> {
+/// Returns the handovers whose two steps both arms have done. Adds a fault for each object that is left at another place than
+/// that from which it is taken.
+fn handovers(cell: &Cell, tasks: [&Task; 2], lines: &[TimeLine; 2], faults: &mut Vec<String>) -> Vec<HandoverTimes> {
     let mut found = Vec::new();
-    for giver in 0..2 {
+    for (giver, taker) in [(0, 1), (1, 0)] {
         for object in handed_over(tasks[giver]) {
             let at = |arm: usize, is_place: bool| {
                 let mut handled = lines[arm].handled.iter();
-                handled.find(|handled| handled.object == object && handled.is_place == is_place)
+                handled.find(|handled| handled.object == object && handled.pose.is_some() == is_place)
             };
-            if let Some((place, pick)) = at(giver, true).zip(at(1 - giver, false)) {
-                let object = tasks[giver].objects[object].name.clone();
-                found.push(HandoverTimes { object, giver, placed: place.times[1], taken: pick.times[0] });
+            let Some((place, pick)) = at(giver, true).zip(at(taker, false)) else { continue };
+            let name = tasks[giver].objects[object].name.clone();
+            let off = place.pose.map(|pose| pose.inverse() * tasks[taker].objects[object].at);
+            let is_off = |off: &Pose| off.translation.norm().max(off.rotation.angle().abs()) > PLACE_TOLERANCE;
+            if let Some(off) = off.filter(is_off) {
+                let [gives, takes] = [giver, taker].map(|arm| &cell.arms[arm].name);
+                let (apart, turned) = (1e3 * off.translation.norm(), off.rotation.angle());
+                faults.push(format!(
+                    "handover of \"{name}\": {gives} leaves it {apart:.3} mm and {turned:.6} rad from the place from which {takes} takes it"
+                ));
             }
+            found.push(HandoverTimes { object: name, giver, placed: place.times[1], taken: pick.times[0] });
         }
     }
     found
@@ -152,9 +165,10 @@ fn handovers(tasks: [&Task; 2], lines: &[TimeLine; 2]) -> Vec<HandoverTimes> {
 /// A pick or a place in time.
 struct Handled {
     object: usize,
-    is_place: bool,
     /// The beginning of the strokes, and the end of the step, seconds.
     times: [f64; 2],
+    /// Pose of the object after its release.
+    pose: Option<Pose>,
 }
 
 /// The steps of an arm in time, with its stages.
@@ -209,7 +223,7 @@ impl TimeLine {
                 line.check(
                     is_in_time,
                     number,
-                    &format!("the tool is raised at {from:.6} s, while the arm must not do so"),
+                    &format!("the tool is raised at {from:.6} s, but the arm needs it lowered, or moves"),
                 );
                 line.begin(stage, from.max(last_end));
                 last_end = from + seconds;
@@ -230,8 +244,11 @@ impl TimeLine {
             }
             builder.end(number, &scene);
             if let Some(event) = scene.event {
-                let is_place = matches!(event, Event::Release { .. });
-                line.handled.push(Handled { object: event.object(), is_place, times: [acting, last_end] });
+                let pose = match event {
+                    Event::Release { pose, .. } => Some(pose),
+                    Event::Grasp { .. } => None,
+                };
+                line.handled.push(Handled { object: event.object(), times: [acting, last_end], pose });
             }
             let event = step.event.as_ref().map(|event| acting + event.time - step.times[1]);
             line.steps.push(StepTimes {

@@ -134,6 +134,11 @@ fn changed_results_with_steps_are_refused() {
             "left: steps[1].event is stated as",
         ),
         (&|result| add(&mut result["handovers"][1]["placed"], 0.01), "claims", "handovers[1].placed is stated as"),
+        (
+            &|result| result["arms"][0]["steps"][1]["turn"] = json!({ "from": 0.0, "to": 0.1, "seconds": 0.0 }),
+            "task",
+            "left leaves it 0.000 mm and -0.100000 rad from the place from which right takes it",
+        ),
         (&|result| result["arms"][0]["steps"][0]["object"] = json!("bracket 2"), "claims", "bracket 2"),
         (&|result| result["clearance_between"] = json!(0.5), "claims", "states that the arms keep 500.0 mm"),
     ] {
