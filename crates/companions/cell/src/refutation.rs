@@ -120,8 +120,8 @@ impl Search<'_> {
     fn is_collision(&mut self, index: Index) -> bool {
         let cells = [[index[0], index[1]], [index[2], index[3]]];
         let Some(mut found) = self.found.pop() else { return false };
-        for arm in 0..2 {
-            found.placed[arm].entry(cells[arm]).or_insert_with(|| self.placed(arm, cells[arm]));
+        for (arm, cells) in cells.into_iter().enumerate() {
+            found.placed[arm].entry(cells).or_insert_with(|| self.placed(arm, cells));
         }
         let contact = match [0, 1].map(|arm| &found.placed[arm][&cells[arm]]) {
             [Ok(one), Ok(two)] => self.between.colliding_pair([one, two]).map(|pair| {
