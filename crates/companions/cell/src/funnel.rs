@@ -31,7 +31,7 @@ const APART_COST: f64 = 1e6;
 const DURATION_STEPS: [f64; 2] = [0.04, 0.005];
 
 /// Share of its width by which an interval shrinks before its box is examined again.
-const RENEWAL: f64 = 0.2;
+const RENEWAL: f64 = 0.02;
 
 /// Looks for proofs.
 pub(crate) struct Funnels<'a> {
