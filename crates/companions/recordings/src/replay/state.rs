@@ -92,8 +92,8 @@ impl State {
         let Action::Pick { object, supports, .. } = &step.action else { return None };
         let (object, arm) = (*object, &task.arm);
         self.released = None;
-        // In a task, every pick has an object at its place, to which another arm may have brought it.
-        let lies = self.poses[object].take().or_else(|| task.objects[object].handed_pose())?.pose;
+        // In a task, every pick has an object at its place; it may have arrived there only now.
+        let lies = self.poses[object].take().or_else(|| task.objects[object].arrival())?.pose;
         let tip = arm.tip_at(q);
         let grip = match task.objects[object].holding {
             Holding::Rigid => Grip::rigid(arm, q, &lies),
