@@ -216,10 +216,8 @@ impl Legs {
             let arrival = schedule.time(StageTime::End(step.moves));
             let acting = step.acts.map(|stage| schedule.time(StageTime::Begin(stage)));
             let end = step.acts.map_or(arrival, |stage| schedule.time(StageTime::End(stage)));
-            let turning = step.turn.map(|turn| {
-                let begin = if step.released.is_some() { acting.unwrap_or(arrival) } else { end - turn.seconds };
-                TurnTimes { begin, end: begin + turn.seconds, angle: turn.to - turn.from }
-            });
+            let rest = [acting.unwrap_or(arrival), end];
+            let turning = step.turn.map(|turn| TurnTimes::of(turn, rest, step.released.is_some()));
             let begin = schedule.time(StageTime::Begin(step.moves));
             StepTimes {
                 number: number + 1,

@@ -7,7 +7,7 @@ use crate::Cell;
 use crate::assignment::assigned_tasks;
 use crate::curve::Curve;
 use crate::recorded::{BetweenFinding, judged_between, with_rests};
-use crate::schedule::{HandoverTimes, StepTimes};
+use crate::schedule::{HandoverTimes, StepTimes, TurnTimes};
 use crate::sequence::handed_over;
 use crate::stage::{Stage, StagePairs};
 use crate::step_stages::{StageBuilder, StepScene};
@@ -243,12 +243,12 @@ impl TimeLine {
                 last_end = tool.end;
             }
             builder.end(number, &scene);
+            let released = scene.event.and_then(|event| match event {
+                Event::Release { pose, .. } => Some(pose),
+                Event::Grasp { .. } => None,
+            });
             if let Some(event) = scene.event {
-                let pose = match event {
-                    Event::Release { pose, .. } => Some(pose),
-                    Event::Grasp { .. } => None,
-                };
-                line.handled.push(Handled { object: event.object(), times: [acting, last_end], pose });
+                line.handled.push(Handled { object: event.object(), times: [acting, last_end], pose: released });
             }
             let event = step.event.as_ref().map(|event| acting + event.time - step.times[1]);
             line.steps.push(StepTimes {
@@ -262,7 +262,9 @@ impl TimeLine {
                 arrival,
                 event,
                 end: last_end,
+                released,
                 turn: step.recorded.turn,
+                turning: step.recorded.turn.map(|turn| TurnTimes::of(turn, [acting, last_end], released.is_some())),
                 lowered: step.recorded.lowered,
                 wrist: step.recorded.wrist,
             });

@@ -91,6 +91,14 @@ pub struct TurnTimes {
     pub angle: f64,
 }
 
+impl TurnTimes {
+    /// Returns the times of a turn at one end of a rest: at its beginning before a release, and at its end after a grasp.
+    pub(crate) fn of(turn: RecordedTurn, rest: [f64; 2], is_before_release: bool) -> Self {
+        let begin = if is_before_release { rest[0] } else { rest[1] - turn.seconds };
+        Self { begin, end: begin + turn.seconds, angle: turn.to - turn.from }
+    }
+}
+
 impl Scheduled {
     /// Creates a motion without steps and waits.
     pub fn single(motion: TimedMotion) -> Self {
