@@ -59,7 +59,7 @@ fn without_a_file_the_world_is_printed() {
     );
     toml::from_str::<toml::Table>(message["world"].as_str().unwrap()).unwrap();
     let notes: Vec<&str> = message["notes"].as_array().unwrap().iter().map(|note| note.as_str().unwrap()).collect();
-    assert!(notes.contains(&"layer \"old\" is switched off and left out; --layer imports it (line 3186)"), "{notes:?}");
+    assert!(notes.contains(&"layer \"old\" is switched off and left out; --layer imports it (line 2102)"), "{notes:?}");
 }
 
 #[test]
