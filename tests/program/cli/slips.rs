@@ -28,7 +28,7 @@ fn files_of_another_command_get_its_name() {
     let cell = "[[arm]]\nname = \"left\"\nurdf = \"arm.urdf\"\n";
     place.plan(cell, "").refused(1, &["unknown key `arm`", "`cplan cell "]);
     let place = place.with("world.toml", FREE);
-    place.run(&["cell", "world.toml"], "").refused(1, &["unknown key `start`", "use `cplan URDF WORLD`"]);
+    place.run(&["cell", "world.toml"], "").refused(1, &["unknown key `goal`", "use `cplan URDF WORLD`"]);
 }
 
 #[test]

@@ -68,7 +68,11 @@ impl Reach {
         let near_rest = (self.acceleration * step * (1.0 + ROUNDING) / 2.0).min(self.velocity * (1.0 + ROUNDING));
         let rectangle = |[a, b]: [f64; 2]| vec![[a, -near_rest], [b, -near_rest], [b, near_rest], [a, near_rest]];
         let ends = [rectangle(intervals[0]), sheared(rectangle(intervals[last]), -step)];
-        let [forward, backward] = ends.map(|polygon| vec![Rc::new(Pairs::new(polygon)); last]);
+        // Those of all other times are replaced.
+        let [forward, backward] = ends.map(|polygon| {
+            let pairs = Rc::new(Pairs::new(polygon));
+            vec![pairs; last]
+        });
         let mut tube = Tube { intervals, step, forward, backward };
         let is_possible = |[from, to]: &[f64; 2]| from <= to;
         (tube.intervals.iter().all(is_possible) && self.narrow(&mut tube, [0, last - 1])).then_some(tube)
