@@ -1,4 +1,4 @@
-//! The steps in a result of `cplan cell`: as recordings of both arms state them, and compared with what the motions show.
+//! The steps in a result of `cplan cell`: those that the file states, compared with those of the motions.
 
 use crate::cli::cell::{assignment_json, handover_json, step_json};
 use cplan_cell::{Cell, HandoverTimes, JudgedSteps, StepTimes, ToolTimes};
@@ -44,7 +44,7 @@ pub fn read(arm: &Value) -> Result<(Value, Vec<ToolTimes>), String> {
     Ok((Value::Array(replayed), tools))
 }
 
-/// Returns the statements of a result about steps that differ from what the motions show.
+/// Returns the statements of a result about steps that disagree with the motions.
 pub fn false_statements(cell: &Cell, stated: &Value, judged: &JudgedSteps) -> Vec<String> {
     let mut found = Vec::new();
     for (arm, steps) in cell.arms.iter().zip(&judged.steps) {

@@ -52,10 +52,10 @@ pub(crate) struct Funnels<'a> {
     pub budget: usize,
 }
 
-/// How motions are divided.
+/// A division of motions into halves.
 #[derive(Clone)]
 enum Division {
-    /// Not yet. The pair of times whose box was halved or refuted last.
+    /// The motions are not divided. States the pair of times whose box was halved or refuted last.
     Whole([usize; 2]),
     /// The value of a joint at a time is at most, or at least, the value in the middle.
     Halves { joint: usize, time: usize, middle: f64, halves: Box<[Division; 2]> },
@@ -68,7 +68,7 @@ type SweptBox = ([[f64; 2]; 2], Swept);
 #[derive(Clone)]
 struct Boxes {
     tubes: [Rc<Tube>; 4],
-    /// For each arm, the links at each time, as far as they are known, in at least the intervals.
+    /// For each arm, the links at each time in these intervals, or in larger ones. `None` if they are not known.
     swept: [Vec<Option<Rc<SweptBox>>>; 2],
     /// For each pair of times, the overlap of the arms. `None` if it is not known.
     overlaps: Vec<Option<Overlap>>,

@@ -45,7 +45,7 @@ pub(crate) struct Moving {
     pub deviation: Deviation,
 }
 
-/// How far two bodies are too near to each other, compared with their motion.
+/// The overlap of two bodies, compared with their motion.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Overlap {
     /// Bound on the motion as a share of the depth: the greatest for all directions. Below 1, the bodies are proven to be too near

@@ -1,7 +1,7 @@
 //! The judgement of two recorded sequences of steps, on one clock.
 //!
 //! The steps of each arm are replayed from its motion ([`cplan_recordings::replay()`]). The replay states where the arm takes
-//! objects, what it carries, and where it leaves objects. From this follow the bodies of both arms at all times.
+//! and leaves objects, and which object it carries. These statements determine the bodies of both arms at all times.
 
 use crate::Cell;
 use crate::assignment::assigned_tasks;
@@ -51,7 +51,7 @@ pub struct JudgedSteps {
     pub steps: [Vec<StepTimes>; 2],
     /// The handovers, from the motions.
     pub handovers: Vec<HandoverTimes>,
-    /// For each arm, the names of the objects that it moves, of those that either arm may move. `None` if there are none.
+    /// For each arm, the names of the shared objects that it moves. `None` if the cell has no shared objects.
     pub assignment: Option<[Vec<String>; 2]>,
     /// Differences from the steps of the cell that concern both arms, or the times of the tools.
     pub faults: Vec<String>,
@@ -135,8 +135,8 @@ fn assignment(cell: &Cell, tasks: [&Task; 2], recorded: [&LoadedRecording; 2]) -
     (0..cell.shared.len()).map(arm).collect()
 }
 
-/// Returns the handovers whose two steps both arms have done. Adds a fault for each object that is left at another place than
-/// that from which it is taken.
+/// Returns the handovers that both arms have done. Adds a fault if the second arm does not take an object from where the first arm
+/// has left it.
 fn handovers(cell: &Cell, tasks: [&Task; 2], lines: &[TimeLine; 2], faults: &mut Vec<String>) -> Vec<HandoverTimes> {
     let mut found = Vec::new();
     for (giver, taker) in [(0, 1), (1, 0)] {

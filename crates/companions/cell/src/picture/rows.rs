@@ -137,7 +137,7 @@ impl Rows<'_> {
         Item::Titled(format!("{name}, step {}: {}{done}", step.number, step.action), items)
     }
 
-    /// Draws the row of what one arm does first and the other one later: a line between both times, with a disc for each arm.
+    /// Draws a row about two arms: a line from a time of the first arm to a time of the second arm, with a disc for each arm.
     fn link(&self, (row, name, text): (usize, String, String), first: usize, times: [f64; 2]) -> [Item; 2] {
         let [from, to] = times.map(|time| [self.x(time), self.middle(row)]);
         let drawn = vec![
